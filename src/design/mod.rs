@@ -1,0 +1,285 @@
+//! The checked, immutable clutch design, SI.
+//!
+//! In: a design file (TOML, mm, degrees, GPa: [`file`]). Out: [`Design`].
+//! Absent: any physics; a law is only named here. Equations: none; Table 1 of the paper is a `Design`.
+
+use crate::material::Material;
+
+/// Where the sprag's mass, inertia and centroid come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MassSource {
+    /// Printed in the design file.
+    Given,
+    /// Boundary integrals of the outline (`profile`).
+    FromProfile,
+}
+
+/// One inner arc of the sprag.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InnerArc {
+    /// Radius r_ik, m.
+    pub radius_m: f64,
+    /// Contact direction turned from first contact at rest at which the arc ends, rad, positive in engagement.
+    pub until_rad: f64,
+}
+
+/// Shape and number of the sprags. Body frame: origin C_e, y radially outward along OC_e at first
+/// contact at rest, x towards positive azimuth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sprags {
+    /// Number n_s.
+    pub count: usize,
+    /// Length l along the axis, m.
+    pub length_m: f64,
+    /// Outer arc radius r_e, m.
+    pub outer_radius_m: f64,
+    /// Centre distance e_1 = C_1 C_e, m.
+    pub centre_distance_m: f64,
+    /// Width b of (6), m; 0: no body compression.
+    pub width_m: f64,
+    /// Mass m_g of one sprag, kg.
+    pub mass_kg: f64,
+    /// Inertia I_g of one sprag about its centroid, kg m^2.
+    pub inertia_kg_m2: f64,
+    /// Centroid G in the body frame, m.
+    pub centroid_m: [f64; 2],
+    /// Whether the three above were given or computed.
+    pub mass_source: MassSource,
+    /// Inner arcs in order of engagement, at least one.
+    pub inner_arcs: Vec<InnerArc>,
+    /// Flanks that close the outline.
+    pub flanks: Flanks,
+}
+
+/// Plain flanks closing the outline between the inner and the outer arc: straight lines that continue
+/// as short chords from the arcs' ends. All lengths in the body frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flanks {
+    /// Half width of the waist on the side of negative x, m: the flank is the line x = -rear.
+    pub rear_m: f64,
+    /// Half width of the waist on the side of positive x, m: the flank is the line x = +front.
+    pub front_m: f64,
+}
+
+/// The two races.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Races {
+    /// Inner race bore R_id, m; 0: solid shaft.
+    pub inner_bore_radius_m: f64,
+    /// Inner race track R_i, m.
+    pub inner_radius_m: f64,
+    /// Outer race track R_e, m.
+    pub outer_radius_m: f64,
+    /// Outer race outside radius R_ed, m.
+    pub outer_outside_radius_m: f64,
+    /// Axial width of both races (l of (5)), m.
+    pub width_m: f64,
+    /// I_bi, kg m^2.
+    pub inner_inertia_kg_m2: f64,
+    /// I_be, kg m^2.
+    pub outer_inertia_kg_m2: f64,
+    /// Viscous damping C_rl between the races, N m s/rad.
+    pub viscous_damping_nm_s_per_rad: f64,
+}
+
+/// Energizing spring, per sprag.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spring {
+    /// K_r, N m/rad per sprag.
+    pub stiffness_nm_per_rad: f64,
+    /// Drag torque C_f of the whole clutch in slow overrun, N m; fixes alpha_max.
+    pub drag_torque_nm: f64,
+}
+
+/// Materials of the three bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Materials {
+    /// Sprag.
+    pub sprag: Material,
+    /// Inner race.
+    pub inner_race: Material,
+    /// Outer race.
+    pub outer_race: Material,
+}
+
+/// Coefficients of the friction law (12).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// mu_s.
+    pub static_: f64,
+    /// mu_c, at most mu_s.
+    pub kinetic: f64,
+    /// gamma_b, s/m.
+    pub decay_s_per_m: f64,
+}
+
+/// Named local contact law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ContactLaw {
+    /// delta_H = K N^0.9 / l^0.8 with the coefficient K in (mm, N).
+    Roller {
+        /// K, mm and N.
+        coefficient: f64,
+    },
+    /// The roller law with DIN 26281's K = 3.97e-5.
+    Din26281,
+    /// Logarithmic line-contact approach; knows the radius.
+    Hertz,
+    /// Slice method (1)-(4), square ends, no tilt; compliance from the roller law.
+    Slice {
+        /// K of the roller law, mm and N.
+        coefficient: f64,
+        /// Number of slices n.
+        slices: usize,
+    },
+}
+
+/// Everything that acts in one run: the clutch without limits and questions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clutch {
+    /// Sprags.
+    pub sprags: Sprags,
+    /// Races.
+    pub races: Races,
+    /// Spring.
+    pub spring: Spring,
+    /// Materials.
+    pub materials: Materials,
+    /// Friction.
+    pub friction: Friction,
+    /// Local contact law.
+    pub contact: ContactLaw,
+}
+
+/// Allowables of the designer margin check; absent ones are not checked.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Limits {
+    /// Torque at which Hertz nominal is held, N m.
+    pub nominal_torque_nm: Option<f64>,
+    /// Torque at which Hertz peak, hoop, end of profile and roll-over are held, N m.
+    pub peak_torque_nm: Option<f64>,
+    /// Allowed p_0 at nominal torque, Pa.
+    pub hertz_nominal_pa: Option<f64>,
+    /// Allowed p_0 at peak torque, Pa.
+    pub hertz_peak_pa: Option<f64>,
+    /// Allowed magnitude of the inner race's mean hoop stress at peak torque, Pa.
+    pub hoop_inner_pa: Option<f64>,
+    /// Allowed mean hoop stress of the outer race at peak torque, Pa.
+    pub hoop_outer_pa: Option<f64>,
+    /// Smallest slip margin wanted, pure number.
+    pub slip_margin: Option<f64>,
+    /// Overrun speed up to which the sprags must keep contact, rad/s.
+    pub keep_contact_to_rad_s: Option<f64>,
+}
+
+/// What happens to the clutch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ScenarioKind {
+    /// Torque held at rest.
+    Static {
+        /// Torque, N m.
+        torque_nm: f64,
+    },
+    /// Preload on the inner race (C_bi = -preload), C_be = amplitude sin(2 pi f t) on the outer, outer race tied to an abutment.
+    TorsionalExcitation {
+        /// Preload C_e1, N m.
+        preload_nm: f64,
+        /// Amplitude, N m.
+        amplitude_nm: f64,
+        /// Frequency, Hz.
+        frequency_hz: f64,
+        /// Abutment stiffness k_ab, N m/rad.
+        abutment_stiffness_nm_per_rad: f64,
+        /// Duration, s.
+        duration_s: f64,
+        /// Mean speed Omega of the whole clutch, rad/s.
+        speed_rad_s: f64,
+    },
+    /// Free run of the inner race, then reversal onto an elastic stop (the paper's section 3).
+    Engagement {
+        /// Initial overrunning speed of the inner race, rad/s.
+        free_run_rad_s: f64,
+        /// Torque that reverses the inner race, N m, magnitude.
+        reversing_torque_nm: f64,
+        /// Stiffness of the stop that holds the outer race, N m/rad.
+        stop_stiffness_nm_per_rad: f64,
+        /// Inertia of the bench on the inner race (I_1 of Table 1), kg m^2.
+        bench_inertia_kg_m2: f64,
+        /// Duration, s.
+        duration_s: f64,
+    },
+    /// Steady overrun.
+    Overrun {
+        /// Speed of the outer race, rad/s.
+        speed_rad_s: f64,
+        /// Inner race faster than outer by this, rad/s, positive.
+        overrun_rad_s: f64,
+    },
+}
+
+/// One named scenario with the clutch it acts on (per-scenario overrides applied).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario {
+    /// Name, unique in the design.
+    pub name: String,
+    /// Kind and its data.
+    pub kind: ScenarioKind,
+    /// The clutch with this scenario's overrides.
+    pub clutch: Clutch,
+    /// Dotted names of the tables that the scenario overrides, for the reports.
+    pub overrides: Vec<String>,
+}
+
+/// One variable of the optimiser, in the unit of its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OptimizeVariable {
+    /// Name as in the file, e.g. `r_i2_mm`.
+    pub name: String,
+    /// Lower bound in the name's unit.
+    pub min: f64,
+    /// Upper bound in the name's unit.
+    pub max: f64,
+}
+
+/// What `optimize` shall do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Optimize {
+    /// Objective, now always `slip-margin`.
+    pub objective: String,
+    /// Scenarios whose smallest slip margin is maximised.
+    pub scenarios: Vec<String>,
+    /// Design variables.
+    pub variables: Vec<OptimizeVariable>,
+    /// `[limits]` with the sharper ones of `[optimize]` put in.
+    pub limits: Limits,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+/// A checked clutch design. Built only by reading a file; never changed afterwards.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// Name.
+    pub name: String,
+    /// The clutch.
+    pub clutch: Clutch,
+    /// Allowables.
+    pub limits: Limits,
+    /// Names of the scenarios that must hold in `check`.
+    pub check_scenarios: Vec<String>,
+    /// All scenarios.
+    pub scenarios: Vec<Scenario>,
+    /// The optimiser's task, if any.
+    pub optimize: Option<Optimize>,
+    /// SHA-256 (hex) of the file's text.
+    pub hash: String,
+    /// The file's text, kept for reports and for `optimize` to edit.
+    pub source: String,
+}
+
+impl Design {
+    /// The scenario of that name.
+    pub fn scenario(&self, name: &str) -> Option<&Scenario> {
+        self.scenarios.iter().find(|s| s.name == name)
+    }
+}

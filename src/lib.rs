@@ -1,0 +1,4 @@
+//! sprag-design: map to come.
+pub mod design;
+pub mod material;
+pub mod profile;
