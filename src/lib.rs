@@ -1,4 +1,6 @@
 //! sprag-design: map to come.
 pub mod design;
 pub mod material;
+pub mod numeric;
+pub mod ode;
 pub mod profile;

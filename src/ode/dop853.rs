@@ -1,0 +1,221 @@
+//! Dormand-Prince of order 8(5,3) with step control and dense output of order 7.
+//!
+//! Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, II.5 and II.10.
+
+use super::coefficients::{A, B, B_HAT, C, D, E};
+
+/// Work done.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejections: u64,
+    /// Evaluations of the right-hand side.
+    pub rhs_evaluations: u64,
+}
+
+/// Tolerances per component: |error_i| <= absolute_i + relative |y_i|.
+#[derive(Debug, Clone, Copy)]
+pub struct Tolerance<const N: usize> {
+    /// Relative part, pure number.
+    pub relative: f64,
+    /// Absolute part, in the unit of each component.
+    pub absolute: [f64; N],
+}
+
+/// One trial step from (t, y) over h.
+#[derive(Debug, Clone)]
+pub struct Step<const N: usize> {
+    /// Start time.
+    pub t: f64,
+    /// Step length.
+    pub h: f64,
+    /// State at the start.
+    pub y0: [f64; N],
+    /// State at the end.
+    pub y1: [f64; N],
+    /// Weighted error; at most 1 for a step to be accepted.
+    pub error: f64,
+    stages: [[f64; N]; 12],
+    slope1: [f64; N],
+}
+
+/// Dense output of one step, order 7.
+#[derive(Debug, Clone)]
+pub struct Dense<const N: usize> {
+    t: f64,
+    h: f64,
+    coefficients: [[f64; N]; 8],
+}
+
+/// Take one step. `slope0` is f(t, y); the right-hand side may fail (`Err` is passed on).
+pub fn step<const N: usize, X>(
+    rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+    t: f64,
+    y: &[f64; N],
+    slope0: &[f64; N],
+    h: f64,
+    tolerance: &Tolerance<N>,
+    counters: &mut Counters,
+) -> Result<Step<N>, X> {
+    let mut k = [[0.0; N]; 12];
+    k[0] = *slope0;
+    for stage in 1..12 {
+        let row = A[stage - 1];
+        let mut z = *y;
+        for (j, &a) in row.iter().enumerate() {
+            if a != 0.0 {
+                for i in 0..N {
+                    z[i] += h * a * k[j][i];
+                }
+            }
+        }
+        k[stage] = rhs(t + C[stage] * h, &z)?;
+    }
+    let mut y1 = *y;
+    let (mut err5, mut err3) = (0.0, 0.0);
+    for i in 0..N {
+        let (mut increment, mut e5) = (0.0, 0.0);
+        for j in 0..12 {
+            increment += B[j] * k[j][i];
+            e5 += E[j] * k[j][i];
+        }
+        y1[i] += h * increment;
+        let e3 = increment - B_HAT[0] * k[0][i] - B_HAT[1] * k[8][i] - B_HAT[2] * k[11][i];
+        let scale = tolerance.absolute[i] + tolerance.relative * y[i].abs().max(y1[i].abs());
+        err5 += (e5 / scale).powi(2);
+        err3 += (e3 / scale).powi(2);
+    }
+    let blend = err5 + 0.01 * err3;
+    let error = if blend > 0.0 { h.abs() * err5 / (blend * N as f64).sqrt() } else { 0.0 };
+    let slope1 = rhs(t + h, &y1)?;
+    counters.rhs_evaluations += 12;
+    Ok(Step { t, h, y0: *y, y1, error, stages: k, slope1 })
+}
+
+impl<const N: usize> Step<N> {
+    /// f at the end of the step, the first stage of the next.
+    pub fn slope1(&self) -> &[f64; N] {
+        &self.slope1
+    }
+
+    /// Next step length after this one, accepted or not.
+    pub fn next_h(&self) -> f64 {
+        let factor = if self.error > 0.0 && self.error.is_finite() {
+            (0.9 * self.error.powf(-1.0 / 8.0)).clamp(0.2, 5.0)
+        } else if self.error == 0.0 {
+            5.0
+        } else {
+            0.1
+        };
+        self.h * factor
+    }
+
+    /// Cubic Hermite value at t + theta h: no extra evaluations, for a first look only.
+    pub fn glance(&self, theta: f64) -> [f64; N] {
+        let (a, b) = (theta, 1.0 - theta);
+        let mut y = [0.0; N];
+        for i in 0..N {
+            let (m0, m1) = (self.h * self.stages[0][i], self.h * self.slope1[i]);
+            y[i] =
+                (1.0 + 2.0 * a) * b * b * self.y0[i] + a * b * b * m0 + a * a * (3.0 - 2.0 * a) * self.y1[i]
+                    - a * a * b * m1;
+        }
+        y
+    }
+
+    /// Dense output of order 7 over the step (three more evaluations).
+    pub fn dense<X>(
+        &self,
+        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        counters: &mut Counters,
+    ) -> Result<Dense<N>, X> {
+        let mut k = [[0.0; N]; 16];
+        k[..12].copy_from_slice(&self.stages);
+        k[12] = self.slope1;
+        for extra in 13..16 {
+            let mut z = self.y0;
+            for (j, &a) in A[extra - 1].iter().enumerate() {
+                if a != 0.0 {
+                    for i in 0..N {
+                        z[i] += self.h * a * k[j][i];
+                    }
+                }
+            }
+            k[extra] = rhs(self.t + C[extra] * self.h, &z)?;
+        }
+        counters.rhs_evaluations += 3;
+        let mut c = [[0.0; N]; 8];
+        for i in 0..N {
+            let difference = self.y1[i] - self.y0[i];
+            let bulge = self.h * k[0][i] - difference;
+            c[0][i] = self.y0[i];
+            c[1][i] = difference;
+            c[2][i] = bulge;
+            c[3][i] = difference - self.h * k[12][i] - bulge;
+            for (row, d) in D.iter().enumerate() {
+                c[4 + row][i] = self.h * d.iter().zip(&k).map(|(d, k)| d * k[i]).sum::<f64>();
+            }
+        }
+        Ok(Dense { t: self.t, h: self.h, coefficients: c })
+    }
+}
+
+impl<const N: usize> Dense<N> {
+    /// State at time `t` inside the step.
+    pub fn at(&self, t: f64) -> [f64; N] {
+        let s = (t - self.t) / self.h;
+        let s1 = 1.0 - s;
+        let c = &self.coefficients;
+        let mut y = [0.0; N];
+        for i in 0..N {
+            let inner = c[4][i] + s * (c[5][i] + s1 * (c[6][i] + s * c[7][i]));
+            y[i] = c[0][i] + s * (c[1][i] + s1 * (c[2][i] + s * (c[3][i] + s1 * inner)));
+        }
+        y
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// y'' = -y as a planted answer, with a time-dependent forcing that the nodes c_i must get right.
+    fn rhs(t: f64, y: &[f64; 3]) -> Result<[f64; 3], ()> {
+        Ok([y[1], -y[0], (2.0 * t).cos() * y[1]])
+    }
+
+    fn end_error(n: usize) -> (f64, f64) {
+        let tolerance = Tolerance { relative: 1e-12, absolute: [1e-12; 3] };
+        let mut counters = Counters::default();
+        let (mut t, mut y) = (0.0, [0.0, 1.0, 0.0]);
+        let h = 2.0 / n as f64;
+        let mut dense_error: f64 = 0.0;
+        for _ in 0..n {
+            let slope = rhs(t, &y).unwrap();
+            let s = step(&mut rhs, t, &y, &slope, h, &tolerance, &mut counters).unwrap();
+            let d = s.dense(&mut rhs, &mut counters).unwrap();
+            for theta in [0.0, 0.21, 0.5, 0.83, 1.0] {
+                let tt = t + theta * h;
+                dense_error = dense_error.max((d.at(tt)[0] - tt.sin()).abs());
+                assert!((s.glance(theta)[0] - tt.sin()).abs() < h.powi(4));
+            }
+            t += h;
+            y = s.y1;
+        }
+        // third component: integral of cos(2t) cos(t).
+        let third = |t: f64| 0.5 * t.sin() + (3.0 * t).sin() / 6.0;
+        ((y[0] - t.sin()).abs().max((y[2] - third(t)).abs()), dense_error)
+    }
+
+    #[test]
+    fn observed_orders_are_eight_and_seven() {
+        let (coarse, dense_coarse) = end_error(4);
+        let (fine, dense_fine) = end_error(16);
+        let order = (coarse / fine).log2() / 2.0;
+        let dense_order = (dense_coarse / dense_fine).log2() / 2.0;
+        assert!((order - 8.0).abs() < 0.3, "order {order}: {coarse:e} {fine:e}");
+        assert!(dense_order > 6.8, "dense order {dense_order}: {dense_coarse:e} {dense_fine:e}");
+    }
+}
