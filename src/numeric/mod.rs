@@ -3,6 +3,7 @@
 //! In: functions of one variable. Out: roots, integrals, curves. Absent: units and physics.
 //! Equations: none.
 
+pub mod chebyshev;
 pub mod dual;
 pub mod panels;
 pub mod quadrature;

@@ -1,0 +1,220 @@
+//! Static equilibrium of one sprag at a given inner normal force: the only static iteration of the project.
+
+use super::elastic::{Elastic, NoElastic};
+use crate::design::Clutch;
+use crate::kinematics::{self, Deformations, Lengths, Radii};
+use crate::numeric::dual::Dual;
+use crate::profile::Profile;
+
+/// Smallest normal force at which a closure is evaluated, N: stands for first contact, where the roller law's
+/// slope is infinite.
+pub const FIRST_CONTACT_N: f64 = 1e-120;
+
+/// Why there is no equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NoClosure {
+    /// The centres have come too close: the sprag has rolled over.
+    RolledOver,
+    /// The coupling of N_be did not settle; relative residual.
+    NoConvergence {
+        /// Last relative change of N_be.
+        residual: f64,
+    },
+}
+
+/// Equilibrium at N_bi; every `Dual` carries its derivative by N_bi at fixed arc and speed.
+#[derive(Debug, Clone, Copy)]
+pub struct Closure {
+    /// Normal force at A, N.
+    pub n_bi: f64,
+    /// Normal force at B, N.
+    pub n_be: Dual,
+    /// Tangential force at A that equilibrium demands, N.
+    pub t_bi: Dual,
+    /// T_bi at N_bi = 0 (only the centrifugal force acts), N, and its rise per N_bi: t_bi = offset + ratio N_bi.
+    pub t_offset_n: f64,
+    /// Pure number, OB sin(beta)/(OB cos(beta) - OA).
+    pub t_ratio: f64,
+    /// Tangential force at B, N.
+    pub t_be: Dual,
+    /// Lengths of (8).
+    pub lengths: Lengths,
+    /// Deformations behind them.
+    pub deformations: Deformations,
+    /// beta, rad.
+    pub beta: Dual,
+    /// gamma, rad, signed.
+    pub gamma: Dual,
+    /// OC_g, m.
+    pub oc_g: Dual,
+    /// Body rotation against the line OC_e since first contact at rest, rad.
+    pub rotation: Dual,
+    /// alpha, body rotation against the line OG since first contact at rest, rad.
+    pub alpha: Dual,
+}
+
+impl Closure {
+    /// Turn of the contact direction in the body since first contact at rest, rad.
+    pub fn turn_rad(&self, beta0: f64) -> f64 {
+        self.rotation.v - (self.beta.v - beta0)
+    }
+
+    /// Torque of the clutch with `count` sprags, N m: C = n_s T_bi OA.
+    ///
+    /// Eq. (A.8): the printed form has h_i N_bi where (13a) at rest gives h_i N_bi - h_e N_be; with that, and
+    /// with the corrected rolling ratios, both say the same (test `printed_and_corrected_a8`).
+    #[doc(alias = "Eq. (A.8)")]
+    pub fn torque_nm(&self, count: usize) -> Dual {
+        self.t_bi * self.lengths.oa * count as f64
+    }
+
+    /// OC_g' = d OC_g/d alpha, m/rad.
+    pub fn oc_g_slope(&self) -> f64 {
+        self.oc_g.d / self.alpha.d
+    }
+
+    /// Rolling ratios rho_i, rho_e.
+    pub fn rolling_ratios(&self) -> (f64, f64) {
+        kinematics::rolling_ratios(
+            self.lengths.oa.v,
+            self.lengths.ob.v,
+            self.oc_g.v,
+            self.oc_g_slope(),
+            self.beta.v + self.gamma.v,
+            self.gamma.v,
+        )
+    }
+
+    /// d windup / d N_bi, rad/N, with C_e as the reference point, so that no centroid enters:
+    /// OA dtheta_bi = dOmega (OA - OC_e cos beta) - sin beta dOC_e, OB dtheta_be = dOmega (OB - OC_e).
+    pub fn windup_slope(&self) -> f64 {
+        let l = &self.lengths;
+        let (sin_b, cos_b) = self.beta.v.sin_cos();
+        let inner = (self.rotation.d * (l.oa.v - l.oc_e.v * cos_b) - sin_b * l.oc_e.d) / l.oa.v;
+        let outer = self.rotation.d * (l.ob.v - l.oc_e.v) / l.ob.v;
+        outer - inner
+    }
+}
+
+/// One clutch, ready for closures.
+#[derive(Debug, Clone)]
+pub struct Statics {
+    /// Number of sprags.
+    pub count: usize,
+    /// Elastic laws.
+    pub elastic: Elastic,
+    /// Placed arcs.
+    pub profile: Profile,
+    radii: Radii,
+    centroid_m: [f64; 2],
+    mass_kg: f64,
+    gamma0: f64,
+    /// Distance and azimuth of each arc's centre from C_e in the body frame.
+    centres: Vec<(f64, f64)>,
+}
+
+impl Statics {
+    /// Prepare; `profile` is the placed profile of this clutch.
+    pub fn new(clutch: &Clutch, profile: Profile) -> Result<Self, NoElastic> {
+        let (s, r) = (&clutch.sprags, &clutch.races);
+        let gamma0 = -s.centroid_m[0].atan2(profile.outer_centre_distance_m + s.centroid_m[1]);
+        Ok(Self {
+            count: s.count,
+            elastic: Elastic::new(clutch)?,
+            radii: Radii {
+                inner_race_m: r.inner_radius_m,
+                outer_race_m: r.outer_radius_m,
+                inner_arc_m: 0.0,
+                outer_arc_m: s.outer_radius_m,
+            },
+            centroid_m: s.centroid_m,
+            mass_kg: s.mass_kg,
+            gamma0,
+            centres: profile
+                .arcs
+                .iter()
+                .map(|a| (a.centre_m.norm(), a.centre_m.x.atan2(a.centre_m.y)))
+                .collect(),
+            profile,
+        })
+    }
+
+    /// gamma at first contact at rest, rad.
+    pub fn gamma0_rad(&self) -> f64 {
+        self.gamma0
+    }
+
+    /// Centroid of the body frame, m.
+    pub fn centroid_m(&self) -> [f64; 2] {
+        self.centroid_m
+    }
+
+    /// Equilibrium on arc `arc` at inner normal force `n_bi` > 0 (N) and mean speed `speed_rad_s`.
+    /// `shift_rad` is the arc's constant shift of the body angle (junction crossing).
+    ///
+    /// Eq. (10) read the other way round: N_bi is given, alpha follows; the curve inverts it. At a mean speed
+    /// Omega the sprag is no two-force member, F_c = m_g OC_g Omega^2 acts at G:
+    ///
+    ///   T_bi = [N_bi OB sin beta - F_c OB sin gamma]/(OB cos beta - OA),  T_be = T_bi OA/OB,
+    ///   N_be = [N_bi cos(beta+gamma) + T_bi sin(beta+gamma) - T_be sin gamma + F_c]/cos gamma.
+    ///
+    /// At rest this is tan omega = OB sin beta/(OB cos beta - OA), N_be = F cos nu.
+    #[doc(alias = "Eq. (10)")]
+    pub fn closure(
+        &self,
+        arc: usize,
+        n_bi: f64,
+        speed_rad_s: f64,
+        shift_rad: f64,
+    ) -> Result<Closure, NoClosure> {
+        let (distance, azimuth) = self.centres[arc];
+        let radii = Radii { inner_arc_m: self.profile.arcs[arc].radius_m, ..self.radii };
+        let n = Dual::variable(n_bi);
+        let mut n_be = n;
+        let mut residual = f64::INFINITY;
+        let mut slope_residual = f64::INFINITY;
+        for round in 0..60 {
+            let d = self.elastic.deformations(arc, n, n_be, speed_rad_s);
+            let l = kinematics::lengths(&radii, &d);
+            let (sin_b, cos_b) = kinematics::beta(&l, distance).ok_or(NoClosure::RolledOver)?;
+            let beta = sin_b.atan2(cos_b);
+            let rotation = (l.oc_i * sin_b).atan2(l.oc_i * cos_b - l.oc_e) + (shift_rad - azimuth);
+            let g = kinematics::centroid(self.centroid_m, l.oc_e, rotation);
+            let lever = l.ob * cos_b - l.oa;
+            let ratio = l.ob * sin_b / lever;
+            let (sin_g, cos_g) = g.gamma.sin_cos();
+            let f_c = g.oc_g * (self.mass_kg * speed_rad_s * speed_rad_s);
+            let offset = -(f_c * l.ob * sin_g / lever);
+            let t_bi = n * ratio + offset;
+            let t_be = t_bi * l.oa / l.ob;
+            let (sin_bg, cos_bg) = (beta + g.gamma).sin_cos();
+            let next = (n * cos_bg + t_bi * sin_bg - t_be * sin_g + f_c) / cos_g;
+            // A sprag that centrifugal force presses off the inner race still never pulls on the outer one.
+            let next = if next.v > FIRST_CONTACT_N { next } else { Dual::constant(FIRST_CONTACT_N) };
+            let change = (next.v - n_be.v).abs() / next.v;
+            let slope_change = (next.d - n_be.d).abs() / next.d.abs().max(1e-3);
+            let settled = change <= 4.0 * f64::EPSILON && slope_change <= 1e-14
+                || round > 4 && change >= residual && slope_change >= slope_residual && change < 1e-13;
+            n_be = next;
+            (residual, slope_residual) = (change, slope_change);
+            if settled {
+                return Ok(Closure {
+                    n_bi,
+                    n_be,
+                    t_bi,
+                    t_offset_n: offset.v,
+                    t_ratio: ratio.v,
+                    t_be,
+                    lengths: l,
+                    deformations: d,
+                    beta,
+                    gamma: g.gamma,
+                    oc_g: g.oc_g,
+                    rotation,
+                    alpha: rotation + g.gamma - self.gamma0,
+                });
+            }
+        }
+        Err(NoClosure::NoConvergence { residual })
+    }
+}

@@ -1,0 +1,14 @@
+//! Where geometry and elastic laws meet: the wedge curve N(alpha) of one design.
+//!
+//! In: `Clutch`, `Profile`, mean speed. Out: [`WedgeCurve`], static points, torque, windup, stiffness.
+//! Absent: inertia, slip, limits. Equations: (10), (A.7)-(A.9), the junction crossing of Figure 5.
+
+mod closure;
+mod curve;
+mod elastic;
+mod stiffness;
+
+pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
+pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
+pub use elastic::{Elastic, NoElastic};
+pub use stiffness::StaticPoint;

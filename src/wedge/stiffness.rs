@@ -1,0 +1,78 @@
+//! One row of the stiffness curve: statics at a torque or a normal force, in full.
+
+use super::closure::Closure;
+use super::curve::WedgeCurve;
+
+/// Static state of the clutch under torque; per sprag where a force is meant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StaticPoint {
+    /// Torque C, N m.
+    pub torque_nm: f64,
+    /// N_bi, N.
+    pub normal_inner_n: f64,
+    /// N_be, N.
+    pub normal_outer_n: f64,
+    /// Demanded tan omega = T_bi/N_bi.
+    pub tan_omega: f64,
+    /// Demanded tan nu = T_be/N_be.
+    pub tan_nu: f64,
+    /// alpha, rad.
+    pub alpha_rad: f64,
+    /// Windup, rad.
+    pub windup_rad: f64,
+    /// C/windup, N m/rad.
+    pub k_secant_nm_per_rad: f64,
+    /// dC/dwindup, N m/rad.
+    pub k_tangent_nm_per_rad: f64,
+    /// Contact turn in the body, rad.
+    pub contact_turn_rad: f64,
+    /// Arc in contact, from 0.
+    pub arc: usize,
+    /// delta_H at A, m.
+    pub approach_inner_m: f64,
+    /// p_0 at A, Pa.
+    pub hertz_inner_pa: f64,
+    /// p_0 at B, Pa.
+    pub hertz_outer_pa: f64,
+    /// Half width of the contact at A, m.
+    pub half_width_inner_m: f64,
+}
+
+impl WedgeCurve {
+    /// Static state at `torque_nm` > 0; `None` where the curve ends below it.
+    pub fn at_torque(&self, torque_nm: f64) -> Option<StaticPoint> {
+        self.closure_at_torque(torque_nm).map(|(k, c)| self.row(k, &c))
+    }
+
+    /// Static state at inner normal force `normal_n` > 0; `None` beyond the curve.
+    pub fn at_normal(&self, normal_n: f64) -> Option<StaticPoint> {
+        self.closure_at_normal(normal_n).map(|(k, c)| self.row(k, &c))
+    }
+
+    /// Eq. (A.9): secant stiffness C/windup; the tangent dC/dwindup beside it.
+    #[doc(alias = "Eq. (A.9)")]
+    fn row(&self, k: usize, c: &Closure) -> StaticPoint {
+        let statics = self.statics();
+        let torque = c.torque_nm(statics.count);
+        let windup_rad = self.windup_rad(c.alpha.v);
+        let elastic = &statics.elastic;
+        let arc = self.first_arc() + k;
+        StaticPoint {
+            torque_nm: torque.v,
+            normal_inner_n: c.n_bi,
+            normal_outer_n: c.n_be.v,
+            tan_omega: c.t_bi.v / c.n_bi,
+            tan_nu: c.t_be.v / c.n_be.v,
+            alpha_rad: c.alpha.v,
+            windup_rad,
+            k_secant_nm_per_rad: torque.v / windup_rad,
+            k_tangent_nm_per_rad: torque.d / c.windup_slope(),
+            contact_turn_rad: c.turn_rad(statics.profile.beta0_rad),
+            arc,
+            approach_inner_m: c.deformations.contact_inner.v,
+            hertz_inner_pa: elastic.inner_contact[arc].peak_pressure_pa(c.n_bi),
+            hertz_outer_pa: elastic.outer_contact.peak_pressure_pa(c.n_be.v),
+            half_width_inner_m: elastic.inner_contact[arc].half_width_m(c.n_bi),
+        }
+    }
+}
