@@ -63,20 +63,36 @@ pub struct WedgePoint {
 
 const LANES: usize = 11;
 
+/// Distance from first contact below which the slope of the rolling ratios is held, rad.
+const SLOPE_HELD_RAD: f64 = 1e-9;
+
 /// Panels of the first arc in s, as fractions of its end. The lowest two hold N below 1e-10 of the end's and
 /// matter only for continuity.
 const FIRST_BREAKS: [f64; 6] = [0.0, 0.02, 0.1, 0.3, 0.6, 1.0];
 
 #[derive(Debug, Clone)]
 struct Arc {
-    alpha_from: f64,
     alpha_until: f64,
     n_from: f64,
     n_until: f64,
     shift: f64,
-    windup_from: f64,
     lanes: Panels<LANES>,
     rho_slopes: Panels<2>,
+    /// W/s^q on the first arc, W on the later ones.
+    windup: Panels<1>,
+}
+
+impl Arc {
+    /// W at alpha, rad; `first` holds (alpha_0, q) on the first arc.
+    fn windup_rad(&self, alpha: f64, first: Option<(f64, f64)>) -> f64 {
+        match first {
+            Some((alpha0, q)) => {
+                let x = (alpha - alpha0).max(0.0);
+                x * self.windup.at(x.powf(1.0 / q))[0]
+            }
+            None => self.windup.at(alpha)[0],
+        }
+    }
 }
 
 /// Wedge curve N(alpha), geometry, rolling ratios and windup, at one mean speed.
@@ -91,8 +107,6 @@ pub struct WedgeCurve {
     end: EndReason,
     /// Geometry at first contact, for the open clutch.
     touch: Closure,
-    /// W/s^q on the first arc.
-    windup: Panels<1>,
 }
 
 /// Why a curve cannot be built at all.
@@ -130,7 +144,6 @@ impl WedgeCurve {
         }
         let alpha0 = touch.alpha.v;
         let mut arcs: Vec<Arc> = Vec::new();
-        let mut windup = None;
         let (mut n_from, mut shift, mut windup_from) = (0.0, 0.0, 0.0);
         let mut end = EndReason::OffProfile;
         for k in first..profile.arcs.len() {
@@ -153,21 +166,18 @@ impl WedgeCurve {
             let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, alpha0, exponent }
                 .build(n_from, n_until, windup_from, k == first)
                 .map_err(|_| NoCurve::NoConvergence)?;
-            if windup.is_none() {
-                windup = Some(first_windup(&arc, alpha0, exponent));
-            }
+            windup_from = arc.windup_rad(arc.alpha_until, (k == first).then_some((alpha0, exponent)));
             arcs.push(arc);
-            if let (Some(arc), Some(w)) = (arcs.last(), windup.as_ref()) {
-                windup_from = windup_in(arc, arcs.len() == 1, arc.alpha_until, alpha0, exponent, w);
-            }
             n_from = n_until;
             if let Some(reason) = reason {
                 end = reason;
                 break;
             }
         }
-        let windup = windup.ok_or(NoCurve::NoFirstContact)?;
-        Ok(Self { statics, speed_rad_s, exponent, alpha0, first, arcs, end, touch, windup })
+        if arcs.is_empty() {
+            return Err(NoCurve::NoFirstContact);
+        }
+        Ok(Self { statics, speed_rad_s, exponent, alpha0, first, arcs, end, touch })
     }
 
     /// alpha at first contact at this speed, rad (0 at rest).
@@ -218,11 +228,41 @@ impl WedgeCurve {
             return point(&v, v[8], slopes);
         }
         // s = (alpha - alpha_0)^(1/q); N = (s * z/s)^10.
-        let s = (alpha - self.alpha0).max(1e-24).powf(1.0 / self.exponent);
+        let x = alpha - self.alpha0;
+        let s = x.max(1e-24).powf(1.0 / self.exponent);
         let v = arc.lanes.at(s);
-        let per_alpha = s / (self.exponent * (alpha - self.alpha0).max(1e-24));
-        let slopes = arc.rho_slopes.at(s).map(|d| d * per_alpha);
+        // rho' is singular (integrably, as x^(1/q - 1)) at first contact; below x = 1e-9 rad rho itself
+        // changes by less than 1e-6 and its slope is held.
+        let (x, s) = if x > SLOPE_HELD_RAD {
+            (x, s)
+        } else {
+            (SLOPE_HELD_RAD, SLOPE_HELD_RAD.powf(1.0 / self.exponent))
+        };
+        let slopes = arc.rho_slopes.at(s).map(|d| d * s / (self.exponent * x));
         point(&v, if alpha > self.alpha0 { (s * v[8]).powi(10) } else { 0.0 }, slopes)
+    }
+
+    /// The curve continued below first contact by the tension that a bilateral contact would carry:
+    /// N(alpha_0 - x) = -N(alpha_0 + x), geometry continued oddly, slopes evenly. Only the pure-rolling run
+    /// that measures margins goes there; no real clutch does.
+    pub fn mirrored(&self, alpha: f64) -> WedgePoint {
+        let x = (self.alpha0 - alpha).max(0.0);
+        let m = self.in_arc(0, self.alpha0 + x);
+        let t = &self.touch;
+        let odd = |there: f64, here: f64| 2.0 * here - there;
+        let offset = t.t_offset_n;
+        WedgePoint {
+            oa: odd(m.oa, t.lengths.oa.v),
+            ob: odd(m.ob, t.lengths.ob.v),
+            oc_g: odd(m.oc_g, t.oc_g.v),
+            beta_gamma: odd(m.beta_gamma, t.beta.v + t.gamma.v),
+            gamma: odd(m.gamma, t.gamma.v),
+            n_bi: -m.n_bi,
+            t_static: odd(m.t_static, offset),
+            rho_i_slope: -m.rho_i_slope,
+            rho_e_slope: -m.rho_e_slope,
+            ..m
+        }
     }
 
     /// Geometry of the open clutch at `alpha` <= first contact: the sprag rides on the outer race, OC_e stays,
@@ -281,7 +321,7 @@ impl WedgeCurve {
             return 0.0;
         }
         let k = self.arc_at(alpha);
-        windup_in(&self.arcs[k], k == 0, alpha, self.alpha0, self.exponent, &self.windup)
+        self.arcs[k].windup_rad(alpha, (k == 0).then_some((self.alpha0, self.exponent)))
     }
 
     /// Exact equilibrium at inner normal force `n_bi`, N, with its arc; `None` beyond the curve's end.
@@ -421,15 +461,20 @@ impl ArcBuilder<'_> {
     fn build(&self, n_from: f64, n_until: f64, windup_from: f64, first: bool) -> Result<Arc, NoClosure> {
         let end = self.closure(n_until)?;
         let alpha_until = end.alpha.v;
-        let (alpha_from, lanes) = if first {
-            (self.alpha0, self.first(n_until)?)
+        let (lanes, windup) = if first {
+            let lanes = self.first(n_until)?;
+            let s_end = (alpha_until - self.alpha0).powf(1.0 / self.exponent);
+            let windup = first_windup(&lanes, s_end, self.exponent);
+            (lanes, windup)
         } else {
             let alpha_from = self.closure(n_from)?.alpha.v;
-            (alpha_from, self.later(alpha_from, alpha_until, n_from, n_until)?)
+            let lanes = self.later(alpha_from, alpha_until, n_from, n_until)?;
+            let windup = later_windup(&lanes, alpha_from, alpha_until, windup_from);
+            (lanes, windup)
         };
         let rho_slopes = lanes.derivative([2, 3]);
         let shift = self.shift;
-        Ok(Arc { alpha_from, alpha_until, n_from, n_until, shift, windup_from, lanes, rho_slopes })
+        Ok(Arc { alpha_until, n_from, n_until, shift, lanes, rho_slopes, windup })
     }
 
     /// Arc 1, lanes over s. alpha - alpha_0 = 10 int_0^z (z alpha_N) z^8 dz with N = z^10 keeps relative
@@ -484,12 +529,11 @@ fn unit_integral(f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// W/s^q on arc 1 as a function of s.
-fn first_windup(arc: &Arc, alpha0: f64, q: f64) -> Panels<1> {
-    let s_end = (arc.alpha_until - alpha0).powf(1.0 / q);
+fn first_windup(lanes: &Panels<LANES>, s_end: f64, q: f64) -> Panels<1> {
     let exponent = q as i32 - 1;
     let mean = |s: f64| {
         q * unit_integral(|x| {
-            let v = arc.lanes.at(s * x);
+            let v = lanes.at(s * x);
             (v[2] + v[3]) * x.powi(exponent)
         })
     };
@@ -500,17 +544,23 @@ fn first_windup(arc: &Arc, alpha0: f64, q: f64) -> Panels<1> {
     }
 }
 
-fn windup_in(arc: &Arc, first: bool, alpha: f64, alpha0: f64, q: f64, windup: &Panels<1>) -> f64 {
-    if first {
-        let x = (alpha - alpha0).max(0.0);
-        return x * windup.at(x.powf(1.0 / q))[0];
-    }
+/// W on a later arc as a function of alpha: the integral of rho_i + rho_e from the arc's beginning.
+fn later_windup(lanes: &Panels<LANES>, from: f64, until: f64, windup_from: f64) -> Panels<1> {
     let rate = |a: f64| {
-        let v = arc.lanes.at(a);
+        let v = lanes.at(a);
         v[2] + v[3]
     };
-    let middle = 0.5 * (arc.alpha_from + arc.alpha_until);
-    let low = quadrature::integral(arc.alpha_from, alpha.min(middle), rate);
-    let high = if alpha > middle { quadrature::integral(middle, alpha, rate) } else { 0.0 };
-    arc.windup_from + low + high
+    let middle = 0.5 * (from + until);
+    let half = quadrature::integral(from, middle, rate);
+    let build: Result<_, std::convert::Infallible> = Panels::build(&[from, middle, until], |a| {
+        let rest = if a > middle {
+            half + quadrature::integral(middle, a, rate)
+        } else {
+            quadrature::integral(from, a, rate)
+        };
+        Ok([windup_from + rest])
+    });
+    match build {
+        Ok(p) => p,
+    }
 }

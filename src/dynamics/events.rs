@@ -1,0 +1,46 @@
+//! Functions whose falling through zero ends a mode.
+
+use super::model::{Grip, Mode, Model, Place, State};
+
+/// Number of event functions.
+pub(super) const EVENTS: usize = 4;
+/// Index: alpha falls to the lower end of its place.
+pub(super) const LOWER: usize = 0;
+/// Index: alpha rises to the upper end of its place.
+pub(super) const UPPER: usize = 1;
+/// Index: contact A changes its grip.
+pub(super) const INNER: usize = 2;
+/// Index: contact B changes its grip.
+pub(super) const OUTER: usize = 3;
+
+/// How far an open sprag may turn back before the run ends with a name, rad.
+pub(super) const OPEN_REACH_RAD: f64 = 0.5;
+
+/// Positive inside the mode. `grips`: whether the friction limits count (the pure-rolling run ignores them).
+pub(super) fn events(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool) -> [f64; EVENTS] {
+    let alpha = y[0];
+    let touch = model.curve.first_contact_rad();
+    let (lower, upper) = match mode.place {
+        Place::Open => (alpha - touch + OPEN_REACH_RAD, touch - alpha),
+        Place::Tension => (1.0, touch - alpha),
+        Place::Arc(k) => {
+            let from = if k == 0 { touch } else { model.curve.arc_end_rad(k - 1) };
+            (alpha - from, model.curve.arc_end_rad(k) - alpha)
+        }
+    };
+    if !grips {
+        return [lower, upper, 1.0, 1.0];
+    }
+    let f = model.forces(mode, t, y);
+    let mu = model.friction.static_;
+    let inner = match mode.inner {
+        _ if mode.place == Place::Open => 1.0,
+        Grip::Slip(s) => s * f.v_a,
+        Grip::Stick => mu * f.n_bi - f.t_bi.abs(),
+    };
+    let outer = match mode.outer {
+        Grip::Slip(s) => s * f.v_b,
+        Grip::Stick => mu * f.n_be - f.t_be.abs(),
+    };
+    [lower, upper, inner, outer]
+}

@@ -1,0 +1,24 @@
+//! Equations of motion (11)-(15): the only room that knows stick from slip.
+//!
+//! In: wedge curve, inertias, friction, loads. Out: runs with located mode changes, their peaks and counters.
+//! Absent: limits and verdicts (margin), scenario names. Equations: (11), (13), (15), energy-consistent form.
+//!
+//! # Conventions
+//! State (alpha, phi, theta_bi, theta_be) and rates, angles measured from Omega t; then the signed slip
+//! distances at A and B. T_bi acts on the inner race in its positive sense, -T_be on the outer race.
+//! v is race minus sprag surface; in slip T_bi = -sgn(v_A) mu N_bi and T_be = +sgn(v_B) mu N_be.
+
+mod choose;
+mod crossing;
+mod events;
+mod model;
+mod published;
+mod rolling;
+mod run;
+mod start;
+
+pub use model::{Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
+pub use published::{PublishedRun, published};
+pub use rolling::{Rolling, rolling};
+pub use run::{Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run};
+pub use start::{Overrun, alpha_max_rad, overrun, preloaded};

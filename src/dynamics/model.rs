@@ -1,0 +1,315 @@
+//! Accelerations and contact forces in a given mode.
+
+use nalgebra::{Matrix2, Vector2};
+
+use crate::design::Clutch;
+use crate::friction::Stribeck;
+use crate::wedge::{WedgeCurve, WedgePoint};
+
+/// Length of the state: 4 angles (rad), 4 rates (rad/s), signed slip distances at A and B (m).
+pub const N_STATE: usize = 10;
+/// alpha, phi, theta_bi, theta_be, their rates, slip at A, slip at B.
+pub type State = [f64; N_STATE];
+
+/// What one contact does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Grip {
+    /// Rolls without slip; the force is a constraint.
+    Stick,
+    /// Slips; the sign is that of v.
+    Slip(f64),
+}
+
+/// Where the inner contact is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// No normal force at A.
+    Open,
+    /// On arc k of the curve.
+    Arc(usize),
+    /// Pure-rolling run only: below first contact, held by tension.
+    Tension,
+}
+
+/// Mode of motion: within one, everything is smooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mode {
+    /// Where A is.
+    pub place: Place,
+    /// Grip at A; means nothing while open.
+    pub inner: Grip,
+    /// Grip at B.
+    pub outer: Grip,
+}
+
+/// Torques from outside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loads {
+    /// Constant torque C_bi on the inner race, N m.
+    pub inner_nm: f64,
+    /// Amplitude of C_be = amplitude sin(omega t) on the outer race, N m.
+    pub amplitude_nm: f64,
+    /// Angular frequency omega, rad/s.
+    pub omega_rad_s: f64,
+    /// Abutment stiffness k_ab on the outer race, N m/rad.
+    pub abutment_nm_per_rad: f64,
+}
+
+/// A clutch under loads, ready to be integrated.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Wedge curve at the mean speed.
+    pub curve: WedgeCurve,
+    /// Friction law.
+    pub friction: Stribeck,
+    /// Loads.
+    pub loads: Loads,
+    /// alpha_max of the spring, rad.
+    pub alpha_max_rad: f64,
+    pub(super) count: f64,
+    pub(super) mass_kg: f64,
+    pub(super) inertia_kg_m2: f64,
+    pub(super) spring_nm_per_rad: f64,
+    pub(super) inner_inertia_kg_m2: f64,
+    pub(super) outer_inertia_kg_m2: f64,
+    pub(super) damping_nm_s_per_rad: f64,
+}
+
+/// Forces at one instant, per sprag.
+#[derive(Debug, Clone, Copy)]
+pub struct Forces {
+    /// Accelerations of alpha, phi, theta_bi, theta_be, rad/s^2.
+    pub acceleration: [f64; 4],
+    /// T_bi, N.
+    pub t_bi: f64,
+    /// T_be, N.
+    pub t_be: f64,
+    /// N_bi, N.
+    pub n_bi: f64,
+    /// N_be from the radial equation, N.
+    pub n_be: f64,
+    /// v_A, m/s.
+    pub v_a: f64,
+    /// v_B, m/s.
+    pub v_b: f64,
+}
+
+impl Model {
+    /// Put a clutch under loads. `bench_inertia_kg_m2` is added to the inner race.
+    pub fn new(
+        clutch: &Clutch,
+        curve: WedgeCurve,
+        loads: Loads,
+        alpha_max_rad: f64,
+        bench_inertia_kg_m2: f64,
+    ) -> Self {
+        let f = &clutch.friction;
+        Self {
+            curve,
+            friction: Stribeck { static_: f.static_, kinetic: f.kinetic, decay_s_per_m: f.decay_s_per_m },
+            loads,
+            alpha_max_rad,
+            count: clutch.sprags.count as f64,
+            mass_kg: clutch.sprags.mass_kg,
+            inertia_kg_m2: clutch.sprags.inertia_kg_m2,
+            spring_nm_per_rad: clutch.spring.stiffness_nm_per_rad,
+            inner_inertia_kg_m2: clutch.races.inner_inertia_kg_m2 + bench_inertia_kg_m2,
+            outer_inertia_kg_m2: clutch.races.outer_inertia_kg_m2,
+            damping_nm_s_per_rad: clutch.races.viscous_damping_nm_s_per_rad,
+        }
+    }
+
+    /// Geometry and normal force at `alpha` with the functions of `place`.
+    pub fn point(&self, place: Place, alpha: f64) -> WedgePoint {
+        match place {
+            Place::Arc(k) => self.curve.in_arc(k, alpha),
+            Place::Open => self.curve.open(alpha),
+            Place::Tension => self.curve.mirrored(alpha),
+        }
+    }
+
+    /// Rates with the rolling constraints of `mode` put in exactly: (alpha', phi', theta_bi', theta_be').
+    /// The light sprag follows the heavy races: both stick, alpha' = (theta_be' - theta_bi')/(rho_i + rho_e),
+    /// phi' = theta_bi' + rho_i alpha'; one sticks, phi' follows that race.
+    pub fn rates(&self, mode: &Mode, p: &WedgePoint, y: &State) -> [f64; 4] {
+        let [mut da, mut dp, di, de] = [y[4], y[5], y[6], y[7]];
+        let inner_sticks = mode.inner == Grip::Stick && mode.place != Place::Open;
+        match (inner_sticks, mode.outer == Grip::Stick) {
+            (true, true) => {
+                da = (de - di) / (p.rho_i + p.rho_e);
+                dp = di + p.rho_i * da;
+            }
+            (true, false) => dp = di + p.rho_i * da,
+            (false, true) => dp = de - p.rho_e * da,
+            (false, false) => {}
+        }
+        [da, dp, di, de]
+    }
+
+    /// Slip velocities (v_A, v_B), m/s.
+    pub fn slip_velocities(&self, p: &WedgePoint, rates: &[f64; 4]) -> (f64, f64) {
+        use crate::kinematics::{slip_velocity_inner, slip_velocity_outer};
+        (
+            slip_velocity_inner(p.oa, p.rho_i, rates[0], rates[1], rates[2]),
+            slip_velocity_outer(p.ob, p.rho_e, rates[0], rates[1], rates[3]),
+        )
+    }
+
+    /// Inverse of the sprags' 2x2 mass matrix in (alpha, phi), 1/(kg m^2):
+    /// n_s [[I_g, I_g], [I_g, I_g + m_g OC_g^2]].
+    fn sprag_inverse(&self, oc_g: f64) -> Matrix2<f64> {
+        let orbit = self.mass_kg * oc_g * oc_g;
+        let i = self.inertia_kg_m2;
+        Matrix2::new((i + orbit) / (i * orbit), -1.0 / orbit, -1.0 / orbit, 1.0 / orbit) / self.count
+    }
+
+    /// Accelerations and forces at time `t` (s) in `mode`.
+    ///
+    /// Eq. (13), Eq. (15), in the energy-consistent form: OC_g' times the radial equation is added to the
+    /// moment about G and moments are taken about O, so that friction enters with b_i*, b_e* and the normal
+    /// forces only through U' = C_Omega (rho_i + rho_e)/n_s:
+    ///
+    ///   I_g(alpha''+phi'') = b_i* T_bi + b_e* T_be + K_r(alpha_max - alpha) - U' + m_g OC_g OC_g'(phi'^2 - Omega^2)
+    ///   I_g(alpha''+phi'') + m_g OC_g^2 phi'' + 2 m_g OC_g OC_g' alpha' phi' = T_be OB - T_bi OA
+    ///   I_bi theta_bi'' = n_s T_bi OA - C_rl(theta_bi' - theta_be') + C_bi
+    ///   I_be theta_be'' = -n_s T_be OB - C_rl(theta_be' - theta_bi') + C_be - k_ab theta_be
+    ///
+    /// The printed (13) counts the spring as a couple without reaction, has no Coriolis term and "mg OC_g" for
+    /// m_g OC_g phi''; the printed (15) has no abutment. N_be closes radially:
+    /// N_be cos gamma = N_bi cos(beta+gamma) + T_bi sin(beta+gamma) - T_be sin gamma + m_g OC_g phi'^2.
+    #[doc(alias = "Eq. (13)")]
+    #[doc(alias = "Eq. (15)")]
+    pub fn forces(&self, mode: &Mode, t: f64, y: &State) -> Forces {
+        let p = self.point(mode.place, y[0]);
+        let rates = self.rates(mode, &p, y);
+        self.forces_at(mode, t, y, &p, &rates)
+    }
+
+    pub(super) fn forces_at(
+        &self,
+        mode: &Mode,
+        t: f64,
+        y: &State,
+        p: &WedgePoint,
+        rates: &[f64; 4],
+    ) -> Forces {
+        let [da, dp, di, de] = *rates;
+        let n = self.count;
+        let speed = self.curve.speed_rad_s();
+        let phi_rate = speed + dp;
+        let open = mode.place == Place::Open;
+        let (v_a, v_b) = self.slip_velocities(p, rates);
+        // What acts without T_bi, T_be.
+        let wedge = p.t_static * p.oa * (p.rho_i + p.rho_e);
+        let swing = self.mass_kg * p.oc_g * p.oc_g_slope;
+        let centrifugal = if open { phi_rate * phi_rate } else { phi_rate * phi_rate - speed * speed };
+        let f_alpha = n
+            * (self.spring_nm_per_rad * (self.alpha_max_rad - y[0]) - if open { 0.0 } else { wedge }
+                + swing * centrifugal);
+        let f_phi = -2.0 * n * swing * da * phi_rate;
+        let drag = self.damping_nm_s_per_rad * (di - de);
+        let f_i = self.loads.inner_nm - drag;
+        let f_e = self.loads.amplitude_nm * (self.loads.omega_rad_s * t).sin() + drag
+            - self.loads.abutment_nm_per_rad * y[3];
+        let inverse = self.sprag_inverse(p.oc_g);
+        let free = inverse * Vector2::new(f_alpha, f_phi);
+        let (free_i, free_e) = (f_i / self.inner_inertia_kg_m2, f_e / self.outer_inertia_kg_m2);
+        // Columns: what one newton of T_bi (T_be) on each sprag does to (alpha'', phi'').
+        let column_i = inverse * Vector2::new(n * p.rho_i * p.oa, -n * p.oa);
+        let column_e = inverse * Vector2::new(n * p.rho_e * p.ob, n * p.ob);
+        let race_i = n * p.oa / self.inner_inertia_kg_m2;
+        let race_e = -n * p.ob / self.outer_inertia_kg_m2;
+        // Rows of the constraints: theta_bi'' - phi'' + rho_i alpha'' + rho_i' alpha'^2 = 0 at A,
+        // theta_be'' - phi'' - rho_e alpha'' - rho_e' alpha'^2 = 0 at B.
+        let row_i = |v: &Vector2<f64>, race: f64| race - v[1] + p.rho_i * v[0];
+        let row_e = |v: &Vector2<f64>, race: f64| race - v[1] - p.rho_e * v[0];
+        let (sin_bg, cos_bg) = p.beta_gamma.sin_cos();
+        let (sin_g, cos_g) = p.gamma.sin_cos();
+        let press = p.n_bi * cos_bg + self.mass_kg * p.oc_g * phi_rate * phi_rate;
+        // A x = b for x = (T_bi, T_be).
+        let (mut a, mut b) = (Matrix2::zeros(), Vector2::zeros());
+        let inner_sticks = mode.inner == Grip::Stick && !open;
+        if inner_sticks {
+            a[(0, 0)] = row_i(&column_i, race_i);
+            a[(0, 1)] = row_i(&column_e, 0.0);
+            b[0] = -(row_i(&free, free_i) + p.rho_i_slope * da * da);
+        } else {
+            a[(0, 0)] = 1.0;
+            b[0] = match mode.inner {
+                Grip::Slip(s) if !open => -s * self.friction.coefficient((s * v_a).max(0.0)) * p.n_bi,
+                _ => 0.0,
+            };
+        }
+        match mode.outer {
+            Grip::Stick => {
+                a[(1, 0)] = row_e(&column_i, 0.0);
+                a[(1, 1)] = row_e(&column_e, race_e);
+                b[1] = -(row_e(&free, free_e) - p.rho_e_slope * da * da);
+            }
+            Grip::Slip(s) => {
+                // T_be = s mu N_be and the radial equation together.
+                let mu = s * self.friction.coefficient((s * v_b).max(0.0));
+                let share = mu / (cos_g + mu * sin_g);
+                a[(1, 0)] = -share * sin_bg;
+                a[(1, 1)] = 1.0;
+                b[1] = share * press;
+            }
+        }
+        let determinant = a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)];
+        let mut t_bi = (b[0] * a[(1, 1)] - b[1] * a[(0, 1)]) / determinant;
+        let mut t_be = (a[(0, 0)] * b[1] - a[(1, 0)] * b[0]) / determinant;
+        let mut n_be = (press + t_bi * sin_bg - t_be * sin_g) / cos_g;
+        if n_be < 0.0 && mode.outer != Grip::Stick {
+            // B has let go: no force there.
+            n_be = 0.0;
+            t_be = 0.0;
+            if inner_sticks {
+                t_bi = b[0] / a[(0, 0)];
+            }
+        }
+        let sprag = free + column_i * t_bi + column_e * t_be;
+        Forces {
+            acceleration: [sprag[0], sprag[1], free_i + race_i * t_bi, free_e + race_e * t_be],
+            t_bi,
+            t_be,
+            n_bi: p.n_bi,
+            n_be,
+            v_a,
+            v_b,
+        }
+    }
+
+    /// Right-hand side of the first-order system; `None` where it is not finite.
+    pub fn slope(&self, mode: &Mode, t: f64, y: &State) -> Option<State> {
+        let p = self.point(mode.place, y[0]);
+        let rates = self.rates(mode, &p, y);
+        let f = self.forces_at(mode, t, y, &p, &rates);
+        let slips_a = matches!(mode.inner, Grip::Slip(_)) && mode.place != Place::Open;
+        let slips_b = matches!(mode.outer, Grip::Slip(_));
+        let a = f.acceleration;
+        let out = [
+            rates[0],
+            rates[1],
+            rates[2],
+            rates[3],
+            a[0],
+            a[1],
+            a[2],
+            a[3],
+            if slips_a { f.v_a } else { 0.0 },
+            if slips_b { f.v_b } else { 0.0 },
+        ];
+        out.iter().all(|v| v.is_finite()).then_some(out)
+    }
+
+    /// Kinetic and stored energy apart from the wedge (J): races, sprags, spring, abutment.
+    pub fn energy_without_wedge(&self, p: &WedgePoint, rates: &[f64; 4], y: &State) -> f64 {
+        let [da, dp, di, de] = *rates;
+        let sprag = 0.5 * self.inertia_kg_m2 * (da + dp).powi(2) + 0.5 * self.mass_kg * (p.oc_g * dp).powi(2);
+        let spring = 0.5 * self.spring_nm_per_rad * (self.alpha_max_rad - y[0]).powi(2);
+        self.count * (sprag + spring)
+            + 0.5 * self.inner_inertia_kg_m2 * di * di
+            + 0.5 * self.outer_inertia_kg_m2 * de * de
+            + 0.5 * self.loads.abutment_nm_per_rad * y[3] * y[3]
+    }
+}

@@ -1,0 +1,39 @@
+//! The pure-rolling run: how much friction would the scene need, and how near does contact come to opening?
+
+use super::model::{Grip, Mode, Model, Place, State};
+use super::run::{Run, RunSettings, Stop, run};
+
+/// What pure rolling demands.
+#[derive(Debug, Clone)]
+pub struct Rolling {
+    /// Smallest static friction with which the scene sticks throughout; `None`: none does, because rolling
+    /// would need tension (|T|/N grows without bound as N falls to 0 with T != 0).
+    pub required_friction: Option<f64>,
+    /// Peak of |T_be|/N_be, for the outer contact alone.
+    pub required_outer: f64,
+    /// Smallest N_bi, N; negative: the tension that rolling would need.
+    pub normal_min_n: f64,
+    /// Whether the run reached its end; otherwise the figures hold up to where it stopped.
+    pub stop: Stop,
+    /// The run itself.
+    pub run: Run,
+}
+
+/// Run `model` from `state` with both contacts rolling whatever friction that takes.
+pub fn rolling(model: &Model, state: State, place: Place, settings: &RunSettings) -> Rolling {
+    let mode = Mode {
+        place: if place == Place::Open { Place::Arc(0) } else { place },
+        inner: Grip::Stick,
+        outer: Grip::Stick,
+    };
+    let run = run(model, state, mode, &RunSettings { rolling: true, ..*settings });
+    let p = run.peaks;
+    let required = (p.normal_min_n > 0.0).then(|| p.tan_inner.max(p.tan_outer));
+    Rolling {
+        required_friction: required,
+        required_outer: p.tan_outer,
+        normal_min_n: p.normal_min_n,
+        stop: run.stop,
+        run,
+    }
+}

@@ -1,0 +1,122 @@
+//! Where runs start: spring preset, preload equilibrium, steady overrun.
+
+use super::model::{Model, Place, State};
+use crate::design::Clutch;
+use crate::kinematics::levers;
+use crate::numeric::root;
+use crate::wedge::WedgeCurve;
+
+/// Friction coefficient behind the measured drag torque C_f from which alpha_max follows (MODEL choice).
+const DRAG_FRICTION: f64 = 0.1;
+
+/// alpha_max of the energizing spring, rad, from the drag torque of the whole clutch in slow overrun: per sprag
+/// T = C_f/(n_s R_i), N = T/mu, K_r alpha_max = (h_i - h_e) N + b_i T + b_e T R_i/R_e at first contact at rest.
+/// 0 without a spring. `touch` is the curve at rest.
+pub fn alpha_max_rad(clutch: &Clutch, at_rest: &WedgeCurve) -> f64 {
+    let stiffness = clutch.spring.stiffness_nm_per_rad;
+    if stiffness <= 0.0 {
+        return 0.0;
+    }
+    let c = at_rest.touch();
+    let (oa, ob) = (c.lengths.oa.v, c.lengths.ob.v);
+    let l = levers(oa, ob, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v);
+    let t = clutch.spring.drag_torque_nm / (clutch.sprags.count as f64 * clutch.races.inner_radius_m);
+    let n = t / DRAG_FRICTION;
+    ((l.h_i - l.h_e) * n + l.b_i * t + l.b_e * t * oa / ob) / stiffness
+}
+
+/// State at rest under the preload `torque_nm` on the inner race held by the abutment: alpha of the spring-free
+/// curve, theta_be = -C/k_ab, theta_bi = theta_be - W, phi = 0. `None` where the curve does not carry it.
+pub fn preloaded(model: &Model, torque_nm: f64) -> Option<(State, Place)> {
+    let mut y = [0.0; super::N_STATE];
+    if torque_nm <= 0.0 {
+        y[0] = model.curve.first_contact_rad();
+        return Some((y, Place::Open));
+    }
+    let (_, c) = model.curve.closure_at_torque(torque_nm)?;
+    let alpha = c.alpha.v;
+    let outer = if model.loads.abutment_nm_per_rad > 0.0 {
+        -torque_nm / model.loads.abutment_nm_per_rad
+    } else {
+        0.0
+    };
+    y[0] = alpha;
+    y[2] = outer - model.curve.windup_rad(alpha);
+    y[3] = outer;
+    Some((y, Place::Arc(model.curve.arc_at(alpha))))
+}
+
+/// Steady overrun: the outer race carries the sprags round, the inner race slips ahead.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overrun {
+    /// alpha of the sprag, rad.
+    pub alpha_rad: f64,
+    /// Normal force at A, N; 0: lifted off.
+    pub normal_inner_n: f64,
+    /// Normal force at B, N.
+    pub normal_outer_n: f64,
+    /// Drag torque of the clutch on the inner race, N m, positive: it brakes the inner race.
+    pub drag_torque_nm: f64,
+    /// |T_be|/N_be that B must hold to carry the sprags along.
+    pub tan_outer: f64,
+}
+
+/// Equilibrium of the sprags in steady overrun at the mean speed of `curve` with friction coefficient `mu` at A.
+///
+/// B sticks, phi' = theta_be' = Omega, T_bi = -mu N_bi, T_be = T_bi OA/OB, and moments about G with the spring:
+/// h_i N_bi - h_e N_be - b_i T_bi - b_e T_be = K_r(alpha_max - alpha), N_be by the radial equation with F_c.
+/// Lift-off (no N_bi > 0 in equilibrium) is an answer.
+pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> Overrun {
+    let k_r = clutch.spring.stiffness_nm_per_rad;
+    let speed = curve.speed_rad_s();
+    let touch = curve.touch();
+    // Moment that is left over for more N_bi, N m: positive means the spring presses harder.
+    let balance = |n: f64| -> Option<(f64, Overrun)> {
+        let (alpha, oa, ob, oc_g, bg, g) = if n > 0.0 {
+            let (_, c) = curve.closure_at_normal(n)?;
+            (c.alpha.v, c.lengths.oa.v, c.lengths.ob.v, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v)
+        } else {
+            let c = touch;
+            (c.alpha.v, c.lengths.oa.v, c.lengths.ob.v, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v)
+        };
+        let l = levers(oa, ob, oc_g, bg, g);
+        let t_bi = -mu * n;
+        let t_be = t_bi * oa / ob;
+        let f_c = clutch.sprags.mass_kg * oc_g * speed * speed;
+        let n_be = (n * bg.cos() + t_bi * bg.sin() - t_be * g.sin() + f_c) / g.cos();
+        let spring = k_r * (alpha_max - alpha);
+        let left = spring - (l.h_i * n - l.h_e * n_be - l.b_i * t_bi - l.b_e * t_be);
+        let drag_torque_nm = -t_bi * oa * clutch.sprags.count as f64;
+        let tan_outer = if n_be > 0.0 { t_be.abs() / n_be } else { 0.0 };
+        Some((
+            left,
+            Overrun { alpha_rad: alpha, normal_inner_n: n, normal_outer_n: n_be, drag_torque_nm, tan_outer },
+        ))
+    };
+    let lifted = Overrun {
+        alpha_rad: touch.alpha.v,
+        normal_inner_n: 0.0,
+        normal_outer_n: touch.n_be.v,
+        drag_torque_nm: 0.0,
+        tan_outer: 0.0,
+    };
+    let Some((at_touch, _)) = balance(0.0) else { return lifted };
+    if at_touch <= 0.0 {
+        return lifted;
+    }
+    let mut high = 1e-3;
+    let mut low = 0.0;
+    let mut left_low = at_touch;
+    for _ in 0..200 {
+        let Some((left, _)) = balance(high) else { return lifted };
+        if left <= 0.0 {
+            let n = root::bracketed(low, high, left_low, left, 1e-15 * high, |n| {
+                balance(n).map_or(f64::NAN, |b| b.0)
+            });
+            return n.and_then(balance).map_or(lifted, |b| b.1);
+        }
+        (low, left_low) = (high, left);
+        high *= 2.0;
+    }
+    lifted
+}
