@@ -1,0 +1,331 @@
+//! Approach laws: how far two bodies come together at a line contact under a normal force.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use super::line::{ContactError, LineContact, positive};
+use super::slice_ratio::SliceRatio;
+use crate::material::Material;
+
+/// K of the roller law in DIN 26281, mm and N.
+pub const DIN26281_COEFFICIENT: f64 = 3.97e-5;
+
+/// A local contact law, built once for a contact and evaluated without allocation.
+///
+/// # Conventions
+/// The normal force is compression, positive, N. The approach is the whole approach of the two bodies,
+/// positive, m. Zero, negative or NaN force: approach 0, compliance +infinity (all laws here start
+/// with delta'(N -> 0) -> infinity). Infinite force: approach +infinity, compliance 0.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Approach {
+    /// delta = K N^0.9/l^0.8; does not know the radii.
+    Roller(RollerLaw),
+    /// Hertz's logarithmic law between two depths; knows the radii.
+    Hertz(HertzLaw),
+    /// The slice method for square ends without tilt, on the mean compliance of the roller law.
+    Slice(SliceLaw),
+}
+
+impl Approach {
+    /// The roller law with coefficient K in mm and N.
+    pub fn roller(contact: &LineContact, coefficient: f64) -> Result<Self, ContactError> {
+        RollerLaw::new(contact, coefficient).map(Self::Roller)
+    }
+
+    /// The roller law with the coefficient of DIN 26281.
+    pub fn din26281(contact: &LineContact) -> Result<Self, ContactError> {
+        Self::roller(contact, DIN26281_COEFFICIENT)
+    }
+
+    /// Hertz's logarithmic law for the two bodies of the contact.
+    pub fn hertz(contact: &LineContact, bodies: [HertzBody; 2]) -> Result<Self, ContactError> {
+        HertzLaw::new(contact, bodies).map(Self::Hertz)
+    }
+
+    /// The slice method; `coefficient` is the roller law's K in mm and N. One `ratio` serves many contacts.
+    pub fn slice(
+        contact: &LineContact,
+        coefficient: f64,
+        ratio: Arc<SliceRatio>,
+    ) -> Result<Self, ContactError> {
+        let roller = RollerLaw::new(contact, coefficient)?;
+        Ok(Self::Slice(SliceLaw { contact: *contact, roller, ratio }))
+    }
+
+    /// Approach delta_H, m, at the normal force, N; see the conventions for forces that are not positive.
+    pub fn approach_m(&self, normal_n: f64) -> f64 {
+        if normal_n.is_nan() || normal_n <= 0.0 {
+            return 0.0;
+        }
+        if normal_n == f64::INFINITY {
+            return f64::INFINITY;
+        }
+        match self {
+            Self::Roller(law) => law.approach_m(normal_n),
+            Self::Hertz(law) => law.approach_m(normal_n),
+            Self::Slice(law) => law.approach_m(normal_n),
+        }
+    }
+
+    /// Compliance d delta_H/dN, m/N: the exact derivative of [`Self::approach_m`] (of the fitted one for the
+    /// slice law). +infinity at forces that are not positive.
+    pub fn compliance_m_per_n(&self, normal_n: f64) -> f64 {
+        if normal_n.is_nan() || normal_n <= 0.0 {
+            return f64::INFINITY;
+        }
+        if normal_n == f64::INFINITY {
+            return 0.0;
+        }
+        match self {
+            Self::Roller(law) => law.compliance_m_per_n(normal_n),
+            Self::Hertz(law) => law.compliance_m_per_n(normal_n),
+            Self::Slice(law) => law.compliance_m_per_n(normal_n),
+        }
+    }
+}
+
+/// delta = K N^0.9/l^0.8 in mm and N (Palmgren), held in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollerLaw {
+    /// delta/N^0.9, m/N^0.9.
+    factor: f64,
+}
+
+impl RollerLaw {
+    /// `coefficient` K in mm and N, positive. With l in m: delta_m = 1e-3 K N^0.9/(1e3 l)^0.8.
+    pub fn new(contact: &LineContact, coefficient: f64) -> Result<Self, ContactError> {
+        let k = positive("roller coefficient", coefficient)?;
+        Ok(Self { factor: 1e-3 * k / (1e3 * contact.length_m).powf(0.8) })
+    }
+
+    /// Approach, m, for `normal_n` >= 0.
+    pub fn approach_m(&self, normal_n: f64) -> f64 {
+        self.factor * normal_n.powf(0.9)
+    }
+
+    /// d delta/dN, m/N, for `normal_n` > 0.
+    pub fn compliance_m_per_n(&self, normal_n: f64) -> f64 {
+        0.9 * self.factor * normal_n.powf(-0.1)
+    }
+}
+
+/// One body of a Hertzian approach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HertzBody {
+    /// Material.
+    pub material: Material,
+    /// Depth d of the reference point below the surface, m. The approach of a line contact on a half-space
+    /// has no limit for great depths (it grows as ln d), so the choice of d is the caller's and part of
+    /// the result: half the body's height, a wall thickness.
+    pub depth_m: f64,
+}
+
+/// Hertz's line contact in plane strain: compression between the surface and a depth, summed over both
+/// bodies.
+///
+/// With the stresses on the axis below a semi-elliptical pressure (Johnson, *Contact Mechanics*, (4.46))
+/// integrated to the depth d,
+///   delta_k = 2q(1-nu^2)/(pi E) [asinh(d/a) - nu/(1-nu) d/(d + sqrt(a^2 + d^2))],
+/// which for a << d is Johnson's (5.56), q(1-nu^2)/(pi E) [2 ln(2d/a) - nu/(1-nu)]; the difference is of
+/// relative order (a/d)^2 (1e-4 at a/d = 0.04). The full form is kept because it rises with N for every N; the
+/// logarithm turns back where a nears d.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HertzLaw {
+    contact: LineContact,
+    /// (1-nu^2)/E, nu/(1-nu), d of each body.
+    bodies: [(f64, f64, f64); 2],
+}
+
+impl HertzLaw {
+    /// The law for `contact`, whose contact modulus is that of the two materials. Depths positive.
+    pub fn new(contact: &LineContact, bodies: [HertzBody; 2]) -> Result<Self, ContactError> {
+        for body in &bodies {
+            positive("depth_m", body.depth_m)?;
+        }
+        let reduced = bodies.map(|body| {
+            let nu = body.material.poisson_ratio;
+            (body.material.plane_strain_compliance(), nu / (1.0 - nu), body.depth_m)
+        });
+        Ok(Self { contact: *contact, bodies: reduced })
+    }
+
+    /// Approach, m, for `normal_n` > 0.
+    pub fn approach_m(&self, normal_n: f64) -> f64 {
+        let a = self.contact.half_width_m(normal_n);
+        let q = normal_n / self.contact.length_m;
+        let sum = |(c, t, d): &(f64, f64, f64)| c * ((d / a).asinh() - t * d / (d + a.hypot(*d)));
+        2.0 * q / PI * self.bodies.iter().map(sum).sum::<f64>()
+    }
+
+    /// d delta/dN, m/N, for `normal_n` > 0. With a ~ sqrt(N) the derivative of the bracket collects to
+    /// asinh(d/a) - (1 + nu/(1-nu)) d/(2 sqrt(a^2 + d^2)).
+    pub fn compliance_m_per_n(&self, normal_n: f64) -> f64 {
+        let a = self.contact.half_width_m(normal_n);
+        let sum = |(c, t, d): &(f64, f64, f64)| c * ((d / a).asinh() - (1.0 + t) * d / (2.0 * a.hypot(*d)));
+        2.0 / (PI * self.contact.length_m) * self.bodies.iter().map(sum).sum::<f64>()
+    }
+}
+
+/// delta_slice = kappa(a(N)/l) delta_H(N), kappa from [`SliceRatio`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct SliceLaw {
+    contact: LineContact,
+    roller: RollerLaw,
+    ratio: Arc<SliceRatio>,
+}
+
+impl SliceLaw {
+    /// Approach, m, for `normal_n` > 0.
+    pub fn approach_m(&self, normal_n: f64) -> f64 {
+        let (kappa, _) = self.kappa(normal_n);
+        kappa * self.roller.approach_m(normal_n)
+    }
+
+    /// d delta/dN, m/N, for `normal_n` > 0: a ~ sqrt(N), so delta' = kappa delta_H' + kappa_a delta_H/(2N),
+    /// kappa_a = d kappa/d ln a.
+    pub fn compliance_m_per_n(&self, normal_n: f64) -> f64 {
+        let (kappa, slope) = self.kappa(normal_n);
+        kappa * self.roller.compliance_m_per_n(normal_n)
+            + 0.5 * slope * self.roller.approach_m(normal_n) / normal_n
+    }
+
+    fn kappa(&self, normal_n: f64) -> (f64, f64) {
+        self.ratio.at(self.contact.half_width_m(normal_n) / self.contact.length_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEEL: Material = Material { youngs_modulus_pa: 206e9, poisson_ratio: 0.3, density_kg_m3: 7850.0 };
+    const E_STAR: f64 = 206e9 / (2.0 * 0.91);
+    /// K of the public model of the same clutch, mm and N.
+    const K: f64 = 3.944e-5;
+
+    fn contact() -> LineContact {
+        LineContact::external(11.11e-3, 4.02e-3, 6e-3, E_STAR).unwrap()
+    }
+
+    fn bodies() -> [HertzBody; 2] {
+        [HertzBody { material: STEEL, depth_m: 3.9e-3 }, HertzBody { material: STEEL, depth_m: 4.165e-3 }]
+    }
+
+    fn laws() -> Vec<Approach> {
+        let c = contact();
+        vec![
+            Approach::roller(&c, K).unwrap(),
+            Approach::din26281(&c).unwrap(),
+            Approach::hertz(&c, bodies()).unwrap(),
+            Approach::slice(&c, K, Arc::new(SliceRatio::new(60).unwrap())).unwrap(),
+        ]
+    }
+
+    #[test]
+    fn the_roller_law_is_the_printed_one_in_millimetres() {
+        let law = Approach::roller(&contact(), K).unwrap();
+        let printed_mm = K * 1558.116f64.powf(0.9) / 6f64.powf(0.8);
+        assert!((1e3 * law.approach_m(1558.116) / printed_mm - 1.0).abs() < 1e-14);
+        // delta_h_um of the static table at 16.8 N m; and the public model's 1.57e-10 in SI
+        assert!((law.approach_m(1558.116) - 7.02677e-6).abs() < 1e-11);
+        let one_metre = LineContact { length_m: 1.0, ..contact() };
+        let si = RollerLaw::new(&one_metre, K).unwrap().approach_m(1.0);
+        assert!((si - 1.57e-10).abs() < 5e-13, "{si}");
+        let din = Approach::din26281(&contact()).unwrap();
+        assert!((din.approach_m(700.0) / law.approach_m(700.0) * K / 3.97e-5 - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn compliance_is_the_derivative_of_the_approach() {
+        for law in laws() {
+            for n in [1e-3, 1.0, 83.0, 1558.0, 9000.0, 2e5] {
+                let h = 1e-4 * n;
+                let d = |k: f64| law.approach_m(n + k * h) - law.approach_m(n - k * h);
+                let numeric = (8.0 * d(1.0) - d(2.0)) / (12.0 * h);
+                let exact = law.compliance_m_per_n(n);
+                assert!((numeric / exact - 1.0).abs() < 2e-10, "{law:?} at {n}: {numeric} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn laws_rise_from_nothing_without_end() {
+        for law in laws() {
+            let mut last = law.approach_m(0.0);
+            assert_eq!(last, 0.0);
+            for i in -40..=40 {
+                let n = 10f64.powf(0.25 * f64::from(i));
+                let now = law.approach_m(n);
+                assert!(now > last && law.compliance_m_per_n(n) > 0.0, "{law:?} at {n}");
+                last = now;
+            }
+            for n in [0.0, -3.0, f64::NAN] {
+                assert_eq!((law.approach_m(n), law.compliance_m_per_n(n)), (0.0, f64::INFINITY));
+            }
+            assert_eq!(
+                (law.approach_m(f64::INFINITY), law.compliance_m_per_n(f64::INFINITY)),
+                (f64::INFINITY, 0.0)
+            );
+            for n in [1e-300, 1e300] {
+                assert!(law.approach_m(n) > 0.0 && law.compliance_m_per_n(n) > 0.0, "{law:?} at {n}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_hertz_law_tends_to_johnsons_logarithm() {
+        // (5.56) of Contact Mechanics, both bodies; E and nu as above
+        let c = contact();
+        let law = Approach::hertz(&c, bodies()).unwrap();
+        let johnson = |n: f64| {
+            let a = c.half_width_m(n);
+            let body = |d: f64| 2.0 * (2.0 * d / a).ln() - 0.3 / 0.7;
+            n / c.length_m * 0.91 / (std::f64::consts::PI * 206e9) * (body(3.9e-3) + body(4.165e-3))
+        };
+        for (n, bound) in [(1.0, 1e-7), (100.0, 1e-5), (1558.0, 1e-4), (4500.0, 2.5e-4)] {
+            let off = law.approach_m(n) / johnson(n) - 1.0;
+            println!("{n} N: {} um, off Johnson by {off:e}", 1e6 * law.approach_m(n));
+            assert!(off.abs() < bound, "{n}: {off}");
+        }
+    }
+
+    #[test]
+    fn the_hertz_law_is_the_integral_of_the_strain_below_the_contact() {
+        // plane strain: eps = [(1-nu^2) s_z - nu(1+nu) s_x]/E with Johnson's (4.46), midpoint rule
+        let c = contact();
+        let (n, d, nu) = (4500.0, 4e-3, 0.3);
+        let (a, p0) = (c.half_width_m(n), c.peak_pressure_pa(n));
+        let steps = 200_000;
+        let mut sum = 0.0;
+        for i in 0..steps {
+            let z = d * (i as f64 + 0.5) / steps as f64;
+            let root = a.hypot(z);
+            let s_x = -p0 / a * ((a * a + 2.0 * z * z) / root - 2.0 * z);
+            let s_z = -p0 * a / root;
+            sum -= ((1.0 - nu * nu) * s_z - nu * (1.0 + nu) * s_x) / 206e9;
+        }
+        let integral = 2.0 * sum * d / steps as f64;
+        let body = HertzBody { material: STEEL, depth_m: d };
+        let law = Approach::hertz(&c, [body, body]).unwrap().approach_m(n);
+        assert!((law / integral - 1.0).abs() < 1e-8, "{law} {integral}");
+    }
+
+    #[test]
+    fn the_slice_law_lies_1_5_to_2_2_percent_below_the_roller_law() {
+        let all = laws();
+        for n in [1558.0, 2441.0, 4500.0, 8384.0] {
+            let below = 1.0 - all[3].approach_m(n) / all[0].approach_m(n);
+            println!("{n} N: slice {below:.5} below roller");
+            assert!((0.015..0.022).contains(&below), "{n}: {below}");
+        }
+    }
+
+    #[test]
+    fn impossible_laws_are_refused() {
+        assert!(Approach::roller(&contact(), 0.0).is_err());
+        assert!(Approach::roller(&contact(), f64::NAN).is_err());
+        let mut flat = bodies();
+        flat[1].depth_m = 0.0;
+        assert!(Approach::hertz(&contact(), flat).is_err());
+    }
+}

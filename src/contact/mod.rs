@@ -1,0 +1,17 @@
+//! Local contact of two parallel cylinders of finite length.
+//!
+//! In: radii, length, materials, normal force. Out: peak pressure, half width, approach and its exact
+//! derivative, slice loads. Absent: deformation of the bodies as a whole, friction, and what the bodies
+//! are. Equations: (1)-(4), the roller law, Hertz's line contact.
+
+mod approach;
+mod influence;
+mod line;
+mod slice;
+mod slice_ratio;
+
+pub use approach::{Approach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, RollerLaw, SliceLaw};
+pub use influence::{influence_m_per_pa, weighted_influence_m_per_n};
+pub use line::{ContactError, LineContact};
+pub use slice::{SliceContact, SliceSolution, SliceStatus};
+pub use slice_ratio::SliceRatio;
