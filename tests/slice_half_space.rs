@@ -101,10 +101,10 @@ fn end_pressures_are_bracketed_by_local_and_mean_half_width() {
 }
 
 /// The slice method takes its mean compliance from the roller law, so its approach is another quantity than
-/// the half-space's. With the unscaled w (each slice a uniform pressure on half-spaces) the two meet after
-/// two exact corrections: the reference counts the approach on the centre line, w over the width (mean of
-/// x^2/2R is a^2/6R), and its pressure is a semi-ellipse across the width, not uniform
-/// (2q/(pi E*) (2 ln 2 - 4/3)).
+/// the half-space's. With the unscaled w (each slice a uniform pressure on half-spaces) the two meet if the
+/// reference's approach is read as the one on the centre line under a semi-elliptical pressure, which is
+/// two exact corrections away: w is a mean over the width (mean of x^2/2R is a^2/6R), and its pressure is
+/// uniform across it (2q/(pi E*) (2 ln 2 - 4/3)).
 #[test]
 fn approaches_differ_by_definition_and_the_difference_is_accounted_for() {
     for row in rows() {
