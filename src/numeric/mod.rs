@@ -1,10 +1,6 @@
-//! Numbers without a clutch: duals, bracketed roots, quadrature, piecewise Chebyshev curves.
+//! Numerical tools that never heard of a machine part.
 //!
-//! In: functions of one variable. Out: roots, integrals, curves. Absent: units and physics.
-//! Equations: none.
+//! In: functions and numbers. Out: approximations with a stated error. Absent: physics, units.
+//! Equations: none of the paper's.
 
 pub mod chebyshev;
-pub mod dual;
-pub mod panels;
-pub mod quadrature;
-pub mod root;
