@@ -1,8 +1,12 @@
 //! sprag-design: map to come.
 pub mod contact;
 pub mod design;
+pub mod dynamics;
 pub mod friction;
+pub mod kinematics;
 pub mod material;
 pub mod numeric;
+pub mod ode;
 pub mod profile;
 pub mod race;
+pub mod wedge;

@@ -1,6 +1,10 @@
-//! Numerical tools that never heard of a machine part.
+//! Numerical tools that never heard of a machine part: duals, bracketed roots, quadrature, Chebyshev curves.
 //!
-//! In: functions and numbers. Out: approximations with a stated error. Absent: physics, units.
-//! Equations: none of the paper's.
+//! In: functions of one variable. Out: roots, integrals, approximations with a stated error.
+//! Absent: physics, units. Equations: none of the paper's.
 
 pub mod chebyshev;
+pub mod dual;
+pub mod panels;
+pub mod quadrature;
+pub mod root;
