@@ -9,4 +9,5 @@ pub mod numeric;
 pub mod ode;
 pub mod profile;
 pub mod race;
+pub mod scenario;
 pub mod wedge;

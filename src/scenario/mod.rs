@@ -1,0 +1,12 @@
+//! Questions put to the dynamics: one named scenario in, histories and a verdict out.
+//!
+//! In: a `Scenario` of the design. Out: [`Simulation`]. Absent: allowables (margin), files.
+//! Equations: none of its own; definitions of offset, slip margin, contact margin and verdict.
+
+mod prepare;
+mod simulate;
+
+pub use prepare::{NoScenario, Prepared, prepare, place_profile};
+pub use simulate::{
+    Demand, ErrorEstimate, Method, Settings, Simulation, Verdict, demand, run_published, simulate,
+};

@@ -1,0 +1,164 @@
+//! From a scenario of the design to a model with an initial state.
+
+use crate::design::{Clutch, Scenario, ScenarioKind};
+use crate::dynamics::{
+    Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
+};
+use crate::profile::{Profile, ProfileError};
+use crate::wedge::{NoCurve, WedgeCurve};
+
+/// Why a scenario has no start. A named outcome, not a fault of the file.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoScenario {
+    /// The profile cannot be placed.
+    Profile(ProfileError),
+    /// No wedge curve at this speed.
+    Curve(NoCurve),
+    /// The curve ends below the preload.
+    NotCarried {
+        /// Torque asked for, N m.
+        torque_nm: f64,
+        /// Torque at the curve's end, N m.
+        end_torque_nm: f64,
+        /// Name of the curve's end.
+        reason: &'static str,
+    },
+}
+
+impl std::fmt::Display for NoScenario {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Profile(e) => write!(f, "the profile cannot be placed: {e:?}"),
+            Self::Curve(e) => write!(f, "no wedge curve: {e:?}"),
+            Self::NotCarried { torque_nm, end_torque_nm, reason } => {
+                write!(f, "{torque_nm} Nm is not carried: the curve ends at {end_torque_nm:.4} Nm ({reason})")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoScenario {}
+
+/// Ready to run.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    /// Model under the scenario's loads.
+    pub model: Model,
+    /// Initial state.
+    pub state: State,
+    /// Initial mode.
+    pub mode: Mode,
+    /// Duration, s; 0 for a static scenario.
+    pub duration_s: f64,
+    /// Shortest period of the excitation, s, if any.
+    pub period_s: Option<f64>,
+    /// N_bi at the start, N.
+    pub static_normal_n: f64,
+    /// Steady overrun, for that kind of scenario and as the start of an engagement.
+    pub overrun: Option<Overrun>,
+}
+
+/// The profile of a clutch.
+///
+/// # Errors
+/// [`ProfileError`]; a design that was read from a file has none.
+pub fn place_profile(clutch: &Clutch) -> Result<Profile, ProfileError> {
+    let s = &clutch.sprags;
+    let arcs: Vec<(f64, f64)> = s.inner_arcs.iter().map(|a| (a.radius_m, a.until_rad)).collect();
+    Profile::new(
+        s.outer_radius_m,
+        s.centre_distance_m,
+        &arcs,
+        clutch.races.inner_radius_m,
+        clutch.races.outer_radius_m,
+    )
+}
+
+/// Build model and initial state.
+///
+/// # Errors
+/// [`NoScenario`] where the clutch cannot carry the scenario's start.
+pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
+    let clutch = &scenario.clutch;
+    let profile = place_profile(clutch).map_err(NoScenario::Profile)?;
+    let build = |speed| WedgeCurve::build(clutch, &profile, speed).map_err(NoScenario::Curve);
+    let at_rest = build(0.0)?;
+    let alpha_max = alpha_max_rad(clutch, &at_rest);
+    let stuck = |place| Mode { place, inner: Grip::Stick, outer: Grip::Stick };
+    let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
+    let start = |model: &Model, torque_nm: f64| {
+        preloaded(model, torque_nm).ok_or_else(|| NoScenario::NotCarried {
+            torque_nm,
+            end_torque_nm: model.curve.end_torque_nm(),
+            reason: model.curve.end().0.name(),
+        })
+    };
+    match scenario.kind {
+        ScenarioKind::Static { torque_nm } => {
+            let model = Model::new(clutch, at_rest, Loads { inner_nm: -torque_nm, ..still }, alpha_max, 0.0);
+            let (state, place) = start(&model, torque_nm)?;
+            Ok(finish(model, state, stuck(place), 0.0, None, None))
+        }
+        ScenarioKind::TorsionalExcitation {
+            preload_nm,
+            amplitude_nm,
+            frequency_hz,
+            abutment_stiffness_nm_per_rad,
+            duration_s,
+            speed_rad_s,
+        } => {
+            let curve = if speed_rad_s == 0.0 { at_rest } else { build(speed_rad_s)? };
+            let loads = Loads {
+                inner_nm: -preload_nm,
+                amplitude_nm,
+                omega_rad_s: std::f64::consts::TAU * frequency_hz,
+                abutment_nm_per_rad: abutment_stiffness_nm_per_rad,
+            };
+            let model = Model::new(clutch, curve, loads, alpha_max, 0.0);
+            let (state, place) = start(&model, preload_nm)?;
+            Ok(finish(model, state, stuck(place), duration_s, Some(1.0 / frequency_hz), None))
+        }
+        ScenarioKind::Engagement {
+            free_run_rad_s,
+            reversing_torque_nm,
+            stop_stiffness_nm_per_rad,
+            bench_inertia_kg_m2,
+            duration_s,
+        } => {
+            let free = overrun(clutch, &at_rest, alpha_max, clutch.friction.kinetic);
+            let loads = Loads {
+                inner_nm: -reversing_torque_nm,
+                abutment_nm_per_rad: stop_stiffness_nm_per_rad,
+                ..still
+            };
+            let model = Model::new(clutch, at_rest, loads, alpha_max, bench_inertia_kg_m2);
+            let mut state = [0.0; N_STATE];
+            state[0] = free.alpha_rad;
+            state[6] = free_run_rad_s;
+            let place = if free.normal_inner_n > 0.0 { Place::Arc(0) } else { Place::Open };
+            let mode = Mode { place, inner: Grip::Slip(1.0), outer: Grip::Stick };
+            Ok(finish(model, state, mode, duration_s, None, Some(free)))
+        }
+        ScenarioKind::Overrun { speed_rad_s, .. } => {
+            let curve = build(speed_rad_s)?;
+            let steady = overrun(clutch, &curve, alpha_max, clutch.friction.kinetic);
+            let model = Model::new(clutch, curve, still, alpha_max, 0.0);
+            let mut state = [0.0; N_STATE];
+            state[0] = steady.alpha_rad;
+            let mode = Mode { place: Place::Arc(0), inner: Grip::Slip(1.0), outer: Grip::Stick };
+            Ok(finish(model, state, mode, 0.0, None, Some(steady)))
+        }
+    }
+}
+
+fn finish(
+    model: Model,
+    state: State,
+    mode: Mode,
+    duration_s: f64,
+    period_s: Option<f64>,
+    overrun: Option<Overrun>,
+) -> Prepared {
+    let static_normal_n = model.point(mode.place, state[0]).n_bi;
+    Prepared { model, state, mode, duration_s, period_s, static_normal_n, overrun }
+}
