@@ -1,8 +1,8 @@
 //! The sprag's profile: tangent inner arcs, the outer arc, flanks, and what follows from the outline.
 //!
 //! In: radii, centre distance, junction turns, race radii at rest. Out: [`Profile`] (arc centres in the
-//! body frame), outline, mass properties, neighbour clearance. Absent: deformation and load.
-//! Equations: the tangency rule C_{k+1} = C_k + (r_k - r_{k+1}) d_k; beta of (9) at first contact.
+//! body frame), [`Outline`], [`MassProperties`], neighbour clearance. Absent: deformation and load.
+//! Equations: the tangency rule C_{k+1} = C_k + (r_k - r_{k+1}) d_k; beta of (9) at first contact; Green's theorem.
 //!
 //! # Conventions
 //! Body frame: origin C_e, y radially outward along OC_e at first contact at rest, x towards positive
@@ -10,6 +10,16 @@
 //! direction has turned in the body since first contact at rest, positive in engagement. In engagement
 //! the body rotates towards positive azimuth (it is the only sense in which A, ahead of B, falls back
 //! and the strut steepens), so the contact direction turns the other way in the body: from -y towards +x.
+
+mod crowding;
+mod mass;
+mod outline;
+#[cfg(test)]
+mod properties;
+
+pub use crowding::{clearance_m, touch_rotation_rad};
+pub use mass::MassProperties;
+pub use outline::{Outline, OutlineError, Segment, Side};
 
 use nalgebra::Vector2;
 
@@ -90,7 +100,7 @@ impl Profile {
         let mut centre = Vector2::new(oc_i * beta0.sin(), oc_i * beta0.cos() - oc_e);
         let mut from = 0.0;
         for (k, &(radius, until)) in arcs.iter().enumerate() {
-            if !(until > from) {
+            if until.partial_cmp(&from) != Some(std::cmp::Ordering::Greater) {
                 return Err(ProfileError::ArcsOutOfOrder { index: k });
             }
             if let Some(last) = placed.last() {
