@@ -4,6 +4,7 @@ pub mod design;
 pub mod dynamics;
 pub mod friction;
 pub mod kinematics;
+pub mod margin;
 pub mod material;
 pub mod numeric;
 pub mod ode;

@@ -99,7 +99,10 @@ fn published_scheme() {
         for band in [1e-3, 1e-4, 1e-5] {
             for h in [1e-5, 2e-6, 5e-7] {
                 let p = published(&model, state, 0.3, h, band);
-                println!("published {amp} Nm D_V {band:e} dt {h:e}: {:.5} finished {} slip {:.2e}", p.state[2], p.finished, p.slip_inner_s);
+                println!(
+                    "published {amp} Nm D_V {band:e} dt {h:e}: {:.5} finished {} slip {:.2e}",
+                    p.state[2], p.finished, p.slip_inner_s
+                );
             }
         }
     }

@@ -6,7 +6,7 @@
 mod prepare;
 mod simulate;
 
-pub use prepare::{NoScenario, Prepared, prepare, place_profile};
+pub use prepare::{NoScenario, Prepared, place_profile, prepare};
 pub use simulate::{
     Demand, ErrorEstimate, Method, Settings, Simulation, Verdict, demand, run_published, simulate,
 };

@@ -360,6 +360,19 @@ impl WedgeCurve {
         self.closure_in(k, self.arcs[k].n_until).map_or(0.0, |c| c.torque_nm(self.statics.count).v)
     }
 
+    /// Torque at which the sprag would roll over if its last arc went on, N m; the curve's own end where it
+    /// rolls over already.
+    pub fn roll_over_torque_nm(&self) -> f64 {
+        let k = self.arcs.len() - 1;
+        if self.end == EndReason::RollsOver {
+            return self.end_torque_nm();
+        }
+        let arc = &self.arcs[k];
+        arc_end(&self.statics, self.first + k, self.speed_rad_s, arc.n_from, arc.shift, f64::INFINITY)
+            .and_then(|(n, _)| self.closure_in(k, n))
+            .map_or(self.end_torque_nm(), |c| c.torque_nm(self.statics.count).v)
+    }
+
     /// Equilibrium at first contact.
     pub fn touch(&self) -> &Closure {
         &self.touch

@@ -38,6 +38,27 @@ pub struct StaticPoint {
     pub half_width_inner_m: f64,
 }
 
+impl StaticPoint {
+    /// No load at all.
+    pub const UNLOADED: Self = Self {
+        torque_nm: 0.0,
+        normal_inner_n: 0.0,
+        normal_outer_n: 0.0,
+        tan_omega: 0.0,
+        tan_nu: 0.0,
+        alpha_rad: 0.0,
+        windup_rad: 0.0,
+        k_secant_nm_per_rad: 0.0,
+        k_tangent_nm_per_rad: 0.0,
+        contact_turn_rad: 0.0,
+        arc: 0,
+        approach_inner_m: 0.0,
+        hertz_inner_pa: 0.0,
+        hertz_outer_pa: 0.0,
+        half_width_inner_m: 0.0,
+    };
+}
+
 impl WedgeCurve {
     /// Static state at `torque_nm` > 0; `None` where the curve ends below it.
     pub fn at_torque(&self, torque_nm: f64) -> Option<StaticPoint> {

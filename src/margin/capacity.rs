@@ -1,0 +1,68 @@
+//! Torque at which each static limit would be reached.
+
+use super::Margin;
+use super::load::{LoadState, profile_capacity};
+use crate::design::{Design, Limits};
+use crate::numeric::root;
+use crate::wedge::StaticPoint;
+
+/// Fill `torque_capacity_nm` of the rows that depend on torque.
+pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state: &LoadState) {
+    let count = design.clutch.sprags.count;
+    let elastic = &state.curve.statics().elastic;
+    let mu = design.clutch.friction.static_;
+    for row in rows {
+        let value: Box<dyn Fn(&StaticPoint) -> f64> = match row.code.as_str() {
+            "hertz-nominal-inner" | "hertz-peak-inner" => Box::new(|p| p.hertz_inner_pa),
+            "hertz-nominal-outer" | "hertz-peak-outer" => Box::new(|p| p.hertz_outer_pa),
+            "hoop-inner" => Box::new(|p| {
+                let race = &elastic.inner_race;
+                let n = p.normal_inner_n;
+                race.hoop_at_bore_pa(count, n).abs().max(race.hoop_at_track_pa(count, n).abs())
+            }),
+            "hoop-outer" => Box::new(|p| elastic.outer_race.hoop_at_track_pa(count, p.normal_outer_n)),
+            "grip-inner" => Box::new(|p| p.tan_omega),
+            "grip-outer" => Box::new(|p| p.tan_nu),
+            "end-of-profile" => {
+                row.torque_capacity_nm = Some(profile_capacity(state));
+                continue;
+            }
+            "roll-over" => {
+                row.torque_capacity_nm = Some(row.allowable);
+                continue;
+            }
+            _ => continue,
+        };
+        let allowed = match row.code.as_str() {
+            "hertz-nominal-inner" | "hertz-nominal-outer" => limits.hertz_nominal_pa,
+            "hertz-peak-inner" | "hertz-peak-outer" => limits.hertz_peak_pa,
+            "hoop-inner" => limits.hoop_inner_pa,
+            "hoop-outer" => limits.hoop_outer_pa,
+            _ => Some(mu),
+        };
+        row.torque_capacity_nm = allowed.map(|a| torque_where(state, a, &value));
+    }
+}
+
+/// Smallest normal force at which the quantity reaches `allowed`, as a torque; the end of the curve if it never
+/// does. Stresses grow with the normal force; tan omega too, on a profile that steepens.
+fn torque_where(state: &LoadState, allowed: f64, value: &dyn Fn(&StaticPoint) -> f64) -> f64 {
+    let curve = &state.curve;
+    let last = curve.arc_end_n(curve.arc_count() - 1);
+    let miss = |n: f64| curve.at_normal(n).map_or(f64::NAN, |p| value(&p) - allowed);
+    let torque = |n: f64| curve.at_normal(n).map_or(0.0, |p| p.torque_nm);
+    const LOOKS: usize = 64;
+    let (mut a, mut fa) = (1e-6 * last, miss(1e-6 * last));
+    if fa >= 0.0 {
+        return torque(a);
+    }
+    for i in 1..=LOOKS {
+        let b = last * i as f64 / LOOKS as f64;
+        let fb = miss(b);
+        if fb >= 0.0 {
+            return root::bracketed(a, b, fa, fb, 1e-10 * last, miss).map_or(torque(b), torque);
+        }
+        (a, fa) = (b, fb);
+    }
+    torque(last)
+}

@@ -1,0 +1,232 @@
+//! Limits that follow from the static load state, first contact and overrun.
+
+use super::{Margin, NoMargins, curve_at_rest, ratio};
+use crate::design::{Design, Limits};
+use crate::dynamics::alpha_max_rad;
+use crate::kinematics::levers;
+use crate::numeric::root;
+use crate::profile::{Outline, Profile, clearance_m};
+use crate::wedge::{EndReason, StaticPoint, WedgeCurve};
+
+/// What the static limits are read from.
+#[derive(Debug, Clone)]
+pub struct LoadState {
+    /// Placed profile.
+    pub profile: Profile,
+    /// Closed outline.
+    pub outline: Outline,
+    /// Curve at rest.
+    pub curve: WedgeCurve,
+    /// alpha_max of the spring, rad.
+    pub alpha_max_rad: f64,
+    /// tan omega at first contact.
+    pub first_tan_omega: f64,
+}
+
+/// Build it.
+///
+/// # Errors
+/// [`NoMargins`].
+pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
+    let (profile, curve) = curve_at_rest(design)?;
+    let flanks = design.clutch.sprags.flanks;
+    let outline = Outline::new(&profile, flanks.rear_m, flanks.front_m).map_err(NoMargins::Outline)?;
+    let first_tan_omega = curve.touch().t_ratio;
+    let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
+    Ok(LoadState { profile, outline, curve, alpha_max_rad, first_tan_omega })
+}
+
+const MPA: f64 = 1e-6;
+
+pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<Margin> {
+    let mut rows = Vec::new();
+    let mut push = |code: &str, name: &str, demand: f64, allowable: f64, unit, margin: f64| {
+        rows.push(Margin {
+            code: code.into(),
+            name: name.into(),
+            demand,
+            allowable,
+            unit,
+            margin,
+            torque_capacity_nm: None,
+            required: true,
+        });
+    };
+    let curve = &state.curve;
+    let count = design.clutch.sprags.count;
+    let end = curve.end_torque_nm();
+    if let (Some(torque), Some(allowed)) = (limits.nominal_torque_nm, limits.hertz_nominal_pa) {
+        let p = at(curve, torque);
+        for (code, name, value) in [
+            ("hertz-nominal-inner", "Hertz pressure, inner contact, nominal torque", p.hertz_inner_pa),
+            ("hertz-nominal-outer", "Hertz pressure, outer contact, nominal torque", p.hertz_outer_pa),
+        ] {
+            push(code, name, value * MPA, allowed * MPA, "MPa", beyond(ratio(value, allowed), torque, end));
+        }
+    }
+    if let Some(torque) = limits.peak_torque_nm {
+        let p = at(curve, torque);
+        if let Some(allowed) = limits.hertz_peak_pa {
+            for (code, name, value) in [
+                ("hertz-peak-inner", "Hertz pressure, inner contact, peak torque", p.hertz_inner_pa),
+                ("hertz-peak-outer", "Hertz pressure, outer contact, peak torque", p.hertz_outer_pa),
+            ] {
+                push(
+                    code,
+                    name,
+                    value * MPA,
+                    allowed * MPA,
+                    "MPa",
+                    beyond(ratio(value, allowed), torque, end),
+                );
+            }
+        }
+        let elastic = &curve.statics().elastic;
+        if let Some(allowed) = limits.hoop_inner_pa {
+            let bore = elastic.inner_race.hoop_at_bore_pa(count, p.normal_inner_n).abs();
+            let value = bore.max(elastic.inner_race.hoop_at_track_pa(count, p.normal_inner_n).abs());
+            let name = "mean hoop stress, inner race, peak torque (magnitude)";
+            push(
+                "hoop-inner",
+                name,
+                value * MPA,
+                allowed * MPA,
+                "MPa",
+                beyond(ratio(value, allowed), torque, end),
+            );
+        }
+        if let Some(allowed) = limits.hoop_outer_pa {
+            let value = elastic.outer_race.hoop_at_track_pa(count, p.normal_outer_n);
+            let name = "mean hoop stress, outer race, peak torque";
+            push(
+                "hoop-outer",
+                name,
+                value * MPA,
+                allowed * MPA,
+                "MPa",
+                beyond(ratio(value, allowed), torque, end),
+            );
+        }
+        // Turn left on the profile; a curve that ends below the peak torque has none.
+        let turn = state.profile.end_turn_rad();
+        let margin = if end >= torque { ratio(p.contact_turn_rad, turn) } else { end / torque - 1.0 };
+        push(
+            "end-of-profile",
+            "contact turn on the profile, peak torque",
+            p.contact_turn_rad,
+            turn,
+            "rad",
+            margin,
+        );
+        let over = curve.roll_over_torque_nm();
+        push("roll-over", "peak torque against roll-over torque", torque, over, "Nm", over / torque - 1.0);
+        let mu = design.clutch.friction.static_;
+        push(
+            "grip-inner",
+            "static tan omega at peak torque against mu_s",
+            p.tan_omega,
+            mu,
+            "1",
+            ratio(p.tan_omega, mu),
+        );
+        push(
+            "grip-outer",
+            "static tan nu at peak torque against mu_s",
+            p.tan_nu,
+            mu,
+            "1",
+            ratio(p.tan_nu, mu),
+        );
+        let rotation = curve.closure_at_normal(p.normal_inner_n).map_or(0.0, |(_, c)| c.rotation.v);
+        let oc_e = state.profile.outer_centre_distance_m;
+        let gap = clearance_m(&state.outline, oc_e, rotation, count).min(clearance_m(
+            &state.outline,
+            oc_e,
+            0.0,
+            count,
+        ));
+        // Clearance itself, relative to the sprag's height: smooth through contact.
+        let height = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
+        push(
+            "neighbours",
+            "clearance between neighbouring sprags up to peak torque",
+            0.0,
+            gap * 1e3,
+            "mm",
+            gap / height,
+        );
+    }
+    let kinetic = design.clutch.friction.kinetic;
+    let first = state.first_tan_omega;
+    push(
+        "re-engagement",
+        "tan omega at first contact against mu_c",
+        first,
+        kinetic,
+        "1",
+        ratio(first, kinetic),
+    );
+    if let Some(speed) = limits.keep_contact_to_rad_s {
+        let (opening, closing) = overrun_moments(design, state, speed);
+        push(
+            "keep-contact",
+            "centrifugal opening moment against spring moment at the keep-contact speed",
+            opening * 1e3,
+            closing * 1e3,
+            "mNm",
+            if closing > 0.0 { 1.0 - opening / closing } else { -1.0 },
+        );
+    }
+    rows
+}
+
+/// Beyond the curve's end the stress rows continue as the torque shortfall, so that a search sees a slope.
+fn beyond(margin: f64, torque: f64, end: f64) -> f64 {
+    if end >= torque { margin } else { margin.min(end / torque - 1.0) }
+}
+
+/// Static point at `torque`, or at the curve's end if that comes first.
+fn at(curve: &WedgeCurve, torque: f64) -> StaticPoint {
+    let last = curve.arc_end_n(curve.arc_count() - 1);
+    curve.at_torque(torque).or_else(|| curve.at_normal(last)).unwrap_or(StaticPoint::UNLOADED)
+}
+
+/// (opening moment of the centrifugal force, closing moment of the spring) on one sprag about G at first contact
+/// at overrun speed `speed_rad_s`, N m. Contact is kept while the first is smaller. Zero load at A:
+/// h_e N_be = h_e m_g OC_g Omega^2/cos gamma, which closes for gamma > 0 and opens for gamma < 0.
+pub(super) fn overrun_moments(design: &Design, state: &LoadState, speed_rad_s: f64) -> (f64, f64) {
+    let spring = design.clutch.spring.stiffness_nm_per_rad;
+    // First contact at speed: only the touch of the curve is needed, a closure at N -> 0.
+    let statics = state.curve.statics();
+    match statics.closure(0, crate::wedge::FIRST_CONTACT_N, speed_rad_s, 0.0) {
+        Ok(c) => {
+            let l = levers(c.lengths.oa.v, c.lengths.ob.v, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v);
+            (-l.h_e * c.n_be.v, spring * (state.alpha_max_rad - c.alpha.v))
+        }
+        Err(_) => (1.0, 0.0),
+    }
+}
+
+/// Lift-off speed of the outer race, rad/s: opening = closing moment; `None` where contact is kept to `up_to`.
+pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Option<f64> {
+    let left = |speed: f64| {
+        let (opening, closing) = overrun_moments(design, state, speed);
+        closing - opening
+    };
+    let (a, b) = (left(0.0), left(up_to_rad_s));
+    if a <= 0.0 {
+        return Some(0.0);
+    }
+    if b > 0.0 {
+        return None;
+    }
+    root::bracketed(0.0, up_to_rad_s, a, b, 1e-9 * up_to_rad_s, left)
+}
+
+/// Whether and where the curve ends below roll-over: for the capacity of the profile itself.
+pub(super) fn profile_capacity(state: &LoadState) -> f64 {
+    match state.curve.end().0 {
+        EndReason::OffProfile => state.curve.end_torque_nm(),
+        _ => state.curve.roll_over_torque_nm(),
+    }
+}

@@ -1,0 +1,104 @@
+//! Allowables against demands: the designer's margin check.
+//!
+//! In: a `Design`. Out: [`Margin`] rows, torque capacities. Absent: how forces come about.
+//! Equations: none; margin = allowable/demand - 1 unless a row says otherwise, 0 or more is held.
+
+mod capacity;
+mod load;
+mod scenes;
+
+pub use load::{LoadState, lift_off_rad_s, load_state};
+pub use scenes::{SceneDemand, scene_demand};
+
+use crate::design::{Design, Limits};
+use crate::scenario::{Settings, place_profile};
+use crate::wedge::{NoCurve, WedgeCurve};
+
+/// One limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Margin {
+    /// Stable code for scripts.
+    pub code: String,
+    /// Name for people.
+    pub name: String,
+    /// Demand, in `unit`.
+    pub demand: f64,
+    /// Allowable, in `unit`.
+    pub allowable: f64,
+    /// Unit of demand and allowable as printed; SI inside is not needed for a ratio.
+    pub unit: &'static str,
+    /// Margin; 0 or more is held.
+    pub margin: f64,
+    /// Torque at which this limit would be reached, N m, where it depends on torque.
+    pub torque_capacity_nm: Option<f64>,
+    /// Whether it counts for the verdict; the others are shown only.
+    pub required: bool,
+}
+
+/// Why no margins can be computed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoMargins {
+    /// The profile cannot be placed.
+    Profile(crate::profile::ProfileError),
+    /// The outline does not close.
+    Outline(crate::profile::OutlineError),
+    /// No wedge curve.
+    Curve(NoCurve),
+}
+
+impl std::fmt::Display for NoMargins {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Profile(e) => write!(f, "the profile cannot be placed: {e:?}"),
+            Self::Outline(e) => write!(f, "the outline does not close: {e:?}"),
+            Self::Curve(e) => write!(f, "no wedge curve: {e:?}"),
+        }
+    }
+}
+
+impl std::error::Error for NoMargins {}
+
+/// All margins of `design` under `limits`: first those of the load state, then those of the scenarios named in
+/// `scenes` (required) and, with `others`, of the remaining ones (shown only). `capacities` asks for the torque
+/// capacity of each limit as well.
+///
+/// # Errors
+/// [`NoMargins`] where there is no clutch to speak of; a scenario that cannot start is a row with margin -1.
+pub fn margins(
+    design: &Design,
+    limits: &Limits,
+    scenes: &[String],
+    others: bool,
+    capacities: bool,
+    settings: &Settings,
+) -> Result<Vec<Margin>, NoMargins> {
+    let state = load_state(design)?;
+    let mut rows = load::rows(design, limits, &state);
+    if capacities {
+        capacity::fill(&mut rows, design, limits, &state);
+    }
+    let all: Vec<&str> = design.scenarios.iter().map(|s| s.name.as_str()).collect();
+    for name in all {
+        let required = scenes.iter().any(|s| s == name);
+        if !required && !others {
+            continue;
+        }
+        if let Some(scenario) = design.scenario(name) {
+            let d = scene_demand(scenario, settings);
+            rows.extend(scenes::rows(name, &d, limits, required));
+        }
+    }
+    Ok(rows)
+}
+
+/// The curve of a design at rest.
+fn curve_at_rest(design: &Design) -> Result<(crate::profile::Profile, WedgeCurve), NoMargins> {
+    let profile = place_profile(&design.clutch).map_err(NoMargins::Profile)?;
+    let curve = WedgeCurve::build(&design.clutch, &profile, 0.0).map_err(NoMargins::Curve)?;
+    Ok((profile, curve))
+}
+
+/// margin = allowable/demand - 1; no demand counts as a margin of 1e6.
+fn ratio(demand: f64, allowable: f64) -> f64 {
+    if demand.abs() * 1e6 <= allowable.abs() { 1e6 } else { allowable / demand - 1.0 }
+}
