@@ -1,7 +1,25 @@
 //! The checked, immutable clutch design, SI.
 //!
-//! In: a design file (TOML, mm, degrees, GPa: [`file`]). Out: [`Design`].
+//! In: a design file (TOML, mm, rad, GPa, rev/min). Out: [`Design`], or [`DesignError`] with every key at fault.
 //! Absent: any physics; a law is only named here. Equations: none; Table 1 of the paper is a `Design`.
+
+mod check;
+mod diagnostic;
+mod document;
+mod edit;
+mod file;
+mod findings;
+mod geometry;
+mod read;
+mod scenarios;
+mod shape;
+mod task;
+mod variables;
+
+pub use diagnostic::{DesignError, Place, Problem};
+pub use edit::{EditError, with_limits, with_values};
+pub use shape::schema;
+pub use variables::{VARIABLES, variable_names, variable_path};
 
 use crate::material::Material;
 

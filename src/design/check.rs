@@ -1,0 +1,237 @@
+//! Rules that join several keys of one clutch, and the change to SI.
+//!
+//! In: the file's structs, every key in its own range. Out: [`Clutch`] and [`Limits`], SI. Absent: ranges of
+//! single keys ([`super::file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
+//! at first contact is asked of `profile`.
+
+use super::file::{BodyFile, ContactFile, DesignFile, LawFile, LimitsFile, MaterialFile, RacesFile};
+use super::findings::Findings;
+use super::geometry;
+use super::{Clutch, ContactLaw, Friction, Limits, Materials, Races, Spring};
+use crate::material::Material;
+
+/// Slices of the slice law where the file names none; stated in the schema.
+const DEFAULT_SLICES: usize = 60;
+
+/// mm to m. Division, because 1e-3 is no binary fraction: 4.68 mm becomes the double nearest to 4.68e-3 m
+/// oftener than by a product.
+pub(super) fn m(mm: f64) -> f64 {
+    mm / 1e3
+}
+
+/// rev/min to rad/s.
+pub(super) fn rad_s(rpm: f64) -> f64 {
+    rpm * std::f64::consts::PI / 30.0
+}
+
+fn pa(mpa: f64) -> f64 {
+    mpa * 1e6
+}
+
+/// The clutch of a file, or `None` with the reasons in `out`.
+pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
+    let races = races(&file.races, out);
+    let friction = friction(file, out);
+    let materials = materials(&file.material, out);
+    let contact = contact(&file.contact, out);
+    let spring = Spring {
+        stiffness_nm_per_rad: file.spring.stiffness_nm_per_rad,
+        drag_torque_nm: file.spring.drag_torque_nm,
+    };
+    if file.sprags.length_mm > file.races.width_mm {
+        out.refuse(
+            &["sprags.length_mm", "races.width_mm"],
+            format!("at most the races' width, {} mm", file.races.width_mm),
+            "shorten the sprags or widen the races: a sprag bears on its whole length".to_owned(),
+        );
+    }
+    // The sprag is looked at between races that are in order.
+    let sprags = geometry::sprags(&file.sprags, &races?, materials.as_ref(), out);
+    Some(Clutch {
+        sprags: sprags?,
+        races: races?,
+        spring,
+        materials: materials?,
+        friction: friction?,
+        contact: contact?,
+    })
+}
+
+fn races(file: &RacesFile, out: &mut Findings) -> Option<Races> {
+    let radii = [
+        ("races.inner_bore_radius_mm", file.inner_bore_radius_mm),
+        ("races.inner_radius_mm", file.inner_radius_mm),
+        ("races.outer_radius_mm", file.outer_radius_mm),
+        ("races.outer_outside_radius_mm", file.outer_outside_radius_mm),
+    ];
+    let mut in_order = true;
+    for pair in radii.windows(2) {
+        let [(inner, r), (outer, limit)] = [pair[0], pair[1]];
+        if r >= limit {
+            in_order = false;
+            out.refuse(
+                &[inner, outer],
+                format!("less than {outer} = {limit} mm"),
+                "put the radii in order: bore < inner track < outer track < outside".to_owned(),
+            );
+        }
+    }
+    in_order.then(|| Races {
+        inner_bore_radius_m: m(file.inner_bore_radius_mm),
+        inner_radius_m: m(file.inner_radius_mm),
+        outer_radius_m: m(file.outer_radius_mm),
+        outer_outside_radius_m: m(file.outer_outside_radius_mm),
+        width_m: m(file.width_mm),
+        inner_inertia_kg_m2: file.inner_inertia_kg_m2,
+        outer_inertia_kg_m2: file.outer_inertia_kg_m2,
+        viscous_damping_nm_s_per_rad: file.viscous_damping_nm_s_per_rad,
+    })
+}
+
+fn friction(file: &DesignFile, out: &mut Findings) -> Option<Friction> {
+    let f = &file.friction;
+    if f.kinetic > f.static_ {
+        out.refuse(
+            &["friction.kinetic", "friction.static"],
+            format!("at most the static coefficient, {}", f.static_),
+            "lower kinetic or raise static: (12) falls from static to kinetic as sliding gets faster"
+                .to_owned(),
+        );
+        return None;
+    }
+    Some(Friction { static_: f.static_, kinetic: f.kinetic, decay_s_per_m: f.decay_s_per_m })
+}
+
+/// The three keys that a material has, and the three bodies.
+pub(super) const MATERIAL_KEYS: [&str; 3] = ["youngs_modulus_gpa", "poisson_ratio", "density_kg_m3"];
+/// See [`MATERIAL_KEYS`].
+pub(super) const BODIES: [&str; 3] = ["sprag", "inner_race", "outer_race"];
+
+fn materials(file: &MaterialFile, out: &mut Findings) -> Option<Materials> {
+    let flat = [file.youngs_modulus_gpa, file.poisson_ratio, file.density_kg_m3];
+    let bodies = [&file.sprag, &file.inner_race, &file.outer_race];
+    let any_body = bodies.iter().any(|b| b.is_some());
+    if any_body && flat.iter().any(Option::is_some) {
+        refuse_mixed_material(out);
+        return None;
+    }
+    let absent: Vec<&str> = if any_body {
+        BODIES.into_iter().zip(bodies).filter(|(_, b)| b.is_none()).map(|(n, _)| n).collect()
+    } else {
+        MATERIAL_KEYS.into_iter().zip(flat).filter(|(_, v)| v.is_none()).map(|(n, _)| n).collect()
+    };
+    for name in &absent {
+        let path = format!("material.{name}");
+        let what =
+            if any_body { format!("the table [{path}]") } else { format!("{name} = ... in [material]") };
+        out.refuse(&[&path], super::shape::meaning_of(&path), format!("add {what}"));
+    }
+    let common = match flat {
+        [Some(youngs_modulus_gpa), Some(poisson_ratio), Some(density_kg_m3)] => {
+            Some(BodyFile { youngs_modulus_gpa, poisson_ratio, density_kg_m3 })
+        }
+        _ => None,
+    };
+    let [sprag, inner_race, outer_race] = bodies.map(|body| {
+        body.as_ref().or(common.as_ref()).map(|b| Material {
+            youngs_modulus_pa: b.youngs_modulus_gpa * 1e9,
+            poisson_ratio: b.poisson_ratio,
+            density_kg_m3: b.density_kg_m3,
+        })
+    });
+    Some(Materials { sprag: sprag?, inner_race: inner_race?, outer_race: outer_race? })
+}
+
+/// One table holds either the keys or the bodies, so that no key is written and then without effect.
+pub(super) fn refuse_mixed_material(out: &mut Findings) {
+    let keys: Vec<String> = MATERIAL_KEYS.iter().chain(&BODIES).map(|k| format!("material.{k}")).collect();
+    let scoped: Vec<&str> = keys.iter().map(String::as_str).collect();
+    out.refuse(
+        &scoped,
+        "either the three keys for all bodies, or the tables sprag, inner_race and outer_race".to_owned(),
+        "move the keys of [material] into the tables of the bodies".to_owned(),
+    );
+}
+
+/// Keys beside `law` that a law reads.
+pub(super) fn contact_keys(law: LawFile) -> &'static [&'static str] {
+    match law {
+        LawFile::Roller => &["roller_coefficient"],
+        LawFile::Slice => &["roller_coefficient", "slices"],
+        LawFile::Din26281 | LawFile::Hertz => &[],
+    }
+}
+
+fn contact(file: &ContactFile, out: &mut Findings) -> Option<ContactLaw> {
+    let given = [
+        ("roller_coefficient", "contact.roller_coefficient", file.roller_coefficient.is_some()),
+        ("slices", "contact.slices", file.slices.is_some()),
+    ];
+    for (name, path, is_given) in given {
+        if is_given && !contact_keys(file.law).contains(&name) {
+            out.refuse(
+                &[path, "contact.law"],
+                format!("no {name} with this law"),
+                format!("remove {name}, or name a law that reads it"),
+            );
+            return None;
+        }
+    }
+    match (file.law, file.roller_coefficient) {
+        (LawFile::Din26281, _) => Some(ContactLaw::Din26281),
+        (LawFile::Hertz, _) => Some(ContactLaw::Hertz),
+        (LawFile::Roller, Some(coefficient)) => Some(ContactLaw::Roller { coefficient }),
+        (LawFile::Slice, Some(coefficient)) => {
+            Some(ContactLaw::Slice { coefficient, slices: file.slices.unwrap_or(DEFAULT_SLICES) })
+        }
+        (LawFile::Roller | LawFile::Slice, None) => {
+            out.refuse(
+                &["contact.roller_coefficient", "contact.law"],
+                super::shape::meaning_of("contact.roller_coefficient"),
+                "add roller_coefficient = ... to [contact]; 3.97e-5 is DIN 26281's".to_owned(),
+            );
+            None
+        }
+    }
+}
+
+/// The limits of a table, the absent ones from `base`.
+pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Limits {
+    let limits = Limits {
+        nominal_torque_nm: file.nominal_torque_nm.or(base.nominal_torque_nm),
+        peak_torque_nm: file.peak_torque_nm.or(base.peak_torque_nm),
+        hertz_nominal_pa: file.hertz_nominal_mpa.map(pa).or(base.hertz_nominal_pa),
+        hertz_peak_pa: file.hertz_peak_mpa.map(pa).or(base.hertz_peak_pa),
+        hoop_inner_pa: file.hoop_inner_mpa.map(pa).or(base.hoop_inner_pa),
+        hoop_outer_pa: file.hoop_outer_mpa.map(pa).or(base.hoop_outer_pa),
+        slip_margin: file.slip_margin.or(base.slip_margin),
+        keep_contact_to_rad_s: file.keep_contact_to_rpm.map(rad_s).or(base.keep_contact_to_rad_s),
+    };
+    let needs = [
+        ("limits.hertz_nominal_mpa", limits.hertz_nominal_pa, "nominal_torque_nm", limits.nominal_torque_nm),
+        ("limits.hertz_peak_mpa", limits.hertz_peak_pa, "peak_torque_nm", limits.peak_torque_nm),
+        ("limits.hoop_inner_mpa", limits.hoop_inner_pa, "peak_torque_nm", limits.peak_torque_nm),
+        ("limits.hoop_outer_mpa", limits.hoop_outer_pa, "peak_torque_nm", limits.peak_torque_nm),
+    ];
+    for (key, limit, torque_key, torque) in needs {
+        if limit.is_some() && torque.is_none() {
+            out.refuse(
+                &[key],
+                format!("only together with limits.{torque_key}, which is missing"),
+                format!(
+                    "add {torque_key} = ..., the torque at which this limit is held, or remove the limit"
+                ),
+            );
+        }
+    }
+    if let (Some(nominal), Some(peak)) = (limits.nominal_torque_nm, limits.peak_torque_nm)
+        && peak < nominal
+    {
+        out.refuse(
+            &["limits.peak_torque_nm", "limits.nominal_torque_nm"],
+            format!("at least the nominal torque, {nominal} N m"),
+            "raise peak_torque_nm or lower nominal_torque_nm".to_owned(),
+        );
+    }
+    limits
+}

@@ -1,0 +1,187 @@
+//! Why a design file is refused, said so that it can be mended.
+//!
+//! In: places in the text and words. Out: [`DesignError`], as plain text, as a `miette` diagnostic with the
+//! lines of the file, or as JSON. Absent: rules, printing, exit codes (2, set by the command line).
+//! Equations: none.
+
+use std::fmt;
+use std::ops::Range;
+
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use serde_json::{Value, json};
+
+/// A place in a design file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// Bytes in the file.
+    pub span: Range<usize>,
+}
+
+impl Place {
+    /// The place of a byte range of `source`; a range that ends beyond it, or inside a character, is cut.
+    pub(super) fn of(source: &str, span: Range<usize>) -> Self {
+        let start = floor(source, span.start);
+        let end = floor(source, span.end).max(start);
+        let before = &source[..start];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        let line = before.bytes().filter(|&b| b == b'\n').count() + 1;
+        Self { line, column: before[line_start..].chars().count() + 1, span: start..end }
+    }
+}
+
+fn floor(source: &str, at: usize) -> usize {
+    (0..=at.min(source.len())).rev().find(|&i| source.is_char_boundary(i)).unwrap_or(0)
+}
+
+/// One thing wrong with a design file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Dotted path of the key, rows of arrays counted from 0: `sprags.inner_arcs[1].radius_mm`; empty where no key is at fault.
+    pub key: String,
+    /// Where; `None` where the file could not be read at all.
+    pub place: Option<Place>,
+    /// What stands there.
+    pub found: String,
+    /// What may stand there.
+    pub allowed: String,
+    /// How to mend it.
+    pub help: String,
+    /// The other keys that take part, with their places.
+    pub also: Vec<(String, Place)>,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.key.is_empty() {
+            write!(f, "{}: ", self.key)?;
+        }
+        write!(f, "found {}; allowed: {}; to mend: {}", self.found, self.allowed, self.help)
+    }
+}
+
+/// A refused design file with everything found wrong in it, in the order of the file.
+///
+/// Displays as one line per problem, `file:line:column: key: found ...; allowed: ...; to mend: ...`.
+#[derive(Debug)]
+pub struct DesignError {
+    file: String,
+    source: Option<Box<NamedSource<String>>>,
+    problems: Vec<Problem>,
+}
+
+impl DesignError {
+    /// Problems of a text that could be read.
+    pub(super) fn in_source(file: &str, source: &str, mut problems: Vec<Problem>) -> Self {
+        problems.sort_by_key(|p| p.place.as_ref().map_or(0, |place| place.span.start));
+        let source = NamedSource::new(file, source.to_owned()).with_language("TOML");
+        Self { file: file.to_owned(), source: Some(Box::new(source)), problems }
+    }
+
+    /// A file that could not be read.
+    pub(super) fn unreadable(file: &str, found: String, allowed: &str, help: &str) -> Self {
+        let problem = Problem {
+            key: String::new(),
+            place: None,
+            found,
+            allowed: allowed.to_owned(),
+            help: help.to_owned(),
+            also: Vec::new(),
+        };
+        Self { file: file.to_owned(), source: None, problems: vec![problem] }
+    }
+
+    /// Name of the file.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// What is wrong, at least one entry, in the order of the file.
+    pub fn problems(&self) -> &[Problem] {
+        &self.problems
+    }
+
+    /// The same as JSON: `{"file", "problems": [{"key", "line", "column", "found", "allowed", "help",
+    /// "also": [{"key", "line", "column"}]}]}`; line and column are null where the file could not be read.
+    pub fn to_json(&self) -> Value {
+        let problem = |p: &Problem| {
+            let also: Vec<Value> = p
+                .also
+                .iter()
+                .map(|(key, place)| json!({"key": key, "line": place.line, "column": place.column}))
+                .collect();
+            json!({
+                "key": p.key,
+                "line": p.place.as_ref().map(|place| place.line),
+                "column": p.place.as_ref().map(|place| place.column),
+                "found": p.found,
+                "allowed": p.allowed,
+                "help": p.help,
+                "also": also,
+            })
+        };
+        json!({"file": self.file, "problems": self.problems.iter().map(problem).collect::<Vec<_>>()})
+    }
+}
+
+impl fmt::Display for DesignError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, problem) in self.problems.iter().enumerate() {
+            let line_break = if i == 0 { "" } else { "\n" };
+            write!(f, "{line_break}{}:", self.file)?;
+            if let Some(place) = &problem.place {
+                write!(f, "{}:{}:", place.line, place.column)?;
+            }
+            write!(f, " {problem}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for DesignError {}
+
+impl Diagnostic for DesignError {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new("design"))
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_deref().map(|s| s as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let labels = self.problems.iter().flat_map(|p| {
+            let first = p.place.iter().map(|place| {
+                LabeledSpan::new_primary_with_span(
+                    Some(format!("allowed: {}", p.allowed)),
+                    place.span.clone(),
+                )
+            });
+            let also = p
+                .also
+                .iter()
+                .map(|(key, place)| LabeledSpan::new_with_span(Some(key.clone()), place.span.clone()));
+            first.chain(also)
+        });
+        Some(Box::new(labels))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_count_characters_and_spans_never_leave_the_text() {
+        let text = "a = 1\nµ = \"é\" # x\n";
+        let at = text.find('#').unwrap();
+        let place = Place::of(text, at..at + 1);
+        assert_eq!((place.line, place.column), (2, 9));
+        assert_eq!(Place::of(text, 7..7).span, 6..6, "inside the µ");
+        assert_eq!(Place::of(text, 900..1000).span, text.len()..text.len());
+        assert_eq!(Place::of("", 0..5), Place { line: 1, column: 1, span: 0..0 });
+    }
+}

@@ -1,0 +1,135 @@
+//! Writes new values into the text of a design file and keeps its comments and its order.
+//!
+//! In: text, variables or limits in the file's units. Out: text. Absent: checking the new design (parse
+//! it). Equations: none. Numbers are written in the shortest form that reads back as the same double.
+
+use std::fmt;
+
+use toml_edit::{DocumentMut, Item, Table, Value};
+
+use super::shape;
+use super::variables::{variable_names, variable_path};
+
+/// Why a value cannot be written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum EditError {
+    /// The text is no TOML.
+    Syntax(String),
+    /// No such variable or limit.
+    UnknownName {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: Vec<String>,
+    },
+    /// The file does not hold the key that the variable sets.
+    MissingKey {
+        /// Dotted path of the key.
+        key: String,
+    },
+    /// The value is not finite.
+    NotFinite {
+        /// The name it was meant for.
+        name: String,
+    },
+}
+
+impl fmt::Display for EditError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Syntax(what) => write!(f, "the design is no TOML: {what}"),
+            Self::UnknownName { name, known } => write!(f, "no {name:?}; there are {}", known.join(", ")),
+            Self::MissingKey { key } => write!(f, "the design holds no {key}"),
+            Self::NotFinite { name } => write!(f, "the value of {name} is not a finite number"),
+        }
+    }
+}
+
+impl std::error::Error for EditError {}
+
+/// The text with design variables set, each in the unit of its name ([`VARIABLES`](super::VARIABLES)).
+///
+/// # Errors
+/// [`EditError`]; nothing is written where one value cannot be.
+pub fn with_values(source: &str, values: &[(&str, f64)]) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    let arcs = match document.get("sprags").and_then(|s| s.get("inner_arcs")) {
+        Some(Item::Value(Value::Array(rows))) => rows.len(),
+        Some(Item::ArrayOfTables(rows)) => rows.len(),
+        _ => 0,
+    };
+    for &(name, value) in values {
+        let path = variable_path(name, arcs)
+            .ok_or_else(|| EditError::UnknownName { name: name.to_owned(), known: variable_names(arcs) })?;
+        let number = finite(name, value)?;
+        let item = item_at(&mut document, &path).ok_or(EditError::MissingKey { key: path })?;
+        replace(item, number);
+    }
+    Ok(document.to_string())
+}
+
+/// The text with keys of `[limits]` set, in the units of their names; keys that are new are added at the
+/// table's end, the table at the file's end.
+///
+/// # Errors
+/// [`EditError`]; nothing is written where one value cannot be.
+pub fn with_limits(source: &str, limits: &[(&str, f64)]) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    let known = shape::keys_of("limits");
+    for &(name, value) in limits {
+        if !known.contains(&name) {
+            let known = known.iter().map(|k| (*k).to_owned()).collect();
+            return Err(EditError::UnknownName { name: name.to_owned(), known });
+        }
+        let number = finite(name, value)?;
+        let table = document.entry("limits").or_insert_with(|| Item::Table(Table::new()));
+        let table =
+            table.as_table_like_mut().ok_or_else(|| EditError::MissingKey { key: "limits".to_owned() })?;
+        match table.get_mut(name) {
+            Some(item) => replace(item, number),
+            None => {
+                table.insert(name, Item::Value(number));
+            }
+        }
+    }
+    Ok(document.to_string())
+}
+
+fn parse(source: &str) -> Result<DocumentMut, EditError> {
+    source.parse().map_err(|e: toml_edit::TomlError| EditError::Syntax(e.message().to_owned()))
+}
+
+fn finite(name: &str, value: f64) -> Result<Value, EditError> {
+    if value.is_finite() {
+        Ok(Value::from(value))
+    } else {
+        Err(EditError::NotFinite { name: name.to_owned() })
+    }
+}
+
+/// Put a number where one stands and keep the blanks and comments around it.
+fn replace(item: &mut Item, mut number: Value) {
+    if let Some(old) = item.as_value() {
+        *number.decor_mut() = old.decor().clone();
+    }
+    *item = Item::Value(number);
+}
+
+fn item_at<'d>(document: &'d mut DocumentMut, path: &str) -> Option<&'d mut Item> {
+    let mut item = document.as_item_mut();
+    for step in path.split('.') {
+        let (name, row) = match step.split_once('[') {
+            Some((name, row)) => (name, Some(row.strip_suffix(']')?.parse::<usize>().ok()?)),
+            None => (step, None),
+        };
+        item = item.get_mut(name)?;
+        if let Some(row) = row {
+            item = item.get_mut(row)?;
+        }
+        // toml_edit answers an absent key with a new, empty item.
+        if item.is_none() {
+            return None;
+        }
+    }
+    Some(item)
+}

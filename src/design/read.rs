@@ -1,0 +1,122 @@
+//! Reading a design: text, then shape, then rules, then SI.
+//!
+//! In: a path or a text. Out: [`Design`] or everything found wrong at the first stage that objects. Absent:
+//! the rules themselves. Equations: none.
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use super::diagnostic::{DesignError, Place, Problem};
+use super::document::Document;
+use super::file::DesignFile;
+use super::findings::Findings;
+use super::{Design, Limits, check, scenarios, shape, task};
+
+const WHAT: &str = "a text file (UTF-8, TOML) that holds a clutch design";
+
+impl Design {
+    /// Read and check a design file.
+    ///
+    /// # Errors
+    /// [`DesignError`] where the file cannot be read, is no UTF-8 or no TOML, or is refused by a rule.
+    pub fn read(path: &Path) -> Result<Self, DesignError> {
+        let name = path.display().to_string();
+        if path.is_dir() {
+            return Err(DesignError::unreadable(&name, "a directory".to_owned(), WHAT, "name a file in it"));
+        }
+        let bytes = std::fs::read(path).map_err(|error| {
+            let (found, help) = match error.kind() {
+                std::io::ErrorKind::NotFound => ("no such file".to_owned(), "check the path"),
+                std::io::ErrorKind::PermissionDenied => {
+                    ("a file that may not be read".to_owned(), "allow reading it")
+                }
+                _ => (format!("an error while reading: {error}"), "check the path and the disk"),
+            };
+            DesignError::unreadable(&name, found, WHAT, help)
+        })?;
+        match String::from_utf8(bytes) {
+            Ok(source) => Self::parse(&source, &name),
+            Err(error) => {
+                let at = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+                let found = format!("a byte that is not UTF-8 (byte {} of the file)", at + 1);
+                let help =
+                    "save the file as UTF-8; umlauts of an older encoding in a comment are the usual cause";
+                Err(one_problem(&name, &text, at, found, WHAT, help))
+            }
+        }
+    }
+
+    /// Check the text of a design file; `name_for_errors` stands for the file in messages.
+    ///
+    /// # Errors
+    /// As [`Design::read`].
+    pub fn parse(source: &str, name_for_errors: &str) -> Result<Self, DesignError> {
+        let refuse = |problems| DesignError::in_source(name_for_errors, source, problems);
+        if source.trim_start_matches('\u{feff}').trim().is_empty() {
+            let help = "start from one of the files in designs/";
+            return Err(one_problem(name_for_errors, source, 0, "an empty file".to_owned(), WHAT, help));
+        }
+        let doc = Document::parse(source).map_err(refuse)?;
+        let problems = shape::problems(&doc);
+        if !problems.is_empty() {
+            return Err(refuse(problems));
+        }
+        // The shape is right, so serde finds nothing more; its error is kept for a rule that only it knows.
+        let odd = |error: toml::de::Error| {
+            let at = error.span().map_or(0, |s| s.start);
+            one_problem(name_for_errors, source, at, error.message().to_owned(), WHAT, "mend this value")
+        };
+        let file: DesignFile = toml::from_str(source).map_err(odd)?;
+        let document: toml::Table = toml::from_str(source).map_err(odd)?;
+
+        let mut out = Findings::new(&doc);
+        let clutch = check::clutch(&file, &mut out);
+        let limits = check::limits(&file.limits, Limits::default(), &mut out);
+        let scenarios = scenarios::scenarios(&file, &document, clutch.as_ref(), &mut out);
+        let check_scenarios = task::check_scenarios(&file, &mut out);
+        let optimize = file.optimize.as_ref().map(|t| task::optimize(&file, t, limits, &mut out));
+        match (clutch, scenarios, out.problems) {
+            (Some(clutch), Some(scenarios), problems) if problems.is_empty() => Ok(Self {
+                name: file.name,
+                clutch,
+                limits,
+                check_scenarios,
+                scenarios,
+                optimize,
+                hash: hash(source),
+                source: source.to_owned(),
+            }),
+            (_, _, problems) if !problems.is_empty() => Err(refuse(problems)),
+            _ => {
+                let found = "a design that could not be put together".to_owned();
+                Err(one_problem(
+                    name_for_errors,
+                    source,
+                    0,
+                    found,
+                    WHAT,
+                    "report this as a fault of sprag-design",
+                ))
+            }
+        }
+    }
+}
+
+fn one_problem(name: &str, source: &str, at: usize, found: String, allowed: &str, help: &str) -> DesignError {
+    let problem = Problem {
+        key: String::new(),
+        place: Some(Place::of(source, at..at + 1)),
+        found,
+        allowed: allowed.to_owned(),
+        help: help.to_owned(),
+        also: Vec::new(),
+    };
+    DesignError::in_source(name, source, vec![problem])
+}
+
+/// SHA-256 of the text, lower-case hex.
+fn hash(source: &str) -> String {
+    Sha256::digest(source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,208 @@
+//! The scenarios of a design: keys by kind, and the clutch with each scenario's overrides.
+//!
+//! In: `[[scenarios]]` and the whole document as a table. Out: [`Scenario`]s, SI. Absent: the rules of the
+//! clutch itself ([`super::check`], asked again for every overridden clutch). Equations: none.
+
+use toml::{Table, Value};
+
+use super::check::{self, BODIES, MATERIAL_KEYS, rad_s};
+use super::file::{DesignFile, KindFile, ScenarioFile};
+use super::findings::Findings;
+use super::{Clutch, Scenario, ScenarioKind, shape};
+
+/// Kind, its name, the keys it must have, those it may have.
+type KindKeys = (KindFile, &'static str, &'static [&'static str], &'static [&'static str]);
+
+const KINDS: [KindKeys; 4] = [
+    (KindFile::Static, "static", &["torque_nm"], &[]),
+    (
+        KindFile::TorsionalExcitation,
+        "torsional-excitation",
+        &["preload_nm", "amplitude_nm", "frequency_hz", "abutment_stiffness_nm_per_rad", "duration_s"],
+        &["speed_rpm"],
+    ),
+    (
+        KindFile::Engagement,
+        "engagement",
+        &[
+            "free_run_rpm",
+            "reversing_torque_nm",
+            "stop_stiffness_nm_per_rad",
+            "bench_inertia_kg_m2",
+            "duration_s",
+        ],
+        &[],
+    ),
+    (KindFile::Overrun, "overrun", &["speed_rpm", "overrun_rpm"], &[]),
+];
+
+/// Tables that a scenario may override.
+const OVERRIDABLE: [&str; 6] = ["sprags", "races", "spring", "material", "friction", "contact"];
+
+/// All scenarios, or `None` with the reasons in `out`. `base` is the clutch without overrides, `document`
+/// the whole file as a table.
+pub(super) fn scenarios(
+    file: &DesignFile,
+    document: &Table,
+    base: Option<&Clutch>,
+    out: &mut Findings,
+) -> Option<Vec<Scenario>> {
+    let mut all = Some(Vec::new());
+    for (i, entry) in file.scenarios.iter().enumerate() {
+        let path = format!("scenarios[{i}]");
+        if let Some(first) = file.scenarios.iter().take(i).position(|s| s.name == entry.name) {
+            let (name, other) = (format!("{path}.name"), format!("scenarios[{first}].name"));
+            out.refuse(
+                &[&name, &other],
+                "a name that no other scenario has".to_owned(),
+                "rename one".to_owned(),
+            );
+            all = None;
+        }
+        let kind = kind(entry, &path, out);
+        let overrides: Vec<(&str, &Table)> = OVERRIDABLE
+            .into_iter()
+            .zip([
+                &entry.sprags,
+                &entry.races,
+                &entry.spring,
+                &entry.material,
+                &entry.friction,
+                &entry.contact,
+            ])
+            .filter_map(|(name, table)| table.as_ref().map(|t| (name, t)))
+            .collect();
+        let clutch = if overrides.is_empty() {
+            base.cloned()
+        } else {
+            out.within(&path, |out| overridden(document, &overrides, out))
+        };
+        match (&mut all, kind, clutch) {
+            (Some(list), Some(kind), Some(clutch)) => list.push(Scenario {
+                name: entry.name.clone(),
+                kind,
+                clutch,
+                overrides: overrides.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            }),
+            _ => all = None,
+        }
+    }
+    all
+}
+
+fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind> {
+    let (_, kind, required, optional) = KINDS.into_iter().find(|(kind, ..)| *kind == s.kind)?;
+    let values = [
+        ("torque_nm", s.torque_nm),
+        ("preload_nm", s.preload_nm),
+        ("amplitude_nm", s.amplitude_nm),
+        ("frequency_hz", s.frequency_hz),
+        ("abutment_stiffness_nm_per_rad", s.abutment_stiffness_nm_per_rad),
+        ("duration_s", s.duration_s),
+        ("speed_rpm", s.speed_rpm),
+        ("free_run_rpm", s.free_run_rpm),
+        ("reversing_torque_nm", s.reversing_torque_nm),
+        ("stop_stiffness_nm_per_rad", s.stop_stiffness_nm_per_rad),
+        ("bench_inertia_kg_m2", s.bench_inertia_kg_m2),
+        ("overrun_rpm", s.overrun_rpm),
+    ];
+    let kind_key = format!("{path}.kind");
+    for (name, value) in values {
+        let key = format!("{path}.{name}");
+        if value.is_none() && required.contains(&name) {
+            let help = format!("add {name} = ... to scenario {:?}, which is of kind {kind}", s.name);
+            out.refuse(&[&key], shape::meaning_of(&key), help);
+        } else if value.is_some() && !required.contains(&name) && !optional.contains(&name) {
+            let keys = [required, optional].concat().join(", ");
+            out.refuse(
+                &[&key, &kind_key],
+                format!("for kind {kind}: {keys}"),
+                format!("remove {name}, or change the kind"),
+            );
+        }
+    }
+    Some(match s.kind {
+        KindFile::Static => ScenarioKind::Static { torque_nm: s.torque_nm? },
+        KindFile::TorsionalExcitation => ScenarioKind::TorsionalExcitation {
+            preload_nm: s.preload_nm?,
+            amplitude_nm: s.amplitude_nm?,
+            frequency_hz: s.frequency_hz?,
+            abutment_stiffness_nm_per_rad: s.abutment_stiffness_nm_per_rad?,
+            duration_s: s.duration_s?,
+            speed_rad_s: rad_s(s.speed_rpm.unwrap_or(0.0)),
+        },
+        KindFile::Engagement => ScenarioKind::Engagement {
+            free_run_rad_s: rad_s(s.free_run_rpm?),
+            reversing_torque_nm: s.reversing_torque_nm?,
+            stop_stiffness_nm_per_rad: s.stop_stiffness_nm_per_rad?,
+            bench_inertia_kg_m2: s.bench_inertia_kg_m2?,
+            duration_s: s.duration_s?,
+        },
+        KindFile::Overrun => {
+            ScenarioKind::Overrun { speed_rad_s: rad_s(s.speed_rpm?), overrun_rad_s: rad_s(s.overrun_rpm?) }
+        }
+    })
+}
+
+fn overridden(document: &Table, overrides: &[(&str, &Table)], out: &mut Findings) -> Option<Clutch> {
+    let mut merged = document.clone();
+    for (name, over) in overrides {
+        let base = merged.entry(*name).or_insert_with(|| Value::Table(Table::new()));
+        let Value::Table(base) = base else { return None };
+        let mut over = (*over).clone();
+        match *name {
+            "material" => {
+                let holds = |keys: &[&str]| keys.iter().any(|k| over.contains_key(*k));
+                if holds(&MATERIAL_KEYS) && holds(&BODIES) {
+                    check::refuse_mixed_material(out);
+                    return None;
+                }
+                if holds(&BODIES) || BODIES.iter().any(|b| base.contains_key(*b)) {
+                    spread_over_bodies(base);
+                    spread_over_bodies(&mut over);
+                }
+            }
+            "contact" => forget_keys_of_the_other_law(base, &over),
+            _ => {}
+        }
+        merge(base, over);
+    }
+    let file: DesignFile = match merged.try_into() {
+        Ok(file) => file,
+        Err(error) => {
+            let keys: Vec<&str> = overrides.iter().map(|(name, _)| *name).collect();
+            let allowed = "tables that make a clutch together with the base".to_owned();
+            out.refuse(&keys, allowed, format!("mend the override: {}", error.message()));
+            return None;
+        }
+    };
+    check::clutch(&file, out)
+}
+
+/// `[material]` for all bodies, written out body by body.
+fn spread_over_bodies(material: &mut Table) {
+    let common: Table = MATERIAL_KEYS.iter().filter_map(|k| material.remove_entry(*k)).collect();
+    if !common.is_empty() {
+        for body in BODIES {
+            material.insert(body.to_owned(), Value::Table(common.clone()));
+        }
+    }
+}
+
+/// A scenario that names another law does not inherit keys which that law does not read.
+fn forget_keys_of_the_other_law(base: &mut Table, over: &Table) {
+    if let Some(law) = over.get("law").and_then(|l| l.clone().try_into().ok()) {
+        base.retain(|key, _| check::contact_keys(law).contains(&key));
+    }
+}
+
+fn merge(base: &mut Table, over: Table) {
+    for (key, value) in over {
+        match (base.get_mut(&key), value) {
+            (Some(Value::Table(inner)), Value::Table(value)) => merge(inner, value),
+            (_, value) => {
+                base.insert(key, value);
+            }
+        }
+    }
+}

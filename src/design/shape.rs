@@ -1,0 +1,272 @@
+//! Holds a parsed file against the schema: every key known, present, of its type and in its range.
+//!
+//! In: the tree with places, the JSON Schema of [`super::file`]. Out: all problems at once, and the schema
+//! itself for `schema`. Absent: rules that join keys. Equations: none.
+//!
+//! serde would stop at the first fault and knows no ranges; reading the rules from the schema keeps one
+//! statement of each. Only what schemars makes of our structs is understood: type, const, enum, bounds,
+//! properties, required, items, minItems, minLength.
+
+use std::sync::LazyLock;
+
+use schemars::transform::{RecursiveTransform, Transform};
+use schemars::{Schema, generate::SchemaSettings};
+use serde_json::Value;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::diagnostic::Problem;
+use super::document::{Document, number_of};
+use super::file::DesignFile;
+
+/// No quantity of a clutch lies outside; keeps conversions to SI from overflow and underflow.
+const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e15;
+
+/// Keys that a later version will read.
+const RESERVED: &[&str] = &[
+    "press_fit",
+    "thermal",
+    "tolerances",
+    "end_profile",
+    "tilt_mrad",
+    "torque_history_csv",
+    "speed_history_csv",
+    "torque_step_nm",
+];
+
+static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
+    let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
+    let mut schema = settings.into_generator().into_root_schema_for::<DesignFile>();
+    // TOML has no null: an optional key is left out.
+    RecursiveTransform(drop_null).transform(&mut schema);
+    if let Some(object) = schema.as_object_mut() {
+        object.insert("title".to_owned(), "sprag-design design file".into());
+    }
+    schema.to_value()
+});
+
+/// JSON Schema (draft 2020-12) of the design file; descriptions give unit and meaning of every key.
+pub fn schema() -> Value {
+    SCHEMA.clone()
+}
+
+fn drop_null(schema: &mut Schema) {
+    if let Some(Value::Array(types)) = schema.get_mut("type") {
+        types.retain(|t| t != "null");
+        if let [one] = types.as_slice() {
+            let one = one.clone();
+            schema.insert("type".to_owned(), one);
+        }
+    }
+    if schema.get("default").is_some_and(Value::is_null) {
+        schema.remove("default");
+    }
+}
+
+/// Strip `required` from a table and the tables in it.
+pub(super) fn let_all_keys_be_absent(schema: &mut Schema) {
+    schema.remove("required");
+    schema.remove("default");
+    if let Some(Value::Object(properties)) = schema.get_mut("properties") {
+        for property in properties.values_mut() {
+            if let Ok(property) = <&mut Schema>::try_from(property) {
+                let_all_keys_be_absent(property);
+            }
+        }
+    }
+}
+
+/// The schema of the key at a dotted path.
+fn schema_of(path: &str) -> Option<&'static Value> {
+    path.split('.').try_fold(&*SCHEMA, |schema, step| {
+        let name = step.split('[').next()?;
+        let rows = step.matches('[').count();
+        (0..rows).try_fold(schema.get("properties")?.get(name)?, |s, _| s.get("items"))
+    })
+}
+
+/// Names of the keys of the table at a dotted path.
+pub(super) fn keys_of(path: &str) -> Vec<&'static str> {
+    let properties = schema_of(path).and_then(|s| s.get("properties")).and_then(Value::as_object);
+    properties.into_iter().flat_map(|p| p.keys().map(String::as_str)).collect()
+}
+
+/// What the key at a dotted path may hold, where `value` is outside of it.
+pub(super) fn out_of_range(path: &str, value: f64) -> Option<String> {
+    schema_of(path).filter(|s| !in_range(s, value)).map(allowed)
+}
+
+/// What the key at a dotted path holds, in the schema's words.
+pub(super) fn meaning_of(path: &str) -> String {
+    schema_of(path).map(|s| format!("{}: {}", allowed(s), description(s))).unwrap_or_default()
+}
+
+/// All departures of the file from the schema.
+pub(super) fn problems(doc: &Document<'_>) -> Vec<Problem> {
+    let mut walk = Walk { doc, problems: Vec::new() };
+    walk.table(&SCHEMA, &doc.root, "", 0..0);
+    walk.problems
+}
+
+struct Walk<'d, 'a> {
+    doc: &'d Document<'a>,
+    problems: Vec<Problem>,
+}
+
+impl<'a> Walk<'_, 'a> {
+    fn refuse(
+        &mut self,
+        key: &str,
+        span: std::ops::Range<usize>,
+        found: String,
+        allowed: String,
+        help: String,
+    ) {
+        let place = Some(self.doc.place(span));
+        self.problems.push(Problem { key: key.to_owned(), place, found, allowed, help, also: Vec::new() });
+    }
+
+    fn table(&mut self, schema: &Value, table: &DeTable<'a>, path: &str, header: std::ops::Range<usize>) {
+        let Some(properties) = schema.get("properties").and_then(Value::as_object) else { return };
+        let dotted = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+        for (key, value) in table.iter() {
+            let name = key.get_ref().as_ref();
+            if let Some(property) = properties.get(name) {
+                self.value(property, value, &dotted(name), key.span());
+            } else {
+                let known: Vec<&str> = properties.keys().map(String::as_str).collect();
+                let found = format!("the unknown key {name:?}");
+                self.refuse(
+                    &dotted(name),
+                    key.span(),
+                    found,
+                    known.join(", "),
+                    help_for_unknown(name, &known),
+                );
+            }
+        }
+        for name in
+            schema.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str)
+        {
+            if !table.contains_key(name) {
+                let property = properties.get(name).unwrap_or(&Value::Null);
+                let is_table = property.get("properties").is_some();
+                let place = if path.is_empty() { "the file".to_owned() } else { format!("[{path}]") };
+                let help = if is_table && path.is_empty() {
+                    format!("add the table [{name}]")
+                } else {
+                    format!("add {name} = ... to {place}")
+                };
+                let what = format!("{}: {}", allowed(property), description(property));
+                self.refuse(&dotted(name), header.clone(), "no such key".to_owned(), what, help);
+            }
+        }
+    }
+
+    fn value(
+        &mut self,
+        schema: &Value,
+        value: &Spanned<DeValue<'a>>,
+        path: &str,
+        key_span: std::ops::Range<usize>,
+    ) {
+        let fits = match (schema.get("type").and_then(Value::as_str), value.get_ref()) {
+            (Some("object"), DeValue::Table(table)) => return self.table(schema, table, path, key_span),
+            (Some("array"), DeValue::Array(rows)) => {
+                let items = schema.get("items").unwrap_or(&Value::Null);
+                for (i, row) in rows.iter().enumerate() {
+                    self.value(items, row, &format!("{path}[{i}]"), row.span());
+                }
+                rows.len() as f64 >= bound(schema, "minItems").unwrap_or(0.0)
+            }
+            (Some("string"), DeValue::String(s)) => {
+                let listed = schema.get("enum").and_then(Value::as_array);
+                let constant = schema.get("const").and_then(Value::as_str);
+                listed.is_none_or(|l| l.iter().any(|v| v.as_str() == Some(s.as_ref())))
+                    && constant.is_none_or(|c| c == s.as_ref())
+                    && s.trim().chars().count() as f64 >= bound(schema, "minLength").unwrap_or(0.0)
+            }
+            (Some("number"), v @ (DeValue::Float(_) | DeValue::Integer(_))) => {
+                number_of(v).is_some_and(|x| in_range(schema, x))
+            }
+            // serde reads an i64; what does not fit is out of range for every key.
+            (Some("integer"), v @ DeValue::Integer(_)) => {
+                number_of(v).is_some_and(|x| x.abs() < 9e18 && in_range(schema, x))
+            }
+            _ => false,
+        };
+        if fits {
+            return;
+        }
+        let is_table = matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_));
+        let span = if is_table { key_span } else { value.span() };
+        let allowed = allowed(schema);
+        let name = path.rsplit('.').next().unwrap_or(path);
+        let help = match description(schema) {
+            "" => format!("give {name} {allowed}"),
+            what => format!("give {name} {allowed} ({what})"),
+        };
+        let found = match value.get_ref() {
+            DeValue::Array(rows) if rows.is_empty() => "an empty array".to_owned(),
+            _ => self.doc.text_of(value),
+        };
+        self.refuse(path, span, found, allowed, help);
+    }
+}
+
+fn help_for_unknown(name: &str, known: &[&str]) -> String {
+    if RESERVED.contains(&name) {
+        return format!("remove {name}: the name is reserved, this version does not read it");
+    }
+    let nearest = known.iter().map(|k| (strsim::jaro_winkler(name, k), k)).max_by(|a, b| a.0.total_cmp(&b.0));
+    match nearest {
+        Some((likeness, key)) if likeness > 0.8 => format!("did you mean {key}? Otherwise remove {name}"),
+        _ => format!("remove {name} or move it to the table where it belongs"),
+    }
+}
+
+fn bound(schema: &Value, name: &str) -> Option<f64> {
+    schema.get(name).and_then(Value::as_f64)
+}
+
+fn in_range(schema: &Value, x: f64) -> bool {
+    // Written so that a NaN is outside.
+    (x == 0.0 || MAGNITUDES.contains(&x.abs()))
+        && bound(schema, "const").is_none_or(|b| x == b)
+        && bound(schema, "minimum").is_none_or(|b| x >= b)
+        && bound(schema, "exclusiveMinimum").is_none_or(|b| x > b)
+        && bound(schema, "maximum").is_none_or(|b| x <= b)
+        && bound(schema, "exclusiveMaximum").is_none_or(|b| x < b)
+}
+
+/// What a schema allows, in words.
+fn allowed(schema: &Value) -> String {
+    if let Some(c) = schema.get("const") {
+        return c.to_string();
+    }
+    if let Some(options) = schema.get("enum").and_then(Value::as_array) {
+        return options.iter().map(Value::to_string).collect::<Vec<_>>().join(" or ");
+    }
+    let kind = match schema.get("type").and_then(Value::as_str) {
+        Some("object") => "a table",
+        Some("array") if bound(schema, "minItems").is_some() => "an array with at least one entry",
+        Some("array") => "an array",
+        Some("string") if bound(schema, "minLength").is_some() => "a text that is not empty",
+        Some("string") => "a text in quotes",
+        Some("integer") => "a whole number",
+        _ => "a finite number",
+    };
+    let bounds = [
+        ("exclusiveMinimum", "above"),
+        ("minimum", "of at least"),
+        ("exclusiveMaximum", "below"),
+        ("maximum", "at most"),
+    ];
+    let words: Vec<String> =
+        bounds.iter().filter_map(|(k, w)| bound(schema, k).map(|b| format!("{w} {b}"))).collect();
+    if words.is_empty() { kind.to_owned() } else { format!("{kind} {}", words.join(" and ")) }
+}
+
+fn description(schema: &Value) -> &str {
+    schema.get("description").and_then(Value::as_str).unwrap_or("").trim_end_matches('.')
+}

@@ -1,0 +1,111 @@
+//! What `check` and `optimize` shall do with a design.
+//!
+//! In: `[check]` and `[optimize]`, the names of the scenarios. Out: names that exist, [`Optimize`]. Absent:
+//! margins and searches. Equations: none.
+
+use super::file::{DesignFile, KindFile, ObjectiveFile, OptimizeFile};
+use super::findings::Findings;
+use super::variables::{variable_names, variable_path};
+use super::{Limits, Optimize, OptimizeVariable, check, shape};
+
+/// `[check]` scenarios, each existing and named once.
+pub(super) fn check_scenarios(file: &DesignFile, out: &mut Findings) -> Vec<String> {
+    named_scenarios("check.scenarios", &file.check.scenarios, file, out);
+    file.check.scenarios.clone()
+}
+
+/// The optimiser's task.
+pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out: &mut Findings) -> Optimize {
+    named_scenarios("optimize.scenarios", &task.scenarios, file, out);
+    for (i, name) in task.scenarios.iter().enumerate() {
+        if file.scenarios.iter().any(|s| s.name == *name && s.kind == KindFile::Overrun) {
+            out.refuse(
+                &[&format!("optimize.scenarios[{i}]")],
+                "scenarios in which the clutch carries torque".to_owned(),
+                "remove it: an overrunning clutch slips by intent and has no slip margin; \
+                 limits.keep_contact_to_rpm holds its contact"
+                    .to_owned(),
+            );
+        }
+    }
+    for (i, variable) in task.variables.iter().enumerate() {
+        let path = format!("optimize.variables[{i}]");
+        if let Some(first) = task.variables.iter().take(i).position(|v| v.name == variable.name) {
+            let (name, other) = (format!("{path}.name"), format!("optimize.variables[{first}].name"));
+            out.refuse(&[&name, &other], "each variable once".to_owned(), "remove one of the two".to_owned());
+        }
+        check_variable(variable, &path, file, out);
+    }
+    let limits = out.within("optimize", |out| check::limits(&task.limits, base, out));
+    Optimize {
+        objective: match task.objective {
+            ObjectiveFile::SlipMargin => "slip-margin".to_owned(),
+        },
+        scenarios: task.scenarios.clone(),
+        variables: task
+            .variables
+            .iter()
+            .map(|v| OptimizeVariable { name: v.name.clone(), min: v.min, max: v.max })
+            .collect(),
+        limits,
+        seed: task.seed,
+    }
+}
+
+fn check_variable(v: &super::file::VariableFile, path: &str, file: &DesignFile, out: &mut Findings) {
+    let (name_key, min_key, max_key) = (format!("{path}.name"), format!("{path}.min"), format!("{path}.max"));
+    let arcs = file.sprags.inner_arcs.len();
+    let Some(target) = variable_path(&v.name, arcs) else {
+        out.refuse(
+            &[&name_key],
+            format!("for {arcs} inner arcs: {}", variable_names(arcs).join(", ")),
+            "name one of these variables".to_owned(),
+        );
+        return;
+    };
+    for (key, bound) in [(&min_key, v.min), (&max_key, v.max)] {
+        if let Some(allowed) = shape::out_of_range(&target, bound) {
+            out.refuse(&[key], allowed, format!("give a bound that {target} may take"));
+        }
+    }
+    if v.min >= v.max {
+        out.refuse(&[&min_key, &max_key], "less than max".to_owned(), "give min < max".to_owned());
+        return;
+    }
+    match out.doc.number(&target) {
+        None => out.refuse(
+            &[&name_key],
+            format!("a variable whose key is in the file; {target} is not"),
+            format!("add {target} = ..., the value from which the search starts, or remove the variable"),
+        ),
+        Some(start) if start < v.min || start > v.max => {
+            let bound = if start < v.min { &min_key } else { &max_key };
+            out.refuse(
+                &[bound, &target],
+                format!("bounds around the value in the file, {start}"),
+                format!("widen the bounds of {} or change {target}", v.name),
+            );
+        }
+        Some(_) => {}
+    }
+}
+
+fn named_scenarios(key: &str, names: &[String], file: &DesignFile, out: &mut Findings) {
+    for (i, name) in names.iter().enumerate() {
+        let entry = format!("{key}[{i}]");
+        if !file.scenarios.iter().any(|s| s.name == *name) {
+            let known: Vec<&str> = file.scenarios.iter().map(|s| s.name.as_str()).collect();
+            let allowed = match known.as_slice() {
+                [] => "none, because the file has no scenarios".to_owned(),
+                _ => known.join(", "),
+            };
+            out.refuse(
+                &[&entry],
+                allowed,
+                "name a scenario of this file, or add one of this name".to_owned(),
+            );
+        } else if names.iter().take(i).any(|n| n == name) {
+            out.refuse(&[&entry], "each scenario once".to_owned(), "remove the second".to_owned());
+        }
+    }
+}
