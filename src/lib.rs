@@ -2,3 +2,4 @@
 pub mod design;
 pub mod material;
 pub mod profile;
+pub mod report;
