@@ -9,6 +9,8 @@ mod centres;
 mod clutch;
 mod detail;
 
+use crate::profile::Profile;
+
 /// One inner arc of a drawn sprag.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawnArc {
@@ -57,6 +59,39 @@ pub struct Drawing {
 }
 
 impl SpragPose {
+    /// A sprag at first contact at rest. `outline_m` and `centroid_m` in the body frame, m.
+    pub fn at_first_contact(
+        label: &str,
+        profile: &Profile,
+        outline_m: Vec<[f64; 2]>,
+        centroid_m: Option<[f64; 2]>,
+    ) -> Self {
+        let drawn = |a: &crate::profile::ProfileArc| DrawnArc {
+            radius_m: a.radius_m,
+            centre_m: [a.centre_m.x, a.centre_m.y],
+            from_rad: a.from_rad,
+            until_rad: a.until_rad,
+        };
+        Self {
+            label: label.to_owned(),
+            outline_m,
+            outer_radius_m: profile.outer_radius_m,
+            outer_centre_distance_m: profile.outer_centre_distance_m,
+            rotation_rad: 0.0,
+            beta0_rad: profile.beta0_rad,
+            arcs: profile.arcs.iter().map(drawn).collect(),
+            centroid_m,
+        }
+    }
+
+    /// The same sprag in another position: body rotated by `rotation_rad` relative to the line OC_e since first
+    /// contact, OC_e as given, m.
+    pub fn moved(mut self, label: &str, rotation_rad: f64, outer_centre_distance_m: f64) -> Self {
+        label.clone_into(&mut self.label);
+        (self.rotation_rad, self.outer_centre_distance_m) = (rotation_rad, outer_centre_distance_m);
+        self
+    }
+
     /// A point of the body frame in the drawn frame (origin O, y up through C_e), m: turned by the
     /// rotation towards positive azimuth and raised by OC_e.
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -101,7 +136,10 @@ impl SpragPose {
 
     fn is_drawable(&self) -> bool {
         let numbers = [self.outer_radius_m, self.outer_centre_distance_m, self.rotation_rad, self.beta0_rad];
-        let arcs = self.arcs.iter().flat_map(|a| [a.radius_m, a.centre_m[0], a.centre_m[1], a.from_rad, a.until_rad]);
+        let arcs = self
+            .arcs
+            .iter()
+            .flat_map(|a| [a.radius_m, a.centre_m[0], a.centre_m[1], a.from_rad, a.until_rad]);
         numbers.into_iter().chain(arcs).chain(self.outline_m.iter().flatten().copied()).all(f64::is_finite)
     }
 }

@@ -11,9 +11,10 @@ pub mod plot;
 mod svg;
 pub mod table;
 
-pub use drawing::{DrawnArc, Drawing, SpragPose};
+pub use drawing::{Drawing, DrawnArc, SpragPose};
 pub use number::{Unit, significant};
 pub use page::{Page, PageHead};
 pub use plot::{Curve, Marker, Plot};
 pub use table::{Cell, Column, Table};
-#[cfg(test)] mod demo_test;
+#[cfg(test)]
+mod tests;

@@ -107,6 +107,12 @@ impl Unit {
         if self == Self::One || value == MISSING { value } else { format!("{value} {}", self.symbol()) }
     }
 
+    /// As [`Unit::show`] with [`plain`] digits, e.g. `"7.21 mm"`.
+    pub fn show_plain(self, si: f64, digits: usize) -> String {
+        let value = plain(self.from_si(si), digits);
+        if self == Self::One || value == MISSING { value } else { format!("{value} {}", self.symbol()) }
+    }
+
     /// A heading with its unit, e.g. `"Torque, Nm"`; a pure number has none.
     pub fn heading(self, name: &str) -> String {
         if self == Self::One { name.to_owned() } else { format!("{name}, {}", self.symbol()) }
@@ -133,6 +139,17 @@ pub fn significant(value: f64, digits: usize) -> String {
     format!("{value:.decimals$}").replace('-', "\u{2212}")
 }
 
+/// As [`significant`], without the zeros after the last digit that says something: for dimensions taken
+/// from a design file, `7.21` rather than `7.2100`.
+pub fn plain(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    let (mantissa, power) = text.split_at(text.find('e').unwrap_or(text.len()));
+    if !mantissa.contains('.') {
+        return text;
+    }
+    format!("{}{power}", mantissa.trim_end_matches('0').trim_end_matches('.'))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -154,6 +171,15 @@ mod tests {
             (f64::INFINITY, 3, MISSING),
         ] {
             assert_eq!(significant(value, digits), want, "{value} to {digits}");
+        }
+    }
+
+    #[test]
+    fn plain_drops_only_idle_zeros() {
+        for (value, want) in
+            [(7.21, "7.21"), (7.0, "7"), (100.0, "100"), (1.2e-8, "1.2e-8"), (0.06, "0.06"), (0.0, "0")]
+        {
+            assert_eq!(plain(value, 5), want);
         }
     }
 

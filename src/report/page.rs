@@ -142,8 +142,11 @@ impl Page {
 }
 
 fn figure(svg: &str, caption: &str) -> String {
-    let caption =
-        if caption.is_empty() { String::new() } else { format!("<figcaption>{}</figcaption>", escape(caption)) };
+    let caption = if caption.is_empty() {
+        String::new()
+    } else {
+        format!("<figcaption>{}</figcaption>", escape(caption))
+    };
     format!("<figure>\n{svg}\n{caption}</figure>\n")
 }
 
@@ -165,7 +168,10 @@ mod tests {
     #[test]
     fn nothing_typed_by_a_user_becomes_markup() {
         let mut page = page();
-        page.heading("<i>h</i>").paragraph("a < b & c").list(["<li>"]).source("file <x>", "name = \"</pre><b>\"");
+        page.heading("<i>h</i>")
+            .paragraph("a < b & c")
+            .list(["<li>"])
+            .source("file <x>", "name = \"</pre><b>\"");
         page.verdict(false, "<b>").figure("<svg></svg>", "caption <i>");
         let html = page.to_html();
         for bad in ["<script>alert", "<i>", "<b>", "</pre><b>", "a < b"] {

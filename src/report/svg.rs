@@ -15,7 +15,6 @@ pub struct Svg {
 #[derive(Clone, Copy)]
 pub enum Anchor {
     Start,
-    Middle,
     End,
 }
 
@@ -71,26 +70,36 @@ impl Svg {
     }
 
     pub fn dot(&mut self, at: [f64; 2], radius: f64, style: &str) {
-        let _ =
-            writeln!(self.body, "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {style}/>", px(at[0]), px(at[1]), px(radius));
-    }
-
-    pub fn rect(&mut self, at: [f64; 2], size: [f64; 2], style: &str) {
-        let [x, y, w, h] = [at[0], at[1], size[0], size[1]].map(px);
-        let _ = writeln!(self.body, "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" {style}/>");
+        let _ = writeln!(
+            self.body,
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {style}/>",
+            px(at[0]),
+            px(at[1]),
+            px(radius)
+        );
     }
 
     /// Text with a halo of paper colour, so that it stays legible across lines.
     pub fn text(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, text: &str) {
+        let halo = format!(
+            " stroke=\"{PAPER}\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\""
+        );
+        self.write(at, anchor, colour, &halo, text);
+    }
+
+    /// Text on a plain ground.
+    pub fn bare_text(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, text: &str) {
+        self.write(at, anchor, colour, "", text);
+    }
+
+    fn write(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, halo: &str, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",
-            Anchor::Middle => "middle",
             Anchor::End => "end",
         };
         let _ = writeln!(
             self.body,
-            "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\" fill=\"{colour}\" stroke=\"{PAPER}\" stroke-width=\"3\" \
-             stroke-linejoin=\"round\" paint-order=\"stroke\">{}</text>",
+            "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\" fill=\"{colour}\"{halo}>{}</text>",
             px(at[0]),
             px(at[1]),
             escape(text)

@@ -259,10 +259,13 @@ mod tests {
     fn text_columns_line_up_and_end_without_blanks() {
         let text = margins().to_text(false);
         let lines: Vec<Vec<char>> = text.lines().map(|l| l.chars().collect()).collect();
-        assert_eq!(text, "Limit                    Demand  Margin, %  Verdict\n\
+        assert_eq!(
+            text,
+            "Limit                    Demand  Margin, %  Verdict\n\
                           ────────────────────  ─────────  ─────────  ───────\n\
                           Hertz, nominal         3910 MPa       7.42  held\n\
-                          Hoop <outer>, \"mean\"  760.0 MPa      −1.30  broken\n");
+                          Hoop <outer>, \"mean\"  760.0 MPa      −1.30  broken\n"
+        );
         assert!(lines.iter().all(|l| l.last() != Some(&' ')));
     }
 
@@ -271,7 +274,8 @@ mod tests {
         let table = margins();
         let painted = table.to_text(true);
         assert_ne!(painted, table.to_text(false));
-        let plain = ["\u{1b}[32m", "\u{1b}[31m", "\u{1b}[0m"].iter().fold(painted, |s, code| s.replace(code, ""));
+        let plain =
+            ["\u{1b}[32m", "\u{1b}[31m", "\u{1b}[0m"].iter().fold(painted, |s, code| s.replace(code, ""));
         assert_eq!(plain, table.to_text(false));
     }
 
@@ -292,7 +296,8 @@ mod tests {
     fn no_nan_reaches_a_reader() {
         let mut table = Table::new(vec![Column::number("x_m", "x", Unit::Millimetre, 3)]);
         table.row(vec![f64::NAN.into()]).row(vec![None.into()]);
-        let all = table.to_text(false) + &table.to_html() + &String::from_utf8(table.to_csv().unwrap()).unwrap();
+        let all =
+            table.to_text(false) + &table.to_html() + &String::from_utf8(table.to_csv().unwrap()).unwrap();
         assert!(!all.contains("NaN"), "{all}");
     }
 

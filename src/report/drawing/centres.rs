@@ -72,7 +72,7 @@ pub fn svg(drawing: &Drawing) -> String {
         let colour = point.series.map_or(EDGE, |i| SERIES[i % 6]);
         svg.dot(at, 3.4, &format!("fill=\"{colour}\" stroke=\"{PAPER}\" stroke-width=\"1\""));
         let [mx, my] = point.at_m.map(|v| Unit::Millimetre.from_si(v));
-        let text = format!("{}   ({mx:.4}, {my:.4}) mm", point.name).replace('-', "\u{2212}");
+        let text = format!("{} ({mx:.4}, {my:.4}) mm", point.name).replace('-', "\u{2212}");
         svg.text([x, y], Anchor::Start, INK, &text);
     }
     svg.finish()

@@ -32,12 +32,16 @@ pub fn svg(drawing: &Drawing) -> String {
         let style = if index == 0 {
             format!("fill=\"{BODY}\" stroke=\"{EDGE}\" stroke-width=\"1\"")
         } else {
-            format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1\" stroke-dasharray=\"3 2\"", SERIES[index % 6])
+            format!(
+                "fill=\"none\" stroke=\"{}\" stroke-width=\"1\" stroke-dasharray=\"3 2\"",
+                SERIES[index % 6]
+            )
         };
         let placed: Vec<[f64; 2]> = pose.outline_m.iter().map(|&p| pose.place(p)).collect();
         for k in 0..drawing.count {
             let (s, c) = (TAU * k as f64 / drawing.count as f64).sin_cos();
-            let turned = |&[x, y]: &[f64; 2]| [o[0] + scale * (x * c + y * s), o[1] - scale * (y * c - x * s)];
+            let turned =
+                |&[x, y]: &[f64; 2]| [o[0] + scale * (x * c + y * s), o[1] - scale * (y * c - x * s)];
             svg.path(&polyline(&placed.iter().map(turned).collect::<Vec<_>>(), true), &style);
         }
     }
@@ -60,7 +64,7 @@ pub fn svg(drawing: &Drawing) -> String {
     for ((&(radius, name), end), y) in radii.iter().zip(&ends).zip(heights) {
         svg.line(*end, [label_x - 6.0, y], &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""));
         svg.dot(*end, 2.2, &format!("fill=\"{INK}\" stroke=\"{PAPER}\" stroke-width=\"1\""));
-        svg.text([label_x, y], Anchor::Start, INK, &format!("R {}", Unit::Millimetre.show(radius, 4)));
+        svg.text([label_x, y], Anchor::Start, INK, &format!("R {}", Unit::Millimetre.show_plain(radius, 6)));
         svg.text([label_x, y + 14.0], Anchor::Start, SOFT, name);
     }
     svg.text([label_x, HEIGHT - MARGIN], Anchor::Start, SOFT, &format!("{} sprags", drawing.count));

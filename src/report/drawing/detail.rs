@@ -1,8 +1,10 @@
 //! One sprag large.
 
-use super::{Drawing, SpragPose, spread, subscript};
-use crate::report::number::{Unit, significant};
-use crate::report::svg::{Anchor, BODY, EDGE, INK, PAPER, RACE, SERIES, SOFT, Svg, circle, polyline, text_width};
+use super::{Drawing, DrawnArc, SpragPose, spread, subscript};
+use crate::report::number::{Unit, plain};
+use crate::report::svg::{
+    Anchor, BODY, EDGE, INK, PAPER, RACE, SERIES, SOFT, Svg, circle, polyline, text_width,
+};
 
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 560.0;
@@ -42,6 +44,8 @@ struct Note {
     at: [f64; 2],
     text: String,
     left: bool,
+    /// Height that the label would like, px.
+    wanted: f64,
 }
 
 pub fn svg(drawing: &Drawing) -> String {
@@ -74,7 +78,10 @@ pub fn svg(drawing: &Drawing) -> String {
 }
 
 fn overlay_style(index: usize) -> String {
-    format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-dasharray=\"7 3\"", SERIES[(index + 1) % 6])
+    format!(
+        "fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-dasharray=\"7 3\"",
+        SERIES[(index + 1) % 6]
+    )
 }
 
 fn draw_races(svg: &mut Svg, drawing: &Drawing, view: &View) {
@@ -84,15 +91,15 @@ fn draw_races(svg: &mut Svg, drawing: &Drawing, view: &View) {
     svg.path(&(circle(o, outside * view.scale) + &circle(o, outer * view.scale)), &style);
     let hole = if bore > 0.0 { circle(o, bore * view.scale) } else { String::new() };
     svg.path(&(circle(o, inner * view.scale) + &hole), &style);
-    // Names stand in the races where they cross the figure's edge region; the arrow says what engages.
-    svg.text([14.0, 22.0], Anchor::Start, SOFT, "outer race");
-    svg.text([14.0, HEIGHT - 14.0], Anchor::Start, SOFT, "inner race");
+    // Engagement lowers the inner race's angle against the outer's: anticlockwise on the page.
+    svg.bare_text([14.0, 22.0], Anchor::Start, SOFT, "outer race");
+    svg.bare_text([14.0, HEIGHT - 14.0], Anchor::Start, SOFT, "inner race");
     let y = HEIGHT - 18.0;
-    let (tip, tail) = (WIDTH / 2.0 - 46.0, WIDTH / 2.0 + 10.0);
+    let (tip, tail) = (WIDTH / 2.0 - 106.0, WIDTH / 2.0 - 50.0);
     let ink = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.3\"");
     svg.line([tail, y], [tip, y], &ink);
     svg.path(&polyline(&[[tip + 8.0, y - 4.0], [tip, y], [tip + 8.0, y + 4.0]], false), &ink);
-    svg.text([tail + 6.0, y + 4.0], Anchor::Start, INK, "engages");
+    svg.bare_text([tail + 6.0, y + 4.0], Anchor::Start, INK, "inner race turns to engage");
 }
 
 /// A, B, the strut AB that carries the load, and the radius OB that shows how steep it is.
@@ -109,33 +116,38 @@ fn draw_strut(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<Note
     // omega = azimuth of A seen from O plus nu (triangle OAB).
     let omega = a[0].atan2(a[1]) + strut;
     for (at, text) in [
-        (b, format!("B   ν {}", Unit::Degree.show(strut, 3))),
-        (a, format!("A   ω {}", Unit::Degree.show(omega, 3))),
+        (b, format!("B, ν {}", Unit::Degree.show(strut, 3))),
+        (a, format!("A, ω {}", Unit::Degree.show(omega, 3))),
     ] {
         svg.dot(view.px(at), 3.6, &format!("fill=\"{INK}\" stroke=\"{PAPER}\" stroke-width=\"1.2\""));
-        notes.push(Note { at: view.px(at), text, left: false });
+        notes.push(Note { at: view.px(at), text, left: false, wanted: view.px(at)[1] });
     }
 }
 
-/// Junction ticks across the profile, each arc's radius, and the end of the profile.
+/// Junction ticks across the profile, first contact and the end of the profile. Contacts follow one another
+/// to the right, so their labels on the left stand in the opposite order, downwards: no leader crosses another.
 fn draw_profile(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<Note>) {
-    let arcs = pose.arcs.len();
+    let mut ticks: Vec<(&DrawnArc, f64, String)> = Vec::new();
     for (k, arc) in pose.arcs.iter().enumerate() {
-        let tick = |turn: f64, part: f64| {
-            let [x, y] = pose.profile_point_m(arc, turn);
-            let out = [(x - arc.centre_m[0]) / arc.radius_m, (y - arc.centre_m[1]) / arc.radius_m];
-            view.px(pose.place([x + part * out[0] / view.scale, y + part * out[1] / view.scale]))
-        };
-        let style = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.3\"");
-        let turn = arc.until_rad;
-        svg.line(tick(turn, -7.0), tick(turn, 7.0), &style);
-        let name = if k + 1 < arcs { format!("junction {}|{}", k + 1, k + 2) } else { "end of profile".to_owned() };
-        let text = format!("{name}   {} rad", significant(turn, 3));
-        notes.push(Note { at: tick(turn, 0.0), text, left: true });
         if k == 0 {
-            svg.line(tick(arc.from_rad, -5.0), tick(arc.from_rad, 5.0), &style);
-            notes.push(Note { at: tick(arc.from_rad, 0.0), text: "first contact at rest".to_owned(), left: true });
+            ticks.push((arc, arc.from_rad, "first contact at rest".to_owned()));
         }
+        let name = if k + 1 < pose.arcs.len() {
+            format!("junction {}|{}", k + 1, k + 2)
+        } else {
+            "end of profile".into()
+        };
+        ticks.push((arc, arc.until_rad, format!("{name}, {} rad", plain(arc.until_rad, 4))));
+    }
+    for (rank, (arc, turn, text)) in ticks.into_iter().enumerate() {
+        let at = |part_px: f64| {
+            let [x, y] = pose.profile_point_m(arc, turn);
+            let step = part_px / (view.scale * arc.radius_m);
+            view.px(pose.place([x + step * (x - arc.centre_m[0]), y + step * (y - arc.centre_m[1])]))
+        };
+        svg.line(at(-7.0), at(7.0), &format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.3\""));
+        let at = at(0.0);
+        notes.push(Note { at, text, left: true, wanted: at[1] - 26.0 - PITCH * rank as f64 });
     }
 }
 
@@ -149,21 +161,26 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
     cross(ce, EDGE);
     notes.push(Note {
         at: ce,
-        text: format!("Cₑ   rₑ {}", Unit::Millimetre.show(pose.outer_radius_m, 4)),
+        text: format!("Cₑ, rₑ {}", Unit::Millimetre.show_plain(pose.outer_radius_m, 6)),
         left: false,
+        wanted: ce[1],
     });
     for (k, arc) in pose.arcs.iter().enumerate() {
         let at = view.px(pose.place(arc.centre_m));
         cross(at, SERIES[1]);
-        let text =
-            format!("{}   {} {}", subscript("C", k + 1), subscript("r", k + 1), Unit::Millimetre.show(arc.radius_m, 4));
-        notes.push(Note { at, text, left: false });
+        let text = format!(
+            "{}, {} {}",
+            subscript("C", k + 1),
+            subscript("r", k + 1),
+            Unit::Millimetre.show_plain(arc.radius_m, 6)
+        );
+        notes.push(Note { at, text, left: false, wanted: at[1] });
     }
     if let Some(g) = pose.centroid_m.filter(|g| g.iter().all(|v| v.is_finite())) {
         let at = view.px(pose.place(g));
         svg.dot(at, 4.2, &format!("fill=\"{PAPER}\" stroke=\"{INK}\" stroke-width=\"1.3\""));
         svg.dot(at, 1.4, &format!("fill=\"{INK}\""));
-        notes.push(Note { at, text: "G, centroid".to_owned(), left: false });
+        notes.push(Note { at, text: "G, centroid".to_owned(), left: false, wanted: at[1] });
     }
 }
 
@@ -171,7 +188,7 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
 fn draw_notes(svg: &mut Svg, notes: &[Note]) {
     for left in [true, false] {
         let side: Vec<&Note> = notes.iter().filter(|n| n.left == left).collect();
-        let wanted: Vec<f64> = side.iter().map(|n| n.at[1]).collect();
+        let wanted: Vec<f64> = side.iter().map(|n| n.wanted).collect();
         let x = if left { COLUMN - 12.0 } else { WIDTH - COLUMN + 24.0 };
         let bend = if left { 14.0 } else { -14.0 };
         for (note, y) in side.iter().zip(spread(&wanted, PITCH, 46.0, HEIGHT - 50.0)) {
@@ -198,16 +215,19 @@ fn draw_scale_bar(svg: &mut Svg, view: &View) {
         &polyline(&[[left, y - 4.0], [left, y], [right, y], [right, y - 4.0]], false),
         &format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.4\""),
     );
-    svg.text([left - 6.0, y + 3.0], Anchor::End, INK, &Unit::Millimetre.show(length, 1));
+    svg.bare_text([left - 6.0, y + 3.0], Anchor::End, INK, &Unit::Millimetre.show(length, 1));
 }
 
 fn draw_legend(svg: &mut Svg, first: &SpragPose, others: &[&SpragPose]) {
-    let entries = std::iter::once((first.label.as_str(), format!("fill=\"none\" stroke=\"{EDGE}\" stroke-width=\"2\"")))
-        .chain(others.iter().enumerate().map(|(i, p)| (p.label.as_str(), overlay_style(i))));
+    let entries = std::iter::once((
+        first.label.as_str(),
+        format!("fill=\"none\" stroke=\"{EDGE}\" stroke-width=\"2\""),
+    ))
+    .chain(others.iter().enumerate().map(|(i, p)| (p.label.as_str(), overlay_style(i))));
     for (i, (label, style)) in entries.enumerate() {
         let y = 22.0 + PITCH * i as f64;
         let x = WIDTH - 16.0 - text_width(label, 12.0);
         svg.line([x - 34.0, y - 4.0], [x - 8.0, y - 4.0], &style);
-        svg.text([x, y], Anchor::Start, INK, label);
+        svg.bare_text([x, y], Anchor::Start, INK, label);
     }
 }

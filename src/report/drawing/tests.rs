@@ -11,37 +11,21 @@ pub fn table_1(rotation_rad: f64) -> Drawing {
         19.44e-3,
     )
     .unwrap();
-    let mut pose = SpragPose {
-        label: "Table 1".into(),
-        outline_m: Vec::new(),
-        outer_radius_m: profile.outer_radius_m,
-        outer_centre_distance_m: profile.outer_centre_distance_m,
-        rotation_rad,
-        beta0_rad: profile.beta0_rad,
-        arcs: profile
-            .arcs
-            .iter()
-            .map(|a| DrawnArc {
-                radius_m: a.radius_m,
-                centre_m: [a.centre_m.x, a.centre_m.y],
-                from_rad: a.from_rad,
-                until_rad: a.until_rad,
-            })
-            .collect(),
-        centroid_m: Some([0.1935e-3, 0.5288e-3]),
-    };
+    let mut pose = SpragPose::at_first_contact("Table 1", &profile, Vec::new(), Some([0.1935e-3, 0.5288e-3]));
+    let rest_m = pose.outer_centre_distance_m;
+    pose = pose.moved("Table 1", rotation_rad, rest_m);
     let last = pose.arcs.len() - 1;
     for (k, arc) in pose.arcs.iter().enumerate() {
-        let (from, until) = (if k == 0 { -0.5 } else { arc.from_rad }, if k == last { 0.45 } else { arc.until_rad });
+        let (from, until) =
+            (if k == 0 { -0.5 } else { arc.from_rad }, if k == last { 0.45 } else { arc.until_rad });
         for i in 0..=20 {
             pose.outline_m.push(pose.profile_point_m(arc, from + (until - from) * f64::from(i) / 20.0));
         }
     }
+    // Turn runs from -x to +x, so the outer arc runs back.
     for i in 0..=60 {
         let azimuth = 0.62 - 1.24 * f64::from(i) / 60.0;
-        // From the profile's end (positive x? negative x?) the outer arc is joined by the nearer corner.
-        let sign = if pose.outline_m.last().is_some_and(|p| p[0] < 0.0) || i > 0 && pose.outline_m[0][0] > 0.0 { -1.0 } else { 1.0 };
-        pose.outline_m.push([sign * 4.68e-3 * azimuth.sin(), 4.68e-3 * azimuth.cos()]);
+        pose.outline_m.push([4.68e-3 * azimuth.sin(), 4.68e-3 * azimuth.cos()]);
     }
     Drawing { race_radii_m: [7.21e-3, 11.11e-3, 19.44e-3, 26.23e-3], count: 12, poses: vec![pose] }
 }
@@ -78,7 +62,8 @@ fn the_active_contact_is_the_lowest_point_of_the_profile() {
     let drawing = table_1(0.1);
     let pose = &drawing.poses[0];
     let a = pose.inner_contact_m().unwrap();
-    let lowest = pose.outline_m.iter().map(|&p| pose.place(p)).map(|p| p[0].hypot(p[1])).fold(f64::INFINITY, f64::min);
+    let lowest =
+        pose.outline_m.iter().map(|&p| pose.place(p)).map(|p| p[0].hypot(p[1])).fold(f64::INFINITY, f64::min);
     assert!((a[0].hypot(a[1]) - lowest).abs() < 1e-6, "polyline within its chord error");
     assert!(a[0].hypot(a[1]) <= lowest + 1e-12);
 }
