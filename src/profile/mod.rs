@@ -126,14 +126,8 @@ mod tests {
 
     #[test]
     fn arcs_meet_with_one_tangent_at_every_junction() {
-        let p = Profile::new(
-            4.68e-3,
-            0.62e-3,
-            &[(4.02e-3, 0.06), (4.08e-3, 0.12), (4.15e-3, 0.45)],
-            11.11e-3,
-            19.44e-3,
-        )
-        .unwrap();
+        let p = Profile::new(4.68e-3, 0.62e-3, &[(4.02e-3, 0.06), (4.08e-3, 0.12), (4.15e-3, 0.45)], 11.11e-3, 19.44e-3)
+            .unwrap();
         for pair in p.arcs.windows(2) {
             let d = p.contact_direction(pair[0].until_rad);
             let end = pair[0].centre_m + pair[0].radius_m * d;
