@@ -1,4 +1,5 @@
 //! sprag-design: map to come.
+pub mod cli;
 pub mod contact;
 pub mod design;
 pub mod dynamics;
@@ -10,5 +11,6 @@ pub mod numeric;
 pub mod ode;
 pub mod profile;
 pub mod race;
+pub mod report;
 pub mod scenario;
 pub mod wedge;

@@ -1,0 +1,217 @@
+//! The command line: the only room that knows paths, prints, and sets the exit code.
+//!
+//! In: arguments, a design file. Out: text or one JSON object on standard output, files, messages on standard error.
+//! Absent: physics, units (`report` changes them), allowables (`margin` has them).
+//! Equations: none.
+
+pub mod check;
+pub mod exit;
+pub mod interrupt;
+pub mod optimize;
+pub mod output;
+pub mod progress;
+pub mod schema;
+pub mod simulate;
+pub mod stiffness;
+
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use exit::{Exit, Failure};
+use interrupt::Interrupt;
+use output::Outputs;
+use progress::Progress;
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const EXAMPLES: &str = "\
+Examples:
+  sprag-design check designs/huang-2017.toml
+  sprag-design stiffness designs/huang-2017.toml --max-torque 50 --csv curve.csv
+  sprag-design simulate designs/huang-2017.toml --scenario high-10 --report high-10.html
+  sprag-design optimize designs/huang-2017.toml -o better.toml
+
+Exit codes:
+  0 done, all margins held     1 a margin is not held, or no feasible design found
+  2 malformed command line or design file     3 answer not computed or not written
+  130 stopped by Ctrl-C; what had been found is written";
+
+#[derive(Debug, Parser)]
+#[command(
+    name = output::TOOL,
+    version,
+    about = "Design and optimise multi-arc sprag clutches: margins, stiffness, stick-slip, search",
+    after_help = EXAMPLES,
+    max_term_width = 100
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Hold the design against each of its limits: demand, allowable, margin, torque capacity
+    Check(check::CheckArgs),
+    /// Torque against windup, forces, angles and stiffness, for one contact law or several
+    Stiffness(stiffness::StiffnessArgs),
+    /// Run one scenario of the design: histories, slip, contact loss and a verdict
+    Simulate(simulate::SimulateArgs),
+    /// Search for a better design within the limits
+    Optimize(optimize::OptimizeArgs),
+    /// Print the JSON Schema of the design file
+    Schema,
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+struct Common {
+    /// Print one JSON object on standard output and nothing else there
+    #[arg(long, global = true)]
+    json: bool,
+    /// Write the result table as CSV, units in the column names
+    #[arg(long, global = true, value_name = "PATH")]
+    csv: Option<PathBuf>,
+    /// Write a self-contained HTML page with drawing, curves and tables
+    #[arg(long, global = true, value_name = "PATH.html")]
+    report: Option<PathBuf>,
+    /// Number of threads [default: all cores]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// No progress and no messages, only the answer and errors
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+/// What every command may use of the outside world.
+#[derive(Debug, Clone)]
+pub struct Context {
+    /// One JSON object instead of text on standard output.
+    pub json: bool,
+    /// No progress, no messages.
+    pub quiet: bool,
+    /// Standard output is a terminal that wants colours.
+    pub colour: bool,
+    /// Files to write.
+    pub outputs: Outputs,
+    /// The command line as typed, for the reports.
+    pub command_line: String,
+    /// Ctrl-C.
+    pub interrupt: Interrupt,
+}
+
+impl Context {
+    /// A message on standard error, unless `--quiet`.
+    pub fn message(&self, text: &str) {
+        if !self.quiet {
+            output::note(text);
+        }
+    }
+
+    /// A progress line on standard error; `unit` names the steps, `total` counts them if known.
+    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> Progress {
+        Progress::new(!self.quiet, what, unit, total)
+    }
+
+    /// The answer as text on standard output; nothing with `--json`.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] where standard output cannot be written.
+    pub fn answer(&self, text: &str) -> Result<(), Failure> {
+        if self.json { Ok(()) } else { output::print(text) }
+    }
+}
+
+/// Run the program.
+pub fn run() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(e) => {
+            // Help and version come this way too, on standard output and with code 0.
+            let _ = e.print();
+            return if e.use_stderr() { Exit::Malformed } else { Exit::Held }.into();
+        }
+    };
+    match dispatch(cli) {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            match &failure {
+                Failure::Malformed(report) => output::note(&format!("{report:?}")),
+                Failure::Failed(text) => output::note(&format!("error: {text}")),
+                Failure::Interrupted => output::note("stopped"),
+            }
+            failure.exit().into()
+        }
+    }
+}
+
+fn dispatch(cli: Cli) -> Result<Exit, Failure> {
+    let context = context(cli.common)?;
+    match cli.command {
+        Command::Check(args) => check::run(&args, &context),
+        Command::Stiffness(args) => stiffness::run(&args, &context),
+        Command::Simulate(args) => simulate::run(&args, &context),
+        Command::Optimize(args) => optimize::run(&args, &context),
+        Command::Schema => schema::run(&context),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), output::TOOL, &mut script);
+            output::print(&String::from_utf8_lossy(&script))?;
+            Ok(Exit::Held)
+        }
+    }
+}
+
+fn context(common: Common) -> Result<Context, Failure> {
+    let interrupt = Interrupt::install().unwrap_or_else(|why| {
+        output::note(&format!("warning: {why}"));
+        Interrupt::never()
+    });
+    if let Some(threads) = common.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(threads))
+            .build_global()
+            .map_err(|e| Failure::Failed(format!("--threads {threads}: {e}")))?;
+    }
+    // NO_COLOR counts when set to anything but nothing (no-color.org).
+    let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
+    Ok(Context {
+        json: common.json,
+        quiet: common.quiet,
+        colour: !refused && std::io::stdout().is_terminal(),
+        outputs: Outputs { csv: common.csv, report: common.report },
+        command_line: command_line(std::env::args()),
+        interrupt,
+    })
+}
+
+/// The command line as a shell would take it again; the program by its name, not by its path.
+fn command_line(args: impl Iterator<Item = String>) -> String {
+    let quoted = |arg: String| {
+        let plain = |c: char| c.is_alphanumeric() || "-_./=,:+@%".contains(c);
+        if !arg.is_empty() && arg.chars().all(plain) {
+            arg
+        } else {
+            format!("'{}'", arg.replace('\'', "'\\''"))
+        }
+    };
+    std::iter::once(output::TOOL.to_owned()).chain(args.skip(1).map(quoted)).collect::<Vec<_>>().join(" ")
+}
+
+/// A finite number above zero, for flags.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        Ok(_) => Err("a finite number above zero is needed".to_owned()),
+        Err(_) => Err("not a number".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

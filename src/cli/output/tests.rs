@@ -1,0 +1,121 @@
+use super::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A folder of its own per test, removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> Self {
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let path = std::env::temp_dir().join(format!("sprag-design-output-{}-{number}", std::process::id()));
+        fs::create_dir(&path).unwrap();
+        Self(path)
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(&self.0)
+            .unwrap()
+            .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn message(failure: Failure) -> String {
+    match failure {
+        Failure::Malformed(report) => report.to_string(),
+        Failure::Failed(text) => text,
+        Failure::Interrupted => "interrupted".into(),
+    }
+}
+
+#[test]
+fn a_written_file_is_whole_and_alone() {
+    let folder = Folder::new();
+    let path = folder.0.join("out.csv");
+    write_whole(&path, b"first").unwrap();
+    write_whole(&path, b"second").unwrap();
+    assert_eq!(fs::read(&path).unwrap(), b"second");
+    assert_eq!(folder.names(), ["out.csv"]);
+}
+
+#[test]
+fn a_write_that_fails_leaves_the_old_file_and_no_other() {
+    let folder = Folder::new();
+    let path = folder.0.join("out.csv");
+    write_whole(&path, b"old").unwrap();
+    // The rename fails: a folder with content cannot be replaced by a file.
+    let blocked = folder.0.join("blocked");
+    fs::create_dir(&blocked).unwrap();
+    fs::write(blocked.join("kept"), b"").unwrap();
+    let text = message(write_whole(&blocked, b"new").unwrap_err());
+    assert!(text.contains("blocked"), "{text}");
+    let text = message(write_whole(&folder.0.join("missing").join("out.csv"), b"new").unwrap_err());
+    assert!(text.contains("missing"), "{text}");
+    assert_eq!(fs::read(&path).unwrap(), b"old");
+    assert_eq!(folder.names(), ["blocked", "out.csv"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_stay_links_and_devices_stay_devices() {
+    let folder = Folder::new();
+    let (file, link) = (folder.0.join("file"), folder.0.join("link"));
+    fs::write(&file, b"old").unwrap();
+    std::os::unix::fs::symlink(&file, &link).unwrap();
+    write_whole(&link, b"new").unwrap();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(fs::read(&file).unwrap(), b"new");
+    write_whole(Path::new("/dev/null"), b"nothing").unwrap();
+    assert!(is_special(Path::new("/dev/null")));
+}
+
+#[test]
+fn harmful_outputs_are_refused_before_the_work() {
+    let folder = Folder::new();
+    let design = folder.0.join("design.toml");
+    fs::write(&design, b"schema = 1").unwrap();
+    let outputs = |csv: &Path, report: &Path| Outputs { csv: Some(csv.into()), report: Some(report.into()) };
+    let (csv, html) = (folder.0.join("a.csv"), folder.0.join("a.html"));
+    assert!(outputs(&csv, &html).check(&design, &[]).is_ok());
+    let same = folder.0.join(".").join("design.toml");
+    for (bad, others, want) in [
+        (outputs(&same, &html), vec![], "never overwritten"),
+        (outputs(&csv, &csv), vec![], "two outputs"),
+        (outputs(&csv, &html), vec![csv.as_path()], "two outputs"),
+        (outputs(&folder.0, &html), vec![], "folder"),
+        (outputs(&folder.0.join("none").join("a.csv"), &html), vec![], "does not exist"),
+    ] {
+        let failure = bad.check(&design, &others).unwrap_err();
+        assert_eq!(failure.exit(), crate::cli::exit::Exit::Malformed);
+        let text = message(failure);
+        assert!(text.contains(want), "{text} should say {want}");
+    }
+    assert_eq!(fs::read(&design).unwrap(), b"schema = 1");
+}
+
+#[test]
+fn the_envelope_comes_first_and_holds_the_body() {
+    #[derive(Serialize)]
+    struct Body {
+        pass: bool,
+        margins: Vec<f64>,
+    }
+    let left_out = ["nothing"];
+    let body = Body { pass: true, margins: vec![0.1, f64::NAN] };
+    let text = serde_json::to_string(&Envelope::new("a", "0f", 0.5, &left_out, None, &body)).unwrap();
+    assert!(text.starts_with("{\"tool\":\"sprag-design\",\"version\":"), "{text}");
+    let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(value["design_hash"], "0f");
+    assert_eq!(value["pass"], true);
+    assert_eq!(value["margins"][1], serde_json::Value::Null);
+    assert!(value.get("error_estimate").is_none());
+}

@@ -1,0 +1,79 @@
+//! The arc centres enlarged: they lie hundredths of a millimetre apart and carry the whole idea of a multi-arc profile.
+
+use super::{Drawing, SpragPose, spread, subscript};
+use crate::report::number::Unit;
+use crate::report::svg::{Anchor, EDGE, INK, PAPER, RULE, SERIES, SOFT, Svg, polyline};
+
+const WIDTH: f64 = 560.0;
+const HEIGHT: f64 = 300.0;
+const COLUMN: f64 = 210.0;
+const MARGIN: f64 = 34.0;
+
+/// A point of the body frame with its name.
+struct Named {
+    at_m: [f64; 2],
+    name: String,
+    series: Option<usize>,
+}
+
+fn named(pose: &SpragPose, index: usize, many: bool) -> Vec<Named> {
+    let tail = if many { format!(", {}", pose.label) } else { String::new() };
+    let mut points: Vec<Named> = pose
+        .arcs
+        .iter()
+        .enumerate()
+        .map(|(k, a)| Named {
+            at_m: a.centre_m,
+            name: format!("{}{tail}", subscript("C", k + 1)),
+            series: Some(index + 1),
+        })
+        .collect();
+    let centroid = pose.centroid_m.filter(|g| g.iter().all(|v| v.is_finite()));
+    points.extend(centroid.map(|g| Named { at_m: g, name: format!("G{tail}"), series: None }));
+    points
+}
+
+pub fn svg(drawing: &Drawing) -> String {
+    let mut svg = Svg::new(WIDTH, HEIGHT, "Arc centres and centroid in the body frame, enlarged");
+    let poses = drawing.drawable();
+    let mut points = vec![Named { at_m: [0.0, 0.0], name: "Cₑ".to_owned(), series: None }];
+    for (index, pose) in poses.iter().enumerate() {
+        points.extend(named(pose, index, poses.len() > 1));
+    }
+    let range = |axis: usize| {
+        let values = points.iter().map(|p| p.at_m[axis]);
+        (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
+    };
+    let ((left, right), (low, high)) = (range(0), range(1));
+    let width = WIDTH - COLUMN - 2.0 * MARGIN;
+    let scale = (width / (right - left)).min((HEIGHT - 2.0 * MARGIN) / (high - low));
+    if !scale.is_finite() {
+        return svg.finish();
+    }
+    let middle = [(left + right) / 2.0, (low + high) / 2.0];
+    let px = |[x, y]: [f64; 2]| {
+        [MARGIN + width / 2.0 + (x - middle[0]) * scale, HEIGHT / 2.0 - (y - middle[1]) * scale]
+    };
+    // Axes of the body frame through C_e.
+    let rule = format!("fill=\"none\" stroke=\"{RULE}\" stroke-width=\"1\"");
+    let origin = px([0.0, 0.0]);
+    svg.line([8.0, origin[1]], [WIDTH - COLUMN, origin[1]], &rule);
+    svg.line([origin[0], 8.0], [origin[0], HEIGHT - 8.0], &rule);
+    svg.text([WIDTH - COLUMN - 4.0, origin[1] - 5.0], Anchor::End, SOFT, "x");
+    svg.text([origin[0] + 6.0, 16.0], Anchor::Start, SOFT, "y, radially outward");
+    let wanted: Vec<f64> = points.iter().map(|p| px(p.at_m)[1] + 4.0).collect();
+    let x = WIDTH - COLUMN + 16.0;
+    for (point, y) in points.iter().zip(spread(&wanted, 18.0, 20.0, HEIGHT - 10.0)) {
+        let at = px(point.at_m);
+        svg.path(
+            &polyline(&[[x - 4.0, y - 4.0], [x - 14.0, y - 4.0], at], false),
+            &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.7\""),
+        );
+        let colour = point.series.map_or(EDGE, |i| SERIES[i % 6]);
+        svg.dot(at, 3.4, &format!("fill=\"{colour}\" stroke=\"{PAPER}\" stroke-width=\"1\""));
+        let [mx, my] = point.at_m.map(|v| Unit::Millimetre.from_si(v));
+        let text = format!("{} ({mx:.4}, {my:.4}) mm", point.name).replace('-', "\u{2212}");
+        svg.text([x, y], Anchor::Start, INK, &text);
+    }
+    svg.finish()
+}

@@ -1,0 +1,78 @@
+//! The whole clutch.
+
+use super::{Drawing, spread};
+use crate::report::number::Unit;
+use crate::report::svg::{Anchor, BODY, EDGE, INK, PAPER, RACE, SERIES, SOFT, Svg, circle, polyline};
+use std::f64::consts::TAU;
+
+const WIDTH: f64 = 560.0;
+const HEIGHT: f64 = 440.0;
+const MARGIN: f64 = 12.0;
+
+pub fn svg(drawing: &Drawing) -> String {
+    let mut svg = Svg::new(WIDTH, HEIGHT, "The clutch, all sprags at first contact, to scale");
+    let [bore, inner, outer, outside] = drawing.race_radii_m;
+    if !(outside > 0.0 && [bore, inner, outer].iter().all(|r| r.is_finite())) {
+        return svg.finish();
+    }
+    let scale = (HEIGHT / 2.0 - MARGIN) / outside;
+    let o = [HEIGHT / 2.0, HEIGHT / 2.0];
+    let race = format!("fill=\"{RACE}\" fill-rule=\"evenodd\" stroke=\"{SOFT}\" stroke-width=\"1\"");
+    let ring = |a: f64, b: f64| {
+        let mut d = circle(o, b * scale);
+        if a > 0.0 {
+            d.push_str(&circle(o, a * scale));
+        }
+        d
+    };
+    svg.path(&ring(outer, outside), &race);
+    svg.path(&ring(bore, inner), &race);
+    let poses = drawing.drawable();
+    for (index, pose) in poses.iter().enumerate() {
+        let style = if index == 0 {
+            format!("fill=\"{BODY}\" stroke=\"{EDGE}\" stroke-width=\"1\"")
+        } else {
+            format!(
+                "fill=\"none\" stroke=\"{}\" stroke-width=\"1\" stroke-dasharray=\"3 2\"",
+                SERIES[index % 6]
+            )
+        };
+        let placed: Vec<[f64; 2]> = pose.outline_m.iter().map(|&p| pose.place(p)).collect();
+        for k in 0..drawing.count {
+            let (s, c) = (TAU * k as f64 / drawing.count as f64).sin_cos();
+            let turned =
+                |&[x, y]: &[f64; 2]| [o[0] + scale * (x * c + y * s), o[1] - scale * (y * c - x * s)];
+            svg.path(&polyline(&placed.iter().map(turned).collect::<Vec<_>>(), true), &style);
+        }
+    }
+    cross(&mut svg, o);
+    // Radii on leaders to the right, from points of the circles that lie apart.
+    let radii: Vec<(f64, &str)> =
+        [(outside, "outside"), (outer, "outer track"), (inner, "inner track"), (bore, "bore")]
+            .into_iter()
+            .filter(|(r, _)| *r > 0.0)
+            .collect();
+    let azimuths = [0.62, 0.86, 1.25, 1.75];
+    let ends: Vec<[f64; 2]> = radii
+        .iter()
+        .zip(azimuths)
+        .map(|((r, _), a): (_, f64)| [o[0] + r * scale * a.sin(), o[1] - r * scale * a.cos()])
+        .collect();
+    let wanted: Vec<f64> = ends.iter().map(|e| e[1]).collect();
+    let heights = spread(&wanted, 34.0, 40.0, HEIGHT - 40.0);
+    let label_x = HEIGHT + 6.0;
+    for ((&(radius, name), end), y) in radii.iter().zip(&ends).zip(heights) {
+        svg.line(*end, [label_x - 6.0, y], &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""));
+        svg.dot(*end, 2.2, &format!("fill=\"{INK}\" stroke=\"{PAPER}\" stroke-width=\"1\""));
+        svg.text([label_x, y], Anchor::Start, INK, &format!("R {}", Unit::Millimetre.show_plain(radius, 6)));
+        svg.text([label_x, y + 14.0], Anchor::Start, SOFT, name);
+    }
+    svg.text([label_x, HEIGHT - MARGIN], Anchor::Start, SOFT, &format!("{} sprags", drawing.count));
+    svg.finish()
+}
+
+fn cross(svg: &mut Svg, at: [f64; 2]) {
+    let style = format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"1\"");
+    svg.line([at[0] - 6.0, at[1]], [at[0] + 6.0, at[1]], &style);
+    svg.line([at[0], at[1] - 6.0], [at[0], at[1] + 6.0], &style);
+}

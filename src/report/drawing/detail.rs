@@ -1,0 +1,233 @@
+//! One sprag large.
+
+use super::{Drawing, DrawnArc, SpragPose, spread, subscript};
+use crate::report::number::{Unit, plain};
+use crate::report::svg::{
+    Anchor, BODY, EDGE, INK, PAPER, RACE, SERIES, SOFT, Svg, circle, polyline, text_width,
+};
+
+const WIDTH: f64 = 720.0;
+const HEIGHT: f64 = 560.0;
+/// Columns at both sides for labels.
+const COLUMN: f64 = 178.0;
+const PITCH: f64 = 19.0;
+
+/// The map from the drawn frame (m, y up) to the figure (px, y down).
+struct View {
+    scale: f64,
+    middle_m: [f64; 2],
+}
+
+impl View {
+    fn of(drawing: &Drawing, poses: &[&SpragPose]) -> Option<Self> {
+        let [_, inner, outer, _] = drawing.race_radii_m;
+        let gap = outer - inner;
+        let points = || poses.iter().flat_map(|p| p.outline_m.iter().map(|&q| p.place(q)[0]));
+        let left = points().fold(0.0, f64::min);
+        let right = points().fold(0.0, f64::max);
+        // A quarter of the gap of either race shows; the sprag keeps clear of the label columns.
+        let high = gap * 1.5;
+        let wide = (right - left).max(0.5 * gap) * 1.15;
+        let scale = (HEIGHT / high).min((WIDTH - 2.0 * COLUMN) / wide);
+        (scale.is_finite() && scale > 0.0)
+            .then_some(Self { scale, middle_m: [(left + right) / 2.0, (inner + outer) / 2.0] })
+    }
+
+    fn px(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [mx, my] = self.middle_m;
+        [WIDTH / 2.0 + (x - mx) * self.scale, HEIGHT / 2.0 - (y - my) * self.scale]
+    }
+}
+
+/// A point with a label in one of the columns.
+struct Note {
+    at: [f64; 2],
+    text: String,
+    left: bool,
+    /// Height that the label would like, px.
+    wanted: f64,
+}
+
+pub fn svg(drawing: &Drawing) -> String {
+    let mut svg = Svg::new(WIDTH, HEIGHT, "One sprag between its races, to scale");
+    let poses = drawing.drawable();
+    let (Some(view), Some((first, others))) = (View::of(drawing, &poses), poses.split_first()) else {
+        return svg.finish();
+    };
+    draw_races(&mut svg, drawing, &view);
+    let outline = |pose: &SpragPose| {
+        polyline(&pose.outline_m.iter().map(|&p| view.px(pose.place(p))).collect::<Vec<_>>(), true)
+    };
+    svg.path(
+        &outline(first),
+        &format!("fill=\"{BODY}\" fill-opacity=\"0.75\" stroke=\"{EDGE}\" stroke-width=\"1.6\""),
+    );
+    for (index, pose) in others.iter().enumerate() {
+        svg.path(&outline(pose), &overlay_style(index));
+    }
+    let mut notes = Vec::new();
+    draw_strut(&mut svg, &view, first, &mut notes);
+    draw_profile(&mut svg, &view, first, &mut notes);
+    draw_centres(&mut svg, &view, first, &mut notes);
+    draw_notes(&mut svg, &notes);
+    draw_scale_bar(&mut svg, &view);
+    if !others.is_empty() {
+        draw_legend(&mut svg, first, others);
+    }
+    svg.finish()
+}
+
+fn overlay_style(index: usize) -> String {
+    format!(
+        "fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-dasharray=\"7 3\"",
+        SERIES[(index + 1) % 6]
+    )
+}
+
+fn draw_races(svg: &mut Svg, drawing: &Drawing, view: &View) {
+    let [bore, inner, outer, outside] = drawing.race_radii_m;
+    let o = view.px([0.0, 0.0]);
+    let style = format!("fill=\"{RACE}\" fill-rule=\"evenodd\" stroke=\"{SOFT}\" stroke-width=\"1.2\"");
+    svg.path(&(circle(o, outside * view.scale) + &circle(o, outer * view.scale)), &style);
+    let hole = if bore > 0.0 { circle(o, bore * view.scale) } else { String::new() };
+    svg.path(&(circle(o, inner * view.scale) + &hole), &style);
+    // Engagement lowers the inner race's angle against the outer's: anticlockwise on the page.
+    svg.bare_text([14.0, 22.0], Anchor::Start, SOFT, "outer race");
+    svg.bare_text([14.0, HEIGHT - 14.0], Anchor::Start, SOFT, "inner race");
+    let y = HEIGHT - 18.0;
+    let (tip, tail) = (WIDTH / 2.0 - 106.0, WIDTH / 2.0 - 50.0);
+    let ink = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.3\"");
+    svg.line([tail, y], [tip, y], &ink);
+    svg.path(&polyline(&[[tip + 8.0, y - 4.0], [tip, y], [tip + 8.0, y + 4.0]], false), &ink);
+    svg.bare_text([tail + 6.0, y + 4.0], Anchor::Start, INK, "inner race turns to engage");
+}
+
+/// A, B, the strut AB that carries the load, and the radius OB that shows how steep it is.
+fn draw_strut(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<Note>) {
+    let b = pose.outer_contact_m();
+    let Some(a) = pose.inner_contact_m() else { return };
+    svg.line(
+        view.px(a),
+        view.px(b),
+        &format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.4\" stroke-dasharray=\"10 3 2 3\""),
+    );
+    // Angle of the strut to OB: tan nu of the drawn position.
+    let strut = (a[0] - b[0]).atan2(b[1] - a[1]);
+    // omega = azimuth of A seen from O plus nu (triangle OAB).
+    let omega = a[0].atan2(a[1]) + strut;
+    for (at, text) in [
+        (b, format!("B, ν {}", Unit::Degree.show(strut, 3))),
+        (a, format!("A, ω {}", Unit::Degree.show(omega, 3))),
+    ] {
+        svg.dot(view.px(at), 3.6, &format!("fill=\"{INK}\" stroke=\"{PAPER}\" stroke-width=\"1.2\""));
+        notes.push(Note { at: view.px(at), text, left: false, wanted: view.px(at)[1] });
+    }
+}
+
+/// Junction ticks across the profile, first contact and the end of the profile. Contacts follow one another
+/// to the right, so their labels on the left stand in the opposite order, downwards: no leader crosses another.
+fn draw_profile(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<Note>) {
+    let mut ticks: Vec<(&DrawnArc, f64, String)> = Vec::new();
+    for (k, arc) in pose.arcs.iter().enumerate() {
+        if k == 0 {
+            ticks.push((arc, arc.from_rad, "first contact at rest".to_owned()));
+        }
+        let name = if k + 1 < pose.arcs.len() {
+            format!("junction {}|{}", k + 1, k + 2)
+        } else {
+            "end of profile".into()
+        };
+        ticks.push((arc, arc.until_rad, format!("{name}, {} rad", plain(arc.until_rad, 4))));
+    }
+    for (rank, (arc, turn, text)) in ticks.into_iter().enumerate() {
+        let at = |part_px: f64| {
+            let [x, y] = pose.profile_point_m(arc, turn);
+            let step = part_px / (view.scale * arc.radius_m);
+            view.px(pose.place([x + step * (x - arc.centre_m[0]), y + step * (y - arc.centre_m[1])]))
+        };
+        svg.line(at(-7.0), at(7.0), &format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.3\""));
+        let at = at(0.0);
+        notes.push(Note { at, text, left: true, wanted: at[1] - 26.0 - PITCH * rank as f64 });
+    }
+}
+
+fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<Note>) {
+    let mut cross = |at: [f64; 2], colour: &str| {
+        let style = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.4\"");
+        svg.line([at[0] - 5.0, at[1]], [at[0] + 5.0, at[1]], &style);
+        svg.line([at[0], at[1] - 5.0], [at[0], at[1] + 5.0], &style);
+    };
+    let ce = view.px(pose.place([0.0, 0.0]));
+    cross(ce, EDGE);
+    notes.push(Note {
+        at: ce,
+        text: format!("Cₑ, rₑ {}", Unit::Millimetre.show_plain(pose.outer_radius_m, 6)),
+        left: false,
+        wanted: ce[1],
+    });
+    for (k, arc) in pose.arcs.iter().enumerate() {
+        let at = view.px(pose.place(arc.centre_m));
+        cross(at, SERIES[1]);
+        let text = format!(
+            "{}, {} {}",
+            subscript("C", k + 1),
+            subscript("r", k + 1),
+            Unit::Millimetre.show_plain(arc.radius_m, 6)
+        );
+        notes.push(Note { at, text, left: false, wanted: at[1] });
+    }
+    if let Some(g) = pose.centroid_m.filter(|g| g.iter().all(|v| v.is_finite())) {
+        let at = view.px(pose.place(g));
+        svg.dot(at, 4.2, &format!("fill=\"{PAPER}\" stroke=\"{INK}\" stroke-width=\"1.3\""));
+        svg.dot(at, 1.4, &format!("fill=\"{INK}\""));
+        notes.push(Note { at, text: "G, centroid".to_owned(), left: false, wanted: at[1] });
+    }
+}
+
+/// Labels in two columns, each on a leader that ends at its point.
+fn draw_notes(svg: &mut Svg, notes: &[Note]) {
+    for left in [true, false] {
+        let side: Vec<&Note> = notes.iter().filter(|n| n.left == left).collect();
+        let wanted: Vec<f64> = side.iter().map(|n| n.wanted).collect();
+        let x = if left { COLUMN - 12.0 } else { WIDTH - COLUMN + 24.0 };
+        let bend = if left { 14.0 } else { -14.0 };
+        for (note, y) in side.iter().zip(spread(&wanted, PITCH, 46.0, HEIGHT - 50.0)) {
+            let knee = [x + bend, y - 4.0];
+            let start = [x + bend / 3.0, y - 4.0];
+            svg.path(
+                &polyline(&[start, knee, note.at], false),
+                &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""),
+            );
+            svg.text([x, y], if left { Anchor::End } else { Anchor::Start }, INK, &note.text);
+        }
+    }
+}
+
+/// A bar of 1, 2 or 5 times a power of ten millimetres, about a sixth of the figure long.
+fn draw_scale_bar(svg: &mut Svg, view: &View) {
+    let wanted = WIDTH / 6.0 / view.scale;
+    let power = 10f64.powf(wanted.log10().floor());
+    let step = [5.0, 2.0, 1.0].into_iter().find(|s| s * power <= wanted).unwrap_or(1.0);
+    let length = step * power;
+    let (right, y) = (WIDTH - 16.0, HEIGHT - 18.0);
+    let left = right - length * view.scale;
+    svg.path(
+        &polyline(&[[left, y - 4.0], [left, y], [right, y], [right, y - 4.0]], false),
+        &format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.4\""),
+    );
+    svg.bare_text([left - 6.0, y + 3.0], Anchor::End, INK, &Unit::Millimetre.show(length, 1));
+}
+
+fn draw_legend(svg: &mut Svg, first: &SpragPose, others: &[&SpragPose]) {
+    let entries = std::iter::once((
+        first.label.as_str(),
+        format!("fill=\"none\" stroke=\"{EDGE}\" stroke-width=\"2\""),
+    ))
+    .chain(others.iter().enumerate().map(|(i, p)| (p.label.as_str(), overlay_style(i))));
+    for (i, (label, style)) in entries.enumerate() {
+        let y = 22.0 + PITCH * i as f64;
+        let x = WIDTH - 16.0 - text_width(label, 12.0);
+        svg.line([x - 34.0, y - 4.0], [x - 8.0, y - 4.0], &style);
+        svg.bare_text([x, y], Anchor::Start, INK, label);
+    }
+}

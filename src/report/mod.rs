@@ -1,0 +1,20 @@
+//! Answers as people read them: units, tables, plots, drawings, one self-contained page.
+//!
+//! In: SI numbers, curves and outlines. Out: strings (text, HTML, SVG) and bytes (CSV).
+//! Absent: physics, allowables, paths, printing; what a number means was decided before it came here.
+//! Equations: none; the rotation of the body frame in [`drawing`] and the changes of unit in [`number`].
+
+pub mod drawing;
+pub mod number;
+pub mod page;
+pub mod plot;
+mod svg;
+pub mod table;
+
+pub use drawing::{Drawing, DrawnArc, SpragPose};
+pub use number::{Unit, significant};
+pub use page::{Page, PageHead};
+pub use plot::{Curve, Marker, Plot};
+pub use table::{Cell, Column, Table};
+#[cfg(test)]
+mod tests;

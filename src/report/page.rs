@@ -1,0 +1,214 @@
+//! One self-contained HTML page: no script runs, nothing is fetched.
+
+use super::table::Table;
+
+const STYLE: &str = include_str!("page.css");
+
+/// What every page says about its origin.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PageHead {
+    /// Title, e.g. `"Margin check"`.
+    pub title: String,
+    /// Tool name.
+    pub tool: String,
+    /// Tool version.
+    pub version: String,
+    /// The command line that made the page.
+    pub command: String,
+    /// Name of the design.
+    pub design: String,
+    /// Hash of the design file, hex.
+    pub design_hash: String,
+}
+
+/// A page under construction; sections come out in the order in which they went in.
+#[derive(Debug, Clone)]
+pub struct Page {
+    head: PageHead,
+    body: String,
+}
+
+/// Text made safe for HTML content and attributes.
+pub fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            _ => out.push(c),
+        }
+    }
+    out
+}
+
+impl Page {
+    /// A page with nothing but its head.
+    pub fn new(head: PageHead) -> Self {
+        Self { head, body: String::new() }
+    }
+
+    /// The answer in one line, painted as held or broken.
+    pub fn verdict(&mut self, held: bool, text: &str) -> &mut Self {
+        let class = if held { "held" } else { "broken" };
+        self.push(&format!("<p class=\"verdict {class}\">{}</p>\n", escape(text)))
+    }
+
+    /// A section heading.
+    pub fn heading(&mut self, text: &str) -> &mut Self {
+        self.push(&format!("<h2>{}</h2>\n", escape(text)))
+    }
+
+    /// A paragraph.
+    pub fn paragraph(&mut self, text: &str) -> &mut Self {
+        self.push(&format!("<p>{}</p>\n", escape(text)))
+    }
+
+    /// A bulleted list.
+    pub fn list<S: AsRef<str>>(&mut self, items: impl IntoIterator<Item = S>) -> &mut Self {
+        self.body.push_str("<ul>\n");
+        for item in items {
+            self.body.push_str(&format!("<li>{}</li>\n", escape(item.as_ref())));
+        }
+        self.push("</ul>\n")
+    }
+
+    /// A table with its caption (empty: none).
+    pub fn table(&mut self, caption: &str, table: &Table) -> &mut Self {
+        self.body.push_str("<div class=\"table\">\n");
+        if !caption.is_empty() {
+            self.body.push_str(&format!("<p class=\"caption\">{}</p>\n", escape(caption)));
+        }
+        self.push(&format!("{}</div>\n", table.to_html()))
+    }
+
+    /// A figure: SVG made by [`super::plot`] or [`super::drawing`] (inserted as it is) and its caption.
+    pub fn figure(&mut self, svg: &str, caption: &str) -> &mut Self {
+        self.push(&figure(svg, caption))
+    }
+
+    /// Figures side by side where the window is wide enough.
+    pub fn figures(&mut self, figures: &[(String, &str)]) -> &mut Self {
+        self.body.push_str("<div class=\"row\">\n");
+        for (svg, caption) in figures {
+            self.body.push_str(&figure(svg, caption));
+        }
+        self.push("</div>\n")
+    }
+
+    /// Text kept as typed, folded away: the design file.
+    pub fn source(&mut self, summary: &str, text: &str) -> &mut Self {
+        self.push(&format!(
+            "<details><summary>{}</summary><pre>{}</pre></details>\n",
+            escape(summary),
+            escape(text)
+        ))
+    }
+
+    /// The results for programs, as JSON that no browser runs. `id` is the element's id.
+    pub fn results(&mut self, id: &str, json: &serde_json::Value) -> &mut Self {
+        // "</script>" inside a string would end the element: < as its JSON escape means the same.
+        let text = json.to_string().replace('<', "\\u003c");
+        self.push(&format!("<script type=\"application/json\" id=\"{}\">{text}</script>\n", escape(id)))
+    }
+
+    /// The finished page.
+    pub fn to_html(&self) -> String {
+        let PageHead { title, tool, version, command, design, design_hash } = &self.head;
+        let [title, tool, version, command, design, design_hash] =
+            [title, tool, version, command, design, design_hash].map(|s| escape(s));
+        format!(
+            // First line: origin, as every generated file has it. Escaped, so no "-->" of the command ends it.
+            "<!-- {tool} {version}; design {design_hash}; {command} -->\n<!DOCTYPE html>\n\
+             <html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <meta name=\"generator\" content=\"{tool} {version}\">\n\
+             <title>{title}: {design}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+             <header>\n<p class=\"kind\">{title}</p>\n<h1>{design}</h1>\n\
+             <dl>\n<dt>Design hash</dt><dd><code>{design_hash}</code></dd>\n\
+             <dt>Command</dt><dd><code>{command}</code></dd>\n\
+             <dt>Made by</dt><dd>{tool} {version}</dd>\n</dl>\n</header>\n\
+             {body}</main>\n</body>\n</html>\n",
+            body = self.body,
+        )
+    }
+
+    fn push(&mut self, html: &str) -> &mut Self {
+        self.body.push_str(html);
+        self
+    }
+}
+
+fn figure(svg: &str, caption: &str) -> String {
+    let caption = if caption.is_empty() {
+        String::new()
+    } else {
+        format!("<figcaption>{}</figcaption>", escape(caption))
+    };
+    format!("<figure>\n{svg}\n{caption}</figure>\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn page() -> Page {
+        Page::new(PageHead {
+            title: "Margin check".into(),
+            tool: "sprag-design".into(),
+            version: "0.0.0".into(),
+            command: "sprag-design check a.toml --report <b>.html".into(),
+            design: "Huang & co. <script>alert(1)</script>".into(),
+            design_hash: "0123abcd".into(),
+        })
+    }
+
+    #[test]
+    fn nothing_typed_by_a_user_becomes_markup() {
+        let mut page = page();
+        page.heading("<i>h</i>")
+            .paragraph("a < b & c")
+            .list(["<li>"])
+            .source("file <x>", "name = \"</pre><b>\"");
+        page.verdict(false, "<b>").figure("<svg></svg>", "caption <i>");
+        let html = page.to_html();
+        for bad in ["<script>alert", "<i>", "<b>", "</pre><b>", "a < b"] {
+            assert!(!html.contains(bad), "{bad} in\n{html}");
+        }
+        assert!(html.contains("Huang &amp; co. &lt;script&gt;"));
+    }
+
+    #[test]
+    fn embedded_json_cannot_close_its_element_and_reads_back() {
+        let value = serde_json::json!({ "design": "</script><b>", "x": 0.1 });
+        let mut page = page();
+        page.results("results", &value);
+        let html = page.to_html();
+        let start = html.find("id=\"results\">").unwrap() + "id=\"results\">".len();
+        let text = &html[start..start + html[start..].find("</script>").unwrap()];
+        assert_eq!(serde_json::from_str::<serde_json::Value>(text).unwrap(), value);
+    }
+
+    #[test]
+    fn the_page_names_no_other_place_and_runs_nothing() {
+        let mut page = page();
+        page.results("results", &serde_json::json!({}));
+        let html = page.to_html();
+        for bad in ["http:", "https:", "src=", "@import", "url(", "<link", "<script>", "onload"] {
+            assert!(!html.contains(bad), "{bad}");
+        }
+        assert!(html.contains("0123abcd") && html.contains("sprag-design 0.0.0"));
+    }
+
+    #[test]
+    fn the_comment_that_names_the_command_stays_a_comment() {
+        let mut head = page().head;
+        head.command = "sprag-design --> <h1>".into();
+        let html = Page::new(head).to_html();
+        let comment = &html[html.find("<!--").unwrap() + 4..];
+        let comment = &comment[..comment.find("-->").unwrap()];
+        assert!(comment.trim().ends_with("&lt;h1&gt;"), "{comment}");
+    }
+}

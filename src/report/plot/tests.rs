@@ -1,0 +1,83 @@
+use super::scale::{thinned, tick, widened};
+use super::*;
+
+fn two_curves() -> Plot {
+    Plot::new("Torque, Nm", "Windup, deg")
+        .curve("single <arc>", (0..50).map(|i| [f64::from(i), 0.1 * f64::from(i)]).collect())
+        .curve("gaps", vec![[0.0, 1.0], [1.0, f64::NAN], [2.0, 2.0], [3.0, f64::INFINITY], [4.0, 4.0]])
+        .marker(12.0, "1|2")
+        .marker(12.5, "2|3")
+        .marker(400.0, "off the plot")
+        .level(3.0, "allowed")
+}
+
+#[test]
+fn gaps_and_infinities_leave_no_trace_in_the_svg() {
+    let svg = two_curves().to_svg();
+    assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+    assert!(svg.contains("single &lt;arc&gt;"));
+    assert!(!svg.contains("off the plot"));
+    // Three lone points of the second curve, each a dot.
+    assert_eq!(svg.matches("<circle").count(), 3);
+}
+
+#[test]
+fn drawing_twice_gives_the_same_text() {
+    assert_eq!(two_curves().to_svg(), two_curves().to_svg());
+}
+
+#[test]
+fn nothing_to_draw_is_said() {
+    for points in [vec![], vec![[f64::NAN, 1.0]]] {
+        let svg = Plot::new("x", "y").curve("empty", points).to_svg();
+        assert!(svg.contains("no data") && !svg.contains("NaN"), "{svg}");
+    }
+}
+
+#[test]
+fn logarithmic_axes_skip_what_has_no_logarithm() {
+    let mut plot =
+        Plot::new("Run time, s", "Error").curve("method", vec![[0.0, 1.0], [1e-3, 1e-9], [1.0, 1e-3]]);
+    (plot.log_x, plot.log_y) = (true, true);
+    let svg = plot.to_svg();
+    assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+}
+
+#[test]
+fn a_constant_curve_has_an_axis() {
+    let svg = Plot::new("x", "y").curve("flat", vec![[0.0, 3.0], [1.0, 3.0]]).to_svg();
+    assert!(!svg.contains("NaN"));
+    let (low, high) = widened((3.0, 3.0), false, 0.05);
+    assert!(low < 3.0 && high > 3.0);
+}
+
+#[test]
+fn the_svg_scales_and_names_no_other_place() {
+    let svg = two_curves().to_svg();
+    assert!(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 720 380\""));
+    assert_eq!(svg.matches("http").count(), 1);
+    assert!(svg.contains("role=\"img\"") && !svg.contains("<script"));
+    // Ids would clash between the figures of a page.
+    assert!(!svg.contains(" id="), "{svg}");
+}
+
+#[test]
+fn thinning_keeps_the_ends_and_every_peak() {
+    let mut run: Vec<[f64; 2]> = (0..100_000).map(|i| [f64::from(i), 0.0]).collect();
+    run[31_415][1] = 5.0;
+    run[27_182][1] = -3.0;
+    let kept = thinned(&run, 720.0);
+    assert!(kept.len() < 6000 && kept[0] == (0.0, 0.0) && kept[kept.len() - 1] == (99_999.0, 0.0));
+    assert!(kept.contains(&(31_415.0, 5.0)) && kept.contains(&(27_182.0, -3.0)));
+    assert!(kept.is_sorted_by(|a, b| a.0 < b.0));
+    assert_eq!(thinned(&run[..100], 720.0).len(), 100);
+}
+
+#[test]
+fn ticks_of_one_axis_agree() {
+    assert_eq!(tick(0.5, 2.0, 2.0), "0.5");
+    assert_eq!(tick(40.0, 100.0, 100.0), "40");
+    assert_eq!(tick(-0.0, 100.0, 100.0), "0");
+    assert_eq!(tick(2.5e-5, 1e-4, 1e-4), "2.5e-5");
+    assert_eq!(tick(-0.0072, 0.02, 0.01), "−0.0072");
+}

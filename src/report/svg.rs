@@ -1,0 +1,162 @@
+//! The few SVG pieces that the drawings need; coordinates in px, y down.
+
+use super::page::escape;
+use std::fmt::Write as _;
+
+/// An SVG under construction.
+pub struct Svg {
+    width: f64,
+    height: f64,
+    title: String,
+    body: String,
+}
+
+/// Where a text's point lies on it.
+#[derive(Clone, Copy)]
+pub enum Anchor {
+    Start,
+    End,
+}
+
+/// A coordinate with two decimals and no trailing zeros; a number that is none becomes 0, so that no
+/// NaN ever reaches a file.
+pub fn px(value: f64) -> String {
+    if !value.is_finite() {
+        return "0".to_owned();
+    }
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// Path data through `points`, closed or open.
+pub fn polyline(points: &[[f64; 2]], closed: bool) -> String {
+    let mut d = String::new();
+    let mut last = None;
+    for &[x, y] in points {
+        let here = (px(x), px(y));
+        if last.as_ref() == Some(&here) {
+            continue;
+        }
+        let _ = write!(d, "{}{} {}", if last.is_none() { "M" } else { "L" }, here.0, here.1);
+        last = Some(here);
+    }
+    if closed && !d.is_empty() {
+        d.push('Z');
+    }
+    d
+}
+
+/// Path data of a full circle.
+pub fn circle(centre: [f64; 2], radius: f64) -> String {
+    let [x, y] = centre;
+    let r = px(radius);
+    let (left, right, y) = (px(x - radius), px(x + radius), px(y));
+    format!("M{left} {y}A{r} {r} 0 1 0 {right} {y}A{r} {r} 0 1 0 {left} {y}Z")
+}
+
+impl Svg {
+    pub fn new(width: f64, height: f64, title: &str) -> Self {
+        Self { width, height, title: title.to_owned(), body: String::new() }
+    }
+
+    /// A path; `style` holds attributes (`fill="…" stroke="…"`).
+    pub fn path(&mut self, d: &str, style: &str) {
+        let _ = writeln!(self.body, "<path d=\"{d}\" {style}/>");
+    }
+
+    pub fn line(&mut self, from: [f64; 2], to: [f64; 2], style: &str) {
+        self.path(&polyline(&[from, to], false), style);
+    }
+
+    pub fn dot(&mut self, at: [f64; 2], radius: f64, style: &str) {
+        let _ = writeln!(
+            self.body,
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {style}/>",
+            px(at[0]),
+            px(at[1]),
+            px(radius)
+        );
+    }
+
+    /// Text with a halo of paper colour, so that it stays legible across lines.
+    pub fn text(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, text: &str) {
+        let halo = format!(
+            " stroke=\"{PAPER}\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\""
+        );
+        self.write(at, anchor, colour, &halo, text);
+    }
+
+    /// Text on a plain ground.
+    pub fn bare_text(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, text: &str) {
+        self.write(at, anchor, colour, "", text);
+    }
+
+    fn write(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, halo: &str, text: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::End => "end",
+        };
+        let _ = writeln!(
+            self.body,
+            "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\" fill=\"{colour}\"{halo}>{}</text>",
+            px(at[0]),
+            px(at[1]),
+            escape(text)
+        );
+    }
+
+    pub fn finish(self) -> String {
+        let (w, h) = (px(self.width), px(self.height));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" role=\"img\" \
+             font-family=\"{FONT}\" font-size=\"12\">\n<title>{}</title>\n{}</svg>",
+            escape(&self.title),
+            self.body
+        )
+    }
+}
+
+/// Colours follow the page's (light, dark, print); the second value serves an SVG outside a page.
+pub const INK: &str = "var(--ink,#1b1f24)";
+pub const SOFT: &str = "var(--soft,#5b6570)";
+pub const RULE: &str = "var(--rule,#d5dae0)";
+pub const PAPER: &str = "var(--paper,#fff)";
+pub const RACE: &str = "var(--race,#e6eaee)";
+pub const BODY: &str = "var(--body,#c9d6e4)";
+pub const EDGE: &str = "var(--edge,#33485f)";
+/// Colours of curves and overlays, in order.
+pub const SERIES: [&str; 6] = [
+    "var(--c0,#1f5fa8)",
+    "var(--c1,#c2571a)",
+    "var(--c2,#2f8f5b)",
+    "var(--c3,#8a4fa0)",
+    "var(--c4,#a68a00)",
+    "var(--c5,#5b6570)",
+];
+/// Font of all figures.
+pub const FONT: &str = "system-ui, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif";
+
+/// Width of `text` in px at `size` px, on the generous side: no font is measured, so labels are given room.
+pub fn text_width(text: &str, size: f64) -> f64 {
+    0.58 * size * text.chars().count() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_are_short_and_never_nan() {
+        assert_eq!(px(1.0), "1");
+        assert_eq!(px(-0.001), "0");
+        assert_eq!(px(12.3456), "12.35");
+        assert_eq!(px(f64::NAN), "0");
+    }
+
+    #[test]
+    fn repeated_points_are_dropped() {
+        assert_eq!(polyline(&[[0.0, 0.0], [0.001, 0.0], [1.0, 2.0]], true), "M0 0L1 2Z");
+        assert_eq!(polyline(&[], true), "");
+    }
+}

@@ -1,0 +1,310 @@
+//! One table, three faces: aligned text for the terminal, CSV for programs, HTML for the page.
+
+use super::number::{MISSING, Unit, significant};
+use super::page::escape;
+
+/// One column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Name in the CSV header, unit included as in the JSON (`torque_nm`).
+    pub key: String,
+    /// Name for people, without the unit.
+    pub heading: String,
+    /// Unit of the numbers in the column.
+    pub unit: Unit,
+    /// Significant digits for people; CSV has all of them.
+    pub digits: usize,
+}
+
+impl Column {
+    /// A column of numbers.
+    pub fn number(key: &str, heading: &str, unit: Unit, digits: usize) -> Self {
+        Self { key: key.to_owned(), heading: heading.to_owned(), unit, digits }
+    }
+
+    /// A column of words.
+    pub fn text(key: &str, heading: &str) -> Self {
+        Self::number(key, heading, Unit::One, 1)
+    }
+}
+
+/// One cell.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cell {
+    /// Words.
+    Text(String),
+    /// A number in SI, shown in the column's unit.
+    Si(f64),
+    /// A number in SI with a unit of its own, shown with its symbol (tables whose rows differ in kind).
+    In(f64, Unit),
+    /// A count.
+    Count(usize),
+    /// A verdict: held or not, and the word for it.
+    Verdict(bool, String),
+    /// Nothing to say.
+    Empty,
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(si: f64) -> Self {
+        Self::Si(si)
+    }
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(si: Option<f64>) -> Self {
+        si.map_or(Self::Empty, Self::Si)
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(count: usize) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl Cell {
+    fn shown(&self, column: &Column) -> String {
+        match self {
+            Self::Text(text) | Self::Verdict(_, text) => text.clone(),
+            Self::Si(si) => significant(column.unit.from_si(*si), column.digits),
+            Self::In(si, unit) => unit.show(*si, column.digits),
+            Self::Count(count) => count.to_string(),
+            Self::Empty => MISSING.to_owned(),
+        }
+    }
+
+    fn is_number(&self) -> bool {
+        matches!(self, Self::Si(_) | Self::In(..) | Self::Count(_))
+    }
+
+    fn csv(&self, column: &Column) -> String {
+        let full = |value: f64| if value.is_finite() { value.to_string() } else { String::new() };
+        match self {
+            Self::Text(text) | Self::Verdict(_, text) => text.clone(),
+            Self::Si(si) => full(column.unit.from_si(*si)),
+            Self::In(si, unit) => full(unit.from_si(*si)),
+            Self::Count(count) => count.to_string(),
+            Self::Empty => String::new(),
+        }
+    }
+}
+
+/// Columns and rows. A row shorter than the columns is filled with nothing; a longer one is cut.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Table {
+    /// Columns, left to right.
+    pub columns: Vec<Column>,
+    /// Rows, top to bottom.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// An empty table.
+    pub fn new(columns: Vec<Column>) -> Self {
+        Self { columns, rows: Vec::new() }
+    }
+
+    /// Two columns for short facts: what, and how much with its unit.
+    pub fn facts() -> Self {
+        Self::new(vec![Column::text("quantity", "Quantity"), Column::number("value", "Value", Unit::One, 5)])
+    }
+
+    /// Append a row.
+    pub fn row(&mut self, cells: Vec<Cell>) -> &mut Self {
+        self.rows.push(cells);
+        self
+    }
+
+    /// A column stands right-aligned if it holds at least one number.
+    fn is_numeric(&self, index: usize) -> bool {
+        self.rows.iter().any(|row| row.get(index).is_some_and(Cell::is_number))
+    }
+
+    fn cell(row: &[Cell], index: usize) -> &Cell {
+        row.get(index).unwrap_or(&Cell::Empty)
+    }
+
+    /// Aligned columns for a terminal, units in the headings; `colour` paints verdicts (ANSI).
+    pub fn to_text(&self, colour: bool) -> String {
+        let shown: Vec<Vec<String>> = self
+            .rows
+            .iter()
+            .map(|row| self.columns.iter().enumerate().map(|(i, c)| Self::cell(row, i).shown(c)).collect())
+            .collect();
+        let headings: Vec<String> = self.columns.iter().map(|c| c.unit.heading(&c.heading)).collect();
+        let width = |i: usize, heading: &str| {
+            let cells = shown.iter().filter_map(|row| row.get(i)).map(|s| s.chars().count());
+            cells.chain([heading.chars().count()]).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = headings.iter().enumerate().map(|(i, h)| width(i, h)).collect();
+        let mut out = String::new();
+        let mut line = |cells: &[String], paint: &dyn Fn(usize) -> Option<bool>| {
+            let mut text = String::new();
+            for (i, (cell, &width)) in cells.iter().zip(&widths).enumerate() {
+                if i > 0 {
+                    text.push_str("  ");
+                }
+                let padding = " ".repeat(width - cell.chars().count());
+                let painted = match paint(i) {
+                    Some(true) => format!("\u{1b}[32m{cell}\u{1b}[0m"),
+                    Some(false) => format!("\u{1b}[31m{cell}\u{1b}[0m"),
+                    None => cell.clone(),
+                };
+                if self.is_numeric(i) {
+                    text.push_str(&padding);
+                    text.push_str(&painted);
+                } else {
+                    text.push_str(&painted);
+                    text.push_str(&padding);
+                }
+            }
+            out.push_str(text.trim_end());
+            out.push('\n');
+        };
+        line(&headings, &|_| None);
+        line(&widths.iter().map(|&w| "─".repeat(w)).collect::<Vec<_>>(), &|_| None);
+        for (row, cells) in self.rows.iter().zip(&shown) {
+            line(cells, &|i| match Self::cell(row, i) {
+                Cell::Verdict(held, _) if colour => Some(*held),
+                _ => None,
+            });
+        }
+        out
+    }
+
+    /// CSV with one header row of keys, every number in full.
+    ///
+    /// # Errors
+    /// What the `csv` crate says; writing into memory gives it no cause.
+    pub fn to_csv(&self) -> Result<Vec<u8>, csv::Error> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(self.columns.iter().map(|c| c.key.as_str()))?;
+        for row in &self.rows {
+            writer.write_record(self.columns.iter().enumerate().map(|(i, c)| Self::cell(row, i).csv(c)))?;
+        }
+        writer.into_inner().map_err(|e| e.into_error().into())
+    }
+
+    /// `<table>` with numbers right-aligned.
+    pub fn to_html(&self) -> String {
+        let mut out = String::from("<table>\n<thead><tr>");
+        for (i, column) in self.columns.iter().enumerate() {
+            let class = if self.is_numeric(i) { " class=\"n\"" } else { "" };
+            out.push_str(&format!("<th{class}>{}", escape(&column.heading)));
+            if column.unit != Unit::One {
+                out.push_str(&format!(" <span class=\"unit\">{}</span>", escape(column.unit.symbol())));
+            }
+            out.push_str("</th>");
+        }
+        out.push_str("</tr></thead>\n<tbody>\n");
+        for row in &self.rows {
+            out.push_str("<tr>");
+            for (i, column) in self.columns.iter().enumerate() {
+                let cell = Self::cell(row, i);
+                let class = match cell {
+                    Cell::Verdict(true, _) => " class=\"held\"",
+                    Cell::Verdict(false, _) => " class=\"broken\"",
+                    _ if self.is_numeric(i) => " class=\"n\"",
+                    _ => "",
+                };
+                out.push_str(&format!("<td{class}>{}</td>", escape(&cell.shown(column))));
+            }
+            out.push_str("</tr>\n");
+        }
+        out.push_str("</tbody>\n</table>\n");
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn margins() -> Table {
+        let mut table = Table::new(vec![
+            Column::text("name", "Limit"),
+            Column::number("demand", "Demand", Unit::One, 4),
+            Column::number("margin", "Margin", Unit::Percent, 3),
+            Column::text("verdict", "Verdict"),
+        ]);
+        table.row(vec![
+            "Hertz, nominal".into(),
+            Cell::In(3.91e9, Unit::Megapascal),
+            0.0742.into(),
+            Cell::Verdict(true, "held".into()),
+        ]);
+        table.row(vec![
+            "Hoop <outer>, \"mean\"".into(),
+            Cell::In(7.6e8, Unit::Megapascal),
+            (-0.013).into(),
+            Cell::Verdict(false, "broken".into()),
+        ]);
+        table
+    }
+
+    #[test]
+    fn text_columns_line_up_and_end_without_blanks() {
+        let text = margins().to_text(false);
+        let lines: Vec<Vec<char>> = text.lines().map(|l| l.chars().collect()).collect();
+        assert_eq!(
+            text,
+            "Limit                    Demand  Margin, %  Verdict\n\
+                          ────────────────────  ─────────  ─────────  ───────\n\
+                          Hertz, nominal         3910 MPa       7.42  held\n\
+                          Hoop <outer>, \"mean\"  760.0 MPa      −1.30  broken\n"
+        );
+        assert!(lines.iter().all(|l| l.last() != Some(&' ')));
+    }
+
+    #[test]
+    fn colour_adds_nothing_but_escape_codes() {
+        let table = margins();
+        let painted = table.to_text(true);
+        assert_ne!(painted, table.to_text(false));
+        let plain =
+            ["\u{1b}[32m", "\u{1b}[31m", "\u{1b}[0m"].iter().fold(painted, |s, code| s.replace(code, ""));
+        assert_eq!(plain, table.to_text(false));
+    }
+
+    #[test]
+    fn csv_quotes_and_keeps_every_digit() {
+        let mut table = margins();
+        table.row(vec!["short row".into()]);
+        let bytes = table.to_csv().unwrap();
+        let mut reader = csv::Reader::from_reader(bytes.as_slice());
+        assert_eq!(reader.headers().unwrap(), vec!["name", "demand", "margin", "verdict"]);
+        let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+        assert_eq!(&rows[1][0], "Hoop <outer>, \"mean\"");
+        assert_eq!(rows[1][2].parse::<f64>().unwrap(), -0.013 * 100.0);
+        assert_eq!(&rows[2], &csv::StringRecord::from(vec!["short row", "", "", ""]));
+    }
+
+    #[test]
+    fn no_nan_reaches_a_reader() {
+        let mut table = Table::new(vec![Column::number("x_m", "x", Unit::Millimetre, 3)]);
+        table.row(vec![f64::NAN.into()]).row(vec![None.into()]);
+        let all =
+            table.to_text(false) + &table.to_html() + &String::from_utf8(table.to_csv().unwrap()).unwrap();
+        assert!(!all.contains("NaN"), "{all}");
+    }
+
+    #[test]
+    fn html_is_escaped() {
+        let html = margins().to_html();
+        assert!(html.contains("Hoop &lt;outer&gt;, &quot;mean&quot;"), "{html}");
+        assert!(html.contains("<td class=\"broken\">broken</td>"));
+    }
+}

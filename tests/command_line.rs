@@ -1,0 +1,79 @@
+//! The program from outside: exit codes, what goes to which stream, broken pipes.
+
+use std::io::Read;
+use std::process::{Command, Output, Stdio};
+
+fn program() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_sprag-design"));
+    command.env("NO_COLOR", "1");
+    command
+}
+
+fn run(args: &[&str]) -> Output {
+    program().args(args).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+#[test]
+fn help_and_version_answer_on_standard_output() {
+    for args in [&["--help"][..], &["--version"], &["check", "--help"], &["completions", "bash"]] {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(0), "{args:?}");
+        assert!(output.stdout.len() > 5 && output.stderr.is_empty(), "{args:?}");
+    }
+    assert!(text(&run(&["--version"]).stdout).contains(env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn misuse_is_code_2_with_nothing_on_standard_output() {
+    for args in
+        [&[][..], &["frob"], &["check"], &["check", "Cargo.toml", "--json", "--csv", "no-such-folder/a.csv"]]
+    {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(output.stdout.is_empty() && !output.stderr.is_empty(), "{args:?}");
+        assert!(!text(&output.stderr).contains('\u{1b}'), "NO_COLOR, {args:?}");
+    }
+}
+
+#[test]
+fn the_design_file_is_never_an_output() {
+    let before = std::fs::read("Cargo.toml").unwrap();
+    for flag in [
+        &["check", "Cargo.toml", "--report", "./Cargo.toml"][..],
+        &["optimize", "Cargo.toml", "-o", "Cargo.toml"],
+    ] {
+        let output = run(flag);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(text(&output.stderr).contains("never overwritten"));
+    }
+    assert_eq!(std::fs::read("Cargo.toml").unwrap(), before);
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_failure() {
+    let mut child = program()
+        .args(["completions", "bash"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let mut stderr = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(0), "{stderr}");
+    assert!(stderr.is_empty(), "{stderr}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_failure_in_words() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = program().args(["completions", "bash"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(3));
+    let stderr = text(&output.stderr);
+    assert!(stderr.contains("standard output") && !stderr.contains("panicked"), "{stderr}");
+}
