@@ -33,16 +33,27 @@ impl Steps {
     /// sum |f''| h/2 + 2 noise/h, so h = 2 sqrt(sum noise / sum |f''|); central with f''' taken as large as f''
     /// (one range is the length on which the margins bend), sum |f''| h^2/6 + noise/h,
     /// so h = (3 sum noise / sum |f''|)^(1/3) (Gill, Murray, Wright, *Practical Optimization*, 8.6).
-    pub fn from_curvature(curvatures: &[Vec<f64>], noise: &[f64], settings: &Settings) -> Self {
-        let variables = curvatures.first().map_or(0, Vec::len);
+    /// |f''| counts as no less than |f'|, or a passing inflexion would call for a long step. `None` without
+    /// second derivatives.
+    pub fn fitted(table: &Table, noise: &[f64], settings: &Settings) -> Option<Self> {
+        let curvatures = table.curvatures.as_ref()?;
         let total_noise: f64 = noise.iter().sum();
-        let ratio =
-            |i: usize| total_noise / curvatures.iter().map(|row| row[i].abs()).sum::<f64>().max(1e-300);
+        let ratio = |i: usize| {
+            let bend = curvatures.iter().zip(&table.slopes).map(|(c, s)| c[i].abs().max(s[i].abs()));
+            total_noise / bend.sum::<f64>().max(1e-300)
+        };
         let clamp = |h: f64| h.clamp(settings.shortest_difference, settings.longest_difference);
-        Steps {
+        let variables = curvatures.first().map_or(0, Vec::len);
+        Some(Steps {
             forward: (0..variables).map(|i| clamp(2.0 * ratio(i).sqrt())).collect(),
             central: (0..variables).map(|i| clamp((3.0 * ratio(i)).cbrt())).collect(),
-        }
+        })
+    }
+
+    /// The shorter of both for each variable: steps only shrink as more curvature is seen.
+    pub fn least(&self, other: &Steps) -> Steps {
+        let least = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a.min(*b)).collect();
+        Steps { forward: least(&self.forward, &other.forward), central: least(&self.central, &other.central) }
     }
 }
 

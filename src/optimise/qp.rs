@@ -102,38 +102,42 @@ pub(super) fn solve(
     let (rise, elastic) = (n, n + 1);
     let least = linear.rises.iter().map(|r| r.0).fold(f64::INFINITY, f64::min);
     let count = if ask == Ask::Feasibility { 0 } else { linear.rises.len() };
-    // Everything the objective weighs is divided by the steepest margin: clarabel's tolerances are absolute near 0.
-    let steepest = linear.rises.iter().flat_map(|r| &r.1).fold(0.0, |m: f64, g| m.max(g.abs()));
-    let scale = if steepest > 0.0 { 1.0 / steepest } else { 1.0 };
-    let limit_scale = |row: &[f64]| {
-        let steepest = row.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
-        if steepest > 0.0 { 1.0 / steepest } else { 1.0 }
+    // Solved for d / radius with every row divided by its steepest slope over the radius: clarabel's tolerances are
+    // absolute near 0, and steps shrink a millionfold on the way to a solution.
+    let radius = lower.iter().chain(upper).fold(0.0, |m: f64, v| m.max(v.abs()));
+    let radius = if radius > 0.0 { radius } else { 1.0 };
+    let steep = |rows: &[(f64, Vec<f64>)]| {
+        let most = rows.iter().flat_map(|r| &r.1).fold(0.0, |m: f64, g| m.max(g.abs()));
+        if most > 0.0 { radius * most } else { 1.0 }
     };
+    let scale = 1.0 / steep(&linear.rises);
+    let elastic_unit = steep(&linear.limits);
+    let limit_scale = |row: &(f64, Vec<f64>)| 1.0 / steep(std::slice::from_ref(row)).max(row.0.abs());
 
     let mut rows = Columns::new(n + 2);
     for (value, slopes) in &linear.rises[..count] {
-        let slopes = slopes.iter().enumerate().map(|(i, g)| (i, -g * scale));
+        let slopes = slopes.iter().enumerate().map(|(i, g)| (i, -g * radius * scale));
         rows.push(slopes.chain([(rise, 1.0)]), (value - least) * scale);
     }
-    for (value, slopes) in &linear.limits {
-        let s = limit_scale(slopes);
-        let slopes = slopes.iter().enumerate().map(|(i, g)| (i, -g * s));
-        rows.push(slopes.chain([(elastic, -s)]), value * s);
+    for row in &linear.limits {
+        let s = limit_scale(row);
+        let slopes = row.1.iter().enumerate().map(|(i, g)| (i, -g * radius * s));
+        rows.push(slopes.chain([(elastic, -elastic_unit * s)]), row.0 * s);
     }
     rows.push([(elastic, -1.0)], 0.0);
     for i in 0..n {
-        rows.push([(i, 1.0)], upper[i]);
-        rows.push([(i, -1.0)], -lower[i]);
+        rows.push([(i, 1.0)], upper[i] / radius);
+        rows.push([(i, -1.0)], -lower[i] / radius);
     }
     let mut quadratic: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n + 2];
     let mut linear_cost = vec![0.0; n + 2];
     match ask {
         Ask::Merit { weight } => {
             for (i, column) in quadratic.iter_mut().enumerate().take(n) {
-                column.extend((0..=i).map(|k| (k, hessian[(k, i)] * scale)));
+                column.extend((0..=i).map(|k| (k, hessian[(k, i)] * radius * radius * scale)));
             }
             linear_cost[rise] = -1.0;
-            linear_cost[elastic] = weight * scale;
+            linear_cost[elastic] = weight * elastic_unit * scale;
         }
         Ask::Feasibility => {
             linear_cost[elastic] = 1.0;
@@ -162,7 +166,7 @@ pub(super) fn solve(
     if !usable || found.x.iter().chain(&found.z).any(|v| !v.is_finite()) {
         return None;
     }
-    let d: Vec<f64> = (0..n).map(|i| snapped(found.x[i], lower[i], upper[i])).collect();
+    let d: Vec<f64> = (0..n).map(|i| snapped(found.x[i] * radius, lower[i], upper[i], 1e-9 * radius)).collect();
     let (rise, elastic) = modelled(linear, &d);
     let limit_multipliers = linear.limits.iter().zip(&found.z[count..]);
     Some(Step {
@@ -170,17 +174,17 @@ pub(super) fn solve(
         elastic,
         rise_multipliers: found.z[..count].iter().map(|z| z.max(0.0)).collect(),
         limit_multipliers: limit_multipliers
-            .map(|(row, z)| z.max(0.0) * limit_scale(&row.1) / scale)
+            .map(|(row, z)| z.max(0.0) * limit_scale(row) / scale)
             .collect(),
         d,
     })
 }
 
-/// d put exactly on a bound it comes within 1e-9 of: an interior point never quite reaches one.
-fn snapped(d: f64, lower: f64, upper: f64) -> f64 {
-    if d - lower < 1e-9 {
+/// d put exactly on a bound it comes this near to: an interior point never quite reaches one.
+fn snapped(d: f64, lower: f64, upper: f64, near: f64) -> f64 {
+    if d - lower < near {
         lower
-    } else if upper - d < 1e-9 {
+    } else if upper - d < near {
         upper
     } else {
         d

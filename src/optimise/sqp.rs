@@ -23,9 +23,11 @@ use super::view::{Phase, View};
 /// Share of the predicted gain below which a step is refused: a new derivative table costs more than a retry.
 const ACCEPTED: f64 = 0.1;
 /// Share below which the second-order correction is tried; it costs one evaluation, a derivative table many.
-const CORRECTED: f64 = 0.7;
+const CORRECTED: f64 = 0.9;
 /// Penalty weight, relative to the first, at which the limits are taken to have no common point nearby.
 const HEAVIEST: f64 = 1e8;
+/// Times a climb may lower a weight that proved far above the multipliers; bounded, so that the merit falls at last.
+const LOWERINGS: usize = 8;
 /// Distance from a bound that counts as on it.
 const ON_BOUND: f64 = 1e-9;
 
@@ -74,7 +76,7 @@ impl Climb<'_, '_> {
     /// Climbs until the residuals are small, nothing more is gained, or the evaluator halts.
     pub fn run(&mut self) -> Result<End, Halt> {
         let mut b: Option<DMatrix<f64>> = None;
-        let mut resets = 0;
+        let (mut resets, mut lowered) = (0, 0);
         let mut t = self.derive()?;
         for _ in 0..self.settings.max_iterations {
             let outputs = self.evaluation.outputs();
@@ -116,9 +118,9 @@ impl Climb<'_, '_> {
                 t = self.derive()?;
                 continue;
             }
-            if small {
+            let met = violation <= self.settings.violation_tolerance;
+            if small && (met || step.elastic > 0.9 * violation) {
                 self.record(Tried::Nothing);
-                let met = violation <= self.settings.violation_tolerance;
                 let end = if met { End::Converged } else { End::Violated };
                 return Ok(if t.held.is_empty() { end } else { End::Stalled(Cause::NoDerivative(t.held)) });
             }
@@ -144,6 +146,11 @@ impl Climb<'_, '_> {
                                 .sum()
                         })
                         .collect();
+                    let needed: f64 = self.multipliers.1.iter().sum();
+                    if lowered < LOWERINGS && needed > 0.0 && self.weight > 8.0 * needed {
+                        self.weight = 2.0 * needed;
+                        lowered += 1;
+                    }
                     if let Some(b) = &mut b {
                         hessian::update(b, &s, &y);
                     }
@@ -200,19 +207,22 @@ impl Climb<'_, '_> {
         let central = self.central || self.steps.is_none();
         let h = if central { steps.central.clone() } else { steps.forward.clone() };
         let found = table(self.memo, self.space, &self.u, &outputs, &h, central)?;
-        if let (None, Some(c)) = (&self.steps, &found.curvatures) {
-            *self.steps = Some(Steps::from_curvature(c, self.noise, self.settings));
+        if let Some(fitted) = Steps::fitted(&found, self.noise, self.settings) {
+            *self.steps = Some(match self.steps.take() {
+                Some(known) => known.least(&fitted),
+                None => fitted,
+            });
         }
         self.table = Some(found.clone());
         Ok(found)
     }
 
     /// Diagonal of the Lagrangian's Hessian where the table has it, else a mild multiple of the identity: curvature
-    /// that would turn a thousandth of the steepest slope over the range.
+    /// that would turn a hundredth of the steepest slope over the range.
     fn first_hessian(&self, t: &Table, linear: &Linear, free: &[usize]) -> DMatrix<f64> {
         let n = self.space.len();
         let steepest = linear.rises.iter().flat_map(|r| &r.1).fold(0.0, |m: f64, g| m.max(g.abs()));
-        let mild = if steepest > 0.0 { 1e-3 * steepest } else { 1e-3 };
+        let mild = if steepest > 0.0 { 1e-2 * steepest } else { 1e-3 };
         let mut b = DMatrix::from_diagonal_element(n, n, mild);
         if let Some(curvatures) = &t.curvatures {
             let part = DMatrix::from_diagonal_element(free.len(), free.len(), mild);
@@ -246,7 +256,9 @@ impl Climb<'_, '_> {
         let (lower, upper) = self.window(free);
         let solve = |weight| qp::solve(linear, b, &lower, &upper, Ask::Merit { weight });
         let mut step = solve(self.weight)?;
-        let reach = self.settings.violation_tolerance;
+        // What clarabel's tolerance leaves of the steepest limit over the range is not a violation of the model.
+        let steepest = linear.limits.iter().flat_map(|r| &r.1).fold(0.0, |m: f64, g| m.max(g.abs()));
+        let reach = self.settings.violation_tolerance.max(1e-9 * steepest);
         if step.elastic <= reach {
             return Some(step);
         }
