@@ -108,7 +108,7 @@ impl Driver<'_, '_> {
                 End::Converged | End::Feasible => {
                     if self.settings.poll
                         && polled < REPEATS
-                        && let Some(better) = self.poll(stand)?
+                        && let Some(better) = self.poll(stand, Phase::Margin)?
                     {
                         polled += 1;
                         stand.point = better;
@@ -129,7 +129,15 @@ impl Driver<'_, '_> {
                     let mut lower = stand.clone();
                     let restore =
                         SetOut { phase: Phase::Restore, radius: first, weight: FIRST_WEIGHT, central: false };
-                    let end = self.climb(&restore, &mut lower)?;
+                    let mut end = self.climb(&restore, &mut lower)?;
+                    for _ in 0..REPEATS {
+                        if end == End::Feasible || !self.settings.poll {
+                            break;
+                        }
+                        let Some(better) = self.poll(&lower, Phase::Restore)? else { break };
+                        lower.point = better;
+                        end = self.climb(&restore, &mut lower)?;
+                    }
                     let violation = lower.point.evaluation.violation();
                     if violation > self.settings.violation_tolerance {
                         stand.residuals.violation = violation;
@@ -184,14 +192,15 @@ impl Driver<'_, '_> {
         end
     }
 
-    /// A better point than `stand`: feasible anywhere in the record, or of better merit a difference step away along
-    /// the active margins. `None` is the evidence that there is none at that scale.
-    fn poll(&mut self, stand: &Stand) -> Result<Option<Point>, Halt> {
-        let least = stand.point.evaluation.least_margin();
-        let view = View::new(Phase::Margin, self.memo.shape());
-        let worth = 10.0 * (self.settings.gain_tolerance * least.abs().max(1.0) + view.noise(&self.noise));
+    /// A better point than `stand` for `phase`: the best of the record, or one of better merit a difference step away
+    /// along the active margins. `None` is the evidence that there is none at that scale.
+    fn poll(&mut self, stand: &Stand, phase: Phase) -> Result<Option<Point>, Halt> {
+        let view = View::new(phase, self.memo.shape());
+        let least = |point: &Point| view.measure(&point.evaluation.outputs()).0;
+        let scale = least(&stand.point).abs().max(1.0);
+        let worth = 10.0 * (self.settings.gain_tolerance * scale + view.noise(&self.noise));
         let best = self.best_seen(&stand.point);
-        if best.evaluation.least_margin() > least + worth {
+        if least(&best) > least(&stand.point) + worth {
             return Ok(Some(best));
         }
         let mu: f64 = stand.multipliers.1.iter().sum();

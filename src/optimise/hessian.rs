@@ -23,6 +23,16 @@ pub(super) fn update(b: &mut DMatrix<f64>, s: &[f64], y: &[f64]) {
     }
 }
 
+/// Scales rows and columns of B so that its diagonal meets the measured second derivatives, where these are positive.
+pub(super) fn rescale(b: &mut DMatrix<f64>, bend: &[f64]) {
+    let s: Vec<f64> = (0..bend.len())
+        .map(|i| {
+            if bend[i] > 0.0 && b[(i, i)] > 0.0 { (bend[i] / b[(i, i)]).sqrt().clamp(0.1, 10.0) } else { 1.0 }
+        })
+        .collect();
+    *b = DMatrix::from_fn(bend.len(), bend.len(), |i, k| s[i] * b[(i, k)] * s[k]);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

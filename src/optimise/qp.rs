@@ -166,16 +166,15 @@ pub(super) fn solve(
     if !usable || found.x.iter().chain(&found.z).any(|v| !v.is_finite()) {
         return None;
     }
-    let d: Vec<f64> = (0..n).map(|i| snapped(found.x[i] * radius, lower[i], upper[i], 1e-9 * radius)).collect();
+    let d: Vec<f64> =
+        (0..n).map(|i| snapped(found.x[i] * radius, lower[i], upper[i], 1e-9 * radius)).collect();
     let (rise, elastic) = modelled(linear, &d);
     let limit_multipliers = linear.limits.iter().zip(&found.z[count..]);
     Some(Step {
         rise,
         elastic,
         rise_multipliers: found.z[..count].iter().map(|z| z.max(0.0)).collect(),
-        limit_multipliers: limit_multipliers
-            .map(|(row, z)| z.max(0.0) * limit_scale(row) / scale)
-            .collect(),
+        limit_multipliers: limit_multipliers.map(|(row, z)| z.max(0.0) * limit_scale(row) / scale).collect(),
         d,
     })
 }

@@ -28,6 +28,8 @@ const CORRECTED: f64 = 0.9;
 const HEAVIEST: f64 = 1e8;
 /// Times a climb may lower a weight that proved far above the multipliers; bounded, so that the merit falls at last.
 const LOWERINGS: usize = 8;
+/// Times a climb may forget its Hessian.
+const RESETS: usize = 2;
 /// Distance from a bound that counts as on it.
 const ON_BOUND: f64 = 1e-9;
 
@@ -86,11 +88,11 @@ impl Climb<'_, '_> {
             }
             let free: Vec<usize> = self.space.free().into_iter().filter(|i| !t.held.contains(i)).collect();
             let linear = self.view.linear(&outputs, &t, &free);
-            let hessian = match &mut b {
+            let known = match &mut b {
                 Some(b) => b,
                 None => b.insert(self.first_hessian(&t, &linear, &free)),
             };
-            let part = DMatrix::from_fn(free.len(), free.len(), |i, k| hessian[(free[i], free[k])]);
+            let part = DMatrix::from_fn(free.len(), free.len(), |i, k| known[(free[i], free[k])]);
             let Some(step) = self.subproblem(&linear, &part, &free, violation) else {
                 return Ok(End::Stalled(Cause::Subproblem));
             };
@@ -104,7 +106,9 @@ impl Climb<'_, '_> {
             self.multipliers = (step.rise_multipliers.clone(), step.limit_multipliers.clone());
             self.residuals = Residuals { kkt: self.kkt(&t), gain, step: length, violation };
             let scale = least.abs().max(1.0);
-            let coarse = self.shortest_step();
+            // Once steps are as short as the difference step, the error f'' h/2 of a forward difference is as large as
+            // the change of slope that the step is after.
+            let coarse = self.settings.shortest_difference;
             let small = match self.view.phase {
                 Phase::TieBreak { .. } => gain <= self.settings.tie_break_gain,
                 _ => {
@@ -123,6 +127,15 @@ impl Climb<'_, '_> {
                 self.record(Tried::Nothing);
                 let end = if met { End::Converged } else { End::Violated };
                 return Ok(if t.held.is_empty() { end } else { End::Stalled(Cause::NoDerivative(t.held)) });
+            }
+            if gain <= 0.0 {
+                // Not the minimum of a convex model: the Hessian has outgrown the subproblem's accuracy.
+                if resets == RESETS {
+                    return Ok(End::Stalled(Cause::Subproblem));
+                }
+                resets += 1;
+                b = None;
+                continue;
             }
             let slack = 10.0 * self.view.noise(self.noise);
             match self.attempt(&linear, &part, &free, &d, gain, slack)? {
@@ -152,6 +165,12 @@ impl Climb<'_, '_> {
                         lowered += 1;
                     }
                     if let Some(b) = &mut b {
+                        if let Some(c) = &next.curvatures {
+                            let bend: Vec<f64> = (0..s.len())
+                                .map(|i| weights.iter().zip(c).map(|(w, c)| w * c[i]).sum())
+                                .collect();
+                            hessian::rescale(b, &bend);
+                        }
                         hessian::update(b, &s, &y);
                     }
                     t = next;
@@ -173,7 +192,7 @@ impl Climb<'_, '_> {
                     if matches!(self.view.phase, Phase::TieBreak { .. }) {
                         return Ok(End::Converged);
                     }
-                    if !self.central || resets == 0 {
+                    if !self.central || resets < RESETS {
                         resets += usize::from(self.central);
                         self.central = true;
                         self.radius = coarse;
@@ -192,11 +211,6 @@ impl Climb<'_, '_> {
             }
         }
         Ok(End::Stalled(Cause::IterationLimit))
-    }
-
-    /// Difference step below which forward differences say nothing new.
-    fn shortest_step(&self) -> f64 {
-        self.settings.shortest_difference
     }
 
     /// Derivative table at the present point.

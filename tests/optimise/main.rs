@@ -1,7 +1,7 @@
 //! The optimiser on problems with known optima: one table of problems, one harness, and the ways a run can end.
 
-mod problems;
 mod ends;
+mod problems;
 
 use sprag_design::optimise::{Outcome, Run, Settings, Status, maximise_least_margin};
 
@@ -23,8 +23,15 @@ fn known_optima_are_met_within_the_stated_number_of_evaluations() {
         let error = (t - model.optimum) / model.optimum.abs().max(1.0);
         println!(
             "{:28} {:3} evaluations (<= {:3}), {:2} steps, t = {:.9} (error {:+.1e}), violation {:.1e}, kkt {:.1e}, {:?}",
-            model.name, found.evaluations, model.evaluations, found.history.len(), t, error,
-            found.evaluation.violation(), found.residuals.kkt, found.status
+            model.name,
+            found.evaluations,
+            model.evaluations,
+            found.history.len(),
+            t,
+            error,
+            found.evaluation.violation(),
+            found.residuals.kkt,
+            found.status
         );
         if std::env::var("TRACE").is_ok_and(|n| model.name.contains(&n)) {
             for i in &found.history {

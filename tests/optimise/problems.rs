@@ -34,26 +34,49 @@ fn cube(n: usize, lo: f64, hi: f64) -> (Vec<f64>, Vec<f64>) {
 
 pub fn all() -> Vec<Model> {
     let model = |name, margins: Margins, start: &[f64], (lo, hi), optimum, evaluations| Model {
-        name, margins, start: start.to_vec(), lo, hi, optimum, evaluations,
+        name,
+        margins,
+        start: start.to_vec(),
+        lo,
+        hi,
+        optimum,
+        evaluations,
     };
     vec![
         model("HS35 (Beale)", hs35, &[0.5; 3], cube(3, 0.0, 3.0), -1.0 / 9.0, 60),
         model("HS43 (Rosen-Suzuki)", hs43, &[0.0; 4], cube(4, -5.0, 5.0), 44.0, 120),
         model("HS71", hs71, &[1.0, 5.0, 5.0, 1.0], cube(4, 1.0, 5.0), -17.014017289, 100),
         model("HS100", hs100, &[1.0, 2.0, 0.0, 4.0, 0.0, 1.0, 1.0], cube(7, -5.0, 5.0), -680.6300573, 250),
-        model("Rosenbrock in a disc", rosenbrock_disc, &[-0.5, 0.5], cube(2, -1.5, 1.5), -disc_optimum(), 120),
+        model(
+            "Rosenbrock in a disc",
+            rosenbrock_disc,
+            &[-0.5, 0.5],
+            cube(2, -1.5, 1.5),
+            -disc_optimum(),
+            120,
+        ),
         model("CB2", cb2, &[1.0, -0.1], cube(2, -5.0, 5.0), -1.9522245, 80),
         model("CB3", cb3, &[2.0, 2.0], cube(2, -5.0, 5.0), -2.0, 80),
         model("Madsen", madsen, &[3.0, 1.0], cube(2, -5.0, 5.0), -0.6164324356, 80),
         model("Polak 6", polak6, &[0.0; 4], cube(4, -3.0, 3.0), 44.0, 250),
-        model("speed reducer", speed_reducer, &REDUCER_MIDDLE, reducer_box(), 1.0 - 2994.471066 / 3000.0, 100),
+        model(
+            "speed reducer",
+            speed_reducer,
+            &REDUCER_MIDDLE,
+            reducer_box(),
+            1.0 - 2994.471066 / 3000.0,
+            100,
+        ),
     ]
 }
 
 fn hs35(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let f = 9.0 - 8.0 * x[0] - 6.0 * x[1] - 4.0 * x[2]
-        + 2.0 * x[0] * x[0] + 2.0 * x[1] * x[1] + x[2] * x[2]
-        + 2.0 * x[0] * x[1] + 2.0 * x[0] * x[2];
+        + 2.0 * x[0] * x[0]
+        + 2.0 * x[1] * x[1]
+        + x[2] * x[2]
+        + 2.0 * x[0] * x[1]
+        + 2.0 * x[0] * x[2];
     (vec![-f], vec![3.0 - x[0] - x[1] - 2.0 * x[2]])
 }
 
@@ -79,9 +102,16 @@ fn hs71(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
 
 fn hs100(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let s = |v: f64| v * v;
-    let f = s(x[0] - 10.0) + 5.0 * s(x[1] - 12.0) + x[2].powi(4) + 3.0 * s(x[3] - 11.0)
-        + 10.0 * x[4].powi(6) + 7.0 * s(x[5]) + x[6].powi(4)
-        - 4.0 * x[5] * x[6] - 10.0 * x[5] - 8.0 * x[6];
+    let f = s(x[0] - 10.0)
+        + 5.0 * s(x[1] - 12.0)
+        + x[2].powi(4)
+        + 3.0 * s(x[3] - 11.0)
+        + 10.0 * x[4].powi(6)
+        + 7.0 * s(x[5])
+        + x[6].powi(4)
+        - 4.0 * x[5] * x[6]
+        - 10.0 * x[5]
+        - 8.0 * x[6];
     (
         vec![-f],
         vec![
@@ -114,12 +144,14 @@ fn disc_optimum() -> f64 {
 }
 
 fn cb2(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let f = [x[0].powi(2) + x[1].powi(4), (2.0 - x[0]).powi(2) + (2.0 - x[1]).powi(2), 2.0 * (x[1] - x[0]).exp()];
+    let f =
+        [x[0].powi(2) + x[1].powi(4), (2.0 - x[0]).powi(2) + (2.0 - x[1]).powi(2), 2.0 * (x[1] - x[0]).exp()];
     (f.map(|v| -v).to_vec(), Vec::new())
 }
 
 fn cb3(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let f = [x[0].powi(4) + x[1].powi(2), (2.0 - x[0]).powi(2) + (2.0 - x[1]).powi(2), 2.0 * (x[1] - x[0]).exp()];
+    let f =
+        [x[0].powi(4) + x[1].powi(2), (2.0 - x[0]).powi(2) + (2.0 - x[1]).powi(2), 2.0 * (x[1] - x[0]).exp()];
     (f.map(|v| -v).to_vec(), Vec::new())
 }
 
