@@ -225,7 +225,9 @@ impl Driver<'_, '_> {
         let scale = if here.tie_break == 0.0 { 1.0 } else { here.tie_break.abs() };
         let phase = Phase::TieBreak { floor, scale };
         let mut lower = stand.clone();
-        let out = SetOut { phase, radius: self.settings.first_radius, weight: FIRST_WEIGHT, central: true };
+        // Giving up the plateau's width must cost as much as the whole tie break.
+        let weight = 1.0 / (least - floor);
+        let out = SetOut { phase, radius: self.settings.first_radius, weight, central: true };
         self.climb(&out, &mut lower)?;
         let found = lower.point;
         let tolerance = self.settings.violation_tolerance;

@@ -20,6 +20,9 @@ pub(super) fn along_active(
 ) -> Vec<Vec<f64>> {
     let Some(table) = &stand.table else { return Vec::new() };
     let free: Vec<usize> = space.free().into_iter().filter(|i| !table.held.contains(i)).collect();
+    if free.is_empty() {
+        return Vec::new();
+    }
     let u = &stand.point.u;
     let linear = view.linear(&stand.point.evaluation.outputs(), table, &free);
     let (rise, limit) = &stand.multipliers;

@@ -26,6 +26,8 @@ const ACCEPTED: f64 = 0.1;
 const CORRECTED: f64 = 0.9;
 /// Penalty weight, relative to the first, at which the limits are taken to have no common point nearby.
 const HEAVIEST: f64 = 1e8;
+/// Share of the violation left by a step of some length at which restoration takes over.
+const HOPELESS: f64 = 0.9;
 /// Times a climb may lower a weight that proved far above the multipliers; bounded, so that the merit falls at last.
 const LOWERINGS: usize = 8;
 /// Times a climb may forget its Hessian.
@@ -87,6 +89,9 @@ impl Climb<'_, '_> {
                 return Ok(End::Feasible);
             }
             let free: Vec<usize> = self.space.free().into_iter().filter(|i| !t.held.contains(i)).collect();
+            if free.is_empty() {
+                return Ok(self.end(violation, t.held));
+            }
             let linear = self.view.linear(&outputs, &t, &free);
             let known = match &mut b {
                 Some(b) => b,
@@ -123,10 +128,13 @@ impl Climb<'_, '_> {
                 continue;
             }
             let met = violation <= self.settings.violation_tolerance;
+            if !met && step.elastic > HOPELESS * violation && self.radius >= 10.0 * coarse {
+                self.record(Tried::Nothing);
+                return Ok(End::Violated);
+            }
             if small && (met || step.elastic > 0.9 * violation) {
                 self.record(Tried::Nothing);
-                let end = if met { End::Converged } else { End::Violated };
-                return Ok(if t.held.is_empty() { end } else { End::Stalled(Cause::NoDerivative(t.held)) });
+                return Ok(self.end(violation, t.held));
             }
             if gain <= 0.0 {
                 // Not the minimum of a convex model: the Hessian has outgrown the subproblem's accuracy.
@@ -211,6 +219,17 @@ impl Climb<'_, '_> {
             }
         }
         Ok(End::Stalled(Cause::IterationLimit))
+    }
+
+    /// End at a stationary point.
+    fn end(&self, violation: f64, held: Vec<usize>) -> End {
+        if !held.is_empty() {
+            End::Stalled(Cause::NoDerivative(held))
+        } else if violation <= self.settings.violation_tolerance {
+            End::Converged
+        } else {
+            End::Violated
+        }
     }
 
     /// Derivative table at the present point.
