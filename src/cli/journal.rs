@@ -3,7 +3,7 @@
 use super::exit::Failure;
 use crate::optimise::{Entry, Journal};
 use serde::{Deserialize, Serialize};
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
@@ -114,13 +114,6 @@ pub fn path_for(output: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Reopen for appending (used by tests of a torn file).
-#[cfg(test)]
-fn tear(path: &Path) {
-    let mut f = OpenOptions::new().append(true).open(path).unwrap();
-    f.write_all(b"{\"x\":[1.0,").unwrap();
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -137,7 +130,10 @@ mod tests {
         let entry = Entry { x: vec![0.1], outcome: Ok(evaluation) };
         file.line(&entry);
         drop(file);
-        tear(&path);
+        // A kill in the middle of a line.
+        let mut torn = std::fs::OpenOptions::new().append(true).open(&path).unwrap();
+        torn.write_all(b"{\"x\":[1.0,").unwrap();
+        drop(torn);
         let (journal, file) = resume(&path, &header).unwrap();
         assert_eq!(journal.entries(), &[entry]);
         drop(file);
