@@ -178,6 +178,7 @@ fn reducer_box() -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Golinski's speed reducer (weight 2994.471066), objective 1 - weight/3000.
+#[allow(clippy::approx_constant)] // 0.7854 is the source's digits; pi/4 would be another problem
 fn speed_reducer(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let [b, m, z, l1, l2, d1, d2] = [x[0], x[1], x[2], x[3], x[4], x[5], x[6]];
     let weight = 0.7854 * b * m * m * (3.3333 * z * z + 14.9334 * z - 43.0934)
