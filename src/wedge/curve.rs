@@ -217,7 +217,8 @@ impl WedgeCurve {
 
     /// Windup W(alpha) >= 0 of the rolling clutch, rad; 0 at and below first contact.
     ///
-    /// Eq. (A.7), with the integral that the paper replaces by a product.
+    /// Eq. (A.7), as the integral of (rho_i + rho_e) d alpha, which the paper replaces by a product and prints
+    /// with a minus between the ratios.
     #[doc(alias = "Eq. (A.7)")]
     pub fn windup_rad(&self, alpha: f64) -> f64 {
         if alpha <= self.alpha0 {
