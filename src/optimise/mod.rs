@@ -17,6 +17,7 @@ mod qp;
 mod settings;
 mod space;
 mod sqp;
+mod step;
 mod view;
 
 pub use driver::maximise_least_margin;

@@ -18,7 +18,7 @@ pub(super) fn along_active(
     length: f64,
     inactive: f64,
 ) -> Vec<Vec<f64>> {
-    let Some(table) = &stand.table else { return Vec::new() };
+    let table = &stand.table;
     let free: Vec<usize> = space.free().into_iter().filter(|i| !table.held.contains(i)).collect();
     if free.is_empty() {
         return Vec::new();
