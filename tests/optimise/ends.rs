@@ -44,8 +44,21 @@ fn infeasible_limits_are_named_with_their_least_violation() {
     assert!(found.evaluations < 45, "{}", found.evaluations);
 }
 
-/// x^2 >= 1 from x = 0, where its slope vanishes and nothing else draws x away: only the poll sees that both sides
-/// are better.
+/// The bottom of a valley is stationary too, along an axis or across both: only the poll sees that it is no top.
+#[test]
+fn the_poll_leaves_the_bottom_of_a_valley() {
+    let along = Toy(|x: &[f64]| margins(&[x[0] * x[0] - x[1] * x[1]], &[], 0.0));
+    let across = Toy(|x: &[f64]| margins(&[x[0] * x[1]], &[], 0.0));
+    for problem in [&along as &dyn Evaluate, &across] {
+        let found = run(problem, &[0.0, 0.0], -1.0, 1.0, &Settings::default());
+        assert_eq!(found.status, Status::Converged);
+        assert!((found.evaluation.least_margin() - 1.0).abs() < 1e-6, "{:?}", found.x);
+    }
+    let blind = run(&along, &[0.0, 0.0], -1.0, 1.0, &Settings { poll: false, ..Settings::default() });
+    assert!(blind.evaluation.least_margin() < 1e-3);
+}
+
+/// x^2 >= 1 from x = 0, where its slope vanishes and nothing else draws x away.
 #[test]
 fn restoration_leaves_a_level_point() {
     let problem = Toy(|x: &[f64]| margins(&[1.0 - x[1] * x[1]], &[x[0] * x[0] - 1.0], 0.0));
