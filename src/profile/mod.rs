@@ -16,10 +16,12 @@ mod mass;
 mod outline;
 #[cfg(test)]
 mod properties;
+mod unclosed;
 
 pub use crowding::{clearance_m, touch_rotation_rad};
 pub use mass::MassProperties;
-pub use outline::{Outline, OutlineError, Segment, Side};
+pub use outline::{Outline, Segment};
+pub use unclosed::{OutlineError, Side};
 
 use nalgebra::Vector2;
 
