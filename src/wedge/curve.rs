@@ -120,6 +120,20 @@ pub enum NoCurve {
     NoElastic(NoElastic),
 }
 
+impl std::fmt::Display for NoCurve {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::NoFirstContact => f.write_str(
+                "no first contact at this speed: it lies beyond the profile, or the sprag has rolled over",
+            ),
+            Self::NoConvergence => f.write_str("a point of the curve did not converge"),
+            Self::NoElastic(why) => write!(f, "{why}"),
+        }
+    }
+}
+
+impl std::error::Error for NoCurve {}
+
 impl WedgeCurve {
     /// Build the curve of `clutch` at mean speed `speed_rad_s`.
     ///
