@@ -55,6 +55,18 @@ pub struct Search {
     pub evaluations: usize,
 }
 
+impl Search {
+    /// Whether every margin of the design found is held.
+    pub fn feasible(&self) -> bool {
+        self.best.iter().all(Margin::held)
+    }
+
+    /// Whether every margin of the given design was held.
+    pub fn start_feasible(&self) -> bool {
+        self.start.iter().all(Margin::held)
+    }
+}
+
 /// Why a search did not begin.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoSearch {

@@ -82,6 +82,20 @@ pub enum NoCurve {
     NoElastic(NoElastic),
 }
 
+impl std::fmt::Display for NoCurve {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::NoFirstContact => f.write_str(
+                "no first contact at this speed: it lies beyond the profile, or the sprag has rolled over",
+            ),
+            Self::NoConvergence => f.write_str("a point of the curve did not converge"),
+            Self::NoElastic(why) => write!(f, "{why}"),
+        }
+    }
+}
+
+impl std::error::Error for NoCurve {}
+
 impl WedgeCurve {
     /// alpha at first contact at this speed, rad (0 at rest).
     pub fn first_contact_rad(&self) -> f64 {
