@@ -97,13 +97,16 @@ pub fn page(title: &str, design: &Design, context: &Context) -> Page {
     })
 }
 
-/// The sprag of `design` at first contact at rest, with its real outline.
+/// The sprag of `design` at first contact at rest, with its outline: the narrowest that works where the design
+/// names no flanks.
 pub fn pose_at_rest(label: &str, design: &Design, profile: &Profile) -> SpragPose {
     let sprags = &design.clutch.sprags;
-    // A profile whose flanks miss an arc is drawn by its arcs, contacts and centres alone.
-    let outline = Outline::new(profile, sprags.flanks.rear_m, sprags.flanks.front_m)
-        .map(|o| o.polyline(OUTLINE_M))
-        .unwrap_or_default();
+    // A profile that no flanks close is drawn by its arcs, contacts and centres alone.
+    let outline = match sprags.flanks {
+        Some(flanks) => Outline::new(profile, flanks.rear_m, flanks.front_m),
+        None => Outline::narrowest(profile),
+    };
+    let outline = outline.map(|o| o.polyline(OUTLINE_M)).unwrap_or_default();
     SpragPose::at_first_contact(label, profile, outline, Some(sprags.centroid_m))
 }
 

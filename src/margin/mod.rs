@@ -60,9 +60,9 @@ pub enum NoMargins {
 impl std::fmt::Display for NoMargins {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Profile(e) => write!(f, "the profile cannot be placed: {e:?}"),
-            Self::Outline(e) => write!(f, "the outline does not close: {e:?}"),
-            Self::Curve(e) => write!(f, "no wedge curve: {e:?}"),
+            Self::Profile(e) => write!(f, "the profile cannot be placed: {e}"),
+            Self::Outline(e) => write!(f, "the outline does not close: {e}"),
+            Self::Curve(e) => write!(f, "no wedge curve: {e}"),
         }
     }
 }
