@@ -29,8 +29,7 @@ pub struct PublishedRun {
 
 /// Modes by which (11) is evaluated: rolling force inside the band, limited to mu_s N; slip outside.
 ///
-/// Eq. (11), Eq. (12), with opposite signs at A and B (the paper prints sgn(Vel) at both).
-#[doc(alias = "Eq. (11)")]
+/// The three lines of (11), with (12) in the last.
 fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(State, f64, f64)> {
     let curve = &model.curve;
     let alpha = y[0];
@@ -64,7 +63,12 @@ fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(S
     out.iter().all(|x| x.is_finite()).then_some((out, f.n_bi, tan))
 }
 
-/// Integrate from `state` over `duration_s` with fixed step `step_s` and band `band_m_s` (the paper: 1e-5 s).
+/// Eq. (11) in the printed form: T = T_f while |v| < D_V and |T_f| < mu_s N, mu_s N sgn(T_f) while |v| < D_V
+/// beyond that, mu(v) N outside the band. Not as printed: sgn(Vel) stands at both contacts there, but
+/// T_bi = -sgn(v_A) mu N_bi, T_be = +sgn(v_B) mu N_be, or one of them would feed energy.
+///
+/// Integrates from `state` over `duration_s` with fixed step `step_s` and band `band_m_s` (the paper: 1e-5 s).
+#[doc(alias = "Eq. (11)")]
 pub fn published(model: &Model, state: State, duration_s: f64, step_s: f64, band_m_s: f64) -> PublishedRun {
     let steps = (duration_s / step_s).round().max(1.0) as u64;
     let h = duration_s / steps as f64;

@@ -124,12 +124,8 @@ pub fn search(
     let problem = ClutchProblem::new(design, task, free.clone(), simulation);
     let (lo, hi) = bounds(task, &free);
     let x_free: Vec<f64> = kept.iter().map(|&i| x0[i]).collect();
-    // Named arm by arm so that the observer's borrow may shrink to the problem's.
-    let watch: Option<&mut dyn Watch> = match watch {
-        Some(w) => Some(w),
-        None => None,
-    };
-    let run = Run { journal, stop, watch };
+    // Coerced one by one so that the observer's borrow may shrink to the problem's.
+    let run = Run { journal, stop, watch: watch.map(|w| w as &mut dyn Watch) };
     let outcome = maximise_least_margin(&problem, &x_free, &lo, &hi, settings, run).map_err(refused)?;
     let sharper = scenario::Settings { tolerance: 0.1 * simulation.tolerance, ..simulation };
     let best = problem.margins_at(&outcome.x, &sharper).map_err(NoSearch::Start)?;
