@@ -8,7 +8,7 @@ use super::spacing::{depths, growing, positions, steps_to_cover};
 use crate::profile::Segment;
 
 /// Growth of the spacing from one row to the next, away from the contacts; a choice.
-const GROWTH: f64 = 1.2;
+const GROWTH: f64 = 1.3;
 
 /// One block of hexahedra, `i` along the surface towards +x, `j` outward, `k` along the axis.
 #[derive(Debug, Clone)]
@@ -88,7 +88,7 @@ pub(super) struct Grid {
     pub step: f64,
     /// Way that the contacts travel.
     pub travel: f64,
-    /// Fine stretch beyond either end of that way, also the depth of even rows.
+    /// Fine stretch beyond either end of that way, two fifths of it the depth of even rows.
     pub margin: f64,
     /// Number of fine columns.
     pub fine_count: usize,
@@ -101,7 +101,7 @@ impl Grid {
     }
 
     fn even_rows(&self) -> usize {
-        (self.margin / self.step).ceil() as usize
+        (0.4 * self.margin / self.step).ceil() as usize
     }
 
     /// Fine stretch along a surface: the inner contact travels towards +x, the outer towards -x.
@@ -204,6 +204,11 @@ impl Section {
         }
         let (x, y, r, _) = arcs.pop()?;
         (!arcs.is_empty()).then_some(Self { arcs, outer: (x, y, r), flanks: (flanks[0], flanks[1]) })
+    }
+
+    /// Distance of the nearer flank from the strut.
+    pub fn reach_mm(&self) -> f64 {
+        (-self.flanks.0).min(self.flanks.1)
     }
 
     /// Height of the inner side at an offset; nodes lie outside the arc so that chords follow it.

@@ -77,7 +77,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Friction 0.3, penalty 1000 E per mm, 24 increments, a layer meshed at 25 um; torque 0: give one.
+    /// Friction 0.3, penalty 1000 E per mm, 12 increments, a layer meshed at 25 um; torque 0: give one.
     fn default() -> Self {
         Self {
             variant: Variant::Layer,
@@ -85,7 +85,7 @@ impl Default for Options {
             torque_nm: 0.0,
             friction: 0.3,
             penalty_per_m: 1e6,
-            increments: 24,
+            increments: 12,
         }
     }
 }
@@ -215,7 +215,7 @@ fn model(
     let longest = s.inner_arcs.iter().map(|a: &InnerArc| a.radius_m).fold(s.outer_radius_m, f64::max);
     // The outer contact travels by the body's rotation, a little more than the inner one's turn.
     let travel = 1.05e3 * longest * last.contact_turn_rad;
-    let margin = 1.5e3 * last.half_width_inner_m + 4e3 * options.mesh_m;
+    let margin = 1.5e3 * last.half_width_inner_m + 3e3 * options.mesh_m;
     let grid = Grid::new(1e3 * options.mesh_m, travel, margin);
 
     let (half, layers, beyond) = match options.variant {
@@ -246,19 +246,17 @@ fn model(
     let rotation = (oc_i * beta.sin()).atan2(oc_i * beta.cos() - oc_e) - first.centre_m.x.atan2(first.centre_m.y);
     let start_rad = 2.0 * OVERLAP_MM / (touch.t_ratio * r_i);
 
-    let reach = 0.9 * 0.5 * sector_rad * r_i;
-    let flank = 0.9e3 * s.flanks.rear_m.min(s.flanks.front_m);
-    if beta.is_nan() || travel + margin > reach.min(flank) {
+    let foot = first.centre_m + first.radius_m * foot_direction;
+    let up = (nalgebra::Vector2::new(0.0, s.outer_radius_m) - foot).normalize();
+    let section = Section::new(outline.segments(), [foot.x, foot.y], [up.x, up.y]).ok_or(NoDeck::NoRoom)?;
+    let room = 0.9 * (0.5 * sector_rad * r_i).min(section.reach_mm());
+    if beta.is_nan() || travel.is_nan() || travel + margin > room {
         return Err(NoDeck::NoRoom);
     }
 
     let ring = |middle, track, far| Sector { middle, half_angle: 0.5 * sector_rad, track, far };
     let mut inner = ring(beta, r_i, bore).block(&grid, race_zs.clone());
     let mut outer = ring(0.0, r_e, r_ed).block(&grid, race_zs);
-    let foot = first.centre_m + first.radius_m * foot_direction;
-    let up = (nalgebra::Vector2::new(0.0, s.outer_radius_m) - foot).normalize();
-    let section =
-        Section::new(outline.segments(), [foot.x, foot.y], [up.x, up.y]).ok_or(NoDeck::NoRoom)?;
     let mut sprag = section.block(&grid, axial(half, layers, 0.0));
     let (sin, cos) = rotation.sin_cos();
     for p in &mut sprag.points {

@@ -1,11 +1,185 @@
-//! to come
-/// x
-#[derive(Debug)]
-pub struct Row;
-/// x
-#[derive(Debug)]
-pub struct NoRows;
-/// x
-pub fn read() {}
-/// x
-pub fn at_torque() {}
+//! The result of a deck as rows of `stiffness`.
+//!
+//! Eq. (statics of one sector): torque from the moment of the contact forces about the axis at the inner
+//! contact, C = n_s M; T_bi = M/OA with OA the radius of the patch's centre, N_bi = sqrt(F^2 - T_bi^2) from the
+//! whole contact force F. Windup is the turn of the rim against the bore, so it holds the shear of the two
+//! rings (0.1 % for Table 1) and the tangential give of the contacts, which the library's rigid races do not.
+
+use super::Facts;
+
+/// One converged increment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Torque C of the clutch, N m.
+    pub torque_nm: f64,
+    /// N_bi per sprag, N.
+    pub normal_inner_n: f64,
+    /// N_be per sprag, N.
+    pub normal_outer_n: f64,
+    /// T_bi/N_bi.
+    pub tan_omega: f64,
+    /// T_be/N_be.
+    pub tan_nu: f64,
+    /// Turn of the rim against the bore since first contact, rad.
+    pub windup_rad: f64,
+    /// Largest contact pressure found at the inner contact, Pa; none where the result holds no stresses.
+    pub pressure_inner_pa: Option<f64>,
+}
+
+/// Why a result has no rows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoRows {
+    /// The deck's head lacks a fact, or has it damaged.
+    Deck {
+        /// Key of the fact.
+        key: &'static str,
+    },
+    /// A line of the result that should hold numbers does not.
+    Line {
+        /// Number of the line, from 1.
+        line: usize,
+    },
+    /// The result holds no converged increment under load.
+    Empty,
+}
+
+impl std::fmt::Display for NoRows {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Deck { key } => write!(f, "the deck's head lacks {key}, or it is no number"),
+            Self::Line { line } => write!(f, "line {line} does not hold the numbers expected there"),
+            Self::Empty => f.write_str("no converged increment under load"),
+        }
+    }
+}
+
+impl std::error::Error for NoRows {}
+
+/// Force and moment about the axis at one contact, mm and N.
+#[derive(Debug, Clone, Copy)]
+struct Contact {
+    force_n: f64,
+    moment_nmm: f64,
+    radius_mm: f64,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Increment {
+    time: f64,
+    control: [Option<f64>; 2],
+    inner: Option<Contact>,
+    outer: Option<Contact>,
+    pressure_mpa: Option<f64>,
+}
+
+/// Rows of a result, in order of time; `facts` are those of its deck.
+///
+/// # Errors
+/// [`NoRows`].
+pub fn read(facts: &Facts, dat: &str) -> Result<Vec<Row>, NoRows> {
+    let rows: Vec<Row> = increments(dat)?.iter().filter_map(|i| row(facts, i)).collect();
+    if rows.is_empty() { Err(NoRows::Empty) } else { Ok(rows) }
+}
+
+fn row(facts: &Facts, i: &Increment) -> Option<Row> {
+    let (inner, outer) = (i.inner?, i.outer?);
+    let force = |c: Contact| {
+        let tangential = c.moment_nmm.abs() / c.radius_mm;
+        (facts.axial_factor * (c.force_n.powi(2) - tangential.powi(2)).max(0.0).sqrt(), tangential * facts.axial_factor)
+    };
+    let ((n_bi, t_bi), (n_be, t_be)) = (force(inner), force(outer));
+    // q = R [sin(theta - ahead) + sin(ahead)].
+    let turn = |side: usize| {
+        let (q, ahead) = (i.control[side]?, facts.ahead_rad[side]);
+        Some(ahead + (q / facts.driven_mm[side] - ahead.sin()).clamp(-1.0, 1.0).asin())
+    };
+    let row = Row {
+        torque_nm: 1e-3 * facts.count as f64 * facts.axial_factor * inner.moment_nmm,
+        normal_inner_n: n_bi,
+        normal_outer_n: n_be,
+        tan_omega: t_bi / n_bi,
+        tan_nu: t_be / n_be,
+        windup_rad: facts.start_rad + turn(1)? - turn(0)?,
+        pressure_inner_pa: i.pressure_mpa.map(|p| 1e6 * p),
+    };
+    (row.torque_nm > 0.0 && n_bi > 0.0 && n_be > 0.0 && row.windup_rad.is_finite()).then_some(row)
+}
+
+/// Torque, normal forces, tangents, windup and pressure at `torque_nm`: quadratics of their logarithms through
+/// the three nearest rows (a line through two). None outside the rows.
+pub fn at_torque(rows: &[Row], torque_nm: f64) -> Option<Row> {
+    let above = rows.iter().position(|r| r.torque_nm >= torque_nm)?;
+    if above == 0 {
+        return rows.first().filter(|r| r.torque_nm == torque_nm).copied();
+    }
+    let nearer_below = above >= 2
+        && (above + 1 >= rows.len() || torque_nm / rows[above - 2].torque_nm < rows[above + 1].torque_nm / torque_nm);
+    let from = if nearer_below { above - 2 } else { above - 1 };
+    let near = &rows[from..(from + 3).min(rows.len())];
+    let xs: Vec<f64> = near.iter().map(|r| r.torque_nm.ln()).collect();
+    if xs.windows(2).any(|w| w[1] <= w[0]) {
+        return None;
+    }
+    let x = torque_nm.ln();
+    let weights: Vec<f64> = (0..xs.len())
+        .map(|a| (0..xs.len()).filter(|b| *b != a).map(|b| (x - xs[b]) / (xs[a] - xs[b])).product())
+        .collect();
+    let mix = |value: &dyn Fn(&Row) -> f64| -> f64 {
+        near.iter().zip(&weights).map(|(r, w)| w * value(r).ln()).sum::<f64>().exp()
+    };
+    Some(Row {
+        torque_nm,
+        normal_inner_n: mix(&|r| r.normal_inner_n),
+        normal_outer_n: mix(&|r| r.normal_outer_n),
+        tan_omega: mix(&|r| r.tan_omega),
+        tan_nu: mix(&|r| r.tan_nu),
+        windup_rad: mix(&|r| r.windup_rad),
+        pressure_inner_pa: near
+            .iter()
+            .all(|r| r.pressure_inner_pa.is_some_and(|p| p > 0.0))
+            .then(|| mix(&|r| r.pressure_inner_pa.unwrap_or(1.0))),
+    })
+}
+
+/// Increments of a `.dat`: every block names its time; blocks of one time belong together.
+fn increments(dat: &str) -> Result<Vec<Increment>, NoRows> {
+    let mut all: Vec<Increment> = Vec::new();
+    let mut lines = dat.lines().enumerate().filter(|(_, l)| !l.trim().is_empty()).peekable();
+    while let Some((at, head)) = lines.next() {
+        let Some((_, time)) = head.split_once(" time ") else { continue };
+        let time: f64 = time.trim().parse().map_err(|_| NoRows::Line { line: at + 1 })?;
+        if all.last().is_none_or(|i| i.time != time) {
+            all.push(Increment { time, ..Increment::default() });
+        }
+        let Some(current) = all.last_mut() else { continue };
+        // Rows of numbers with a word above each in the statistics.
+        let mut body: Vec<(usize, Vec<f64>)> = Vec::new();
+        while let Some((line, text)) = lines.next_if(|(_, l)| !l.contains(" time ")) {
+            let numbers: Option<Vec<f64>> = text.split_whitespace().map(|w| w.parse().ok()).collect();
+            if let Some(numbers) = numbers {
+                body.push((line + 1, numbers));
+            }
+        }
+        let lost = NoRows::Line { line: at + 1 };
+        if head.contains("displacements") && head.contains("NCONTROL") {
+            for (side, slot) in current.control.iter_mut().enumerate() {
+                *slot = Some(*body.get(side).and_then(|(_, n)| n.get(1)).ok_or_else(|| lost.clone())?);
+            }
+        } else if head.contains("statistics for slave set") {
+            // Without contact CalculiX prints no statistics worth the name.
+            let (Some((_, total)), Some((_, centre))) = (body.first(), body.get(1)) else { return Err(lost) };
+            let (&[x, y, _, _, _, moment], &[cx, cy, ..]) = (total.as_slice(), centre.as_slice()) else {
+                return Err(lost);
+            };
+            let contact = Contact { force_n: x.hypot(y), moment_nmm: moment, radius_mm: cx.hypot(cy) };
+            if head.contains("SSPRAGIN") {
+                current.inner = Some(contact);
+            } else {
+                current.outer = Some(contact);
+            }
+        } else if head.contains("contact stress") {
+            current.pressure_mpa = None;
+        }
+    }
+    Ok(all)
+}

@@ -6,7 +6,7 @@ fn design() -> (Design, Profile, Outline) {
     let text = include_str!("../../../designs/huang2017-single-arc.toml");
     let design = Design::parse(text, "single").unwrap();
     let profile = place_profile(&design.clutch).unwrap();
-    let flanks = design.clutch.sprags.flanks;
+    let flanks = design.clutch.sprags.flanks.unwrap();
     let outline = Outline::new(&profile, flanks.rear_m, flanks.front_m).unwrap();
     (design, profile, outline)
 }

@@ -89,6 +89,15 @@ fn write_deck(out: &mut String, m: &Model, clutch: &Clutch, options: &Options) -
     writeln!(out, "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE\nSSPRAGOUT,SOUTER")?;
 
     let plane_strain = options.variant == Variant::PlaneStrain;
+    if m.sprag.zs.len() == 2 {
+        writeln!(out, "** One layer: its two faces move alike in the plane.\n*EQUATION")?;
+        for (_, block) in blocks {
+            for low in block.first_node..block.first_node + block.points.len() {
+                let high = low + block.points.len();
+                writeln!(out, "2\n{high},1,1.,{low},1,-1.\n2\n{high},2,1.,{low},2,-1.")?;
+            }
+        }
+    }
     for (block, row, node, ahead) in [
         (&m.inner, m.driven.0, control, f.ahead_rad[0]),
         (&m.outer, m.driven.1, control + 1, f.ahead_rad[1]),
@@ -130,7 +139,7 @@ fn step(out: &mut String, increments: usize, control: usize, shift: [f64; 2]) ->
     }
     writeln!(out, "*BOUNDARY\n{control},1,1,{:.12e}\n{},1,1,{:.12e}", shift[0], control + 1, shift[1])?;
     writeln!(out, "*NODE PRINT, NSET=NCONTROL\nU,RF")?;
-    writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGIN, MASTER=SINNER\nCF")?;
+    writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGIN, MASTER=SINNER\nCF,CSTR")?;
     writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGOUT, MASTER=SOUTER\nCF")?;
     writeln!(out, "*END STEP")
 }
@@ -151,6 +160,8 @@ fn surface(out: &mut String, name: &str, block: &Block, face: Face, layers: usiz
     Ok(())
 }
 
+/// The constant needs its decimal point: CalculiX takes a line without one for degrees of freedom.
+///
 /// Springs from the ground to the middle of either flank, in the plane.
 fn springs(out: &mut String, m: &Model) -> std::fmt::Result {
     let (i, j) = (m.sprag.size.0 - 1, m.sprag.size.1 / 2);
@@ -161,7 +172,7 @@ fn springs(out: &mut String, m: &Model) -> std::fmt::Result {
             writeln!(out, "{element},{node}")?;
             element += 1;
         }
-        writeln!(out, "*SPRING, ELSET=ESOFT{dof}\n{dof}\n{:e}", SOFT_N_PER_MM / m.facts.axial_factor)?;
+        writeln!(out, "*SPRING, ELSET=ESOFT{dof}\n{dof}\n{:.9}", SOFT_N_PER_MM / m.facts.axial_factor)?;
     }
     Ok(())
 }
@@ -170,14 +181,18 @@ fn springs(out: &mut String, m: &Model) -> std::fmt::Result {
 fn cyclic(out: &mut String, block: &Block, sector_rad: f64, plane_strain: bool) -> std::fmt::Result {
     let (s, c) = sector_rad.sin_cos();
     writeln!(out, "*EQUATION")?;
+    let tied = block.zs.len() == 2;
     for k in 0..block.zs.len() {
         for j in 0..block.size.1 {
             let (master, slave) = (block.node(0, j, k), block.node(block.size.0 - 1, j, k));
-            writeln!(out, "3\n{slave},1,1.,{master},1,{:.15e},{master},2,{:.15e}", -c, -s)?;
-            writeln!(out, "3\n{slave},2,1.,{master},1,{s:.15e},{master},2,{:.15e}", -c)?;
             if !plane_strain && k > 0 {
                 writeln!(out, "2\n{slave},3,1.,{master},3,-1.")?;
             }
+            if tied && k > 0 {
+                continue;
+            }
+            writeln!(out, "3\n{slave},1,1.,{master},1,{:.12},{master},2,{:.12}", -c, -s)?;
+            writeln!(out, "3\n{slave},2,1.,{master},1,{s:.12},{master},2,{:.12}", -c)?;
         }
     }
     Ok(())
@@ -186,7 +201,8 @@ fn cyclic(out: &mut String, block: &Block, sector_rad: f64, plane_strain: bool) 
 /// Every node of row `j` moves by the control's component along its tangent, turned ahead.
 fn driven(out: &mut String, block: &Block, j: usize, control: usize, ahead: f64) -> std::fmt::Result {
     writeln!(out, "*EQUATION")?;
-    for k in 0..block.zs.len() {
+    let planes = if block.zs.len() == 2 { 1 } else { block.zs.len() };
+    for k in 0..planes {
         for i in 0..block.size.0 - 1 {
             let p = block.point(i, j);
             let azimuth = p[0].atan2(p[1]) + ahead;
@@ -196,7 +212,7 @@ fn driven(out: &mut String, block: &Block, j: usize, control: usize, ahead: f64)
             let terms = if x.abs() > y.abs() { [(1, x), (2, y)] } else { [(2, y), (1, x)] };
             writeln!(
                 out,
-                "3\n{node},{},{:.15e},{node},{},{:.15e},{control},1,-1.",
+                "3\n{node},{},{:.12},{node},{},{:.12},{control},1,-1.",
                 terms[0].0, terms[0].1, terms[1].0, terms[1].1
             )?;
         }
