@@ -6,6 +6,7 @@ use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER, events};
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 use crate::numeric::root;
 use crate::ode::dop853::{self, Counters, Dense, Step, Tolerance};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Settings of a run.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +25,8 @@ pub struct RunSettings {
     pub samples: usize,
     /// Pure rolling: no friction limit, contact held by tension below first contact.
     pub rolling: bool,
+    /// Set from outside to end the run at the next step.
+    pub interrupt: Option<&'static AtomicBool>,
 }
 
 /// Why a run ended.
@@ -41,6 +44,28 @@ pub enum Stop {
     StepLimit,
     /// The right-hand side ceased to be finite.
     NotFinite,
+    /// Asked to stop from outside.
+    Interrupted,
+}
+
+impl Stop {
+    /// Name in reports and JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::CurveEnd => "curve-end",
+            Self::FellAway => "fell-away",
+            Self::EventLimit => "event-limit",
+            Self::StepLimit => "step-limit",
+            Self::NotFinite => "not-finite",
+            Self::Interrupted => "interrupted",
+        }
+    }
+
+    /// Whether the run says what becomes of the clutch: it reached its end or left the curve.
+    pub fn concludes(self) -> bool {
+        matches!(self, Self::Finished | Self::CurveEnd | Self::FellAway)
+    }
 }
 
 /// Slip at one contact.
@@ -67,6 +92,20 @@ pub struct Peaks {
     pub normal_max_n: f64,
     /// Largest N_be, N.
     pub normal_outer_max_n: f64,
+    /// When each was reached first, s, in the order above.
+    pub at_s: [f64; 5],
+}
+
+impl Peaks {
+    /// Nothing seen yet.
+    pub const NONE: Self = Self {
+        tan_inner: 0.0,
+        tan_outer: 0.0,
+        normal_min_n: f64::INFINITY,
+        normal_max_n: 0.0,
+        normal_outer_max_n: 0.0,
+        at_s: [0.0; 5],
+    };
 }
 
 /// One sample.
@@ -109,6 +148,8 @@ pub struct Run {
     pub counters: Counters,
     /// Equidistant samples.
     pub samples: Vec<Sample>,
+    /// Every mode with the time at which it began, s; empty where no samples were asked for.
+    pub modes: Vec<(f64, Mode)>,
 }
 
 /// Shortest step that is still taken, s.
@@ -133,13 +174,6 @@ pub fn run(model: &Model, state: State, mode: Mode, settings: &RunSettings) -> R
     let tol = settings.tolerance;
     let (angle, rate, slip) = (1e-2 * tol, 10.0 * tol, 1e-3 * tol);
     let absolute = [angle, angle, angle, angle, rate, rate, rate, rate, slip, slip];
-    let peaks = Peaks {
-        tan_inner: 0.0,
-        tan_outer: 0.0,
-        normal_min_n: f64::INFINITY,
-        normal_max_n: 0.0,
-        normal_outer_max_n: 0.0,
-    };
     let mut driver = Driver {
         model,
         settings,
@@ -153,10 +187,11 @@ pub fn run(model: &Model, state: State, mode: Mode, settings: &RunSettings) -> R
             outer: SlipRecord::default(),
             open_s: 0.0,
             longest_open_s: 0.0,
-            peaks,
+            peaks: Peaks::NONE,
             events: 0,
             counters: Counters::default(),
             samples: Vec::with_capacity(settings.samples),
+            modes: Vec::new(),
         },
         open_since: (mode.place == Place::Open).then_some(0.0),
         phase: None,
@@ -173,6 +208,9 @@ impl Driver<'_> {
     fn integrate(&mut self) {
         let model = self.model;
         while self.run.t_s < self.settings.duration_s {
+            if self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+                return self.stop(Stop::Interrupted);
+            }
             let mode = self.run.mode;
             let (t, y) = (self.run.t_s, self.run.state);
             let mut rhs = |t: f64, y: &State| model.slope(&mode, t, y).ok_or(());
@@ -307,6 +345,7 @@ impl Driver<'_> {
         let t = step.t + h;
         let mut y = step.y0;
         if h > 0.0 {
+            self.run.counters.rhs_evaluations += 1;
             let Ok(slope) = rhs(step.t, &step.y0) else {
                 self.stop(Stop::NotFinite);
                 return false;
@@ -459,6 +498,9 @@ impl Driver<'_> {
             _ => {}
         }
         self.run.mode = mode;
+        if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {
+            self.run.modes.push((t, mode));
+        }
     }
 
     /// Take over an accepted step: constraint, peaks, samples, slip records.
@@ -529,12 +571,17 @@ impl Driver<'_> {
         });
         let p = &mut self.run.peaks;
         let mut best = [p.tan_inner, p.tan_outer, -p.normal_min_n, p.normal_max_n, p.normal_outer_max_n];
+        let mut at_s = p.at_s;
         let samples = self.settings.samples;
         let wants_sample =
             samples > 0 && self.next_sample < samples && self.sample_time(self.next_sample) <= t_end;
         let mut dense = None;
         for i in 0..best.len() {
-            best[i] = best[i].max(values[0][i]).max(values[4][i]);
+            for (j, theta) in [(0, 0.0), (4, 1.0)] {
+                if values[j][i] > best[i] {
+                    (best[i], at_s[i]) = (values[j][i], step.t + theta * step.h);
+                }
+            }
             for j in 0..thetas.len() {
                 let (left, right) = (j.saturating_sub(1), (j + 1).min(thetas.len() - 1));
                 let (peak, below) = (values[j][i], values[left][i].min(values[right][i]));
@@ -549,7 +596,10 @@ impl Driver<'_> {
                         let t = step.t + theta * step.h;
                         figures(t, &d.at(t))[i]
                     };
-                    best[i] = best[i].max(golden(thetas[left], thetas[right], value));
+                    let (theta, found) = golden(thetas[left], thetas[right], value);
+                    if found > best[i] {
+                        (best[i], at_s[i]) = (found, step.t + theta * step.h);
+                    }
                 }
             }
         }
@@ -571,6 +621,7 @@ impl Driver<'_> {
             normal_min_n: -best[2],
             normal_max_n: best[3],
             normal_outer_max_n: best[4],
+            at_s,
         };
         Ok(())
     }
@@ -610,8 +661,8 @@ fn moving(v: f64) -> Known {
     if v == 0.0 { Known::Still } else { Known::Slips(v.signum()) }
 }
 
-/// Largest value of a unimodal function on [a, b].
-fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
+/// Place and value of the largest value of a unimodal function on [a, b].
+fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
     const RATIO: f64 = 0.618_033_988_749_894_9;
     let (mut c, mut d) = (b - RATIO * (b - a), a + RATIO * (b - a));
     let (mut fc, mut fd) = (f(c), f(d));
@@ -626,5 +677,5 @@ fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
             fd = f(d);
         }
     }
-    fc.max(fd)
+    if fc > fd { (c, fc) } else { (d, fd) }
 }
