@@ -9,6 +9,7 @@ pub mod margin;
 pub mod material;
 pub mod numeric;
 pub mod ode;
+pub mod optimise;
 pub mod profile;
 pub mod race;
 pub mod report;

@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
-  sprag-design check designs/huang-2017.toml
-  sprag-design check designs/huang-2017.toml --report check.html
-  sprag-design check designs/huang-2017.toml --json | jq '.margins[] | select(.margin < 0)'";
+  sprag-design check designs/huang2017-multi-arc.toml
+  sprag-design check designs/huang2017-multi-arc.toml --report check.html
+  sprag-design check designs/huang2017-multi-arc.toml --json | jq '.margins[] | select(.margin < 0)'";
 
 /// Arguments of `check`.
 #[derive(Debug, Clone, Args)]

@@ -7,8 +7,10 @@
 pub mod check;
 pub mod exit;
 pub mod interrupt;
+pub mod left_out;
 pub mod optimize;
 pub mod output;
+pub mod parts;
 pub mod progress;
 pub mod schema;
 pub mod simulate;
@@ -25,10 +27,10 @@ use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
 Examples:
-  sprag-design check designs/huang-2017.toml
-  sprag-design stiffness designs/huang-2017.toml --max-torque 50 --csv curve.csv
-  sprag-design simulate designs/huang-2017.toml --scenario high-10 --report high-10.html
-  sprag-design optimize designs/huang-2017.toml -o better.toml
+  sprag-design check designs/huang2017-multi-arc.toml
+  sprag-design stiffness designs/huang2017-multi-arc.toml --max-torque 50 --csv curve.csv
+  sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --report high-10.html
+  sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml
 
 Exit codes:
   0 done, all margins held     1 a margin is not held, or no feasible design found
@@ -158,7 +160,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
-        Command::Schema => schema::run(&context),
+        Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), output::TOOL, &mut script);

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
-  sprag-design optimize designs/huang-2017.toml -o better.toml --report better.html
-  sprag-design optimize designs/huang-2017.toml -o better.toml --resume
-  sprag-design optimize designs/huang-2017.toml --json --quiet > best.json
+  sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --report better.html
+  sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --resume
+  sprag-design optimize designs/huang2017-multi-arc.toml --json --quiet > best.json
 
 Ctrl-C stops the search and writes the best design found so far; --resume goes on from there.";
 

@@ -3,6 +3,7 @@
 use super::exit::Failure;
 use crate::report::{Page, Table};
 use serde::Serialize;
+use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -22,20 +23,20 @@ pub struct Envelope<'a, L: Serialize, B: Serialize> {
     run_time_s: f64,
     left_out: &'a L,
     #[serde(skip_serializing_if = "Option::is_none")]
-    error_estimate: Option<f64>,
+    error_estimate: Option<Value>,
     #[serde(flatten)]
     body: &'a B,
 }
 
 impl<'a, L: Serialize, B: Serialize> Envelope<'a, L, B> {
     /// `run_time_s`: wall time of the computation alone. `left_out`: a list of the terms left out, each
-    /// with its reason and cost. `body`: a struct or map with the command's own keys.
+    /// with its reason and cost. `error_estimate`: a number or an object of numbers. `body`: a struct or map with the command's own keys.
     pub fn new(
         design: &'a str,
         design_hash: &'a str,
         run_time_s: f64,
         left_out: &'a L,
-        error_estimate: Option<f64>,
+        error_estimate: Option<Value>,
         body: &'a B,
     ) -> Self {
         Self { tool: TOOL, version: VERSION, design, design_hash, run_time_s, left_out, error_estimate, body }

@@ -1,12 +1,15 @@
 //! `schema`: the JSON Schema of the design file.
 
-use super::Context;
 use super::exit::{Exit, Failure};
+use super::output;
 
-/// Run the command.
+/// Run the command. The schema is JSON already, so `--json` changes nothing.
 ///
 /// # Errors
 /// [`Failure`].
-pub fn run(_context: &Context) -> Result<Exit, Failure> {
-    Err(Failure::Failed("schema is not wired yet".into()))
+pub fn run() -> Result<Exit, Failure> {
+    let text = serde_json::to_string_pretty(&crate::design::schema())
+        .map_err(|e| Failure::Failed(format!("JSON: {e}")))?;
+    output::print(&(text + "\n"))?;
+    Ok(Exit::Held)
 }

@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
-  sprag-design simulate designs/huang-2017.toml --scenario high-10
-  sprag-design simulate designs/huang-2017.toml --scenario high-10 --csv history.csv --report high-10.html
-  sprag-design simulate designs/huang-2017.toml --scenario high-10 --method published --step 2e-6";
+  sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10
+  sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --csv history.csv --report high-10.html
+  sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --method published --step 2e-6";
 
 /// How the equations of motion are integrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
-  sprag-design stiffness designs/huang-2017.toml
-  sprag-design stiffness designs/huang-2017.toml --torques 3.34,16.8,50
-  sprag-design stiffness designs/huang-2017.toml --contact roller,hertz,slice --max-torque 50 --report laws.html";
+  sprag-design stiffness designs/huang2017-multi-arc.toml
+  sprag-design stiffness designs/huang2017-multi-arc.toml --torques 3.34,16.8,50
+  sprag-design stiffness designs/huang2017-multi-arc.toml --contact roller,hertz,slice --max-torque 50 --report laws.html";
 
 /// Contact laws by their names in the design file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -257,6 +257,8 @@ pub struct OptimizeVariable {
     pub min: f64,
     /// Upper bound in the name's unit.
     pub max: f64,
+    /// Value in the file, in the name's unit.
+    pub start: f64,
 }
 
 /// What `optimize` shall do.

@@ -28,13 +28,14 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
             );
         }
     }
+    let mut starts = Vec::with_capacity(task.variables.len());
     for (i, variable) in task.variables.iter().enumerate() {
         let path = format!("optimize.variables[{i}]");
         if let Some(first) = task.variables.iter().take(i).position(|v| v.name == variable.name) {
             let (name, other) = (format!("{path}.name"), format!("optimize.variables[{first}].name"));
             out.refuse(&[&name, &other], "each variable once".to_owned(), "remove one of the two".to_owned());
         }
-        check_variable(variable, &path, file, out);
+        starts.push(check_variable(variable, &path, file, out));
     }
     let limits = out.within("optimize", |out| check::limits(&task.limits, base, out));
     Optimize {
@@ -45,14 +46,16 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
         variables: task
             .variables
             .iter()
-            .map(|v| OptimizeVariable { name: v.name.clone(), min: v.min, max: v.max })
+            .zip(starts)
+            .map(|(v, start)| OptimizeVariable { name: v.name.clone(), min: v.min, max: v.max, start })
             .collect(),
         limits,
         seed: task.seed,
     }
 }
 
-fn check_variable(v: &super::file::VariableFile, path: &str, file: &DesignFile, out: &mut Findings) {
+/// The value in the file from which the search starts; 0 where something was refused.
+fn check_variable(v: &super::file::VariableFile, path: &str, file: &DesignFile, out: &mut Findings) -> f64 {
     let (name_key, min_key, max_key) = (format!("{path}.name"), format!("{path}.min"), format!("{path}.max"));
     let arcs = file.sprags.inner_arcs.len();
     let Some(target) = variable_path(&v.name, arcs) else {
@@ -61,7 +64,7 @@ fn check_variable(v: &super::file::VariableFile, path: &str, file: &DesignFile, 
             format!("for {arcs} inner arcs: {}", variable_names(arcs).join(", ")),
             "name one of these variables".to_owned(),
         );
-        return;
+        return 0.0;
     };
     for (key, bound) in [(&min_key, v.min), (&max_key, v.max)] {
         if let Some(allowed) = shape::out_of_range(&target, bound) {
@@ -70,9 +73,10 @@ fn check_variable(v: &super::file::VariableFile, path: &str, file: &DesignFile, 
     }
     if v.min >= v.max {
         out.refuse(&[&min_key, &max_key], "less than max".to_owned(), "give min < max".to_owned());
-        return;
+        return 0.0;
     }
-    match out.doc.number(&target) {
+    let start = out.doc.number(&target);
+    match start {
         None => out.refuse(
             &[&name_key],
             format!("a variable whose key is in the file; {target} is not"),
@@ -88,6 +92,7 @@ fn check_variable(v: &super::file::VariableFile, path: &str, file: &DesignFile, 
         }
         Some(_) => {}
     }
+    start.unwrap_or(0.0)
 }
 
 fn named_scenarios(key: &str, names: &[String], file: &DesignFile, out: &mut Findings) {

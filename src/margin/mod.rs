@@ -35,6 +35,17 @@ pub struct Margin {
     pub required: bool,
 }
 
+/// Resolution of a margin: what the optimiser leaves of a limit that it stops at. A margin above minus this is
+/// held.
+pub const RESOLUTION: f64 = 1e-8;
+
+impl Margin {
+    /// Whether the limit is held.
+    pub fn held(&self) -> bool {
+        self.margin >= -RESOLUTION
+    }
+}
+
 /// Why no margins can be computed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoMargins {

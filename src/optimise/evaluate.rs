@@ -1,0 +1,108 @@
+//! What an optimisation asks of a problem: margins at a point, or a typed failure.
+
+use serde::{Deserialize, Serialize};
+
+/// Problem seen by the optimiser: margins as functions of the variables, in the caller's own units.
+///
+/// `evaluate` must be deterministic: the journal answers a repeated x from memory.
+pub trait Evaluate: Sync {
+    /// Margins at x, each in its own unit, best made dimensionless and of order one by the caller.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`] where the problem has no answer at x (a geometry that does not close, say).
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure>;
+}
+
+/// Margins at one point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Evaluation {
+    /// Margins whose least is maximised; at least one.
+    pub objectives: Vec<f64>,
+    /// Margins that must be >= 0; may be empty.
+    pub limits: Vec<f64>,
+    /// Minimised among points whose least margin is the same (a plateau); a constant switches it off.
+    pub tie_break: f64,
+}
+
+impl Evaluation {
+    /// Least objective t = min m_i, the number that is maximised.
+    pub fn least_margin(&self) -> f64 {
+        self.objectives.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Largest violation max(0, max_j -c_j), in the unit of the limits.
+    pub fn violation(&self) -> f64 {
+        self.limits.iter().fold(0.0, |worst, c| worst.max(-c))
+    }
+
+    /// All numbers in one row: objectives, limits, tie break.
+    pub(super) fn outputs(&self) -> Vec<f64> {
+        let mut row = self.objectives.clone();
+        row.extend_from_slice(&self.limits);
+        row.push(self.tie_break);
+        row
+    }
+
+    /// The same evaluation, or why it cannot be used: `shape` is the count of objectives and limits seen first.
+    pub(super) fn checked(self, shape: Option<(usize, usize)>) -> Result<Self, Failure> {
+        let found = (self.objectives.len(), self.limits.len());
+        let expected = shape.unwrap_or((found.0.max(1), found.1));
+        if found != expected {
+            return Err(Failure::Shape { expected, found });
+        }
+        match self.outputs().iter().position(|v| !v.is_finite()) {
+            None => Ok(self),
+            Some(i) if i < found.0 => Err(Failure::NotFinite { part: Part::Objective, index: i }),
+            Some(i) if i < found.0 + found.1 => {
+                Err(Failure::NotFinite { part: Part::Limit, index: i - found.0 })
+            }
+            Some(_) => Err(Failure::NotFinite { part: Part::TieBreak, index: 0 }),
+        }
+    }
+}
+
+/// Part of an [`Evaluation`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Part {
+    /// One of `objectives`.
+    Objective,
+    /// One of `limits`.
+    Limit,
+    /// `tie_break`.
+    TieBreak,
+}
+
+/// Why a point has no margins. The optimiser shortens the step, and the journal keeps the reason.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Failure {
+    /// The problem has no answer here, for the reason it gives.
+    Refused(String),
+    /// The problem returned NaN or an infinity.
+    NotFinite {
+        /// Where it stood.
+        part: Part,
+        /// Its position there, from 0.
+        index: usize,
+    },
+    /// Other counts of (objectives, limits) than at the first point, or no objective at all.
+    Shape {
+        /// Counts at the first point (at least one objective).
+        expected: (usize, usize),
+        /// Counts found here.
+        found: (usize, usize),
+    },
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Failure::Refused(why) => write!(f, "{why}"),
+            Failure::NotFinite { part, index } => write!(f, "{part:?} {index} is not a finite number"),
+            Failure::Shape { expected, found } => {
+                write!(f, "(objectives, limits) number {found:?}, expected {expected:?}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Failure {}

@@ -1,0 +1,69 @@
+//! Which variable moves which margin.
+
+use super::difference::table;
+use super::evaluate::Evaluate;
+use super::journal::{Memo, Run};
+use super::outcome::Refusal;
+use super::settings::Settings;
+use super::space::Space;
+
+/// Slope per range below which a variable counts as without influence: 1e-9, above what rounding leaves of margins of
+/// order one over a difference step of 1e-3 (1e-13), below any slope worth a search.
+pub const NO_INFLUENCE: f64 = 1e-9;
+
+/// Derivatives d(margin)/d(x scaled to its range) at one point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Influence {
+    /// `objectives[i][variable]`, unit of the objective per range.
+    pub objectives: Vec<Vec<f64>>,
+    /// `limits[j][variable]`, unit of the limit per range.
+    pub limits: Vec<Vec<f64>>,
+    /// Of the tie break.
+    pub tie_break: Vec<f64>,
+    /// Variables of which no difference point could be evaluated; their columns are 0 and mean nothing.
+    pub unknown: Vec<usize>,
+    /// Evaluations spent.
+    pub evaluations: usize,
+}
+
+impl Influence {
+    /// Variables whose every slope is below [`NO_INFLUENCE`] in size, the tie break's included.
+    pub fn without(&self) -> Vec<usize> {
+        let rows = || self.objectives.iter().chain(&self.limits).chain([&self.tie_break]);
+        (0..self.tie_break.len())
+            .filter(|i| !self.unknown.contains(i) && rows().all(|row| row[*i].abs() < NO_INFLUENCE))
+            .collect()
+    }
+}
+
+/// Influence of every variable at x0 by central differences of the longest step, which noise disturbs least.
+/// A variable on a level stretch (a maximum, a saturated margin) shows none either.
+///
+/// # Errors
+/// As [`maximise_least_margin`](super::maximise_least_margin).
+pub fn influence<'a>(
+    problem: &'a dyn Evaluate,
+    x0: &[f64],
+    lo: &[f64],
+    hi: &[f64],
+    settings: &Settings,
+    run: Run<'a>,
+) -> Result<Influence, Refusal> {
+    settings.validate().map_err(Refusal::Setting)?;
+    let space = Space::new(x0, lo, hi)?;
+    let mut memo = Memo::new(problem, run, usize::MAX);
+    let here = memo.one(x0.to_vec()).map_err(|_| Refusal::StoppedAtStart)?.map_err(Refusal::StartFails)?;
+    let h = vec![settings.longest_difference; space.len()];
+    let found = table(&mut memo, &space, &space.start(), &here.outputs(), &h, true)
+        .map_err(|_| Refusal::StoppedAtStart)?;
+    let mut slopes = found.slopes;
+    let tie_break = slopes.pop().unwrap_or_default();
+    let limits = slopes.split_off(here.objectives.len());
+    Ok(Influence {
+        objectives: slopes,
+        limits,
+        tie_break,
+        unknown: found.held,
+        evaluations: memo.evaluations(),
+    })
+}

@@ -1,0 +1,177 @@
+//! One memoising evaluator in front of every method, and the ordered record of what it was asked.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::evaluate::{Evaluate, Evaluation, Failure};
+
+/// One evaluated point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Variables, in the caller's units.
+    pub x: Vec<f64>,
+    /// Margins there, or why there are none.
+    pub outcome: Result<Evaluation, Failure>,
+}
+
+/// Points in the order in which they were first asked for, found again by the exact bits of x.
+///
+/// A journal given to a later run answers from memory; the run then takes the same path as one that computes
+/// every point, because points answered from memory are counted like computed ones.
+#[derive(Debug, Clone, Default)]
+pub struct Journal {
+    entries: Vec<Entry>,
+    index: HashMap<Vec<u64>, usize>,
+}
+
+impl Journal {
+    /// Journal of points evaluated earlier; of two entries at the same x the first counts.
+    pub fn from_entries(entries: impl IntoIterator<Item = Entry>) -> Self {
+        let mut journal = Journal::default();
+        for entry in entries {
+            if !journal.index.contains_key(&bits(&entry.x)) {
+                journal.push(entry);
+            }
+        }
+        journal
+    }
+
+    /// The record, oldest first.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    fn push(&mut self, entry: Entry) -> usize {
+        self.index.insert(bits(&entry.x), self.entries.len());
+        self.entries.push(entry);
+        self.entries.len() - 1
+    }
+}
+
+/// Exact bit pattern of x, with -0 taken for +0.
+fn bits(x: &[f64]) -> Vec<u64> {
+    x.iter().map(|v| (v + 0.0).to_bits()).collect()
+}
+
+/// Why evaluation stopped before the points asked for were all known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Halt {
+    Limit,
+    Interrupted,
+}
+
+/// Observer of a run; both methods may be left out.
+pub trait Watch {
+    /// A point was evaluated (not one answered from memory); called in the journal's order.
+    fn evaluated(&mut self, _entry: &Entry) {}
+    /// A step was tried.
+    fn iterated(&mut self, _iteration: &super::Iteration) {}
+}
+
+/// What a run may be given beside the problem: an earlier journal, a flag that stops it, an observer.
+#[derive(Default)]
+pub struct Run<'a> {
+    /// Points known beforehand (resumption).
+    pub journal: Journal,
+    /// Set to true by the caller to stop; evaluations under way finish and are kept.
+    pub stop: Option<&'a AtomicBool>,
+    /// Called as the run goes on.
+    pub watch: Option<&'a mut dyn Watch>,
+}
+
+/// The memoising, counting evaluator.
+pub(super) struct Memo<'a> {
+    problem: &'a dyn Evaluate,
+    pub run: Run<'a>,
+    shape: Option<(usize, usize)>,
+    asked: HashSet<usize>,
+    limit: usize,
+    pub failures: usize,
+}
+
+impl<'a> Memo<'a> {
+    pub fn new(problem: &'a dyn Evaluate, run: Run<'a>, limit: usize) -> Self {
+        Memo { problem, run, shape: None, asked: HashSet::new(), limit, failures: 0 }
+    }
+
+    /// Distinct points asked for so far in this run, computed or remembered.
+    pub fn evaluations(&self) -> usize {
+        self.asked.len()
+    }
+
+    /// Counts of (objectives, limits), known after the first successful point.
+    pub fn shape(&self) -> (usize, usize) {
+        self.shape.unwrap_or((0, 0))
+    }
+
+    /// Entries this run asked for, in the journal's order.
+    pub fn asked_entries(&self) -> impl Iterator<Item = &Entry> {
+        self.run.journal.entries.iter().enumerate().filter(|(i, _)| self.asked.contains(i)).map(|(_, e)| e)
+    }
+
+    /// Outcome at one point.
+    pub fn one(&mut self, x: Vec<f64>) -> Result<Result<Evaluation, Failure>, Halt> {
+        let mut outcomes = self.batch(vec![x])?;
+        Ok(outcomes.swap_remove(0))
+    }
+
+    /// Outcomes at several points, the unknown ones evaluated in parallel; order and result do not depend on
+    /// the number of threads.
+    pub fn batch(&mut self, points: Vec<Vec<f64>>) -> Result<Vec<Result<Evaluation, Failure>>, Halt> {
+        let mut fresh: Vec<&Vec<f64>> = Vec::new();
+        let mut pending = HashSet::new();
+        let mut new_here = HashSet::new();
+        for x in &points {
+            let key = bits(x);
+            let known = self.run.journal.index.get(&key);
+            if known.is_none_or(|i| !self.asked.contains(i)) {
+                new_here.insert(key.clone());
+            }
+            if known.is_none() && pending.insert(key) {
+                fresh.push(x);
+            }
+        }
+        if self.asked.len() + new_here.len() > self.limit {
+            return Err(Halt::Limit);
+        }
+        let stop = self.run.stop;
+        let stopped = || stop.is_some_and(|flag| flag.load(Ordering::Relaxed));
+        let problem = self.problem;
+        let computed: Vec<Option<Result<Evaluation, Failure>>> =
+            fresh.par_iter().map(|x| (!stopped()).then(|| problem.evaluate(x))).collect();
+        let complete = computed.iter().all(Option::is_some);
+        for (x, outcome) in fresh.into_iter().zip(computed) {
+            let Some(outcome) = outcome else { continue };
+            let outcome = outcome.and_then(|e| e.checked(self.shape));
+            self.learn_shape(&outcome);
+            let at = self.run.journal.push(Entry { x: x.clone(), outcome });
+            if let Some(watch) = &mut self.run.watch {
+                watch.evaluated(&self.run.journal.entries[at]);
+            }
+        }
+        if !complete || stopped() {
+            return Err(Halt::Interrupted);
+        }
+        let mut outcomes = Vec::with_capacity(points.len());
+        for x in &points {
+            let at = self.run.journal.index[&bits(x)];
+            let mut outcome = self.run.journal.entries[at].outcome.clone();
+            outcome = outcome.and_then(|e| e.checked(self.shape));
+            self.learn_shape(&outcome);
+            if self.asked.insert(at) && outcome.is_err() {
+                self.failures += 1;
+            }
+            outcomes.push(outcome);
+        }
+        Ok(outcomes)
+    }
+
+    fn learn_shape(&mut self, outcome: &Result<Evaluation, Failure>) {
+        if let (None, Ok(e)) = (self.shape, outcome) {
+            self.shape = Some((e.objectives.len(), e.limits.len()));
+        }
+    }
+}

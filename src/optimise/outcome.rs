@@ -1,0 +1,204 @@
+//! What a run hands back. Ending without a solution is a status; only a malformed question is an error.
+
+use super::evaluate::{Evaluation, Failure};
+use super::journal::Journal;
+use super::settings::BadSetting;
+use super::view::Phase;
+
+/// How the run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Status {
+    /// A feasible point whose residuals are below the tolerances.
+    Converged,
+    /// No feasible point near: the largest violation has a positive local minimum.
+    Infeasible {
+        /// That minimum, in the unit of the limits.
+        least_violation: f64,
+        /// Limits that hold it up against each other (multiplier above 1e-3 of their sum, 1), in their order.
+        fighting: Vec<usize>,
+    },
+    /// `max_evaluations` would have been passed; the best point seen is given.
+    EvaluationLimit,
+    /// The caller's flag was set; the best point seen is given.
+    Interrupted,
+    /// No further progress though the residuals are above the tolerances; the best point seen is given.
+    Stalled(Cause),
+}
+
+/// Why a run stalled.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cause {
+    /// The way up leads into a region where evaluation fails.
+    FailingRegion,
+    /// Every difference point of these variables failed; they were held.
+    NoDerivative(Vec<usize>),
+    /// No step, however short, gave the gain that the derivatives promise (noise or a kink).
+    NoDescent,
+    /// `max_iterations` steps were tried in one phase.
+    IterationLimit,
+    /// clarabel found no solution of the subproblem.
+    Subproblem,
+    /// Limits restored, and lost again, several times over.
+    RestorationCycle,
+}
+
+/// What is left at the last point of the main phase; see the tolerances of [`Settings`](super::Settings).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Residuals {
+    /// Largest component of the projected gradient of the Lagrangian, unit of the objectives per range.
+    pub kkt: f64,
+    /// Gain of the merit that the model still promises, unit of the objectives.
+    pub gain: f64,
+    /// Largest component of the step that promises it, fraction of range.
+    pub step: f64,
+    /// Largest violation, unit of the limits.
+    pub violation: f64,
+}
+
+/// What became of one subproblem's step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tried {
+    /// Taken.
+    Accepted,
+    /// Taken after the second-order correction.
+    Corrected,
+    /// Not enough gain: the trust radius shrinks.
+    Refused,
+    /// Evaluation failed there: the trust radius shrinks.
+    Failed,
+    /// Not tried, the residuals being small.
+    Nothing,
+}
+
+/// One line of the history, written at the point a step started from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// Phase of the step.
+    pub phase: Phase,
+    /// What became of it.
+    pub tried: Tried,
+    /// Evaluations so far, all phases.
+    pub evaluations: usize,
+    /// Failed evaluations so far.
+    pub failures: usize,
+    /// Least objective t.
+    pub least_margin: f64,
+    /// Largest violation of the limits.
+    pub violation: f64,
+    /// Residuals of the phase.
+    pub residuals: Residuals,
+    /// Trust radius after the step, fraction of range.
+    pub radius: f64,
+    /// Penalty weight, objectives' unit per limits' unit.
+    pub weight: f64,
+    /// Whether derivatives were central.
+    pub central: bool,
+}
+
+/// Which margins hold the solution where it is.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Active {
+    /// Objectives with a multiplier.
+    pub objectives: Vec<usize>,
+    /// Limits with a multiplier.
+    pub limits: Vec<usize>,
+    /// Variables on their lower bound.
+    pub lower: Vec<usize>,
+    /// Variables on their upper bound.
+    pub upper: Vec<usize>,
+}
+
+/// Result of a run.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// How the run ended.
+    pub status: Status,
+    /// Best point, in the caller's units: the solution, or the best point seen (feasible with the largest least
+    /// margin, or else with the least violation).
+    pub x: Vec<f64>,
+    /// Margins there.
+    pub evaluation: Evaluation,
+    /// Share of each objective in the least margin, sum 1: dt = sum lambda_i dm_i where the margins are shifted
+    /// by dm_i. Of the main phase's last step.
+    pub objective_multipliers: Vec<f64>,
+    /// dt for a limit loosened by one of its units, >= 0. Of the main phase's last step.
+    pub limit_multipliers: Vec<f64>,
+    /// Active margins and bounds.
+    pub active: Active,
+    /// Residuals at the end of the main phase.
+    pub residuals: Residuals,
+    /// Distinct points asked for.
+    pub evaluations: usize,
+    /// Of those, the failed ones.
+    pub failures: usize,
+    /// Steps tried, in order.
+    pub history: Vec<Iteration>,
+    /// Every point known, in order; hand it to a later run to resume.
+    pub journal: Journal,
+}
+
+/// A malformed question.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Refusal {
+    /// Counts of variables differ or are zero.
+    Lengths {
+        /// Length of x0.
+        x0: usize,
+        /// Length of lo.
+        lo: usize,
+        /// Length of hi.
+        hi: usize,
+    },
+    /// Bounds that cross or are not finite.
+    Bounds {
+        /// Index of the variable.
+        variable: usize,
+        /// Its lower bound.
+        lo: f64,
+        /// Its upper bound.
+        hi: f64,
+    },
+    /// The start is not in the box.
+    StartOutside {
+        /// Index of the variable.
+        variable: usize,
+        /// Its start.
+        x: f64,
+        /// Its lower bound.
+        lo: f64,
+        /// Its upper bound.
+        hi: f64,
+    },
+    /// The start has no margins, so there is nothing to improve on.
+    StartFails(Failure),
+    /// Stopped before the start was evaluated.
+    StoppedAtStart,
+    /// A setting out of range.
+    Setting(BadSetting),
+}
+
+impl std::fmt::Display for Refusal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Refusal::Lengths { x0, lo, hi } => {
+                write!(
+                    f,
+                    "{x0} start values, {lo} lower and {hi} upper bounds; equal counts above zero are needed"
+                )
+            }
+            Refusal::Bounds { variable, lo, hi } => {
+                write!(f, "variable {variable}: bounds {lo} and {hi} are not an interval")
+            }
+            Refusal::StartOutside { variable, x, lo, hi } => {
+                write!(f, "variable {variable}: start {x} is outside {lo} .. {hi}")
+            }
+            Refusal::StartFails(failure) => write!(f, "the start cannot be evaluated: {failure}"),
+            Refusal::StoppedAtStart => write!(f, "stopped before the start was evaluated"),
+            Refusal::Setting(bad) => {
+                write!(f, "{} = {} is not in {} .. {}", bad.name, bad.value, bad.least, bad.most)
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}

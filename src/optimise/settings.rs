@@ -1,0 +1,108 @@
+//! Settings of a run, each with what it means, its default and the range in which it makes sense.
+
+/// Level of noise in the evaluator, which sets how short a difference step may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Noise {
+    /// Known, relative to max(1, |value|).
+    Relative(f64),
+    /// Measured at the start from a difference table of six more points (Moré and Wild, *Estimating
+    /// computational noise*, SIAM J. Sci. Comput. 33 (2011) 1292).
+    Measured,
+}
+
+/// Settings of [`maximise_least_margin`](super::maximise_least_margin). Variables are scaled to [0, 1], so
+/// every length below is a fraction of a variable's range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Most evaluations, difference points and failed points counted. Default 500; at least 1.
+    pub max_evaluations: usize,
+    /// Most steps tried in each phase. Default 100; at least 1.
+    pub max_iterations: usize,
+    /// A point is feasible when every limit is at least minus this. Default 1e-8; in (0, 1e-2].
+    pub violation_tolerance: f64,
+    /// Largest component of the projected gradient of the Lagrangian at a solution, per range and relative to
+    /// max(1, |t|). Default 1e-4; in (0, 1e-1].
+    pub optimality_tolerance: f64,
+    /// Gain of the least margin that the model still promises at a solution, relative to max(1, |t|).
+    /// Default 1e-8; in (0, 1e-2].
+    pub gain_tolerance: f64,
+    /// Shortest difference step. Default 1e-3; in [1e-7, 1e-2].
+    pub shortest_difference: f64,
+    /// Longest difference step. Default 1e-2; from `shortest_difference` to 0.1.
+    pub longest_difference: f64,
+    /// Noise of the evaluator. Default `Relative(1e-10)`; in [1e-16, 1e-2].
+    pub noise: Noise,
+    /// First trust radius (largest move of any variable). Default 0.25; in (0, 1].
+    pub first_radius: f64,
+    /// Whether to finish by polling points a difference step away along the active margins. Default true.
+    pub poll: bool,
+    /// Least margin given up, relative to max(1, |t|), when the tie break chooses on a plateau. Default 1e-6;
+    /// in (0, 1e-2].
+    pub plateau: f64,
+    /// Gain of the tie break, relative to its size at t*, below which the second phase is not worth an
+    /// evaluation. Default 1e-4; in (0, 1].
+    pub tie_break_gain: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            max_evaluations: 500,
+            max_iterations: 100,
+            violation_tolerance: 1e-8,
+            optimality_tolerance: 1e-4,
+            gain_tolerance: 1e-8,
+            shortest_difference: 1e-3,
+            longest_difference: 1e-2,
+            noise: Noise::Relative(1e-10),
+            first_radius: 0.25,
+            poll: true,
+            plateau: 1e-6,
+            tie_break_gain: 1e-4,
+        }
+    }
+}
+
+/// A setting outside the range in which it makes sense.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BadSetting {
+    /// Field of [`Settings`].
+    pub name: &'static str,
+    /// Value given.
+    pub value: f64,
+    /// Least value allowed.
+    pub least: f64,
+    /// Greatest value allowed.
+    pub most: f64,
+}
+
+impl Settings {
+    /// # Errors
+    /// The first setting that is out of its range.
+    pub fn validate(&self) -> Result<(), BadSetting> {
+        let noise = match self.noise {
+            Noise::Relative(level) => level,
+            Noise::Measured => 1e-10,
+        };
+        let tiny = f64::MIN_POSITIVE;
+        let rules = [
+            ("max_evaluations", self.max_evaluations as f64, 1.0, f64::MAX),
+            ("max_iterations", self.max_iterations as f64, 1.0, f64::MAX),
+            ("violation_tolerance", self.violation_tolerance, tiny, 1e-2),
+            ("optimality_tolerance", self.optimality_tolerance, tiny, 1e-1),
+            ("gain_tolerance", self.gain_tolerance, tiny, 1e-2),
+            ("shortest_difference", self.shortest_difference, 1e-7, 1e-2),
+            ("longest_difference", self.longest_difference, self.shortest_difference, 0.1),
+            ("noise", noise, 1e-16, 1e-2),
+            ("first_radius", self.first_radius, tiny, 1.0),
+            ("plateau", self.plateau, tiny, 1e-2),
+            ("tie_break_gain", self.tie_break_gain, tiny, 1.0),
+        ];
+        for (name, value, least, most) in rules {
+            if !(least..=most).contains(&value) {
+                return Err(BadSetting { name, value, least, most });
+            }
+        }
+        Ok(())
+    }
+}
