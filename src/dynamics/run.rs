@@ -467,7 +467,7 @@ impl Driver<'_> {
         if next == mode {
             // Nothing better: go on in this mode for a step that rounding cannot undo.
             self.run.t_s = t + 1e-12;
-            let mut rhs = |t: f64, y: &State| self.model.slope(&mode, t, y).ok_or(());
+            let rhs = |t: f64, y: &State| self.model.slope(&mode, t, y).ok_or(());
             let Ok(slope) = rhs(t, &y) else {
                 self.stop(Stop::NotFinite);
                 return false;
@@ -584,10 +584,13 @@ impl Driver<'_> {
             }
             for j in 0..thetas.len() {
                 let (left, right) = (j.saturating_sub(1), (j + 1).min(thetas.len() - 1));
-                let (peak, below) = (values[j][i], values[left][i].min(values[right][i]));
+                let peak = values[j][i];
                 let top = peak >= values[left][i] && peak >= values[right][i];
-                // A peak between a step's end and its neighbour shows only as the larger of the two.
-                if top && peak + 0.2 * (peak - below) > best[i] {
+                // The true peak of a parabola lies above the highest of three points by at most an eighth of
+                // their second difference; twice that is allowed for before a look is thought idle.
+                let m = j.clamp(1, thetas.len() - 2);
+                let bend = (values[m - 1][i] - 2.0 * values[m][i] + values[m + 1][i]).abs();
+                if top && peak + 0.25 * bend > best[i] {
                     let d = match &dense {
                         Some(d) => d,
                         None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
