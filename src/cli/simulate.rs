@@ -199,9 +199,8 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
 /// Duration of a scenario that is integrated, s.
 fn duration_s(scenario: &Scenario) -> Option<f64> {
     match scenario.kind {
-        ScenarioKind::TorsionalExcitation { duration_s, .. } | ScenarioKind::Engagement { duration_s, .. } => {
-            Some(duration_s)
-        }
+        ScenarioKind::TorsionalExcitation { duration_s, .. }
+        | ScenarioKind::Engagement { duration_s, .. } => Some(duration_s),
         ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. } => None,
     }
 }

@@ -90,6 +90,7 @@ pub fn published(
         events: 0,
         counters: Counters::default(),
         samples: Vec::with_capacity(settings.samples),
+        engaged: None,
         modes: Vec::new(),
     };
     let (_, end_alpha) = model.curve.end();
@@ -158,6 +159,7 @@ fn note(run: &mut Run, t: f64, h: f64, mode: Mode, f: &Forces, band: f64) {
         [best[0], best[1], -best[2], best[3], best[4]];
     run.events += u64::from(t > 0.0 && mode != run.mode);
     run.mode = mode;
+    run.note_engagement();
 }
 
 /// Samples and modes, where asked for.

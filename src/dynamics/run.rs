@@ -121,6 +121,22 @@ pub struct Sample {
     pub mode: Mode,
 }
 
+/// The first moment at which A carries load without overrunning: at once in a torsional scene, at the reversal
+/// in an engagement. What slipped before belongs to the free run.
+#[derive(Debug, Clone, Copy)]
+pub struct Engaged {
+    /// Time, s.
+    pub t_s: f64,
+    /// State there.
+    pub state: State,
+    /// Place of the contact there.
+    pub place: Place,
+    /// Slip at A up to it.
+    pub inner: SlipRecord,
+    /// Slip at B up to it.
+    pub outer: SlipRecord,
+}
+
 /// A finished run.
 #[derive(Debug, Clone)]
 pub struct Run {
@@ -148,6 +164,8 @@ pub struct Run {
     pub counters: Counters,
     /// Equidistant samples.
     pub samples: Vec<Sample>,
+    /// When the clutch began to be one; `None`: it overran or was open to the end.
+    pub engaged: Option<Engaged>,
     /// Every mode with the time at which it began, s; empty where no samples were asked for.
     pub modes: Vec<(f64, Mode)>,
 }
@@ -191,6 +209,7 @@ pub fn run(model: &Model, state: State, mode: Mode, settings: &RunSettings) -> R
             events: 0,
             counters: Counters::default(),
             samples: Vec::with_capacity(settings.samples),
+            engaged: None,
             modes: Vec::new(),
         },
         open_since: (mode.place == Place::Open).then_some(0.0),
@@ -498,6 +517,7 @@ impl Driver<'_> {
             _ => {}
         }
         self.run.mode = mode;
+        self.run.note_engagement();
         if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {
             self.run.modes.push((t, mode));
         }
@@ -651,6 +671,33 @@ impl Driver<'_> {
             self.run.longest_open_s = self.run.longest_open_s.max(stretch);
         }
         self.run
+    }
+}
+
+impl Run {
+    /// Remember the first moment at which A carries load without overrunning.
+    pub(super) fn note_engagement(&mut self) {
+        let holds = matches!(self.mode.place, Place::Arc(_)) && self.mode.inner != Grip::Slip(1.0);
+        if self.engaged.is_none() && holds {
+            self.engaged = Some(Engaged {
+                t_s: self.t_s,
+                state: self.state,
+                place: self.mode.place,
+                inner: self.inner,
+                outer: self.outer,
+            });
+        }
+    }
+}
+
+impl SlipRecord {
+    /// What slipped since `earlier`.
+    pub fn since(&self, earlier: &Self) -> Self {
+        Self {
+            time_s: self.time_s - earlier.time_s,
+            distance_m: self.distance_m - earlier.distance_m,
+            net_m: self.net_m - earlier.net_m,
+        }
     }
 }
 

@@ -120,15 +120,19 @@ mod tests {
 
     fn strip(spans: Vec<Span>) -> String {
         let states = ["stick", "slip"].map(str::to_owned).to_vec();
-        Strip { title: "Time, ms".into(), range: [0.0, 300.0], states, rows: vec![("A".into(), spans)] }.to_svg()
+        Strip { title: "Time, ms".into(), range: [0.0, 300.0], states, rows: vec![("A".into(), spans)] }
+            .to_svg()
     }
 
     #[test]
     fn a_short_span_stays_visible_and_thousands_of_them_stay_few() {
         let one = strip(vec![Span { from: 100.0, until: 100.001, state: 1 }]);
         assert!(one.contains("h0.8v16"), "{one}");
-        let many = (0..30_000)
-            .map(|i| Span { from: 0.01 * f64::from(i), until: 0.01 * f64::from(i) + 0.005, state: 1 });
+        let many = (0..30_000).map(|i| Span {
+            from: 0.01 * f64::from(i),
+            until: 0.01 * f64::from(i) + 0.005,
+            state: 1,
+        });
         let svg = strip(many.collect());
         assert!(svg.len() < 60_000, "{} bytes", svg.len());
     }

@@ -8,5 +8,6 @@ mod simulate;
 
 pub use prepare::{NoScenario, Prepared, place_profile, prepare};
 pub use simulate::{
-    Demand, ErrorEstimate, Settings, Simulation, Verdict, demand, published_steps, simulate, simulate_published,
+    Demand, ErrorEstimate, Settings, Simulation, Verdict, demand, published_steps, simulate,
+    simulate_published,
 };

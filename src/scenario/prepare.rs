@@ -53,7 +53,7 @@ pub struct Prepared {
     pub duration_s: f64,
     /// Shortest period of the excitation, s, if any.
     pub period_s: Option<f64>,
-    /// N_bi at the start, N.
+    /// N_bi at the start, N; for an engagement that under the reversing torque, which it leads to.
     pub static_normal_n: f64,
     /// Steady overrun, for that kind of scenario and as the start of an engagement.
     pub overrun: Option<Overrun>,
@@ -138,7 +138,9 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
             state[6] = free_run_rad_s;
             let place = if free.normal_inner_n > 0.0 { Place::Arc(0) } else { Place::Open };
             let mode = Mode { place, inner: Grip::Slip(1.0), outer: Grip::Stick };
-            Ok(finish(model, state, mode, duration_s, None, Some(free)))
+            let held = model.curve.at_torque(reversing_torque_nm).map(|p| p.normal_inner_n);
+            let prepared = finish(model, state, mode, duration_s, None, Some(free));
+            Ok(Prepared { static_normal_n: held.unwrap_or(prepared.static_normal_n), ..prepared })
         }
         ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
             let curve = build(speed_rad_s)?;

@@ -5,8 +5,8 @@ use std::sync::atomic::AtomicBool;
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
 use crate::dynamics::{
-    Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Rolling, Run, RunSettings, Sample, SlipRecord, Stop,
-    published, rolling, run,
+    Engaged, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Rolling, Run, RunSettings, Sample,
+    SlipRecord, Stop, published, rolling, run,
 };
 
 /// Settings of a simulation.
@@ -116,7 +116,8 @@ pub struct Simulation {
     pub theta_inner_rad: f64,
     /// theta_be at the end, rad.
     pub theta_outer_rad: f64,
-    /// Change of (theta_bi - theta_be) + W(alpha) over the run, rad; + towards overrunning.
+    /// Change of (theta_bi - theta_be) + W(alpha) over the run, rad; + towards overrunning. In an engagement since
+    /// A ceased to overrun, as all slip.
     pub offset_rad: f64,
     /// Slip at A.
     pub inner: SlipRecord,
@@ -142,6 +143,8 @@ pub struct Simulation {
     pub error: Option<ErrorEstimate>,
     /// History.
     pub samples: Vec<Sample>,
+    /// When A first carried load without overrunning; `None`: never, or an equilibrium.
+    pub engaged: Option<Engaged>,
     /// Modes with the times at which they began, s; empty without samples.
     pub modes: Vec<(f64, Mode)>,
     /// Steady overrun: the whole of that scenario, the start of an engagement.
@@ -164,7 +167,8 @@ fn run_settings(prepared: &Prepared, settings: &Settings, tolerance: f64, sample
     }
 }
 
-/// Pure-rolling demand of a prepared scenario. Static kinds read it off the curve.
+/// Pure-rolling demand of a prepared scenario; static kinds read it off the curve. An engagement is rolled from
+/// the moment at which it has ceased to overrun.
 pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
     let mu = prepared.model.friction.static_;
     if prepared.duration_s == 0.0 {
@@ -180,8 +184,18 @@ pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
             rhs_evaluations: 0,
         };
     }
-    let s = run_settings(prepared, settings, settings.tolerance, 0);
-    let r: Rolling = rolling(&prepared.model, prepared.state, prepared.mode.place, &s);
+    let mut s = run_settings(prepared, settings, settings.tolerance, 0);
+    let (mut state, mut place) = (prepared.state, prepared.mode.place);
+    let mut before = 0;
+    if prepared.overrun.is_some() {
+        let free = run(&prepared.model, prepared.state, prepared.mode, &s);
+        before = free.counters.rhs_evaluations;
+        if let Some(start) = free.engaged {
+            (state, place) = (start.state, start.place);
+            s.duration_s -= start.t_s;
+        }
+    }
+    let r: Rolling = rolling(&prepared.model, state, place, &s);
     let finished = r.stop == Stop::Finished;
     let required = r.required_friction.filter(|_| finished);
     Demand {
@@ -191,7 +205,7 @@ pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished,
         interrupted: r.stop == Stop::Interrupted,
-        rhs_evaluations: r.run.counters.rhs_evaluations,
+        rhs_evaluations: before + r.run.counters.rhs_evaluations,
     }
 }
 
@@ -263,7 +277,7 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<R
             theta_inner_rad: (fine.state[2] - o.state[2]).abs(),
             theta_outer_rad: (fine.state[3] - o.state[3]).abs(),
             offset_rad: (fine_offset - offset(prepared, o)).abs(),
-            net_slip_m: (fine.inner.net_m - o.inner.net_m).abs(),
+            net_slip_m: (slips(&fine)[0].net_m - slips(o)[0].net_m).abs(),
             normal_min_n: (fine.peaks.normal_min_n - o.peaks.normal_min_n).abs(),
             slip_margin: (f.slip_margin - c.slip_margin).abs(),
         }),
@@ -283,8 +297,8 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<R
         theta_inner_rad: fine.state[2],
         theta_outer_rad: fine.state[3],
         offset_rad: fine_offset,
-        inner: fine.inner,
-        outer: fine.outer,
+        inner: slips(&fine)[0],
+        outer: slips(&fine)[1],
         contact_lost_s: fine.open_s,
         peaks: fine.peaks,
         hertz_peak_pa: hertz_peak(prepared, fine.peaks.normal_max_n, fine.peaks.normal_outer_max_n),
@@ -295,6 +309,7 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<R
         rhs_evaluations: work(|r| r.counters.rhs_evaluations) + demands,
         error,
         samples: fine.samples,
+        engaged: fine.engaged,
         modes: fine.modes,
         overrun: prepared.overrun,
     }
@@ -302,7 +317,14 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<R
 
 fn offset(prepared: &Prepared, run: &Run) -> f64 {
     let phase = |y: &crate::dynamics::State| y[2] - y[3] + prepared.model.curve.windup_rad(y[0]);
-    phase(&run.state) - phase(&prepared.state)
+    phase(&run.state) - phase(&run.engaged.map_or(prepared.state, |e| e.state))
+}
+
+/// Slip at A and B since the clutch engaged.
+fn slips(run: &Run) -> [SlipRecord; 2] {
+    let zero = SlipRecord::default();
+    let (inner, outer) = run.engaged.map_or((zero, zero), |e| (e.inner, e.outer));
+    [run.inner.since(&inner), run.outer.since(&outer)]
 }
 
 fn hertz_peak(prepared: &Prepared, n_bi: f64, n_be: f64) -> f64 {
@@ -325,7 +347,7 @@ fn verdict(run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
     if run.stop != Stop::Finished {
         return None;
     }
-    let net = run.inner.net_m;
+    let net = slips(run)[0].net_m;
     Some(if run.mode.place == Place::Open {
         Verdict::Disengages
     } else if (net.abs() - SLIPPED_M).abs() <= error.net_slip_m {
@@ -381,6 +403,7 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         rhs_evaluations: 0,
         error: None,
         samples: Vec::new(),
+        engaged: None,
         modes: Vec::new(),
         overrun: prepared.overrun,
     }
@@ -391,10 +414,9 @@ impl Simulation {
     /// load to the first stick (the paper: about 0.5 ms). `None` without an overrun, samples or a stick.
     pub fn initial_slip_s(&self) -> Option<f64> {
         self.overrun?;
-        let loaded = |m: &Mode| matches!(m.place, Place::Arc(_));
-        let reversed = |m: &Mode| loaded(m) && m.inner != Grip::Slip(1.0);
-        let from = self.modes.iter().find(|(_, m)| reversed(m))?.0;
-        let until = self.modes.iter().find(|(t, m)| *t >= from && loaded(m) && m.inner == Grip::Stick)?.0;
+        let from = self.engaged?.t_s;
+        let sticks = |m: &Mode| matches!(m.place, Place::Arc(_)) && m.inner == Grip::Stick;
+        let until = self.modes.iter().find(|(t, m)| *t >= from && sticks(m))?.0;
         Some(until - from)
     }
 }

@@ -55,7 +55,8 @@ fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
             format!("contact lost for {lost}, run {} at {}", s.stop.name(), Unit::Second.show(s.t_s, 4))
         }
         Some(Verdict::AtThreshold) | None => {
-            "another verdict is nearer than the error estimate; a smaller tolerance or step decides".to_owned()
+            "another verdict is nearer than the error estimate; a smaller tolerance or step decides"
+                .to_owned()
         }
     }
 }

@@ -17,7 +17,11 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
             "friction is the law (12) of the sliding speed alone",
             "not estimated",
         );
-        add("mass and friction of the cage", "the cage is free and massless, the spring reacts on it", "not estimated");
+        add(
+            "mass and friction of the cage",
+            "the cage is free and massless, the spring reacts on it",
+            "not estimated",
+        );
     }
     if scene.method == "equilibrium" {
         return list;
@@ -43,7 +47,11 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
         "none on the motion; edge pressure in time not estimated",
     );
     let rows = rows(scene);
-    add("radial inertia of the sprag", "N_be closes the radial balance without m_g OC_g''", &radial_inertia(&rows, scene.own.clutch.sprags.mass_kg));
+    add(
+        "radial inertia of the sprag",
+        "N_be closes the radial balance without m_g OC_g''",
+        &radial_inertia(&rows, scene.own.clutch.sprags.mass_kg),
+    );
     let speed = match kind {
         ScenarioKind::TorsionalExcitation { speed_rad_s, .. } => *speed_rad_s,
         _ => 0.0,

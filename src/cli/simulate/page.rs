@@ -47,7 +47,14 @@ fn described(scene: &Scene) -> String {
     };
     let what = match scene.scenario.kind {
         ScenarioKind::Static { torque_nm } => format!("{} held at rest.", nm(torque_nm)),
-        ScenarioKind::TorsionalExcitation { preload_nm, amplitude_nm, frequency_hz, duration_s, speed_rad_s, .. } => {
+        ScenarioKind::TorsionalExcitation {
+            preload_nm,
+            amplitude_nm,
+            frequency_hz,
+            duration_s,
+            speed_rad_s,
+            ..
+        } => {
             format!(
                 "Preload {} on the inner race, {} at {} on the outer race, {} long, mean speed {}; method: {}.",
                 nm(preload_nm),
