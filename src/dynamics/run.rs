@@ -327,13 +327,13 @@ impl Driver<'_> {
             let t = step.t + theta * step.h;
             events(self.model, mode, t, &dense.at(t), grips)[i]
         };
-        for i in 0..EVENTS {
+        for (i, &at_first) in before.iter().enumerate() {
             let end = value(to, i);
             if end >= 0.0 {
                 continue;
             }
             let mut start = from;
-            let mut at_start = if from == 0.0 { before[i] } else { value(from, i) };
+            let mut at_start = if from == 0.0 { at_first } else { value(from, i) };
             if at_start <= 0.0 {
                 // Starts at zero (a contact just released): find where it has become positive.
                 let inside = [0.02, 0.1, 0.25, 0.5, 0.75].map(|f| from + f * (to - from));
@@ -491,8 +491,8 @@ impl Driver<'_> {
                 self.stop(Stop::NotFinite);
                 return false;
             };
-            for i in 0..N_STATE {
-                self.run.state[i] += 1e-12 * slope[i];
+            for (y, rate) in self.run.state.iter_mut().zip(slope) {
+                *y += 1e-12 * rate;
             }
         }
         self.enter(next);

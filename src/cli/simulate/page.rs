@@ -115,10 +115,14 @@ fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
     );
     page.figure(&tan.to_svg(), &caption);
     page.figure(&strip(s).to_svg(), "What each contact does, from the located changes of mode.");
+    let base = s.engaged.map_or([0.0; 2], |e| [e.state[8], e.state[9]]);
     let slip = plot("Net slip, µm")
-        .curve("inner contact", curve(&|r| r.sample.state[8] * 1e6))
-        .curve("outer contact", curve(&|r| r.sample.state[9] * 1e6));
-    page.figure(&slip.to_svg(), "Signed slip distance; at the inner contact + is towards overrunning.");
+        .curve("inner contact", curve(&|r| (r.sample.state[8] - base[0]) * 1e6))
+        .curve("outer contact", curve(&|r| (r.sample.state[9] - base[1]) * 1e6));
+    page.figure(
+        &slip.to_svg(),
+        "Signed slip distance since the clutch engaged; at the inner contact + is towards overrunning.",
+    );
     let torque = plot("Torque of the clutch, Nm").curve("", curve(&|r| r.torque_nm));
     page.figure(&torque.to_svg(), "Torque on the inner race, positive in the sense that the clutch carries.");
 }
