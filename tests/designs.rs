@@ -3,9 +3,12 @@
 use std::path::Path;
 
 use sprag_design::design::{
-    ContactLaw, Design, MassSource, Scenario, ScenarioKind, schema, variable_names, variable_path,
+    ContactLaw, Design, Flanks, MassSource, Scenario, ScenarioKind, schema, variable_names, variable_path,
     with_limits, with_values,
 };
+use sprag_design::margin::{load_state, margins};
+use sprag_design::profile::Outline;
+use sprag_design::scenario::{Settings, place_profile};
 
 const MULTI: &str = include_str!("../designs/huang2017-multi-arc.toml");
 const SINGLE: &str = include_str!("../designs/huang2017-single-arc.toml");
@@ -44,8 +47,6 @@ fn holds_table_1(design: &Design) {
         (c.sprags.width_m, 5.05e-3),
         (c.sprags.centroid_m[0], 0.1935e-3),
         (c.sprags.centroid_m[1], 0.5288e-3),
-        (c.sprags.flanks.rear_m, 2.525e-3),
-        (c.sprags.flanks.front_m, 2.525e-3),
         (c.materials.sprag.youngs_modulus_pa, 206e9),
         (c.materials.outer_race.poisson_ratio, 0.3),
         (c.materials.inner_race.density_kg_m3, 7850.0),
@@ -56,6 +57,7 @@ fn holds_table_1(design: &Design) {
         same(value, expected);
     }
     assert_eq!(c.sprags.mass_source, MassSource::Given);
+    assert_eq!(c.sprags.flanks, Some(Flanks { rear_m: 2.525e-3, front_m: 2.525e-3 }));
     assert_eq!(c.contact, ContactLaw::Roller { coefficient: 3.944e-5 });
     let l = &design.limits;
     assert_eq!((l.nominal_torque_nm, l.peak_torque_nm), (Some(90.0), Some(110.0)));
@@ -195,12 +197,112 @@ fn materials_by_body_and_flanks_apart_from_the_width() {
     let start = MULTI.find("[material]").expect("material");
     let end = MULTI.find("[friction]").expect("friction");
     let text = [&MULTI[..start], &bodies.concat(), &MULTI[end..]].concat();
-    let text = text.replacen("width_mm = 5.05", "flanks = { rear_mm = 2.0, front_mm = 3.0 }", 1);
+    let text = text.replacen("width_mm = 5.05", "flanks = { rear_mm = 2.2, front_mm = 3.0 }", 1);
     let design = parse(&text);
     assert_eq!(design.clutch.materials.inner_race.youngs_modulus_pa, 200e9);
     assert_eq!(design.clutch.sprags.width_m, 0.0, "omitted: no body compression");
-    same(design.clutch.sprags.flanks.rear_m, 2e-3);
-    same(design.clutch.sprags.flanks.front_m, 3e-3);
+    let expected = Flanks { rear_m: 2.2e-3, front_m: 3e-3 };
+    assert_eq!(design.clutch.sprags.flanks, Some(expected));
+}
+
+/// The multi-arc design without the keys that begin a line.
+fn without(keys: &[&str]) -> String {
+    let kept = MULTI.split_inclusive('\n').filter(|l| !keys.iter().any(|k| l.starts_with(k)));
+    // The search cannot move a centroid that the file does not hold.
+    let kept = kept.filter(|l| keys.len() < 3 || !l.contains("name = \"centroid_"));
+    kept.collect()
+}
+
+#[test]
+fn mass_inertia_and_centroid_left_out_come_from_the_outline() {
+    let text = without(&["mass_kg", "inertia_kg_m2", "centroid"]).replacen(
+        "friction = { static = 0.082, kinetic = 0.082 }",
+        "contact = { law = \"hertz\" }\nsprags = { flanks = { rear_mm = 2.6, front_mm = 2.6 } }",
+        1,
+    );
+    let design = parse(&text);
+    let s = &design.clutch.sprags;
+    assert_eq!(s.mass_source, MassSource::FromProfile);
+
+    const SAGITTA_M: f64 = 1e-10;
+    // Polygon of the outline, by the shoelace: a second way to the same integrals.
+    let profile = place_profile(&design.clutch).unwrap_or_else(|e| panic!("{e}"));
+    let outline = Outline::new(&profile, 2.525e-3, 2.525e-3).unwrap_or_else(|e| panic!("{e}"));
+    let points = outline.polyline(SAGITTA_M);
+    let (mut area, mut first, mut polar) = (0.0, [0.0; 2], 0.0);
+    for (i, p) in points.iter().enumerate() {
+        let q = points[(i + 1) % points.len()];
+        let cross = p[0] * q[1] - p[1] * q[0];
+        area += cross / 2.0;
+        for axis in 0..2 {
+            first[axis] += cross * (p[axis] + q[axis]) / 6.0;
+            polar += cross * (p[axis] * p[axis] + p[axis] * q[axis] + q[axis] * q[axis]) / 12.0;
+        }
+    }
+    let centroid = first.map(|f| f / area);
+    let about_centroid = polar - area * (centroid[0].powi(2) + centroid[1].powi(2));
+    let surface = 7850.0 * 6e-3;
+    // The polygon lacks at most a strip of that sagitta along the outline, nowhere farther than 5 mm from G.
+    let (strip, far) = (SAGITTA_M * 30e-3, 5e-3);
+    for (got, want, bound) in [
+        (s.mass_kg, surface * area, surface * strip),
+        (s.inertia_kg_m2, surface * about_centroid, surface * strip * far * far),
+        (s.centroid_m[0], centroid[0], strip * far / area),
+        (s.centroid_m[1], centroid[1], strip * far / area),
+    ] {
+        assert!((got - want).abs() < bound, "{got} is not {want} within {bound}");
+    }
+    let exact = outline.mass_properties(6e-3, 7850.0);
+    assert_eq!(
+        (s.mass_kg, s.inertia_kg_m2, s.centroid_m),
+        (exact.mass_kg, exact.inertia_kg_m2, exact.centroid_m)
+    );
+    // Measured mass of Table 1; its outline is assumed.
+    assert!((s.mass_kg / 1.8e-3 - 1.0).abs() < 0.05, "{}", s.mass_kg);
+
+    let Some(wider) = design.scenario("low-6-mu082") else { panic!("no low-6-mu082") };
+    assert_eq!(wider.clutch.contact, ContactLaw::Hertz);
+    assert_eq!(wider.overrides, ["sprags", "contact"]);
+    assert_eq!(wider.clutch.sprags.flanks, Some(Flanks { rear_m: 2.6e-3, front_m: 2.6e-3 }));
+    assert!(wider.clutch.sprags.mass_kg > 1.01 * s.mass_kg, "an override is weighed anew");
+    let Some(other) = design.scenario("low-8-mu082") else { panic!("no low-8-mu082") };
+    assert_eq!(other.clutch.sprags, *s);
+}
+
+#[test]
+fn a_design_with_neither_width_nor_flanks_is_a_design() {
+    let settings = Settings::default();
+    let codes = |design: &Design| -> Vec<String> {
+        let rows = margins(design, &design.limits, &[], false, false, &settings);
+        rows.unwrap_or_else(|e| panic!("{e}")).into_iter().map(|row| row.code).collect()
+    };
+    for text in [without(&["width_mm = 5.05"]), MULTI.replacen("width_mm = 5.05", "width_mm = 0.0 ", 1)] {
+        let open = parse(&text);
+        assert_eq!((open.clutch.sprags.flanks, open.clutch.sprags.width_m), (None, 0.0));
+        assert!(load_state(&open).unwrap_or_else(|e| panic!("{e}")).outline.is_none());
+        let (mut all, some) = (codes(&parse(MULTI)), codes(&open));
+        assert!(all.contains(&"neighbours".to_owned()));
+        all.retain(|code| code != "neighbours");
+        assert_eq!(some, all, "every other row stays");
+        let profile = place_profile(&open.clutch).unwrap_or_else(|e| panic!("{e}"));
+        assert!(Outline::narrowest(&profile).is_ok(), "and it can be drawn");
+    }
+}
+
+/// `[check]` names scenarios that must hold; the example designs hold theirs.
+#[test]
+fn the_scenarios_that_the_examples_check_hold() {
+    let settings = Settings::default();
+    for design in [parse(MULTI), parse(SINGLE)] {
+        let rows = margins(&design, &design.limits, &design.check_scenarios, false, false, &settings);
+        let rows = rows.unwrap_or_else(|e| panic!("{e}"));
+        for name in &design.check_scenarios {
+            for code in [format!("slip:{name}"), format!("contact:{name}")] {
+                let row = rows.iter().find(|row| row.code == code).unwrap_or_else(|| panic!("no {code}"));
+                assert!(row.required && row.margin > 0.0, "{}: {row:?}", design.name);
+            }
+        }
+    }
 }
 
 /// Numbers that no decimal of a few digits hits: what is written must read back as the same double.

@@ -7,8 +7,10 @@
 pub mod check;
 pub mod exit;
 pub mod interrupt;
+pub mod journal;
 pub mod left_out;
 pub mod optimize;
+pub mod optimize_answer;
 pub mod output;
 pub mod parts;
 pub mod progress;

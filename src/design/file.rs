@@ -75,7 +75,7 @@ pub(super) struct SpragsFile {
     /// Inner arcs in the order in which engagement reaches them.
     #[schemars(length(min = 1))]
     pub inner_arcs: Vec<InnerArcFile>,
-    /// Straight flanks that close the outline; absent: both at half of width_mm.
+    /// Straight flanks that close the outline; absent: both at half of width_mm, or none where that is 0.
     pub flanks: Option<FlanksFile>,
 }
 
@@ -101,7 +101,8 @@ pub(super) struct InnerArcFile {
     pub until_rad: f64,
 }
 
-/// Distances of the two straight flanks from the line through C_e along OC_e, mm.
+/// Distances of the two straight flanks from the strut line, to which they are parallel, mm: the line from the
+/// inner contact A to the outer contact B at first contact at rest.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FlanksFile {

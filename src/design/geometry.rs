@@ -1,12 +1,13 @@
-//! Whether the sprags fit between the races and among each other.
+//! Whether the sprags fit between the races.
 //!
-//! In: the `[sprags]` table, races in order. Out: [`Sprags`], SI. Absent: deformation; the outline itself
-//! (`profile`). Equations: none of its own; triangle (9) at first contact is asked of `profile`.
+//! In: the `[sprags]` table, races in order. Out: [`Sprags`], SI. Absent: deformation; flanks and neighbours
+//! ([`super::outline`]). Equations: none of its own; triangle (9) at first contact is asked of `profile`.
 
 use super::check::m;
 use super::file::SpragsFile;
 use super::findings::Findings;
-use super::{Flanks, InnerArc, MassSource, Materials, Races, Sprags};
+use super::outline;
+use super::{InnerArc, MassSource, Materials, Races, Sprags};
 use crate::profile::{Profile, ProfileError};
 
 /// Mass m_g kg, inertia I_g about the centroid kg m^2, centroid in the body frame m.
@@ -17,6 +18,12 @@ pub(super) struct MassProperties {
     pub centroid_m: [f64; 2],
 }
 
+impl From<crate::profile::MassProperties> for MassProperties {
+    fn from(p: crate::profile::MassProperties) -> Self {
+        Self { mass_kg: p.mass_kg, inertia_kg_m2: p.inertia_kg_m2, centroid_m: p.centroid_m }
+    }
+}
+
 /// The sprags of a file, or `None` with the reasons in `out`.
 pub(super) fn sprags(
     file: &SpragsFile,
@@ -24,44 +31,37 @@ pub(super) fn sprags(
     materials: Option<&Materials>,
     out: &mut Findings,
 ) -> Option<Sprags> {
-    let flanks = flanks(file, out);
     let profile = arcs_in_order(file, out).then(|| profile(file, races, out)).flatten();
     let given = given_mass(file, out);
-    if let (Some(p), Some(f)) = (&profile, &flanks)
-        && let Err(most) = check_neighbours(p, f, file.count)
-    {
-        out.refuse(
-            &[
-                "sprags.count",
-                "sprags.width_mm",
-                "sprags.flanks.rear_mm",
-                "sprags.flanks.front_mm",
-                "sprags.outer_radius_mm",
-                "races.outer_radius_mm",
-            ],
-            format!("at most {most} sprags of this width side by side on the circle of their centres C_e"),
-            "take fewer or narrower sprags: these overlap their neighbours".to_owned(),
-        );
+    let profile = profile?;
+    let flanks = outline::flanks(file);
+    let outline = match flanks {
+        Some(flanks) => Some(outline::outline(file, &profile, flanks, out)?),
+        None => None,
+    };
+    if let Some(outline) = &outline {
+        outline::check_neighbours(file, &profile, outline, out);
     }
     let (mass, mass_source) = match given? {
         Some(mass) => (mass, MassSource::Given),
         None => {
-            let density_kg_m3 = materials?.sprag.density_kg_m3;
-            match mass_from_profile(profile.as_ref()?, &flanks?, m(file.length_mm), density_kg_m3) {
-                Ok(mass) => (mass, MassSource::FromProfile),
-                Err(why) => {
-                    out.refuse(
-                        &["sprags.mass_kg", "sprags.inertia_kg_m2", "sprags.centroid", "sprags"],
-                        format!("mass, inertia and centroid, or a closed outline: {why}"),
-                        "give mass_kg, inertia_kg_m2 and centroid".to_owned(),
-                    );
-                    return None;
-                }
-            }
+            let Some(outline) = &outline else {
+                out.refuse(
+                    &["sprags.flanks", "sprags.width_mm", "sprags.mass_kg", "sprags.inertia_kg_m2", "sprags"],
+                    "flanks, or a width_mm above 0 from which they follow: without mass_kg, inertia_kg_m2 and \
+                     centroid the mass comes from the outline, which is open"
+                        .to_owned(),
+                    "add flanks = { rear_mm = ..., front_mm = ... }, or give mass_kg, inertia_kg_m2 and centroid"
+                        .to_owned(),
+                );
+                return None;
+            };
+            let weighed = outline.mass_properties(m(file.length_mm), materials?.sprag.density_kg_m3);
+            (MassProperties::from(weighed), MassSource::FromProfile)
         }
     };
     if mass_source == MassSource::Given {
-        check_centroid(mass.centroid_m, profile.as_ref()?, races, out);
+        check_centroid(mass.centroid_m, &profile, races, out);
     }
     Some(Sprags {
         count: file.count,
@@ -78,49 +78,8 @@ pub(super) fn sprags(
             .iter()
             .map(|a| InnerArc { radius_m: m(a.radius_mm), until_rad: a.until_rad })
             .collect(),
-        flanks: flanks?,
+        flanks,
     })
-}
-
-/// Mass properties of the closed outline: boundary integrals of `profile`.
-///
-/// # Errors
-/// The reason why the outline has none.
-pub(super) fn mass_from_profile(
-    _profile: &Profile,
-    _flanks: &Flanks,
-    _length_m: f64,
-    _density_kg_m3: f64,
-) -> Result<MassProperties, String> {
-    Err("needs the outline's boundary integrals, which this version does not have".to_owned())
-}
-
-/// Whether `count` sprags overlap their neighbours at first contact at rest; `Err` is the number that fits.
-///
-/// Exact for what it says: both flanks cross the circle through C_e about O, so neighbours whose flank
-/// points there are farther apart than the pitch do overlap. Sprags that meet elsewhere, further in where the
-/// pitch is shorter, are found by the outline's clearance.
-pub(super) fn check_neighbours(profile: &Profile, flanks: &Flanks, count: usize) -> Result<(), usize> {
-    let half = |width: f64| (width / profile.outer_centre_distance_m).atan();
-    let angle = half(flanks.rear_m) + half(flanks.front_m);
-    let fits = std::f64::consts::TAU / angle;
-    if (count as f64) < fits { Ok(()) } else { Err((fits.ceil() - 1.0) as usize) }
-}
-
-fn flanks(file: &SpragsFile, out: &mut Findings) -> Option<Flanks> {
-    match (&file.flanks, file.width_mm) {
-        (Some(f), _) => Some(Flanks { rear_m: m(f.rear_mm), front_m: m(f.front_mm) }),
-        (None, width) if width > 0.0 => Some(Flanks { rear_m: m(width / 2.0), front_m: m(width / 2.0) }),
-        (None, _) => {
-            out.refuse(
-                &["sprags.flanks", "sprags.width_mm"],
-                "the two flanks, or a width_mm above 0 from which they follow".to_owned(),
-                "add flanks = { rear_mm = ..., front_mm = ... } to [sprags]: without them the outline is open"
-                    .to_owned(),
-            );
-            None
-        }
-    }
 }
 
 fn arcs_in_order(file: &SpragsFile, out: &mut Findings) -> bool {
@@ -139,7 +98,7 @@ fn arcs_in_order(file: &SpragsFile, out: &mut Findings) -> bool {
     in_order
 }
 
-fn arc_key(k: usize, key: &str) -> String {
+pub(super) fn arc_key(k: usize, key: &str) -> String {
     format!("sprags.inner_arcs[{k}].{key}")
 }
 
@@ -262,6 +221,6 @@ fn check_centroid(centroid_m: [f64; 2], profile: &Profile, races: &Races, out: &
 }
 
 /// m to mm for a message, rounded to a nanometre.
-fn mm(m: f64) -> f64 {
+pub(super) fn mm(m: f64) -> f64 {
     (m * 1e9).round() / 1e6
 }

@@ -10,6 +10,7 @@ mod edit;
 mod file;
 mod findings;
 mod geometry;
+mod outline;
 mod read;
 mod scenarios;
 mod shape;
@@ -65,17 +66,20 @@ pub struct Sprags {
     pub mass_source: MassSource,
     /// Inner arcs in order of engagement, at least one.
     pub inner_arcs: Vec<InnerArc>,
-    /// Flanks that close the outline.
-    pub flanks: Flanks,
+    /// Flanks that close the outline: those of the file, or both at half of `width_m`; absent without either.
+    pub flanks: Option<Flanks>,
 }
 
-/// Plain flanks closing the outline between the inner and the outer arc: straight lines that continue
-/// as short chords from the arcs' ends. All lengths in the body frame.
+/// Straight flanks that close the outline between the inner and the outer arc.
+///
+/// # Conventions
+/// Both are parallel to the strut line, which runs from the inner contact A to the outer contact B at first
+/// contact at rest, and half widths are measured from it. Rear lies towards negative x, front towards positive x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flanks {
-    /// Half width of the waist on the side of negative x, m: the flank is the line x = -rear.
+    /// Distance of the rear flank from the strut line, m.
     pub rear_m: f64,
-    /// Half width of the waist on the side of positive x, m: the flank is the line x = +front.
+    /// Distance of the front flank from the strut line, m.
     pub front_m: f64,
 }
 

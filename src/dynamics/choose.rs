@@ -20,7 +20,9 @@ pub(super) enum Known {
 
 const STILL: [Grip; 3] = [Grip::Stick, Grip::Slip(1.0), Grip::Slip(-1.0)];
 
-/// Choose the mode at (t, y).
+/// Eq. (11) without a band of zero velocity: the mode at (t, y) by complementarity, |T| <= mu_s N and v' = 0 in
+/// stick, T against v' in slip. Signs as in [`super::published()`], opposite at A and B.
+#[doc(alias = "Eq. (11)")]
 pub(super) fn choose(model: &Model, t: f64, y: &State, place: Place, inner: Known, outer: Known) -> Mode {
     let mut best = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
     let mut least = f64::INFINITY;

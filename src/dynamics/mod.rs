@@ -10,12 +10,14 @@
 
 mod choose;
 mod crossing;
+mod driver;
 mod events;
 mod model;
 mod published;
 mod rolling;
 mod run;
 mod start;
+mod watch;
 
 pub use model::{Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
 pub use published::{PublishedSettings, published};

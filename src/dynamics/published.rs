@@ -29,8 +29,7 @@ impl PublishedSettings {
 
 /// Slope, mode and forces at one instant: rolling force inside the band, limited to mu_s N; slip outside.
 ///
-/// Eq. (11), Eq. (12), with opposite signs at A and B (the paper prints sgn(Vel) at both).
-#[doc(alias = "Eq. (11)")]
+/// The three lines of (11), with (12) in the last.
 fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(State, Mode, Forces)> {
     let curve = &model.curve;
     let alpha = y[0];
@@ -64,10 +63,15 @@ fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(S
     out.iter().all(|x| x.is_finite()).then_some((out, mode, f))
 }
 
-/// Integrate from `state`. `go_on` is asked every 256 steps with their number so far; false ends the run.
+/// Eq. (11) in the printed form: T = T_f while |v| < D_V and |T_f| < mu_s N, mu_s N sgn(T_f) while |v| < D_V
+/// beyond that, mu(v) N outside the band. Not as printed: sgn(Vel) stands at both contacts there, but
+/// T_bi = -sgn(v_A) mu N_bi, T_be = +sgn(v_B) mu N_be, or one of them would feed energy.
+///
+/// Integrates from `state`. `go_on` is asked every 256 steps with their number so far; false ends the run.
 ///
 /// Extremes and mode changes are those at the ends of steps, not located: it is the paper's scheme. Slip counts
 /// where |v| exceeds the band; net slip includes the creep inside it.
+#[doc(alias = "Eq. (11)")]
 pub fn published(
     model: &Model,
     state: State,

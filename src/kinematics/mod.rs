@@ -90,7 +90,10 @@ pub struct Centroid {
 
 /// OC_g and the signed gamma when the body has turned by `rotation` about C_e against the line OC_e.
 ///
-/// Eq. (9), third line: an acos cannot give the sign, and for Table 1 gamma is -0.725 deg.
+/// Eq. (9), third line: an acos cannot give the sign, and for Table 1 gamma is -0.725 deg. Its first line,
+/// theta_i - alpha = angle OC_gC_i, is not needed: alpha follows from the rotation. It prints a^2 over 2 C_iC_g OC_g;
+/// a is C_iC_g.
+#[doc(alias = "Eq. (9)")]
 pub fn centroid(centroid_m: [f64; 2], oc_e: Dual, rotation: Dual) -> Centroid {
     let reach = centroid_m[0].hypot(centroid_m[1]);
     let (s, c) = (rotation + centroid_m[0].atan2(centroid_m[1])).sin_cos();
@@ -127,7 +130,7 @@ pub fn levers(oa: f64, ob: f64, oc_g: f64, beta_gamma: f64, gamma: f64) -> Lever
 ///
 /// Eq. (A.4), Eq. (A.5), Eq. (A.6), with the radial motion OC_g' of the reference point that (A.3) drops
 /// (without it a static windup would depend on where G lies), and with plus signs: A and B lie on opposite
-/// sides of G.
+/// sides of G, and OB grows under load. The paper prints minus signs in (A.5), (A.6) and in (A.5)'s OB.
 #[doc(alias = "Eq. (A.4)")]
 #[doc(alias = "Eq. (A.5)")]
 #[doc(alias = "Eq. (A.6)")]
@@ -145,7 +148,9 @@ pub fn rolling_ratios(
 
 /// Tangential velocity of the race relative to the sprag at A, m/s: zero in pure rolling.
 ///
-/// Eq. (A.1), Eq. (A.2), Eq. (A.3): v_A = OA theta_bi' - (OA phi' - b_i* alpha') with b_i* = rho_i OA.
+/// Eq. (A.1), Eq. (A.2), Eq. (A.3): v_A = OA theta_bi' - (OA phi' - b_i* alpha') with b_i* = rho_i OA. The first
+/// term of (A.3) must be OC_g phi' along x_G with G's radial velocity OC_g' alpha' beside it, not OC_e phi' along
+/// x_B: only then (A.4) follows.
 #[doc(alias = "Eq. (A.1)")]
 #[doc(alias = "Eq. (A.2)")]
 #[doc(alias = "Eq. (A.3)")]

@@ -13,8 +13,8 @@ use crate::wedge::{EndReason, StaticPoint, WedgeCurve};
 pub struct LoadState {
     /// Placed profile.
     pub profile: Profile,
-    /// Closed outline.
-    pub outline: Outline,
+    /// Closed outline; absent where the design names no flanks.
+    pub outline: Option<Outline>,
     /// Curve at rest.
     pub curve: WedgeCurve,
     /// alpha_max of the spring, rad.
@@ -30,7 +30,10 @@ pub struct LoadState {
 pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
     let (profile, curve) = curve_at_rest(design)?;
     let flanks = design.clutch.sprags.flanks;
-    let outline = Outline::new(&profile, flanks.rear_m, flanks.front_m).map_err(NoMargins::Outline)?;
+    let outline = flanks
+        .map(|f| Outline::new(&profile, f.rear_m, f.front_m))
+        .transpose()
+        .map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;
     let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
     Ok(LoadState { profile, outline, curve, alpha_max_rad, first_tan_omega })
@@ -137,24 +140,21 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             "1",
             ratio(p.tan_nu, mu),
         );
-        let rotation = curve.closure_at_normal(p.normal_inner_n).map_or(0.0, |(_, c)| c.rotation.v);
-        let oc_e = state.profile.outer_centre_distance_m;
-        let gap = clearance_m(&state.outline, oc_e, rotation, count).min(clearance_m(
-            &state.outline,
-            oc_e,
-            0.0,
-            count,
-        ));
-        // Clearance itself, relative to the sprag's height: smooth through contact.
-        let height = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
-        push(
-            "neighbours",
-            "clearance between neighbouring sprags up to peak torque",
-            0.0,
-            gap * 1e3,
-            "mm",
-            gap / height,
-        );
+        if let Some(outline) = &state.outline {
+            let rotation = curve.closure_at_normal(p.normal_inner_n).map_or(0.0, |(_, c)| c.rotation.v);
+            let oc_e = state.profile.outer_centre_distance_m;
+            let gap = clearance_m(outline, oc_e, rotation, count).min(clearance_m(outline, oc_e, 0.0, count));
+            // Clearance itself, relative to the sprag's height: smooth through contact.
+            let height = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
+            push(
+                "neighbours",
+                "clearance between neighbouring sprags up to peak torque",
+                0.0,
+                gap * 1e3,
+                "mm",
+                gap / height,
+            );
+        }
     }
     let kinetic = design.clutch.friction.kinetic;
     let first = state.first_tan_omega;

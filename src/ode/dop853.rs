@@ -115,14 +115,11 @@ impl<const N: usize> Step<N> {
     /// Cubic Hermite value at t + theta h: no extra evaluations, for a first look only.
     pub fn glance(&self, theta: f64) -> [f64; N] {
         let (a, b) = (theta, 1.0 - theta);
-        let mut y = [0.0; N];
-        for i in 0..N {
+        std::array::from_fn(|i| {
             let (m0, m1) = (self.h * self.stages[0][i], self.h * self.slope1[i]);
-            y[i] =
-                (1.0 + 2.0 * a) * b * b * self.y0[i] + a * b * b * m0 + a * a * (3.0 - 2.0 * a) * self.y1[i]
-                    - a * a * b * m1;
-        }
-        y
+            (1.0 + 2.0 * a) * b * b * self.y0[i] + a * b * b * m0 + a * a * (3.0 - 2.0 * a) * self.y1[i]
+                - a * a * b * m1
+        })
     }
 
     /// Dense output of order 7 over the step (three more evaluations).

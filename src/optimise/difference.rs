@@ -16,6 +16,13 @@ pub(super) struct Table {
     pub held: Vec<usize>,
 }
 
+impl Table {
+    /// Before anything is known: every variable held.
+    pub fn unknown(space: &Space) -> Self {
+        Table { slopes: Vec::new(), curvatures: None, held: (0..space.len()).collect() }
+    }
+}
+
 /// Length of the difference steps of each variable.
 #[derive(Debug, Clone)]
 pub(super) struct Steps {

@@ -8,7 +8,7 @@ use super::outcome::{Active, Cause, Iteration, Outcome, Refusal, Residuals, Stat
 use super::poll;
 use super::settings::Settings;
 use super::space::Space;
-use super::sqp::{Climb, End};
+use super::sqp::{Climb, End, Tally};
 use super::view::{Phase, View};
 
 /// Restorations, and restarts from a better point that the poll found, before giving up.
@@ -32,7 +32,7 @@ pub(super) struct Stand {
     pub multipliers: (Vec<f64>, Vec<f64>),
     pub residuals: Residuals,
     pub weight: f64,
-    pub table: Option<Table>,
+    pub table: Table,
 }
 
 /// How a climb sets out.
@@ -79,7 +79,7 @@ pub fn maximise_least_margin<'a>(
         multipliers: (Vec::new(), Vec::new()),
         residuals: Residuals::default(),
         weight: FIRST_WEIGHT,
-        table: None,
+        table: Table::unknown(&driver.space),
     };
     let mut chosen = None;
     let status = match driver.main_phase(&mut stand, &mut chosen) {
@@ -106,21 +106,19 @@ impl Driver<'_, '_> {
         loop {
             match self.climb(&out, stand)? {
                 End::Converged | End::Feasible => {
-                    if self.settings.poll
-                        && polled < REPEATS
-                        && let Some(better) = self.poll(stand, Phase::Margin)?
-                    {
-                        polled += 1;
-                        stand.point = better;
-                        out = SetOut {
-                            radius: 10.0 * self.settings.longest_difference,
-                            weight: stand.weight,
-                            central: true,
-                            ..out
-                        };
-                        continue;
+                    let better = if self.settings.poll { self.poll(stand, Phase::Margin)? } else { None };
+                    let Some(better) = better else { break };
+                    if polled == REPEATS {
+                        return Ok(Status::Stalled(Cause::NoDescent));
                     }
-                    break;
+                    polled += 1;
+                    stand.point = better;
+                    out = SetOut {
+                        radius: 10.0 * self.settings.longest_difference,
+                        weight: stand.weight,
+                        central: true,
+                        ..out
+                    };
                 }
                 End::Stalled(cause) => return Ok(Status::Stalled(cause)),
                 End::Violated if restored == REPEATS => return Ok(Status::Stalled(Cause::RestorationCycle)),
@@ -179,7 +177,9 @@ impl Driver<'_, '_> {
             central: out.central,
             multipliers: (Vec::new(), Vec::new()),
             residuals: Residuals::default(),
-            table: None,
+            table: Table::unknown(&self.space),
+            hessian: None,
+            tally: Tally::default(),
         };
         let end = climb.run();
         *stand = Stand {
@@ -198,7 +198,8 @@ impl Driver<'_, '_> {
         let view = View::new(phase, self.memo.shape());
         let least = |point: &Point| view.measure(&point.evaluation.outputs()).0;
         let scale = least(&stand.point).abs().max(1.0);
-        let worth = 10.0 * (self.settings.gain_tolerance * scale + view.noise(&self.noise));
+        let noise = view.noise(&self.noise, stand.weight);
+        let worth = 10.0 * (self.settings.gain_tolerance * scale + noise);
         let best = self.best_seen(&stand.point);
         if least(&best) > least(&stand.point) + worth {
             return Ok(Some(best));

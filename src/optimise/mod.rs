@@ -19,6 +19,7 @@ mod search;
 mod settings;
 mod space;
 mod sqp;
+mod step;
 mod view;
 
 pub use driver::maximise_least_margin;

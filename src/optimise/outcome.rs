@@ -32,8 +32,10 @@ pub enum Cause {
     FailingRegion,
     /// Every difference point of these variables failed; they were held.
     NoDerivative(Vec<usize>),
-    /// No step, however short, gave the gain that the derivatives promise (noise or a kink).
+    /// No step, however short, gave the gain that the derivatives promise (a kink, or noise above the setting).
     NoDescent,
+    /// Only a violation of the size of the noise is left, and steps no longer mend it.
+    Noise,
     /// `max_iterations` steps were tried in one phase.
     IterationLimit,
     /// clarabel found no solution of the subproblem.

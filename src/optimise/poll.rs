@@ -1,6 +1,8 @@
 //! Points around a solution along which no active margin changes to first order.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::driver::Stand;
 use super::space::Space;
@@ -18,7 +20,7 @@ pub(super) fn along_active(
     length: f64,
     inactive: f64,
 ) -> Vec<Vec<f64>> {
-    let Some(table) = &stand.table else { return Vec::new() };
+    let table = &stand.table;
     let free: Vec<usize> = space.free().into_iter().filter(|i| !table.held.contains(i)).collect();
     if free.is_empty() {
         return Vec::new();
@@ -50,15 +52,23 @@ pub(super) fn along_active(
         }
     }
     let eigen = SymmetricEigen::new(normal);
-    let tangents = (0..free.len()).filter(|&k| eigen.eigenvalues[k] < 1e-8).take(DIRECTIONS);
-    tangents
-        .flat_map(|k| [1.0, -1.0].map(|sign| (k, sign)))
-        .map(|(k, sign)| {
-            let mut point = u.clone();
-            for (l, &i) in free.iter().enumerate() {
-                point[i] = (u[i] + sign * length * eigen.eigenvectors[(l, k)]).clamp(0.0, 1.0);
-            }
-            point
-        })
-        .collect()
+    let mut tangents: Vec<DVector<f64>> = (0..free.len())
+        .filter(|&k| eigen.eigenvalues[k] < 1e-8)
+        .map(|k| eigen.eigenvectors.column(k).into_owned())
+        .collect();
+    // Where nothing is active the basis is the axes, which are polled already: turned by 45 degrees in pairs.
+    for pair in tangents.chunks_exact_mut(2) {
+        let (a, b) = (pair[0].clone(), pair[1].clone());
+        pair[0] = (&a + &b) * FRAC_1_SQRT_2;
+        pair[1] = (a - b) * FRAC_1_SQRT_2;
+    }
+    tangents.truncate(DIRECTIONS);
+    let moved = |tangent: &DVector<f64>, sign: f64| {
+        let mut point = u.clone();
+        for (v, &i) in tangent.iter().zip(&free) {
+            point[i] = (u[i] + sign * length * v).clamp(0.0, 1.0);
+        }
+        point
+    };
+    tangents.iter().flat_map(|t| [moved(t, 1.0), moved(t, -1.0)]).collect()
 }

@@ -90,7 +90,8 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// Step d within `lower..=upper` (the bounds and the trust radius) for
 /// maximise r - 1/2 d'Bd - weight e, r <= m_i + g_i d - min m, e >= -(c_j + g_j d), e >= 0.
 ///
-/// The elastic e makes it feasible whatever the limits. `None` when clarabel reaches no usable solution.
+/// The elastic e makes it feasible whatever the limits. `None` when clarabel reaches no usable solution, or slopes
+/// have overflowed.
 pub(super) fn solve(
     linear: &Linear,
     hessian: &DMatrix<f64>,
@@ -98,6 +99,10 @@ pub(super) fn solve(
     upper: &[f64],
     ask: Ask,
 ) -> Option<Step> {
+    let all = linear.rises.iter().chain(&linear.limits);
+    if all.flat_map(|(value, slopes)| slopes.iter().chain([value])).any(|v| !v.is_finite()) {
+        return None;
+    }
     let n = lower.len();
     let (rise, elastic) = (n, n + 1);
     let least = linear.rises.iter().map(|r| r.0).fold(f64::INFINITY, f64::min);

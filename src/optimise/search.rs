@@ -55,6 +55,18 @@ pub struct Search {
     pub evaluations: usize,
 }
 
+impl Search {
+    /// Whether every margin of the design found is held.
+    pub fn feasible(&self) -> bool {
+        self.best.iter().all(Margin::held)
+    }
+
+    /// Whether every margin of the given design was held.
+    pub fn start_feasible(&self) -> bool {
+        self.start.iter().all(Margin::held)
+    }
+}
+
 /// Why a search did not begin.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoSearch {
@@ -112,12 +124,8 @@ pub fn search(
     let problem = ClutchProblem::new(design, task, free.clone(), simulation);
     let (lo, hi) = bounds(task, &free);
     let x_free: Vec<f64> = kept.iter().map(|&i| x0[i]).collect();
-    // Named arm by arm so that the observer's borrow may shrink to the problem's.
-    let watch: Option<&mut dyn Watch> = match watch {
-        Some(w) => Some(w),
-        None => None,
-    };
-    let run = Run { journal, stop, watch };
+    // Coerced one by one so that the observer's borrow may shrink to the problem's.
+    let run = Run { journal, stop, watch: watch.map(|w| w as &mut dyn Watch) };
     let outcome = maximise_least_margin(&problem, &x_free, &lo, &hi, settings, run).map_err(refused)?;
     let sharper = scenario::Settings { tolerance: 0.1 * simulation.tolerance, ..simulation };
     let best = problem.margins_at(&outcome.x, &sharper).map_err(NoSearch::Start)?;

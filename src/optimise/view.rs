@@ -58,7 +58,7 @@ impl View {
     }
 
     /// Values of the phase's margins and limits.
-    pub fn linear_values(&self, outputs: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub fn values_of(&self, outputs: &[f64]) -> (Vec<f64>, Vec<f64>) {
         (Self::values(&self.rises, outputs), Self::values(&self.limits, outputs))
     }
 
@@ -96,8 +96,11 @@ impl View {
         weights
     }
 
-    /// Noise of the phase's least margin: the largest of its margins'.
-    pub fn noise(&self, noise: &[f64]) -> f64 {
-        self.rises.iter().map(|r| noise[r.output] * r.sign.abs()).fold(0.0, f64::max)
+    /// Noise of the merit: the largest of the margins' and `weight` times the largest of the limits'. Limits do not
+    /// count in the tie break, where the weight is a wall.
+    pub fn noise(&self, noise: &[f64], weight: f64) -> f64 {
+        let most = |rows: &[Row]| rows.iter().map(|r| noise[r.output] * r.sign.abs()).fold(0.0, f64::max);
+        let limits = if matches!(self.phase, Phase::TieBreak { .. }) { 0.0 } else { most(&self.limits) };
+        most(&self.rises) + weight * limits
     }
 }

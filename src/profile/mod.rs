@@ -16,10 +16,12 @@ mod mass;
 mod outline;
 #[cfg(test)]
 mod properties;
+mod unclosed;
 
 pub use crowding::{clearance_m, touch_rotation_rad};
 pub use mass::MassProperties;
-pub use outline::{Outline, OutlineError, Segment, Side};
+pub use outline::{Outline, Segment};
+pub use unclosed::{OutlineError, Side};
 
 use nalgebra::Vector2;
 
@@ -68,6 +70,25 @@ pub enum ProfileError {
         index: usize,
     },
 }
+
+impl std::fmt::Display for ProfileError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::DoesNotSpan { least_m, reach_m, gap_m } => write!(
+                f,
+                "the sprag is {:.4} to {:.4} mm high, the race gap {:.4} mm: no position touches both races",
+                least_m * 1e3,
+                reach_m * 1e3,
+                gap_m * 1e3
+            ),
+            Self::ArcsOutOfOrder { index } => {
+                write!(f, "inner arc {} does not end after it begins", index + 1)
+            }
+        }
+    }
+}
+
+impl std::error::Error for ProfileError {}
 
 impl Profile {
     /// Place the arcs. `arcs` holds (radius m, end turn rad) in order of engagement; race radii are those

@@ -1,11 +1,14 @@
 //! The closed outline of a sprag: inner arcs, front flank, outer arc, rear flank.
 
-use super::Profile;
+use super::{OutlineError, Profile, ProfileArc, Side};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
 /// Chords per arc at most in [`Outline::polyline`]: a choice, beyond any drawing's need.
 const CHORDS_AT_MOST: f64 = 4096.0;
+
+/// Half width over need in [`Outline::narrowest`].
+const BEYOND: f64 = 1.05;
 
 /// One piece of the outline, in the body frame.
 ///
@@ -74,72 +77,6 @@ pub(super) fn along(azimuth_rad: f64) -> Vector2<f64> {
     Vector2::new(azimuth_rad.sin(), azimuth_rad.cos())
 }
 
-/// The two flanks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// Towards negative x: the outer contact travels this way in engagement.
-    Rear,
-    /// Towards positive x: the inner contact travels this way in engagement.
-    Front,
-}
-
-/// Why flanks do not close a profile. Every half width is a distance from the strut line.
-#[derive(Debug, Clone, PartialEq)]
-pub enum OutlineError {
-    /// The profile has no inner arc.
-    NoArcs,
-    /// A half width is not a positive number.
-    NotPositive {
-        /// The flank.
-        side: Side,
-        /// Half width given, m.
-        given_m: f64,
-    },
-    /// The flank passes the inner arc, however far that is extended.
-    MissesInner {
-        /// The flank.
-        side: Side,
-        /// Half width given, m.
-        given_m: f64,
-        /// Half width below which the flank meets the arc, m.
-        reach_m: f64,
-    },
-    /// The flank passes the outer arc.
-    MissesOuter {
-        /// The flank.
-        side: Side,
-        /// Half width given, m.
-        given_m: f64,
-        /// Half width below which the flank meets the arc, m.
-        reach_m: f64,
-    },
-    /// The front flank cuts off the end of the inner arcs.
-    CutsInner {
-        /// Turn lost of the working profile, rad.
-        lost_rad: f64,
-        /// Front half width given, m.
-        given_m: f64,
-        /// Front half width up to which the working profile reaches, m.
-        needed_m: f64,
-    },
-    /// The rear flank cuts off the end of the outer arc's contact range.
-    CutsOuter {
-        /// Contact range lost on the outer arc, rad.
-        lost_rad: f64,
-        /// Rear half width given, m.
-        given_m: f64,
-        /// Rear half width up to which the contact range reaches, m.
-        needed_m: f64,
-    },
-    /// Inner and outer arc cross before the flank: it has no length.
-    NoFlank {
-        /// The flank.
-        side: Side,
-        /// Height of the outer above the inner corner along the strut, m, not positive.
-        height_m: f64,
-    },
-}
-
 /// Closed outline of a sprag in the body frame, counterclockwise from the rear corner of the first inner arc.
 ///
 /// The flanks are parallel to the strut line AB at first contact, on either side of it. Every arc bulges
@@ -149,16 +86,43 @@ pub struct Outline {
     segments: Vec<Segment>,
 }
 
-/// The strut line at first contact: through A, `front` its unit normal towards +x.
+/// The strut line AB at first contact.
 struct Strut {
+    /// A.
     foot: Vector2<f64>,
+    /// Unit vector from A to B.
+    up: Vector2<f64>,
+    /// Unit normal towards +x.
     front: Vector2<f64>,
 }
 
 impl Strut {
+    fn new(profile: &Profile, first: &ProfileArc) -> Self {
+        let foot = first.centre_m + first.radius_m * profile.contact_direction(0.0);
+        let up = (Vector2::new(0.0, profile.outer_radius_m) - foot).normalize();
+        Self { foot, up, front: Vector2::new(up.y, -up.x) }
+    }
+
     /// Signed distance of a point from the strut line, m, positive in front.
     fn offset(&self, point: Vector2<f64>) -> f64 {
         self.front.dot(&(point - self.foot))
+    }
+
+    /// Half width at which a flank would only touch a circle, m.
+    fn reach(&self, side: Side, centre: Vector2<f64>, radius: f64) -> f64 {
+        radius + signed(side, self.offset(centre))
+    }
+
+    /// Front half width up to which the working profile reaches, m: offset of the last arc's end, because the
+    /// offset grows with the turn.
+    fn inner_need(&self, profile: &Profile, last: &ProfileArc) -> f64 {
+        let end = profile.contact_direction(profile.end_turn_rad());
+        self.offset(last.centre_m + last.radius_m * end)
+    }
+
+    /// Rear half width up to which the contacts on the outer arc reach, m.
+    fn outer_need(&self, profile: &Profile, end_azimuth: f64) -> f64 {
+        -self.offset(profile.outer_radius_m * along(end_azimuth))
     }
 }
 
@@ -181,23 +145,21 @@ impl Outline {
             return Err(OutlineError::NoArcs);
         };
         let r_e = profile.outer_radius_m;
-        let foot = first.centre_m + first.radius_m * profile.contact_direction(0.0);
-        let up = (Vector2::new(0.0, r_e) - foot).normalize();
-        let strut = Strut { foot, front: Vector2::new(up.y, -up.x) };
+        let strut = Strut::new(profile, first);
+        let up = strut.up;
         // Turn at which the contact direction runs down the strut: omega of first contact.
         let d_0 = profile.contact_direction(0.0);
         let down_turn = d_0.perp(&-up).atan2(d_0.dot(&-up));
 
         let inner_turn = |centre: Vector2<f64>, radius: f64, side: Side, given_m: f64| {
             let x = signed(side, given_m) - strut.offset(centre);
-            let reach_m = radius + signed(side, strut.offset(centre));
+            let reach_m = strut.reach(side, centre, radius);
             let miss = OutlineError::MissesInner { side, given_m, reach_m };
             if x.abs() < radius { Ok(down_turn + (x / radius).asin()) } else { Err(miss) }
         };
         let outer_azimuth = |side: Side, given_m: f64| {
-            let offset = strut.offset(Vector2::zeros());
-            let x = signed(side, given_m) - offset;
-            let reach_m = r_e + signed(side, offset);
+            let x = signed(side, given_m) - strut.offset(Vector2::zeros());
+            let reach_m = strut.reach(side, Vector2::zeros(), r_e);
             let miss = OutlineError::MissesOuter { side, given_m, reach_m };
             if x.abs() < r_e { Ok(up.x.atan2(up.y) + (x / r_e).asin()) } else { Err(miss) }
         };
@@ -209,7 +171,7 @@ impl Outline {
                 && turn < arc.until_rad
             {
                 let end = profile.end_turn_rad();
-                let needed_m = strut.offset(last.centre_m + last.radius_m * profile.contact_direction(end));
+                let needed_m = strut.inner_need(profile, last);
                 return Err(OutlineError::CutsInner { lost_rad: end - turn, given_m: front_m, needed_m });
             }
         }
@@ -219,7 +181,7 @@ impl Outline {
         let rear_azimuth = outer_azimuth(Side::Rear, rear_m)?;
         let end_azimuth = outer_contact_azimuth(profile, profile.end_turn_rad());
         if end_azimuth < rear_azimuth {
-            let needed_m = -strut.offset(r_e * along(end_azimuth));
+            let needed_m = strut.outer_need(profile, end_azimuth);
             let lost_rad = rear_azimuth - end_azimuth;
             return Err(OutlineError::CutsOuter { lost_rad, given_m: rear_m, needed_m });
         }
@@ -255,6 +217,27 @@ impl Outline {
         segments.push(outer);
         segments.push(Segment::Line { from_m: outer.end_m(), to_m: rear_foot });
         Ok(Self { segments })
+    }
+
+    /// The narrowest sprag: flanks that keep the working profile and 5 % of half width (a choice) beyond it, or
+    /// half of what the arcs leave where that is less. For drawings of a design that names no flanks.
+    ///
+    /// # Errors
+    /// [`OutlineError`] where no flanks close the profile.
+    pub fn narrowest(profile: &Profile) -> Result<Self, OutlineError> {
+        let (Some(first), Some(last)) = (profile.arcs.first(), profile.arcs.last()) else {
+            return Err(OutlineError::NoArcs);
+        };
+        let strut = Strut::new(profile, first);
+        let half_width = |side: Side, need: f64, arc: &ProfileArc| {
+            let inner = strut.reach(side, arc.centre_m, arc.radius_m);
+            let reach = inner.min(strut.reach(side, Vector2::zeros(), profile.outer_radius_m));
+            (BEYOND * need).min(0.5 * (need + reach))
+        };
+        let end_azimuth = outer_contact_azimuth(profile, profile.end_turn_rad());
+        let rear_m = half_width(Side::Rear, strut.outer_need(profile, end_azimuth), first);
+        let front_m = half_width(Side::Front, strut.inner_need(profile, last), last);
+        Self::new(profile, rear_m, front_m)
     }
 
     /// Segments in order, each beginning where the one before ends.
@@ -313,129 +296,4 @@ fn outer_contact_azimuth(profile: &Profile, turn: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::profile::properties::table_1;
-
-    const SINGLE: [(f64, f64); 1] = [(4.02e-3, 0.45)];
-    const MULTI: [(f64, f64); 3] = [(4.02e-3, 0.06), (4.08e-3, 0.12), (4.15e-3, 0.45)];
-
-    #[test]
-    fn outer_contact_starts_at_b_and_moves_to_the_rear() {
-        let profile = table_1(&MULTI);
-        assert!(outer_contact_azimuth(&profile, 0.0).abs() < 1e-15);
-        // Body rotation = turn + change of beta, and beta is at most asin(e/OC_e) = 0.042.
-        let rotation = -outer_contact_azimuth(&profile, 0.45);
-        assert!((0.44..0.47).contains(&rotation), "{rotation}");
-        // Continuous across junctions.
-        let (before, after) =
-            (outer_contact_azimuth(&profile, 0.06), outer_contact_azimuth(&profile, 0.06 + 1e-12));
-        assert!((before - after).abs() < 2e-12);
-    }
-
-    #[test]
-    fn a_flank_that_cuts_the_working_profile_says_how_much() {
-        let profile = table_1(&MULTI);
-        let Err(OutlineError::CutsInner { lost_rad, needed_m, .. }) =
-            Outline::new(&profile, 2.525e-3, 1.5e-3)
-        else {
-            panic!("front flank at 1.5 mm must cut the third arc")
-        };
-        println!("front need {needed_m}, lost {lost_rad}");
-        assert!(lost_rad > 0.01 && lost_rad < 0.2, "{lost_rad}");
-        // The amounts are exact: just above it closes, just below almost nothing is lost.
-        assert!(Outline::new(&profile, 2.525e-3, needed_m + 1e-9).is_ok());
-        let Err(OutlineError::CutsInner { lost_rad, .. }) = Outline::new(&profile, 2.525e-3, needed_m - 1e-9)
-        else {
-            panic!("just below the need")
-        };
-        assert!(lost_rad > 0.0 && lost_rad < 1e-6, "{lost_rad}");
-
-        let Err(OutlineError::CutsOuter { needed_m, .. }) = Outline::new(&profile, 1.0e-3, 2.525e-3) else {
-            panic!("rear flank at 1 mm must cut the outer contact range")
-        };
-        println!("rear need {needed_m}");
-        assert!((1.9e-3..2.2e-3).contains(&needed_m), "{needed_m}");
-        assert!(Outline::new(&profile, needed_m + 1e-9, 2.525e-3).is_ok());
-        assert!(Outline::new(&profile, needed_m - 1e-9, 2.525e-3).is_err());
-    }
-
-    #[test]
-    fn the_turn_lost_counts_on_the_arc_that_is_cut() {
-        // At a half width inside arc 2 the flank leaves turns beyond 0.06 and before 0.12.
-        let profile = table_1(&MULTI);
-        let foot = profile.arcs[0].centre_m + 4.02e-3 * profile.contact_direction(0.0);
-        let up = (Vector2::new(0.0, 4.68e-3) - foot).normalize();
-        let at = profile.arcs[1].centre_m + 4.08e-3 * profile.contact_direction(0.1) - foot;
-        let Err(OutlineError::CutsInner { lost_rad, .. }) =
-            Outline::new(&profile, 2.525e-3, at.x * up.y - at.y * up.x)
-        else {
-            panic!("must cut arc 2")
-        };
-        assert!((lost_rad - 0.35).abs() < 1e-12, "{lost_rad}");
-    }
-
-    #[test]
-    fn impossible_flanks_are_refused() {
-        let profile = table_1(&SINGLE);
-        for bad in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
-            assert!(matches!(
-                Outline::new(&profile, bad, 2.5e-3),
-                Err(OutlineError::NotPositive { side: Side::Rear, .. })
-            ));
-            assert!(matches!(
-                Outline::new(&profile, 2.5e-3, bad),
-                Err(OutlineError::NotPositive { side: Side::Front, .. })
-            ));
-        }
-        let Err(OutlineError::MissesInner { side: Side::Rear, reach_m, .. }) =
-            Outline::new(&profile, 4.4e-3, 2.5e-3)
-        else {
-            panic!("4.4 mm is wider than the inner arc")
-        };
-        assert!(!matches!(
-            Outline::new(&profile, reach_m - 1e-9, 2.5e-3),
-            Err(OutlineError::MissesInner { .. })
-        ));
-        let Err(OutlineError::MissesInner { side: Side::Front, reach_m, .. }) =
-            Outline::new(&profile, 2.5e-3, 4.4e-3)
-        else {
-            panic!("4.4 mm is wider than the inner arc")
-        };
-        assert!(!matches!(
-            Outline::new(&profile, 2.5e-3, reach_m - 1e-9),
-            Err(OutlineError::MissesInner { .. })
-        ));
-        let mut bare = profile.clone();
-        bare.arcs.clear();
-        assert_eq!(Outline::new(&bare, 2.5e-3, 2.5e-3), Err(OutlineError::NoArcs));
-        let mut small = profile;
-        small.outer_radius_m = 2.4e-3;
-        assert!(matches!(Outline::new(&small, 2.5e-3, 2.5e-3), Err(OutlineError::MissesOuter { .. })));
-    }
-
-    #[test]
-    fn polyline_keeps_its_tolerance_and_its_vertices_lie_on_the_outline() {
-        let outline = Outline::new(&table_1(&SINGLE), 2.525e-3, 2.525e-3).unwrap();
-        for tolerance in [1e-4, 1e-6, 1e-8] {
-            let line = outline.polyline(tolerance);
-            let mut farthest = 0.0_f64;
-            for (i, p) in line.iter().enumerate() {
-                let q = line[(i + 1) % line.len()];
-                let middle = Vector2::new(p[0] + q[0], p[1] + q[1]) / 2.0;
-                // Only outer chords: both ends on the outer arc.
-                if (p[0].hypot(p[1]) - 4.68e-3).abs() < 1e-15 && (q[0].hypot(q[1]) - 4.68e-3).abs() < 1e-15 {
-                    farthest = farthest.max(4.68e-3 - middle.norm());
-                }
-            }
-            assert!(
-                farthest <= tolerance * (1.0 + 1e-9) && farthest > 0.2 * tolerance,
-                "{tolerance}: {farthest}"
-            );
-        }
-        for strange in [0.0, -1.0, f64::NAN] {
-            assert_eq!(outline.polyline(strange).len(), 2 * 4096 + 2);
-        }
-        assert_eq!(outline.polyline(f64::INFINITY).len(), 4);
-    }
-}
+mod tests;

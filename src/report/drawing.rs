@@ -157,15 +157,7 @@ impl Drawing {
 
     /// C_e, the arc centres and the centroid, enlarged until they can be told apart.
     pub fn centres_svg(&self) -> String {
-        // One sprag in two positions has the same centres in its own frame: they are told once.
-        let mut poses: Vec<SpragPose> = Vec::new();
-        for pose in &self.poses {
-            let known = |p: &SpragPose| p.arcs == pose.arcs && p.centroid_m == pose.centroid_m;
-            if !poses.iter().any(known) {
-                poses.push(pose.clone());
-            }
-        }
-        centres::svg(&Self { poses, ..self.clone() })
+        centres::svg(self)
     }
 
     fn drawable(&self) -> Vec<&SpragPose> {

@@ -4,6 +4,7 @@
 //! Absent: physics, allowables, paths, printing; what a number means was decided before it came here.
 //! Equations: none; the rotation of the body frame in [`drawing`] and the changes of unit in [`number`].
 
+pub mod bars;
 pub mod drawing;
 pub mod number;
 pub mod page;
@@ -12,6 +13,7 @@ pub mod strip;
 mod svg;
 pub mod table;
 
+pub use bars::{Bar, Bars, Tone};
 pub use drawing::{Drawing, DrawnArc, SpragPose};
 pub use number::{Unit, significant};
 pub use page::{Page, PageHead};

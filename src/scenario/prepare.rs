@@ -29,8 +29,8 @@ pub enum NoScenario {
 impl std::fmt::Display for NoScenario {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Profile(e) => write!(f, "the profile cannot be placed: {e:?}"),
-            Self::Curve(e) => write!(f, "no wedge curve: {e:?}"),
+            Self::Profile(e) => write!(f, "the profile cannot be placed: {e}"),
+            Self::Curve(e) => write!(f, "no wedge curve: {e}"),
             Self::NotCarried { torque_nm, end_torque_nm, reason } => {
                 write!(f, "{torque_nm} Nm is not carried: the curve ends at {end_torque_nm:.4} Nm ({reason})")
             }

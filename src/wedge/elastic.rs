@@ -18,6 +18,17 @@ pub enum NoElastic {
     Race(RaceError),
 }
 
+impl std::fmt::Display for NoElastic {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Contact(why) => write!(f, "the contact law cannot be set up: {why}"),
+            Self::Race(why) => write!(f, "a race cannot be set up: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for NoElastic {}
+
 impl From<ContactError> for NoElastic {
     fn from(e: ContactError) -> Self {
         Self::Contact(e)

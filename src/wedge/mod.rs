@@ -3,10 +3,12 @@
 //! In: `Clutch`, `Profile`, mean speed. Out: [`WedgeCurve`], static points, torque, windup, stiffness.
 //! Absent: inertia, slip, limits. Equations: (10), (A.7)-(A.9), the junction crossing of Figure 5.
 
+mod build;
 mod closure;
 mod curve;
 mod elastic;
 mod stiffness;
+mod table;
 
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};

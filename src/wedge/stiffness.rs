@@ -20,7 +20,8 @@ pub struct StaticPoint {
     pub alpha_rad: f64,
     /// Windup, rad.
     pub windup_rad: f64,
-    /// C/windup, N m/rad.
+    /// Eq. (A.9): secant stiffness C/windup, N m/rad.
+    #[doc(alias = "Eq. (A.9)")]
     pub k_secant_nm_per_rad: f64,
     /// dC/dwindup, N m/rad.
     pub k_tangent_nm_per_rad: f64,
@@ -70,8 +71,7 @@ impl WedgeCurve {
         self.closure_at_normal(normal_n).map(|(k, c)| self.row(k, &c))
     }
 
-    /// Eq. (A.9): secant stiffness C/windup; the tangent dC/dwindup beside it.
-    #[doc(alias = "Eq. (A.9)")]
+    /// The row of one equilibrium.
     fn row(&self, k: usize, c: &Closure) -> StaticPoint {
         let statics = self.statics();
         let torque = c.torque_nm(statics.count);

@@ -41,16 +41,24 @@ fn infeasible_limits_are_named_with_their_least_violation() {
     assert!((least_violation - 1.0).abs() < 1e-6, "{least_violation}");
     assert_eq!(fighting, &[0, 1]);
     assert!(found.x.iter().all(|v| (v - 1.0).abs() < 1e-3), "{:?}", found.x);
-    if std::env::var("TRACE").is_ok() {
-        for i in &found.history {
-            println!("INF {i:?}");
-        }
-    }
-    assert!(found.evaluations < 100, "{}", found.evaluations);
+    assert!(found.evaluations < 45, "{}", found.evaluations);
 }
 
-/// x^2 >= 1 from x = 0, where its slope vanishes and nothing else draws x away: only the poll sees that both sides
-/// are better.
+/// The bottom of a valley is stationary too, along an axis or across both: only the poll sees that it is no top.
+#[test]
+fn the_poll_leaves_the_bottom_of_a_valley() {
+    let along = Toy(|x: &[f64]| margins(&[x[0] * x[0] - x[1] * x[1]], &[], 0.0));
+    let across = Toy(|x: &[f64]| margins(&[x[0] * x[1]], &[], 0.0));
+    for problem in [&along as &dyn Evaluate, &across] {
+        let found = run(problem, &[0.0, 0.0], -1.0, 1.0, &Settings::default());
+        assert_eq!(found.status, Status::Converged);
+        assert!((found.evaluation.least_margin() - 1.0).abs() < 1e-6, "{:?}", found.x);
+    }
+    let blind = run(&along, &[0.0, 0.0], -1.0, 1.0, &Settings { poll: false, ..Settings::default() });
+    assert!(blind.evaluation.least_margin() < 1e-3);
+}
+
+/// x^2 >= 1 from x = 0, where its slope vanishes and nothing else draws x away.
 #[test]
 fn restoration_leaves_a_level_point() {
     let problem = Toy(|x: &[f64]| margins(&[1.0 - x[1] * x[1]], &[x[0] * x[0] - 1.0], 0.0));
@@ -88,11 +96,6 @@ fn tie_break_leaves_a_round_top_alone() {
     );
     let without =
         run(&Toy(|x: &[f64]| margins(&[top(x)], &[], 0.0)), &[0.9, 0.1], 0.0, 1.0, &Settings::default());
-    if std::env::var("TRACE").is_ok() {
-        for i in &with.history {
-            println!("TIE {i:?}");
-        }
-    }
     assert!((with.evaluation.least_margin() - 1.0).abs() < 2e-6);
     assert!(with.evaluations <= without.evaluations + 15, "{} {}", with.evaluations, without.evaluations);
 }
@@ -296,7 +299,7 @@ fn bounds_are_never_left() {
 }
 
 /// Noise of 1e-5, repeatable as a mesh's is: measured, answered with longer difference steps, and the optimum met to
-/// a small multiple of it, whichever status the noise leaves.
+/// a small multiple of it.
 #[test]
 fn measured_noise_lengthens_the_difference_steps() {
     let noisy = Toy(|x: &[f64]| {
@@ -311,18 +314,18 @@ fn measured_noise_lengthens_the_difference_steps() {
     });
     let settings = Settings { noise: Noise::Measured, ..Settings::default() };
     let found = run(&noisy, &[0.0; 4], -5.0, 5.0, &settings);
-    if std::env::var("TRACE").is_ok() {
-        for i in &found.history {
-            println!("NOISE {i:?}");
-        }
-    }
     assert!(
         (found.evaluation.least_margin() - 44.0).abs() < 2e-3,
         "{:?} {:?}",
         found.status,
         found.evaluation
     );
-    assert!(found.evaluations < 250, "{} {:?}", found.evaluations, found.status);
+    assert!(
+        found.status == Status::Converged && found.evaluations < 130,
+        "{} {:?}",
+        found.evaluations,
+        found.status
+    );
 }
 
 #[test]
@@ -391,5 +394,34 @@ fn scattered_starts_reach_the_same_optimum() {
         counts.sort_unstable();
         println!("{}: {} to {} evaluations, median {}", model.name, counts[0], counts[19], counts[10]);
         assert!(counts[10] <= 2 * model.evaluations, "{}: median {}", model.name, counts[10]);
+    }
+}
+
+/// Twelve variables, three margins and forty limits, all concave quadratics: starts far apart agree.
+#[test]
+fn a_large_problem_has_one_answer() {
+    let shape = |k: usize, i: usize| ((7 * k + 3 * i) as f64).sin();
+    let bowl = |x: &[f64], k: usize| {
+        (0..12)
+            .map(|i| shape(k, i) * x[i] - (1.0 + 0.5 * shape(k + 50, i)) * (x[i] - 0.5).powi(2))
+            .sum::<f64>()
+    };
+    let problem = Toy(|x: &[f64]| {
+        let objectives: Vec<f64> = (0..3).map(|k| bowl(x, k)).collect();
+        let limits: Vec<f64> = (3..43).map(|k| 1.0 + bowl(x, k)).collect();
+        margins(&objectives, &limits, 0.0)
+    });
+    let settings = Settings { max_evaluations: 1000, ..Settings::default() };
+    let ends = [0.5, 0.0, 1.0].map(|start| run(&problem, &[start; 12], 0.0, 1.0, &settings));
+    for end in &ends {
+        println!(
+            "{} evaluations, t = {:.9}, {:?}",
+            end.evaluations,
+            end.evaluation.least_margin(),
+            end.active
+        );
+        assert_eq!(end.status, Status::Converged);
+        assert!((end.evaluation.least_margin() - ends[0].evaluation.least_margin()).abs() < 1e-6);
+        assert!(end.evaluation.violation() <= 1e-8 && end.evaluations < 220, "{}", end.evaluations);
     }
 }

@@ -33,12 +33,6 @@ fn known_optima_are_met_within_the_stated_number_of_evaluations() {
             found.residuals.kkt,
             found.status
         );
-        if std::env::var("TRACE").is_ok_and(|n| model.name.contains(&n)) {
-            for i in &found.history {
-                println!("   {:?}", i);
-            }
-            println!("{:?}", found.x);
-        }
         let met = error.abs() <= 1e-6
             && found.evaluation.violation() <= 1e-8
             && found.status == Status::Converged

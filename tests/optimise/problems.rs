@@ -43,10 +43,10 @@ pub fn all() -> Vec<Model> {
         evaluations,
     };
     vec![
-        model("HS35 (Beale)", hs35, &[0.5; 3], cube(3, 0.0, 3.0), -1.0 / 9.0, 60),
-        model("HS43 (Rosen-Suzuki)", hs43, &[0.0; 4], cube(4, -5.0, 5.0), 44.0, 120),
-        model("HS71", hs71, &[1.0, 5.0, 5.0, 1.0], cube(4, 1.0, 5.0), -17.014017289, 100),
-        model("HS100", hs100, &[1.0, 2.0, 0.0, 4.0, 0.0, 1.0, 1.0], cube(7, -5.0, 5.0), -680.6300573, 250),
+        model("HS35 (Beale)", hs35, &[0.5; 3], cube(3, 0.0, 3.0), -1.0 / 9.0, 50),
+        model("HS43 (Rosen-Suzuki)", hs43, &[0.0; 4], cube(4, -5.0, 5.0), 44.0, 90),
+        model("HS71", hs71, &[1.0, 5.0, 5.0, 1.0], cube(4, 1.0, 5.0), -17.014017289, 55),
+        model("HS100", hs100, &[1.0, 2.0, 0.0, 4.0, 0.0, 1.0, 1.0], cube(7, -5.0, 5.0), -680.6300573, 200),
         model(
             "Rosenbrock in a disc",
             rosenbrock_disc,
@@ -55,18 +55,11 @@ pub fn all() -> Vec<Model> {
             -disc_optimum(),
             120,
         ),
-        model("CB2", cb2, &[1.0, -0.1], cube(2, -5.0, 5.0), -1.9522245, 80),
-        model("CB3", cb3, &[2.0, 2.0], cube(2, -5.0, 5.0), -2.0, 80),
-        model("Madsen", madsen, &[3.0, 1.0], cube(2, -5.0, 5.0), -0.6164324356, 80),
-        model("Polak 6", polak6, &[0.0; 4], cube(4, -3.0, 3.0), 44.0, 250),
-        model(
-            "speed reducer",
-            speed_reducer,
-            &REDUCER_MIDDLE,
-            reducer_box(),
-            1.0 - 2994.471066 / 3000.0,
-            100,
-        ),
+        model("CB2", cb2, &[1.0, -0.1], cube(2, -5.0, 5.0), -1.9522245, 40),
+        model("CB3", cb3, &[2.0, 2.0], cube(2, -5.0, 5.0), -2.0, 35),
+        model("Madsen", madsen, &[3.0, 1.0], cube(2, -5.0, 5.0), -0.6164324356, 55),
+        model("Polak 6", polak6, &[0.0; 4], cube(4, -3.0, 3.0), 44.0, 145),
+        model("speed reducer", speed_reducer, &REDUCER_MIDDLE, reducer_box(), 1.0 - 2994.471066 / 3000.0, 75),
     ]
 }
 
@@ -178,6 +171,8 @@ fn reducer_box() -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Golinski's speed reducer (weight 2994.471066), objective 1 - weight/3000.
+// 0.7854 is the literature's pi/4, and the known optimum depends on its digits.
+#[allow(clippy::approx_constant)]
 fn speed_reducer(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let [b, m, z, l1, l2, d1, d2] = [x[0], x[1], x[2], x[3], x[4], x[5], x[6]];
     let weight = 0.7854 * b * m * m * (3.3333 * z * z + 14.9334 * z - 43.0934)

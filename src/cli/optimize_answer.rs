@@ -1,0 +1,306 @@
+//! What `optimize` says: text, JSON, page, and the head of the new design file.
+
+use super::Context;
+use super::left_out::left_out;
+use super::output::{TOOL, VERSION};
+use super::parts::{self, Answer};
+use crate::design::Design;
+use crate::margin::Margin;
+use crate::optimise::{Search, Status};
+use crate::report::{Cell, Column, Page, Plot, Table, Unit};
+use crate::scenario::place_profile;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// A search and where its design went.
+pub struct Told<'a> {
+    /// The design searched from.
+    pub design: &'a Design,
+    /// The search.
+    pub found: &'a Search,
+    /// Where the new design was written, if it was.
+    pub written: Option<&'a Path>,
+    /// Wall time of the search, s.
+    pub run_time_s: f64,
+    /// Stopped by Ctrl-C.
+    pub interrupted: bool,
+}
+
+/// The new design file: who wrote it, from what, then the old file with its comments and the new values.
+pub fn file_text(design: &Design, found: &Search, written_by: &str, context: &Context) -> String {
+    let changes: String = found
+        .variables
+        .iter()
+        .filter(|v| v.best != v.start)
+        .map(|v| format!("#   {}: {} -> {}\n", v.name, v.start, v.best))
+        .collect();
+    format!(
+        "{written_by} {VERSION} from {:?} (sha256 {})\n# by: {}\n# least slip margin {:.6} -> {:.6}\n{changes}#\n{}",
+        design.name, design.hash, context.command_line, found.objective.0, found.objective.1, found.file
+    )
+}
+
+impl Told<'_> {
+    /// How it ended, in one sentence.
+    pub fn verdict(&self) -> String {
+        let (before, after) = self.found.objective;
+        let why = match &self.found.outcome.status {
+            Status::Converged => "converged".to_owned(),
+            Status::Infeasible { least_violation, fighting } => {
+                let names: Vec<&str> = fighting
+                    .iter()
+                    .filter_map(|&i| self.found.names.limits.get(i))
+                    .map(String::as_str)
+                    .collect();
+                return format!(
+                    "infeasible: no design within the bounds holds every limit; the least violation is \
+                     {least_violation:.4}, held up by {}",
+                    names.join(" against ")
+                );
+            }
+            Status::EvaluationLimit => "stopped at the evaluation limit".to_owned(),
+            Status::Interrupted => "stopped by Ctrl-C".to_owned(),
+            Status::Stalled(cause) => format!("stalled ({cause:?})"),
+        };
+        if self.found.feasible() {
+            format!(
+                "least slip margin {before:.4} -> {after:.4} (+- {:.0e}), every limit held; {why} after {} evaluations",
+                self.found.objective_error.max(1e-16),
+                self.found.evaluations
+            )
+        } else {
+            format!("no feasible design found: {why} after {} evaluations", self.found.evaluations)
+        }
+    }
+
+    /// Margins before and after.
+    pub fn margin_table(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::text("code", "Limit"),
+            Column::text("unit", "Unit"),
+            Column::number("demand_before", "Demand before", Unit::One, 5),
+            Column::number("demand_after", "Demand after", Unit::One, 5),
+            Column::number("allowable", "Allowable", Unit::One, 5),
+            Column::number("margin_before", "Margin before", Unit::One, 4),
+            Column::number("margin_after", "Margin after", Unit::One, 4),
+            Column::text("held", "Held"),
+        ]);
+        for (a, b) in self.found.start.iter().zip(&self.found.best) {
+            let demand = |m: &Margin| if m.demand < 1e300 { Cell::Si(m.demand) } else { Cell::Empty };
+            table.row(vec![
+                b.code.as_str().into(),
+                b.unit.into(),
+                demand(a),
+                demand(b),
+                b.allowable.into(),
+                a.margin.into(),
+                b.margin.into(),
+                Cell::Verdict(b.held(), if b.held() { "held" } else { "NOT HELD" }.to_owned()),
+            ]);
+        }
+        table
+    }
+
+    fn variable_table(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::text("variable", "Variable"),
+            Column::number("min", "From", Unit::One, 6),
+            Column::number("max", "To", Unit::One, 6),
+            Column::number("before", "Before", Unit::One, 6),
+            Column::number("after", "After", Unit::One, 6),
+            Column::text("note", "Note"),
+        ]);
+        for v in &self.found.variables {
+            let note = if v.dropped {
+                "without influence, dropped"
+            } else if v.best == v.min {
+                "at its lower bound"
+            } else if v.best == v.max {
+                "at its upper bound"
+            } else {
+                ""
+            };
+            table.row(vec![
+                v.name.as_str().into(),
+                v.min.into(),
+                v.max.into(),
+                v.start.into(),
+                v.best.into(),
+                note.into(),
+            ]);
+        }
+        table
+    }
+
+    /// Change of each margin over the whole range of each variable, at the start.
+    fn influence_table(&self) -> Table {
+        let mut columns = vec![Column::text("margin", "Margin")];
+        for v in &self.found.variables {
+            columns.push(Column::number(&v.name, &v.name, Unit::One, 3));
+        }
+        let mut table = Table::new(columns);
+        let names = &self.found.names;
+        let rows = names
+            .objectives
+            .iter()
+            .map(|n| format!("slip:{n} (objective)"))
+            .zip(&self.found.influence.objectives);
+        let limits = names.limits.iter().cloned().zip(&self.found.influence.limits);
+        for (name, slopes) in rows.chain(limits) {
+            let mut row: Vec<Cell> = vec![name.into()];
+            // Below the threshold for "no influence" a slope is rounding, shown as none.
+            row.extend(
+                slopes.iter().map(|&s| if s.abs() < crate::optimise::NO_INFLUENCE { 0.0 } else { s }.into()),
+            );
+            table.row(row);
+        }
+        table
+    }
+
+    fn active(&self) -> Vec<String> {
+        let a = &self.found.outcome.active;
+        let n = &self.found.names;
+        let free: Vec<&str> =
+            self.found.variables.iter().filter(|v| !v.dropped).map(|v| v.name.as_str()).collect();
+        let objectives =
+            a.objectives.iter().filter_map(|&i| n.objectives.get(i)).map(|s| format!("slip:{s}"));
+        let limits = a.limits.iter().filter_map(|&i| n.limits.get(i)).cloned();
+        let lower = a.lower.iter().filter_map(|&i| free.get(i)).map(|s| format!("{s} at its lower bound"));
+        let upper = a.upper.iter().filter_map(|&i| free.get(i)).map(|s| format!("{s} at its upper bound"));
+        objectives.chain(limits).chain(lower).chain(upper).collect()
+    }
+
+    /// The answer in the terminal.
+    pub fn text(&self, context: &Context) -> String {
+        let mut out =
+            format!("{}\n\nVariables\n{}", self.verdict(), self.variable_table().to_text(context.colour));
+        out += &format!("\nMargins\n{}", self.margin_table().to_text(context.colour));
+        out += &format!(
+            "\nInfluence at the start: change of each margin over the whole range of a variable\n{}",
+            self.influence_table().to_text(context.colour)
+        );
+        out += &format!("\nActive: {}\n", self.active().join(", "));
+        out += &match self.written {
+            Some(path) => format!("Written: {}\n", path.display()),
+            None => "No design written.\n".to_owned(),
+        };
+        out
+    }
+
+    /// The answer for programs.
+    pub fn json(&self) -> Answer<'_, Value> {
+        let found = self.found;
+        let values = |pick: fn(&crate::optimise::Variable) -> f64| -> serde_json::Map<String, Value> {
+            found.variables.iter().map(|v| (v.name.clone(), json!(pick(v)))).collect()
+        };
+        let row = |m: &Margin| {
+            json!({
+                "code": m.code, "name": m.name, "unit": m.unit, "allowable": m.allowable, "margin": m.margin,
+                "demand": if m.demand < 1e300 { json!(m.demand) } else { Value::Null },
+            })
+        };
+        let rows = |list: &[Margin]| list.iter().map(row).collect::<Vec<_>>();
+        let dropped: Vec<&str> =
+            found.variables.iter().filter(|v| v.dropped).map(|v| v.name.as_str()).collect();
+        let status = match &found.outcome.status {
+            Status::Converged => "converged",
+            Status::Infeasible { .. } => "infeasible",
+            Status::EvaluationLimit => "evaluation-limit",
+            Status::Interrupted => "interrupted",
+            Status::Stalled(_) => "stalled",
+        };
+        let fighting: Vec<&String> = match &found.outcome.status {
+            Status::Infeasible { fighting, .. } => {
+                fighting.iter().filter_map(|&i| found.names.limits.get(i)).collect()
+            }
+            _ => Vec::new(),
+        };
+        let body = json!({
+            "status": status,
+            "feasible": found.feasible(),
+            "best": { "variables": values(|v| v.best), "objective": found.objective.1, "margins": rows(&found.best) },
+            "start": { "variables": values(|v| v.start), "objective": found.objective.0, "margins": rows(&found.start) },
+            "evaluations": found.evaluations,
+            "failed_evaluations": found.outcome.failures,
+            "active_constraints": self.active(),
+            "fighting_limits": fighting,
+            "dropped_variables": dropped,
+            "influence": {
+                "objectives": found.names.objectives, "limits": found.names.limits,
+                "d_objectives_per_range": found.influence.objectives, "d_limits_per_range": found.influence.limits,
+            },
+            // One objective: the front is the single best point.
+            "pareto": [{ "variables": values(|v| v.best), "objective": found.objective.1 }],
+            "seed": self.design.optimize.as_ref().map(|o| o.seed),
+            "written_to": self.written.map(|p| p.display().to_string()),
+        });
+        Answer {
+            design: self.design,
+            run_time_s: self.run_time_s,
+            left_out: left_out(&self.design.clutch),
+            error_estimate: Some(json!(found.objective_error)),
+            body,
+        }
+    }
+
+    /// The page.
+    pub fn page(&self, context: &Context) -> Page {
+        let mut page = parts::page("Optimisation", self.design, context);
+        page.verdict(self.found.feasible(), &self.verdict());
+        if let Some(path) = self.written {
+            page.paragraph(&format!("New design: {}", path.display()));
+        }
+        page.table("Variables before and after, with their bounds", &self.variable_table());
+        self.draw(&mut page);
+        page.heading("Margins");
+        page.table(
+            "Margins before and after; the slip rows are the objectives, all others are limits",
+            &self.margin_table(),
+        );
+        page.paragraph(&format!("Active at the optimum: {}.", self.active().join(", ")));
+        page.heading("How it was found");
+        let history = &self.found.outcome.history;
+        let path = |pick: fn(&crate::optimise::Iteration) -> f64| -> Vec<[f64; 2]> {
+            history.iter().map(|it| [it.evaluations as f64, pick(it)]).collect()
+        };
+        let plot = Plot::new("evaluations of the clutch", "margin")
+            .curve("least slip margin", path(|it| it.least_margin))
+            .curve("worst violation of a limit", path(|it| it.violation));
+        page.figure(&plot.to_svg(), "Path of the search; a violated limit is paid first.");
+        page.table(
+            "Influence at the start: change of each margin over the whole range of each variable",
+            &self.influence_table(),
+        );
+        self.json().close(&mut page);
+        page
+    }
+
+    /// Profiles before and after, to scale, one over the other.
+    fn draw(&self, page: &mut Page) {
+        let Ok(after) = Design::parse(&self.found.file, "optimum") else { return };
+        let (Ok(p), Ok(q)) = (place_profile(&self.design.clutch), place_profile(&after.clutch)) else {
+            return;
+        };
+        let poses =
+            vec![parts::pose_at_rest("after", &after, &q), parts::pose_at_rest("before", self.design, &p)];
+        parts::draw(page, &parts::drawing(&after, poses));
+        let depth = |design: &Design, profile| {
+            crate::wedge::WedgeCurve::build(&design.clutch, profile, 0.0).ok().map(|curve| {
+                let end = curve.end_torque_nm();
+                let most = design.limits.peak_torque_nm.map_or(end, |t| t.min(end));
+                (1..=120)
+                    .filter_map(|i| curve.at_torque(most * f64::from(i) / 120.0))
+                    .map(|s| [s.torque_nm, s.tan_omega])
+                    .collect::<Vec<_>>()
+            })
+        };
+        let mut plot = Plot::new("torque (Nm)", "demanded tan \u{3c9} (1)");
+        for (name, curve) in [("after", depth(&after, &q)), ("before", depth(self.design, &p))] {
+            if let Some(points) = curve {
+                plot = plot.curve(name, points);
+            }
+        }
+        let plot = plot.level(self.design.clutch.friction.static_, "\u{3bc}s");
+        page.figure(&plot.to_svg(), &format!("Static friction demand at the inner contact ({TOOL})."));
+    }
+}

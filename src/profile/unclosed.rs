@@ -1,0 +1,123 @@
+//! Why flanks do not close a profile, in numbers and in words.
+
+use std::fmt;
+
+/// The two flanks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Towards negative x: the outer contact travels this way in engagement.
+    Rear,
+    /// Towards positive x: the inner contact travels this way in engagement.
+    Front,
+}
+
+/// Why flanks do not close a profile. Every half width is a distance from the strut line.
+#[derive(Debug, Clone, PartialEq)]
+pub enum OutlineError {
+    /// The profile has no inner arc.
+    NoArcs,
+    /// A half width is not a positive number.
+    NotPositive {
+        /// The flank.
+        side: Side,
+        /// Half width given, m.
+        given_m: f64,
+    },
+    /// The flank passes the inner arc, however far that is extended.
+    MissesInner {
+        /// The flank.
+        side: Side,
+        /// Half width given, m.
+        given_m: f64,
+        /// Half width below which the flank meets the arc, m.
+        reach_m: f64,
+    },
+    /// The flank passes the outer arc.
+    MissesOuter {
+        /// The flank.
+        side: Side,
+        /// Half width given, m.
+        given_m: f64,
+        /// Half width below which the flank meets the arc, m.
+        reach_m: f64,
+    },
+    /// The front flank cuts off the end of the inner arcs.
+    CutsInner {
+        /// Turn lost of the working profile, rad.
+        lost_rad: f64,
+        /// Front half width given, m.
+        given_m: f64,
+        /// Front half width up to which the working profile reaches, m.
+        needed_m: f64,
+    },
+    /// The rear flank cuts off the end of the outer arc's contact range.
+    CutsOuter {
+        /// Contact range lost on the outer arc, rad.
+        lost_rad: f64,
+        /// Rear half width given, m.
+        given_m: f64,
+        /// Rear half width up to which the contact range reaches, m.
+        needed_m: f64,
+    },
+    /// Inner and outer arc cross before the flank: it has no length.
+    NoFlank {
+        /// The flank.
+        side: Side,
+        /// Height of the outer above the inner corner along the strut, m, not positive.
+        height_m: f64,
+    },
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Rear => "rear",
+            Self::Front => "front",
+        })
+    }
+}
+
+impl fmt::Display for OutlineError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mm = |m: &f64| m * 1e3;
+        match self {
+            Self::NoArcs => f.write_str("the profile has no inner arc"),
+            Self::NotPositive { side, given_m } => {
+                write!(f, "the {side} flank is {} mm from the strut line, not above 0", mm(given_m))
+            }
+            Self::MissesInner { side, given_m, reach_m } => write!(
+                f,
+                "the {side} flank, {:.4} mm from the strut line, passes the inner arc, which reaches {:.4} mm",
+                mm(given_m),
+                mm(reach_m)
+            ),
+            Self::MissesOuter { side, given_m, reach_m } => write!(
+                f,
+                "the {side} flank, {:.4} mm from the strut line, passes the outer arc, which reaches {:.4} mm",
+                mm(given_m),
+                mm(reach_m)
+            ),
+            Self::CutsInner { lost_rad, given_m, needed_m } => write!(
+                f,
+                "the front flank, {:.4} mm from the strut line, cuts {lost_rad:.4} rad off the inner arcs; \
+                 they need {:.4} mm",
+                mm(given_m),
+                mm(needed_m)
+            ),
+            Self::CutsOuter { lost_rad, given_m, needed_m } => write!(
+                f,
+                "the rear flank, {:.4} mm from the strut line, cuts {lost_rad:.4} rad off the outer arc's \
+                 contact range, which needs {:.4} mm",
+                mm(given_m),
+                mm(needed_m)
+            ),
+            Self::NoFlank { side, height_m } => write!(
+                f,
+                "inner and outer arc cross {:.4} mm before they reach the {side} flank",
+                mm(&height_m.abs())
+            ),
+        }
+    }
+}
+
+impl std::error::Error for OutlineError {}

@@ -1,0 +1,104 @@
+//! From a clutch to its wedge curve: arc after arc, each handed over at a junction by the paper's Figure 5.
+
+use super::closure::{FIRST_CONTACT_N, Statics};
+use super::curve::{EndReason, NoCurve, WedgeCurve};
+use super::table::{ArcBuilder, ArcTable};
+use crate::design::{Clutch, ContactLaw};
+use crate::numeric::root;
+use crate::profile::Profile;
+
+impl WedgeCurve {
+    /// Build the curve of `clutch` at mean speed `speed_rad_s`.
+    ///
+    /// # Errors
+    /// [`NoCurve`] where there is no first contact. A curve that ends early is a result, see [`Self::end`].
+    pub fn build(clutch: &Clutch, profile: &Profile, speed_rad_s: f64) -> Result<Self, NoCurve> {
+        let statics = Statics::new(clutch, profile.clone()).map_err(NoCurve::NoElastic)?;
+        let exponent = if matches!(clutch.contact, ContactLaw::Hertz) { 10.0 } else { 9.0 };
+        let beta0 = profile.beta0_rad;
+        // The arc on which first contact lies at this speed: growth of the race may already have turned it.
+        let mut first = 0;
+        let mut touch =
+            statics.closure(0, FIRST_CONTACT_N, speed_rad_s, 0.0).map_err(|_| NoCurve::NoFirstContact)?;
+        while touch.turn_rad(beta0) >= profile.arcs[first].until_rad {
+            first += 1;
+            if first >= profile.arcs.len() {
+                return Err(NoCurve::NoFirstContact);
+            }
+            touch = statics
+                .closure(first, FIRST_CONTACT_N, speed_rad_s, 0.0)
+                .map_err(|_| NoCurve::NoFirstContact)?;
+        }
+        let alpha0 = touch.alpha.v;
+        let mut arcs: Vec<ArcTable> = Vec::new();
+        let (mut n_from, mut shift, mut windup_from) = (0.0, 0.0, 0.0);
+        let mut end = EndReason::OffProfile;
+        for k in first..profile.arcs.len() {
+            if let Some(last) = arcs.last() {
+                // The paper's Figure 5: N stays, arc k starts where it carries N_J, the rest is added from there.
+                let raw = statics.closure(k, last.n_until, speed_rad_s, 0.0);
+                match raw {
+                    Ok(c) => shift = last.alpha_until - c.alpha.v,
+                    Err(_) => {
+                        end = EndReason::RollsOver;
+                        break;
+                    }
+                }
+            }
+            let reach = arc_end(&statics, k, speed_rad_s, n_from, shift, profile.arcs[k].until_rad);
+            let Some((n_until, reason)) = reach else {
+                end = EndReason::RollsOver;
+                break;
+            };
+            let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, alpha0, exponent }
+                .build(n_from, n_until, windup_from, k == first)
+                .map_err(|_| NoCurve::NoConvergence)?;
+            windup_from = arc.windup_rad(arc.alpha_until, (k == first).then_some((alpha0, exponent)));
+            arcs.push(arc);
+            n_from = n_until;
+            if let Some(reason) = reason {
+                end = reason;
+                break;
+            }
+        }
+        if arcs.is_empty() {
+            return Err(NoCurve::NoFirstContact);
+        }
+        Ok(Self { statics, speed_rad_s, exponent, alpha0, first, arcs, end, touch })
+    }
+}
+
+/// N at which arc `k` ends and, where that ends the curve, why. `None`: nothing of this arc can be used.
+pub(super) fn arc_end(
+    statics: &Statics,
+    k: usize,
+    speed: f64,
+    n_from: f64,
+    shift: f64,
+    until: f64,
+) -> Option<(f64, Option<EndReason>)> {
+    let beta0 = statics.profile.beta0_rad;
+    let last = k + 1 == statics.profile.arcs.len();
+    let state = |n: f64| statics.closure(k, n, speed, shift).ok();
+    // Positive while the arc goes on: turn left over, and torque still rising.
+    let left = |n: f64| state(n).map_or(-1.0, |c| until - c.turn_rad(beta0));
+    let rising = |n: f64| state(n).map_or(-1.0, |c| c.torque_nm(1).d);
+    let (mut a, mut n) = (n_from.max(FIRST_CONTACT_N), (1.02 * n_from).max(1.0));
+    for _ in 0..4000 {
+        if left(n) <= 0.0 && state(n).is_some() || rising(n) <= 0.0 {
+            break;
+        }
+        a = n;
+        n *= 1.1;
+    }
+    let off = state(n).is_some() && left(n) <= 0.0;
+    let n_off = if off { root::bracketed(a, n, left(a), left(n), 1e-15 * n, left)? } else { n };
+    if rising(n_off) > 0.0 && off {
+        return Some((n_off, last.then_some(EndReason::OffProfile)));
+    }
+    let n_over = root::bracketed(a, n_off, rising(a), rising(n_off), 1e-12 * n, rising)?;
+    // Stay where the closure exists.
+    let n_over = if state(n_over).is_some() { n_over } else { n_over * (1.0 - 1e-9) };
+    state(n_over).filter(|_| n_over > n_from)?;
+    Some((n_over, Some(EndReason::RollsOver)))
+}
