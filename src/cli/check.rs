@@ -11,7 +11,7 @@ use crate::design::{Design, Scenario};
 use crate::margin::{LoadState, Margin, NoMargins, lift_off_rad_s, load_margins, load_state, scene_margins};
 use crate::report::Unit;
 use crate::scenario::Settings;
-use body::{Body, NONE_SUFFICES, csv_table, people_table};
+use body::{Body, NONE_SUFFICES, Source, csv_table, people_table};
 use clap::Args;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -55,7 +55,16 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
     let started = Instant::now();
     let check = compute(&design, context)?;
     let run_time_s = started.elapsed().as_secs_f64();
-    let body = Body::new(&check.rows, check.lift_off_rad_s, LIFT_OFF_TO_RAD_S);
+    let limits = &design.limits;
+    let curve = &check.state.curve;
+    let source = Source {
+        end: curve.end().0,
+        end_torque_nm: curve.end_torque_nm(),
+        asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
+        lift_off_rad_s: check.lift_off_rad_s,
+        searched_to_rad_s: LIFT_OFF_TO_RAD_S,
+    };
+    let body = Body::new(&check.rows, source);
     let held = body.pass;
     let answer = Answer {
         design: &design,

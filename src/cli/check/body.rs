@@ -2,6 +2,7 @@
 
 use crate::margin::Margin;
 use crate::report::{Cell, Column, Table, Unit, significant};
+use crate::wedge::EndReason;
 use serde::Serialize;
 
 /// A demand that no friction meets, in words.
@@ -39,6 +40,28 @@ struct Capacity {
     torque_capacity_nm: f64,
 }
 
+/// End of the static curve.
+#[derive(Debug, Clone, Serialize)]
+struct End {
+    reason: &'static str,
+    torque_nm: f64,
+}
+
+/// What the margins were read from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source {
+    /// Why the static curve ends.
+    pub(super) end: EndReason,
+    /// Torque at its end, N m.
+    pub(super) end_torque_nm: f64,
+    /// Largest torque at which a limit is held, N m; 0 without one.
+    pub(super) asked_nm: f64,
+    /// Overrun speed at which the sprags lift off, rad/s, if they do up to `searched_to_rad_s`.
+    pub(super) lift_off_rad_s: Option<f64>,
+    /// How far a lift-off was looked for, rad/s.
+    pub(super) searched_to_rad_s: f64,
+}
+
 /// Keys of `check`.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Body {
@@ -50,13 +73,17 @@ pub(super) struct Body {
     nominal_torque_capacity: Option<Capacity>,
     /// The lowest among the limits that are held at peak torque.
     peak_torque_capacity: Option<Capacity>,
+    /// Where the static curve ends, which may be below the torques of the limits.
+    end: End,
+    #[serde(skip)]
+    asked_nm: f64,
     /// Null: contact is kept up to `lift_off_searched_to_rpm`.
     lift_off_rpm: Option<f64>,
     lift_off_searched_to_rpm: f64,
 }
 
 impl Body {
-    pub(super) fn new(rows: &[Margin], lift_off_rad_s: Option<f64>, searched_to_rad_s: f64) -> Self {
+    pub(super) fn new(rows: &[Margin], source: Source) -> Self {
         let rpm = |rad_s| Unit::Rpm.from_si(rad_s);
         let required = || rows.iter().filter(|r| r.required);
         let lowest = |counts: &dyn Fn(&Margin) -> bool| {
@@ -82,8 +109,10 @@ impl Body {
             lowest_torque_capacity: lowest(&|_| true),
             nominal_torque_capacity: lowest(&nominal),
             peak_torque_capacity: lowest(&|r| !nominal(r)),
-            lift_off_rpm: lift_off_rad_s.map(rpm),
-            lift_off_searched_to_rpm: rpm(searched_to_rad_s),
+            end: End { reason: source.end.name(), torque_nm: source.end_torque_nm },
+            asked_nm: source.asked_nm,
+            lift_off_rpm: source.lift_off_rad_s.map(rpm),
+            lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
         }
     }
 
@@ -108,7 +137,7 @@ impl Body {
         }
     }
 
-    /// Torque capacity and lift-off, a line each.
+    /// Torque capacity, an early end of the curve and lift-off, a line each.
     pub(super) fn remarks(&self) -> Vec<String> {
         let capacities = [("nominal", &self.nominal_torque_capacity), ("peak", &self.peak_torque_capacity)];
         let capacity = capacities.into_iter().filter_map(|(kind, capacity)| {
@@ -116,12 +145,21 @@ impl Body {
             let torque = Unit::NewtonMetre.show(c.torque_capacity_nm, 4);
             Some(format!("Torque capacity, {kind}: {torque}, set by {} ({})", c.code, c.name))
         });
+        let early = (self.end.torque_nm < self.asked_nm).then(|| {
+            format!(
+                "The curve ends ({}) at {}, below {}: a limit held beyond shows its demand at that end, and no margin \
+                 above end/torque − 1",
+                self.end.reason,
+                Unit::NewtonMetre.show(self.end.torque_nm, 4),
+                Unit::NewtonMetre.show_plain(self.asked_nm, 4)
+            )
+        });
         let searched = format!("{:.0}", self.lift_off_searched_to_rpm);
         let lift_off = match self.lift_off_rpm {
             Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
             None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
         };
-        capacity.chain([lift_off]).collect()
+        capacity.chain(early).chain([lift_off]).collect()
     }
 }
 
@@ -238,6 +276,24 @@ mod tests {
         }
     }
 
+    fn source(lift_off_rad_s: Option<f64>) -> Source {
+        Source {
+            end: EndReason::OffProfile,
+            end_torque_nm: 50.0,
+            asked_nm: 110.0,
+            lift_off_rad_s,
+            searched_to_rad_s: 100.0,
+        }
+    }
+
+    #[test]
+    fn a_curve_that_ends_too_early_is_said() {
+        let early = Body::new(&[], source(None));
+        assert!(early.remarks().iter().any(|r| r.contains("off-profile") && r.contains("110 Nm")));
+        let late = Body::new(&[], Source { end_torque_nm: 120.0, ..source(None) });
+        assert!(late.remarks().iter().all(|r| !r.contains("off-profile")));
+    }
+
     #[test]
     fn only_required_limits_decide() {
         let rows = [
@@ -245,18 +301,18 @@ mod tests {
             margin("b", 2.0, 0.1, Some(130.0), true),
             margin("c", f64::MAX, -1.0, None, false),
         ];
-        let body = Body::new(&rows, None, 100.0);
+        let body = Body::new(&rows, source(None));
         assert!(body.pass && body.deciding.as_ref().unwrap().code == "b");
         assert_eq!(body.lowest_torque_capacity.as_ref().unwrap().code, "a");
         assert!(body.verdict().starts_with("HELD: all 2"), "{}", body.verdict());
-        let broken = Body::new(&[rows[0].clone(), margin("d", 1.0, -0.01, None, true)], Some(1.0), 100.0);
+        let broken = Body::new(&[rows[0].clone(), margin("d", 1.0, -0.01, None, true)], source(Some(1.0)));
         assert!(!broken.pass && broken.verdict().starts_with("NOT HELD: 1 of 2"), "{}", broken.verdict());
     }
 
     #[test]
     fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
         let rows = [margin("slip:x", f64::MAX, -1.0, None, true)];
-        let json = serde_json::to_value(Body::new(&rows, None, 1.0)).unwrap();
+        let json = serde_json::to_value(Body::new(&rows, source(None))).unwrap();
         assert!(json["margins"][0]["demand"].is_null() && json["margins"][0]["margin"] == -1.0);
         assert!(people_table(&rows, 200.0).to_text(false).contains(NONE_SUFFICES));
         let csv = String::from_utf8(csv_table(&rows).to_csv().unwrap()).unwrap();
@@ -265,7 +321,7 @@ mod tests {
 
     #[test]
     fn a_design_without_limits_holds() {
-        let body = Body::new(&[], None, 1.0);
+        let body = Body::new(&[], source(None));
         assert!(body.pass && body.deciding.is_none() && body.verdict().starts_with("HELD"));
     }
 }

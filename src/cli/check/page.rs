@@ -22,10 +22,13 @@ pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, co
         &margin_bars(&check.rows).to_svg(),
         "Margins; a bar that ends in an arrow goes on beyond the chart, grey ones are shown only.",
     );
-    page.figure(
-        &capacity_bars(design, &check.rows, end_nm).to_svg(),
-        "Torque at which each limit would be reached; “>”: not before the curve ends.",
-    );
+    let capacities = capacity_bars(design, &check.rows, end_nm);
+    if !capacities.bars.is_empty() {
+        page.figure(
+            &capacities.to_svg(),
+            "Torque at which each limit would be reached; “>”: not before the curve ends.",
+        );
+    }
     page.heading("Gripping");
     let [angles, rise] = curves(design, check);
     page.figures(&[

@@ -149,6 +149,9 @@ pub(super) fn text(design: &Design, laws: &[LawCurve]) -> String {
         out.push_str(&format!("{}: curve ends {}{}\n", law.name.key(), end_text(law), junction_text(law)));
     }
     if laws.len() > 1 {
+        if laws.iter().flat_map(|l| &l.rows).any(|(_, p)| p.is_none()) {
+            out.push_str("–: beyond the end of the law's curve\n");
+        }
         out.push_str("Forces, angles and pressures of every law: --json, --csv or --report\n");
     }
     out
