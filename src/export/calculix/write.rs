@@ -74,6 +74,14 @@ fn write_deck(out: &mut String, m: &Model, clutch: &Clutch, options: &Options) -
     surface(out, "SINNER", &m.inner, Face::High, race_layers)?;
     surface(out, "SOUTER", &m.outer, Face::Low, race_layers)?;
 
+    writeln!(out, "** Track of the inner race: its stresses give the contact pressure.")?;
+    writeln!(out, "*ELSET, ELSET=ETOUCH")?;
+    for k in 0..touching - 1 {
+        for i in m.inner.fine.0..m.inner.fine.1 {
+            writeln!(out, "{}", m.inner.element(i, m.inner.size.1 - 2, k))?;
+        }
+    }
+
     springs(out, m)?;
 
     let hardest = [mats.inner_race, mats.sprag, mats.outer_race]
@@ -139,9 +147,9 @@ fn step(out: &mut String, increments: usize, control: usize, shift: [f64; 2]) ->
     }
     writeln!(out, "*BOUNDARY\n{control},1,1,{:.12e}\n{},1,1,{:.12e}", shift[0], control + 1, shift[1])?;
     writeln!(out, "*NODE PRINT, NSET=NCONTROL\nU,RF")?;
-    writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGIN, MASTER=SINNER\nCF,CSTR")?;
+    writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGIN, MASTER=SINNER\nCF")?;
     writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGOUT, MASTER=SOUTER\nCF")?;
-    writeln!(out, "*END STEP")
+    writeln!(out, "*EL PRINT, ELSET=ETOUCH\nS\n*END STEP")
 }
 
 fn surface(out: &mut String, name: &str, block: &Block, face: Face, layers: usize) -> std::fmt::Result {
