@@ -66,14 +66,21 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
     if rows.is_empty() {
         return Err(Failure::malformed("the result holds none of the torques asked for"));
     }
-    let curve = place_profile(&design.clutch).ok().and_then(|p| WedgeCurve::build(&design.clutch, &p, 0.0).ok());
+    let curve =
+        place_profile(&design.clutch).ok().and_then(|p| WedgeCurve::build(&design.clutch, &p, 0.0).ok());
     let law: Vec<Option<StaticPoint>> =
         rows.iter().map(|r| curve.as_ref().and_then(|c| c.at_torque(r.torque_nm))).collect();
     let run_time_s = started.elapsed().as_secs_f64();
 
     let people = table(&rows, &law);
     context.outputs.write_csv(&people)?;
-    let answer = Answer { design, run_time_s, left_out: left_out(&facts), error_estimate: None, body: body(&facts, &rows, &law) };
+    let answer = Answer {
+        design,
+        run_time_s,
+        left_out: left_out(&facts),
+        error_estimate: None,
+        body: body(&facts, &rows, &law),
+    };
     context.outputs.write_report(|| {
         let mut page = parts::page("Finite elements", design, context);
         page.heading("CalculiX beside the design's contact law").table("", &people);

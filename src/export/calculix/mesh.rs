@@ -64,12 +64,8 @@ impl Block {
         let mut least = f64::INFINITY;
         for j in 0..self.size.1 - 1 {
             for i in 0..self.size.0 - 1 {
-                let c = [
-                    self.point(i, j),
-                    self.point(i + 1, j),
-                    self.point(i + 1, j + 1),
-                    self.point(i, j + 1),
-                ];
+                let c =
+                    [self.point(i, j), self.point(i + 1, j), self.point(i + 1, j + 1), self.point(i, j + 1)];
                 for a in 0..4 {
                     let (p, q, r) = (c[(a + 3) % 4], c[a], c[(a + 1) % 4]);
                     let cross = (r[0] - q[0]) * (p[1] - q[1]) - (r[1] - q[1]) * (p[0] - q[0]);
@@ -100,7 +96,8 @@ impl Grid {
         Self { step: (travel + 2.0 * margin) / fine_count as f64, travel, margin, fine_count }
     }
 
-    fn even_rows(&self) -> usize {
+    /// Rows of even height below a surface.
+    pub fn even_rows(&self) -> usize {
         (0.4 * self.margin / self.step).ceil() as usize
     }
 
@@ -143,11 +140,10 @@ impl Sector {
         let along = positions(-half, fine, half, grid.fine_count, before, after);
         let track = chord_radius(self.track, grid.step);
         let sign = if inner { -1.0 } else { 1.0 };
-        let mut radii: Vec<f64> =
-            depths((self.far - self.track).abs(), grid.step, grid.even_rows(), GROWTH)
-                .into_iter()
-                .map(|d| track + sign * d)
-                .collect();
+        let mut radii: Vec<f64> = depths((self.far - self.track).abs(), grid.step, grid.even_rows(), GROWTH)
+            .into_iter()
+            .map(|d| track + sign * d)
+            .collect();
         if let Some(last) = radii.last_mut() {
             *last = self.far;
         }
@@ -155,10 +151,8 @@ impl Sector {
             radii.reverse();
         }
         let azimuths: Vec<f64> = along.iter().map(|s| self.middle + s / self.track).collect();
-        let points = radii
-            .iter()
-            .flat_map(|r| azimuths.iter().map(move |a| [r * a.sin(), r * a.cos()]))
-            .collect();
+        let points =
+            radii.iter().flat_map(|r| azimuths.iter().map(move |a| [r * a.sin(), r * a.cos()])).collect();
         Block {
             size: (azimuths.len(), radii.len()),
             points,

@@ -206,8 +206,7 @@ fn model(
 ) -> Result<Model, NoDeck> {
     check(options)?;
     let (s, r) = (&clutch.sprags, &clutch.races);
-    let curve =
-        WedgeCurve::build(clutch, profile, 0.0).map_err(|e| NoDeck::NoCurve(format!("{e:?}")))?;
+    let curve = WedgeCurve::build(clutch, profile, 0.0).map_err(|e| NoDeck::NoCurve(format!("{e:?}")))?;
     let last = curve
         .at_torque(options.torque_nm)
         .ok_or_else(|| NoDeck::BeyondCurve { end_nm: curve.end_torque_nm() })?;
@@ -217,6 +216,11 @@ fn model(
     let travel = 1.05e3 * longest * last.contact_turn_rad;
     let margin = 1.5e3 * last.half_width_inner_m + 3e3 * options.mesh_m;
     let grid = Grid::new(1e3 * options.mesh_m, travel, margin);
+    // The even stretches alone, four of them, before anything is built.
+    let even = 4usize.saturating_mul(grid.fine_count).saturating_mul(grid.even_rows());
+    if even > MOST_NODES {
+        return Err(NoDeck::TooFine { nodes: even, most: MOST_NODES });
+    }
 
     let (half, layers, beyond) = match options.variant {
         Variant::PlaneStrain | Variant::Layer => (500.0 * s.length_m, 1, 0.0),
@@ -243,7 +247,8 @@ fn model(
     let oc_e = r_e - 1e3 * s.outer_radius_m + OVERLAP_MM;
     let e_1 = 1e3 * first.centre_m.norm();
     let beta = ((oc_i * oc_i + oc_e * oc_e - e_1 * e_1) / (2.0 * oc_i * oc_e)).acos();
-    let rotation = (oc_i * beta.sin()).atan2(oc_i * beta.cos() - oc_e) - first.centre_m.x.atan2(first.centre_m.y);
+    let rotation =
+        (oc_i * beta.sin()).atan2(oc_i * beta.cos() - oc_e) - first.centre_m.x.atan2(first.centre_m.y);
     let start_rad = 2.0 * OVERLAP_MM / (touch.t_ratio * r_i);
 
     let foot = first.centre_m + first.radius_m * foot_direction;

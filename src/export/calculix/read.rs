@@ -89,7 +89,10 @@ fn row(facts: &Facts, i: &Increment) -> Option<Row> {
     let (inner, outer) = (i.inner?, i.outer?);
     let force = |c: Contact| {
         let tangential = c.moment_nmm.abs() / c.radius_mm;
-        (facts.axial_factor * (c.force_n.powi(2) - tangential.powi(2)).max(0.0).sqrt(), tangential * facts.axial_factor)
+        (
+            facts.axial_factor * (c.force_n.powi(2) - tangential.powi(2)).max(0.0).sqrt(),
+            tangential * facts.axial_factor,
+        )
     };
     let ((n_bi, t_bi), (n_be, t_be)) = (force(inner), force(outer));
     // q = R [sin(theta - ahead) + sin(ahead)].
@@ -125,7 +128,8 @@ pub fn at_torque(rows: &[Row], torque_nm: f64) -> Option<Row> {
         return rows.first().filter(|r| r.torque_nm == torque_nm).copied();
     }
     let nearer_below = above >= 2
-        && (above + 1 >= rows.len() || torque_nm / rows[above - 2].torque_nm < rows[above + 1].torque_nm / torque_nm);
+        && (above + 1 >= rows.len()
+            || torque_nm / rows[above - 2].torque_nm < rows[above + 1].torque_nm / torque_nm);
     let from = if nearer_below { above - 2 } else { above - 1 };
     let near = &rows[from..(from + 3).min(rows.len())];
     let xs: Vec<f64> = near.iter().map(|r| r.torque_nm.ln()).collect();
@@ -183,7 +187,12 @@ fn increments(dat: &str) -> Result<Vec<Increment>, NoRows> {
             let (&[x, y, _, _, _, moment], &[cx, cy, ..]) = (total.as_slice(), centre.as_slice()) else {
                 return Err(lost);
             };
-            let contact = Contact { force_n: x.hypot(y), moment_nmm: moment, radius_mm: cx.hypot(cy), radial: [cx / cx.hypot(cy), cy / cx.hypot(cy)] };
+            let contact = Contact {
+                force_n: x.hypot(y),
+                moment_nmm: moment,
+                radius_mm: cx.hypot(cy),
+                radial: [cx / cx.hypot(cy), cy / cx.hypot(cy)],
+            };
             if head.contains("SSPRAGIN") {
                 current.inner = Some(contact);
             } else {
@@ -202,7 +211,9 @@ fn means(body: &[(usize, Vec<f64>)]) -> Result<Vec<[f64; 3]>, NoRows> {
     for of_one in body.chunk_by(|a, b| a.1.first() == b.1.first()) {
         let mut mean = [0.0; 3];
         for (line, numbers) in of_one {
-            let &[_, _, xx, yy, _, xy, ..] = numbers.as_slice() else { return Err(NoRows::Line { line: *line }) };
+            let &[_, _, xx, yy, _, xy, ..] = numbers.as_slice() else {
+                return Err(NoRows::Line { line: *line });
+            };
             for (sum, value) in mean.iter_mut().zip([xx, yy, xy]) {
                 *sum += value / of_one.len() as f64;
             }

@@ -106,10 +106,9 @@ fn write_deck(out: &mut String, m: &Model, clutch: &Clutch, options: &Options) -
             }
         }
     }
-    for (block, row, node, ahead) in [
-        (&m.inner, m.driven.0, control, f.ahead_rad[0]),
-        (&m.outer, m.driven.1, control + 1, f.ahead_rad[1]),
-    ] {
+    for (block, row, node, ahead) in
+        [(&m.inner, m.driven.0, control, f.ahead_rad[0]), (&m.outer, m.driven.1, control + 1, f.ahead_rad[1])]
+    {
         cyclic(out, block, m.sector_rad, plane_strain)?;
         driven(out, block, row, node, ahead)?;
     }
