@@ -1,4 +1,73 @@
-//! sprag-design: map to come.
+//! Design and optimisation of multi-arc sprag (overrunning) clutches: statics of the wedge, stick-slip dynamics,
+//! margins, search.
+//!
+//! The model is that of Huang, Liu and Zhao (2017), with its misprints corrected and its gaps filled;
+//! [`equations`] says where each numbered equation lives and which test decides that it is right.
+//!
+//! # The map
+//!
+//! Data flows down this table, imports point up it: a room may use the rooms of earlier rows, never those below.
+//! `tests/house.rs` holds the exact list.
+//!
+//! | row | room | what it is about |
+//! |---|---|---|
+//! | 0 | [`numeric`] | duals, bracketed roots, quadrature, Chebyshev panels; never heard of a clutch |
+//! | 0 | [`ode`] | Runge-Kutta steps with dense output and work counters |
+//! | 1 | [`material`] | elastic constants, density |
+//! | 1 | [`profile`] | tangent arcs, outline, mass properties, crowding of neighbours |
+//! | 1 | [`design`] | the design file, checked; the only way in for mm, degrees, GPa |
+//! | 2 | [`kinematics`] | lengths, angles, levers, rolling ratios |
+//! | 2 | [`contact`] | local line contact: roller law, Hertz, slices |
+//! | 2 | [`race`] | growth and hoop stress of rings, body compression |
+//! | 2 | [`friction`] | coefficient over speed |
+//! | 3 | [`wedge`] | the only static iteration: the curve N(alpha) of one design at one speed |
+//! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |
+//! | 4 | [`scenario`] | a named scene in, history and verdict out |
+//! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
+//! | 4 | [`optimise`] | a vector and its margins, by SQP |
+//! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
+//! | 5 | [`cli`] | paths, printing, exit codes |
+//!
+//! # Conventions
+//!
+//! * SI in `f64` everywhere but in design files and reports. Public names end in their unit (`_m`, `_n`, `_rad`,
+//!   `_nm_per_rad`); a name without one is a pure number. Symbols of the paper that are fields of one struct
+//!   (`oa`, `rho_i`) have their unit in their doc comment.
+//! * A is the contact on the inner race, B that on the outer; N and T are per sprag, torques C of the whole clutch.
+//! * Azimuths and rotations share one positive sense, that in which A lies ahead of B. alpha, the rotation of the
+//!   sprag against the line OG, is positive in engagement. theta_bi - theta_be falls in engagement by the windup
+//!   W >= 0 and rises in overrunning; an offset is positive towards overrunning.
+//! * gamma is signed: azimuth of C_e ahead of G.
+//! * T_bi acts on the inner race in its positive sense, -T_be on the outer race; v is race minus sprag surface.
+//! * A margin is allowable/demand - 1 unless its row says otherwise; 0 or more is held.
+//! * What can happen to a clutch is data ([`Verdict`], [`EndReason`], [`Stop`]); an `Err` means that the question
+//!   was malformed.
+//!
+//! # From a file to an answer
+//!
+//! ```
+//! use sprag_design::{Design, Settings, WedgeCurve, margins, place_profile, simulate};
+//!
+//! let path = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/huang2017-multi-arc.toml");
+//! let design = Design::read(path.as_ref())?;
+//!
+//! // Statics: the curve at rest, read at 16.8 Nm.
+//! let profile = place_profile(&design.clutch)?;
+//! let curve = WedgeCurve::build(&design.clutch, &profile, 0.0)?;
+//! let point = curve.at_torque(16.8).ok_or("not carried")?;
+//! assert!((point.windup_rad.to_degrees() - 1.975).abs() < 0.03);
+//!
+//! // Dynamics: one scenario of the file.
+//! let scene = design.scenario("low-6").ok_or("no such scenario")?;
+//! let answer = simulate(scene, &Settings::default())?;
+//! assert_eq!(answer.verdict.name(), "sticks");
+//!
+//! // Margins: every limit of the file.
+//! let rows = margins(&design, &design.limits, &[], false, false, &Settings::default())?;
+//! assert!(rows.iter().any(|row| row.code.starts_with("hertz")));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
 pub mod cli;
 pub mod contact;
 pub mod design;
@@ -15,3 +84,15 @@ pub mod race;
 pub mod report;
 pub mod scenario;
 pub mod wedge;
+
+pub use design::{Clutch, ContactLaw, Design, DesignError, Limits, Scenario, ScenarioKind};
+pub use dynamics::Stop;
+pub use margin::{Margin, NoMargins, margins};
+pub use material::Material;
+pub use optimise::{NoSearch, Search, search};
+pub use profile::{Outline, Profile, ProfileError};
+pub use scenario::{NoScenario, Settings, Simulation, Verdict, place_profile, simulate};
+pub use wedge::{EndReason, NoCurve, StaticPoint, WedgeCurve};
+
+#[doc = include_str!("equations.md")]
+pub mod equations {}

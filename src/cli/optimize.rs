@@ -26,7 +26,7 @@ design found so far, --resume goes on from the journal and ends where an uninter
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct OptimizeArgs {
-    /// Design file (TOML) with an [optimize] table
+    /// Design file (TOML) with an optimize table
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Where to write the better design file [default: FILE's name with -optimized, in this folder]

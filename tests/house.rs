@@ -1,0 +1,363 @@
+//! The house: what the sources promise about themselves, read from the sources.
+//!
+//! Standard library only: these tests must not depend on what they judge.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Which rooms a room may use, in the order of the map in `src/lib.rs`. `lib.rs` and `main.rs` are no rooms.
+const MAY_USE: &[(&str, &[&str])] = &[
+    ("numeric", &[]),
+    ("ode", &[]),
+    ("material", &[]),
+    ("profile", &["material", "numeric"]),
+    // The narrowest working sprag is drawn where a design names no flanks; mass properties follow from it.
+    ("design", &["material", "profile"]),
+    // Strangers to one another: no law of row 2 knows another law, a design or a sprag's profile.
+    ("kinematics", &["numeric"]),
+    ("contact", &["material", "numeric"]),
+    ("race", &["material", "numeric"]),
+    ("friction", &["numeric"]),
+    ("wedge", &["numeric", "material", "profile", "design", "kinematics", "contact", "race"]),
+    ("dynamics", &["numeric", "ode", "design", "kinematics", "friction", "wedge"]),
+    // A scenario may be given another friction law, so it names that law.
+    ("scenario", &["numeric", "design", "profile", "friction", "wedge", "dynamics"]),
+    ("fidelity", &["numeric", "design", "profile", "contact", "wedge", "dynamics", "scenario"]),
+    ("margin", &["numeric", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"]),
+    // Never a contact, a wedge or a path: a vector and its margins.
+    ("optimise", &["numeric", "design", "scenario", "margin"]),
+    // Units and drawings: a profile to draw, no physics.
+    ("report", &["profile"]),
+    ("export", &["profile"]),
+    (
+        "cli",
+        &[
+            "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity", "margin",
+            "optimise", "report", "export",
+        ],
+    ),
+];
+
+/// Outside world, for `cli` alone.
+const OUTSIDE: &[&str] =
+    &["std::fs", "std::env", "std::process", "print!(", "println!(", "eprint!(", "eprintln!(", "dbg!("];
+
+/// Exceptions, each with its reason.
+const MAY_TOUCH: &[(&str, &str)] = &[
+    // A design is a file: its errors name file, line and key, so the room opens that one file itself.
+    ("src/design/read.rs", "std::fs"),
+];
+
+/// Longest file, lines.
+const LONGEST: usize = 450;
+
+/// Every numbered equation of the paper.
+fn numbers() -> Vec<String> {
+    (1..=15).map(|n| format!("({n})")).chain((1..=9).map(|n| format!("(A.{n})"))).collect()
+}
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn files(folder: &str, endings: &[&str]) -> Vec<PathBuf> {
+    let mut out = Vec::new();
+    let mut open = vec![root().join(folder)];
+    while let Some(folder) = open.pop() {
+        let Ok(entries) = fs::read_dir(&folder) else { continue };
+        for entry in entries.flatten() {
+            let path = entry.path();
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if path.is_dir() && name != "target" && name != ".git" {
+                open.push(path);
+            } else if path.is_file() && endings.iter().any(|e| name.ends_with(e)) {
+                out.push(path);
+            }
+        }
+    }
+    out.sort();
+    out
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// Path from the repository's root, with slashes.
+fn name(path: &Path) -> String {
+    path.strip_prefix(root()).unwrap().to_string_lossy().replace('\\', "/")
+}
+
+/// Room of a file in `src`; none for `lib.rs` and `main.rs`.
+fn room(name: &str) -> Option<&str> {
+    let inside = name.strip_prefix("src/")?;
+    let room = inside.split('/').next()?.trim_end_matches(".rs");
+    (!["lib", "main"].contains(&room)).then_some(room)
+}
+
+/// Sources that ship: no tests, no comments.
+fn shipped() -> Vec<(String, String)> {
+    let all: Vec<(String, String)> =
+        files("src", &[".rs"]).iter().map(|path| (name(path), read(path))).collect();
+    let tests: Vec<String> = all.iter().flat_map(|(name, text)| test_files(name, text)).collect();
+    all.into_iter()
+        .filter(|(name, _)| {
+            !tests.iter().any(|t| name == &format!("{t}.rs") || name.starts_with(&format!("{t}/")))
+        })
+        .map(|(name, text)| (name, without_tests_and_comments(&text)))
+        .collect()
+}
+
+/// Files that `text` declares as `#[cfg(test)] mod name;`, without their ending.
+fn test_files(name: &str, text: &str) -> Vec<String> {
+    let folder = match name.strip_suffix("/mod.rs") {
+        Some(folder) => folder.to_owned(),
+        None => name.trim_end_matches(".rs").to_owned(),
+    };
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let declared = |pair: &[&str]| {
+        let module = pair[1].trim_start_matches("pub(crate) ").strip_prefix("mod ")?.strip_suffix(';')?;
+        (pair[0] == "#[cfg(test)]").then(|| format!("{folder}/{module}"))
+    };
+    lines.windows(2).filter_map(declared).collect()
+}
+
+fn without_tests_and_comments(text: &str) -> String {
+    let mut out = String::new();
+    let mut lines = text.lines().peekable();
+    while let Some(line) = lines.next() {
+        if line.trim() == "#[cfg(test)]"
+            && lines.peek().is_some_and(|l| l.contains("mod ") && l.ends_with('{'))
+        {
+            // rustfmt closes a module at the column where it began.
+            let column = line.len() - line.trim_start().len();
+            let end = format!("{}}}", " ".repeat(column));
+            lines.by_ref().find(|l| *l == end);
+        } else {
+            out.push_str(line.split("//").next().unwrap_or(""));
+            out.push('\n');
+        }
+    }
+    out
+}
+
+fn words_after<'a>(text: &'a str, start: &'a str) -> impl Iterator<Item = &'a str> {
+    text.match_indices(start)
+        .filter(|&(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
+        .map(move |(at, _)| {
+            let rest = &text[at + start.len()..];
+            &rest[..rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len())]
+        })
+}
+
+#[test]
+fn rooms_use_only_what_they_may() {
+    let mut wrong = Vec::new();
+    let mut seen = 0;
+    for (name, text) in shipped() {
+        let Some(here) = room(&name) else { continue };
+        let Some((_, allowed)) = MAY_USE.iter().find(|(room, _)| *room == here) else {
+            wrong.push(format!("{name}: the room {here} is not in the table"));
+            continue;
+        };
+        for used in words_after(&text, "crate::") {
+            seen += 1;
+            if used != here && !allowed.contains(&used) {
+                wrong.push(format!("{name}: {here} may not use crate::{used}"));
+            }
+        }
+        // `super` must not reach the root by another name.
+        let depth = name.matches('/').count() - usize::from(name.ends_with("/mod.rs"));
+        if text.contains(&"super::".repeat(depth)) {
+            wrong.push(format!("{name}: reach other rooms by crate::, not by super::"));
+        }
+    }
+    assert!(seen > 50, "only {seen} uses found: the scan is broken");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_table_points_up() {
+    for (at, (here, allowed)) in MAY_USE.iter().enumerate() {
+        for used in *allowed {
+            let there = MAY_USE.iter().position(|(room, _)| room == used);
+            assert!(there.is_some_and(|there| there < at), "{here} must not use {used}");
+        }
+    }
+}
+
+#[test]
+fn the_map_names_every_room_and_no_other() {
+    let lib = read(&root().join("src/lib.rs"));
+    let mapped: Vec<&str> = lib
+        .lines()
+        .filter_map(|l| l.strip_prefix("//! | ")?.split("| [`").nth(1)?.split('`').next())
+        .collect();
+    let mut rooms: Vec<String> =
+        files("src", &[".rs"]).iter().filter_map(|p| room(&name(p)).map(str::to_owned)).collect();
+    rooms.sort();
+    rooms.dedup();
+    let mut sorted = mapped.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, rooms);
+    // The map runs down in the same order as the table here.
+    let order: Vec<usize> =
+        mapped.iter().map(|m| MAY_USE.iter().position(|(room, _)| room == m).unwrap()).collect();
+    assert!(order.is_sorted(), "{mapped:?}");
+}
+
+#[test]
+fn only_cli_touches_the_world() {
+    let mut wrong = Vec::new();
+    for (name, text) in shipped() {
+        if room(&name).is_none_or(|room| room == "cli") {
+            continue;
+        }
+        for word in OUTSIDE {
+            if text.contains(word) && !MAY_TOUCH.contains(&(name.as_str(), *word)) {
+                wrong.push(format!("{name}: {word}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    for (file, word) in MAY_TOUCH {
+        assert!(read(&root().join(file)).contains(word), "{file} needs no exception for {word}");
+    }
+}
+
+#[test]
+fn every_room_opens_with_in_out_absent_equations() {
+    let mut rooms = 0;
+    for path in files("src", &[".rs"]) {
+        let name = name(&path);
+        let entrance = name.ends_with("/mod.rs") && name.matches('/').count() == 2;
+        if !(entrance || room(&name).is_some() && name.matches('/').count() == 1) {
+            continue;
+        }
+        rooms += 1;
+        let text = read(&path);
+        let head: Vec<&str> = text.lines().take_while(|l| l.starts_with("//!")).take(8).collect();
+        let head = head.join("\n");
+        let mut from = 0;
+        for word in ["In:", "Out:", "Absent:", "Equations:"] {
+            let at = head[from..].find(word);
+            assert!(at.is_some(), "{name}: the first lines lack {word}");
+            from += at.unwrap_or(0);
+        }
+    }
+    assert!(rooms > 12);
+}
+
+#[test]
+fn no_file_is_long() {
+    for folder in ["src", "tests", "benches"] {
+        for path in files(folder, &[".rs"]) {
+            let lines = read(&path).lines().count();
+            assert!(lines <= LONGEST, "{}: {lines} lines, more than {LONGEST}", name(&path));
+        }
+    }
+}
+
+#[test]
+fn nothing_names_a_place_outside() {
+    // Put together here, so that this file does not name them either.
+    let places = [["..", "/shared"].concat(), ["/wo", "rk/"].concat(), ["/ho", "me/"].concat()];
+    let endings = [
+        ".rs", ".toml", ".md", ".csv", ".json", ".svg", ".html", ".css", ".lock", ".yml", ".sh", "run",
+        "MIT", "APACHE",
+    ];
+    let all = files("", &endings);
+    assert!(all.len() > 60, "{}", all.len());
+    for path in all {
+        let Ok(text) = fs::read_to_string(&path) else { continue };
+        for place in &places {
+            assert!(!text.contains(place.as_str()), "{} names {place}", name(&path));
+        }
+    }
+}
+
+/// Rows of the register's table under `heading`, cell by cell.
+fn rows(heading: &str) -> Vec<Vec<String>> {
+    let text = read(&root().join("src/equations.md"));
+    let part = text.split("\n# ").find(|part| part.starts_with(heading)).expect("heading");
+    part.lines()
+        .filter(|l| l.starts_with("| ("))
+        .map(|l| l.trim_matches('|').split(" | ").map(|cell| cell.trim().to_owned()).collect())
+        .collect()
+}
+
+/// Fails unless the cell `` `file` `test` `` names a test that exists.
+fn assert_oracle(equation: &str, cell: &str) {
+    let named: Vec<&str> = cell.split('`').skip(1).step_by(2).collect();
+    let [file, test] = named[..] else { panic!("{equation}: `file` `test` expected, not {cell}") };
+    let text = read(&root().join(file));
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let declared = lines.iter().position(|l| l.starts_with(&format!("fn {test}()")));
+    let at = declared.unwrap_or_else(|| panic!("{equation}: {file} has no test {test}"));
+    assert!(lines[..at].iter().rev().take(3).any(|l| *l == "#[test]"), "{equation}: {test} is no test");
+    assert!(
+        !lines[..at].iter().rev().take(3).any(|l| l.starts_with("#[ignore")),
+        "{equation}: {test} never runs"
+    );
+}
+
+#[test]
+fn every_equation_has_one_row_and_an_oracle() {
+    let rows = rows("Equations");
+    let listed: Vec<&String> = rows.iter().map(|row| &row[0]).collect();
+    assert_eq!(listed, numbers().iter().collect::<Vec<_>>());
+    for row in &rows {
+        assert_eq!(row.len(), 5, "{row:?}");
+        assert!(row[3].contains("](crate::"), "{}: the function is no link", row[0]);
+        assert_oracle(&row[0], &row[4]);
+    }
+}
+
+#[test]
+fn every_misprint_is_decided_by_a_test() {
+    let rows = rows("Misprints");
+    assert!(rows.len() >= 16);
+    for row in &rows {
+        assert_eq!(row.len(), 4, "{row:?}");
+        assert!(numbers().contains(&row[0]), "{row:?}");
+        assert_oracle(&row[0], &row[3]);
+    }
+}
+
+#[test]
+fn every_equation_has_its_home() {
+    let sources: Vec<(String, String)> =
+        files("src", &[".rs"]).iter().map(|path| (name(path), read(path))).collect();
+    for number in numbers() {
+        let alias = format!("#[doc(alias = \"Eq. {number}\")]");
+        let mut homes = Vec::new();
+        for (name, text) in &sources {
+            let lines: Vec<&str> = text.lines().map(str::trim).collect();
+            for at in (0..lines.len()).filter(|&at| lines[at] == alias) {
+                let above =
+                    lines[..at].iter().rev().take_while(|l| l.starts_with("///") || l.starts_with("#["));
+                let said =
+                    above.clone().any(|l| l.starts_with("///") && l.contains(&format!("Eq. {number}")));
+                assert!(said, "{name}: the home of {number} does not say /// Eq. {number}");
+                homes.push(name.clone());
+            }
+        }
+        // Two for (9), which has two lines in use, and for (11), kept in its printed form beside the corrected one.
+        let most = if ["(9)", "(11)"].contains(&number.as_str()) { 2 } else { 1 };
+        assert!((1..=most).contains(&homes.len()), "{number}: homes {homes:?}");
+    }
+}
+
+#[test]
+fn what_is_promised_is_what_is_run() {
+    let (readme, ci) = (read(&root().join("README.md")), read(&root().join(".ci/run")));
+    let manifest = read(&root().join("Cargo.toml"));
+    let entry = |key: &str| {
+        let line = manifest.lines().find(|l| l.starts_with(&format!("{key} = "))).expect("key");
+        line.split('"').nth(1).expect("value").to_owned()
+    };
+    assert!(readme.contains("cargo test --release\n") && ci.contains("cargo test --release\n"));
+    assert!(readme.contains(&format!("Rust {}", entry("rust-version"))), "minimum Rust version");
+    let changelog = read(&root().join("CHANGELOG.md"));
+    assert!(changelog.contains(&format!("[{}]", entry("version"))), "version");
+}
