@@ -9,6 +9,7 @@ pub mod drawing;
 pub mod number;
 pub mod page;
 pub mod plot;
+pub mod strip;
 mod svg;
 pub mod table;
 
@@ -17,6 +18,7 @@ pub use drawing::{Drawing, DrawnArc, SpragPose};
 pub use number::{Unit, significant};
 pub use page::{Page, PageHead};
 pub use plot::{Curve, Marker, Plot};
+pub use strip::{Span, Strip};
 pub use table::{Cell, Column, Table};
 #[cfg(test)]
 mod tests;
