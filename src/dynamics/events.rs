@@ -13,6 +13,10 @@ pub(super) const INNER: usize = 2;
 /// Index: contact B changes its grip.
 pub(super) const OUTER: usize = 3;
 
+/// How far below first contact alpha must fall before contact counts as lost, rad: N is 0 from first contact on,
+/// and a sprag that neither spring nor load moves does not flutter between the two places on rounding.
+const LEAVE_RAD: f64 = 1e-12;
+
 /// How far an open sprag may turn back before the run ends with a name, rad.
 pub(super) const OPEN_REACH_RAD: f64 = 0.5;
 
@@ -24,7 +28,7 @@ pub(super) fn events(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool)
         Place::Open => (alpha - touch + OPEN_REACH_RAD, touch - alpha),
         Place::Tension => (1.0, touch - alpha),
         Place::Arc(k) => {
-            let from = if k == 0 { touch } else { model.curve.arc_end_rad(k - 1) };
+            let from = if k == 0 { touch - LEAVE_RAD } else { model.curve.arc_end_rad(k - 1) };
             (alpha - from, model.curve.arc_end_rad(k) - alpha)
         }
     };
