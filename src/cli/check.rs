@@ -1,15 +1,31 @@
 //! `check`: the designer margin check.
 
-use super::Context;
+mod body;
+mod page;
+
 use super::exit::{Exit, Failure};
+use super::left_out::left_out;
+use super::parts::{self, Answer};
+use super::{Context, interrupt::Interrupt, progress::Progress};
+use crate::design::{Design, Scenario};
+use crate::margin::{LoadState, Margin, NoMargins, lift_off_rad_s, load_margins, load_state, scene_margins};
+use crate::report::Unit;
+use crate::scenario::Settings;
+use body::{Body, NONE_SUFFICES, Source, csv_table, people_table};
 use clap::Args;
+use rayon::prelude::*;
+use std::f64::consts::PI;
 use std::path::PathBuf;
+use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
   sprag-design check designs/huang2017-multi-arc.toml
   sprag-design check designs/huang2017-multi-arc.toml --report check.html
   sprag-design check designs/huang2017-multi-arc.toml --json | jq '.margins[] | select(.margin < 0)'";
+
+/// Speed up to which a lift-off of the sprags is looked for, rad/s: 60 000 rpm, beyond any clutch of this kind.
+const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * PI / 30.0;
 
 /// Arguments of `check`.
 #[derive(Debug, Clone, Args)]
@@ -20,11 +36,111 @@ pub struct CheckArgs {
     pub file: PathBuf,
 }
 
+/// Margins of a design and what they were read from.
+struct Check {
+    state: LoadState,
+    rows: Vec<Margin>,
+    /// Largest change of a finite scenario margin when the tolerance is ten times finer.
+    scene_error: Option<f64>,
+    lift_off_rad_s: Option<f64>,
+}
+
 /// Run the command.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&args.file, &[])?;
-    Err(Failure::Failed("check is not wired yet".into()))
+    let design = parts::read_design(&args.file, context)?;
+    let started = Instant::now();
+    let check = compute(&design, context)?;
+    let run_time_s = started.elapsed().as_secs_f64();
+    let limits = &design.limits;
+    let curve = &check.state.curve;
+    let source = Source {
+        end: curve.end().0,
+        end_torque_nm: curve.end_torque_nm(),
+        asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
+        lift_off_rad_s: check.lift_off_rad_s,
+        searched_to_rad_s: LIFT_OFF_TO_RAD_S,
+    };
+    let body = Body::new(&check.rows, source);
+    let held = body.pass;
+    let answer = Answer {
+        design: &design,
+        run_time_s,
+        left_out: left_out(&design.clutch),
+        error_estimate: Some(serde_json::json!({
+            "statics_relative": check.state.curve.truncation(),
+            "scenario_margins": check.scene_error,
+        })),
+        body,
+    };
+    context.outputs.write_csv(&csv_table(&check.rows))?;
+    context.outputs.write_report(|| page::page(&design, &check, &answer, context))?;
+    context.answer(&text(&design, &check, &answer.body, context.colour))?;
+    answer.print(context)?;
+    Ok(if held { Exit::Held } else { Exit::NotHeld })
+}
+
+/// All margins; the scenarios in parallel, each at two tolerances.
+fn compute(design: &Design, context: &Context) -> Result<Check, Failure> {
+    let state = load_state(design).map_err(|e: NoMargins| Failure::malformed(e.to_string()))?;
+    let mut rows = load_margins(design, &design.limits, true, &state);
+    let progress = context.progress("margins", "scenarios", Some(design.scenarios.len() as u64));
+    let scenes: Vec<Option<(Vec<Margin>, f64)>> = design
+        .scenarios
+        .par_iter()
+        .map(|scenario| scene(design, scenario, context.interrupt, &progress))
+        .collect();
+    let mut scene_error = None;
+    for found in scenes {
+        let (margins, error) = found.ok_or(Failure::Interrupted)?;
+        rows.extend(margins);
+        scene_error = Some(error.max(scene_error.unwrap_or(0.0)));
+    }
+    let lift_off_rad_s = lift_off_rad_s(design, &state, LIFT_OFF_TO_RAD_S);
+    Ok(Check { state, rows, scene_error, lift_off_rad_s })
+}
+
+/// Margins of one scenario and their error; nothing once the user asked to stop.
+fn scene(
+    design: &Design,
+    scenario: &Scenario,
+    interrupt: Interrupt,
+    progress: &Progress,
+) -> Option<(Vec<Margin>, f64)> {
+    let coarse = Settings::default();
+    let fine = Settings { tolerance: 0.1 * coarse.tolerance, ..coarse };
+    let required = design.check_scenarios.contains(&scenario.name);
+    let at = |settings: &Settings| {
+        (!interrupt.requested()).then(|| scene_margins(scenario, &design.limits, required, settings))
+    };
+    let (coarse, fine) = (at(&coarse)?, at(&fine)?);
+    let error = coarse.iter().zip(&fine).map(|(a, b)| (a.margin - b.margin).abs()).fold(0.0, f64::max);
+    progress.advance(1);
+    Some((fine, error))
+}
+
+fn text(design: &Design, check: &Check, body: &Body, colour: bool) -> String {
+    let table = people_table(&check.rows, check.state.curve.end_torque_nm()).to_text(colour);
+    let mut out = format!("{}  {}\n\n{table}\n", design.name, &design.hash.get(..12).unwrap_or(&design.hash));
+    out.push_str(&body.verdict());
+    out.push('\n');
+    for line in body.remarks() {
+        out.push_str(&line);
+        out.push('\n');
+    }
+    out.push_str("Reached at: torque at which the limit would be reached; >: not before the curve ends\n");
+    if check.rows.iter().any(|r| r.demand == f64::MAX) {
+        out.push_str(&format!(
+            "{NONE_SUFFICES}: contact would open, or the clutch leaves its curve, whatever the friction\n"
+        ));
+    }
+    out
+}
+
+/// A margin in percent; a limit that nothing demands has none.
+fn margin_text(margin: f64) -> String {
+    if margin >= body::NO_DEMAND { "no demand".to_owned() } else { Unit::Percent.show(margin, 3) }
 }

@@ -6,8 +6,8 @@ use super::left_out::LeftOut;
 use super::output::{self, Envelope, TOOL, VERSION};
 use crate::design::Design;
 use crate::profile::{Outline, Profile};
-use crate::report::{Column, Drawing, Page, PageHead, SpragPose, Table};
-use crate::wedge::{Closure, WedgeCurve};
+use crate::report::{Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Unit};
+use crate::wedge::{Closure, StaticPoint, WedgeCurve};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -118,13 +118,75 @@ pub fn pose_loaded(label: &str, at_rest: &SpragPose, state: &Closure) -> SpragPo
 /// The same sprag at `torque_nm`, N m, or at the curve's end where that comes first; none where neither has
 /// an equilibrium. The label names the torque.
 pub fn pose_at_torque(at_rest: &SpragPose, curve: &WedgeCurve, torque_nm: f64) -> Option<SpragPose> {
-    use crate::report::Unit;
     let end = curve.end_torque_nm();
     let (torque, tail) = if torque_nm <= end { (torque_nm, "") } else { (end, ", end of the curve") };
     let last = curve.arc_end_n(curve.arc_count() - 1);
     let (_, state) = curve.closure_at_torque(torque).or_else(|| curve.closure_at_normal(last))?;
     let label = format!("at {}{tail}", Unit::NewtonMetre.show_plain(torque, 4));
     Some(pose_loaded(&label, at_rest, &state))
+}
+
+/// Points of the curve for plots, N m ascending, up to `up_to_nm` or the curve's end, with the equilibrium
+/// behind each. Every arc keeps both its ends, so jumps at a junction show as jumps.
+pub fn samples(curve: &WedgeCurve, up_to_nm: f64) -> Vec<(StaticPoint, Closure)> {
+    /// Points per arc: more than a plot of 720 px can tell apart from a curve.
+    const PER_ARC: usize = 60;
+    let mut points = Vec::new();
+    let mut from_n = 0.0;
+    for arc in 0..curve.arc_count() {
+        let until_n = curve.arc_end_n(arc);
+        for i in 0..=PER_ARC {
+            // Denser towards the beginning, where angles and stiffness change most. A junction belongs to the arc
+            // before it; the next one begins a hair above.
+            let share = (i as f64 / PER_ARC as f64).powi(2);
+            let n = from_n + (until_n - from_n) * share.max(1e-9);
+            let both = curve.at_normal(n).zip(curve.closure_at_normal(n).map(|(_, c)| c));
+            match both {
+                Some((point, _)) if point.torque_nm > up_to_nm => {
+                    let last =
+                        curve.at_torque(up_to_nm).zip(curve.closure_at_torque(up_to_nm).map(|(_, c)| c));
+                    points.extend(last);
+                    return points;
+                }
+                both => points.extend(both),
+            }
+        }
+        from_n = until_n;
+    }
+    points
+}
+
+/// Torque, N m, and alpha, rad, at which each arc of the curve but its last hands over to the next; `arc` counts
+/// from 1 and names the arc that ends.
+pub fn junctions(curve: &WedgeCurve) -> Vec<Junction> {
+    (0..curve.arc_count().saturating_sub(1))
+        .filter_map(|k| {
+            let point = curve.at_normal(curve.arc_end_n(k))?;
+            Some(Junction {
+                torque_nm: point.torque_nm,
+                alpha_rad: curve.arc_end_rad(k),
+                arc: curve.first_arc() + k + 1,
+            })
+        })
+        .collect()
+}
+
+/// Where one arc hands over to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Junction {
+    /// Torque, N m.
+    pub torque_nm: f64,
+    /// alpha, rad.
+    pub alpha_rad: f64,
+    /// Number of the arc that ends here, from 1.
+    pub arc: usize,
+}
+
+impl Junction {
+    /// Label in plots, e.g. `1|2`.
+    pub fn label(&self) -> String {
+        format!("{}|{}", self.arc, self.arc + 1)
+    }
 }
 
 /// The races of `design` with `poses` of its sprags (the first in full, the others dashed over it).
@@ -140,9 +202,20 @@ pub fn drawing(design: &Design, poses: Vec<SpragPose>) -> Drawing {
 /// Section of a page with the drawing to scale: one sprag, then clutch and arc centres side by side.
 pub fn draw(page: &mut Page, drawing: &Drawing) {
     page.heading("Geometry");
-    page.figure(&drawing.detail_svg(), "One sprag between its races, to scale.");
+    let caption = if drawing.poses.len() > 1 {
+        "One sprag between its races, to scale. The races are drawn without load: a loaded sprag overlaps them by \
+         what yields."
+    } else {
+        "One sprag between its races, to scale."
+    };
+    page.figure(&drawing.detail_svg(), caption);
     page.figures(&[
         (drawing.clutch_svg(), "The clutch, to scale."),
         (drawing.centres_svg(), "Arc centres and centroid in the body frame (origin Cₑ)."),
     ]);
+}
+
+/// A plot at the size it has beside another on a page, so that its letters keep theirs.
+pub fn half(plot: Plot) -> String {
+    plot.sized(500.0, 320.0).to_svg()
 }

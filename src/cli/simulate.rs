@@ -1,15 +1,43 @@
 //! `simulate`: one scenario in time.
 
+mod answer;
+mod facts;
+mod history;
+mod left_out;
+mod page;
+
 use super::exit::{Exit, Failure};
+use super::parts::{self, Answer};
 use super::{Context, positive};
+use crate::design::{Design, Scenario, ScenarioKind};
+use crate::dynamics::Stop;
+use crate::scenario::{
+    NoScenario, Prepared, Settings, Simulation, Verdict, prepare, published_steps, simulate,
+    simulate_published,
+};
 use clap::{Args, ValueEnum};
+use serde_json::json;
 use std::path::PathBuf;
+use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --csv history.csv --report high-10.html
-  sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --method published --step 2e-6";
+  sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --method published --step 2e-6
+
+The verdict is the answer: sticks, slips-overrunning, slips-engaging, disengages and at-threshold all exit with 0.";
+
+/// The paper's step, s.
+const PUBLISHED_STEP_S: f64 = 1e-5;
+/// Half width of the published scheme's band; the paper gives none, a choice.
+const PUBLISHED_BAND_M_S: f64 = 1e-4;
+/// A published run whose angle moves by more than this when its step is halved has not converged, rad.
+const CONVERGED_RAD: f64 = 1e-4;
+/// Tolerances that make sense: below, rounding rules; above, events are missed.
+const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
+/// Rows of the history; peaks never come from them.
+const SAMPLES: usize = 1200;
 
 /// How the equations of motion are integrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -33,15 +61,31 @@ pub struct SimulateArgs {
     /// Method of integration
     #[arg(long, value_enum, default_value_t = Method::Event)]
     pub method: Method,
-    /// Fixed step, s (for the event method: its largest step) [default: chosen by the method]
+    /// Fixed step, s (for the event method: its longest step) [default: chosen by the event method, 1e-5 published]
     #[arg(long, value_name = "S", value_parser = positive)]
     pub step: Option<f64>,
-    /// Relative error allowed per step, pure number [default: chosen by the method]
+    /// Relative error allowed per step of the event method, 1e-13 to 1e-3 [default: 1e-8]
     #[arg(long, value_name = "X", value_parser = positive)]
     pub tolerance: Option<f64>,
-    /// Leave no term out, however small
+    /// Half width of the band of zero velocity of the published method, m/s [default: 1e-4]
+    #[arg(long, value_name = "M_PER_S", value_parser = positive)]
+    pub band: Option<f64>,
+    /// Make no simplification of its own (simulate makes none yet; what the model leaves out is listed)
     #[arg(long)]
     pub full: bool,
+}
+
+/// A scenario and what became of it.
+struct Scene<'a> {
+    scenario: &'a Scenario,
+    /// The design with the scenario's overrides in its clutch.
+    own: Design,
+    /// `event`, `published`, or `equilibrium` where nothing is integrated.
+    method: &'static str,
+    outcome: Result<(Prepared, Simulation), NoScenario>,
+    /// What a reader must know beside the figures.
+    notes: Vec<String>,
+    run_time_s: f64,
 }
 
 /// Run the command.
@@ -50,5 +94,184 @@ pub struct SimulateArgs {
 /// [`Failure`].
 pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&args.file, &[])?;
-    Err(Failure::Failed("simulate is not wired yet".into()))
+    refuse_senseless(args)?;
+    let design = parts::read_design(&args.file, context)?;
+    let scenario = design.scenario(&args.scenario).ok_or_else(|| unknown(&args.scenario, &design))?;
+    let duration = duration_s(scenario);
+    if let (Method::Published, Some(duration), Some(step)) = (args.method, duration, args.step)
+        && step > duration
+    {
+        return Err(refused("--step", step, &format!("at most the duration of the scenario, {duration} s")));
+    }
+    let start = Instant::now();
+    let outcome = computed(args, context, scenario);
+    let run_time_s = start.elapsed().as_secs_f64();
+    let method = match args.method {
+        _ if duration.is_none() => "equilibrium",
+        Method::Event => "event",
+        Method::Published => "published",
+    };
+    let own = Design { clutch: scenario.clutch.clone(), ..design.clone() };
+    let mut scene = Scene { scenario, own, method, outcome, notes: Vec::new(), run_time_s };
+    scene.notes = notes(&scene, args);
+    report(&design, &scene, context)
+}
+
+fn computed(
+    args: &SimulateArgs,
+    context: &Context,
+    scenario: &Scenario,
+) -> Result<(Prepared, Simulation), NoScenario> {
+    let mut settings =
+        Settings { samples: SAMPLES, interrupt: Some(context.interrupt.flag()), ..Settings::default() };
+    settings.tolerance = args.tolerance.unwrap_or(settings.tolerance);
+    let prepared = prepare(scenario)?;
+    let simulation = match args.method {
+        Method::Event => simulate(scenario, &Settings { longest_step_s: args.step, ..settings })?,
+        Method::Published => {
+            let step_s = args.step.unwrap_or(PUBLISHED_STEP_S);
+            let total = published_steps(prepared.duration_s, step_s);
+            let progress = context.progress("published scheme", "steps", Some(total));
+            let band = args.band.unwrap_or(PUBLISHED_BAND_M_S);
+            simulate_published(scenario, &settings, step_s, band, &mut |steps| {
+                progress.set(steps);
+                !context.interrupt.requested()
+            })?
+        }
+    };
+    Ok((prepared, simulation))
+}
+
+fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Failure> {
+    let answer = Answer {
+        design,
+        run_time_s: scene.run_time_s,
+        left_out: left_out::of(scene),
+        error_estimate: scene.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
+        body: answer::Body::of(scene),
+    };
+    context.outputs.write_csv(&history::table(scene))?;
+    context.outputs.write_report(|| page::page(scene, &answer, context))?;
+    answer.print(context)?;
+    let facts = facts::table(scene).to_text(context.colour);
+    context.answer(&format!("{}\n\n{facts}", scene.verdict_line()))?;
+    for note in &scene.notes {
+        context.message(&format!("note: {note}"));
+    }
+    Ok(match scene.simulation() {
+        Some(s) if s.stop == Stop::Interrupted => Exit::Interrupted,
+        Some(s) if s.verdict.is_none() => Exit::Failed,
+        _ => Exit::Held,
+    })
+}
+
+fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
+    let mut notes = Vec::new();
+    let simulation = scene.simulation();
+    if scene.method == "equilibrium" {
+        if args.method == Method::Published || args.step.is_some() {
+            notes.push("an equilibrium: nothing is integrated, --method and --step say nothing".into());
+        }
+    } else if let Some(s) = simulation
+        && s.verdict.is_none()
+    {
+        let why = match s.stop {
+            Stop::Interrupted => "interrupted",
+            Stop::EventLimit => "too many changes of mode",
+            Stop::StepLimit => "too many steps, or steps that became too short",
+            _ => "the equations ceased to be finite, or only one of the two runs came to its end",
+        };
+        notes.push(format!("no verdict: {why}; the figures hold up to {:.6} s", s.t_s));
+    }
+    let moved = simulation.and_then(|s| s.error).map_or(0.0, |e| e.theta_inner_rad);
+    if scene.method == "published" && moved > CONVERGED_RAD {
+        notes.push(format!(
+            "the published scheme has not converged: half the step moves theta_inner_end by {moved:.2e} rad; \
+             --method event does converge"
+        ));
+    }
+    if args.full {
+        notes.push("simulate makes no simplification of its own, so --full changes nothing".into());
+    }
+    notes
+}
+
+/// Duration of a scenario that is integrated, s.
+fn duration_s(scenario: &Scenario) -> Option<f64> {
+    match scenario.kind {
+        ScenarioKind::TorsionalExcitation { duration_s, .. }
+        | ScenarioKind::Engagement { duration_s, .. } => Some(duration_s),
+        ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. } => None,
+    }
+}
+
+fn refuse_senseless(args: &SimulateArgs) -> Result<(), Failure> {
+    if let Some(x) = args.tolerance {
+        let [low, high] = TOLERANCES;
+        if !(low..=high).contains(&x) {
+            return Err(refused("--tolerance", x, &format!("{low:e} to {high:e}; 1e-8 serves well")));
+        }
+        if args.method == Method::Published {
+            return Err(refused("--tolerance", x, "--step with --method published, whose step is fixed"));
+        }
+    }
+    match (args.method, args.band) {
+        (Method::Event, Some(band)) => {
+            Err(refused("--band", band, "only with --method published: the event method needs no band"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn refused(flag: &str, found: f64, allowed: &str) -> Failure {
+    Failure::malformed(format!("{flag} {found:e}: allowed: {allowed}"))
+}
+
+fn unknown(name: &str, design: &Design) -> Failure {
+    let names: Vec<&str> = design.scenarios.iter().map(|s| s.name.as_str()).collect();
+    let likeness = |candidate: &str| strsim::jaro_winkler(candidate, name);
+    match names.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b))) {
+        None => Failure::malformed(format!(
+            "--scenario {name}: the design has no scenarios; add a [[scenarios]] table"
+        )),
+        Some(nearest) => Failure::malformed(format!(
+            "--scenario {name}: no such scenario; did you mean {nearest}? The design has: {}",
+            names.join(", ")
+        )),
+    }
+}
+
+impl Scene<'_> {
+    fn simulation(&self) -> Option<&Simulation> {
+        self.outcome.as_ref().ok().map(|(_, s)| s)
+    }
+
+    /// Verdict by its name; "disengages" where the clutch does not even carry the start.
+    fn verdict(&self) -> Option<&'static str> {
+        match &self.outcome {
+            Ok((_, s)) => s.verdict.map(Verdict::name),
+            Err(_) => Some(Verdict::Disengages.name()),
+        }
+    }
+
+    /// Whether the clutch does what the scenario asks: hold, or slip freely in overrun.
+    fn held(&self) -> bool {
+        let overruns = matches!(self.scenario.kind, ScenarioKind::Overrun { .. });
+        match self.simulation().and_then(|s| s.verdict) {
+            Some(Verdict::Sticks) => true,
+            Some(Verdict::SlipsOverrunning) => overruns,
+            _ => false,
+        }
+    }
+
+    /// Torque at which the drawing shows the clutch, N m.
+    fn drawn_torque_nm(&self) -> Option<f64> {
+        match self.scenario.kind {
+            ScenarioKind::Static { torque_nm } => Some(torque_nm),
+            ScenarioKind::TorsionalExcitation { preload_nm, .. } => Some(preload_nm),
+            ScenarioKind::Engagement { reversing_torque_nm, .. } => Some(reversing_torque_nm),
+            ScenarioKind::Overrun { .. } => None,
+        }
+        .filter(|&t| t > 0.0)
+    }
 }

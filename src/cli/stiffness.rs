@@ -1,9 +1,25 @@
 //! `stiffness`: the static curve, for one contact law or several side by side.
 
+mod body;
+mod laws;
+mod page;
+mod tables;
+
 use super::exit::{Exit, Failure};
+use super::left_out::left_out;
+use super::parts::{self, Answer};
 use super::{Context, positive};
-use clap::{Args, ValueEnum};
+use crate::design::{Clutch, Design};
+use crate::profile::Profile;
+use crate::report::Unit;
+use crate::scenario::place_profile;
+use crate::wedge::{StaticPoint, WedgeCurve};
+use body::Body;
+use clap::Args;
+pub use laws::ContactName;
+use rayon::prelude::*;
 use std::path::PathBuf;
+use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -11,18 +27,10 @@ Examples:
   sprag-design stiffness designs/huang2017-multi-arc.toml --torques 3.34,16.8,50
   sprag-design stiffness designs/huang2017-multi-arc.toml --contact roller,hertz,slice --max-torque 50 --report laws.html";
 
-/// Contact laws by their names in the design file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ContactName {
-    /// Roller law, coefficient of the design (or 3.944e-5, mm and N)
-    Roller,
-    /// Roller law with the coefficient of DIN 26281
-    Din26281,
-    /// Logarithmic line contact, knows the radius
-    Hertz,
-    /// Slice method (1)-(4)
-    Slice,
-}
+/// Rows of an even table.
+const EVEN_ROWS: usize = 20;
+/// Smallest torque that the curve's root finding resolves to six digits, N m.
+const SMALLEST_NM: f64 = 1e-6;
 
 /// Arguments of `stiffness`.
 #[derive(Debug, Clone, Args)]
@@ -42,11 +50,108 @@ pub struct StiffnessArgs {
     pub max_torque: Option<f64>,
 }
 
+/// One law's curve and the rows asked for.
+struct LawCurve {
+    name: ContactName,
+    /// The clutch with this law.
+    clutch: Clutch,
+    curve: WedgeCurve,
+    /// Static point at each torque of the table; none beyond the curve's end.
+    rows: Vec<(f64, Option<StaticPoint>)>,
+}
+
 /// Run the command.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&args.file, &[])?;
-    Err(Failure::Failed("stiffness is not wired yet".into()))
+    refuse_tiny(args)?;
+    let design = parts::read_design(&args.file, context)?;
+    let profile =
+        place_profile(&design.clutch).map_err(|e| Failure::malformed(format!("no profile: {e:?}")))?;
+    let started = Instant::now();
+    let laws = compute(args, &design, &profile, context)?;
+    let run_time_s = started.elapsed().as_secs_f64();
+    let mut terms = left_out(&design.clutch);
+    // A term that one of the laws compared does hold is left out by the others all the same.
+    for term in laws.iter().flat_map(|l| left_out(&l.clutch)) {
+        if terms.iter().all(|t| t.term != term.term) {
+            terms.push(term);
+        }
+    }
+    let truncation = laws.iter().map(|l| l.curve.truncation()).fold(0.0, f64::max);
+    let answer = Answer {
+        design: &design,
+        run_time_s,
+        left_out: terms,
+        error_estimate: Some(truncation.into()),
+        body: Body::new(&laws),
+    };
+    context.outputs.write_csv(&tables::csv(&laws))?;
+    context.outputs.write_report(|| page::page(&design, &profile, &laws, &answer, context))?;
+    context.answer(&tables::text(&design, &laws))?;
+    answer.print(context)?;
+    Ok(Exit::Held)
+}
+
+fn refuse_tiny(args: &StiffnessArgs) -> Result<(), Failure> {
+    let least = args.max_torque.map(|t| t / EVEN_ROWS as f64);
+    match args.torques.iter().copied().chain(least).find(|&t| t < SMALLEST_NM) {
+        Some(torque) => Err(Failure::malformed(format!(
+            "a torque of {torque:e} Nm is too small: allowed from {SMALLEST_NM:e} Nm up"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Curves of the laws asked for, in parallel, and their rows at the torques asked for.
+fn compute(
+    args: &StiffnessArgs,
+    design: &Design,
+    profile: &Profile,
+    context: &Context,
+) -> Result<Vec<LawCurve>, Failure> {
+    let names = laws::asked(&args.contact, &design.clutch.contact);
+    let progress = context.progress("curves", "contact laws", Some(names.len() as u64));
+    let curves = names
+        .par_iter()
+        .map(|&name| {
+            if context.interrupt.requested() {
+                return Err(Failure::Interrupted);
+            }
+            let contact = name.law(&design.clutch.contact);
+            let clutch = Clutch { contact, ..design.clutch.clone() };
+            let curve = WedgeCurve::build(&clutch, profile, 0.0)
+                .map_err(|e| Failure::malformed(format!("no curve with the {} law: {e:?}", name.key())))?;
+            progress.advance(1);
+            Ok((name, clutch, curve))
+        })
+        .collect::<Result<Vec<_>, Failure>>()?;
+    let torques = torques(args, design, &curves);
+    let laws = curves.into_par_iter().map(|(name, clutch, curve)| {
+        let rows = torques.iter().map(|&t| (t, curve.at_torque(t))).collect();
+        LawCurve { name, clutch, curve, rows }
+    });
+    Ok(laws.collect())
+}
+
+/// Torques of the table, N m: those asked for, or an even table up to the largest asked for, else up to the
+/// design's peak torque or the first end of a curve, whichever comes first.
+fn torques(args: &StiffnessArgs, design: &Design, curves: &[(ContactName, Clutch, WedgeCurve)]) -> Vec<f64> {
+    if !args.torques.is_empty() {
+        return args.torques.clone();
+    }
+    let first_end = curves.iter().map(|c| c.2.end_torque_nm()).fold(f64::INFINITY, f64::min);
+    let largest = args
+        .max_torque
+        .unwrap_or_else(|| design.limits.peak_torque_nm.map_or(first_end, |peak| peak.min(first_end)));
+    (1..=EVEN_ROWS).map(|i| largest * i as f64 / EVEN_ROWS as f64).collect()
+}
+
+/// Where the curve of a law ends, in words.
+fn end_text(law: &LawCurve) -> String {
+    let (reason, _) = law.curve.end();
+    let torque = Unit::NewtonMetre.show(law.curve.end_torque_nm(), 5);
+    format!("{} at {torque}", reason.name())
 }

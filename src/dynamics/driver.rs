@@ -7,6 +7,7 @@ use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{Peaks, Run, RunSettings, SlipRecord, Stop};
 use crate::numeric::root;
 use crate::ode::dop853::{self, Counters, Dense, Step, Tolerance};
+use std::sync::atomic::Ordering;
 
 /// Shortest step that is still taken, s.
 const SHORTEST_STEP_S: f64 = 1e-15;
@@ -31,13 +32,6 @@ impl<'a> Driver<'a> {
         let tol = settings.tolerance;
         let (angle, rate, slip) = (1e-2 * tol, 10.0 * tol, 1e-3 * tol);
         let absolute = [angle, angle, angle, angle, rate, rate, rate, rate, slip, slip];
-        let peaks = Peaks {
-            tan_inner: 0.0,
-            tan_outer: 0.0,
-            normal_min_n: f64::INFINITY,
-            normal_max_n: 0.0,
-            normal_outer_max_n: 0.0,
-        };
         let mut driver = Self {
             model,
             settings,
@@ -51,10 +45,12 @@ impl<'a> Driver<'a> {
                 outer: SlipRecord::default(),
                 open_s: 0.0,
                 longest_open_s: 0.0,
-                peaks,
+                peaks: Peaks::NONE,
                 events: 0,
                 counters: Counters::default(),
                 samples: Vec::with_capacity(settings.samples),
+                engaged: None,
+                modes: Vec::new(),
             },
             open_since: (mode.place == Place::Open).then_some(0.0),
             phase: None,
@@ -75,6 +71,9 @@ impl<'a> Driver<'a> {
     fn integrate(&mut self) {
         let model = self.model;
         while self.run.t_s < self.settings.duration_s {
+            if self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+                return self.stop(Stop::Interrupted);
+            }
             let mode = self.run.mode;
             let (t, y) = (self.run.t_s, self.run.state);
             let mut rhs = |t: f64, y: &State| model.slope(&mode, t, y).ok_or(());
@@ -209,6 +208,7 @@ impl<'a> Driver<'a> {
         let t = step.t + h;
         let mut y = step.y0;
         if h > 0.0 {
+            self.run.counters.rhs_evaluations += 1;
             let Ok(slope) = rhs(step.t, &step.y0) else {
                 self.stop(Stop::NotFinite);
                 return false;
@@ -361,6 +361,10 @@ impl<'a> Driver<'a> {
             _ => {}
         }
         self.run.mode = mode;
+        self.run.note_engagement();
+        if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {
+            self.run.modes.push((t, mode));
+        }
     }
 
     /// Take over an accepted step: constraint, peaks, samples, slip records.

@@ -20,7 +20,7 @@ mod start;
 mod watch;
 
 pub use model::{Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
-pub use published::{PublishedRun, published};
+pub use published::{PublishedSettings, published};
 pub use rolling::{Rolling, rolling};
-pub use run::{Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run};
+pub use run::{Engaged, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run};
 pub use start::{Overrun, alpha_max_rad, overrun, preloaded};

@@ -3,34 +3,34 @@
 //! It does not converge at the paper's step: inside the band the contact creeps, and once the restoring force is
 //! lost it runs away. Never the default.
 
-use super::model::{Grip, Mode, Model, N_STATE, Place, State};
-use crate::ode::rk4;
+use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
+use super::run::{Peaks, Run, Sample, SlipRecord, Stop};
+use crate::ode::{dop853::Counters, rk4};
 
-/// Result of the published scheme.
-#[derive(Debug, Clone, Copy)]
-pub struct PublishedRun {
-    /// State at the end.
-    pub state: State,
-    /// Steps taken.
-    pub steps: u64,
-    /// Right-hand sides.
-    pub rhs_evaluations: u64,
-    /// Whether it stayed finite and on the curve to the end.
-    pub finished: bool,
-    /// Time with |v_A| above the band, s.
-    pub slip_inner_s: f64,
-    /// Smallest N_bi at step ends, N.
-    pub normal_min_n: f64,
-    /// Largest N_bi at step ends, N.
-    pub normal_max_n: f64,
-    /// Largest |T_bi|/N_bi at step ends.
-    pub tan_inner: f64,
+/// Settings of the published scheme.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PublishedSettings {
+    /// End time, s.
+    pub duration_s: f64,
+    /// Step, s (the paper: 1e-5), rounded so that whole steps fill the duration.
+    pub step_s: f64,
+    /// Half width D_V of the band of zero velocity, m/s.
+    pub band_m_s: f64,
+    /// Number of equidistant samples to keep, each at the end of a step (0: none).
+    pub samples: usize,
 }
 
-/// Modes by which (11) is evaluated: rolling force inside the band, limited to mu_s N; slip outside.
+impl PublishedSettings {
+    /// Number of steps.
+    pub fn steps(&self) -> u64 {
+        (self.duration_s / self.step_s).round().max(1.0) as u64
+    }
+}
+
+/// Slope, mode and forces at one instant: rolling force inside the band, limited to mu_s N; slip outside.
 ///
 /// The three lines of (11), with (12) in the last.
-fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(State, f64, f64)> {
+fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(State, Mode, Forces)> {
     let curve = &model.curve;
     let alpha = y[0];
     let place =
@@ -58,51 +58,124 @@ fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(S
         f = model.forces_at(&mode, t, y, &p, &rates);
     }
     let a = f.acceleration;
-    let out = [y[4], y[5], y[6], y[7], a[0], a[1], a[2], a[3], v_a, v_b];
-    let tan = if f.n_bi > 0.0 { f.t_bi.abs() / f.n_bi } else { 0.0 };
-    out.iter().all(|x| x.is_finite()).then_some((out, f.n_bi, tan))
+    let slid = |v: f64| if place == Place::Open { 0.0 } else { v };
+    let out = [y[4], y[5], y[6], y[7], a[0], a[1], a[2], a[3], slid(v_a), slid(v_b)];
+    out.iter().all(|x| x.is_finite()).then_some((out, mode, f))
 }
 
 /// Eq. (11) in the printed form: T = T_f while |v| < D_V and |T_f| < mu_s N, mu_s N sgn(T_f) while |v| < D_V
 /// beyond that, mu(v) N outside the band. Not as printed: sgn(Vel) stands at both contacts there, but
 /// T_bi = -sgn(v_A) mu N_bi, T_be = +sgn(v_B) mu N_be, or one of them would feed energy.
 ///
-/// Integrates from `state` over `duration_s` with fixed step `step_s` and band `band_m_s` (the paper: 1e-5 s).
+/// Integrates from `state`. `go_on` is asked every 256 steps with their number so far; false ends the run.
+///
+/// Extremes and mode changes are those at the ends of steps, not located: it is the paper's scheme. Slip counts
+/// where |v| exceeds the band; net slip includes the creep inside it.
 #[doc(alias = "Eq. (11)")]
-pub fn published(model: &Model, state: State, duration_s: f64, step_s: f64, band_m_s: f64) -> PublishedRun {
-    let steps = (duration_s / step_s).round().max(1.0) as u64;
-    let h = duration_s / steps as f64;
-    let mut out = PublishedRun {
+pub fn published(
+    model: &Model,
+    state: State,
+    settings: &PublishedSettings,
+    go_on: &mut dyn FnMut(u64) -> bool,
+) -> Run {
+    let steps = settings.steps();
+    let h = settings.duration_s / steps as f64;
+    let band = settings.band_m_s;
+    let mut run = Run {
+        stop: Stop::Finished,
+        t_s: 0.0,
         state,
-        steps: 0,
-        rhs_evaluations: 0,
-        finished: false,
-        slip_inner_s: 0.0,
-        normal_min_n: f64::INFINITY,
-        normal_max_n: 0.0,
-        tan_inner: 0.0,
+        mode: Mode { place: Place::Open, inner: Grip::Stick, outer: Grip::Stick },
+        inner: SlipRecord::default(),
+        outer: SlipRecord::default(),
+        open_s: 0.0,
+        longest_open_s: 0.0,
+        peaks: Peaks::NONE,
+        events: 0,
+        counters: Counters::default(),
+        samples: Vec::with_capacity(settings.samples),
+        engaged: None,
+        modes: Vec::new(),
     };
     let (_, end_alpha) = model.curve.end();
-    for i in 0..steps {
+    let mut open_s = 0.0;
+    for i in 0..=steps {
         let t = i as f64 * h;
-        let mut rhs =
-            |t: f64, y: &[f64; N_STATE]| published_slope(model, t, y, band_m_s).map(|s| s.0).ok_or(());
-        let Ok(next) = rk4::step(&mut rhs, t, &out.state, h) else { return out };
-        out.state = next;
-        out.steps += 1;
-        out.rhs_evaluations += 4;
-        if !(next[0] < end_alpha && next[0] > -10.0) {
-            return out;
+        let Some((_, mode, forces)) = published_slope(model, t, &run.state, band) else {
+            run.stop = Stop::NotFinite;
+            break;
+        };
+        run.counters.rhs_evaluations += 1;
+        run.t_s = t;
+        open_s = if mode.place == Place::Open { open_s + if i > 0 { h } else { 0.0 } } else { 0.0 };
+        if open_s > 0.0 {
+            run.open_s += h;
+            run.longest_open_s = run.longest_open_s.max(open_s);
         }
-        if let Some((slope, n_bi, tan)) = published_slope(model, t + h, &next, band_m_s) {
-            if slope[8].abs() > band_m_s && n_bi > 0.0 {
-                out.slip_inner_s += h;
-            }
-            out.normal_min_n = out.normal_min_n.min(n_bi);
-            out.normal_max_n = out.normal_max_n.max(n_bi);
-            out.tan_inner = out.tan_inner.max(tan);
+        note(&mut run, t, if i > 0 { h } else { 0.0 }, mode, &forces, band);
+        keep(&mut run, t, mode, forces, settings, h);
+        if !(run.state[0] < end_alpha && run.state[0] > -10.0) {
+            run.stop = if run.state[0] > 0.0 { Stop::CurveEnd } else { Stop::FellAway };
+            break;
+        }
+        if i == steps {
+            break;
+        }
+        if i % 256 == 0 && !go_on(i) {
+            run.stop = Stop::Interrupted;
+            break;
+        }
+        let mut rhs = |t: f64, y: &[f64; N_STATE]| published_slope(model, t, y, band).map(|s| s.0).ok_or(());
+        let Ok(next) = rk4::step(&mut rhs, t, &run.state, h) else {
+            run.stop = Stop::NotFinite;
+            break;
+        };
+        run.counters.steps += 1;
+        run.counters.rhs_evaluations += 4;
+        run.inner.distance_m += (next[8] - run.state[8]).abs();
+        run.outer.distance_m += (next[9] - run.state[9]).abs();
+        run.inner.net_m = next[8];
+        run.outer.net_m = next[9];
+        run.state = next;
+    }
+    run
+}
+
+/// Extremes, slip times and changes of mode at the end of a step of length `h`.
+fn note(run: &mut Run, t: f64, h: f64, mode: Mode, f: &Forces, band: f64) {
+    let closed = mode.place != Place::Open;
+    if closed && f.v_a.abs() > band {
+        run.inner.time_s += h;
+    }
+    if closed && f.v_b.abs() > band {
+        run.outer.time_s += h;
+    }
+    let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
+    let p = &mut run.peaks;
+    let seen = [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be];
+    let mut best = [p.tan_inner, p.tan_outer, -p.normal_min_n, p.normal_max_n, p.normal_outer_max_n];
+    for i in 0..best.len() {
+        if seen[i] > best[i] {
+            (best[i], p.at_s[i]) = (seen[i], t);
         }
     }
-    out.finished = true;
-    out
+    [p.tan_inner, p.tan_outer, p.normal_min_n, p.normal_max_n, p.normal_outer_max_n] =
+        [best[0], best[1], -best[2], best[3], best[4]];
+    run.events += u64::from(t > 0.0 && mode != run.mode);
+    run.mode = mode;
+    run.note_engagement();
+}
+
+/// Samples and modes, where asked for.
+fn keep(run: &mut Run, t: f64, mode: Mode, forces: Forces, settings: &PublishedSettings, h: f64) {
+    if settings.samples == 0 {
+        return;
+    }
+    if run.modes.last().is_none_or(|last| last.1 != mode) {
+        run.modes.push((t, mode));
+    }
+    let due = settings.duration_s * run.samples.len() as f64 / (settings.samples.max(2) - 1) as f64;
+    if run.samples.len() < settings.samples && t >= due - 0.5 * h {
+        run.samples.push(Sample { t, state: run.state, forces, mode });
+    }
 }

@@ -1,8 +1,9 @@
 //! A run: what it is asked for and what comes out.
 
 use super::driver::Driver;
-use super::model::{Forces, Mode, Model, State};
+use super::model::{Forces, Grip, Mode, Model, Place, State};
 use crate::ode::dop853::Counters;
+use std::sync::atomic::AtomicBool;
 
 /// Settings of a run.
 #[derive(Debug, Clone, Copy)]
@@ -21,6 +22,8 @@ pub struct RunSettings {
     pub samples: usize,
     /// Pure rolling: no friction limit, contact held by tension below first contact.
     pub rolling: bool,
+    /// Set from outside to end the run at the next step.
+    pub interrupt: Option<&'static AtomicBool>,
 }
 
 /// Why a run ended.
@@ -38,6 +41,23 @@ pub enum Stop {
     StepLimit,
     /// The right-hand side ceased to be finite.
     NotFinite,
+    /// Asked to stop from outside.
+    Interrupted,
+}
+
+impl Stop {
+    /// Name in reports and JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::CurveEnd => "curve-end",
+            Self::FellAway => "fell-away",
+            Self::EventLimit => "event-limit",
+            Self::StepLimit => "step-limit",
+            Self::NotFinite => "not-finite",
+            Self::Interrupted => "interrupted",
+        }
+    }
 }
 
 /// Slip at one contact.
@@ -64,6 +84,20 @@ pub struct Peaks {
     pub normal_max_n: f64,
     /// Largest N_be, N.
     pub normal_outer_max_n: f64,
+    /// When each was reached first, s, in the order above.
+    pub at_s: [f64; 5],
+}
+
+impl Peaks {
+    /// Nothing seen yet.
+    pub const NONE: Self = Self {
+        tan_inner: 0.0,
+        tan_outer: 0.0,
+        normal_min_n: f64::INFINITY,
+        normal_max_n: 0.0,
+        normal_outer_max_n: 0.0,
+        at_s: [0.0; 5],
+    };
 }
 
 /// One sample.
@@ -77,6 +111,22 @@ pub struct Sample {
     pub forces: Forces,
     /// Mode there.
     pub mode: Mode,
+}
+
+/// The first moment at which A carries load without overrunning: at once in a torsional scene, at the reversal
+/// in an engagement. What slipped before belongs to the free run.
+#[derive(Debug, Clone, Copy)]
+pub struct Engaged {
+    /// Time, s.
+    pub t_s: f64,
+    /// State there.
+    pub state: State,
+    /// Place of the contact there.
+    pub place: Place,
+    /// Slip at A up to it.
+    pub inner: SlipRecord,
+    /// Slip at B up to it.
+    pub outer: SlipRecord,
 }
 
 /// A finished run.
@@ -106,6 +156,37 @@ pub struct Run {
     pub counters: Counters,
     /// Equidistant samples.
     pub samples: Vec<Sample>,
+    /// When the clutch began to be one; `None`: it overran or was open to the end.
+    pub engaged: Option<Engaged>,
+    /// Every mode with the time at which it began, s; empty where no samples were asked for.
+    pub modes: Vec<(f64, Mode)>,
+}
+
+impl Run {
+    /// Remember the first moment at which A carries load without overrunning.
+    pub(super) fn note_engagement(&mut self) {
+        let holds = matches!(self.mode.place, Place::Arc(_)) && self.mode.inner != Grip::Slip(1.0);
+        if self.engaged.is_none() && holds {
+            self.engaged = Some(Engaged {
+                t_s: self.t_s,
+                state: self.state,
+                place: self.mode.place,
+                inner: self.inner,
+                outer: self.outer,
+            });
+        }
+    }
+}
+
+impl SlipRecord {
+    /// What slipped since `earlier`.
+    pub fn since(&self, earlier: &Self) -> Self {
+        Self {
+            time_s: self.time_s - earlier.time_s,
+            distance_m: self.distance_m - earlier.distance_m,
+            net_m: self.net_m - earlier.net_m,
+        }
+    }
 }
 
 /// Integrate from `state` at t = 0 in `mode`.

@@ -57,6 +57,8 @@ pub struct Overrun {
     pub normal_outer_n: f64,
     /// Drag torque of the clutch on the inner race, N m, positive: it brakes the inner race.
     pub drag_torque_nm: f64,
+    /// |T_bi|/N_bi: the friction coefficient in overrun, 0 where A is open.
+    pub tan_inner: f64,
     /// |T_be|/N_be that B must hold to carry the sprags along.
     pub tan_outer: f64,
 }
@@ -90,7 +92,14 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
         let tan_outer = if n_be > 0.0 { t_be.abs() / n_be } else { 0.0 };
         Some((
             left,
-            Overrun { alpha_rad: alpha, normal_inner_n: n, normal_outer_n: n_be, drag_torque_nm, tan_outer },
+            Overrun {
+                alpha_rad: alpha,
+                normal_inner_n: n,
+                normal_outer_n: n_be,
+                drag_torque_nm,
+                tan_inner: mu,
+                tan_outer,
+            },
         ))
     };
     let lifted = Overrun {
@@ -98,6 +107,7 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
         normal_inner_n: 0.0,
         normal_outer_n: touch.n_be.v,
         drag_torque_nm: 0.0,
+        tan_inner: 0.0,
         tan_outer: 0.0,
     };
     let Some((at_touch, _)) = balance(0.0) else { return lifted };

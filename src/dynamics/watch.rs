@@ -36,18 +36,26 @@ impl Driver<'_> {
         });
         let p = &mut self.run.peaks;
         let mut best = [p.tan_inner, p.tan_outer, -p.normal_min_n, p.normal_max_n, p.normal_outer_max_n];
+        let mut at_s = p.at_s;
         let samples = self.settings.samples;
         let wants_sample =
             samples > 0 && self.next_sample < samples && self.sample_time(self.next_sample) <= t_end;
         let mut dense = None;
         for i in 0..best.len() {
-            best[i] = best[i].max(values[0][i]).max(values[4][i]);
+            for (j, theta) in [(0, 0.0), (4, 1.0)] {
+                if values[j][i] > best[i] {
+                    (best[i], at_s[i]) = (values[j][i], step.t + theta * step.h);
+                }
+            }
             for j in 0..thetas.len() {
                 let (left, right) = (j.saturating_sub(1), (j + 1).min(thetas.len() - 1));
-                let (peak, below) = (values[j][i], values[left][i].min(values[right][i]));
+                let peak = values[j][i];
                 let top = peak >= values[left][i] && peak >= values[right][i];
-                // A peak between a step's end and its neighbour shows only as the larger of the two.
-                if top && peak + 0.2 * (peak - below) > best[i] {
+                // The true peak of a parabola lies above the highest of three points by at most an eighth of
+                // their second difference; twice that is allowed for before a look is thought idle.
+                let m = j.clamp(1, thetas.len() - 2);
+                let bend = (values[m - 1][i] - 2.0 * values[m][i] + values[m + 1][i]).abs();
+                if top && peak + 0.25 * bend > best[i] {
                     let d = match &dense {
                         Some(d) => d,
                         None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
@@ -56,7 +64,10 @@ impl Driver<'_> {
                         let t = step.t + theta * step.h;
                         figures(t, &d.at(t))[i]
                     };
-                    best[i] = best[i].max(golden(thetas[left], thetas[right], value));
+                    let (theta, found) = golden(thetas[left], thetas[right], value);
+                    if found > best[i] {
+                        (best[i], at_s[i]) = (found, step.t + theta * step.h);
+                    }
                 }
             }
         }
@@ -78,6 +89,7 @@ impl Driver<'_> {
             normal_min_n: -best[2],
             normal_max_n: best[3],
             normal_outer_max_n: best[4],
+            at_s,
         };
         Ok(())
     }
@@ -95,8 +107,8 @@ impl Driver<'_> {
     }
 }
 
-/// Largest value of a unimodal function on [a, b].
-fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
+/// Place and value of the largest value of a unimodal function on [a, b].
+fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
     const RATIO: f64 = 0.618_033_988_749_894_9;
     let (mut c, mut d) = (b - RATIO * (b - a), a + RATIO * (b - a));
     let (mut fc, mut fd) = (f(c), f(d));
@@ -111,5 +123,5 @@ fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
             fd = f(d);
         }
     }
-    fc.max(fd)
+    if fc > fd { (c, fc) } else { (d, fd) }
 }

@@ -10,7 +10,7 @@ mod scenes;
 pub use load::{LoadState, lift_off_rad_s, load_state};
 pub use scenes::{SceneDemand, scene_demand};
 
-use crate::design::{Design, Limits};
+use crate::design::{Design, Limits, Scenario};
 use crate::scenario::{Settings, place_profile};
 use crate::wedge::{NoCurve, WedgeCurve};
 
@@ -84,22 +84,34 @@ pub fn margins(
     settings: &Settings,
 ) -> Result<Vec<Margin>, NoMargins> {
     let state = load_state(design)?;
-    let mut rows = load::rows(design, limits, &state);
-    if capacities {
-        capacity::fill(&mut rows, design, limits, &state);
-    }
-    let all: Vec<&str> = design.scenarios.iter().map(|s| s.name.as_str()).collect();
-    for name in all {
-        let required = scenes.iter().any(|s| s == name);
-        if !required && !others {
-            continue;
-        }
-        if let Some(scenario) = design.scenario(name) {
-            let d = scene_demand(scenario, settings);
-            rows.extend(scenes::rows(name, &d, limits, required));
+    let mut rows = load_margins(design, limits, capacities, &state);
+    for scenario in &design.scenarios {
+        let required = scenes.contains(&scenario.name);
+        if required || others {
+            rows.extend(scene_margins(scenario, limits, required, settings));
         }
     }
     Ok(rows)
+}
+
+/// The margins of the load state `state` of `design` alone.
+pub fn load_margins(design: &Design, limits: &Limits, capacities: bool, state: &LoadState) -> Vec<Margin> {
+    let mut rows = load::rows(design, limits, state);
+    if capacities {
+        capacity::fill(&mut rows, design, limits, state);
+    }
+    rows
+}
+
+/// The two margins of one scenario, slip and contact. Scenarios know nothing of one another, so a caller may
+/// take them in parallel.
+pub fn scene_margins(
+    scenario: &Scenario,
+    limits: &Limits,
+    required: bool,
+    settings: &Settings,
+) -> Vec<Margin> {
+    scenes::rows(&scenario.name, &scene_demand(scenario, settings), limits, required)
 }
 
 /// The curve of a design at rest.

@@ -4,17 +4,21 @@
 //! Absent: physics, allowables, paths, printing; what a number means was decided before it came here.
 //! Equations: none; the rotation of the body frame in [`drawing`] and the changes of unit in [`number`].
 
+pub mod bars;
 pub mod drawing;
 pub mod number;
 pub mod page;
 pub mod plot;
+pub mod strip;
 mod svg;
 pub mod table;
 
+pub use bars::{Bar, Bars, Tone};
 pub use drawing::{Drawing, DrawnArc, SpragPose};
 pub use number::{Unit, significant};
 pub use page::{Page, PageHead};
 pub use plot::{Curve, Marker, Plot};
+pub use strip::{Span, Strip};
 pub use table::{Cell, Column, Table};
 #[cfg(test)]
 mod tests;

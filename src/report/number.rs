@@ -22,6 +22,8 @@ pub enum Unit {
     Milliradian,
     /// Radian.
     Radian,
+    /// Radian per second.
+    RadianPerSecond,
     /// Newton.
     Newton,
     /// Newton metre.
@@ -61,6 +63,7 @@ impl Unit {
             Self::Degree => "deg",
             Self::Milliradian => "mrad",
             Self::Radian => "rad",
+            Self::RadianPerSecond => "rad/s",
             Self::Newton => "N",
             Self::NewtonMetre => "Nm",
             Self::NewtonMetrePerRadian => "Nm/rad",
@@ -90,6 +93,7 @@ impl Unit {
             Self::Rpm => si * 30.0 / PI,
             Self::One
             | Self::Radian
+            | Self::RadianPerSecond
             | Self::Newton
             | Self::NewtonMetre
             | Self::NewtonMetrePerRadian

@@ -15,6 +15,7 @@ pub struct Svg {
 #[derive(Clone, Copy)]
 pub enum Anchor {
     Start,
+    Middle,
     End,
 }
 
@@ -95,6 +96,7 @@ impl Svg {
     fn write(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, halo: &str, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",
+            Anchor::Middle => "middle",
             Anchor::End => "end",
         };
         let _ = writeln!(
@@ -125,6 +127,8 @@ pub const PAPER: &str = "var(--paper,#fff)";
 pub const RACE: &str = "var(--race,#e6eaee)";
 pub const BODY: &str = "var(--body,#c9d6e4)";
 pub const EDGE: &str = "var(--edge,#33485f)";
+pub const GOOD: &str = "var(--good,#1a7f4b)";
+pub const BAD: &str = "var(--bad,#b3261e)";
 /// Colours of curves and overlays, in order.
 pub const SERIES: [&str; 6] = [
     "var(--c0,#1f5fa8)",

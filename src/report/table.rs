@@ -102,6 +102,9 @@ impl Cell {
     }
 }
 
+/// From so many columns on a table is set closer, to fit the page.
+const WIDE_FROM: usize = 9;
+
 /// Columns and rows. A row shorter than the columns is filled with nothing; a longer one is cut.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
@@ -200,7 +203,8 @@ impl Table {
 
     /// `<table>` with numbers right-aligned.
     pub fn to_html(&self) -> String {
-        let mut out = String::from("<table>\n<thead><tr>");
+        let wide = if self.columns.len() >= WIDE_FROM { " class=\"wide\"" } else { "" };
+        let mut out = format!("<table{wide}>\n<thead><tr>");
         for (i, column) in self.columns.iter().enumerate() {
             let class = if self.is_numeric(i) { " class=\"n\"" } else { "" };
             out.push_str(&format!("<th{class}>{}", escape(&column.heading)));

@@ -8,5 +8,6 @@ mod simulate;
 
 pub use prepare::{NoScenario, Prepared, place_profile, prepare};
 pub use simulate::{
-    Demand, ErrorEstimate, Method, Settings, Simulation, Verdict, demand, run_published, simulate,
+    Demand, ErrorEstimate, Settings, Simulation, Verdict, demand, published_steps, simulate,
+    simulate_published,
 };

@@ -1,9 +1,10 @@
 //! From a scenario of the design to a model with an initial state.
 
-use crate::design::{Clutch, Scenario, ScenarioKind};
+use crate::design::{Clutch, Friction, Scenario, ScenarioKind};
 use crate::dynamics::{
     Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
 };
+use crate::friction::Stribeck;
 use crate::profile::{Profile, ProfileError};
 use crate::wedge::{NoCurve, WedgeCurve};
 
@@ -52,7 +53,7 @@ pub struct Prepared {
     pub duration_s: f64,
     /// Shortest period of the excitation, s, if any.
     pub period_s: Option<f64>,
-    /// N_bi at the start, N.
+    /// N_bi at the start, N; for an engagement that under the reversing torque, which it leads to.
     pub static_normal_n: f64,
     /// Steady overrun, for that kind of scenario and as the start of an engagement.
     pub overrun: Option<Overrun>,
@@ -125,7 +126,7 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
             bench_inertia_kg_m2,
             duration_s,
         } => {
-            let free = overrun(clutch, &at_rest, alpha_max, clutch.friction.kinetic);
+            let free = overrun(clutch, &at_rest, alpha_max, sliding_friction(clutch, free_run_rad_s));
             let loads = Loads {
                 inner_nm: -reversing_torque_nm,
                 abutment_nm_per_rad: stop_stiffness_nm_per_rad,
@@ -137,11 +138,13 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
             state[6] = free_run_rad_s;
             let place = if free.normal_inner_n > 0.0 { Place::Arc(0) } else { Place::Open };
             let mode = Mode { place, inner: Grip::Slip(1.0), outer: Grip::Stick };
-            Ok(finish(model, state, mode, duration_s, None, Some(free)))
+            let held = model.curve.at_torque(reversing_torque_nm).map(|p| p.normal_inner_n);
+            let prepared = finish(model, state, mode, duration_s, None, Some(free));
+            Ok(Prepared { static_normal_n: held.unwrap_or(prepared.static_normal_n), ..prepared })
         }
-        ScenarioKind::Overrun { speed_rad_s, .. } => {
+        ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
             let curve = build(speed_rad_s)?;
-            let steady = overrun(clutch, &curve, alpha_max, clutch.friction.kinetic);
+            let steady = overrun(clutch, &curve, alpha_max, sliding_friction(clutch, overrun_rad_s));
             let model = Model::new(clutch, curve, still, alpha_max, 0.0);
             let mut state = [0.0; N_STATE];
             state[0] = steady.alpha_rad;
@@ -149,6 +152,12 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
             Ok(finish(model, state, mode, 0.0, None, Some(steady)))
         }
     }
+}
+
+/// mu at A, where the inner race runs ahead of the sprags by `overrun_rad_s`.
+fn sliding_friction(clutch: &Clutch, overrun_rad_s: f64) -> f64 {
+    let Friction { static_, kinetic, decay_s_per_m } = clutch.friction;
+    Stribeck { static_, kinetic, decay_s_per_m }.coefficient(overrun_rad_s * clutch.races.inner_radius_m)
 }
 
 fn finish(

@@ -1,41 +1,41 @@
 //! Run a scenario and say what happened.
 
+use std::sync::atomic::AtomicBool;
+
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
 use crate::dynamics::{
-    Peaks, Place, PublishedRun, Rolling, Run, RunSettings, Sample, SlipRecord, Stop, published, rolling, run,
+    Engaged, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Rolling, Run, RunSettings, Sample,
+    SlipRecord, Stop, published, rolling, run,
 };
 
-/// Integration method.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Method {
-    /// Event-driven, the default.
-    Event,
-    /// The paper's RK4 with a narrow band.
-    Published {
-        /// Time step, s.
-        step_s: f64,
-        /// Half width D_V of the band of zero velocity, m/s.
-        band_m_s: f64,
-    },
-}
-
 /// Settings of a simulation.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Settings {
     /// Relative tolerance of a step. Default 1e-8: errors of the angles stay below 1e-8 rad in the paper's scenes.
     pub tolerance: f64,
+    /// Longest step, s; `None`: a twentieth of the excitation's period, or 1/200 of the duration without one.
+    pub longest_step_s: Option<f64>,
     /// Samples of the history, 0 for none.
     pub samples: usize,
     /// Mode changes before the run ends with a name.
     pub most_events: u64,
     /// Steps before the run ends with a name.
     pub most_steps: u64,
+    /// Set from outside to end the runs at the next step.
+    pub interrupt: Option<&'static AtomicBool>,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-8, samples: 0, most_events: 200_000, most_steps: 5_000_000 }
+        Self {
+            tolerance: 1e-8,
+            longest_step_s: None,
+            samples: 0,
+            most_events: 200_000,
+            most_steps: 5_000_000,
+            interrupt: None,
+        }
     }
 }
 
@@ -80,11 +80,13 @@ pub struct Demand {
     pub normal_max_n: [f64; 2],
     /// Whether the rolling run reached its end; if not, it left the profile or rolled over.
     pub finished: bool,
+    /// Whether it was interrupted from outside; then nothing of it holds.
+    pub interrupted: bool,
     /// Right-hand sides it took.
     pub rhs_evaluations: u64,
 }
 
-/// Differences between the run and one at a tenth of the tolerance.
+/// Differences between the two runs of a simulation.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ErrorEstimate {
     /// theta_bi at the end, rad.
@@ -104,8 +106,8 @@ pub struct ErrorEstimate {
 /// Result of a simulation.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    /// Verdict.
-    pub verdict: Verdict,
+    /// Verdict; `None` where the run was interrupted or gave up before one was reached.
+    pub verdict: Option<Verdict>,
     /// Why the run ended.
     pub stop: Stop,
     /// Time reached, s.
@@ -114,7 +116,8 @@ pub struct Simulation {
     pub theta_inner_rad: f64,
     /// theta_be at the end, rad.
     pub theta_outer_rad: f64,
-    /// Change of (theta_bi - theta_be) + W(alpha) over the run, rad; + towards overrunning.
+    /// Change of (theta_bi - theta_be) + W(alpha) over the run, rad; + towards overrunning. In an engagement since
+    /// A ceased to overrun, as all slip.
     pub offset_rad: f64,
     /// Slip at A.
     pub inner: SlipRecord,
@@ -128,25 +131,30 @@ pub struct Simulation {
     pub hertz_peak_pa: f64,
     /// N_bi at the start, N.
     pub static_normal_n: f64,
-    /// Rolling demand.
-    pub demand: Demand,
+    /// Rolling demand; `None` where the run was interrupted, and in overrun, where nothing is to stick.
+    pub demand: Option<Demand>,
     /// Mode changes.
     pub events: u64,
     /// Steps of both runs.
     pub steps: u64,
     /// Right-hand sides of all runs.
     pub rhs_evaluations: u64,
-    /// Error estimate; `None` for static kinds, which are exact to 1e-12.
+    /// Error estimate; `None` for static kinds, which are exact to 1e-12, and where the run was interrupted.
     pub error: Option<ErrorEstimate>,
     /// History.
     pub samples: Vec<Sample>,
-    /// Steady drag torque, N m, for overrun.
-    pub drag_torque_nm: Option<f64>,
+    /// When A first carried load without overrunning; `None`: never, or an equilibrium.
+    pub engaged: Option<Engaged>,
+    /// Modes with the times at which they began, s; empty without samples.
+    pub modes: Vec<(f64, Mode)>,
+    /// Steady overrun: the whole of that scenario, the start of an engagement.
+    pub overrun: Option<Overrun>,
 }
 
 fn run_settings(prepared: &Prepared, settings: &Settings, tolerance: f64, samples: usize) -> RunSettings {
     // Short enough for four looks per step to see every half wave of excitation.
-    let longest_step_s = prepared.period_s.map_or(prepared.duration_s / 200.0, |p| p / 20.0);
+    let chosen = || prepared.period_s.map_or(prepared.duration_s / 200.0, |p| p / 20.0);
+    let longest_step_s = settings.longest_step_s.unwrap_or_else(chosen);
     RunSettings {
         tolerance,
         duration_s: prepared.duration_s,
@@ -155,10 +163,12 @@ fn run_settings(prepared: &Prepared, settings: &Settings, tolerance: f64, sample
         most_steps: settings.most_steps,
         samples,
         rolling: false,
+        interrupt: settings.interrupt,
     }
 }
 
-/// Pure-rolling demand of a prepared scenario. Static kinds read it off the curve.
+/// Pure-rolling demand of a prepared scenario; static kinds read it off the curve. An engagement is rolled from
+/// the moment at which it has ceased to overrun.
 pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
     let mu = prepared.model.friction.static_;
     if prepared.duration_s == 0.0 {
@@ -170,11 +180,22 @@ pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
             contact_margin: 1.0,
             normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
             finished: true,
+            interrupted: false,
             rhs_evaluations: 0,
         };
     }
-    let s = run_settings(prepared, settings, settings.tolerance, 0);
-    let r: Rolling = rolling(&prepared.model, prepared.state, prepared.mode.place, &s);
+    let mut s = run_settings(prepared, settings, settings.tolerance, 0);
+    let (mut state, mut place) = (prepared.state, prepared.mode.place);
+    let mut before = 0;
+    if prepared.overrun.is_some() {
+        let free = run(&prepared.model, prepared.state, prepared.mode, &s);
+        before = free.counters.rhs_evaluations;
+        if let Some(start) = free.engaged {
+            (state, place) = (start.state, start.place);
+            s.duration_s -= start.t_s;
+        }
+    }
+    let r: Rolling = rolling(&prepared.model, state, place, &s);
     let finished = r.stop == Stop::Finished;
     let required = r.required_friction.filter(|_| finished);
     Demand {
@@ -183,81 +204,127 @@ pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
         contact_margin: r.normal_min_n / prepared.static_normal_n.max(f64::MIN_POSITIVE),
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished,
-        rhs_evaluations: r.run.counters.rhs_evaluations,
+        interrupted: r.stop == Stop::Interrupted,
+        rhs_evaluations: before + r.run.counters.rhs_evaluations,
     }
 }
 
-/// Simulate `scenario` with the event-driven scheme, at the tolerance and at a tenth of it; the finer run is
-/// the answer and the difference its error estimate.
+/// Simulate `scenario` with the event-driven scheme, at a tenth of the tolerance and at the tolerance; the finer
+/// run is the answer and the difference its error estimate.
 ///
 /// # Errors
 /// [`NoScenario`] where the scenario has no start; whatever happens afterwards is a result.
 pub fn simulate(scenario: &Scenario, settings: &Settings) -> Result<Simulation, NoScenario> {
     let prepared = prepare(scenario)?;
-    let demand_now = demand(&prepared, settings);
     if prepared.duration_s == 0.0 {
-        return Ok(steady(&prepared, demand_now));
+        return Ok(steady(&prepared, settings));
     }
-    let coarse = run(
-        &prepared.model,
-        prepared.state,
-        prepared.mode,
-        &run_settings(&prepared, settings, settings.tolerance, 0),
-    );
-    let fine_settings = run_settings(&prepared, settings, 0.1 * settings.tolerance, settings.samples);
-    let fine = run(&prepared.model, prepared.state, prepared.mode, &fine_settings);
-    let fine_demand = demand(&prepared, &Settings { tolerance: 0.1 * settings.tolerance, ..*settings });
-    let (offset, coarse_offset) = (offset(&prepared, &fine), offset(&prepared, &coarse));
-    let error = ErrorEstimate {
-        theta_inner_rad: (fine.state[2] - coarse.state[2]).abs(),
-        theta_outer_rad: (fine.state[3] - coarse.state[3]).abs(),
-        offset_rad: (offset - coarse_offset).abs(),
-        net_slip_m: (fine.inner.net_m - coarse.inner.net_m).abs(),
-        normal_min_n: (fine.peaks.normal_min_n - coarse.peaks.normal_min_n).abs(),
-        slip_margin: (fine_demand.slip_margin - demand_now.slip_margin).abs(),
+    let go = |tolerance: f64, samples: usize| {
+        let s = run_settings(&prepared, settings, tolerance, samples);
+        run(&prepared.model, prepared.state, prepared.mode, &s)
     };
-    let mut out = Simulation {
-        verdict: verdict(&fine, &error),
-        stop: fine.stop,
-        t_s: fine.t_s,
-        theta_inner_rad: fine.state[2],
-        theta_outer_rad: fine.state[3],
-        offset_rad: offset,
-        inner: fine.inner,
-        outer: fine.outer,
-        contact_lost_s: fine.open_s,
-        peaks: fine.peaks,
-        hertz_peak_pa: hertz_peak(&prepared, fine.peaks.normal_max_n, fine.peaks.normal_outer_max_n),
-        static_normal_n: prepared.static_normal_n,
-        demand: fine_demand,
-        events: fine.events,
-        steps: fine.counters.steps + coarse.counters.steps,
-        rhs_evaluations: fine.counters.rhs_evaluations
-            + coarse.counters.rhs_evaluations
-            + fine_demand.rhs_evaluations
-            + demand_now.rhs_evaluations,
-        error: Some(error),
-        samples: fine.samples,
-        drag_torque_nm: prepared.overrun.map(|o| o.drag_torque_nm),
-    };
-    if verdict(&coarse, &error) != out.verdict {
-        out.verdict = Verdict::AtThreshold;
-    }
-    Ok(out)
+    let fine = go(0.1 * settings.tolerance, settings.samples);
+    let other = (fine.stop != Stop::Interrupted).then(|| go(settings.tolerance, 0));
+    Ok(conclude(&prepared, settings, fine, other))
 }
 
-/// The published scheme on the same start.
+/// Simulate `scenario` with the paper's own scheme, kept as a reference: at `step_s` and at half of it; the
+/// first is the answer, the difference its error estimate, which is large because the scheme does not converge.
+/// `go_on` is asked now and then with the steps taken so far, of [`published_steps`]; false interrupts.
 ///
 /// # Errors
 /// As [`simulate`].
-pub fn run_published(scenario: &Scenario, step_s: f64, band_m_s: f64) -> Result<PublishedRun, NoScenario> {
-    let p = prepare(scenario)?;
-    Ok(published(&p.model, p.state, p.duration_s, step_s, band_m_s))
+pub fn simulate_published(
+    scenario: &Scenario,
+    settings: &Settings,
+    step_s: f64,
+    band_m_s: f64,
+    go_on: &mut dyn FnMut(u64) -> bool,
+) -> Result<Simulation, NoScenario> {
+    let prepared = prepare(scenario)?;
+    if prepared.duration_s == 0.0 {
+        return Ok(steady(&prepared, settings));
+    }
+    let duration_s = prepared.duration_s;
+    let mut go = |step_s: f64, samples: usize, before: u64| {
+        let s = PublishedSettings { duration_s, step_s, band_m_s, samples };
+        published(&prepared.model, prepared.state, &s, &mut |steps| go_on(before + steps))
+    };
+    let answer = go(step_s, settings.samples, 0);
+    let before = answer.counters.steps;
+    let other = (answer.stop != Stop::Interrupted).then(|| go(0.5 * step_s, 0, before));
+    Ok(conclude(&prepared, settings, answer, other))
+}
+
+/// Steps of both runs of [`simulate_published`] over `duration_s`.
+pub fn published_steps(duration_s: f64, step_s: f64) -> u64 {
+    let steps = |step_s| PublishedSettings { duration_s, step_s, band_m_s: 0.0, samples: 0 }.steps();
+    steps(step_s) + steps(0.5 * step_s)
+}
+
+/// The answer `fine`, its error by `other` (absent: interrupted), the rolling demand, the verdict.
+fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<Run>) -> Simulation {
+    let asked = |tolerance: f64| {
+        let d = demand(prepared, &Settings { tolerance, ..*settings });
+        (!d.interrupted).then_some(d)
+    };
+    let finished = other.filter(|o| o.stop != Stop::Interrupted);
+    let fine_demand = finished.as_ref().and_then(|_| asked(0.1 * settings.tolerance));
+    let coarse_demand = fine_demand.and_then(|_| asked(settings.tolerance));
+    let fine_offset = offset(prepared, &fine);
+    let error = match (&finished, fine_demand, coarse_demand) {
+        (Some(o), Some(f), Some(c)) => Some(ErrorEstimate {
+            theta_inner_rad: (fine.state[2] - o.state[2]).abs(),
+            theta_outer_rad: (fine.state[3] - o.state[3]).abs(),
+            offset_rad: (fine_offset - offset(prepared, o)).abs(),
+            net_slip_m: (slips(&fine)[0].net_m - slips(o)[0].net_m).abs(),
+            normal_min_n: (fine.peaks.normal_min_n - o.peaks.normal_min_n).abs(),
+            slip_margin: (f.slip_margin - c.slip_margin).abs(),
+        }),
+        _ => None,
+    };
+    let agreed = error.zip(finished.as_ref()).and_then(|(error, other)| {
+        let (a, b) = (verdict(&fine, &error)?, verdict(other, &error)?);
+        Some(if a == b { a } else { Verdict::AtThreshold })
+    });
+    let work = |of: fn(&Run) -> u64| of(&fine) + finished.as_ref().map_or(0, of);
+    let demands = [fine_demand, coarse_demand].into_iter().flatten().map(|d| d.rhs_evaluations).sum::<u64>();
+    Simulation {
+        verdict: agreed,
+        // No estimate means that one of the runs was interrupted.
+        stop: if error.is_none() { Stop::Interrupted } else { fine.stop },
+        t_s: fine.t_s,
+        theta_inner_rad: fine.state[2],
+        theta_outer_rad: fine.state[3],
+        offset_rad: fine_offset,
+        inner: slips(&fine)[0],
+        outer: slips(&fine)[1],
+        contact_lost_s: fine.open_s,
+        peaks: fine.peaks,
+        hertz_peak_pa: hertz_peak(prepared, fine.peaks.normal_max_n, fine.peaks.normal_outer_max_n),
+        static_normal_n: prepared.static_normal_n,
+        demand: fine_demand,
+        events: fine.events,
+        steps: work(|r| r.counters.steps),
+        rhs_evaluations: work(|r| r.counters.rhs_evaluations) + demands,
+        error,
+        samples: fine.samples,
+        engaged: fine.engaged,
+        modes: fine.modes,
+        overrun: prepared.overrun,
+    }
 }
 
 fn offset(prepared: &Prepared, run: &Run) -> f64 {
     let phase = |y: &crate::dynamics::State| y[2] - y[3] + prepared.model.curve.windup_rad(y[0]);
-    phase(&run.state) - phase(&prepared.state)
+    phase(&run.state) - phase(&run.engaged.map_or(prepared.state, |e| e.state))
+}
+
+/// Slip at A and B since the clutch engaged.
+fn slips(run: &Run) -> [SlipRecord; 2] {
+    let zero = SlipRecord::default();
+    let (inner, outer) = run.engaged.map_or((zero, zero), |e| (e.inner, e.outer));
+    [run.inner.since(&inner), run.outer.since(&outer)]
 }
 
 fn hertz_peak(prepared: &Prepared, n_bi: f64, n_be: f64) -> f64 {
@@ -271,40 +338,47 @@ const SLIPPED_M: f64 = 1e-6;
 /// Stretch without contact beyond which a scene counts as disengaged, s (INTERFACE: 1 ms).
 const LOST_S: f64 = 1e-3;
 
-fn verdict(run: &Run, error: &ErrorEstimate) -> Verdict {
+/// `None` where the run ended before it could be told.
+fn verdict(run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
     let left = matches!(run.stop, Stop::CurveEnd | Stop::FellAway);
-    if left || run.mode.place == Place::Open || run.longest_open_s > LOST_S {
-        return Verdict::Disengages;
+    if left || run.longest_open_s > LOST_S {
+        return Some(Verdict::Disengages);
     }
-    if run.stop != Stop::Finished || (run.inner.net_m.abs() - SLIPPED_M).abs() <= error.net_slip_m {
-        return Verdict::AtThreshold;
+    if run.stop != Stop::Finished {
+        return None;
     }
-    if run.inner.net_m > SLIPPED_M {
+    let net = slips(run)[0].net_m;
+    Some(if run.mode.place == Place::Open {
+        Verdict::Disengages
+    } else if (net.abs() - SLIPPED_M).abs() <= error.net_slip_m {
+        Verdict::AtThreshold
+    } else if net > SLIPPED_M {
         Verdict::SlipsOverrunning
-    } else if run.inner.net_m < -SLIPPED_M {
+    } else if net < -SLIPPED_M {
         Verdict::SlipsEngaging
     } else {
         Verdict::Sticks
-    }
+    })
 }
 
 /// Static and overrunning scenarios: equilibrium, no integration.
-fn steady(prepared: &Prepared, demand: Demand) -> Simulation {
+fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
+    let demand = prepared.overrun.is_none().then(|| demand(prepared, settings));
     let row = prepared.model.curve.at_normal(prepared.static_normal_n);
     let (n_bi, n_be, tan_inner, tan_outer) = match (prepared.overrun, row) {
-        (Some(o), _) => (o.normal_inner_n, o.normal_outer_n, prepared.model.friction.kinetic, o.tan_outer),
+        (Some(o), _) => (o.normal_inner_n, o.normal_outer_n, o.tan_inner, o.tan_outer),
         (None, Some(r)) => (r.normal_inner_n, r.normal_outer_n, r.tan_omega, r.tan_nu),
         (None, None) => (0.0, 0.0, 0.0, 0.0),
     };
     let verdict = match prepared.overrun {
         Some(o) if o.normal_inner_n > 0.0 => Verdict::SlipsOverrunning,
         Some(_) => Verdict::Disengages,
-        None if demand.slip_margin > 0.0 => Verdict::Sticks,
+        None if demand.is_some_and(|d| d.slip_margin > 0.0) => Verdict::Sticks,
         // A sprag whose demand exceeds mu_s is squeezed out backwards under torque.
         None => Verdict::SlipsEngaging,
     };
     Simulation {
-        verdict,
+        verdict: Some(verdict),
         stop: Stop::Finished,
         t_s: 0.0,
         theta_inner_rad: prepared.state[2],
@@ -319,6 +393,7 @@ fn steady(prepared: &Prepared, demand: Demand) -> Simulation {
             normal_min_n: n_bi,
             normal_max_n: n_bi,
             normal_outer_max_n: n_be,
+            ..Peaks::NONE
         },
         hertz_peak_pa: hertz_peak(prepared, n_bi, n_be),
         static_normal_n: n_bi,
@@ -328,6 +403,20 @@ fn steady(prepared: &Prepared, demand: Demand) -> Simulation {
         rhs_evaluations: 0,
         error: None,
         samples: Vec::new(),
-        drag_torque_nm: prepared.overrun.map(|o| o.drag_torque_nm),
+        engaged: None,
+        modes: Vec::new(),
+        overrun: prepared.overrun,
+    }
+}
+
+impl Simulation {
+    /// How long A slips after an overrun has been reversed, s: from the instant at which v_A has fallen to 0 under
+    /// load to the first stick (the paper: about 0.5 ms). `None` without an overrun, samples or a stick.
+    pub fn initial_slip_s(&self) -> Option<f64> {
+        self.overrun?;
+        let from = self.engaged?.t_s;
+        let sticks = |m: &Mode| matches!(m.place, Place::Arc(_)) && m.inner == Grip::Stick;
+        let until = self.modes.iter().find(|(t, m)| *t >= from && sticks(m))?.0;
+        Some(until - from)
     }
 }

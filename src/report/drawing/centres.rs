@@ -35,7 +35,9 @@ fn named(pose: &SpragPose, index: usize, many: bool) -> Vec<Named> {
 
 pub fn svg(drawing: &Drawing) -> String {
     let mut svg = Svg::new(WIDTH, HEIGHT, "Arc centres and centroid in the body frame, enlarged");
-    let poses = drawing.drawable();
+    // A sprag drawn in several positions has one body: its centres are shown once.
+    let mut poses = drawing.drawable();
+    poses.dedup_by(|b, a| a.arcs == b.arcs && a.centroid_m == b.centroid_m);
     let mut points = vec![Named { at_m: [0.0, 0.0], name: "Cₑ".to_owned(), series: None }];
     for (index, pose) in poses.iter().enumerate() {
         points.extend(named(pose, index, poses.len() > 1));

@@ -1,0 +1,327 @@
+//! The margins as table and as JSON.
+
+use crate::margin::Margin;
+use crate::report::{Cell, Column, Table, Unit, significant};
+use crate::wedge::EndReason;
+use serde::Serialize;
+
+/// A demand that no friction meets, in words.
+pub(super) const NONE_SUFFICES: &str = "none suffices";
+/// Margin that stands for "nothing is demanded" (`margin`).
+pub(super) const NO_DEMAND: f64 = 1e6;
+
+/// One margin of the JSON.
+#[derive(Debug, Clone, Serialize)]
+struct Row {
+    code: String,
+    name: String,
+    /// `None` where no friction suffices.
+    demand: Option<f64>,
+    allowable: f64,
+    unit: &'static str,
+    margin: f64,
+    torque_capacity_nm: Option<f64>,
+    required: bool,
+}
+
+/// The required limit with the least margin.
+#[derive(Debug, Clone, Serialize)]
+struct Deciding {
+    code: String,
+    name: String,
+    margin: f64,
+}
+
+/// The lowest torque at which a limit would be reached.
+#[derive(Debug, Clone, Serialize)]
+struct Capacity {
+    code: String,
+    name: String,
+    torque_capacity_nm: f64,
+}
+
+/// End of the static curve.
+#[derive(Debug, Clone, Serialize)]
+struct End {
+    reason: &'static str,
+    torque_nm: f64,
+}
+
+/// What the margins were read from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source {
+    /// Why the static curve ends.
+    pub(super) end: EndReason,
+    /// Torque at its end, N m.
+    pub(super) end_torque_nm: f64,
+    /// Largest torque at which a limit is held, N m; 0 without one.
+    pub(super) asked_nm: f64,
+    /// Overrun speed at which the sprags lift off, rad/s, if they do up to `searched_to_rad_s`.
+    pub(super) lift_off_rad_s: Option<f64>,
+    /// How far a lift-off was looked for, rad/s.
+    pub(super) searched_to_rad_s: f64,
+}
+
+/// Keys of `check`.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Body {
+    margins: Vec<Row>,
+    pub(super) pass: bool,
+    deciding: Option<Deciding>,
+    lowest_torque_capacity: Option<Capacity>,
+    /// The lowest among the limits that are held at nominal torque.
+    nominal_torque_capacity: Option<Capacity>,
+    /// The lowest among the limits that are held at peak torque.
+    peak_torque_capacity: Option<Capacity>,
+    /// Where the static curve ends, which may be below the torques of the limits.
+    end: End,
+    #[serde(skip)]
+    asked_nm: f64,
+    /// Null: contact is kept up to `lift_off_searched_to_rpm`.
+    lift_off_rpm: Option<f64>,
+    lift_off_searched_to_rpm: f64,
+}
+
+impl Body {
+    pub(super) fn new(rows: &[Margin], source: Source) -> Self {
+        let rpm = |rad_s| Unit::Rpm.from_si(rad_s);
+        let required = || rows.iter().filter(|r| r.required);
+        let lowest = |counts: &dyn Fn(&Margin) -> bool| {
+            required()
+                .filter(|r| counts(r))
+                .filter_map(|r| Some((r, r.torque_capacity_nm?)))
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                .map(|(r, torque_capacity_nm)| Capacity {
+                    code: r.code.clone(),
+                    name: r.name.clone(),
+                    torque_capacity_nm,
+                })
+        };
+        let nominal = |r: &Margin| r.code.starts_with("hertz-nominal");
+        Self {
+            margins: rows.iter().map(row).collect(),
+            pass: required().all(Margin::held),
+            deciding: required().min_by(|a, b| a.margin.total_cmp(&b.margin)).map(|r| Deciding {
+                code: r.code.clone(),
+                name: r.name.clone(),
+                margin: r.margin,
+            }),
+            lowest_torque_capacity: lowest(&|_| true),
+            nominal_torque_capacity: lowest(&nominal),
+            peak_torque_capacity: lowest(&|r| !nominal(r)),
+            end: End { reason: source.end.name(), torque_nm: source.end_torque_nm },
+            asked_nm: source.asked_nm,
+            lift_off_rpm: source.lift_off_rad_s.map(rpm),
+            lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
+        }
+    }
+
+    /// The answer in one line.
+    pub(super) fn verdict(&self) -> String {
+        let required: Vec<&Row> = self.margins.iter().filter(|r| r.required).collect();
+        let broken = required.iter().filter(|r| r.margin < -crate::margin::RESOLUTION).count();
+        match &self.deciding {
+            None => "HELD: the design names no limit that could be broken".to_owned(),
+            Some(d) if self.pass => format!(
+                "HELD: all {} required limits; {} decides, margin {}",
+                required.len(),
+                d.code,
+                super::margin_text(d.margin)
+            ),
+            Some(d) => format!(
+                "NOT HELD: {broken} of {} required limits; {} decides, margin {}",
+                required.len(),
+                d.code,
+                super::margin_text(d.margin)
+            ),
+        }
+    }
+
+    /// Torque capacity, an early end of the curve and lift-off, a line each.
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let capacities = [("nominal", &self.nominal_torque_capacity), ("peak", &self.peak_torque_capacity)];
+        let capacity = capacities.into_iter().filter_map(|(kind, capacity)| {
+            let c = capacity.as_ref()?;
+            let torque = Unit::NewtonMetre.show(c.torque_capacity_nm, 4);
+            Some(format!("Torque capacity, {kind}: {torque}, set by {} ({})", c.code, c.name))
+        });
+        let early = (self.end.torque_nm < self.asked_nm).then(|| {
+            format!(
+                "The curve ends ({}) at {}, below {}: a limit held beyond shows its demand at that end, and no margin \
+                 above end/torque − 1",
+                self.end.reason,
+                Unit::NewtonMetre.show(self.end.torque_nm, 4),
+                Unit::NewtonMetre.show_plain(self.asked_nm, 4)
+            )
+        });
+        let searched = format!("{:.0}", self.lift_off_searched_to_rpm);
+        let lift_off = match self.lift_off_rpm {
+            Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
+            None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
+        };
+        capacity.chain(early).chain([lift_off]).collect()
+    }
+}
+
+fn row(r: &Margin) -> Row {
+    Row {
+        code: r.code.clone(),
+        name: r.name.clone(),
+        demand: demand(r),
+        allowable: r.allowable,
+        unit: r.unit,
+        margin: r.margin,
+        torque_capacity_nm: r.torque_capacity_nm,
+        required: r.required,
+    }
+}
+
+/// Demand as a number; none where no friction suffices.
+fn demand(r: &Margin) -> Option<f64> {
+    (r.demand < f64::MAX).then_some(r.demand)
+}
+
+/// The table for people: codes, not sentences, so that it fits a terminal. A limit that is not reached before the
+/// curve ends, at `end_torque_nm`, has a capacity beyond it.
+pub(super) fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("code", "Limit"),
+        Column::number("demand", "Demand", Unit::One, 4),
+        Column::number("allowable", "Allowable", Unit::One, 4),
+        Column::text("unit", "Unit"),
+        Column::number("margin", "Margin", Unit::Percent, 3),
+        Column::number("torque_capacity_nm", "Reached at", Unit::NewtonMetre, 4),
+        Column::text("verdict", "Verdict"),
+    ]);
+    for r in rows {
+        table.row(vec![
+            r.code.as_str().into(),
+            demand(r).map_or(NONE_SUFFICES.into(), Cell::Si),
+            r.allowable.into(),
+            (if r.unit == "1" { "" } else { r.unit }).into(),
+            if r.margin >= NO_DEMAND { "no demand".into() } else { r.margin.into() },
+            r.torque_capacity_nm.map_or(Cell::Empty, |c| capacity_cell(r, c, end_torque_nm)),
+            verdict(r),
+        ]);
+    }
+    table
+}
+
+fn capacity_cell(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> Cell {
+    if is_beyond(r, capacity_nm, end_torque_nm) {
+        format!("> {}", significant(end_torque_nm, 4)).into()
+    } else {
+        capacity_nm.into()
+    }
+}
+
+/// Whether the limit is not reached before the curve ends; the two limits that are the end itself are.
+pub(super) fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> bool {
+    let is_end = matches!(r.code.as_str(), "end-of-profile" | "roll-over");
+    !is_end && capacity_nm >= end_torque_nm * (1.0 - 1e-9)
+}
+
+fn verdict(r: &Margin) -> Cell {
+    match (r.required, r.held()) {
+        (true, true) => Cell::Verdict(true, "held".into()),
+        (true, false) => Cell::Verdict(false, "NOT HELD".into()),
+        (false, true) => "shown only".into(),
+        (false, false) => "shown only, would not hold".into(),
+    }
+}
+
+/// The table for programs: every number in full, nothing but numbers in number columns.
+pub(super) fn csv_table(rows: &[Margin]) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("code", "Code"),
+        Column::text("name", "Limit"),
+        Column::number("demand", "Demand", Unit::One, 5),
+        Column::number("allowable", "Allowable", Unit::One, 5),
+        Column::text("unit", "Unit"),
+        Column::number("margin", "Margin", Unit::One, 5),
+        Column::number("torque_capacity_nm", "Torque capacity", Unit::NewtonMetre, 5),
+        Column::text("required", "Required"),
+        Column::text("held", "Held"),
+    ]);
+    for r in rows {
+        table.row(vec![
+            r.code.as_str().into(),
+            r.name.as_str().into(),
+            demand(r).into(),
+            r.allowable.into(),
+            r.unit.into(),
+            r.margin.into(),
+            r.torque_capacity_nm.into(),
+            r.required.to_string().into(),
+            r.held().to_string().into(),
+        ]);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn margin(code: &str, demand: f64, margin: f64, capacity: Option<f64>, required: bool) -> Margin {
+        Margin {
+            code: code.into(),
+            name: format!("limit {code}"),
+            demand,
+            allowable: 1.0,
+            unit: "1",
+            margin,
+            torque_capacity_nm: capacity,
+            required,
+        }
+    }
+
+    fn source(lift_off_rad_s: Option<f64>) -> Source {
+        Source {
+            end: EndReason::OffProfile,
+            end_torque_nm: 50.0,
+            asked_nm: 110.0,
+            lift_off_rad_s,
+            searched_to_rad_s: 100.0,
+        }
+    }
+
+    #[test]
+    fn a_curve_that_ends_too_early_is_said() {
+        let early = Body::new(&[], source(None));
+        assert!(early.remarks().iter().any(|r| r.contains("off-profile") && r.contains("110 Nm")));
+        let late = Body::new(&[], Source { end_torque_nm: 120.0, ..source(None) });
+        assert!(late.remarks().iter().all(|r| !r.contains("off-profile")));
+    }
+
+    #[test]
+    fn only_required_limits_decide() {
+        let rows = [
+            margin("a", 1.0, 0.2, Some(120.0), true),
+            margin("b", 2.0, 0.1, Some(130.0), true),
+            margin("c", f64::MAX, -1.0, None, false),
+        ];
+        let body = Body::new(&rows, source(None));
+        assert!(body.pass && body.deciding.as_ref().unwrap().code == "b");
+        assert_eq!(body.lowest_torque_capacity.as_ref().unwrap().code, "a");
+        assert!(body.verdict().starts_with("HELD: all 2"), "{}", body.verdict());
+        let broken = Body::new(&[rows[0].clone(), margin("d", 1.0, -0.01, None, true)], source(Some(1.0)));
+        assert!(!broken.pass && broken.verdict().starts_with("NOT HELD: 1 of 2"), "{}", broken.verdict());
+    }
+
+    #[test]
+    fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
+        let rows = [margin("slip:x", f64::MAX, -1.0, None, true)];
+        let json = serde_json::to_value(Body::new(&rows, source(None))).unwrap();
+        assert!(json["margins"][0]["demand"].is_null() && json["margins"][0]["margin"] == -1.0);
+        assert!(people_table(&rows, 200.0).to_text(false).contains(NONE_SUFFICES));
+        let csv = String::from_utf8(csv_table(&rows).to_csv().unwrap()).unwrap();
+        assert!(csv.contains("slip:x,limit slip:x,,1,1,-1,,true,false"), "{csv}");
+    }
+
+    #[test]
+    fn a_design_without_limits_holds() {
+        let body = Body::new(&[], source(None));
+        assert!(body.pass && body.deciding.is_none() && body.verdict().starts_with("HELD"));
+    }
+}

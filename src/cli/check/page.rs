@@ -1,0 +1,155 @@
+//! The margin check as a page.
+
+use super::body::{Body, NO_DEMAND, is_beyond, people_table};
+use super::{Check, margin_text};
+use crate::cli::Context;
+use crate::cli::parts::{self, Answer};
+use crate::design::Design;
+use crate::margin::Margin;
+use crate::report::{Bar, Bars, Column, Page, Plot, Table, Tone, Unit};
+
+pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, context: &Context) -> Page {
+    let mut page = parts::page("Margin check", design, context);
+    page.verdict(answer.body.pass, &answer.body.verdict());
+    page.list(answer.body.remarks());
+    let end_nm = check.state.curve.end_torque_nm();
+    page.heading("Margins");
+    page.table(
+        "Margin = allowable / demand − 1, held from 0 up; “reached at” is the torque at which the limit would be reached (>: not before the curve ends).",
+        &people_table(&check.rows, end_nm),
+    );
+    page.figure(
+        &margin_bars(&check.rows).to_svg(),
+        "Margins; a bar that ends in an arrow goes on beyond the chart, grey ones are shown only.",
+    );
+    let capacities = capacity_bars(design, &check.rows, end_nm);
+    if !capacities.bars.is_empty() {
+        page.figure(
+            &capacities.to_svg(),
+            "Torque at which each limit would be reached; “>”: not before the curve ends.",
+        );
+    }
+    page.heading("Gripping");
+    let [angles, rise] = curves(design, check);
+    page.figures(&[
+        (parts::half(angles), "Static demand on friction at both contacts; grip is lost where it reaches μs."),
+        (parts::half(rise), "Cam rise: the undeformed sprag's height from A to B over its rotation, and the gap AB that remains under load. What lies between them is pressed in at both contacts and in the body."),
+    ]);
+    parts::draw(
+        &mut page,
+        &parts::drawing(
+            design,
+            vec![parts::pose_at_rest("first contact, no load", design, &check.state.profile)],
+        ),
+    );
+    page.heading("What the limits mean").table("", &names(&check.rows));
+    answer.close(&mut page);
+    page
+}
+
+fn names(rows: &[Margin]) -> Table {
+    let mut table = Table::new(vec![Column::text("code", "Limit"), Column::text("name", "Meaning")]);
+    for r in rows {
+        table.row(vec![r.code.as_str().into(), r.name.as_str().into()]);
+    }
+    table
+}
+
+fn tone(r: &Margin) -> Tone {
+    match (r.required, r.held()) {
+        (false, _) => Tone::Soft,
+        (true, true) => Tone::Good,
+        (true, false) => Tone::Bad,
+    }
+}
+
+fn margin_bars(rows: &[Margin]) -> Bars {
+    let bar = |r: &Margin| Bar {
+        label: r.code.clone(),
+        value: if r.margin >= NO_DEMAND { f64::NAN } else { Unit::Percent.from_si(r.margin) },
+        text: margin_text(r.margin),
+        tone: tone(r),
+    };
+    let lowest = rows.iter().map(|r| r.margin).fold(0.0, f64::min).max(-1.5);
+    Bars {
+        title: "Margins in percent".into(),
+        bars: rows.iter().map(bar).collect(),
+        marks: vec![(100.0, "100 %".into()), (50.0, "50 %".into()), (-50.0, "−50 %".into())],
+        range: (Unit::Percent.from_si(lowest), 120.0),
+    }
+}
+
+fn capacity_bars(design: &Design, rows: &[Margin], end_nm: f64) -> Bars {
+    let with = rows.iter().filter_map(|r| Some((r, r.torque_capacity_nm?)));
+    let bars: Vec<Bar> = with
+        .map(|(r, torque)| Bar {
+            label: r.code.clone(),
+            value: torque,
+            text: format!(
+                "{}{}",
+                if is_beyond(r, torque, end_nm) { "> " } else { "" },
+                Unit::NewtonMetre.show(torque, 4)
+            ),
+            tone: tone(r),
+        })
+        .collect();
+    let limits = &design.limits;
+    let marks: Vec<(f64, String)> = [(limits.nominal_torque_nm, "nominal"), (limits.peak_torque_nm, "peak")]
+        .into_iter()
+        .filter_map(|(torque, name)| Some((torque?, name.to_owned())))
+        .collect();
+    // Far capacities (a roll-over that never comes) would press the others together.
+    let asked = marks.iter().map(|m| m.0).fold(0.0, f64::max);
+    let longest = bars.iter().map(|b| b.value).fold(0.0, f64::max);
+    let end = if asked > 0.0 { longest.min(2.5 * asked) } else { longest };
+    Bars { title: "Torque capacities in Nm".into(), bars, marks, range: (0.0, end.max(asked)) }
+}
+
+/// Friction demand over torque; cam rise over rotation.
+fn curves(design: &Design, check: &Check) -> [Plot; 2] {
+    let curve = &check.state.curve;
+    let samples = parts::samples(curve, f64::INFINITY);
+    let over = |value: &dyn Fn(&crate::wedge::StaticPoint) -> f64| {
+        samples.iter().map(|(p, _)| [p.torque_nm, value(p)]).collect::<Vec<_>>()
+    };
+    let friction = &design.clutch.friction;
+    let mut angles = Plot::new("Torque, Nm", "Tangential over normal force")
+        .curve("inner contact, tan ω", over(&|p| p.tan_omega))
+        .curve("outer contact, tan ν", over(&|p| p.tan_nu))
+        .level(friction.static_, "μs");
+    if friction.kinetic < friction.static_ {
+        angles = angles.level(friction.kinetic, "μc");
+    }
+    for junction in parts::junctions(curve) {
+        angles = angles.marker(junction.torque_nm, &junction.label());
+    }
+    let profile = &check.state.profile;
+    let rotation = |c: &crate::wedge::Closure| Unit::Degree.from_si(c.rotation.v);
+    let mut free = Vec::new();
+    let mut loaded = Vec::new();
+    for (point, c) in &samples {
+        if let Some(arc) = profile.arcs.get(point.arc) {
+            // A in the body; B lies straight outward of C_e, at azimuth -Omega in the body.
+            let a = arc.centre_m + arc.radius_m * profile.contact_direction(point.contact_turn_rad);
+            let (s, cos) = c.rotation.v.sin_cos();
+            let b = [-profile.outer_radius_m * s, profile.outer_radius_m * cos];
+            free.push([rotation(c), (a.x - b[0]).hypot(a.y - b[1])]);
+        }
+        // AB^2 = OA^2 + OB^2 - 2 OA OB cos(beta).
+        let (oa, ob) = (c.lengths.oa.v, c.lengths.ob.v);
+        loaded.push([rotation(c), (oa * oa + ob * ob - 2.0 * oa * ob * c.beta.v.cos()).sqrt()]);
+    }
+    let height = free.first().map_or(0.0, |p| p[1]);
+    let rise = |points: Vec<[f64; 2]>| {
+        points.into_iter().map(|[x, y]| [x, Unit::Micrometre.from_si(y - height)]).collect::<Vec<_>>()
+    };
+    let mut cam = Plot::new("Rotation of the sprag, deg", "Height above first contact, µm")
+        .curve("undeformed sprag", rise(free))
+        .curve("gap AB under load", rise(loaded));
+    for k in 1..profile.arcs.len() {
+        if let Some((_, c)) = samples.iter().find(|(p, _)| p.arc == k) {
+            cam = cam.marker(rotation(c), &format!("{}|{}", k, k + 1));
+        }
+    }
+    [angles, cam]
+}

@@ -1,0 +1,140 @@
+//! The JSON object of `simulate`.
+
+use super::Scene;
+use crate::design::ScenarioKind;
+use crate::dynamics::{SlipRecord, Stop};
+use crate::scenario::ErrorEstimate;
+use serde::Serialize;
+
+/// Slip at one contact.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct Slip {
+    time_s: Option<f64>,
+    distance_mm: Option<f64>,
+    net_mm: Option<f64>,
+}
+
+/// Slip at both contacts.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct Slips {
+    inner: Slip,
+    outer: Slip,
+}
+
+/// Differences between the two runs.
+#[derive(Debug, Serialize)]
+struct Errors {
+    theta_inner_rad: f64,
+    theta_outer_rad: f64,
+    offset_rad: f64,
+    net_slip_mm: f64,
+    normal_min_n: f64,
+    slip_margin: f64,
+}
+
+/// Keys of `simulate`; null where a figure does not exist for the scenario.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct Body {
+    scenario: String,
+    kind: &'static str,
+    method: &'static str,
+    verdict: Option<&'static str>,
+    stop: &'static str,
+    /// Why the scenario has no start.
+    reason: Option<String>,
+    t_end_s: Option<f64>,
+    theta_inner_end_rad: Option<f64>,
+    theta_outer_end_rad: Option<f64>,
+    offset_rad: Option<f64>,
+    slip: Slips,
+    contact_lost_s: Option<f64>,
+    peak_tan_demand: Option<f64>,
+    required_static_friction: Option<f64>,
+    slip_margin: Option<f64>,
+    contact_margin: Option<f64>,
+    normal_min_n: Option<f64>,
+    normal_max_n: Option<f64>,
+    hertz_peak_mpa: Option<f64>,
+    events: Option<u64>,
+    steps: Option<u64>,
+    rhs_evaluations: Option<u64>,
+    error_estimates: Option<Errors>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    initial_slip_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drag_torque_nm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lift_off_rpm: Option<f64>,
+    notes: Vec<String>,
+}
+
+impl Slip {
+    fn of(record: &SlipRecord) -> Self {
+        Self {
+            time_s: Some(record.time_s),
+            distance_mm: Some(record.distance_m * 1e3),
+            net_mm: Some(record.net_m * 1e3),
+        }
+    }
+}
+
+impl Errors {
+    fn of(e: &ErrorEstimate) -> Self {
+        Self {
+            theta_inner_rad: e.theta_inner_rad,
+            theta_outer_rad: e.theta_outer_rad,
+            offset_rad: e.offset_rad,
+            net_slip_mm: e.net_slip_m * 1e3,
+            normal_min_n: e.normal_min_n,
+            slip_margin: e.slip_margin,
+        }
+    }
+}
+
+impl Body {
+    pub(super) fn of(scene: &Scene) -> Self {
+        let kind = match scene.scenario.kind {
+            ScenarioKind::Static { .. } => "static",
+            ScenarioKind::TorsionalExcitation { .. } => "torsional-excitation",
+            ScenarioKind::Engagement { .. } => "engagement",
+            ScenarioKind::Overrun { .. } => "overrun",
+        };
+        let base = Self {
+            scenario: scene.scenario.name.clone(),
+            kind,
+            method: scene.method,
+            verdict: scene.verdict(),
+            notes: scene.notes.clone(),
+            ..Self::default()
+        };
+        let s = match &scene.outcome {
+            Err(why) => return Self { stop: "no-start", reason: Some(why.to_string()), ..base },
+            Ok((_, s)) => s,
+        };
+        let overruns = matches!(scene.scenario.kind, ScenarioKind::Overrun { .. });
+        Self {
+            stop: s.stop.name(),
+            t_end_s: Some(s.t_s),
+            theta_inner_end_rad: Some(s.theta_inner_rad),
+            theta_outer_end_rad: Some(s.theta_outer_rad),
+            offset_rad: Some(s.offset_rad),
+            slip: Slips { inner: Slip::of(&s.inner), outer: Slip::of(&s.outer) },
+            contact_lost_s: Some(s.contact_lost_s),
+            peak_tan_demand: Some(s.peaks.tan_inner.max(s.peaks.tan_outer)),
+            required_static_friction: s.demand.and_then(|d| d.required_friction),
+            slip_margin: s.demand.map(|d| d.slip_margin),
+            contact_margin: s.demand.map(|d| d.contact_margin),
+            normal_min_n: Some(s.peaks.normal_min_n),
+            normal_max_n: Some(s.peaks.normal_max_n),
+            hertz_peak_mpa: Some(s.hertz_peak_pa / 1e6),
+            events: Some(s.events),
+            steps: Some(s.steps),
+            rhs_evaluations: Some(s.rhs_evaluations),
+            error_estimates: s.error.as_ref().filter(|_| s.stop != Stop::Interrupted).map(Errors::of),
+            initial_slip_s: s.initial_slip_s(),
+            drag_torque_nm: s.overrun.filter(|_| overruns).map(|o| o.drag_torque_nm),
+            lift_off_rpm: super::facts::lift_off_rad_s(scene).map(|w| w * 30.0 / std::f64::consts::PI),
+            ..base
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! The figures of a simulation as people read them: verdict in a sentence, table with errors.
+
+use super::Scene;
+use crate::design::ScenarioKind;
+use crate::dynamics::Peaks;
+use crate::margin::{lift_off_rad_s as lift_off, load_state};
+use crate::report::{Cell, Column, Table, Unit};
+use crate::scenario::{Prepared, Simulation, Verdict};
+
+/// Lift-off is looked for up to this speed of the outer race, rad/s: 60 000 rev/min, a choice.
+const LIFT_OFF_SEARCH_RAD_S: f64 = 2000.0 * std::f64::consts::PI;
+
+impl Scene<'_> {
+    /// The answer in one line.
+    pub(super) fn verdict_line(&self) -> String {
+        let name = &self.scenario.name;
+        let Some(verdict) = self.verdict() else { return format!("{name}: no verdict") };
+        let meaning = match &self.outcome {
+            Err(why) => why.to_string(),
+            Ok((_, s)) => meaning(s, &self.scenario.kind),
+        };
+        format!("{name}: {verdict}: {meaning}")
+    }
+}
+
+fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
+    let offset = Unit::Milliradian.show(s.offset_rad.abs(), 4);
+    let margin = match s.demand.map(|d| (d.required_friction, d.slip_margin)) {
+        Some((Some(needed), margin)) => {
+            format!("slip margin {} (needs {})", Unit::Percent.show(margin, 3), Unit::One.show(needed, 4))
+        }
+        Some((None, _)) => "no friction would suffice to stick, the contact would open".to_owned(),
+        None => String::new(),
+    };
+    let overruns = matches!(kind, ScenarioKind::Overrun { .. });
+    match s.verdict {
+        Some(Verdict::SlipsOverrunning | Verdict::Disengages) if overruns => {
+            let drag = s.overrun.map_or(0.0, |o| o.drag_torque_nm);
+            if s.verdict == Some(Verdict::Disengages) {
+                "the sprags have lifted off the inner race".to_owned()
+            } else {
+                format!("drag torque {}", Unit::NewtonMetre.show(drag, 4))
+            }
+        }
+        Some(Verdict::Sticks) => margin,
+        Some(Verdict::SlipsOverrunning) => {
+            format!("slip has shifted the inner race by {offset} towards overrunning; {margin}")
+        }
+        Some(Verdict::SlipsEngaging) if matches!(kind, ScenarioKind::Static { .. }) => margin,
+        Some(Verdict::SlipsEngaging) => {
+            format!("slip has shifted the inner race by {offset} towards engaging; {margin}")
+        }
+        Some(Verdict::Disengages) => {
+            let lost = Unit::Millisecond.show(s.contact_lost_s, 4);
+            format!("contact lost for {lost}, run {} at {}", s.stop.name(), Unit::Second.show(s.t_s, 4))
+        }
+        Some(Verdict::AtThreshold) | None => {
+            "another verdict is nearer than the error estimate; a smaller tolerance or step decides"
+                .to_owned()
+        }
+    }
+}
+
+/// Speed of the outer race at which the sprags lift off the inner one, rad/s, for an overrun; `None` where they
+/// stay on up to 60 000 rev/min, or in another scenario.
+pub(super) fn lift_off_rad_s(scene: &Scene) -> Option<f64> {
+    if !matches!(scene.scenario.kind, ScenarioKind::Overrun { .. }) {
+        return None;
+    }
+    let state = load_state(&scene.own).ok()?;
+    lift_off(&scene.own, &state, LIFT_OFF_SEARCH_RAD_S)
+}
+
+struct Facts(Table);
+
+impl Facts {
+    fn new() -> Self {
+        let columns = vec![
+            Column::text("quantity", "Quantity"),
+            Column::number("value", "Value", Unit::One, 6),
+            Column::number("error", "± error", Unit::One, 2),
+        ];
+        Self(Table::new(columns))
+    }
+
+    fn add(&mut self, name: &str, value: f64, unit: Unit, error: Option<f64>) {
+        // Differences of angles below the rounding of the angles themselves.
+        let value = if unit == Unit::Radian && value.abs() < 1e-15 { 0.0 } else { value };
+        let error = error.map_or(Cell::Text(String::new()), |e| Cell::In(e, unit));
+        self.0.row(vec![name.into(), Cell::In(value, unit), error]);
+    }
+
+    fn word(&mut self, name: &str, value: &str) {
+        self.0.row(vec![name.into(), value.into(), Cell::Text(String::new())]);
+    }
+
+    fn count(&mut self, name: &str, value: u64) {
+        self.0.row(vec![
+            name.into(),
+            Cell::Count(usize::try_from(value).unwrap_or(usize::MAX)),
+            Cell::Text(String::new()),
+        ]);
+    }
+}
+
+/// What happened, with error estimates.
+pub(super) fn table(scene: &Scene) -> Table {
+    let mut facts = Facts::new();
+    match &scene.outcome {
+        Err(why) => facts.word("no start", &why.to_string()),
+        Ok((prepared, s)) if scene.method == "equilibrium" => equilibrium(&mut facts, scene, prepared, s),
+        Ok((_, s)) => motion(&mut facts, s),
+    }
+    facts.0
+}
+
+fn motion(f: &mut Facts, s: &Simulation) {
+    let e = s.error;
+    f.add("inner race at the end", s.theta_inner_rad, Unit::Radian, e.map(|e| e.theta_inner_rad));
+    f.add("outer race at the end", s.theta_outer_rad, Unit::Radian, e.map(|e| e.theta_outer_rad));
+    f.add("offset (+ overrunning)", s.offset_rad, Unit::Radian, e.map(|e| e.offset_rad));
+    f.add("net slip, inner contact", s.inner.net_m, Unit::Micrometre, e.map(|e| e.net_slip_m));
+    for (name, record) in [("inner contact", &s.inner), ("outer contact", &s.outer)] {
+        f.add(&format!("slip path, {name}"), record.distance_m, Unit::Micrometre, None);
+        f.add(&format!("slip time, {name}"), record.time_s, Unit::Millisecond, None);
+    }
+    if let Some(initial) = s.initial_slip_s() {
+        f.add("initial slip after the reversal", initial, Unit::Millisecond, None);
+    }
+    f.add("time without contact", s.contact_lost_s, Unit::Millisecond, None);
+    peaks(f, &s.peaks, e.map(|e| e.normal_min_n));
+    f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, None);
+    demand(f, s);
+    f.count("changes of mode", s.events);
+    f.count("steps, both runs", s.steps);
+    f.count("right-hand sides, all runs", s.rhs_evaluations);
+}
+
+fn peaks(f: &mut Facts, p: &Peaks, error_n: Option<f64>) {
+    let at = |name: &str, i: usize| {
+        format!("{name} (at {})", Unit::Millisecond.show(p.at_s.get(i).copied().unwrap_or(0.0), 5))
+    };
+    f.add(&at("smallest normal force, inner", 2), p.normal_min_n, Unit::Newton, error_n);
+    f.add(&at("largest normal force, inner", 3), p.normal_max_n, Unit::Newton, None);
+    f.add(&at("largest |T|/N, inner", 0), p.tan_inner, Unit::One, None);
+    f.add(&at("largest |T|/N, outer", 1), p.tan_outer, Unit::One, None);
+}
+
+fn demand(f: &mut Facts, s: &Simulation) {
+    let Some(d) = s.demand else { return };
+    match d.required_friction {
+        Some(needed) => f.add("static friction needed to stick", needed, Unit::One, None),
+        None => f.word("static friction needed to stick", "none suffices"),
+    }
+    f.add("slip margin", d.slip_margin, Unit::Percent, s.error.map(|e| e.slip_margin));
+    f.add("contact margin", d.contact_margin, Unit::Percent, None);
+}
+
+fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {
+    f.add("sprag rotation alpha", prepared.state[0], Unit::Degree, None);
+    if let Some(o) = s.overrun {
+        f.add("drag torque", o.drag_torque_nm, Unit::NewtonMetre, None);
+        f.add("normal force, inner", o.normal_inner_n, Unit::Newton, None);
+        f.add("normal force, outer", o.normal_outer_n, Unit::Newton, None);
+        f.add("|T|/N, inner (sliding friction)", o.tan_inner, Unit::One, None);
+        f.add("|T|/N, outer (must hold)", o.tan_outer, Unit::One, None);
+        match lift_off_rad_s(scene) {
+            Some(speed) => f.add("lift-off at an outer race speed of", speed, Unit::Rpm, None),
+            None => f.word("lift-off at an outer race speed of", "none up to 60 000 rpm"),
+        }
+        return;
+    }
+    let Some(row) = prepared.model.curve.at_normal(s.static_normal_n) else { return };
+    f.add("torque", row.torque_nm, Unit::NewtonMetre, None);
+    f.add("windup", row.windup_rad, Unit::Degree, None);
+    f.add("normal force, inner", row.normal_inner_n, Unit::Newton, None);
+    f.add("normal force, outer", row.normal_outer_n, Unit::Newton, None);
+    f.add("|T|/N, inner", row.tan_omega, Unit::One, None);
+    f.add("|T|/N, outer", row.tan_nu, Unit::One, None);
+    f.add("secant stiffness", row.k_secant_nm_per_rad, Unit::NewtonMetrePerRadian, None);
+    f.add("tangent stiffness", row.k_tangent_nm_per_rad, Unit::NewtonMetrePerRadian, None);
+    f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, None);
+    demand(f, s);
+}
+
+/// The run beside what pure rolling would need, for a scene that is integrated.
+pub(super) fn beside_rolling(s: &Simulation) -> Option<Table> {
+    let d = s.demand?;
+    let mut table = Table::new(vec![
+        Column::text("quantity", "Quantity"),
+        Column::number("run", "This run", Unit::One, 6),
+        Column::number("rolling", "Pure rolling would need", Unit::One, 6),
+        Column::number("margin", "Margin", Unit::Percent, 3),
+    ]);
+    let newton = |n: f64| Cell::In(n, Unit::Newton);
+    table.row(vec![
+        "largest |T|/N, either contact".into(),
+        Cell::In(s.peaks.tan_inner.max(s.peaks.tan_outer), Unit::One),
+        d.required_friction.map_or("no friction suffices".into(), |r| Cell::In(r, Unit::One)),
+        d.slip_margin.into(),
+    ]);
+    table.row(vec![
+        "smallest normal force, inner".into(),
+        newton(s.peaks.normal_min_n),
+        newton(d.contact_margin * s.static_normal_n),
+        d.contact_margin.into(),
+    ]);
+    for (name, i, own) in [
+        ("largest normal force, inner", 0, s.peaks.normal_max_n),
+        ("largest normal force, outer", 1, s.peaks.normal_outer_max_n),
+    ] {
+        let rolling = d.normal_max_n.get(i).copied().unwrap_or(0.0);
+        table.row(vec![name.into(), newton(own), newton(rolling), Cell::Empty]);
+    }
+    Some(table)
+}

@@ -1,0 +1,138 @@
+//! Histories: one row per sample, as CSV and as curves.
+
+use super::Scene;
+use crate::dynamics::{Grip, Mode, Place, Sample};
+use crate::report::{Cell, Column, Table, Unit};
+use crate::scenario::Prepared;
+
+/// One sample with what follows from it, SI.
+pub(super) struct Row {
+    pub(super) sample: Sample,
+    /// alpha', phi', theta_bi', theta_be' with the rolling constraints put in.
+    pub(super) rates: [f64; 4],
+    /// |T|/N at A and B; none where the contact is open.
+    pub(super) tan: [Option<f64>; 2],
+    /// Torque of the clutch on the inner race n_s T_bi OA, N m.
+    pub(super) torque_nm: f64,
+    /// p_0 at A and B, Pa.
+    pub(super) hertz_pa: [f64; 2],
+    /// Arc in contact, from 0, in the profile's count.
+    pub(super) arc: usize,
+    /// dOC_g/dalpha, m.
+    pub(super) oc_g_slope_m: f64,
+}
+
+/// All rows of the history; none for an equilibrium.
+pub(super) fn rows(scene: &Scene) -> Vec<Row> {
+    let Ok((prepared, simulation)) = &scene.outcome else { return Vec::new() };
+    let count = scene.own.clutch.sprags.count as f64;
+    simulation.samples.iter().map(|sample| row(prepared, count, sample)).collect()
+}
+
+fn row(prepared: &Prepared, count: f64, sample: &Sample) -> Row {
+    let model = &prepared.model;
+    let p = model.point(sample.mode.place, sample.state[0]);
+    let f = &sample.forces;
+    let closed = sample.mode.place != Place::Open;
+    let tan = |t: f64, n: f64| (closed && n > 0.0).then(|| t.abs() / n);
+    let elastic = &model.curve.statics().elastic;
+    let arc = match sample.mode.place {
+        Place::Arc(k) => model.curve.first_arc() + k,
+        Place::Open | Place::Tension => 0,
+    };
+    Row {
+        sample: *sample,
+        rates: model.rates(&sample.mode, &p, &sample.state),
+        tan: [tan(f.t_bi, f.n_bi), tan(f.t_be, f.n_be)],
+        torque_nm: count * f.t_bi * p.oa,
+        hertz_pa: [
+            elastic.inner_contact.get(arc).map_or(0.0, |c| c.peak_pressure_pa(f.n_bi.max(0.0))),
+            elastic.outer_contact.peak_pressure_pa(f.n_be.max(0.0)),
+        ],
+        arc,
+        oc_g_slope_m: p.oc_g_slope,
+    }
+}
+
+/// What a contact does, in one word; `inner` is open where A has no force.
+pub(super) fn word(mode: &Mode, inner: bool) -> &'static str {
+    if mode.place == Place::Open && inner {
+        return "open";
+    }
+    match if inner { mode.inner } else { mode.outer } {
+        Grip::Stick => "stick",
+        Grip::Slip(s) if s > 0.0 => "slip+",
+        Grip::Slip(_) => "slip-",
+    }
+}
+
+/// The CSV: the history, or one row with the equilibrium.
+pub(super) fn table(scene: &Scene) -> Table {
+    let number = |key: &str, unit| Column::number(key, key, unit, 9);
+    let contacts = [
+        number("normal_inner_n", Unit::Newton),
+        number("normal_outer_n", Unit::Newton),
+        number("tan_inner", Unit::One),
+        number("tan_outer", Unit::One),
+    ];
+    if scene.method == "equilibrium" {
+        let lead = [number("alpha_rad", Unit::Radian), number("torque_nm", Unit::NewtonMetre)];
+        let tail = [number("hertz_peak_mpa", Unit::Megapascal)];
+        let mut table = Table::new(lead.into_iter().chain(contacts).chain(tail).collect());
+        if let Ok((prepared, s)) = &scene.outcome {
+            let torque = s.overrun.map(|o| o.drag_torque_nm).or(scene.drawn_torque_nm());
+            let p = &s.peaks;
+            table.row(vec![
+                prepared.state[0].into(),
+                torque.into(),
+                p.normal_max_n.into(),
+                p.normal_outer_max_n.into(),
+                p.tan_inner.into(),
+                p.tan_outer.into(),
+                s.hertz_peak_pa.into(),
+            ]);
+        }
+        return table;
+    }
+    let angles = ["theta_inner", "theta_outer", "alpha", "phi"];
+    let mut columns = vec![number("time_s", Unit::Second)];
+    columns.extend(angles.map(|a| number(&format!("{a}_rad"), Unit::Radian)));
+    columns.extend(angles.map(|a| number(&format!("{a}_rate_rad_per_s"), Unit::RadianPerSecond)));
+    columns.extend(contacts);
+    columns.extend([
+        number("tangential_inner_n", Unit::Newton),
+        number("tangential_outer_n", Unit::Newton),
+        number("slip_velocity_inner_m_per_s", Unit::MetrePerSecond),
+        number("slip_velocity_outer_m_per_s", Unit::MetrePerSecond),
+        number("slip_inner_mm", Unit::Millimetre),
+        number("slip_outer_mm", Unit::Millimetre),
+        Column::text("mode_inner", "mode_inner"),
+        Column::text("mode_outer", "mode_outer"),
+        Column::text("arc", "arc"),
+        number("hertz_inner_mpa", Unit::Megapascal),
+        number("hertz_outer_mpa", Unit::Megapascal),
+        number("torque_nm", Unit::NewtonMetre),
+    ]);
+    let mut table = Table::new(columns);
+    for row in rows(scene) {
+        table.row(cells(&row));
+    }
+    table
+}
+
+fn cells(row: &Row) -> Vec<Cell> {
+    let Row { sample, rates, tan, torque_nm, hertz_pa, .. } = row;
+    let (y, f) = (&sample.state, &sample.forces);
+    let arc = match sample.mode.place {
+        Place::Arc(_) => Cell::Count(row.arc + 1),
+        Place::Open | Place::Tension => Cell::Empty,
+    };
+    let numbers = |values: &[f64]| values.iter().map(|&v| Cell::Si(v)).collect::<Vec<_>>();
+    let mut cells = numbers(&[sample.t, y[2], y[3], y[0], y[1], rates[2], rates[3], rates[0], rates[1]]);
+    cells.extend(numbers(&[f.n_bi, f.n_be]));
+    cells.extend(tan.map(Cell::from));
+    cells.extend(numbers(&[f.t_bi, f.t_be, f.v_a, f.v_b, y[8], y[9]]));
+    cells.extend([word(&sample.mode, true).into(), word(&sample.mode, false).into(), arc]);
+    cells.extend(numbers(&[hertz_pa[0], hertz_pa[1], *torque_nm]));
+    cells
+}

@@ -1,0 +1,98 @@
+//! What a scene leaves out beside what every answer leaves out, with the cost where the run itself shows it.
+
+use super::Scene;
+use super::history::{Row, rows};
+use crate::cli::left_out::{LeftOut, left_out};
+use crate::design::ScenarioKind;
+use crate::report::Unit;
+
+/// The list for `scene`.
+pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
+    let mut list = left_out(&scene.own.clutch);
+    let mut add = |term: &str, why: &str, cost: &str| list.push(LeftOut::new(term, why, cost));
+    let kind = &scene.scenario.kind;
+    if !matches!(kind, ScenarioKind::Static { .. }) {
+        add(
+            "lubricant film and temperature",
+            "friction is the law (12) of the sliding speed alone",
+            "not estimated",
+        );
+        add(
+            "mass and friction of the cage",
+            "the cage is free and massless, the spring reacts on it",
+            "not estimated",
+        );
+    }
+    if scene.method == "equilibrium" {
+        return list;
+    }
+    add(
+        "contact damping",
+        "the contacts are elastic, as in the paper; damped are only the races against one another",
+        "not estimated; it would take energy out of every oscillation",
+    );
+    add(
+        "impact where a contact closes",
+        "velocities are continuous at touch, nothing bounces",
+        "not estimated; none where the contact stays closed",
+    );
+    add(
+        "torsional waves and bending of races and shafts",
+        "the races are rigid in rotation, their growth is quasi-static",
+        "not estimated",
+    );
+    add(
+        "pressure along the length over time",
+        "the load is spread as the contact law spreads it at rest",
+        "none on the motion; edge pressure in time not estimated",
+    );
+    let rows = rows(scene);
+    add(
+        "radial inertia of the sprag",
+        "N_be closes the radial balance without m_g OC_g''",
+        &radial_inertia(&rows, scene.own.clutch.sprags.mass_kg),
+    );
+    let speed = match kind {
+        ScenarioKind::TorsionalExcitation { speed_rad_s, .. } => *speed_rad_s,
+        _ => 0.0,
+    };
+    add(
+        "growth of the races by changes of speed",
+        if speed == 0.0 {
+            "the wedge curve is that at rest; speed enters through phi'^2 alone"
+        } else {
+            "the wedge curve is that at the mean speed; its fluctuation enters through phi'^2 alone"
+        },
+        &growth(scene, &rows, speed),
+    );
+    if speed != 0.0 {
+        add("growth of the inner race by rotation", "(7) is the outer race's alone", "not estimated");
+    }
+    list
+}
+
+/// m_g OC_g' alpha'' at its largest over the samples in contact, beside N_be then.
+fn radial_inertia(rows: &[Row], mass_kg: f64) -> String {
+    let worst = rows
+        .iter()
+        .filter(|r| r.tan[0].is_some())
+        .map(|r| ((mass_kg * r.oc_g_slope_m * r.sample.forces.acceleration[0]).abs(), r.sample.forces.n_be))
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    match worst {
+        None => "not estimated".to_owned(),
+        Some((force, n_be)) => format!(
+            "at most {} per sprag over this run's samples, where N_be is {}",
+            Unit::Newton.show(force, 2),
+            Unit::Newton.show(n_be, 3)
+        ),
+    }
+}
+
+/// Growth (7) of the outer race that its own fluctuation of speed would add.
+fn growth(scene: &Scene, rows: &[Row], speed: f64) -> String {
+    let Ok((prepared, _)) = &scene.outcome else { return "not estimated".to_owned() };
+    let fluctuation = rows.iter().map(|r| r.rates[3].abs()).fold(0.0, f64::max);
+    let race = &prepared.model.curve.statics().elastic.outer_race;
+    let change = race.centrifugal_bore_growth_m(speed + fluctuation) - race.centrifugal_bore_growth_m(speed);
+    format!("outer race track within {} over this run", Unit::Micrometre.show(change, 2))
+}

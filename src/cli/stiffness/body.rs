@@ -1,0 +1,105 @@
+//! The JSON of `stiffness`.
+
+use super::LawCurve;
+use crate::cli::parts::{self, Junction};
+use crate::design::ContactLaw;
+use crate::report::Unit;
+use crate::wedge::StaticPoint;
+use serde::Serialize;
+
+/// One row.
+#[derive(Debug, Clone, Serialize)]
+struct Point {
+    torque_nm: f64,
+    normal_inner_n: f64,
+    normal_outer_n: f64,
+    tan_omega: f64,
+    tan_nu: f64,
+    alpha_rad: f64,
+    windup_deg: f64,
+    k_secant_nm_per_rad: f64,
+    k_tangent_nm_per_rad: f64,
+    /// From 1.
+    arc: usize,
+    hertz_inner_mpa: f64,
+    hertz_outer_mpa: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct End {
+    reason: &'static str,
+    torque_nm: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Curve {
+    points: Vec<Point>,
+    /// Torques asked for that the curve does not reach, N m.
+    beyond_end: Vec<f64>,
+    junctions: Vec<Junction>,
+    end: End,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Law {
+    contact: &'static str,
+    /// K of the roller law, mm and N.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roller_coefficient: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slices: Option<usize>,
+    #[serde(flatten)]
+    curve: Curve,
+}
+
+/// Keys of `stiffness`. With one law its keys stand at the top as well.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Body {
+    laws: Vec<Law>,
+    #[serde(flatten)]
+    only: Option<Curve>,
+}
+
+impl Body {
+    pub(super) fn new(curves: &[LawCurve]) -> Self {
+        let laws: Vec<Law> = curves.iter().map(law).collect();
+        let only = match laws.as_slice() {
+            [one] => Some(one.curve.clone()),
+            _ => None,
+        };
+        Self { laws, only }
+    }
+}
+
+fn law(law: &LawCurve) -> Law {
+    let (roller_coefficient, slices) = match law.clutch.contact {
+        ContactLaw::Roller { coefficient } => (Some(coefficient), None),
+        ContactLaw::Slice { coefficient, slices } => (Some(coefficient), Some(slices)),
+        ContactLaw::Din26281 | ContactLaw::Hertz => (None, None),
+    };
+    let curve = Curve {
+        points: law.rows.iter().filter_map(|(t, p)| p.as_ref().map(|p| point(*t, p))).collect(),
+        beyond_end: law.rows.iter().filter(|(_, p)| p.is_none()).map(|(t, _)| *t).collect(),
+        junctions: parts::junctions(&law.curve),
+        end: End { reason: law.curve.end().0.name(), torque_nm: law.curve.end_torque_nm() },
+    };
+    Law { contact: law.name.key(), roller_coefficient, slices, curve }
+}
+
+/// A row under the torque asked for, which the equilibrium meets to rounding.
+fn point(torque_nm: f64, p: &StaticPoint) -> Point {
+    Point {
+        torque_nm,
+        normal_inner_n: p.normal_inner_n,
+        normal_outer_n: p.normal_outer_n,
+        tan_omega: p.tan_omega,
+        tan_nu: p.tan_nu,
+        alpha_rad: p.alpha_rad,
+        windup_deg: Unit::Degree.from_si(p.windup_rad),
+        k_secant_nm_per_rad: p.k_secant_nm_per_rad,
+        k_tangent_nm_per_rad: p.k_tangent_nm_per_rad,
+        arc: p.arc + 1,
+        hertz_inner_mpa: Unit::Megapascal.from_si(p.hertz_inner_pa),
+        hertz_outer_mpa: Unit::Megapascal.from_si(p.hertz_outer_pa),
+    }
+}

@@ -1,0 +1,112 @@
+//! The contact laws that can be asked for, and the coefficients they take.
+
+use crate::design::ContactLaw;
+use clap::ValueEnum;
+
+/// Coefficient of the roller law where the design gives none, mm and N: the public model of the paper's clutch.
+const ROLLER_COEFFICIENT: f64 = 3.944e-5;
+/// Slices where the design gives no number.
+const SLICES: usize = 60;
+
+/// Contact laws by their names in the design file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ContactName {
+    /// Roller law, coefficient of the design (or 3.944e-5, mm and N)
+    Roller,
+    /// Roller law with the coefficient of DIN 26281
+    Din26281,
+    /// Logarithmic line contact, knows the radius
+    Hertz,
+    /// Slice method (1)-(4), slices of the design (or 60)
+    Slice,
+}
+
+impl ContactName {
+    /// The name in design files and JSON.
+    pub(super) fn key(self) -> &'static str {
+        match self {
+            Self::Roller => "roller",
+            Self::Din26281 => "din26281",
+            Self::Hertz => "hertz",
+            Self::Slice => "slice",
+        }
+    }
+
+    fn of(law: &ContactLaw) -> Self {
+        match law {
+            ContactLaw::Roller { .. } => Self::Roller,
+            ContactLaw::Din26281 => Self::Din26281,
+            ContactLaw::Hertz => Self::Hertz,
+            ContactLaw::Slice { .. } => Self::Slice,
+        }
+    }
+
+    /// The law of that name, with what the design's own law has of its constants.
+    pub(super) fn law(self, design: &ContactLaw) -> ContactLaw {
+        let (coefficient, slices) = match *design {
+            ContactLaw::Roller { coefficient } => (coefficient, SLICES),
+            ContactLaw::Slice { coefficient, slices } => (coefficient, slices),
+            ContactLaw::Din26281 | ContactLaw::Hertz => (ROLLER_COEFFICIENT, SLICES),
+        };
+        match self {
+            Self::Roller => ContactLaw::Roller { coefficient },
+            Self::Din26281 => ContactLaw::Din26281,
+            Self::Hertz => ContactLaw::Hertz,
+            Self::Slice => ContactLaw::Slice { coefficient, slices },
+        }
+    }
+}
+
+/// The laws asked for, each once, in the order asked; the design's own if none was.
+pub(super) fn asked(names: &[ContactName], design: &ContactLaw) -> Vec<ContactName> {
+    let mut list: Vec<ContactName> = Vec::new();
+    for &name in names {
+        if !list.contains(&name) {
+            list.push(name);
+        }
+    }
+    if list.is_empty() { vec![ContactName::of(design)] } else { list }
+}
+
+/// The law with its constants, and what it is.
+pub(super) fn description(law: &ContactLaw) -> String {
+    match law {
+        ContactLaw::Roller { coefficient } => format!(
+            "roller, K = {coefficient:e} (mm, N): approach K N^0.9/l^0.8 of a steel roller between plates, whatever the radii"
+        ),
+        ContactLaw::Din26281 => {
+            "din26281: the roller law with the coefficient of DIN 26281, K = 3.97e-5 (mm, N)".to_owned()
+        }
+        ContactLaw::Hertz => {
+            "hertz: logarithmic approach of a line contact, down to half the sprag's height and through the race's \
+             wall; the one law that knows the radii"
+                .to_owned()
+        }
+        ContactLaw::Slice { coefficient, slices } => format!(
+            "slice, K = {coefficient:e} (mm, N), {slices} slices: (1)-(4), the roller law shared over slices that \
+             influence one another; square ends, so its edge pressure grows with the number of slices"
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_law_keeps_the_constants_of_the_design() {
+        let design = ContactLaw::Slice { coefficient: 3.84e-5, slices: 30 };
+        assert_eq!(ContactName::Roller.law(&design), ContactLaw::Roller { coefficient: 3.84e-5 });
+        assert_eq!(ContactName::Slice.law(&design), design);
+        assert_eq!(ContactName::Roller.law(&ContactLaw::Hertz), ContactLaw::Roller { coefficient: 3.944e-5 });
+        let roller = ContactLaw::Roller { coefficient: 4e-5 };
+        assert_eq!(ContactName::Slice.law(&roller), ContactLaw::Slice { coefficient: 4e-5, slices: 60 });
+    }
+
+    #[test]
+    fn each_law_is_asked_once_and_the_designs_by_default() {
+        use ContactName::*;
+        assert_eq!(asked(&[Hertz, Roller, Hertz], &ContactLaw::Din26281), [Hertz, Roller]);
+        assert_eq!(asked(&[], &ContactLaw::Din26281), [Din26281]);
+    }
+}

@@ -1,0 +1,148 @@
+//! Coloured bands over time, one row per thing observed: which state held when.
+
+use super::svg::{Anchor, INK, RULE, SERIES, SOFT, Svg, px, text_width};
+
+/// A stretch in one state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Begin, in the unit of the axis.
+    pub from: f64,
+    /// End.
+    pub until: f64,
+    /// Index into the states; 0 is the ordinary one, over which the others are drawn.
+    pub state: usize,
+}
+
+/// Rows of spans over one axis. As wide as a [`super::Plot`] and with the same left and right margins, so that
+/// both can stand one above the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strip {
+    /// Title of the axis with its unit.
+    pub title: String,
+    /// Begin and end of the axis.
+    pub range: [f64; 2],
+    /// Names of the states, for the legend; at most six.
+    pub states: Vec<String>,
+    /// Name and spans of each row.
+    pub rows: Vec<(String, Vec<Span>)>,
+}
+
+const LEFT_PX: f64 = 66.0;
+const RIGHT_PX: f64 = 18.0;
+const WIDTH_PX: f64 = 720.0;
+const TOP_PX: f64 = 26.0;
+const ROW_PX: f64 = 24.0;
+const BAND_PX: f64 = 16.0;
+const BOTTOM_PX: f64 = 46.0;
+/// However short, a span that is not the ordinary state stays visible.
+const LEAST_PX: f64 = 0.8;
+
+fn colour(state: usize) -> &'static str {
+    // The ordinary state is quiet, the others have the colours of the curves.
+    if state == 0 { RULE } else { SERIES[state % SERIES.len()] }
+}
+
+impl Strip {
+    /// The SVG. Shorter spans lie over longer ones of the same row, and neighbours that would fall on the same
+    /// pixel are drawn once.
+    pub fn to_svg(&self) -> String {
+        let height = TOP_PX + ROW_PX * self.rows.len() as f64 + BOTTOM_PX;
+        let mut svg = Svg::new(WIDTH_PX, height, &format!("States over {}", self.title));
+        let [low, high] = self.range;
+        let scale = (WIDTH_PX - LEFT_PX - RIGHT_PX) / (high - low).max(f64::MIN_POSITIVE);
+        let x = |at: f64| LEFT_PX + (at.clamp(low, high) - low) * scale;
+        let mut at = LEFT_PX;
+        for (state, name) in self.states.iter().enumerate() {
+            let style = format!("fill=\"{}\"", colour(state));
+            svg.path(&rectangle(at, 4.0, 14.0, 12.0), &style);
+            svg.bare_text([at + 19.0, 14.0], Anchor::Start, INK, name);
+            at += 19.0 + text_width(name, 12.0) + 16.0;
+        }
+        for (number, (name, spans)) in self.rows.iter().enumerate() {
+            let y = TOP_PX + ROW_PX * number as f64;
+            svg.bare_text([LEFT_PX - 8.0, y + 12.5], Anchor::End, INK, name);
+            for state in 0..self.states.len() {
+                let mut drawn_to = f64::NEG_INFINITY;
+                let mut d = String::new();
+                for span in spans.iter().filter(|s| s.state == state && s.until > s.from) {
+                    let (from, until) = (x(span.from), x(span.until).max(x(span.from) + LEAST_PX));
+                    if until > drawn_to {
+                        d.push_str(&rectangle(from.max(drawn_to), y, until - from.max(drawn_to), BAND_PX));
+                        drawn_to = until;
+                    }
+                }
+                if !d.is_empty() {
+                    svg.path(&d, &format!("fill=\"{}\"", colour(state)));
+                }
+            }
+        }
+        self.draw_axis(&mut svg, height, x);
+        svg.finish()
+    }
+
+    fn draw_axis(&self, svg: &mut Svg, height: f64, x: impl Fn(f64) -> f64) {
+        let y = height - BOTTOM_PX + 2.0;
+        let [low, high] = self.range;
+        svg.line([LEFT_PX, y], [WIDTH_PX - RIGHT_PX, y], &format!("stroke=\"{SOFT}\" fill=\"none\""));
+        let step = round_step((high - low) / 6.0);
+        let first = (low / step).ceil() as i64;
+        for i in (first..).take(20) {
+            let at = i as f64 * step;
+            if at > high + 1e-9 * step {
+                break;
+            }
+            svg.line([x(at), y], [x(at), y + 4.0], &format!("stroke=\"{SOFT}\" fill=\"none\""));
+            let label = super::number::plain(at, 6);
+            svg.bare_text([x(at) + 0.5 * text_width(&label, 11.0), y + 17.0], Anchor::End, INK, &label);
+        }
+        let middle = 0.5 * (LEFT_PX + WIDTH_PX - RIGHT_PX);
+        svg.text([middle + 0.5 * text_width(&self.title, 12.0), y + 37.0], Anchor::End, INK, &self.title);
+    }
+}
+
+/// Path data of a rectangle.
+fn rectangle(x: f64, y: f64, width: f64, height: f64) -> String {
+    format!("M{} {}h{}v{}h-{}Z", px(x), px(y), px(width), px(height), px(width))
+}
+
+/// 1, 2 or 5 times a power of ten, the nearest above `wanted`.
+fn round_step(wanted: f64) -> f64 {
+    if !(wanted.is_finite() && wanted > 0.0) {
+        return 1.0;
+    }
+    let power = 10f64.powf(wanted.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].into_iter().map(|f| f * power).find(|&s| s >= wanted * 0.999).unwrap_or(power)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn strip(spans: Vec<Span>) -> String {
+        let states = ["stick", "slip"].map(str::to_owned).to_vec();
+        Strip { title: "Time, ms".into(), range: [0.0, 300.0], states, rows: vec![("A".into(), spans)] }
+            .to_svg()
+    }
+
+    #[test]
+    fn a_short_span_stays_visible_and_thousands_of_them_stay_few() {
+        let one = strip(vec![Span { from: 100.0, until: 100.001, state: 1 }]);
+        assert!(one.contains("h0.8v16"), "{one}");
+        let many = (0..30_000).map(|i| Span {
+            from: 0.01 * f64::from(i),
+            until: 0.01 * f64::from(i) + 0.005,
+            state: 1,
+        });
+        let svg = strip(many.collect());
+        assert!(svg.len() < 60_000, "{} bytes", svg.len());
+    }
+
+    #[test]
+    fn an_empty_or_senseless_strip_is_still_a_figure() {
+        let mut strip = Strip { title: "t".into(), range: [0.0, 0.0], states: vec![], rows: vec![] };
+        assert!(strip.to_svg().ends_with("</svg>"));
+        strip.range = [f64::NAN, 1.0];
+        assert!(!strip.to_svg().contains("NaN"));
+        assert_eq!([0.03, 47.0, 50.0, 0.0].map(round_step), [0.05, 50.0, 50.0, 1.0]);
+    }
+}

@@ -1,0 +1,123 @@
+//! `check` from outside: exit codes, JSON, CSV, page.
+
+#[path = "common/program.rs"]
+mod program;
+
+use program::*;
+
+#[test]
+fn the_multi_arc_design_holds() {
+    let output = run(&["check", MULTI]);
+    let text = stdout(&output);
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    assert!(text.contains("HELD: all 17 required limits") && text.contains("none suffices"), "{text}");
+    assert!(output.stderr.is_empty() && !text.contains('\u{1b}'));
+}
+
+#[test]
+fn a_limit_that_is_not_held_is_code_1_and_named() {
+    let folder = Folder::new();
+    let sharper = folder.changed(MULTI, &[("hertz_nominal_mpa = 4200.0", "hertz_nominal_mpa = 3000.0")]);
+    let output = run(&["check", &sharper]);
+    assert_eq!(output.status.code(), Some(1));
+    let text = stdout(&output);
+    assert!(text.contains("NOT HELD: 1 of 17 required limits; hertz-nominal-inner decides"), "{text}");
+    // A scenario that is shown only does not count, one that is asked for does.
+    let asked =
+        folder.changed(MULTI, &[("scenarios = [\"low-10\", \"rated-45\"]", "scenarios = [\"high-8\"]")]);
+    let output = run(&["check", &asked, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(json(&output)["deciding"]["code"], "slip:high-8");
+}
+
+#[test]
+fn the_object_has_its_keys_and_only_numbers_that_are_some() {
+    let output = run(&["check", MULTI, "--json"]);
+    let value = json(&output);
+    has_envelope(&value);
+    assert_eq!(value["pass"], true);
+    assert_eq!(value["deciding"]["code"], "hoop-inner");
+    let margins = value["margins"].as_array().unwrap();
+    assert_eq!(margins.len(), 13 + 2 * 11);
+    for row in margins {
+        let code = row["code"].as_str().unwrap();
+        // Contact opens in these two whatever the friction.
+        let none = ["slip:high-8", "slip:high-10"].contains(&code);
+        assert_eq!(row["demand"].is_null(), none, "{code}");
+        assert!(row["allowable"].is_f64() && row["margin"].is_f64() && row["unit"].is_string(), "{code}");
+        assert!(row["required"].is_boolean() && row["name"].is_string(), "{code}");
+        assert_eq!(row["torque_capacity_nm"].is_null(), code.contains(':') || NO_TORQUE.contains(&code));
+    }
+    let capacity = value["lowest_torque_capacity"]["torque_capacity_nm"].as_f64().unwrap();
+    let least = margins.iter().filter_map(|r| r["torque_capacity_nm"].as_f64()).fold(f64::INFINITY, f64::min);
+    assert_eq!(capacity, least);
+    let errors = &value["error_estimate"];
+    assert!(errors["statics_relative"].as_f64().unwrap() < 1e-8, "{errors}");
+    assert!(errors["scenario_margins"].as_f64().unwrap() < 1e-5, "{errors}");
+    // Table 1's sprag lifts off near 5000 rpm.
+    assert!((value["lift_off_rpm"].as_f64().unwrap() - 4968.0).abs() < 1.0);
+}
+
+const NO_TORQUE: [&str; 3] = ["neighbours", "re-engagement", "keep-contact"];
+
+#[test]
+fn a_capacity_is_where_its_limit_is_reached() {
+    let folder = Folder::new();
+    let capacity = |value: &serde_json::Value, code: &str| {
+        let rows = value["margins"].as_array().unwrap();
+        let row = rows.iter().find(|r| r["code"] == code).unwrap();
+        (row["torque_capacity_nm"].as_f64().unwrap(), row["margin"].as_f64().unwrap())
+    };
+    let (torque, _) = capacity(&json(&run(&["check", MULTI, "--json"])), "hoop-inner");
+    // Held at that very torque, the limit has no margin left.
+    let there = folder.changed(MULTI, &[("peak_torque_nm = 110.0", &format!("peak_torque_nm = {torque}"))]);
+    let (again, margin) = capacity(&json(&run(&["check", &there, "--json"])), "hoop-inner");
+    assert!(margin.abs() < 1e-8 && (again - torque).abs() < 1e-6, "{margin} at {again}");
+}
+
+#[test]
+fn threads_change_no_digit() {
+    let margins =
+        |threads: &str| json(&run(&["check", SINGLE, "--json", "--threads", threads]))["margins"].clone();
+    assert_eq!(margins("1"), margins("4"));
+}
+
+#[test]
+fn table_and_page_are_written_whole() {
+    let folder = Folder::new();
+    let (csv, html) = (folder.path("margins.csv"), folder.path("check.html"));
+    let output = run(&["check", SINGLE, "--csv", &csv, "--report", &html]);
+    // The single arc is pressed harder than the multi-arc and still holds, or does not: its code must say which.
+    let pass = json(&run(&["check", SINGLE, "--json"]))["pass"] == true;
+    assert_eq!(output.status.code(), Some(if pass { 0 } else { 1 }));
+    let table = std::fs::read_to_string(csv).unwrap();
+    let mut lines = table.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "code,name,demand,allowable,unit,margin,torque_capacity_nm,required,held"
+    );
+    assert_eq!(lines.count(), 13 + 2 * 11);
+    let page = is_self_contained(html);
+    for part in ["Margin check", "hoop-inner", "One sprag between its races", "schema = 1", "simultaneously"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    assert_eq!(folder.names(), ["check.html", "margins.csv"]);
+}
+
+#[test]
+fn a_malformed_design_is_code_2_in_words_and_as_an_object_and_writes_nothing() {
+    let folder = Folder::new();
+    let bad = folder.changed(MULTI, &[("count = 12 ", "count = -12 ")]);
+    let (csv, html) = (folder.path("a.csv"), folder.path("a.html"));
+    let output = run(&["check", &bad, "--csv", &csv, "--report", &html]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("count"));
+    let output = run(&["check", &bad, "--json", "--csv", &csv, "--report", &html]);
+    assert_eq!(output.status.code(), Some(2));
+    let value = json(&output);
+    assert_eq!(value["error"]["problems"][0]["key"], "sprags.count");
+    assert!(!output.stderr.is_empty());
+    assert_eq!(folder.names(), ["changed.toml"]);
+}

@@ -1,0 +1,181 @@
+//! `stiffness` and `schema` from outside: JSON, CSV, page, torques beyond the curve.
+
+#[path = "common/program.rs"]
+mod program;
+
+use program::*;
+use serde_json::Value;
+
+const KEYS: [&str; 12] = [
+    "torque_nm",
+    "normal_inner_n",
+    "normal_outer_n",
+    "tan_omega",
+    "tan_nu",
+    "alpha_rad",
+    "windup_deg",
+    "k_secant_nm_per_rad",
+    "k_tangent_nm_per_rad",
+    "arc",
+    "hertz_inner_mpa",
+    "hertz_outer_mpa",
+];
+
+fn number(value: &Value, key: &str) -> f64 {
+    value[key].as_f64().unwrap_or_else(|| panic!("{key} in {value}"))
+}
+
+/// The whole way from file to JSON against the tables of two independent scripts, as `statics.rs` has it for the
+/// library: good to 1e-4 and better.
+#[test]
+fn designs_give_the_independent_tables() {
+    for (design, table) in [
+        (SINGLE, include_str!("reference/static_single_arc.csv")),
+        (MULTI, include_str!("reference/static_multi_arc.csv")),
+    ] {
+        let mut lines = table.lines().map(|l| l.split(',').collect::<Vec<_>>());
+        let header = lines.next().unwrap();
+        let rows: Vec<Vec<&str>> = lines.collect();
+        let torques: Vec<&str> = rows.iter().map(|r| r[0]).collect();
+        let value = json(&run(&["stiffness", design, "--torques", &torques.join(","), "--json"]));
+        has_envelope(&value);
+        let points = value["points"].as_array().unwrap();
+        assert_eq!(points.len(), rows.len());
+        for (point, row) in points.iter().zip(&rows) {
+            for (key, want) in header.iter().zip(row).filter(|(key, _)| KEYS.contains(key)) {
+                let want: f64 = want.parse().unwrap();
+                assert!((number(point, key) / want - 1.0).abs() < 1e-4, "{key} {want} in {point}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_key_of_every_point_is_a_number_and_arcs_count_from_1() {
+    let value = json(&run(&["stiffness", MULTI, "--json"]));
+    has_envelope(&value);
+    assert!(value["error_estimate"].as_f64().unwrap() < 1e-8);
+    let points = value["points"].as_array().unwrap();
+    assert_eq!(points.len(), 20);
+    assert_eq!(number(points.last().unwrap(), "torque_nm"), 110.0, "up to the design's peak torque");
+    for point in points {
+        assert_eq!(point.as_object().unwrap().len(), KEYS.len());
+        KEYS.iter().for_each(|key| assert!(number(point, key) > 0.0, "{key}"));
+    }
+    let arcs: Vec<u64> = points.iter().map(|p| p["arc"].as_u64().unwrap()).collect();
+    assert!(arcs.is_sorted() && arcs.first() == Some(&1) && arcs.last() == Some(&3), "{arcs:?}");
+    let junctions = value["junctions"].as_array().unwrap();
+    assert_eq!(junctions.iter().map(|j| j["arc"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2]);
+    for junction in junctions {
+        let (torque, arc) = (number(junction, "torque_nm"), junction["arc"].as_u64().unwrap());
+        assert!(
+            points.iter().all(|p| (p["arc"].as_u64().unwrap() <= arc) == (number(p, "torque_nm") <= torque))
+        );
+    }
+    assert_eq!(value["end"]["reason"], "off-profile");
+    assert_eq!(value["points"], value["laws"][0]["points"], "one law stands at the top as well");
+}
+
+#[test]
+fn the_tangent_is_the_slope_of_the_points() {
+    let value = json(&run(&["stiffness", SINGLE, "--torques", "49.99,50,50.01", "--json"]));
+    let p = value["points"].as_array().unwrap();
+    let rise = number(&p[2], "torque_nm") - number(&p[0], "torque_nm");
+    let run = (number(&p[2], "windup_deg") - number(&p[0], "windup_deg")).to_radians();
+    let (slope, tangent) = (rise / run, number(&p[1], "k_tangent_nm_per_rad"));
+    assert!((slope / tangent - 1.0).abs() < 1e-6, "{slope} {tangent}");
+}
+
+#[test]
+fn torques_beyond_the_end_are_named_not_refused() {
+    let folder = Folder::new();
+    let csv = folder.path("curve.csv");
+    let output = run(&["stiffness", MULTI, "--torques", "50,300", "--json", "--csv", &csv]);
+    assert_eq!(output.status.code(), Some(0));
+    let value = json(&output);
+    assert_eq!(value["points"].as_array().unwrap().len(), 1);
+    assert_eq!(value["beyond_end"], serde_json::json!([300.0]));
+    assert!(number(&value["end"], "torque_nm") < 300.0);
+    let table = std::fs::read_to_string(csv).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines[0], format!("contact,{},state", KEYS.join(",")));
+    assert!(lines[1].starts_with("roller,50,") && lines[1].ends_with(",carried"), "{}", lines[1]);
+    assert_eq!(lines[2], format!("roller,300{},beyond the end", ",".repeat(11)));
+    assert!(stdout(&run(&["stiffness", MULTI, "--torques", "300"])).contains("beyond the end"));
+}
+
+#[test]
+fn laws_stand_side_by_side() {
+    let folder = Folder::new();
+    let html = folder.path("laws.html");
+    let laws = "hertz,roller,slice,din26281";
+    let value = json(&run(&[
+        "stiffness",
+        MULTI,
+        "--contact",
+        laws,
+        "--max-torque",
+        "50",
+        "--json",
+        "--report",
+        &html,
+    ]));
+    assert!(value.get("points").is_none(), "no law is the only one");
+    let list = value["laws"].as_array().unwrap();
+    assert_eq!(
+        list.iter().map(|l| l["contact"].as_str().unwrap()).collect::<Vec<_>>(),
+        laws.split(',').collect::<Vec<_>>()
+    );
+    assert_eq!(list[1]["roller_coefficient"], 3.944e-5);
+    assert_eq!(list[2]["slices"], 60);
+    assert!(list[0].get("roller_coefficient").is_none());
+    let windup = |i: usize| number(list[i]["points"].as_array().unwrap().last().unwrap(), "windup_deg");
+    // The larger coefficient yields more, rigid slices less than the roller law.
+    assert!(windup(3) > windup(1) && windup(1) > windup(2), "{} {} {}", windup(3), windup(1), windup(2));
+    let page = is_self_contained(html);
+    for part in ["hertz against", "roller against hertz", "K = 3.944e-5", "60 slices", "at 110 Nm"] {
+        assert_eq!(page.contains(part), part != "hertz against", "{part}");
+    }
+}
+
+#[test]
+fn the_design_names_the_default_law() {
+    let folder = Folder::new();
+    let din = folder.changed(
+        MULTI,
+        &[("law = \"roller\"", "law = \"din26281\""), ("roller_coefficient = 3.944e-5", "# ")],
+    );
+    let value = json(&run(&["stiffness", &din, "--torques", "20", "--json"]));
+    assert_eq!(value["laws"][0]["contact"], "din26281");
+    let roller = json(&run(&["stiffness", &din, "--torques", "20", "--contact", "roller", "--json"]));
+    assert_eq!(roller["laws"][0]["roller_coefficient"], 3.944e-5, "stated where the design has none");
+}
+
+#[test]
+fn malformed_questions_are_code_2_and_write_nothing() {
+    let folder = Folder::new();
+    let csv = folder.path("a.csv");
+    let bad = folder.changed(MULTI, &[("length_mm = 6.0 ", "length_m = 6.0 ")]);
+    let missing = folder.path("no-such-file.toml");
+    for args in [
+        &["stiffness", &bad, "--csv", &csv, "--json"][..],
+        &["stiffness", &missing, "--csv", &csv, "--json"],
+        &["stiffness", MULTI, "--csv", &csv, "--torques", "1e-9"],
+    ] {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(!output.stderr.is_empty(), "{args:?}");
+        if args.contains(&"--json") {
+            assert!(json(&output)["error"]["problems"][0]["help"].is_string());
+        }
+    }
+    assert_eq!(folder.names(), ["changed.toml"]);
+}
+
+#[test]
+fn the_schema_is_json_that_names_the_keys() {
+    let output = run(&["schema"]);
+    assert_eq!(output.status.code(), Some(0));
+    let schema: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert!(schema["$schema"].is_string() && schema["properties"]["sprags"].is_object());
+}
