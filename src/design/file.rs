@@ -221,6 +221,8 @@ pub(super) struct ContactFile {
     #[schemars(extend("minimum" = 2, "maximum" = 1000))]
     pub slices: Option<usize>,
     /// Stress state of the elastic law; absent: layer.
+    #[schemars(with = "StateFile")]
+    #[serde(default)]
     pub stress_state: Option<StateFile>,
 }
 
