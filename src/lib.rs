@@ -46,7 +46,7 @@
 //! # From a file to an answer
 //!
 //! ```
-//! use sprag_design::{Design, Settings, WedgeCurve, margins, place_profile, simulate};
+//! use sprag_design::{Design, Settings, Verdict, WedgeCurve, margins, place_profile, simulate};
 //!
 //! let path = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/huang2017-multi-arc.toml");
 //! let design = Design::read(path.as_ref())?;
@@ -60,7 +60,7 @@
 //! // Dynamics: one scenario of the file.
 //! let scene = design.scenario("low-6").ok_or("no such scenario")?;
 //! let answer = simulate(scene, &Settings::default())?;
-//! assert_eq!(answer.verdict.name(), "sticks");
+//! assert_eq!(answer.verdict, Some(Verdict::Sticks));
 //!
 //! // Margins: every limit of the file.
 //! let rows = margins(&design, &design.limits, &[], false, false, &Settings::default())?;

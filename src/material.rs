@@ -26,6 +26,47 @@ pub fn contact_modulus_pa(a: &Material, b: &Material) -> f64 {
     1.0 / (a.plane_strain_compliance() + b.plane_strain_compliance())
 }
 
+/// Plane strain (no extension along the axis) or plane stress (no axial stress).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlaneState {
+    /// epsilon_z = 0.
+    Strain,
+    /// sigma_z = 0.
+    Stress,
+}
+
+impl PlaneState {
+    /// Kolosov's constant: 3 - 4 nu, or (3 - nu)/(1 + nu) (Barber, *Elasticity*, (3.18)).
+    pub fn kolosov(self, poisson: f64) -> f64 {
+        match self {
+            Self::Strain => 3.0 - 4.0 * poisson,
+            Self::Stress => (3.0 - poisson) / (1.0 + poisson),
+        }
+    }
+
+    /// 2 mu times the half-plane's displacement under unit pressure of unit wave number, (kappa + 1)/2: this is
+    /// 2 mu . 2(1-nu^2)/E in plane strain, 2 mu . 2/E in plane stress.
+    pub fn half_plane_ratio(self, poisson: f64) -> f64 {
+        0.5 * (self.kolosov(poisson) + 1.0)
+    }
+
+    /// Strain across over strain along under axial load: nu/(1-nu), or nu.
+    pub fn transverse_ratio(self, poisson: f64) -> f64 {
+        match self {
+            Self::Strain => poisson / (1.0 - poisson),
+            Self::Stress => poisson,
+        }
+    }
+
+    /// Compliance of one body in this state, 1/Pa: (1-nu^2)/E, or 1/E.
+    pub fn compliance(self, material: &Material) -> f64 {
+        match self {
+            Self::Strain => material.plane_strain_compliance(),
+            Self::Stress => 1.0 / material.youngs_modulus_pa,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

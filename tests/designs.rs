@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use sprag_design::design::{
-    ContactLaw, Design, Flanks, MassSource, Scenario, ScenarioKind, schema, variable_names, variable_path,
-    with_limits, with_values,
+    ContactLaw, Design, EditError, Flanks, MassSource, Scenario, ScenarioKind, schema, variable_names,
+    variable_path, with_limits, with_values,
 };
 use sprag_design::margin::{load_state, margins};
 use sprag_design::profile::Outline;
@@ -367,6 +367,24 @@ fn an_edited_design_is_a_design() {
     let rows = "[[sprags.inner_arcs]]\nradius_mm = 4.02\nuntil_rad = 0.4 # end\n";
     let text = with_values(rows, &[("profile_end_rad", 0.5)]).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(text, "[[sprags.inner_arcs]]\nradius_mm = 4.02\nuntil_rad = 0.5 # end\n");
+}
+
+#[test]
+fn edits_that_cannot_be_made() {
+    let message = |result: Result<String, EditError>| match result {
+        Ok(_) => panic!("accepted"),
+        Err(error) => error.to_string(),
+    };
+    assert!(message(with_values(MULTI, &[("r_i9_mm", 4.0)])).contains("r_i3_mm, junction_1_rad"));
+    assert!(message(with_values(MULTI, &[("r_i1_mm", f64::NAN)])).contains("not a finite"));
+    assert!(
+        message(with_values(MULTI, &[("flank_rear_mm", 2.0)])).contains("holds no sprags.flanks.rear_mm")
+    );
+    assert!(message(with_values("sprags = 3", &[("width_mm", 2.0)])).contains("holds no sprags.width_mm"));
+    assert!(message(with_values("[", &[("width_mm", 2.0)])).contains("no TOML"));
+    assert!(message(with_limits(MULTI, &[("speed", 2.0)])).contains("slip_margin"));
+    assert!(message(with_limits(MULTI, &[("slip_margin", f64::INFINITY)])).contains("not a finite"));
+    assert!(message(with_limits("limits = 3", &[("slip_margin", 0.1)])).contains("holds no limits"));
 }
 
 /// Every key in the schema has a description, every key that ends in a unit names it there; nothing is null.

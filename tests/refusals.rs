@@ -1,6 +1,6 @@
 //! Refusals: every way in which a design file is turned away, with the key, the line and the words.
 
-use sprag_design::design::{Design, DesignError, EditError, with_limits, with_values};
+use sprag_design::design::{Design, DesignError};
 
 const DESIGN: &str = include_str!("../designs/huang2017-multi-arc.toml");
 
@@ -438,22 +438,4 @@ fn deep_nesting_is_refused_not_followed() {
         let text = format!("schema = {}1{}", open.repeat(100_000), close.repeat(100_000));
         assert!(!refusal(&text).problems().is_empty());
     }
-}
-
-#[test]
-fn edits_that_cannot_be_made() {
-    let message = |result: Result<String, EditError>| match result {
-        Ok(_) => panic!("accepted"),
-        Err(error) => error.to_string(),
-    };
-    assert!(message(with_values(DESIGN, &[("r_i9_mm", 4.0)])).contains("r_i3_mm, junction_1_rad"));
-    assert!(message(with_values(DESIGN, &[("r_i1_mm", f64::NAN)])).contains("not a finite"));
-    assert!(
-        message(with_values(DESIGN, &[("flank_rear_mm", 2.0)])).contains("holds no sprags.flanks.rear_mm")
-    );
-    assert!(message(with_values("sprags = 3", &[("width_mm", 2.0)])).contains("holds no sprags.width_mm"));
-    assert!(message(with_values("[", &[("width_mm", 2.0)])).contains("no TOML"));
-    assert!(message(with_limits(DESIGN, &[("speed", 2.0)])).contains("slip_margin"));
-    assert!(message(with_limits(DESIGN, &[("slip_margin", f64::INFINITY)])).contains("not a finite"));
-    assert!(message(with_limits("limits = 3", &[("slip_margin", 0.1)])).contains("holds no limits"));
 }

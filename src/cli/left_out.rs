@@ -56,7 +56,7 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
         list.push(LeftOut::new(
             "slices",
             "the contact law spreads the load evenly along the sprag",
-            if matches!(clutch.contact, ContactLaw::Hertz) {
+            if matches!(clutch.contact, ContactLaw::Hertz | ContactLaw::Elastic { .. }) {
                 "approach: not estimated; edge pressure unknown: a square end is singular"
             } else {
                 "the slice law's approach is 1-2 % smaller; edge pressure unknown: a square end is singular"
@@ -68,7 +68,9 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
         "sprags are taken to be parallel to the axis, with square ends",
         "edge pressure unknown: a square end is singular",
     ));
-    if clutch.sprags.width_m > 0.0 && !matches!(clutch.contact, ContactLaw::Hertz) {
+    if clutch.sprags.width_m > 0.0
+        && !matches!(clutch.contact, ContactLaw::Hertz | ContactLaw::Elastic { .. })
+    {
         list.push(LeftOut::new(
             "overlap of the contact law with the compression of the body, (6)",
             "both are added as the paper does, although a roller law seems to hold the bulk already",

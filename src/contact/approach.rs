@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::line::{ContactError, LineContact, positive};
 use super::slice_ratio::SliceRatio;
-use crate::material::Material;
+use crate::material::{Material, PlaneState};
 
 /// K of the roller law in DIN 26281, mm and N.
 pub const DIN26281_COEFFICIENT: f64 = 3.97e-5;
@@ -40,6 +40,11 @@ impl Approach {
     /// Hertz's logarithmic law for the two bodies of the contact.
     pub fn hertz(contact: &LineContact, bodies: [HertzBody; 2]) -> Result<Self, ContactError> {
         HertzLaw::new(contact, bodies).map(Self::Hertz)
+    }
+
+    /// The logarithmic law of two layers.
+    pub fn layered(contact: &LineContact, bodies: [LayerBody; 2]) -> Result<Self, ContactError> {
+        HertzLaw::layered(contact, bodies).map(Self::Hertz)
     }
 
     /// The slice method; `coefficient` is the roller law's K in mm and N. One `ratio` serves many contacts.
@@ -120,33 +125,79 @@ pub struct HertzBody {
     pub depth_m: f64,
 }
 
-/// Hertz's line contact in plane strain: compression between the surface and a depth, summed over both
-/// bodies.
+/// One body of a layered approach: plane strain down to a depth of the order of its thickness, plane stress below.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LayerBody {
+    /// Material.
+    pub material: Material,
+    /// Depth of the reference point in the state that holds there, m.
+    pub depth_m: f64,
+    /// Depth at which plane strain gives way to plane stress, m: infinite for plane strain throughout, 0 for plane
+    /// stress throughout; see [`layer_transition_m`].
+    pub transition_m: f64,
+}
+
+/// Depth at which the strain below a line load on the edge of a layer of thickness l passes from plane strain to
+/// plane stress, m.
+///
+/// In plane strain sigma_z = nu (sigma_x + sigma_y) is harmonic; free faces relieve a wave k of it, averaged over the
+/// thickness, by 2/k for each face of a thick layer (sigma_z = -p (1 + kz) e^(-kz)), so by min(1, 4/(kl)). Through
+/// int dy/y = int int e^(-ky) dk dy that relief acts on the approach as a sharp change at
+/// y* = e^(-1-gamma) l/4 with Euler's gamma.
+pub fn layer_transition_m(thickness_m: f64) -> f64 {
+    const EULER: f64 = 0.577_215_664_901_532_9;
+    0.25 * thickness_m * (-1.0 - EULER).exp()
+}
+
+/// Hertz's line contact: compression between the surface and a depth, summed over both bodies.
 ///
 /// With the stresses on the axis below a semi-elliptical pressure (Johnson, *Contact Mechanics*, (4.46))
 /// integrated to the depth d,
 ///   delta_k = 2q(1-nu^2)/(pi E) [asinh(d/a) - nu/(1-nu) d/(d + sqrt(a^2 + d^2))],
 /// which for a << d is Johnson's (5.56), q(1-nu^2)/(pi E) [2 ln(2d/a) - nu/(1-nu)]; the difference is of
 /// relative order (a/d)^2 (1e-4 at a/d = 0.04). The full form is kept because it rises with N for every N; the
-/// logarithm turns back where a nears d.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// logarithm turns back where a nears d. In plane stress 1/E and nu take the place of (1-nu^2)/E and nu/(1-nu).
+#[derive(Debug, Clone, PartialEq)]
 pub struct HertzLaw {
     contact: LineContact,
-    /// (1-nu^2)/E, nu/(1-nu), d of each body.
-    bodies: [(f64, f64, f64); 2],
+    /// (compliance, transverse ratio, depth) of each piece; a piece that ends where another begins has a negative
+    /// compliance.
+    pieces: Vec<(f64, f64, f64)>,
 }
 
 impl HertzLaw {
-    /// The law for `contact`, whose contact modulus is that of the two materials. Depths positive.
+    /// Plane strain throughout, for `contact`, whose contact modulus is that of the two materials. Depths positive.
     pub fn new(contact: &LineContact, bodies: [HertzBody; 2]) -> Result<Self, ContactError> {
+        Self::layered(
+            contact,
+            bodies.map(|b| LayerBody {
+                material: b.material,
+                depth_m: b.depth_m,
+                transition_m: f64::INFINITY,
+            }),
+        )
+    }
+
+    /// Plane strain down to each body's transition, plane stress from there to its depth.
+    pub fn layered(contact: &LineContact, bodies: [LayerBody; 2]) -> Result<Self, ContactError> {
+        let mut pieces = Vec::with_capacity(6);
         for body in &bodies {
-            positive("depth_m", body.depth_m)?;
+            let depth = positive("depth_m", body.depth_m)?;
+            let of = |state: PlaneState| {
+                (state.compliance(&body.material), state.transverse_ratio(body.material.poisson_ratio))
+            };
+            let (strain, stress) = (of(PlaneState::Strain), of(PlaneState::Stress));
+            if body.transition_m >= depth {
+                pieces.push((strain.0, strain.1, depth));
+            } else {
+                pieces.push((stress.0, stress.1, depth));
+                if body.transition_m > 0.0 {
+                    pieces.push((strain.0, strain.1, body.transition_m));
+                    pieces.push((-stress.0, stress.1, body.transition_m));
+                }
+            }
         }
-        let reduced = bodies.map(|body| {
-            let nu = body.material.poisson_ratio;
-            (body.material.plane_strain_compliance(), nu / (1.0 - nu), body.depth_m)
-        });
-        Ok(Self { contact: *contact, bodies: reduced })
+        Ok(Self { contact: *contact, pieces })
     }
 
     /// Approach, m, for `normal_n` > 0.
@@ -154,7 +205,7 @@ impl HertzLaw {
         let a = self.contact.half_width_m(normal_n);
         let q = normal_n / self.contact.length_m;
         let sum = |(c, t, d): &(f64, f64, f64)| c * ((d / a).asinh() - t * d / (d + a.hypot(*d)));
-        2.0 * q / PI * self.bodies.iter().map(sum).sum::<f64>()
+        2.0 * q / PI * self.pieces.iter().map(sum).sum::<f64>()
     }
 
     /// d delta/dN, m/N, for `normal_n` > 0. With a ~ sqrt(N) the derivative of the bracket collects to
@@ -162,7 +213,7 @@ impl HertzLaw {
     pub fn compliance_m_per_n(&self, normal_n: f64) -> f64 {
         let a = self.contact.half_width_m(normal_n);
         let sum = |(c, t, d): &(f64, f64, f64)| c * ((d / a).asinh() - (1.0 + t) * d / (2.0 * a.hypot(*d)));
-        2.0 / (PI * self.contact.length_m) * self.bodies.iter().map(sum).sum::<f64>()
+        2.0 / (PI * self.contact.length_m) * self.pieces.iter().map(sum).sum::<f64>()
     }
 }
 

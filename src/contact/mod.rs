@@ -10,7 +10,9 @@ mod line;
 mod slice;
 mod slice_ratio;
 
-pub use approach::{Approach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, RollerLaw, SliceLaw};
+pub use approach::{
+    Approach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, LayerBody, RollerLaw, SliceLaw, layer_transition_m,
+};
 pub use influence::{influence_m_per_pa, weighted_influence_m_per_n};
 pub use line::{ContactError, LineContact};
 pub use slice::{SliceContact, SliceSolution, SliceStatus};

@@ -4,10 +4,12 @@
 //! single keys ([`super::file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
 //! at first contact is asked of `profile`.
 
-use super::file::{BodyFile, ContactFile, DesignFile, LawFile, LimitsFile, MaterialFile, RacesFile};
+use super::file::{
+    BodyFile, ContactFile, DesignFile, LawFile, LimitsFile, MaterialFile, RacesFile, StateFile,
+};
 use super::findings::Findings;
 use super::geometry;
-use super::{Clutch, ContactLaw, Friction, Limits, Materials, Races, Spring};
+use super::{Clutch, ContactLaw, Friction, Limits, Materials, Races, Spring, StressState};
 use crate::material::Material;
 
 /// Slices of the slice law where the file names none; stated in the schema.
@@ -159,6 +161,7 @@ pub(super) fn contact_keys(law: LawFile) -> &'static [&'static str] {
         LawFile::Roller => &["roller_coefficient"],
         LawFile::Slice => &["roller_coefficient", "slices"],
         LawFile::Din26281 | LawFile::Hertz => &[],
+        LawFile::Elastic => &["stress_state"],
     }
 }
 
@@ -166,6 +169,7 @@ fn contact(file: &ContactFile, out: &mut Findings) -> Option<ContactLaw> {
     let given = [
         ("roller_coefficient", "contact.roller_coefficient", file.roller_coefficient.is_some()),
         ("slices", "contact.slices", file.slices.is_some()),
+        ("stress_state", "contact.stress_state", file.stress_state.is_some()),
     ];
     for (name, path, is_given) in given {
         if is_given && !contact_keys(file.law).contains(&name) {
@@ -180,6 +184,13 @@ fn contact(file: &ContactFile, out: &mut Findings) -> Option<ContactLaw> {
     match (file.law, file.roller_coefficient) {
         (LawFile::Din26281, _) => Some(ContactLaw::Din26281),
         (LawFile::Hertz, _) => Some(ContactLaw::Hertz),
+        (LawFile::Elastic, _) => Some(ContactLaw::Elastic {
+            state: match file.stress_state {
+                None | Some(StateFile::Layer) => StressState::Layer,
+                Some(StateFile::PlaneStrain) => StressState::PlaneStrain,
+                Some(StateFile::PlaneStress) => StressState::PlaneStress,
+            },
+        }),
         (LawFile::Roller, Some(coefficient)) => Some(ContactLaw::Roller { coefficient }),
         (LawFile::Slice, Some(coefficient)) => {
             Some(ContactLaw::Slice { coefficient, slices: file.slices.unwrap_or(DEFAULT_SLICES) })

@@ -220,6 +220,18 @@ pub(super) struct ContactFile {
     /// Number of slices of the slice law; absent: 60.
     #[schemars(extend("minimum" = 2, "maximum" = 1000))]
     pub slices: Option<usize>,
+    /// Stress state of the elastic law; absent: layer.
+    #[schemars(with = "StateFile")]
+    #[serde(default)]
+    pub stress_state: Option<StateFile>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum StateFile {
+    Layer,
+    PlaneStrain,
+    PlaneStress,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -229,6 +241,7 @@ pub(super) enum LawFile {
     Din26281,
     Hertz,
     Slice,
+    Elastic,
 }
 
 /// Allowables of the margin check; an absent one is not checked.

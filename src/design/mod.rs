@@ -135,6 +135,17 @@ pub struct Friction {
     pub decay_s_per_m: f64,
 }
 
+/// Stress state along the axis for the elastic law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StressState {
+    /// As a body of finite length is: plane strain near the contact, plane stress farther away and in the rings.
+    Layer,
+    /// Plane strain throughout, rings too (very long clutches; two-dimensional finite elements).
+    PlaneStrain,
+    /// Plane stress throughout (thin discs; two-dimensional finite elements).
+    PlaneStress,
+}
+
 /// Named local contact law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactLaw {
@@ -147,6 +158,11 @@ pub enum ContactLaw {
     Din26281,
     /// Logarithmic line-contact approach; knows the radius.
     Hertz,
+    /// Plane elasticity of rings, sprag and layer: nothing fitted, nothing counted twice; knows the radius.
+    Elastic {
+        /// Stress state of bodies and rings.
+        state: StressState,
+    },
     /// Slice method (1)-(4), square ends, no tilt; compliance from the roller law.
     Slice {
         /// K of the roller law, mm and N.

@@ -1,10 +1,10 @@
 //! Deformation and mean hoop stress of the races and of the bodies pressed between them.
 //!
-//! In: radii, width, material, normal forces, speed. Out: radial growth, compression, hoop stress.
-//! Absent: bending between the contacts (only the mean pressure acts, so the hoop stress between twelve
-//! contacts is 20-30 % higher in places), local contact. Equations: (5), (6), (7).
+//! In: radii, width, material, normal forces, speed. Out: radial growth, compression, hoop stress, mean and with
+//! the bending between the contacts. Absent: local contact. Equations: (5), (6), (7); Michell's ring.
 
 mod body;
+mod harmonic;
 mod ring;
 #[cfg(test)]
 mod shooting;

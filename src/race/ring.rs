@@ -95,6 +95,24 @@ impl Race {
         }
     }
 
+    /// Radius of the rim away from the contacts, m: R_id or R_ed.
+    pub fn other_rim_m(&self) -> f64 {
+        match self.side {
+            Side::Inner => self.bore_m,
+            Side::Outer => self.outside_m,
+        }
+    }
+
+    /// Axial width, m.
+    pub fn width_m(&self) -> f64 {
+        self.width_m
+    }
+
+    /// Material.
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
     /// (R_o^2 + R_b^2)/(R_o^2 - R_b^2) of Lame's ring with bore R_b and outside R_o; 1 for a solid shaft.
     fn lame_factor(&self) -> f64 {
         let (o, b) = (self.outside_m.powi(2), self.bore_m.powi(2));

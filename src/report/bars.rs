@@ -44,7 +44,9 @@ pub struct Bars {
 const WIDTH: f64 = 720.0;
 const PITCH: f64 = 20.0;
 const THICK: f64 = 11.0;
-const TOP: f64 = 22.0;
+/// Two rows of mark labels.
+const TOP: f64 = 38.0;
+const LABEL_PITCH: f64 = 15.0;
 
 impl Bars {
     /// The SVG.
@@ -70,21 +72,24 @@ impl Bars {
         }
         let zero = (0.0, "0".to_owned());
         let bottom = height - 6.0;
-        let mut free_from = f64::NEG_INFINITY;
         let mut marks: Vec<&(f64, String)> = self.marks.iter().chain([&zero]).collect();
         marks.retain(|m| m.0 >= low && m.0 <= high);
         marks.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut free_from = [f64::NEG_INFINITY; 2];
         for (at, label) in marks {
             let (at, dash) = (x(*at), if *at == 0.0 { "" } else { " stroke-dasharray=\"4 3\"" });
+            let half = text_width(label, 12.0) / 2.0;
+            // Where both rows are taken the line stays and the label goes: nothing is overprinted.
+            let row = free_from.iter().position(|&free| at - half > free);
+            let raised = LABEL_PITCH * row.unwrap_or(0) as f64;
             svg.line(
-                [at, TOP - 4.0],
+                [at, TOP - 4.0 - raised],
                 [at, bottom],
                 &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"1\"{dash}"),
             );
-            let half = text_width(label, 12.0) / 2.0;
-            if at - half > free_from {
-                svg.bare_text([at, TOP - 9.0], Anchor::Middle, SOFT, label);
-                free_from = at + half + 6.0;
+            if let Some(free) = row.and_then(|r| free_from.get_mut(r)) {
+                svg.bare_text([at, TOP - 9.0 - raised], Anchor::Middle, SOFT, label);
+                *free = at + half + 6.0;
             }
         }
         svg.finish()

@@ -48,8 +48,8 @@ impl Strip {
     pub fn to_svg(&self) -> String {
         let height = TOP_PX + ROW_PX * self.rows.len() as f64 + BOTTOM_PX;
         let mut svg = Svg::new(WIDTH_PX, height, &format!("States over {}", self.title));
-        let [low, high] = self.range;
-        let scale = (WIDTH_PX - LEFT_PX - RIGHT_PX) / (high - low).max(f64::MIN_POSITIVE);
+        let [low, high] = self.sound_range();
+        let scale = (WIDTH_PX - LEFT_PX - RIGHT_PX) / (high - low);
         let x = |at: f64| LEFT_PX + (at.clamp(low, high) - low) * scale;
         let mut at = LEFT_PX;
         for (state, name) in self.states.iter().enumerate() {
@@ -62,15 +62,17 @@ impl Strip {
             let y = TOP_PX + ROW_PX * number as f64;
             svg.bare_text([LEFT_PX - 8.0, y + 12.5], Anchor::End, INK, name);
             for state in 0..self.states.len() {
-                let mut drawn_to = f64::NEG_INFINITY;
-                let mut d = String::new();
+                // What would fall on one pixel becomes one rectangle.
+                let mut bands: Vec<[f64; 2]> = Vec::new();
                 for span in spans.iter().filter(|s| s.state == state && s.until > s.from) {
                     let (from, until) = (x(span.from), x(span.until).max(x(span.from) + LEAST_PX));
-                    if until > drawn_to {
-                        d.push_str(&rectangle(from.max(drawn_to), y, until - from.max(drawn_to), BAND_PX));
-                        drawn_to = until;
+                    match bands.last_mut() {
+                        Some(last) if from <= last[1] => last[1] = until.max(last[1]),
+                        _ => bands.push([from, until]),
                     }
                 }
+                let d: String =
+                    bands.iter().map(|[from, until]| rectangle(*from, y, until - from, BAND_PX)).collect();
                 if !d.is_empty() {
                     svg.path(&d, &format!("fill=\"{}\"", colour(state)));
                 }
@@ -80,9 +82,15 @@ impl Strip {
         svg.finish()
     }
 
+    /// The range, or one that can be drawn.
+    fn sound_range(&self) -> [f64; 2] {
+        let [low, high] = self.range;
+        if low.is_finite() && high.is_finite() && high > low { self.range } else { [0.0, 1.0] }
+    }
+
     fn draw_axis(&self, svg: &mut Svg, height: f64, x: impl Fn(f64) -> f64) {
         let y = height - BOTTOM_PX + 2.0;
-        let [low, high] = self.range;
+        let [low, high] = self.sound_range();
         svg.line([LEFT_PX, y], [WIDTH_PX - RIGHT_PX, y], &format!("stroke=\"{SOFT}\" fill=\"none\""));
         let step = round_step((high - low) / 6.0);
         let first = (low / step).ceil() as i64;

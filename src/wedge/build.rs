@@ -14,7 +14,8 @@ impl WedgeCurve {
     /// [`NoCurve`] where there is no first contact. A curve that ends early is a result, see [`Self::end`].
     pub fn build(clutch: &Clutch, profile: &Profile, speed_rad_s: f64) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone()).map_err(NoCurve::NoElastic)?;
-        let exponent = if matches!(clutch.contact, ContactLaw::Hertz) { 10.0 } else { 9.0 };
+        let exponent =
+            if matches!(clutch.contact, ContactLaw::Hertz | ContactLaw::Elastic { .. }) { 10.0 } else { 9.0 };
         let beta0 = profile.beta0_rad;
         // The arc on which first contact lies at this speed: growth of the race may already have turned it.
         let mut first = 0;

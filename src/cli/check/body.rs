@@ -90,6 +90,8 @@ impl Body {
             required()
                 .filter(|r| counts(r))
                 .filter_map(|r| Some((r, r.torque_capacity_nm?)))
+                // A limit that the curve never reaches sets nothing; the end of the curve does.
+                .filter(|(r, c)| !is_beyond(r, *c, source.end_torque_nm))
                 .min_by(|a, b| a.1.total_cmp(&b.1))
                 .map(|(r, torque_capacity_nm)| Capacity {
                     code: r.code.clone(),
@@ -297,8 +299,8 @@ mod tests {
     #[test]
     fn only_required_limits_decide() {
         let rows = [
-            margin("a", 1.0, 0.2, Some(120.0), true),
-            margin("b", 2.0, 0.1, Some(130.0), true),
+            margin("a", 1.0, 0.2, Some(40.0), true),
+            margin("b", 2.0, 0.1, Some(45.0), true),
             margin("c", f64::MAX, -1.0, None, false),
         ];
         let body = Body::new(&rows, source(None));
@@ -317,6 +319,17 @@ mod tests {
         assert!(people_table(&rows, 200.0).to_text(false).contains(NONE_SUFFICES));
         let csv = String::from_utf8(csv_table(&rows).to_csv().unwrap()).unwrap();
         assert!(csv.contains("slip:x,limit slip:x,,1,1,-1,,true,false"), "{csv}");
+    }
+
+    #[test]
+    fn what_the_curve_never_reaches_sets_no_capacity() {
+        let rows = [
+            margin("hertz-peak-inner", 1.0, 0.2, Some(50.0), true),
+            margin("end-of-profile", 1.0, 0.2, Some(50.0), true),
+        ];
+        let body = Body::new(&rows, source(None));
+        assert_eq!(body.lowest_torque_capacity.unwrap().code, "end-of-profile");
+        assert!(body.nominal_torque_capacity.is_none());
     }
 
     #[test]

@@ -75,7 +75,7 @@ fn law(law: &LawCurve) -> Law {
     let (roller_coefficient, slices) = match law.clutch.contact {
         ContactLaw::Roller { coefficient } => (Some(coefficient), None),
         ContactLaw::Slice { coefficient, slices } => (Some(coefficient), Some(slices)),
-        ContactLaw::Din26281 | ContactLaw::Hertz => (None, None),
+        ContactLaw::Din26281 | ContactLaw::Hertz | ContactLaw::Elastic { .. } => (None, None),
     };
     let curve = Curve {
         points: law.rows.iter().filter_map(|(t, p)| p.as_ref().map(|p| point(*t, p))).collect(),

@@ -144,17 +144,16 @@ impl<'a> Curves<'a> {
         self.marked(plot, |j| j)
     }
 
-    /// Windup of each later law over that of the first, less one, %.
+    /// Windup of each law over that of the first, less one, %; the first keeps its colour as the zero line.
     fn difference(&self) -> Plot {
-        let mut plot = Plot::new("Torque, Nm", "Windup against the first law, %");
-        let Some(first) = self.laws.first() else { return plot };
-        for (law, points) in self.laws.iter().zip(self.loaded()).skip(1) {
+        let Some(first) = self.laws.first() else { return Plot::new("", "") };
+        let mut plot = Plot::new("Torque, Nm", &format!("Windup against {}, %", first.name.key()));
+        for (law, points) in self.laws.iter().zip(self.loaded()) {
             let against = |p: &StaticPoint| {
                 let reference = first.curve.at_torque(p.torque_nm)?;
                 Some([p.torque_nm, Unit::Percent.from_si(p.windup_rad / reference.windup_rad - 1.0)])
             };
-            let curve = points.iter().filter_map(against).collect();
-            plot = plot.curve(&format!("{} against {}", law.name.key(), first.name.key()), curve);
+            plot = plot.curve(law.name.key(), points.iter().filter_map(against).collect());
         }
         self.marked(plot, |j| j)
     }
