@@ -11,7 +11,9 @@ fn run(args: &[&str]) -> Output {
 
 fn code(args: &[&str]) -> (Option<i32>, String) {
     let output = run(args);
-    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    // Messages are wrapped to the terminal.
+    let text = String::from_utf8(output.stderr).unwrap().replace('│', " ");
+    (output.status.code(), text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 fn folder(name: &str) -> PathBuf {

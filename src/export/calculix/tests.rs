@@ -85,7 +85,7 @@ fn every_node_number_in_the_deck_exists_and_every_element_has_volume() {
             } else if card.starts_with("*EQUATION") && line.contains(',') {
                 // CalculiX reads twenty characters per field and takes no dependent term that is zero.
                 let f: Vec<&str> = line.split(',').collect();
-                assert!(f.len() % 3 == 0 && f.iter().all(|v| v.len() <= 20), "{line}");
+                assert!(f.len().is_multiple_of(3) && f.iter().all(|v| v.len() <= 20), "{line}");
                 assert!(f.chunks(3).all(|t| nodes.contains_key(&t[0].parse::<usize>().unwrap())), "{line}");
                 assert!(f[2].parse::<f64>().unwrap().abs() > 0.5, "{line}");
                 equations += 1;
