@@ -72,6 +72,7 @@ pub mod cli;
 pub mod contact;
 pub mod design;
 pub mod dynamics;
+pub mod export;
 pub mod friction;
 pub mod kinematics;
 pub mod margin;

@@ -6,6 +6,7 @@
 
 pub mod check;
 pub mod exit;
+pub mod export;
 pub mod interrupt;
 pub mod journal;
 pub mod left_out;
@@ -64,6 +65,8 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     /// Search for a better design within the limits
     Optimize(optimize::OptimizeArgs),
+    /// Write the design for another program (a CalculiX deck), or read its result
+    Export(export::ExportArgs),
     /// Print the JSON Schema of the design file
     Schema,
     /// Print a completion script for a shell
@@ -162,6 +165,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
+        Command::Export(args) => export::run(&args, &context),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

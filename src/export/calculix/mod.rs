@@ -1,0 +1,323 @@
+//! One sector of a clutch as a complete CalculiX deck, and the result as rows of `stiffness`.
+//!
+//! In: a clutch, its placed profile and outline, [`Options`]; later the text of `ccx`'s `.dat`. Out: the deck;
+//! [`Row`]s. Absent: files and running `ccx`, stress fields, centrifugal growth (the deck is at rest).
+//! Equations: none of the paper's. What the deck does and why it does so:
+//!
+//! - One sector of 360/n_s degrees; u_slave = R(2 pi/n_s) u_master on the cut faces is linear and exact at any
+//!   rotation, so plain equations serve where `*CYCLIC SYMMETRY MODEL` and contact do not go together.
+//! - The bore turns back and the rim forward, each by half the windup, both free to grow. Every node of a
+//!   driven circle may move along the tangent at a quarter of the windup ahead and perpendicular to it: linear, one
+//!   unknown per circle, and off by no more than that quarter, which leans the shear on the ring by
+//!   tan(omega) W/4 of the pressure (0.06 % at 1.7 degrees).
+//! - Sprag and races begin with a small overlap, rolled into engagement as rigid bodies by the windup
+//!   W_0 = 2 delta/(tan(omega_0) R_i), the energy balance of two overlaps delta. Step 1 is one increment:
+//!   within step 1 CalculiX takes penetration for initial overlap and ramps it out.
+//! - Chords follow their arcs in the mean, so the overlap is not changed by the mesh.
+//! - Where the material is confined along the axis is the variant: [`Variant`].
+
+mod facts;
+mod mesh;
+mod read;
+mod spacing;
+mod write;
+
+pub use facts::Facts;
+pub use read::{NoRows, Row, at_torque, read};
+
+use crate::design::{Clutch, InnerArc};
+use crate::profile::{Outline, Profile};
+use crate::wedge::WedgeCurve;
+use mesh::{Block, Grid, Section, Sector, axial};
+
+/// Where the material is held along the axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variant {
+    /// No strain along the axis anywhere; races as long as the sprag.
+    PlaneStrain,
+    /// No stress along the axis: a layer 10 um thin, free to thicken; races as long as the sprag.
+    PlaneStress,
+    /// One layer from the middle of the sprag to its end, plane in the middle, free at the end: the contacts
+    /// near plane strain, the rings near plane stress; races as long as the sprag.
+    Layer,
+    /// Several layers from the middle of the length, races as wide as designed: edges of the sprag included.
+    Solid {
+        /// Layers along half the sprag's length, 1 to 12.
+        layers: usize,
+    },
+}
+
+impl Variant {
+    /// Name, as flags and decks have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PlaneStrain => "plane-strain",
+            Self::PlaneStress => "plane-stress",
+            Self::Layer => "layer",
+            Self::Solid { .. } => "solid",
+        }
+    }
+}
+
+/// What the deck shall be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Variant.
+    pub variant: Variant,
+    /// Spacing of the nodes at the contacts, m.
+    pub mesh_m: f64,
+    /// Torque to be reached, N m: the deck turns to the windup that the design's contact law needs for it.
+    pub torque_nm: f64,
+    /// Friction of the deck: high enough to stick; the design's own is not used.
+    pub friction: f64,
+    /// Contact pressure per overlap over Young's modulus, 1/m.
+    pub penalty_per_m: f64,
+    /// Increments of the turning step, at least 4.
+    pub increments: usize,
+}
+
+impl Default for Options {
+    /// Friction 0.3, penalty 1000 E per mm, 12 increments, a layer meshed at 25 um; torque 0: give one.
+    fn default() -> Self {
+        Self {
+            variant: Variant::Layer,
+            mesh_m: 25e-6,
+            torque_nm: 0.0,
+            friction: 0.3,
+            penalty_per_m: 1e6,
+            increments: 12,
+        }
+    }
+}
+
+/// Why there is no deck.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoDeck {
+    /// An option is not a positive finite number, or out of its range.
+    Option {
+        /// Name.
+        name: &'static str,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// The curve of the design's own contact law ends below the torque.
+    BeyondCurve {
+        /// Torque at its end, N m.
+        end_nm: f64,
+    },
+    /// The contacts travel beyond the flanks or the sector, or so near that no mesh fits.
+    NoRoom,
+    /// The mesh would have more nodes than allowed.
+    TooFine {
+        /// Nodes it would have.
+        nodes: usize,
+        /// Nodes allowed.
+        most: usize,
+    },
+    /// A race is narrower than the sprag is long; a solid deck wants it at least as wide.
+    NarrowRace,
+    /// The design has no wedge curve.
+    NoCurve(String),
+}
+
+impl std::fmt::Display for NoDeck {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Option { name, allowed } => write!(f, "{name}: {allowed}"),
+            Self::BeyondCurve { end_nm } => {
+                write!(f, "torque beyond the end of the wedge curve, {end_nm:.4} Nm")
+            }
+            Self::NoRoom => f.write_str(
+                "the contacts travel too near to a flank or to the next sector for a mesh at this torque",
+            ),
+            Self::TooFine { nodes, most } => write!(f, "the mesh would have {nodes} nodes, {most} at most"),
+            Self::NarrowRace => f.write_str("a solid deck needs races at least as wide as the sprag is long"),
+            Self::NoCurve(why) => write!(f, "no wedge curve: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for NoDeck {}
+
+/// Nodes at most: beyond, `ccx` needs hours and tens of gigabytes.
+const MOST_NODES: usize = 2_000_000;
+/// Overlap at either contact at the start, mm: presses a sprag of steel with some 5 N per mm of length.
+const OVERLAP_MM: f64 = 4e-4;
+/// Half thickness of the plane-stress layer, mm: a tenth of a contact's width.
+const THIN_MM: f64 = 5e-3;
+/// A solid shaft is given a hole of this share of its radius: Lame's growth changes by 0.05 %.
+const PINHOLE: f64 = 0.015;
+
+/// Everything the writer needs, mm.
+struct Model {
+    inner: Block,
+    sprag: Block,
+    outer: Block,
+    facts: Facts,
+    /// Windup that the deck turns to, beyond the start, rad.
+    turn_rad: f64,
+    sector_rad: f64,
+    /// Rows of the driven circles in the inner and the outer block.
+    driven: (usize, usize),
+}
+
+/// The deck, ready for `ccx`. `hash` names the design in its head, so that [`read`] can refuse another's.
+///
+/// # Errors
+/// [`NoDeck`].
+pub fn deck(
+    clutch: &Clutch,
+    profile: &Profile,
+    outline: &Outline,
+    options: &Options,
+    hash: &str,
+) -> Result<String, NoDeck> {
+    Ok(write::deck(&model(clutch, profile, outline, options, hash)?, clutch, options))
+}
+
+fn check(options: &Options) -> Result<(), NoDeck> {
+    for (name, value) in [
+        ("mesh", options.mesh_m),
+        ("torque", options.torque_nm),
+        ("friction", options.friction),
+        ("penalty", options.penalty_per_m),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(NoDeck::Option { name, allowed: "a finite number above zero is needed" });
+        }
+    }
+    if !(4..=1000).contains(&options.increments) {
+        return Err(NoDeck::Option { name: "increments", allowed: "4 to 1000" });
+    }
+    if let Variant::Solid { layers } = options.variant
+        && !(1..=12).contains(&layers)
+    {
+        return Err(NoDeck::Option { name: "layers", allowed: "1 to 12" });
+    }
+    Ok(())
+}
+
+fn model(
+    clutch: &Clutch,
+    profile: &Profile,
+    outline: &Outline,
+    options: &Options,
+    hash: &str,
+) -> Result<Model, NoDeck> {
+    check(options)?;
+    let (s, r) = (&clutch.sprags, &clutch.races);
+    let curve = WedgeCurve::build(clutch, profile, 0.0).map_err(|e| NoDeck::NoCurve(format!("{e:?}")))?;
+    let last = curve
+        .at_torque(options.torque_nm)
+        .ok_or_else(|| NoDeck::BeyondCurve { end_nm: curve.end_torque_nm() })?;
+    let touch = curve.touch();
+    let longest = s.inner_arcs.iter().map(|a: &InnerArc| a.radius_m).fold(s.outer_radius_m, f64::max);
+    // The outer contact travels by the body's rotation, a little more than the inner one's turn.
+    let travel = 1.05e3 * longest * last.contact_turn_rad;
+    let margin = 1.5e3 * last.half_width_inner_m + 3e3 * options.mesh_m;
+    let grid = Grid::new(1e3 * options.mesh_m, travel, margin);
+    // The even stretches alone, four of them, before anything is built.
+    let even = 4usize.saturating_mul(grid.fine_count).saturating_mul(grid.even_rows());
+    if even > MOST_NODES {
+        return Err(NoDeck::TooFine { nodes: even, most: MOST_NODES });
+    }
+
+    let (half, layers, beyond) = match options.variant {
+        Variant::PlaneStrain | Variant::Layer => (500.0 * s.length_m, 1, 0.0),
+        Variant::PlaneStress => (THIN_MM, 1, 0.0),
+        Variant::Solid { layers } => (500.0 * s.length_m, layers, 500.0 * (r.width_m - s.length_m)),
+    };
+    if beyond < -1e-9 {
+        return Err(NoDeck::NarrowRace);
+    }
+    let beyond = if beyond > 1e-6 { beyond } else { 0.0 };
+    let race_zs = axial(half, layers, beyond);
+
+    let [r_i, r_e, r_ed] = [r.inner_radius_m, r.outer_radius_m, r.outer_outside_radius_m].map(|v| 1e3 * v);
+    let bore = 1e3 * r.inner_bore_radius_m;
+    let shaft = bore < PINHOLE * r_i;
+    let bore = if shaft { PINHOLE * r_i } else { bore };
+    let sector_rad = std::f64::consts::TAU / s.count as f64;
+
+    // The sprag rolled as a rigid body by the overlap: triangle (9) with OC_i shorter and OC_e longer.
+    let (Some(first), foot_direction) = (profile.arcs.first(), profile.contact_direction(0.0)) else {
+        return Err(NoDeck::NoRoom);
+    };
+    let oc_i = r_i + 1e3 * first.radius_m - OVERLAP_MM;
+    let oc_e = r_e - 1e3 * s.outer_radius_m + OVERLAP_MM;
+    let e_1 = 1e3 * first.centre_m.norm();
+    let beta = ((oc_i * oc_i + oc_e * oc_e - e_1 * e_1) / (2.0 * oc_i * oc_e)).acos();
+    let rotation =
+        (oc_i * beta.sin()).atan2(oc_i * beta.cos() - oc_e) - first.centre_m.x.atan2(first.centre_m.y);
+    let start_rad = 2.0 * OVERLAP_MM / (touch.t_ratio * r_i);
+
+    let foot = first.centre_m + first.radius_m * foot_direction;
+    let up = (nalgebra::Vector2::new(0.0, s.outer_radius_m) - foot).normalize();
+    let section = Section::new(outline.segments(), [foot.x, foot.y], [up.x, up.y]).ok_or(NoDeck::NoRoom)?;
+    let room = 0.9 * (0.5 * sector_rad * r_i).min(section.reach_mm());
+    if beta.is_nan() || travel.is_nan() || travel + margin > room {
+        return Err(NoDeck::NoRoom);
+    }
+
+    let ring = |middle, track, far| Sector { middle, half_angle: 0.5 * sector_rad, track, far };
+    let mut inner = ring(beta, r_i, bore).block(&grid, race_zs.clone());
+    let mut outer = ring(0.0, r_e, r_ed).block(&grid, race_zs);
+    let mut sprag = section.block(&grid, axial(half, layers, 0.0));
+    let (sin, cos) = rotation.sin_cos();
+    for p in &mut sprag.points {
+        // Strut -> body frame -> global: rotated towards positive azimuth (clockwise), raised by OC_e.
+        let x = 1e3 * foot.x + p[0] * up.y + p[1] * up.x;
+        let y = 1e3 * foot.y - p[0] * up.x + p[1] * up.y;
+        *p = [x * cos + y * sin, -x * sin + y * cos + oc_e];
+    }
+    for block in [&inner, &sprag, &outer] {
+        let least = block.least_corner_mm2();
+        if least.is_nan() || least <= 0.0 {
+            return Err(NoDeck::NoRoom);
+        }
+    }
+    let nodes = inner.nodes() + sprag.nodes() + outer.nodes();
+    if nodes > MOST_NODES {
+        return Err(NoDeck::TooFine { nodes, most: MOST_NODES });
+    }
+    sprag.first_node = 1 + inner.nodes();
+    sprag.first_element = 1 + inner.elements();
+    outer.first_node = sprag.first_node + sprag.nodes();
+    outer.first_element = sprag.first_element + sprag.elements();
+    inner.first_node = 1;
+
+    // A shaft is driven at half its radius: the pinhole would wind up by itself.
+    let driven_row = if shaft {
+        (0..inner.size.1)
+            .min_by(|a, b| {
+                let off = |j: &usize| (inner.point(0, *j)[0].hypot(inner.point(0, *j)[1]) - 0.5 * r_i).abs();
+                off(a).total_cmp(&off(b))
+            })
+            .unwrap_or(0)
+    } else {
+        0
+    };
+    let driven = (driven_row, outer.size.1 - 1);
+    let radius = |block: &Block, j: usize| {
+        let p = block.point(0, j);
+        p[0].hypot(p[1])
+    };
+    // A shade beyond the law's windup: laws stiffer than the material stop short of the torque.
+    let turn_rad = 1.03 * last.windup_rad - start_rad;
+    let facts = Facts {
+        hash: hash.to_owned(),
+        variant: options.variant.name().to_owned(),
+        mesh_mm: grid.step,
+        count: s.count,
+        axial_factor: 1e3 * s.length_m / half,
+        length_mm: 1e3 * s.length_m,
+        start_rad,
+        driven_mm: [radius(&inner, driven.0), radius(&outer, driven.1)],
+        ahead_rad: [-0.25 * turn_rad, 0.25 * turn_rad],
+        track_mm: [r_i, r_e],
+    };
+    Ok(Model { inner, sprag, outer, facts, turn_rad, sector_rad, driven })
+}
+
+#[cfg(test)]
+mod tests;

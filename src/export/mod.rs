@@ -1,0 +1,7 @@
+//! Designs in other programs' formats, and those programs' answers read back.
+//!
+//! In: a checked clutch, its profile and outline. Out: strings (a finite-element deck; rows from its result).
+//! Absent: paths and running the other program (cli), drawings for people (report).
+//! Equations: none of the paper's; statics of a sector, read off the nodes, in `calculix::read`.
+
+pub mod calculix;
