@@ -252,3 +252,21 @@ fn roll_over_is_an_end_not_a_panic() {
     assert!(alpha > 0.2 && top > 1.0);
     assert!(curve.at_torque(top * 0.999).is_some() && curve.at_torque(top * 1.001).is_none());
 }
+
+/// The patch is as wide as an arc is long: averaged, p_0 passes a junction without a jump; pointwise it jumps.
+#[test]
+fn pressure_passes_a_junction_without_a_jump() {
+    let curve = curve(&common::MULTI, 0.0, |_| {});
+    for k in 0..2 {
+        let n = curve.arc_end_n(k);
+        let (before, after) =
+            (curve.at_normal(n * (1.0 - 1e-9)).unwrap(), curve.at_normal(n * (1.0 + 1e-9)).unwrap());
+        assert_ne!(before.arc, after.arc);
+        assert!((before.hertz_inner_pa / after.hertz_inner_pa - 1.0).abs() < 1e-8);
+        assert!((before.hertz_inner_pointwise_pa / after.hertz_inner_pointwise_pa - 1.0).abs() > 4e-3);
+        assert!(before.straddles_junction && after.straddles_junction);
+    }
+    // Far from the junctions both are the same.
+    let far = curve.at_torque(100.0).unwrap();
+    assert!(!far.straddles_junction && far.hertz_inner_pa == far.hertz_inner_pointwise_pa);
+}

@@ -12,6 +12,7 @@
 //! and the strut steepens), so the contact direction turns the other way in the body: from -y towards +x.
 
 mod crowding;
+mod curvature;
 mod mass;
 mod outline;
 #[cfg(test)]
@@ -19,6 +20,7 @@ mod properties;
 mod unclosed;
 
 pub use crowding::{clearance_m, touch_rotation_rad};
+pub use curvature::PatchCurvature;
 pub use mass::MassProperties;
 pub use outline::{Outline, Segment};
 pub use unclosed::{OutlineError, Side};

@@ -2,6 +2,7 @@
 
 use super::closure::Closure;
 use super::curve::WedgeCurve;
+use crate::contact::LineContact;
 
 /// Static state of the clutch under torque; per sprag where a force is meant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,8 +32,12 @@ pub struct StaticPoint {
     pub arc: usize,
     /// delta_H at A, m.
     pub approach_inner_m: f64,
-    /// p_0 at A, Pa.
+    /// p_0 at A, Pa, with the profile's curvature averaged over the patch.
     pub hertz_inner_pa: f64,
+    /// p_0 at A, Pa, with the radius at the contact point alone, as the paper takes it: jumps at a junction.
+    pub hertz_inner_pointwise_pa: f64,
+    /// Whether the patch at A lies on more than one arc.
+    pub straddles_junction: bool,
     /// p_0 at B, Pa.
     pub hertz_outer_pa: f64,
     /// Half width of the contact at A, m.
@@ -55,6 +60,8 @@ impl StaticPoint {
         arc: 0,
         approach_inner_m: 0.0,
         hertz_inner_pa: 0.0,
+        hertz_inner_pointwise_pa: 0.0,
+        straddles_junction: false,
         hertz_outer_pa: 0.0,
         half_width_inner_m: 0.0,
     };
@@ -78,6 +85,7 @@ impl WedgeCurve {
         let windup_rad = self.windup_rad(c.alpha.v);
         let elastic = &statics.elastic;
         let arc = self.first_arc() + k;
+        let (patch, straddles) = self.patch(arc, c);
         StaticPoint {
             torque_nm: torque.v,
             normal_inner_n: c.n_bi,
@@ -91,9 +99,33 @@ impl WedgeCurve {
             contact_turn_rad: c.turn_rad(statics.profile.beta0_rad),
             arc,
             approach_inner_m: c.deformations.contact_inner.v,
-            hertz_inner_pa: elastic.inner_contact[arc].peak_pressure_pa(c.n_bi),
+            hertz_inner_pa: patch.peak_pressure_pa(c.n_bi),
+            hertz_inner_pointwise_pa: elastic.inner_contact[arc].peak_pressure_pa(c.n_bi),
+            straddles_junction: straddles,
             hertz_outer_pa: elastic.outer_contact.peak_pressure_pa(c.n_be.v),
-            half_width_inner_m: elastic.inner_contact[arc].half_width_m(c.n_bi),
+            half_width_inner_m: patch.half_width_m(c.n_bi),
         }
+    }
+
+    /// The contact at A with the curvature that its patch feels, and whether that patch straddles a junction: the
+    /// patch is about as wide as an arc is long, so its width and the mean curvature under it are found together.
+    fn patch(&self, arc: usize, c: &Closure) -> (LineContact, bool) {
+        let statics = self.statics();
+        let mut contact = statics.elastic.inner_contact[arc];
+        let turn = c.turn_rad(statics.profile.beta0_rad);
+        // 1/R of the race alone: what the pointwise contact has beside the arc.
+        let race = 1.0 / contact.effective_radius_m - 1.0 / statics.profile.arcs[arc].radius_m;
+        let mut straddles = false;
+        for _ in 0..20 {
+            let under = statics.profile.patch_curvature(arc, turn, contact.half_width_m(c.n_bi));
+            let radius = 1.0 / (race + under.curvature_per_m);
+            let change = (radius / contact.effective_radius_m - 1.0).abs();
+            contact = LineContact { effective_radius_m: radius, ..contact };
+            straddles = under.straddles;
+            if change < 1e-14 {
+                break;
+            }
+        }
+        (contact, straddles)
     }
 }
