@@ -5,13 +5,20 @@
 //! are. Equations: (1)-(4), the roller law, Hertz's line contact.
 
 mod approach;
+mod axial;
+mod edge;
+mod end_profile;
+pub mod half_space;
 mod influence;
 mod line;
 mod slice;
 mod slice_ratio;
 
 pub use approach::{Approach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, RollerLaw, SliceLaw};
+pub use axial::{AxialFit, ContactEnd, Flank};
+pub use edge::{Edge, Peak};
+pub use end_profile::{EndProfile, ProfileTable};
 pub use influence::{influence_m_per_pa, weighted_influence_m_per_n};
 pub use line::{ContactError, LineContact};
-pub use slice::{SliceContact, SliceSolution, SliceStatus};
+pub use slice::{SliceCompliance, SliceContact, SliceSolution, SliceStatus};
 pub use slice_ratio::SliceRatio;
