@@ -32,6 +32,34 @@ pub enum ContactError {
         /// Number of finite gaps given.
         finite: usize,
     },
+    /// A profile that no body can have.
+    Profile {
+        /// What is wrong.
+        what: &'static str,
+        /// The number that is, m or pure.
+        value: f64,
+        /// Index of the point of a table, else 0.
+        at: usize,
+    },
+    /// Tilt not finite or too large for small displacements.
+    Tilt {
+        /// Tilt given, rad.
+        tilt_rad: f64,
+    },
+    /// The contact is not as long as the overlap of the bodies.
+    Length {
+        /// Length of the contact, m.
+        contact_m: f64,
+        /// Overlap, m.
+        overlap_m: f64,
+    },
+    /// A half-space grid without cells, with an odd number of cells across, or too large.
+    Grid {
+        /// Cells across the contact.
+        across: usize,
+        /// Cells along it.
+        along: usize,
+    },
 }
 
 impl fmt::Display for ContactError {
@@ -43,6 +71,14 @@ impl fmt::Display for ContactError {
             }
             Self::Slices { slices } => write!(f, "{slices} slices: too few or too many"),
             Self::Gap { slices, finite } => write!(f, "{finite} finite gaps for {slices} slices"),
+            Self::Profile { what, value, at } => write!(f, "point {at}: {what} ({value})"),
+            Self::Tilt { tilt_rad } => write!(f, "tilt {tilt_rad} rad is not a small angle"),
+            Self::Length { contact_m, overlap_m } => {
+                write!(f, "contact of {contact_m} m on bodies that overlap by {overlap_m} m")
+            }
+            Self::Grid { across, along } => {
+                write!(f, "half-space grid of {across} x {along} cells: odd across, empty or too large")
+            }
         }
     }
 }

@@ -5,6 +5,10 @@
 //! are. Equations: (1)-(4), the roller law, Hertz's line contact.
 
 mod approach;
+mod axial;
+mod edge;
+mod end_profile;
+pub mod half_space;
 mod influence;
 mod line;
 mod slice;
@@ -13,7 +17,10 @@ mod slice_ratio;
 pub use approach::{
     Approach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, LayerBody, RollerLaw, SliceLaw, layer_transition_m,
 };
+pub use axial::{AxialFit, ContactEnd, Flank};
+pub use edge::{Edge, Peak};
+pub use end_profile::{EndProfile, ProfileTable};
 pub use influence::{influence_m_per_pa, weighted_influence_m_per_n};
 pub use line::{ContactError, LineContact};
-pub use slice::{SliceContact, SliceSolution, SliceStatus};
+pub use slice::{SliceCompliance, SliceContact, SliceSolution, SliceStatus};
 pub use slice_ratio::SliceRatio;

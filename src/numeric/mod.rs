@@ -1,6 +1,7 @@
-//! Numerical tools that never heard of a machine part: duals, bracketed roots, quadrature, Chebyshev curves.
+//! Numerical tools that never heard of a machine part: duals, bracketed roots, quadrature, Chebyshev curves,
+//! Toeplitz systems.
 //!
-//! In: functions of one variable. Out: roots, integrals, approximations with a stated error.
+//! In: functions of one variable, rows of matrices. Out: roots, integrals, approximations with a stated error.
 //! Absent: physics, units. Equations: none of the paper's.
 
 pub mod chebyshev;
@@ -8,3 +9,4 @@ pub mod dual;
 pub mod panels;
 pub mod quadrature;
 pub mod root;
+pub mod toeplitz;
