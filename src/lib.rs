@@ -26,6 +26,7 @@
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP |
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
+//! | 5 | [`export`] | a clutch as a finite-element deck, and the solver's result read back |
 //! | 5 | [`cli`] | paths, printing, exit codes |
 //!
 //! # Conventions

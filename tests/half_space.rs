@@ -22,7 +22,7 @@ fn converged(status: HalfSpaceStatus) -> usize {
 
 #[test]
 fn hertz_sphere() {
-    let (radius, load, e_star) = (10e-3, 50.0, 113e9);
+    let (radius, load, e_star): (f64, f64, f64) = (10e-3, 50.0, 113e9);
     // Johnson (4.22)-(4.24)
     let a = (3.0 * load * radius / (4.0 * e_star)).cbrt();
     let (approach, p0) = (a * a / radius, 1.5 * load / (PI * a * a));
@@ -107,25 +107,33 @@ fn the_nine_rows() {
     assert_eq!(rows, 9);
 }
 
+/// "1.12-1.13 p0" in the project's notes, from grids of 5-40 um. Rows of 50 um give that; as rows get narrower the
+/// peak tends to 1.135-1.138, whatever the load (tamaas on the same grid: reports/half-space-peer.md).
 #[test]
-fn lundbergs_profile_peaks_1_12_to_1_13_times_hertz_at_its_load() {
+fn lundbergs_profile_peaks_at_1_13_to_1_14_times_hertz_at_its_load() {
     let c = contact(2.9519e-3, 6e-3);
-    for load in [1558.0, 2441.0] {
+    let peak = |load: f64, along: usize| {
         let fit = AxialFit::shaped(6e-3, EndProfile::lundberg(&c, load).unwrap(), 0.0).unwrap();
-        for along in [120, 240, 480] {
-            let found = HalfSpaceLine::new(c, 64, along).solve_along(load, &fit).unwrap();
-            converged(found.status);
-            let Peak::Bounded { pressure_pa, y_m } = found.peak else { panic!("{:?}", found.peak) };
-            let ratio = pressure_pa / c.peak_pressure_pa(load);
-            let middle = found.pressure_pa[along / 2] / c.peak_pressure_pa(load);
-            println!("{load} N, {along} rows: peak {ratio:.4} p0 at {:.3} mm, middle {middle:.4}", 1e3 * y_m);
-            assert!((1.115..1.135).contains(&ratio), "{ratio}");
-        }
+        let found = HalfSpaceLine::new(c, 64, along).solve_along(load, &fit).unwrap();
+        converged(found.status);
+        let p0 = c.peak_pressure_pa(load);
+        let Peak::Bounded { pressure_pa, y_m } = found.peak else { panic!("{:?}", found.peak) };
+        assert!((found.pressure_pa[along / 2] / p0 - 1.0).abs() < 3e-3);
+        // within a half width of the end
+        assert!(3e-3 - y_m.abs() < c.half_width_m(load));
+        println!("{load} N, {along} rows: peak {:.4} p0 at {:.3} mm", pressure_pa / p0, 1e3 * y_m);
+        pressure_pa / p0
+    };
+    assert!((1.12..1.13).contains(&peak(2441.0, 120)));
+    for (load, rows) in [(60.0, 3840), (1558.0, 960), (2441.0, 960)] {
+        let fine = peak(load, rows);
+        assert!((fine - 1.137).abs() < 3e-3, "{load}: {fine}");
+        assert!((peak(load, rows / 8 * 5) / fine - 1.0).abs() < 3e-3, "{load}");
     }
 }
 
 #[test]
-fn a_free_end_is_softer_and_has_a_pressure() {
+fn a_free_end_is_softer() {
     assert!((free_end_factor(0.3) - 1.39).abs() < 1e-12);
     let c = contact(2.9519e-3, 6e-3);
     let flush = AxialFit::new([Flank::straight(6e-3), Flank::straight(6e-3)], 0.0).unwrap();
@@ -133,18 +141,17 @@ fn a_free_end_is_softer_and_has_a_pressure() {
         let line = HalfSpaceLine::new(c, 64, along);
         let line = if free { line.with_free_ends([STEEL; 2]) } else { line };
         let found = line.solve_along(2441.0, fit).unwrap();
-        println!("{along} rows, free {free}: {:?} {:?}", found.edges[0], found.status);
         converged(found.status);
         found
     };
     let p0 = c.peak_pressure_pa(2441.0);
     let ratio = |s: &HalfSpaceLineSolution| s.pressure_pa[0] / p0;
-    // half-spaces: grows without bound; quarter-spaces, both: below the middle, and stays
-    let (coarse, fine) = (end(60, true, &flush), end(120, true, &flush));
-    println!("flush, free: {} {}; middle {}", ratio(&coarse), ratio(&fine), fine.pressure_pa[60] / p0);
-    assert!(matches!(fine.edges[0], Edge::Bounded { .. }));
-    assert!(ratio(&coarse) < 1.0 && (ratio(&fine) / ratio(&coarse) - 1.0).abs() < 0.05);
-    assert!(matches!(end(60, false, &flush).edges[0], Edge::Flush { .. }));
+    // half-spaces bear most at the end, quarter-spaces least
+    let (coarse, stiff) = (end(60, true, &flush), end(60, false, &flush));
+    println!("flush: {} free, {} half-spaces", ratio(&coarse), ratio(&stiff));
+    assert!(coarse.load_n[..30].is_sorted() && stiff.load_n[..30].is_sorted_by(|a, b| a >= b));
+    assert!(ratio(&coarse) < 1.0 && ratio(&stiff) > 1.7);
+    assert!(matches!(coarse.edges[0], Edge::Flush { .. }) && matches!(stiff.edges[0], Edge::Flush { .. }));
     // one body ends: between the two, still singular
     let inside = AxialFit::square(6e-3).unwrap();
     let (hard, soft) = (end(60, false, &inside), end(60, true, &inside));
@@ -152,6 +159,21 @@ fn a_free_end_is_softer_and_has_a_pressure() {
     assert!(ratio(&soft) < ratio(&hard) && ratio(&soft) > ratio(&coarse));
     assert!(matches!(soft.edges[0], Edge::Singular { .. }));
     assert!(coarse.approach_m > soft.approach_m && soft.approach_m > hard.approach_m);
+}
+
+/// A load with its images about both ends is as good as endless: the plane contact, alike in every row.
+#[test]
+fn whole_mirrors_make_the_contact_uniform() {
+    let c = contact(2.9519e-3, 6e-3);
+    let (a, p0) = (c.half_width_m(2441.0), c.peak_pressure_pa(2441.0));
+    let grid = HalfSpaceGrid::new([3.6 * a, 6e-3], [64, 60], c.contact_modulus_pa, [1.0; 2]).unwrap();
+    let gap = |x: f64, _: f64| x * x / (2.0 * c.effective_radius_m);
+    let found = grid.solve(2441.0, gap, |_, _| 1.0, &ConjugateSettings::default()).unwrap();
+    converged(found.status);
+    for (j, p) in found.pressure_pa[..60].iter().enumerate() {
+        // the images of images are missing
+        assert!((p / p0 - 1.0).abs() < 0.02, "{j}: {}", p / p0);
+    }
 }
 
 #[test]

@@ -28,7 +28,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("optimise", &["numeric", "design", "scenario", "margin"]),
     // Units and drawings: a profile to draw, no physics.
     ("report", &["profile"]),
-    ("export", &["profile"]),
+    // A finite-element deck is a whole clutch, and its own curve says how far to turn it.
+    ("export", &["material", "profile", "design", "wedge"]),
     (
         "cli",
         &[

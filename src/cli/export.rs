@@ -75,9 +75,9 @@ pub struct ExportArgs {
     /// Torque to be reached, Nm [default: the design's nominal torque]
     #[arg(long, value_name = "NM", value_parser = positive)]
     pub torque: Option<f64>,
-    /// Increments of the turning step
-    #[arg(long, value_name = "N", default_value_t = 12)]
-    pub increments: usize,
+    /// Increments of the turning step [default: 12, more where the contacts travel far]
+    #[arg(long, value_name = "N")]
+    pub increments: Option<usize>,
     /// Coefficient of friction of the deck; it is to stick, the design's own is not used
     #[arg(long, value_name = "MU", value_parser = positive, default_value = "0.3")]
     pub friction: f64,

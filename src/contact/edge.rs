@@ -20,8 +20,9 @@ pub enum Edge {
         /// Width of that slice along the contact, m.
         slice_width_m: f64,
     },
-    /// Both bodies end here. As quarter-spaces they are softer than the half-spaces of this method, so the true
-    /// pressure is bounded and the value here too high, and still one of the slice width.
+    /// Both bodies end here. As quarter-spaces they are softer than half-spaces, so the true pressure is bounded
+    /// and the half-space value too high; with the free-end factor it is too low in the last slices. Either way
+    /// it is one of the slice width.
     Flush {
         /// Peak pressure of the last slice, Pa.
         value_at_slice_width_pa: f64,
@@ -58,10 +59,7 @@ pub(super) enum End {
     Sharp,
     /// Sharp only if the load rises towards it.
     Shaped,
-    /// Both bodies end here, taken as half-spaces that do not.
     Flush,
-    /// Both bodies end here and their free faces are accounted for.
-    Free,
 }
 
 impl End {
@@ -91,7 +89,6 @@ pub(super) fn edges_and_peak(
         match ends[end] {
             _ if load_n[last] == 0.0 => Edge::Open,
             End::Flush => Edge::Flush { value_at_slice_width_pa: value, slice_width_m },
-            End::Free => Edge::Bounded { pressure_pa: value },
             End::Shaped if load_n[last] < load_n[next] => Edge::Bounded { pressure_pa: value },
             End::Shaped | End::Sharp => Edge::Singular { value_at_slice_width_pa: value, slice_width_m },
         }

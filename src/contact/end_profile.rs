@@ -12,17 +12,16 @@ use std::f64::consts::PI;
 pub enum EndProfile {
     /// Straight to a sharp end: the pressure there has no limit where the other body goes on.
     Square,
-    /// z = A ln 1/(1 - (y/b)^2), at most the end value A (1/2 + ln(l/a)).
+    /// z = A ln 1/(1 - (y/b)^2).
     ///
     /// Lundberg (1939) as in Johnson, *Contact Mechanics*, section 5.3, A = N/(pi E* l): an elliptical
     /// pressure of Hertz's half width a, uniform over the length l = 2b, makes just this displacement more
-    /// than some a from the ends. At the very end the integral gives the end value
-    /// (Johnson: A (1.193 + ln(l/2a))).
+    /// than some a from the ends. At the very end the logarithm has no limit; it is held to its value 5e-10 b
+    /// before it, where no body touches. Johnson's finite end value A (1.193 + ln(l/2a)) is not used: cut off
+    /// there the end is flat over a/7 and sharp again (1.8 p_0 on cells of 6 um against 1.13 p_0).
     Lundberg {
         /// A, m.
         amplitude_m: f64,
-        /// Drop at the very end, m.
-        end_drop_m: f64,
     },
     /// Arc of a circle over the whole length: z = R - sqrt(R^2 - y^2).
     CrownRadius {
@@ -63,9 +62,7 @@ impl EndProfile {
     /// Lundberg's profile of a body as long as `contact` for its design load, N.
     pub fn lundberg(contact: &LineContact, design_load_n: f64) -> Result<Self, ContactError> {
         let amplitude_m = logarithmic_amplitude_m(contact, design_load_n)?;
-        let slenderness = contact.length_m / contact.half_width_m(design_load_n);
-        let end_drop_m = positive("Lundberg end drop", amplitude_m * (0.5 + slenderness.ln()))?;
-        Ok(Self::Lundberg { amplitude_m, end_drop_m })
+        Ok(Self::Lundberg { amplitude_m })
     }
 
     /// A crown of radius R, m, for a body of `length_m`.
@@ -140,10 +137,7 @@ impl EndProfile {
         let y = y_m.abs();
         match self {
             Self::Square => 0.0,
-            Self::Lundberg { amplitude_m, end_drop_m } => {
-                let inside = (1.0 - y / b) * (1.0 + y / b);
-                if inside <= 0.0 { *end_drop_m } else { (-amplitude_m * inside.ln()).min(*end_drop_m) }
-            }
+            Self::Lundberg { amplitude_m } => -amplitude_m * ((1.0 - y / b) * (1.0 + y / b)).max(1e-9).ln(),
             Self::CrownRadius { radius_m } => arc_drop(y, *radius_m),
             Self::EndRelief { length_m, radius_m } => arc_drop((y - (b - length_m)).max(0.0), *radius_m),
             Self::FujiwaraKawase { amplitude_m, crowned_ratio, end_drop_m } => {
@@ -227,7 +221,7 @@ mod tests {
         };
         let profile = EndProfile::lundberg(&c, n).unwrap();
         let unit = sink(0.0) - sink(3e-3);
-        for (y, bound) in [(0.5e-3, 1e-3), (1.5e-3, 1e-3), (2.4e-3, 1e-3), (2.8e-3, 5e-3), (3e-3, 1e-3)] {
+        for (y, bound) in [(0.5e-3, 1e-3), (1.5e-3, 1e-3), (2.4e-3, 1e-3), (2.8e-3, 5e-3)] {
             let (found, wanted) = (profile.drop_m(y, LENGTH), sink(0.0) - sink(y));
             println!("{y}: {found:e} {wanted:e}");
             assert!((found - wanted).abs() < bound * unit, "{y}: {found} {wanted}");
@@ -278,8 +272,5 @@ mod tests {
         for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert!(EndProfile::lundberg(&contact(), load).is_err());
         }
-        // a plane strip wider than long has no Lundberg profile
-        let stub = LineContact { length_m: 1e-6, ..contact() };
-        assert!(EndProfile::lundberg(&stub, 1e4).is_err());
     }
 }

@@ -120,7 +120,10 @@ fn senseless_options_are_refused_by_name() {
     let good = coarse(Variant::Layer, 16.8);
     assert!(matches!(refused(Options { mesh_m: f64::NAN, ..good }), NoDeck::Option { name: "mesh", .. }));
     assert!(matches!(refused(Options { torque_nm: 0.0, ..good }), NoDeck::Option { name: "torque", .. }));
-    assert!(matches!(refused(Options { increments: 0, ..good }), NoDeck::Option { name: "increments", .. }));
+    assert!(matches!(
+        refused(Options { increments: Some(0), ..good }),
+        NoDeck::Option { name: "increments", .. }
+    ));
     let solid = Variant::Solid { layers: 0 };
     assert!(matches!(refused(Options { variant: solid, ..good }), NoDeck::Option { name: "layers", .. }));
     assert!(matches!(refused(Options { torque_nm: 1e5, ..good }), NoDeck::BeyondCurve { .. }));

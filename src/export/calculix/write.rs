@@ -133,17 +133,13 @@ fn write_deck(out: &mut String, m: &Model, clutch: &Clutch, options: &Options) -
     writeln!(out, "** Step 1: the overlap takes hold, in one increment.")?;
     step(out, 1, control, [0.0, 0.0])?;
     writeln!(out, "** Step 2: bore and rim turn, each by half.")?;
-    step(out, options.increments, control, ends)
+    step(out, m.increments, control, ends)
 }
 
 fn step(out: &mut String, increments: usize, control: usize, shift: [f64; 2]) -> std::fmt::Result {
     let first = 1.0 / increments as f64;
     writeln!(out, "*STEP, NLGEOM, INC=2000")?;
-    if increments == 1 {
-        writeln!(out, "*STATIC, DIRECT\n1.,1.")?;
-    } else {
-        writeln!(out, "*STATIC\n{:.6e},1.,1e-6,{first:.6e}", 0.5 * first)?;
-    }
+    writeln!(out, "*STATIC, DIRECT\n{first:.15e},1.")?;
     writeln!(out, "*BOUNDARY\n{control},1,1,{:.12e}\n{},1,1,{:.12e}", shift[0], control + 1, shift[1])?;
     writeln!(out, "*NODE PRINT, NSET=NCONTROL\nU,RF")?;
     writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGIN, MASTER=SINNER\nCF")?;
