@@ -28,16 +28,6 @@ const SOLID_LAYERS: usize = 4;
 pub enum Format {
     /// Finite-element deck of one sector for CalculiX
     Calculix,
-    /// Not yet
-    Dxf,
-    /// Not yet
-    Svg,
-    /// Not yet
-    Step,
-    /// Not yet
-    Csv,
-    /// Not yet
-    Fmu,
 }
 
 /// Variants of the deck by name.
