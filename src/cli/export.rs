@@ -86,10 +86,6 @@ pub struct ExportArgs {
 pub fn run(args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
     let others: Vec<_> = args.output.iter().chain(&args.read).map(PathBuf::as_path).collect();
     context.outputs.check(&args.file, &others)?;
-    if args.format != Format::Calculix {
-        let name = args.format.to_possible_value().map(|v| v.get_name().to_owned()).unwrap_or_default();
-        return Err(Failure::malformed(format!("--format {name} is not there yet; calculix is")));
-    }
     let design = parts::read_design(&args.file, context)?;
     if let Some(dat) = &args.read {
         return result::run(&design, dat, &args.torques, context);
