@@ -94,7 +94,7 @@ mod tests {
             assert!(entry.why.contains(word), "{entry:?}");
         }
         assert!(list.iter().all(|e| !e.cost.is_empty()) && list.iter().any(|e| e.term == "slices"));
-        clutch.contact = ContactLaw::Slice { coefficient: 3.944e-5, slices: 60 };
+        clutch.contact = ContactLaw::Slice { coefficient: 3.944e-5 };
         assert!(left_out(&clutch).iter().all(|e| e.term != "slices"));
     }
 }

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::line::{ContactError, LineContact, positive};
+use super::shaped::ShapedLaw;
 use super::slice_ratio::SliceRatio;
 use crate::material::{Material, PlaneState};
 
@@ -24,6 +25,8 @@ pub enum Approach {
     Hertz(HertzLaw),
     /// The slice method for square ends without tilt, on the mean compliance of the roller law.
     Slice(SliceLaw),
+    /// One of the others, for a contact that is shaped along its length or tilted.
+    Shaped(ShapedLaw),
 }
 
 impl Approach {
@@ -69,6 +72,7 @@ impl Approach {
             Self::Roller(law) => law.approach_m(normal_n),
             Self::Hertz(law) => law.approach_m(normal_n),
             Self::Slice(law) => law.approach_m(normal_n),
+            Self::Shaped(law) => law.approach_m(normal_n),
         }
     }
 
@@ -85,6 +89,7 @@ impl Approach {
             Self::Roller(law) => law.compliance_m_per_n(normal_n),
             Self::Hertz(law) => law.compliance_m_per_n(normal_n),
             Self::Slice(law) => law.compliance_m_per_n(normal_n),
+            Self::Shaped(law) => law.compliance_m_per_n(normal_n),
         }
     }
 }

@@ -11,6 +11,7 @@ mod end_profile;
 pub mod half_space;
 mod influence;
 mod line;
+mod shaped;
 mod slice;
 mod slice_ratio;
 
@@ -22,5 +23,6 @@ pub use edge::{Edge, Peak};
 pub use end_profile::{EndProfile, ProfileTable};
 pub use influence::{influence_m_per_pa, weighted_influence_m_per_n};
 pub use line::{ContactError, LineContact};
+pub use shaped::ShapedLaw;
 pub use slice::{SliceCompliance, SliceContact, SliceSolution, SliceStatus};
 pub use slice_ratio::SliceRatio;

@@ -8,12 +8,9 @@ use super::file::{
     BodyFile, ContactFile, DesignFile, LawFile, LimitsFile, MaterialFile, RacesFile, StateFile,
 };
 use super::findings::Findings;
-use super::geometry;
 use super::{Clutch, ContactLaw, Friction, Limits, Materials, Races, Spring, StressState};
+use super::{axial, geometry};
 use crate::material::Material;
-
-/// Slices of the slice law where the file names none; stated in the schema.
-const DEFAULT_SLICES: usize = 60;
 
 /// mm to m. Division, because 1e-3 is no binary fraction: 4.68 mm becomes the double nearest to 4.68e-3 m
 /// oftener than by a product.
@@ -40,13 +37,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
         stiffness_nm_per_rad: file.spring.stiffness_nm_per_rad,
         drag_torque_nm: file.spring.drag_torque_nm,
     };
-    if file.sprags.length_mm > file.races.width_mm {
-        out.refuse(
-            &["sprags.length_mm", "races.width_mm"],
-            format!("at most the races' width, {} mm", file.races.width_mm),
-            "shorten the sprags or widen the races: a sprag bears on its whole length".to_owned(),
-        );
-    }
+    let axial = axial::axial(file, out);
     // The sprag is looked at between races that are in order.
     let sprags = geometry::sprags(&file.sprags, &races?, materials.as_ref(), out);
     Some(Clutch {
@@ -56,6 +47,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
         materials: materials?,
         friction: friction?,
         contact: contact?,
+        axial: axial?,
     })
 }
 
@@ -155,24 +147,22 @@ pub(super) fn refuse_mixed_material(out: &mut Findings) {
     );
 }
 
-/// Keys beside `law` that a law reads.
-pub(super) fn contact_keys(law: LawFile) -> &'static [&'static str] {
-    match law {
-        LawFile::Roller => &["roller_coefficient"],
-        LawFile::Slice => &["roller_coefficient", "slices"],
-        LawFile::Din26281 | LawFile::Hertz => &[],
-        LawFile::Elastic => &["stress_state"],
+/// Whether a law reads a key of [contact]; all read those of the axial arrangement.
+pub(super) fn reads(law: LawFile, key: &str) -> bool {
+    match key {
+        "roller_coefficient" => matches!(law, LawFile::Roller | LawFile::Slice),
+        "stress_state" => law == LawFile::Elastic,
+        _ => true,
     }
 }
 
 fn contact(file: &ContactFile, out: &mut Findings) -> Option<ContactLaw> {
     let given = [
         ("roller_coefficient", "contact.roller_coefficient", file.roller_coefficient.is_some()),
-        ("slices", "contact.slices", file.slices.is_some()),
         ("stress_state", "contact.stress_state", file.stress_state.is_some()),
     ];
     for (name, path, is_given) in given {
-        if is_given && !contact_keys(file.law).contains(&name) {
+        if is_given && !reads(file.law, name) {
             out.refuse(
                 &[path, "contact.law"],
                 format!("no {name} with this law"),
@@ -192,9 +182,7 @@ fn contact(file: &ContactFile, out: &mut Findings) -> Option<ContactLaw> {
             },
         }),
         (LawFile::Roller, Some(coefficient)) => Some(ContactLaw::Roller { coefficient }),
-        (LawFile::Slice, Some(coefficient)) => {
-            Some(ContactLaw::Slice { coefficient, slices: file.slices.unwrap_or(DEFAULT_SLICES) })
-        }
+        (LawFile::Slice, Some(coefficient)) => Some(ContactLaw::Slice { coefficient }),
         (LawFile::Roller | LawFile::Slice, None) => {
             out.refuse(
                 &["contact.roller_coefficient", "contact.law"],

@@ -3,6 +3,7 @@
 //! In: a design file (TOML, mm, rad, GPa, rev/min). Out: [`Design`], or [`DesignError`] with every key at fault.
 //! Absent: any physics; a law is only named here. Equations: none; Table 1 of the paper is a `Design`.
 
+mod axial;
 mod check;
 mod diagnostic;
 mod document;
@@ -163,12 +164,75 @@ pub enum ContactLaw {
         /// Stress state of bodies and rings.
         state: StressState,
     },
-    /// Slice method (1)-(4), square ends, no tilt; compliance from the roller law.
+    /// Slice method (1)-(4); compliance from the roller law, number of slices from [`Axial`].
     Slice {
         /// K of the roller law, mm and N.
         coefficient: f64,
-        /// Number of slices n.
-        slices: usize,
+    },
+}
+
+/// What the contacts are like along the axis; alike at A and B.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axial {
+    /// Slices along a contact where slices are asked for.
+    pub slices: usize,
+    /// Shape of the sprag along its length.
+    pub end_profile: EndProfile,
+    /// Tilt of the sprag against the races in the plane of axis and normal, rad; positive opens A towards +y and B
+    /// towards -y.
+    pub tilt_rad: f64,
+    /// Middle of the sprag from the middle of the races, m.
+    pub offset_m: f64,
+}
+
+impl Axial {
+    /// Straight, parallel and in the middle, 60 slices.
+    pub const STRAIGHT: Self =
+        Self { slices: 60, end_profile: EndProfile::Square, tilt_rad: 0.0, offset_m: 0.0 };
+
+    /// Whether the load spreads evenly but for the ends: no profile, no tilt.
+    pub fn is_straight(&self) -> bool {
+        self.end_profile == EndProfile::Square && self.tilt_rad == 0.0
+    }
+}
+
+/// Drop of a sprag's surface along its length.
+#[derive(Debug, Clone, PartialEq)]
+pub enum EndProfile {
+    /// Straight to a sharp end.
+    Square,
+    /// Lundberg's logarithm.
+    Lundberg {
+        /// Normal force of one sprag for which it is made, N.
+        design_load_n: f64,
+    },
+    /// Arc of a circle over the whole length.
+    Crown {
+        /// Radius, m.
+        radius_m: f64,
+    },
+    /// Arcs over the last part of each end.
+    EndRelief {
+        /// Length of that part, m.
+        length_m: f64,
+        /// Radius, m.
+        radius_m: f64,
+    },
+    /// Logarithm with three parameters (Fujiwara and Kawase).
+    FujiwaraKawase {
+        /// Design load, N.
+        design_load_n: f64,
+        /// K_1.
+        load_factor: f64,
+        /// K_2.
+        crowned_ratio: f64,
+        /// z_m, m.
+        end_drop_m: f64,
+    },
+    /// Measured: (y from the middle, drop), m, y rising.
+    Table {
+        /// Points.
+        points_m: Vec<[f64; 2]>,
     },
 }
 
@@ -187,6 +251,17 @@ pub struct Clutch {
     pub friction: Friction,
     /// Local contact law.
     pub contact: ContactLaw,
+    /// How sprag and race lie along the axis.
+    pub axial: Axial,
+}
+
+impl Clutch {
+    /// Length over which sprag and race overlap along the axis, m.
+    pub fn contact_length_m(&self) -> f64 {
+        let (sprag, race) = (0.5 * self.sprags.length_m, 0.5 * self.races.width_m);
+        let offset = self.axial.offset_m;
+        (offset + sprag).min(race) - (offset - sprag).max(-race)
+    }
 }
 
 /// Allowables of the designer margin check; absent ones are not checked.

@@ -192,7 +192,7 @@ fn spread_over_bodies(material: &mut Table) {
 /// A scenario that names another law does not inherit keys which that law does not read.
 fn forget_keys_of_the_other_law(base: &mut Table, over: &Table) {
     if let Some(law) = over.get("law").and_then(|l| l.clone().try_into().ok()) {
-        base.retain(|key, _| check::contact_keys(law).contains(&key));
+        base.retain(|key, _| check::reads(law, key));
     }
 }
 

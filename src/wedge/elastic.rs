@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::axial::shaped;
 use crate::contact::{
     Approach, ContactError, HertzBody, LayerBody, LineContact, SliceRatio, layer_transition_m,
 };
@@ -89,14 +90,15 @@ impl Elastic {
             false => Race::outer(r.outer_radius_m, r.outer_outside_radius_m, r.width_m, material),
         };
         let (inner_race, outer_race) = (race(true, ring(m.inner_race))?, race(false, ring(m.outer_race))?);
+        let length_m = clutch.contact_length_m();
         let inner_contact = s
             .inner_arcs
             .iter()
-            .map(|a| LineContact::external(a.radius_m, r.inner_radius_m, s.length_m, e_inner))
+            .map(|a| LineContact::external(a.radius_m, r.inner_radius_m, length_m, e_inner))
             .collect::<Result<Vec<_>, _>>()?;
-        let outer_contact = LineContact::internal(s.outer_radius_m, r.outer_radius_m, s.length_m, e_outer)?;
+        let outer_contact = LineContact::internal(s.outer_radius_m, r.outer_radius_m, length_m, e_outer)?;
         let ratio = match clutch.contact {
-            ContactLaw::Slice { slices, .. } => Some(Arc::new(SliceRatio::new(slices)?)),
+            ContactLaw::Slice { .. } => Some(Arc::new(SliceRatio::new(clutch.axial.slices)?)),
             _ => None,
         };
         let half_height_m = 0.5 * (r.outer_radius_m - r.inner_radius_m);
@@ -104,7 +106,7 @@ impl Elastic {
         let law = |contact: &LineContact, side: &Race, wall_m: f64| match (clutch.contact, &ratio) {
             (ContactLaw::Elastic { state }, _) => elastic_law(contact, clutch, side, state),
             (ContactLaw::Roller { coefficient }, _) => Approach::roller(contact, coefficient),
-            (ContactLaw::Slice { coefficient, .. }, Some(ratio)) => {
+            (ContactLaw::Slice { coefficient }, Some(ratio)) => {
                 Approach::slice(contact, coefficient, ratio.clone())
             }
             (ContactLaw::Hertz, _) => Approach::hertz(
@@ -121,14 +123,16 @@ impl Elastic {
         // Only the elastic law counts what a race wider than the sprags does beyond (5), and holds the
         // compression of the body already.
         let own = matches!(clutch.contact, ContactLaw::Elastic { .. });
-        let band = |race: &Race| if own { race.band_compliance_m_per_n(s.count, s.length_m) } else { 0.0 };
+        let band = |race: &Race| if own { race.band_compliance_m_per_n(s.count, length_m) } else { 0.0 };
         let body_width_m = if own { 0.0 } else { s.width_m };
+        let straight = inner_contact.iter().map(|c| law(c, &half[0], inner_wall_m));
+        let straight = straight.collect::<Result<Vec<_>, _>>()?;
+        let outer = law(&outer_contact, &half[1], outer_wall_m)?;
+        // Junctions share the factor of the first arc.
+        let (inner, outer) = shaped(clutch, [&inner_contact[0], &outer_contact], straight, outer)?;
         Ok(Self {
-            inner: inner_contact
-                .iter()
-                .map(|c| law(c, &half[0], inner_wall_m))
-                .collect::<Result<Vec<_>, _>>()?,
-            outer: law(&outer_contact, &half[1], outer_wall_m)?,
+            inner,
+            outer,
             inner_contact,
             outer_contact,
             inner_race,

@@ -3,6 +3,7 @@
 //! In: `Clutch`, `Profile`, mean speed. Out: [`WedgeCurve`], static points, torque, windup, stiffness.
 //! Absent: inertia, slip, limits. Equations: (10), (A.7)-(A.9), the junction crossing of Figure 5.
 
+mod axial;
 mod build;
 mod closure;
 mod curve;
@@ -10,6 +11,7 @@ mod elastic;
 mod stiffness;
 mod table;
 
+pub use axial::{Side, along, knows_shape};
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};

@@ -38,6 +38,7 @@ pub fn clutch(arcs: &[(f64, f64)]) -> (Clutch, Profile) {
         materials: Materials { sprag: steel, inner_race: steel, outer_race: steel },
         friction: Friction { static_: 0.12, kinetic: 0.09, decay_s_per_m: 5.0 },
         contact: ContactLaw::Roller { coefficient: 3.944e-5 },
+        axial: Axial::STRAIGHT,
     };
     let profile = Profile::new(4.68e-3, 0.62e-3, arcs, 11.11e-3, 19.44e-3).unwrap();
     (clutch, profile)

@@ -74,7 +74,7 @@ impl Body {
 fn law(law: &LawCurve) -> Law {
     let (roller_coefficient, slices) = match law.clutch.contact {
         ContactLaw::Roller { coefficient } => (Some(coefficient), None),
-        ContactLaw::Slice { coefficient, slices } => (Some(coefficient), Some(slices)),
+        ContactLaw::Slice { coefficient } => (Some(coefficient), Some(law.clutch.axial.slices)),
         ContactLaw::Din26281 | ContactLaw::Hertz | ContactLaw::Elastic { .. } => (None, None),
     };
     let curve = Curve {

@@ -1,12 +1,10 @@
 //! The contact laws that can be asked for, and the coefficients they take.
 
-use crate::design::{ContactLaw, StressState};
+use crate::design::{Axial, ContactLaw, StressState};
 use clap::ValueEnum;
 
 /// Coefficient of the roller law where the design gives none, mm and N: the public model of the paper's clutch.
 const ROLLER_COEFFICIENT: f64 = 3.944e-5;
-/// Slices where the design gives no number.
-const SLICES: usize = 60;
 
 /// Contact laws by their names in the design file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -47,18 +45,15 @@ impl ContactName {
 
     /// The law of that name, with what the design's own law has of its constants.
     pub(super) fn law(self, design: &ContactLaw) -> ContactLaw {
-        let (coefficient, slices) = match *design {
-            ContactLaw::Roller { coefficient } => (coefficient, SLICES),
-            ContactLaw::Slice { coefficient, slices } => (coefficient, slices),
-            ContactLaw::Din26281 | ContactLaw::Hertz | ContactLaw::Elastic { .. } => {
-                (ROLLER_COEFFICIENT, SLICES)
-            }
+        let coefficient = match *design {
+            ContactLaw::Roller { coefficient } | ContactLaw::Slice { coefficient } => coefficient,
+            ContactLaw::Din26281 | ContactLaw::Hertz | ContactLaw::Elastic { .. } => ROLLER_COEFFICIENT,
         };
         match self {
             Self::Roller => ContactLaw::Roller { coefficient },
             Self::Din26281 => ContactLaw::Din26281,
             Self::Hertz => ContactLaw::Hertz,
-            Self::Slice => ContactLaw::Slice { coefficient, slices },
+            Self::Slice => ContactLaw::Slice { coefficient },
             Self::Elastic => match *design {
                 ContactLaw::Elastic { state } => ContactLaw::Elastic { state },
                 _ => ContactLaw::Elastic { state: StressState::Layer },
@@ -79,7 +74,8 @@ pub(super) fn asked(names: &[ContactName], design: &ContactLaw) -> Vec<ContactNa
 }
 
 /// The law with its constants, and what it is.
-pub(super) fn description(law: &ContactLaw) -> String {
+pub(super) fn description(law: &ContactLaw, axial: &Axial) -> String {
+    let slices = axial.slices;
     match law {
         ContactLaw::Roller { coefficient } => format!(
             "roller, K = {coefficient:e} (mm, N): approach K N^0.9/l^0.8 of a steel roller between plates, whatever the radii"
@@ -101,9 +97,9 @@ pub(super) fn description(law: &ContactLaw) -> String {
                 StressState::PlaneStress => "plane stress",
             }
         ),
-        ContactLaw::Slice { coefficient, slices } => format!(
+        ContactLaw::Slice { coefficient } => format!(
             "slice, K = {coefficient:e} (mm, N), {slices} slices: (1)-(4), the roller law shared over slices that \
-             influence one another; square ends, so its edge pressure grows with the number of slices"
+             influence one another; at a square end its pressure grows with the number of slices"
         ),
     }
 }
@@ -114,12 +110,12 @@ mod tests {
 
     #[test]
     fn a_law_keeps_the_constants_of_the_design() {
-        let design = ContactLaw::Slice { coefficient: 3.84e-5, slices: 30 };
+        let design = ContactLaw::Slice { coefficient: 3.84e-5 };
         assert_eq!(ContactName::Roller.law(&design), ContactLaw::Roller { coefficient: 3.84e-5 });
         assert_eq!(ContactName::Slice.law(&design), design);
         assert_eq!(ContactName::Roller.law(&ContactLaw::Hertz), ContactLaw::Roller { coefficient: 3.944e-5 });
         let roller = ContactLaw::Roller { coefficient: 4e-5 };
-        assert_eq!(ContactName::Slice.law(&roller), ContactLaw::Slice { coefficient: 4e-5, slices: 60 });
+        assert_eq!(ContactName::Slice.law(&roller), ContactLaw::Slice { coefficient: 4e-5 });
     }
 
     #[test]

@@ -20,7 +20,12 @@ pub(super) fn page(
 ) -> Page {
     let mut page = parts::page("Stiffness", design, context);
     page.list(laws.iter().map(|l| {
-        format!("{}. Curve ends {}{}.", description(&l.clutch.contact), end_text(l), junction_text(l))
+        format!(
+            "{}. Curve ends {}{}.",
+            description(&l.clutch.contact, &l.clutch.axial),
+            end_text(l),
+            junction_text(l)
+        )
     }));
     let up_to = laws.iter().flat_map(|l| &l.rows).map(|r| r.0).fold(0.0, f64::max);
     let curves = Curves::new(laws, up_to);

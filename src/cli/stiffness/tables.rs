@@ -133,7 +133,7 @@ pub(super) fn csv(laws: &[LawCurve]) -> Table {
 pub(super) fn text(design: &Design, laws: &[LawCurve]) -> String {
     let mut out = format!("{}  {}\n\n", design.name, design.hash.get(..12).unwrap_or(&design.hash));
     for law in laws {
-        out.push_str(&format!("{}\n", description(&law.clutch.contact)));
+        out.push_str(&format!("{}\n", description(&law.clutch.contact, &law.clutch.axial)));
     }
     out.push('\n');
     match laws {
