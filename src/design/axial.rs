@@ -4,7 +4,8 @@
 //! the contact. Equations: none.
 
 use super::check::m;
-use super::file::{DesignFile, EndKindFile, EndProfileFile};
+use super::contact_file::{EndKindFile, EndProfileFile};
+use super::file::DesignFile;
 use super::findings::Findings;
 use super::{Axial, EndProfile};
 

@@ -4,9 +4,8 @@
 //! single keys ([`super::file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
 //! at first contact is asked of `profile`.
 
-use super::file::{
-    BodyFile, ContactFile, DesignFile, LawFile, LimitsFile, MaterialFile, RacesFile, StateFile,
-};
+use super::contact_file::{ContactFile, LawFile, StateFile};
+use super::file::{BodyFile, DesignFile, LimitsFile, MaterialFile, RacesFile};
 use super::findings::Findings;
 use super::{Clutch, ContactLaw, Friction, Limits, Materials, Races, Spring, StressState};
 use super::{axial, geometry};

@@ -5,6 +5,7 @@
 
 mod axial;
 mod check;
+mod contact_file;
 mod diagnostic;
 mod document;
 mod edit;
