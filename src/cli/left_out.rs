@@ -41,10 +41,9 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
             "not estimated",
         ),
         LeftOut::new(
-            "bending of the rings between the sprags",
-            "hoop stress and growth are Lame's means under evenly spread pressure, (5)",
-            "hoop tension at the outer bore between sprags 20-29 % above the mean, inner bore within 10 % of it \
-             (finite elements, clutch of Table 1); growth agrees to 0.3 %",
+            "bending of the rings between the sprags in windup",
+            "growth is Lame's mean under evenly spread pressure, (5); hoop stress is given with bending beside the mean",
+            "none for the elastic law, which holds it; the others: growth agrees with finite elements to 0.3 %",
         ),
         LeftOut::new(
             "change of curvature under the contact at a junction",

@@ -202,6 +202,8 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         hertz_peak_pa: file.hertz_peak_mpa.map(pa).or(base.hertz_peak_pa),
         hoop_inner_pa: file.hoop_inner_mpa.map(pa).or(base.hoop_inner_pa),
         hoop_outer_pa: file.hoop_outer_mpa.map(pa).or(base.hoop_outer_pa),
+        hoop_inner_bending_pa: file.hoop_inner_bending_mpa.map(pa).or(base.hoop_inner_bending_pa),
+        hoop_outer_bending_pa: file.hoop_outer_bending_mpa.map(pa).or(base.hoop_outer_bending_pa),
         slip_margin: file.slip_margin.or(base.slip_margin),
         keep_contact_to_rad_s: file.keep_contact_to_rpm.map(rad_s).or(base.keep_contact_to_rad_s),
     };
@@ -210,6 +212,18 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         ("limits.hertz_peak_mpa", limits.hertz_peak_pa, "peak_torque_nm", limits.peak_torque_nm),
         ("limits.hoop_inner_mpa", limits.hoop_inner_pa, "peak_torque_nm", limits.peak_torque_nm),
         ("limits.hoop_outer_mpa", limits.hoop_outer_pa, "peak_torque_nm", limits.peak_torque_nm),
+        (
+            "limits.hoop_inner_bending_mpa",
+            limits.hoop_inner_bending_pa,
+            "peak_torque_nm",
+            limits.peak_torque_nm,
+        ),
+        (
+            "limits.hoop_outer_bending_mpa",
+            limits.hoop_outer_bending_pa,
+            "peak_torque_nm",
+            limits.peak_torque_nm,
+        ),
     ];
     for (key, limit, torque_key, torque) in needs {
         if limit.is_some() && torque.is_none() {

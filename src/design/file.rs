@@ -232,6 +232,12 @@ pub(super) struct LimitsFile {
     /// Allowed mean hoop stress of the outer race at peak torque, MPa.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub hoop_outer_mpa: Option<f64>,
+    /// Allowed hoop stress of the inner race with ring bending at peak torque, magnitude, MPa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub hoop_inner_bending_mpa: Option<f64>,
+    /// Allowed hoop stress of the outer race with ring bending at peak torque, MPa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub hoop_outer_bending_mpa: Option<f64>,
     /// Smallest slip margin wanted, static friction over required friction minus 1.
     #[schemars(extend("minimum" = 0))]
     pub slip_margin: Option<f64>,

@@ -280,6 +280,10 @@ pub struct Limits {
     pub hoop_inner_pa: Option<f64>,
     /// Allowed mean hoop stress of the outer race at peak torque, Pa.
     pub hoop_outer_pa: Option<f64>,
+    /// Allowed magnitude of the inner race's hoop stress with ring bending at peak torque, Pa.
+    pub hoop_inner_bending_pa: Option<f64>,
+    /// Allowed hoop stress of the outer race with ring bending at peak torque, Pa.
+    pub hoop_outer_bending_pa: Option<f64>,
     /// Smallest slip margin wanted, pure number.
     pub slip_margin: Option<f64>,
     /// Overrun speed up to which the sprags must keep contact, rad/s.

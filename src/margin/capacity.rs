@@ -1,6 +1,7 @@
 //! Torque at which each static limit would be reached.
 
 use super::Margin;
+use super::hoop::HOOPS;
 use super::load::{LoadState, profile_capacity};
 use crate::design::{Design, Limits};
 use crate::numeric::root;
@@ -12,15 +13,15 @@ pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state:
     let elastic = &state.curve.statics().elastic;
     let mu = design.clutch.friction.static_;
     for row in rows {
+        if let Some(hoop) = HOOPS.iter().find(|h| h.code == row.code) {
+            let allowed = (hoop.allowed)(limits).map(|(allowed, _)| allowed);
+            let value = |p: &StaticPoint| (hoop.demand)(elastic, count, p);
+            row.torque_capacity_nm = allowed.map(|a| torque_where(state, a, &value));
+            continue;
+        }
         let value: Box<dyn Fn(&StaticPoint) -> f64> = match row.code.as_str() {
             "hertz-nominal-inner" | "hertz-peak-inner" => Box::new(|p| p.hertz_inner_pa),
             "hertz-nominal-outer" | "hertz-peak-outer" => Box::new(|p| p.hertz_outer_pa),
-            "hoop-inner" => Box::new(|p| {
-                let race = &elastic.inner_race;
-                let n = p.normal_inner_n;
-                race.hoop_at_bore_pa(count, n).abs().max(race.hoop_at_track_pa(count, n).abs())
-            }),
-            "hoop-outer" => Box::new(|p| elastic.outer_race.hoop_at_track_pa(count, p.normal_outer_n)),
             "grip-inner" => Box::new(|p| p.tan_omega),
             "grip-outer" => Box::new(|p| p.tan_nu),
             "end-of-profile" => {
@@ -36,8 +37,6 @@ pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state:
         let allowed = match row.code.as_str() {
             "hertz-nominal-inner" | "hertz-nominal-outer" => limits.hertz_nominal_pa,
             "hertz-peak-inner" | "hertz-peak-outer" => limits.hertz_peak_pa,
-            "hoop-inner" => limits.hoop_inner_pa,
-            "hoop-outer" => limits.hoop_outer_pa,
             _ => Some(mu),
         };
         row.torque_capacity_nm = allowed.map(|a| torque_where(state, a, &value));

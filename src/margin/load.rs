@@ -1,5 +1,6 @@
 //! Limits that follow from the static load state, first contact and overrun.
 
+use super::hoop::HOOPS;
 use super::{Margin, NoMargins, curve_at_rest, ratio};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
@@ -58,6 +59,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
     let curve = &state.curve;
     let count = design.clutch.sprags.count;
     let end = curve.end_torque_nm();
+    let mut shown_only = Vec::new();
     if let (Some(torque), Some(allowed)) = (limits.nominal_torque_nm, limits.hertz_nominal_pa) {
         let p = at(curve, torque);
         for (code, name, value) in [
@@ -85,30 +87,14 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             }
         }
         let elastic = &curve.statics().elastic;
-        if let Some(allowed) = limits.hoop_inner_pa {
-            let bore = elastic.inner_race.hoop_at_bore_pa(count, p.normal_inner_n).abs();
-            let value = bore.max(elastic.inner_race.hoop_at_track_pa(count, p.normal_inner_n).abs());
-            let name = "mean hoop stress, inner race, peak torque (magnitude)";
-            push(
-                "hoop-inner",
-                name,
-                value * MPA,
-                allowed * MPA,
-                "MPa",
-                beyond(ratio(value, allowed), torque, end),
-            );
-        }
-        if let Some(allowed) = limits.hoop_outer_pa {
-            let value = elastic.outer_race.hoop_at_track_pa(count, p.normal_outer_n);
-            let name = "mean hoop stress, outer race, peak torque";
-            push(
-                "hoop-outer",
-                name,
-                value * MPA,
-                allowed * MPA,
-                "MPa",
-                beyond(ratio(value, allowed), torque, end),
-            );
+        for hoop in &HOOPS {
+            let Some((allowed, required)) = (hoop.allowed)(limits) else { continue };
+            let value = (hoop.demand)(elastic, count, &p);
+            let margin = beyond(ratio(value, allowed), torque, end);
+            push(hoop.code, hoop.name, value * MPA, allowed * MPA, "MPa", margin);
+            if !required {
+                shown_only.push(hoop.code);
+            }
         }
         // Turn left on the profile; a curve that ends below the peak torque has none.
         let turn = state.profile.end_turn_rad();
@@ -176,6 +162,9 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             "mNm",
             if closing > 0.0 { 1.0 - opening / closing } else { -1.0 },
         );
+    }
+    for row in &mut rows {
+        row.required = !shown_only.contains(&row.code.as_str());
     }
     rows
 }

@@ -4,6 +4,7 @@
 //! Equations: none; margin = allowable/demand - 1 unless a row says otherwise, 0 or more is held.
 
 mod capacity;
+mod hoop;
 mod load;
 mod scenes;
 

@@ -62,14 +62,16 @@ impl ClutchProblem {
         })
     }
 
-    /// All margins at `x`: those of the static limits, and slip and contact of each scenario.
+    /// All required margins at `x`: those of the static limits, and slip and contact of each scenario.
     ///
     /// # Errors
     /// [`Failure::Refused`] where there is no clutch at `x`.
     pub fn margins_at(&self, x: &[f64], settings: &Settings) -> Result<Vec<Margin>, Failure> {
         let design = self.design_at(x)?;
-        margins(&design, &self.limits, &self.scenarios, false, false, settings)
-            .map_err(|e| Failure::Refused(e.to_string()))
+        let mut rows = margins(&design, &self.limits, &self.scenarios, false, false, settings)
+            .map_err(|e| Failure::Refused(e.to_string()))?;
+        rows.retain(|m| m.required);
+        Ok(rows)
     }
 
     /// Objectives and limits in the order of [`Evaluation`].
@@ -122,6 +124,8 @@ pub fn finished_file(problem: &ClutchProblem, x: &[f64], sharper: &Limits) -> Re
         ("hertz_peak_mpa", sharper.hertz_peak_pa.map(|v| v * 1e-6)),
         ("hoop_inner_mpa", sharper.hoop_inner_pa.map(|v| v * 1e-6)),
         ("hoop_outer_mpa", sharper.hoop_outer_pa.map(|v| v * 1e-6)),
+        ("hoop_inner_bending_mpa", sharper.hoop_inner_bending_pa.map(|v| v * 1e-6)),
+        ("hoop_outer_bending_mpa", sharper.hoop_outer_bending_pa.map(|v| v * 1e-6)),
         ("slip_margin", sharper.slip_margin),
         // rad/s back to the file's rpm, without the last digit's rounding.
         ("keep_contact_to_rpm", sharper.keep_contact_to_rad_s.map(|v| (v * rpm * 1e9).round() / 1e9)),
