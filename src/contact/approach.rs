@@ -87,6 +87,27 @@ impl Approach {
             Self::Slice(law) => law.compliance_m_per_n(normal_n),
         }
     }
+
+    /// The law with the effective curvature 1/R = `curvature_per_m` > 0 in place of the contact's own, at
+    /// `normal_n` > 0; `None` for a law that does not know the radii.
+    pub fn curved(&self, normal_n: f64, curvature_per_m: f64) -> Option<CurvedApproach> {
+        match self {
+            Self::Roller(_) => None,
+            Self::Hertz(law) => Some(law.curved(normal_n, curvature_per_m)),
+            Self::Slice(law) => Some(law.curved(normal_n, curvature_per_m)),
+        }
+    }
+}
+
+/// An approach with its derivatives by force and by curvature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvedApproach {
+    /// delta, m.
+    pub approach_m: f64,
+    /// d delta/dN at fixed curvature, m/N.
+    pub by_force_m_per_n: f64,
+    /// d delta/d(1/R) at fixed force, m^2.
+    pub by_curvature_m2: f64,
 }
 
 /// delta = K N^0.9/l^0.8 in mm and N (Palmgren), held in SI.
@@ -215,6 +236,24 @@ impl HertzLaw {
         let sum = |(c, t, d): &(f64, f64, f64)| c * ((d / a).asinh() - (1.0 + t) * d / (2.0 * a.hypot(*d)));
         2.0 / (PI * self.contact.length_m) * self.pieces.iter().map(sum).sum::<f64>()
     }
+
+    /// See [`Approach::curved`]. delta/N depends on N R alone, so d delta/d(1/R) = R (delta - N delta').
+    fn curved(&self, normal_n: f64, curvature_per_m: f64) -> CurvedApproach {
+        let a =
+            LineContact { effective_radius_m: 1.0 / curvature_per_m, ..self.contact }.half_width_m(normal_n);
+        let (mut whole, mut rate) = (0.0, 0.0);
+        for (c, t, d) in &self.pieces {
+            let (log, h) = ((d / a).asinh(), a.hypot(*d));
+            whole += c * (log - t * d / (d + h));
+            rate += c * (log - (1.0 + t) * d / (2.0 * h));
+        }
+        let q = normal_n / self.contact.length_m;
+        CurvedApproach {
+            approach_m: 2.0 * q / PI * whole,
+            by_force_m_per_n: 2.0 / (PI * self.contact.length_m) * rate,
+            by_curvature_m2: 2.0 * q / PI * (whole - rate) / curvature_per_m,
+        }
+    }
 }
 
 /// delta_slice = kappa(a(N)/l) delta_H(N), kappa from [`SliceRatio`].
@@ -238,6 +277,19 @@ impl SliceLaw {
         let (kappa, slope) = self.kappa(normal_n);
         kappa * self.roller.compliance_m_per_n(normal_n)
             + 0.5 * slope * self.roller.approach_m(normal_n) / normal_n
+    }
+
+    /// See [`Approach::curved`]. a ~ (1/R)^(-1/2).
+    fn curved(&self, normal_n: f64, curvature_per_m: f64) -> CurvedApproach {
+        let contact = LineContact { effective_radius_m: 1.0 / curvature_per_m, ..self.contact };
+        let (kappa, slope) = self.ratio.at(contact.half_width_m(normal_n) / contact.length_m);
+        let roller = self.roller.approach_m(normal_n);
+        CurvedApproach {
+            approach_m: kappa * roller,
+            by_force_m_per_n: kappa * self.roller.compliance_m_per_n(normal_n)
+                + 0.5 * slope * roller / normal_n,
+            by_curvature_m2: -0.5 * slope * roller / curvature_per_m,
+        }
     }
 
     fn kappa(&self, normal_n: f64) -> (f64, f64) {
@@ -295,6 +347,23 @@ mod tests {
                 let numeric = (8.0 * d(1.0) - d(2.0)) / (12.0 * h);
                 let exact = law.compliance_m_per_n(n);
                 assert!((numeric / exact - 1.0).abs() < 2e-10, "{law:?} at {n}: {numeric} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_law_that_knows_the_radius_takes_another_curvature_with_exact_derivatives() {
+        let of = |law: usize, n: f64, per_m: f64| laws()[law].curved(n, per_m);
+        assert_eq!((of(0, 100.0, 300.0), of(1, 100.0, 300.0)), (None, None));
+        let own = 1.0 / contact().effective_radius_m;
+        for law in [2, 3] {
+            for n in [1e-3, 83.0, 1558.0, 9000.0] {
+                let at = of(law, n, own).unwrap();
+                assert!((at.approach_m / laws()[law].approach_m(n) - 1.0).abs() < 1e-14);
+                assert!((at.by_force_m_per_n / laws()[law].compliance_m_per_n(n) - 1.0).abs() < 1e-14);
+                let d = |k: f64| of(law, n, own * (1.0 + k)).unwrap().approach_m;
+                let numeric = (d(1e-3) - d(-1e-3)) / (2e-3 * own);
+                assert!((numeric / at.by_curvature_m2 - 1.0).abs() < 1e-5, "{law} {n}: {numeric} {at:?}");
             }
         }
     }

@@ -7,10 +7,12 @@ mod build;
 mod closure;
 mod curve;
 mod elastic;
+mod patch;
 mod stiffness;
 mod table;
 
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};
+pub use patch::{InnerCurvature, Straddle};
 pub use stiffness::StaticPoint;

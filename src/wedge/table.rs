@@ -2,7 +2,8 @@
 //!
 //! On the first arc N ~ (alpha - alpha_0)^(1/0.9) is singular at first contact but analytic in N^0.1, so arc 1
 //! is tabulated in s = (alpha - alpha_0)^(1/q) with q = 9 (roller-like laws; 10 for the logarithmic one),
-//! later arcs in alpha itself. Inside an arc every lane is one smooth function.
+//! later arcs in alpha itself. Inside an arc every lane is one smooth function, but where an edge of the patch at A
+//! passes a junction and the law knows the radius: there delta_H goes on as (x - x_0)^(5/2), and a panel ends.
 
 use super::closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 use super::curve::WedgePoint;
@@ -86,6 +87,15 @@ pub(super) struct ArcBuilder<'a> {
 }
 
 impl ArcBuilder<'_> {
+    /// Forces inside the arc at which a panel has to end.
+    fn edges(&self, n_from: f64, n_until: f64) -> Vec<f64> {
+        if !self.statics.feels_junctions() {
+            return Vec::new();
+        }
+        let passages = self.statics.edge_passages(self.k, n_from, n_until, self.speed, self.shift);
+        passages.into_iter().map(|(n, ..)| n).collect()
+    }
+
     fn closure(&self, n: f64) -> Result<Closure, NoClosure> {
         self.statics.closure(self.k, n, self.speed, self.shift)
     }
@@ -99,15 +109,18 @@ impl ArcBuilder<'_> {
     ) -> Result<ArcTable, NoClosure> {
         let end = self.closure(n_until)?;
         let alpha_until = end.alpha.v;
+        let edges = self.edges(n_from, n_until);
         let (lanes, windup) = if first {
-            let lanes = self.first(n_until)?;
+            let (lanes, edges) = self.first(n_until, &edges)?;
             let s_end = (alpha_until - self.alpha0).powf(1.0 / self.exponent);
-            let windup = first_windup(&lanes, s_end, self.exponent);
+            let windup = first_windup(&lanes, s_end, &edges, self.exponent);
             (lanes, windup)
         } else {
             let alpha_from = self.closure(n_from)?.alpha.v;
-            let lanes = self.later(alpha_from, alpha_until, n_from, n_until)?;
-            let windup = later_windup(&lanes, alpha_from, alpha_until, windup_from);
+            let edges = edges.iter().map(|&n| Ok(self.closure(n)?.alpha.v)).collect::<Result<Vec<_>, _>>()?;
+            let breaks = with_edges(&[alpha_from, 0.5 * (alpha_from + alpha_until), alpha_until], &edges);
+            let lanes = self.later(&breaks, n_from, n_until)?;
+            let windup = later_windup(&lanes, &breaks, windup_from);
             (lanes, windup)
         };
         let rho_slopes = lanes.derivative([2, 3]);
@@ -116,17 +129,21 @@ impl ArcBuilder<'_> {
     }
 
     /// Arc 1, lanes over s. alpha - alpha_0 = 10 int_0^z (z alpha_N) z^8 dz with N = z^10 keeps relative
-    /// accuracy down to N -> 0, which a difference of two alphas does not.
-    fn first(&self, n_until: f64) -> Result<Panels<LANES>, NoClosure> {
+    /// accuracy down to N -> 0, which a difference of two alphas does not. Returns s at the `edges` (N) as well.
+    fn first(&self, n_until: f64, edges: &[f64]) -> Result<(Panels<LANES>, Vec<f64>), NoClosure> {
         let z_end = n_until.powf(0.1);
-        let rate = Panels::<1>::build(&FIRST_BREAKS.map(|b| b * z_end), |z| {
+        let edges: Vec<f64> = edges.iter().map(|n| n.powf(0.1)).collect();
+        let breaks = with_edges(&FIRST_BREAKS.map(|b| b * z_end), &edges);
+        let rate = Panels::<1>::build(&breaks, |z| {
             Ok([z * self.closure(z.powi(10).max(FIRST_CONTACT_N))?.alpha.d])
         })?;
         // A(z) = (alpha - alpha_0)/z^9, split so that each piece of the quadrature is smooth.
-        let mean = |z: f64| 10.0 * unit_integral(|x| rate.at(z * x)[0] * x.powi(8));
+        let mean = |z: f64| 10.0 * unit_integral(z, &edges, |x| rate.at(z * x)[0] * x.powi(8));
         let q = self.exponent;
-        let s_end = (z_end.powi(9) * mean(z_end)).powf(1.0 / q);
-        Panels::build(&FIRST_BREAKS.map(|b| b * s_end), |s| {
+        let of = |z: f64| (z.powi(9) * mean(z)).powf(1.0 / q);
+        let s_end = of(z_end);
+        let s_edges: Vec<f64> = edges.iter().map(|&z| of(z)).collect();
+        let lanes = Panels::build(&with_edges(&FIRST_BREAKS.map(|b| b * s_end), &s_edges), |s| {
             // q ln s = 9 ln z + ln A(z), by Newton in ln z.
             let mut z = z_end * s / s_end;
             for _ in 0..50 {
@@ -139,13 +156,14 @@ impl ArcBuilder<'_> {
                 }
             }
             Ok(lanes_of(&self.closure(z.powi(10).max(FIRST_CONTACT_N))?, z / s))
-        })
+        })?;
+        Ok((lanes, s_edges))
     }
 
     /// Later arcs, lanes over alpha.
-    fn later(&self, from: f64, until: f64, n_from: f64, n_until: f64) -> Result<Panels<LANES>, NoClosure> {
-        let middle = 0.5 * (from + until);
-        Panels::build(&[from, middle, until], |alpha| {
+    fn later(&self, breaks: &[f64], n_from: f64, n_until: f64) -> Result<Panels<LANES>, NoClosure> {
+        let (from, until) = (breaks[0], breaks[breaks.len() - 1]);
+        Panels::build(breaks, |alpha| {
             let mut n = n_from + (n_until - n_from) * (alpha - from) / (until - from);
             let mut c = self.closure(n)?;
             for _ in 0..50 {
@@ -161,42 +179,67 @@ impl ArcBuilder<'_> {
     }
 }
 
-/// Integral over [0, 1] in two halves: to rounding for the weights x^8 and x^9 used here.
-fn unit_integral(f: impl Fn(f64) -> f64) -> f64 {
-    quadrature::integral(0.0, 0.5, &f) + quadrature::integral(0.5, 1.0, &f)
+/// `fixed` breaks with those of `edges` that lie inside; a fixed one gives way to an edge near it. An edge so near to
+/// an end that its panel would be a thousandth of the whole is left to the panel.
+fn with_edges(fixed: &[f64], edges: &[f64]) -> Vec<f64> {
+    let (from, until) = (fixed[0], fixed[fixed.len() - 1]);
+    let span = until - from;
+    let mut breaks = vec![from];
+    for &edge in edges {
+        if edge > breaks[breaks.len() - 1] + 1e-3 * span && edge < until - 1e-3 * span {
+            breaks.push(edge);
+        }
+    }
+    breaks.push(until);
+    for &b in &fixed[1..fixed.len() - 1] {
+        let at = breaks.partition_point(|&e| e < b);
+        let near = 0.1 * (b - from).min(until - b);
+        let free = |e: f64| e == from || e == until || (e - b).abs() > near;
+        if free(breaks[at - 1]) && free(breaks[at]) {
+            breaks.insert(at, b);
+        }
+    }
+    breaks
+}
+
+/// Integral of f(x) over [0, 1] in two halves, and split where z x passes an edge: to rounding for the weights x^8
+/// and x^9 used here.
+fn unit_integral(z: f64, edges: &[f64], f: impl Fn(f64) -> f64) -> f64 {
+    let mut splits = vec![0.0, 0.5, 1.0];
+    splits.extend(edges.iter().map(|e| e / z).filter(|x| *x < 1.0));
+    splits.sort_by(f64::total_cmp);
+    splits.windows(2).map(|w| quadrature::integral(w[0], w[1], &f)).sum()
 }
 
 /// W/s^q on arc 1 as a function of s.
-fn first_windup(lanes: &Panels<LANES>, s_end: f64, q: f64) -> Panels<1> {
+fn first_windup(lanes: &Panels<LANES>, s_end: f64, edges: &[f64], q: f64) -> Panels<1> {
     let exponent = q as i32 - 1;
     let mean = |s: f64| {
-        q * unit_integral(|x| {
+        q * unit_integral(s, edges, |x| {
             let v = lanes.at(s * x);
             (v[2] + v[3]) * x.powi(exponent)
         })
     };
-    let build: Result<_, std::convert::Infallible> =
-        Panels::build(&FIRST_BREAKS.map(|b| b * s_end), |s| Ok([mean(s)]));
+    let breaks = with_edges(&FIRST_BREAKS.map(|b| b * s_end), edges);
+    let build: Result<_, std::convert::Infallible> = Panels::build(&breaks, |s| Ok([mean(s)]));
     match build {
         Ok(p) => p,
     }
 }
 
 /// W on a later arc as a function of alpha: the integral of rho_i + rho_e from the arc's beginning.
-fn later_windup(lanes: &Panels<LANES>, from: f64, until: f64, windup_from: f64) -> Panels<1> {
+fn later_windup(lanes: &Panels<LANES>, breaks: &[f64], windup_from: f64) -> Panels<1> {
     let rate = |a: f64| {
         let v = lanes.at(a);
         v[2] + v[3]
     };
-    let middle = 0.5 * (from + until);
-    let half = quadrature::integral(from, middle, rate);
-    let build: Result<_, std::convert::Infallible> = Panels::build(&[from, middle, until], |a| {
-        let rest = if a > middle {
-            half + quadrature::integral(middle, a, rate)
-        } else {
-            quadrature::integral(from, a, rate)
-        };
-        Ok([windup_from + rest])
+    let mut until = vec![0.0];
+    for w in breaks.windows(2) {
+        until.push(until[until.len() - 1] + quadrature::integral(w[0], w[1], rate));
+    }
+    let build: Result<_, std::convert::Infallible> = Panels::build(breaks, |a| {
+        let panel = breaks[1..breaks.len() - 1].partition_point(|&b| b < a);
+        Ok([windup_from + (until[panel] + quadrature::integral(breaks[panel], a, rate))])
     });
     match build {
         Ok(p) => p,
