@@ -1,6 +1,6 @@
 //! Dynamics of the paper's scenes: converged figures, the published scheme beside them, energy, overrun.
 
-use sprag_design::design::{Clutch, Design, Scenario};
+use sprag_design::design::{Clutch, ContactLaw, Design, Scenario, StressState};
 use sprag_design::dynamics::{
     Grip, Loads, Mode, Model, Place, PublishedSettings, Run, RunSettings, Stop, alpha_max_rad, overrun,
     preloaded, published, run,
@@ -155,11 +155,16 @@ fn wedge_energy(model: &Model, count: f64, from: f64, to: f64) -> f64 {
 
 #[test]
 fn sticking_without_damping_keeps_the_energy_over_100_periods() {
-    // The last one swings across the junction between the first two arcs.
-    for (path, held_nm, load_nm, junction) in
-        [(SINGLE, 16.8, 12.0, false), (MULTI, 16.8, 12.0, false), (MULTI, 30.0, 18.0, true)]
-    {
-        let clutch = design(path).clutch;
+    // The last two swing across the junction between the first two arcs; the elastic law feels it on the way.
+    let (own, elastic) = (None, Some(ContactLaw::Elastic { state: StressState::Layer }));
+    for (path, held_nm, load_nm, junction, law) in [
+        (SINGLE, 16.8, 12.0, false, own),
+        (MULTI, 16.8, 12.0, false, own),
+        (MULTI, 30.0, 18.0, true, own),
+        (MULTI, 30.0, 18.0, true, elastic),
+    ] {
+        let mut clutch = design(path).clutch;
+        clutch.contact = law.unwrap_or(clutch.contact);
         let count = clutch.sprags.count as f64;
         let (model, state, place) = swinging(&clutch, held_nm, load_nm);
         let mode = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
@@ -187,7 +192,7 @@ fn sticking_without_damping_keeps_the_energy_over_100_periods() {
         });
         let periods = turns.count() / 2;
         println!(
-            "{path}: {periods} periods, {exchanged:.5} J exchanged, drift {drift:.2e}, {} events",
+            "{path} {law:?}: {periods} periods, {exchanged:.5} J exchanged, drift {drift:.2e}, {} events",
             r.events
         );
         assert!(periods >= 100, "{path}: {periods}");

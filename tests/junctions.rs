@@ -107,3 +107,37 @@ fn the_pointwise_radius_compared() {
         }
     }
 }
+
+#[test]
+fn tables_probe() {
+    for law in KNOW_THE_RADIUS {
+        for rule in [InnerCurvature::Patch, InnerCurvature::Pointwise] {
+            let curve = curve(law, 0.0, rule);
+            let mut worst = [0.0f64; 4];
+            for i in 0..4000 {
+                let n = 200.0 + 1.5 * f64::from(i);
+                let Some((k, c)) = curve.closure_at_normal(n) else { continue };
+                let p = curve.in_arc(k, c.alpha.v);
+                let (rho_i, _) = c.rolling_ratios();
+                let h = 1e-5 * n;
+                let side = |m: f64| curve.statics().closure(k, m, 0.0, curve.shift_rad(k)).unwrap();
+                let (a, b) = (side(n - h), side(n + h));
+                let slope = (b.rolling_ratios().0 - a.rolling_ratios().0) / (b.alpha.v - a.alpha.v);
+                let e = [
+                    p.n_bi / n - 1.0,
+                    p.rho_i - rho_i,
+                    p.rho_i_slope / slope - 1.0,
+                    p.t_static / c.t_bi.v - 1.0,
+                ];
+                for (w, e) in worst.iter_mut().zip(e) {
+                    *w = w.max(e.abs());
+                }
+            }
+            println!(
+                "{law:?} {rule:?}: truncation {:.1e}; N, rho, rho', T {:?}",
+                curve.truncation(),
+                worst.map(|w| format!("{w:.1e}"))
+            );
+        }
+    }
+}

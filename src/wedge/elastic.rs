@@ -175,7 +175,8 @@ impl Elastic {
 }
 
 fn law(approach: &Approach, n: Dual) -> Dual {
-    n.chain(approach.approach_m(n.v), approach.compliance_m_per_n(n.v))
+    let (value, slope) = approach.at(n.v);
+    n.chain(value, slope)
 }
 
 /// The elastic law at one contact: half the sprag as a disc, the ring with its harmonics, each plane strain near
