@@ -2,6 +2,9 @@
 //!
 //! In: `Clutch`, `Profile`, mean speed. Out: [`WedgeCurve`], static points, torque, windup, stiffness.
 //! Absent: inertia, slip, limits. Equations: (10), (A.7)-(A.9), the junction crossing of Figure 5.
+//!
+//! Laws that know the radius are given the profile's curvature averaged over the patch at A ([`InnerCurvature`]), which
+//! makes alpha, N and windup continuous at a junction by themselves; the paper's pointwise radius needs Figure 5's shift.
 
 mod build;
 mod closure;

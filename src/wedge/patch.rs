@@ -1,9 +1,10 @@
 //! The profile under the contact patch at A, which is about as wide as an arc is long: what a law that knows the
 //! radius is given there, and where the patch lies on two arcs.
 //!
-//! Left out: where a patch straddles a junction its pressure is not symmetric, so its resultant lies ahead of the
-//! contact point by d delta_H/d turn at fixed force, 0.4 um at most for Table 1's radii (tests/patch_contact.rs), and
-//! the lever of N_bi, OC_e sin beta = 0.7 mm, changes by 6e-4. The wedge keeps the contact point.
+//! Left out: where a patch straddles a junction its pressure is not symmetric, so its resultant lies up to 0.4 um off the
+//! contact point for Table 1's radii (tests/patch_contact.rs), which is 5e-4 of the lever OB sin beta = 0.8 mm of N_bi
+//! about B. The wedge keeps the contact point; therefore dC/dN keeps its jump where that passes a junction, the kink of
+//! the torque curve. With the resultant's shift the jump would be spread over the patch's width.
 
 use super::closure::{Closure, Statics};
 use super::curve::WedgeCurve;
