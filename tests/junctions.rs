@@ -1,7 +1,8 @@
 //! Junctions of the inner profile under a contact patch that is as wide as an arc is long.
 mod common;
 
-use sprag_design::design::{Clutch, ContactLaw, StressState};
+use sprag_design::design::{Clutch, ContactLaw, InnerArc, StressState};
+use sprag_design::profile::Profile;
 use sprag_design::wedge::{InnerCurvature, StaticPoint, WedgeCurve};
 
 const KNOW_THE_RADIUS: [ContactLaw; 3] = [
@@ -207,4 +208,57 @@ fn the_pointwise_radius_compared() {
         assert!(worst[0] < windup_within && worst[1] < torque_within, "{law:?} {worst:?}");
         assert!(worst[0] > 1e-6, "{law:?}: the variants do not differ");
     }
+}
+
+/// Profiles that a search may try: short arcs, large steps either way, junctions next to first contact.
+#[test]
+fn the_curvature_settles_wherever_the_pointwise_one_does() {
+    let mut state = 0x2545_f491_4f6c_dd1d_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let (mut built, mut junctions, mut worst_shift) = (0, 0, 0.0f64);
+    let (mut worst_truncation, mut pointwise_truncation) = (0.0f64, 0.0f64);
+    for round in 0..200 {
+        let count = 2 + (5.0 * random()) as usize;
+        let mut turn = 0.0;
+        let arcs: Vec<(f64, f64)> = (0..count)
+            .map(|_| {
+                turn += 10f64.powf(-3.5 + 2.7 * random());
+                (3.4e-3 + 1.4e-3 * random(), turn)
+            })
+            .collect();
+        let mut clutch = common::clutch(&common::SINGLE).0;
+        clutch.contact = KNOW_THE_RADIUS[round % 2];
+        clutch.sprags.centre_distance_m = 0.62e-3 + 0.6e-3 * random();
+        clutch.sprags.inner_arcs =
+            arcs.iter().map(|&(radius_m, until_rad)| InnerArc { radius_m, until_rad }).collect();
+        let placed = Profile::new(4.68e-3, clutch.sprags.centre_distance_m, &arcs, 11.11e-3, 19.44e-3);
+        let Ok(profile) = placed else { continue };
+        let speed = if round % 3 == 0 { 0.0 } else { 3000.0 * random() };
+        let of = |rule| WedgeCurve::build_with(&clutch, &profile, speed, rule);
+        match (of(InnerCurvature::Patch), of(InnerCurvature::Pointwise)) {
+            (Ok(averaged), pointwise) => {
+                built += 1;
+                for k in 1..averaged.arc_count() {
+                    junctions += 1;
+                    worst_shift = worst_shift.max(averaged.shift_rad(k).abs());
+                }
+                worst_truncation = worst_truncation.max(averaged.truncation());
+                let Ok(pointwise) = pointwise else { continue };
+                pointwise_truncation = pointwise_truncation.max(pointwise.truncation());
+                let ((why, end), (other, there)) = (averaged.end(), pointwise.end());
+                assert!(
+                    (end / there - 1.0).abs() < 0.02,
+                    "{arcs:?} {speed}: {why:?} {end}, {other:?} {there}"
+                );
+            }
+            (Err(why), pointwise) => assert!(pointwise.is_err(), "{arcs:?} {speed}: {why}"),
+        }
+    }
+    println!(
+        "{built} curves, {junctions} junctions, shift {worst_shift:.1e}, truncation {worst_truncation:.1e}"
+    );
+    assert!(built > 100 && junctions > 100 && worst_shift < 1e-11);
 }

@@ -186,6 +186,7 @@ impl Statics {
         let mut inner = InnerApproach::new(self, arc, n);
         let mut residual = f64::INFINITY;
         let mut slope_residual = f64::INFINITY;
+        let mut unsettled = f64::INFINITY;
         for round in 0..60 {
             let d = self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s);
             let l = kinematics::lengths(&radii, &d);
@@ -206,12 +207,19 @@ impl Statics {
             let next = if next.v > FIRST_CONTACT_N { next } else { Dual::constant(FIRST_CONTACT_N) };
             let curvature = inner.curvature_per_m.v;
             let moved = inner.update(self, arc, n, rotation - (beta - self.profile.beta0_rad));
-            let change = ((next.v - n_be.v).abs() / next.v).max(moved.v);
-            let slope_change = ((next.d - n_be.d).abs() / next.d.abs().max(1e-3)).max(moved.d);
-            let settled = change <= 4.0 * f64::EPSILON && slope_change <= 1e-14
-                || round > 4 && change >= residual && slope_change >= slope_residual && change < 1e-13;
+            let change = (next.v - n_be.v).abs() / next.v;
+            let slope_change = (next.d - n_be.d).abs() / next.d.abs().max(1e-3);
+            // The turn carries some 5e-15 of rounding, which a large step of curvature makes 1e-15 of delta_H.
+            let still = moved.v <= 1e-14 && moved.d <= 1e-13;
+            let settled = still && change <= 4.0 * f64::EPSILON && slope_change <= 1e-14
+                || still
+                    && round > 4
+                    && change >= residual
+                    && slope_change >= slope_residual
+                    && change < 1e-13
+                || round > 20 && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
             n_be = next;
-            (residual, slope_residual) = (change, slope_change);
+            (residual, slope_residual, unsettled) = (change, slope_change, change.max(moved.v));
             if settled {
                 return Ok(Closure {
                     n_bi,
@@ -231,6 +239,6 @@ impl Statics {
                 });
             }
         }
-        Err(NoClosure::NoConvergence { residual })
+        Err(NoClosure::NoConvergence { residual: unsettled })
     }
 }
