@@ -258,7 +258,8 @@ fn the_curvature_settles_wherever_the_pointwise_one_does() {
         }
     }
     println!(
-        "{built} curves, {junctions} junctions, shift {worst_shift:.1e}, truncation {worst_truncation:.1e}"
+        "{built} curves, {junctions} junctions, shift {worst_shift:.1e}, truncation {worst_truncation:.1e}, \
+         pointwise {pointwise_truncation:.1e}"
     );
     assert!(built > 100 && junctions > 100 && worst_shift < 1e-11);
 }
