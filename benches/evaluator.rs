@@ -2,9 +2,10 @@
 //! sides and steps printed first do not depend on the machine, so compare those across machines and versions.
 
 use divan::{Bencher, black_box};
+use sprag_design::design::StressState;
 use sprag_design::dynamics::{Grip, Mode, Place};
 use sprag_design::scenario::{Prepared, demand, prepare};
-use sprag_design::{Design, Settings, WedgeCurve, place_profile, simulate};
+use sprag_design::{ContactLaw, Design, Settings, WedgeCurve, place_profile, simulate};
 
 const SOURCE: &str = include_str!("../designs/huang2017-multi-arc.toml");
 
@@ -43,6 +44,19 @@ fn build_curve(bencher: Bencher, rpm: f64) {
     let profile = place_profile(&design.clutch).expect("profile");
     let speed = rpm * std::f64::consts::PI / 30.0;
     bencher.bench(|| WedgeCurve::build(black_box(&design.clutch), &profile, speed));
+}
+
+/// The same for the laws that know the radius; the slice law's table of ratios is built once and kept.
+#[divan::bench(args = ["hertz", "elastic", "slice"])]
+fn build_curve_that_knows_the_radius(bencher: Bencher, law: &str) {
+    let mut clutch = design().clutch;
+    clutch.contact = match law {
+        "hertz" => ContactLaw::Hertz,
+        "elastic" => ContactLaw::Elastic { state: StressState::Layer },
+        _ => ContactLaw::Slice { coefficient: 3.944e-5, slices: 60 },
+    };
+    let profile = place_profile(&clutch).expect("profile");
+    bencher.bench(|| WedgeCurve::build(black_box(&clutch), &profile, 0.0));
 }
 
 /// One reading of the curve on each arc.

@@ -10,7 +10,7 @@ use sprag_design::contact::half_space::{HalfSpaceLine, HalfSpaceLineSolution, Ha
 use sprag_design::contact::{
     AxialFit, ContactError, EndProfile, LineContact, Peak, RollerLaw, SliceCompliance, SliceContact,
 };
-use sprag_design::material::{Material, contact_modulus_pa};
+use sprag_design::material::{Material, PlaneState};
 use sprag_design::report::plot::{Curve, Dash};
 use sprag_design::report::{Column, Page, PageHead, Plot, Table, Unit, significant};
 
@@ -316,7 +316,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let contact = LineContact {
         effective_radius_m: 2.9519e-3,
         length_m: 6e-3,
-        contact_modulus_pa: contact_modulus_pa(&steel, &steel),
+        contact_modulus_pa: PlaneState::Strain.contact_modulus_pa(&steel, &steel),
     };
     let shaped = |profile, tilt| AxialFit::shaped(contact.length_m, profile, tilt);
     let lundberg = EndProfile::lundberg(&contact, DESIGN_N)?;

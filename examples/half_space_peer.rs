@@ -3,14 +3,14 @@
 
 use sprag_design::contact::half_space::HalfSpaceLine;
 use sprag_design::contact::{AxialFit, ContactError, EndProfile, LineContact};
-use sprag_design::material::{Material, contact_modulus_pa};
+use sprag_design::material::{Material, PlaneState};
 
 fn main() -> Result<(), ContactError> {
     let steel = Material { youngs_modulus_pa: 206e9, poisson_ratio: 0.3, density_kg_m3: 7850.0 };
     let contact = LineContact {
         effective_radius_m: 2.9519e-3,
         length_m: 6e-3,
-        contact_modulus_pa: contact_modulus_pa(&steel, &steel),
+        contact_modulus_pa: PlaneState::Strain.contact_modulus_pa(&steel, &steel),
     };
     let relief = EndProfile::end_relief(0.5e-3, 10e-3)?;
     let cases = [

@@ -21,11 +21,6 @@ impl Material {
     }
 }
 
-/// Contact modulus E* of two bodies, Pa: 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2 (Johnson (4.4)).
-pub fn contact_modulus_pa(a: &Material, b: &Material) -> f64 {
-    1.0 / (a.plane_strain_compliance() + b.plane_strain_compliance())
-}
-
 /// Plane strain (no extension along the axis) or plane stress (no axial stress).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlaneState {
@@ -65,6 +60,12 @@ impl PlaneState {
             Self::Stress => 1.0 / material.youngs_modulus_pa,
         }
     }
+
+    /// Contact modulus E* of two bodies in this state, Pa: 1/E* is the sum of their compliances; in plane strain
+    /// (1-nu1^2)/E1 + (1-nu2^2)/E2 (Johnson (4.4)).
+    pub fn contact_modulus_pa(self, a: &Material, b: &Material) -> f64 {
+        1.0 / (self.compliance(a) + self.compliance(b))
+    }
 }
 
 #[cfg(test)]
@@ -72,9 +73,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_bodies_have_half_the_plane_strain_modulus() {
+    fn equal_bodies_have_half_the_modulus_of_one() {
         let steel = Material { youngs_modulus_pa: 206e9, poisson_ratio: 0.3, density_kg_m3: 7850.0 };
-        let e_star = contact_modulus_pa(&steel, &steel);
-        assert!((e_star - 206e9 / (2.0 * 0.91)).abs() < 1.0);
+        let e_star = |state: PlaneState| state.contact_modulus_pa(&steel, &steel);
+        assert!((e_star(PlaneState::Strain) - 206e9 / (2.0 * 0.91)).abs() < 1.0);
+        assert!((e_star(PlaneState::Stress) - 103e9).abs() < 1.0);
     }
 }

@@ -74,6 +74,13 @@ fn shaped_contacts_keep_their_windup() {
         let off = until.windup_rad / sum - 1.0;
         println!("{more}: windup off by {off:.1e}, truncation {:.1e}", curve.truncation());
         assert!(off.abs() < 1e-6, "{more}: {off:e}");
+        for i in 0..30 {
+            let n = 1.32f64.powi(i);
+            let c = statics.closure(0, n, 0.0, 0.0).unwrap();
+            let p = curve.in_arc(0, c.alpha.v);
+            let (normal, rho) = (p.n_bi / n - 1.0, p.rho_i / c.rolling_ratios().0 - 1.0);
+            assert!(normal.abs() < 2e-4 && rho.abs() < 2e-7, "{more} {n} N: {normal:e} {rho:e}");
+        }
     }
 }
 

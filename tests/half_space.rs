@@ -6,12 +6,12 @@ use sprag_design::contact::half_space::{
     ConjugateSettings, HalfSpaceGrid, HalfSpaceLine, HalfSpaceLineSolution, HalfSpaceStatus, free_end_factor,
 };
 use sprag_design::contact::{AxialFit, ContactError, Edge, EndProfile, Flank, LineContact, Peak};
-use sprag_design::material::{Material, contact_modulus_pa};
+use sprag_design::material::{Material, PlaneState};
 
 const STEEL: Material = Material { youngs_modulus_pa: 206e9, poisson_ratio: 0.3, density_kg_m3: 7850.0 };
 
 fn contact(radius_m: f64, length_m: f64) -> LineContact {
-    let contact_modulus_pa = contact_modulus_pa(&STEEL, &STEEL);
+    let contact_modulus_pa = PlaneState::Strain.contact_modulus_pa(&STEEL, &STEEL);
     LineContact { effective_radius_m: radius_m, length_m, contact_modulus_pa }
 }
 

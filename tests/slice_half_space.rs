@@ -6,7 +6,7 @@
 use std::f64::consts::{LN_2, PI};
 
 use sprag_design::contact::{LineContact, RollerLaw, SliceContact, SliceSolution, influence_m_per_pa};
-use sprag_design::material::{Material, contact_modulus_pa};
+use sprag_design::material::{Material, PlaneState};
 
 struct Row {
     name: String,
@@ -33,7 +33,7 @@ fn rows() -> Vec<Row> {
             contact: LineContact {
                 effective_radius_m: 1e-3 * number(1),
                 length_m: 1e-3 * number(2),
-                contact_modulus_pa: contact_modulus_pa(&steel, &steel),
+                contact_modulus_pa: PlaneState::Strain.contact_modulus_pa(&steel, &steel),
             },
             normal_n: number(3),
             slices: record[6].parse().unwrap(),

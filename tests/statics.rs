@@ -1,7 +1,7 @@
 //! Statics against independent tables and exact identities.
 mod common;
 
-use sprag_design::design::{Clutch, ContactLaw};
+use sprag_design::design::{Clutch, ContactLaw, StressState};
 use sprag_design::profile::Profile;
 use sprag_design::wedge::WedgeCurve;
 
@@ -72,13 +72,14 @@ fn energy_identity_at_rest_and_at_speed() {
         ContactLaw::Roller { coefficient: 3.944e-5 },
         ContactLaw::Din26281,
         ContactLaw::Hertz,
+        ContactLaw::Elastic { state: StressState::Layer },
         ContactLaw::Slice { coefficient: 3.944e-5 },
     ];
     for law in laws {
         for rpm in [0.0, 5000.0, 20_000.0] {
             let speed = rpm * std::f64::consts::PI / 30.0;
             let curve = curve(&common::MULTI, speed, |c| c.contact = law);
-            for n in [1e-3, 1.0, 30.0, 100.0, 1500.0, 2000.0, 6000.0] {
+            for n in [1e-3, 1.0, 30.0, 100.0, 900.0, 1500.0, 2000.0, 2700.0, 6000.0] {
                 let (_, c) = curve.closure_at_normal(n).unwrap();
                 let (rho_i, rho_e) = c.rolling_ratios();
                 let d = &c.deformations;
@@ -145,6 +146,7 @@ fn the_tabulated_curve_is_the_exact_one() {
         (ContactLaw::Roller { coefficient: 3.944e-5 }, 1e-10),
         (ContactLaw::Slice { coefficient: 3.944e-5 }, 1e-9),
         (ContactLaw::Hertz, 1e-7),
+        (ContactLaw::Elastic { state: StressState::Layer }, 1e-7),
     ] {
         for rpm in [0.0, 12_000.0] {
             let speed = rpm * std::f64::consts::PI / 30.0;

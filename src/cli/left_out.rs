@@ -46,9 +46,10 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
             "none for the elastic law, which holds it; the others: growth agrees with finite elements to 0.3 %",
         ),
         LeftOut::new(
-            "change of curvature under the contact at a junction",
-            "the approach takes the radius at one point; Hertz pressure takes the mean curvature under the contact",
-            "none for laws that do not know the radius; 1e-5 to 1e-4 rad of rotation at a junction for the others",
+            "shift of the force within a contact that straddles a junction",
+            "approach and Hertz pressure take the mean curvature under the contact; the force stays at the contact \
+             point, whose passing from arc to arc keeps its jump of the tangent stiffness",
+            "the resultant lies 0.4 um off at most: 5e-4 of the torque (plane contact, clutch of Table 1)",
         ),
     ];
     if !matches!(clutch.contact, ContactLaw::Slice { .. }) {

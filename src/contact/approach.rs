@@ -62,36 +62,52 @@ impl Approach {
 
     /// Approach delta_H, m, at the normal force, N; see the conventions for forces that are not positive.
     pub fn approach_m(&self, normal_n: f64) -> f64 {
-        if normal_n.is_nan() || normal_n <= 0.0 {
-            return 0.0;
-        }
-        if normal_n == f64::INFINITY {
-            return f64::INFINITY;
-        }
-        match self {
-            Self::Roller(law) => law.approach_m(normal_n),
-            Self::Hertz(law) => law.approach_m(normal_n),
-            Self::Slice(law) => law.approach_m(normal_n),
-            Self::Shaped(law) => law.approach_m(normal_n),
-        }
+        self.at(normal_n).0
     }
 
     /// Compliance d delta_H/dN, m/N: the exact derivative of [`Self::approach_m`] (of the fitted one for the
     /// slice law). +infinity at forces that are not positive.
     pub fn compliance_m_per_n(&self, normal_n: f64) -> f64 {
+        self.at(normal_n).1
+    }
+
+    /// Approach, m, and compliance, m/N, together: they share what is dear.
+    pub fn at(&self, normal_n: f64) -> (f64, f64) {
         if normal_n.is_nan() || normal_n <= 0.0 {
-            return f64::INFINITY;
+            return (0.0, f64::INFINITY);
         }
         if normal_n == f64::INFINITY {
-            return 0.0;
+            return (f64::INFINITY, 0.0);
         }
         match self {
-            Self::Roller(law) => law.compliance_m_per_n(normal_n),
-            Self::Hertz(law) => law.compliance_m_per_n(normal_n),
-            Self::Slice(law) => law.compliance_m_per_n(normal_n),
-            Self::Shaped(law) => law.compliance_m_per_n(normal_n),
+            Self::Roller(law) => (law.approach_m(normal_n), law.compliance_m_per_n(normal_n)),
+            Self::Hertz(law) => law.at(normal_n),
+            Self::Slice(law) => law.at(normal_n),
+            Self::Shaped(law) => law.at(normal_n),
         }
     }
+
+    /// The law with the effective curvature 1/R = `curvature_per_m` > 0 in place of the contact's own, at
+    /// `normal_n` > 0; `None` for a law that does not know the radii.
+    pub fn curved(&self, normal_n: f64, curvature_per_m: f64) -> Option<CurvedApproach> {
+        match self {
+            Self::Roller(_) => None,
+            Self::Hertz(law) => Some(law.curved(normal_n, curvature_per_m)),
+            Self::Slice(law) => Some(law.curved(normal_n, curvature_per_m)),
+            Self::Shaped(law) => law.curved(normal_n, curvature_per_m),
+        }
+    }
+}
+
+/// An approach with its derivatives by force and by curvature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvedApproach {
+    /// delta, m.
+    pub approach_m: f64,
+    /// d delta/dN at fixed curvature, m/N.
+    pub by_force_m_per_n: f64,
+    /// d delta/d(1/R) at fixed force, m^2.
+    pub by_curvature_m2: f64,
 }
 
 /// delta = K N^0.9/l^0.8 in mm and N (Palmgren), held in SI.
@@ -205,20 +221,35 @@ impl HertzLaw {
         Ok(Self { contact: *contact, pieces })
     }
 
-    /// Approach, m, for `normal_n` > 0.
-    pub fn approach_m(&self, normal_n: f64) -> f64 {
-        let a = self.contact.half_width_m(normal_n);
+    /// Approach, m, and d delta/dN, m/N, for `normal_n` > 0. With a ~ sqrt(N) the derivative of the bracket collects
+    /// to asinh(d/a) - (1 + nu/(1-nu)) d/(2 sqrt(a^2 + d^2)).
+    pub fn at(&self, normal_n: f64) -> (f64, f64) {
+        let (whole, rate) = self.sums(self.contact.half_width_m(normal_n));
         let q = normal_n / self.contact.length_m;
-        let sum = |(c, t, d): &(f64, f64, f64)| c * ((d / a).asinh() - t * d / (d + a.hypot(*d)));
-        2.0 * q / PI * self.pieces.iter().map(sum).sum::<f64>()
+        (2.0 * q / PI * whole, 2.0 / (PI * self.contact.length_m) * rate)
     }
 
-    /// d delta/dN, m/N, for `normal_n` > 0. With a ~ sqrt(N) the derivative of the bracket collects to
-    /// asinh(d/a) - (1 + nu/(1-nu)) d/(2 sqrt(a^2 + d^2)).
-    pub fn compliance_m_per_n(&self, normal_n: f64) -> f64 {
-        let a = self.contact.half_width_m(normal_n);
-        let sum = |(c, t, d): &(f64, f64, f64)| c * ((d / a).asinh() - (1.0 + t) * d / (2.0 * a.hypot(*d)));
-        2.0 / (PI * self.contact.length_m) * self.pieces.iter().map(sum).sum::<f64>()
+    /// See [`Approach::curved`]. delta/N depends on N R alone, so d delta/d(1/R) = R (delta - N delta').
+    fn curved(&self, normal_n: f64, curvature_per_m: f64) -> CurvedApproach {
+        let contact = LineContact { effective_radius_m: 1.0 / curvature_per_m, ..self.contact };
+        let (whole, rate) = self.sums(contact.half_width_m(normal_n));
+        let q = normal_n / self.contact.length_m;
+        CurvedApproach {
+            approach_m: 2.0 * q / PI * whole,
+            by_force_m_per_n: 2.0 / (PI * self.contact.length_m) * rate,
+            by_curvature_m2: 2.0 * q / PI * (whole - rate) / curvature_per_m,
+        }
+    }
+
+    /// The bracket of delta and that of N delta', summed over the pieces, at half width `a`.
+    fn sums(&self, a: f64) -> (f64, f64) {
+        let (mut whole, mut rate) = (0.0, 0.0);
+        for (c, t, d) in &self.pieces {
+            let (log, h) = ((d / a).asinh(), a.hypot(*d));
+            whole += c * (log - t * d / (d + h));
+            rate += c * (log - (1.0 + t) * d / (2.0 * h));
+        }
+        (whole, rate)
     }
 }
 
@@ -231,22 +262,25 @@ pub struct SliceLaw {
 }
 
 impl SliceLaw {
-    /// Approach, m, for `normal_n` > 0.
-    pub fn approach_m(&self, normal_n: f64) -> f64 {
-        let (kappa, _) = self.kappa(normal_n);
-        kappa * self.roller.approach_m(normal_n)
+    /// Approach, m, and d delta/dN, m/N, for `normal_n` > 0: a ~ sqrt(N), so
+    /// delta' = kappa delta_H' + kappa_a delta_H/(2N), kappa_a = d kappa/d ln a.
+    pub fn at(&self, normal_n: f64) -> (f64, f64) {
+        let (kappa, slope) = self.ratio.at(self.contact.half_width_m(normal_n) / self.contact.length_m);
+        self.of(normal_n, kappa, slope)
     }
 
-    /// d delta/dN, m/N, for `normal_n` > 0: a ~ sqrt(N), so delta' = kappa delta_H' + kappa_a delta_H/(2N),
-    /// kappa_a = d kappa/d ln a.
-    pub fn compliance_m_per_n(&self, normal_n: f64) -> f64 {
-        let (kappa, slope) = self.kappa(normal_n);
-        kappa * self.roller.compliance_m_per_n(normal_n)
-            + 0.5 * slope * self.roller.approach_m(normal_n) / normal_n
+    /// See [`Approach::curved`]. a ~ (1/R)^(-1/2).
+    fn curved(&self, normal_n: f64, curvature_per_m: f64) -> CurvedApproach {
+        let contact = LineContact { effective_radius_m: 1.0 / curvature_per_m, ..self.contact };
+        let (kappa, slope) = self.ratio.at(contact.half_width_m(normal_n) / contact.length_m);
+        let (approach_m, by_force_m_per_n) = self.of(normal_n, kappa, slope);
+        let by_curvature_m2 = -0.5 * slope * self.roller.approach_m(normal_n) / curvature_per_m;
+        CurvedApproach { approach_m, by_force_m_per_n, by_curvature_m2 }
     }
 
-    fn kappa(&self, normal_n: f64) -> (f64, f64) {
-        self.ratio.at(self.contact.half_width_m(normal_n) / self.contact.length_m)
+    fn of(&self, normal_n: f64, kappa: f64, slope: f64) -> (f64, f64) {
+        let roller = self.roller.approach_m(normal_n);
+        (kappa * roller, kappa * self.roller.compliance_m_per_n(normal_n) + 0.5 * slope * roller / normal_n)
     }
 }
 
@@ -300,6 +334,23 @@ mod tests {
                 let numeric = (8.0 * d(1.0) - d(2.0)) / (12.0 * h);
                 let exact = law.compliance_m_per_n(n);
                 assert!((numeric / exact - 1.0).abs() < 2e-10, "{law:?} at {n}: {numeric} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_law_that_knows_the_radius_takes_another_curvature_with_exact_derivatives() {
+        let of = |law: usize, n: f64, per_m: f64| laws()[law].curved(n, per_m);
+        assert_eq!((of(0, 100.0, 300.0), of(1, 100.0, 300.0)), (None, None));
+        let own = 1.0 / contact().effective_radius_m;
+        for law in [2, 3] {
+            for n in [1e-3, 83.0, 1558.0, 9000.0] {
+                let at = of(law, n, own).unwrap();
+                assert!((at.approach_m / laws()[law].approach_m(n) - 1.0).abs() < 1e-14);
+                assert!((at.by_force_m_per_n / laws()[law].compliance_m_per_n(n) - 1.0).abs() < 1e-14);
+                let d = |k: f64| of(law, n, own * (1.0 + k)).unwrap().approach_m;
+                let numeric = (d(1e-3) - d(-1e-3)) / (2e-3 * own);
+                assert!((numeric / at.by_curvature_m2 - 1.0).abs() < 1e-5, "{law} {n}: {numeric} {at:?}");
             }
         }
     }

@@ -16,7 +16,8 @@ mod slice;
 mod slice_ratio;
 
 pub use approach::{
-    Approach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, LayerBody, RollerLaw, SliceLaw, layer_transition_m,
+    Approach, CurvedApproach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, LayerBody, RollerLaw, SliceLaw,
+    layer_transition_m,
 };
 pub use axial::{AxialFit, ContactEnd, Flank};
 pub use edge::{Edge, Peak};

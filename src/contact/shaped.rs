@@ -1,6 +1,6 @@
 //! The approach of a contact whose length is not evenly loaded: end profiles, tilt, both.
 
-use super::approach::Approach;
+use super::approach::{Approach, CurvedApproach};
 use super::axial::AxialFit;
 use super::line::{ContactError, LineContact};
 use super::slice::{SliceCompliance, SliceContact, SliceStatus};
@@ -88,15 +88,21 @@ impl ShapedLaw {
         (self.ln_factor.eval(inside).exp(), slope)
     }
 
-    /// Approach, m, for `normal_n` > 0.
-    pub fn approach_m(&self, normal_n: f64) -> f64 {
-        self.factor(normal_n).0 * self.base.approach_m(normal_n)
+    /// Approach, m, and compliance, m/N, for `normal_n` > 0: f delta_b' + f' delta_b with f' = f (ln f)'/N.
+    pub fn at(&self, normal_n: f64) -> (f64, f64) {
+        let (factor, slope) = self.factor(normal_n);
+        let (approach, compliance) = self.base.at(normal_n);
+        (factor * approach, factor * (compliance + slope * approach / normal_n))
     }
 
-    /// d delta/dN, m/N, for `normal_n` > 0: f delta_b' + f' delta_b with f' = f (ln f)'/N.
-    pub fn compliance_m_per_n(&self, normal_n: f64) -> f64 {
+    /// As [`Approach::curved`]: the factor does not know the radius.
+    pub fn curved(&self, normal_n: f64, curvature_per_m: f64) -> Option<CurvedApproach> {
         let (factor, slope) = self.factor(normal_n);
-        let base = &self.base;
-        factor * (base.compliance_m_per_n(normal_n) + slope * base.approach_m(normal_n) / normal_n)
+        let base = self.base.curved(normal_n, curvature_per_m)?;
+        Some(CurvedApproach {
+            approach_m: factor * base.approach_m,
+            by_force_m_per_n: factor * (base.by_force_m_per_n + slope * base.approach_m / normal_n),
+            by_curvature_m2: factor * base.by_curvature_m2,
+        })
     }
 }

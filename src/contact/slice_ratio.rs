@@ -1,5 +1,8 @@
 //! The slice method's approach as a smooth factor on the roller law.
 
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
 use super::influence::{influence_m_per_pa, influence_sum};
 use super::line::ContactError;
 use super::slice::SliceContact;
@@ -33,6 +36,19 @@ impl SliceRatio {
         let [low, high] = HALF_WIDTH_PER_LENGTH.map(f64::ln);
         let series = Chebyshev::fit(low, high, DEGREE, |x| solved_ratio(slices, x.exp()));
         Ok(Self { slices, series })
+    }
+
+    /// The same, tabulated once in the life of the process: an optimiser sets a contact up thousands of times. A table
+    /// depends on the number of slices alone, so it does not matter who builds it; all of them together take 5 MB.
+    pub fn shared(slices: usize) -> Result<Arc<Self>, ContactError> {
+        static TABLES: Mutex<BTreeMap<usize, Arc<SliceRatio>>> = Mutex::new(BTreeMap::new());
+        let kept = || TABLES.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(table) = kept().get(&slices) {
+            return Ok(table.clone());
+        }
+        // Not under the lock: others may want other tables meanwhile.
+        let table = Arc::new(Self::new(slices)?);
+        Ok(kept().entry(slices).or_insert(table).clone())
     }
 
     /// Number of slices n.
@@ -97,6 +113,13 @@ mod tests {
         assert_eq!(ratio.at(1e-12), (ratio.at(1e-7).0, 0.0));
         assert_eq!(ratio.at(0.0), (ratio.at(1e-7).0, 0.0));
         assert_eq!(ratio.at(30.0), (ratio.at(1.0).0, 0.0));
+    }
+
+    #[test]
+    fn a_shared_table_is_built_once_and_is_the_same() {
+        let (a, b) = (SliceRatio::shared(23).unwrap(), SliceRatio::shared(23).unwrap());
+        assert!(Arc::ptr_eq(&a, &b) && *a == SliceRatio::new(23).unwrap());
+        assert!(SliceRatio::shared(0).is_err());
     }
 
     #[test]

@@ -158,14 +158,15 @@ pub enum ContactLaw {
     },
     /// The roller law with DIN 26281's K = 3.97e-5.
     Din26281,
-    /// Logarithmic line-contact approach; knows the radius.
+    /// Logarithmic line-contact approach; knows the radius, averaged over the patch where it straddles a junction.
     Hertz,
-    /// Plane elasticity of rings, sprag and layer: nothing fitted, nothing counted twice; knows the radius.
+    /// Plane elasticity of rings, sprag and layer: nothing fitted, nothing counted twice; knows the radius as above.
     Elastic {
         /// Stress state of bodies and rings.
         state: StressState,
     },
-    /// Slice method (1)-(4); compliance from the roller law, number of slices from [`Axial`].
+    /// Slice method (1)-(4); compliance from the roller law, so it feels the radius only through the half width in the
+    /// influence of slice on slice: a few 1e-5 of the approach at a junction. Number of slices from [`Axial`].
     Slice {
         /// K of the roller law, mm and N.
         coefficient: f64,

@@ -1,4 +1,22 @@
 //! Curvature of the inner profile as a contact of finite width feels it.
+//!
+//! Two means, because width and approach weigh the profile differently. For a profile h(x) = h''(0) x^2/2 + dh(x)
+//! pressed into a half-plane over |x| < a, to first order in dh:
+//!
+//! * The load is q = (E*/2) int x h'(x)/sqrt(a^2 - x^2) dx (Johnson, *Contact Mechanics*, 5.2), by parts
+//!   (E*/2) int sqrt(a^2 - x^2) h''(x) dx: the half width is that of a cylinder whose curvature is the mean of h''
+//!   with the weight sqrt(1 - u^2), u = x/a.
+//! * At a given load the approach changes by int dh(x) p(x) dx with the flat punch's pressure
+//!   p = 1/(pi sqrt(a^2 - x^2)) (reciprocity of the change of pressure with the punch: the one leaves the load, the
+//!   other is flat under the patch). By parts twice, with dh(0) = dh'(0) = 0 at the contact point,
+//!   (1/pi) int [sqrt(a^2 - x^2) - |x| acos|u|] dh''(x) dx; a change dk of a cylinder's curvature gives (a^2/4) dk.
+//!   So the approach is that of a cylinder whose curvature is the mean of h'' with the weight
+//!   sqrt(1 - u^2) - |u| acos|u|.
+//!
+//! What a patch's edge meets it feels as (1 - u)^(3/2) in its width but as (1 - u)^(5/2) in its approach, so a
+//! junction that comes under the edge leaves no kink in the tangent stiffness.
+
+use std::f64::consts::PI;
 
 use super::Profile;
 
@@ -7,52 +25,82 @@ use super::Profile;
 pub struct PatchCurvature {
     /// Mean curvature, 1/m.
     pub curvature_per_m: f64,
+    /// Its derivative by the turn of the contact at fixed half width, 1/(m rad).
+    pub by_turn_per_m_rad: f64,
+    /// Its derivative by the half width at fixed turn, 1/m^2.
+    pub by_half_width_per_m2: f64,
     /// Whether the patch lies on more than one arc.
     pub straddles: bool,
 }
 
 impl Profile {
-    /// Mean of the profile's curvature over the patch of half width `half_width_m` around the contact at turn
-    /// `turn_rad` on arc `arc`, weighted by sqrt(1 - (x/a)^2).
-    ///
-    /// The weight is not a choice: for a smooth profile h(x) pressed into a half-plane over |x| < a the load is
-    /// q = (E*/2) int x h'(x)/sqrt(a^2 - x^2) dx (Johnson, *Contact Mechanics*, 5.2), by parts
-    /// (E*/2) int sqrt(a^2 - x^2) h''(x) dx, so the half width is that of a cylinder with the curvature
-    /// (2/(pi a^2)) int sqrt(a^2 - x^2) h'' dx. The first and the last arc are continued beyond the profile.
+    /// Curvature that decides the width of a patch of half width `half_width_m` around the contact at turn `turn_rad`
+    /// on arc `arc`: weight sqrt(1 - u^2). The first and the last arc are continued beyond the profile.
     pub fn patch_curvature(&self, arc: usize, turn_rad: f64, half_width_m: f64) -> PatchCurvature {
+        self.mean_curvature(arc, turn_rad, half_width_m, |u| {
+            let root = (1.0 - u * u).sqrt();
+            (0.5 + (u * root + u.asin()) / PI, 2.0 / PI * root)
+        })
+    }
+
+    /// Curvature that decides the approach, for the same patch: weight sqrt(1 - u^2) - |u| acos|u|.
+    pub fn approach_curvature(&self, arc: usize, turn_rad: f64, half_width_m: f64) -> PatchCurvature {
+        self.mean_curvature(arc, turn_rad, half_width_m, |u| {
+            let (v, root) = (u.abs(), (1.0 - u * u).sqrt());
+            let acos = v.acos();
+            let half = (3.0 * v * root + v.asin() - 2.0 * v * v * acos) / PI;
+            (0.5 + half.copysign(u), 4.0 / PI * (root - v * acos))
+        })
+    }
+
+    /// Distance along the profile from the contact at turn `turn_rad` on arc `arc` to the junction at which arc
+    /// `junction` (from 0) ends, m, positive in the sense of engagement.
+    pub fn junction_distance_m(&self, arc: usize, turn_rad: f64, junction: usize) -> f64 {
         let here = &self.arcs[arc];
+        let length = |k: usize| self.arcs[k].radius_m * (self.arcs[k].until_rad - self.arcs[k].from_rad);
+        if junction >= arc {
+            let ahead = here.radius_m * (here.until_rad - turn_rad);
+            (arc + 1..=junction).fold(ahead, |x, k| x + length(k))
+        } else {
+            let behind = here.radius_m * (here.from_rad - turn_rad);
+            (junction + 1..arc).rev().fold(behind, |x, k| x - length(k))
+        }
+    }
+
+    /// Mean with the weight whose share to the left of x = u a, and its slope by u, `share` gives for |u| <= 1.
+    fn mean_curvature(
+        &self,
+        arc: usize,
+        turn_rad: f64,
+        half_width_m: f64,
+        share: impl Fn(f64) -> (f64, f64),
+    ) -> PatchCurvature {
         let a = half_width_m.max(f64::MIN_POSITIVE);
-        // Share of the weight to the left of x = u a.
-        let share = |u: f64| {
-            let u = u.clamp(-1.0, 1.0);
-            0.5 + (u * (1.0 - u * u).sqrt() + u.asin()) / std::f64::consts::PI
-        };
-        let mut curvature = 0.0;
-        let mut straddles = false;
-        // Ends of the arc in contact, as distances along the profile from the contact.
-        let (ahead, behind) =
-            (here.radius_m * (here.until_rad - turn_rad), here.radius_m * (here.from_rad - turn_rad));
+        let here_m = self.arcs[arc].radius_m;
         let last = self.arcs.len() - 1;
-        let upper = if arc == last { f64::INFINITY } else { ahead };
-        let lower = if arc == 0 { f64::NEG_INFINITY } else { behind };
-        curvature += (share(upper / a) - share(lower / a)) / here.radius_m;
-        let mut x = ahead;
-        for (k, next) in self.arcs.iter().enumerate().skip(arc + 1) {
-            let end = x + next.radius_m * (next.until_rad - next.from_rad);
-            let part = share(if k == last { f64::INFINITY } else { end / a }) - share(x / a);
-            straddles |= part > 0.0;
-            curvature += part / next.radius_m;
-            x = end;
+        let mut mean = PatchCurvature {
+            curvature_per_m: 0.0,
+            by_turn_per_m_rad: 0.0,
+            by_half_width_per_m2: 0.0,
+            straddles: false,
+        };
+        // Share up to the end of arc k, with its derivatives: x falls by the radius in contact per turn.
+        let up_to = |k: usize| {
+            let u = (self.junction_distance_m(arc, turn_rad, k) / a).clamp(-1.0, 1.0);
+            let (part, slope) = share(u);
+            (part, -slope * here_m / a, -slope * u / a)
+        };
+        for k in std::iter::once(arc).chain(arc + 1..=last).chain((0..arc).rev()) {
+            let end = if k == last { (1.0, 0.0, 0.0) } else { up_to(k) };
+            let start = if k == 0 { (0.0, 0.0, 0.0) } else { up_to(k - 1) };
+            let radius_m = self.arcs[k].radius_m;
+            let part = end.0 - start.0;
+            mean.curvature_per_m += part / radius_m;
+            mean.by_turn_per_m_rad += (end.1 - start.1) / radius_m;
+            mean.by_half_width_per_m2 += (end.2 - start.2) / radius_m;
+            mean.straddles |= k != arc && part > 0.0;
         }
-        let mut x = behind;
-        for (k, before) in self.arcs.iter().enumerate().take(arc).rev() {
-            let start = x - before.radius_m * (before.until_rad - before.from_rad);
-            let part = share(x / a) - share(if k == 0 { f64::NEG_INFINITY } else { start / a });
-            straddles |= part > 0.0;
-            curvature += part / before.radius_m;
-            x = start;
-        }
-        PatchCurvature { curvature_per_m: curvature, straddles }
+        mean
     }
 }
 
@@ -85,6 +133,57 @@ mod tests {
         let one =
             Profile::new(4.68e-3, 0.62e-3, &[(4.02e-3, 0.1), (4.02e-3, 0.4)], 11.11e-3, 19.44e-3).unwrap();
         assert!((one.patch_curvature(0, 0.099, 1e-4).curvature_per_m * 4.02e-3 - 1.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_means() {
+        let p = multi();
+        for (arc, turn, a) in [(0, 0.05, 2e-4), (1, 0.07, 1e-4), (1, 0.11, 3e-4), (2, 0.13, 4e-4)] {
+            for of in [Profile::patch_curvature, Profile::approach_curvature] {
+                let at = |turn: f64, a: f64| of(&p, arc, turn, a).curvature_per_m;
+                let got = of(&p, arc, turn, a);
+                let (h, w) = (1e-5, 1e-8);
+                let by_turn = (at(turn + h, a) - at(turn - h, a)) / (2.0 * h);
+                let by_half_width = (at(turn, a + w) - at(turn, a - w)) / (2.0 * w);
+                assert!((got.by_turn_per_m_rad - by_turn).abs() < 1e-5 * by_turn.abs(), "{got:?} {by_turn}");
+                assert!(
+                    (got.by_half_width_per_m2 - by_half_width).abs() < 1e-5 * by_half_width.abs().max(1e3)
+                );
+            }
+        }
+    }
+
+    /// The approach's mean against the flat punch's mean of the true gap, by the substitution x = a sin t.
+    #[test]
+    fn the_approach_mean_is_the_flat_punchs_mean_of_the_gap() {
+        let p = multi();
+        for (arc, turn, a) in [(0, 0.05, 2e-4), (0, 0.06, 1e-4), (1, 0.1, 2.5e-4), (2, 0.13, 3e-4)] {
+            let ends: Vec<f64> = (0..2).map(|j| p.junction_distance_m(arc, turn, j)).collect();
+            // h(x) - h(0) - h'(0) x from the curvature outwards: each junction adds its step of curvature.
+            let radii: Vec<f64> = p.arcs.iter().map(|r| r.radius_m).collect();
+            let gap = |x: f64| {
+                let mut h = 0.5 * x * x / radii[arc];
+                for (j, &end) in ends.iter().enumerate() {
+                    let step = 1.0 / radii[j + 1] - 1.0 / radii[j];
+                    if j >= arc && x > end {
+                        h += 0.5 * step * (x - end).powi(2);
+                    } else if j < arc && x < end {
+                        h -= 0.5 * step * (x - end).powi(2);
+                    }
+                }
+                h
+            };
+            let n = 100_000;
+            let mean = (0..n)
+                .map(|i| gap(a * (PI * ((f64::from(i) + 0.5) / f64::from(n) - 0.5)).sin()))
+                .sum::<f64>()
+                / f64::from(n);
+            let got = p.approach_curvature(arc, turn, a);
+            assert!(
+                got.straddles && (0.25 * a * a * got.curvature_per_m / mean - 1.0).abs() < 1e-9,
+                "{got:?}"
+            );
+        }
     }
 
     /// Against the integral it stands for, by the substitution x = a sin t.

@@ -2,6 +2,7 @@
 
 use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
+use super::patch::InnerCurvature;
 use super::table::{ArcBuilder, ArcTable};
 use crate::design::{Clutch, ContactLaw};
 use crate::numeric::root;
@@ -13,7 +14,20 @@ impl WedgeCurve {
     /// # Errors
     /// [`NoCurve`] where there is no first contact. A curve that ends early is a result, see [`Self::end`].
     pub fn build(clutch: &Clutch, profile: &Profile, speed_rad_s: f64) -> Result<Self, NoCurve> {
-        let statics = Statics::new(clutch, profile.clone()).map_err(NoCurve::NoElastic)?;
+        Self::build_with(clutch, profile, speed_rad_s, InnerCurvature::Patch)
+    }
+
+    /// The same with a choice of the curvature at A; [`InnerCurvature::Pointwise`] is the paper's, for comparison.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_with(
+        clutch: &Clutch,
+        profile: &Profile,
+        speed_rad_s: f64,
+        inner_curvature: InnerCurvature,
+    ) -> Result<Self, NoCurve> {
+        let statics = Statics::new(clutch, profile.clone(), inner_curvature).map_err(NoCurve::NoElastic)?;
         let exponent =
             if matches!(clutch.contact, ContactLaw::Hertz | ContactLaw::Elastic { .. }) { 10.0 } else { 9.0 };
         let beta0 = profile.beta0_rad;
@@ -36,7 +50,8 @@ impl WedgeCurve {
         let mut end = EndReason::OffProfile;
         for k in first..profile.arcs.len() {
             if let Some(last) = arcs.last() {
-                // The paper's Figure 5: N stays, arc k starts where it carries N_J, the rest is added from there.
+                // The paper's Figure 5: N stays, arc k starts where it carries N_J, the rest is added from there. Only
+                // a law that is given the radius pointwise needs a shift; for all others it is rounding.
                 let raw = statics.closure(k, last.n_until, speed_rad_s, 0.0);
                 match raw {
                     Ok(c) => shift = last.alpha_until - c.alpha.v,

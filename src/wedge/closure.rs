@@ -1,6 +1,7 @@
 //! Static equilibrium of one sprag at a given inner normal force: the only static iteration of the project.
 
 use super::elastic::{Elastic, NoElastic};
+use super::patch::{InnerApproach, InnerCurvature};
 use crate::design::Clutch;
 use crate::kinematics::{self, Deformations, Lengths, Radii};
 use crate::numeric::dual::Dual;
@@ -15,9 +16,9 @@ pub const FIRST_CONTACT_N: f64 = 1e-120;
 pub enum NoClosure {
     /// The centres have come too close: the sprag has rolled over.
     RolledOver,
-    /// The coupling of N_be did not settle; relative residual.
+    /// The coupling of N_be, or that of the approach at A with the curvature under it, did not settle.
     NoConvergence {
-        /// Last relative change of N_be.
+        /// Last relative change of N_be or of the approach, whichever is larger.
         residual: f64,
     },
 }
@@ -41,6 +42,8 @@ pub struct Closure {
     pub lengths: Lengths,
     /// Deformations behind them.
     pub deformations: Deformations,
+    /// Effective curvature 1/R that the approach at A knows, 1/m; for a law that knows none, that of the arc.
+    pub curvature_inner_per_m: f64,
     /// beta, rad.
     pub beta: Dual,
     /// gamma, rad, signed.
@@ -105,6 +108,8 @@ pub struct Statics {
     pub elastic: Elastic,
     /// Placed arcs.
     pub profile: Profile,
+    /// The curvature that laws which know the radius are given at A.
+    pub inner_curvature: InnerCurvature,
     radii: Radii,
     centroid_m: [f64; 2],
     mass_kg: f64,
@@ -115,11 +120,16 @@ pub struct Statics {
 
 impl Statics {
     /// Prepare; `profile` is the placed profile of this clutch.
-    pub fn new(clutch: &Clutch, profile: Profile) -> Result<Self, NoElastic> {
+    pub fn new(
+        clutch: &Clutch,
+        profile: Profile,
+        inner_curvature: InnerCurvature,
+    ) -> Result<Self, NoElastic> {
         let (s, r) = (&clutch.sprags, &clutch.races);
         let gamma0 = -s.centroid_m[0].atan2(profile.outer_centre_distance_m + s.centroid_m[1]);
         Ok(Self {
             count: s.count,
+            inner_curvature,
             elastic: Elastic::new(clutch)?,
             radii: Radii {
                 inner_race_m: r.inner_radius_m,
@@ -159,6 +169,8 @@ impl Statics {
     ///   N_be = [N_bi cos(beta+gamma) + T_bi sin(beta+gamma) - T_be sin gamma + F_c]/cos gamma.
     ///
     /// At rest this is tan omega = OB sin beta/(OB cos beta - OA), N_be = F cos nu.
+    ///
+    /// N_be and, where the law knows the radius, the curvature under the contact at A settle in one fixed-point loop.
     #[doc(alias = "Eq. (10)")]
     pub fn closure(
         &self,
@@ -171,10 +183,12 @@ impl Statics {
         let radii = Radii { inner_arc_m: self.profile.arcs[arc].radius_m, ..self.radii };
         let n = Dual::variable(n_bi);
         let mut n_be = n;
+        let mut inner = InnerApproach::new(self, arc, n);
         let mut residual = f64::INFINITY;
         let mut slope_residual = f64::INFINITY;
+        let mut unsettled = f64::INFINITY;
         for round in 0..60 {
-            let d = self.elastic.deformations(arc, n, n_be, speed_rad_s);
+            let d = self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s);
             let l = kinematics::lengths(&radii, &d);
             let (sin_b, cos_b) = kinematics::beta(&l, distance).ok_or(NoClosure::RolledOver)?;
             let beta = sin_b.atan2(cos_b);
@@ -191,12 +205,21 @@ impl Statics {
             let next = (n * cos_bg + t_bi * sin_bg - t_be * sin_g + f_c) / cos_g;
             // A sprag that centrifugal force presses off the inner race still never pulls on the outer one.
             let next = if next.v > FIRST_CONTACT_N { next } else { Dual::constant(FIRST_CONTACT_N) };
+            let curvature = inner.curvature_per_m.v;
+            let moved = inner.update(self, arc, n, rotation - (beta - self.profile.beta0_rad));
             let change = (next.v - n_be.v).abs() / next.v;
             let slope_change = (next.d - n_be.d).abs() / next.d.abs().max(1e-3);
-            let settled = change <= 4.0 * f64::EPSILON && slope_change <= 1e-14
-                || round > 4 && change >= residual && slope_change >= slope_residual && change < 1e-13;
+            // The turn carries some 5e-15 of rounding, which a large step of curvature makes 1e-15 of delta_H.
+            let still = moved.v <= 1e-14 && moved.d <= 1e-13;
+            let settled = still && change <= 4.0 * f64::EPSILON && slope_change <= 1e-14
+                || still
+                    && round > 4
+                    && change >= residual
+                    && slope_change >= slope_residual
+                    && change < 1e-13
+                || round > 20 && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
             n_be = next;
-            (residual, slope_residual) = (change, slope_change);
+            (residual, slope_residual, unsettled) = (change, slope_change, change.max(moved.v));
             if settled {
                 return Ok(Closure {
                     n_bi,
@@ -207,6 +230,7 @@ impl Statics {
                     t_be,
                     lengths: l,
                     deformations: d,
+                    curvature_inner_per_m: curvature,
                     beta,
                     gamma: g.gamma,
                     oc_g: g.oc_g,
@@ -215,6 +239,6 @@ impl Statics {
                 });
             }
         }
-        Err(NoClosure::NoConvergence { residual })
+        Err(NoClosure::NoConvergence { residual: unsettled })
     }
 }

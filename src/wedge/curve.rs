@@ -113,6 +113,11 @@ impl WedgeCurve {
     pub fn arc_end_rad(&self, k: usize) -> f64 {
         self.arcs[k].alpha_until
     }
+    /// Constant shift of alpha on arc `k`, rad: what keeps N at the junction before it (the paper's Figure 5). Rounding
+    /// only, but for a law that knows the radius and is given it pointwise.
+    pub fn shift_rad(&self, k: usize) -> f64 {
+        self.arcs[k].shift
+    }
     /// N_bi at the end of arc `k`, N.
     pub fn arc_end_n(&self, k: usize) -> f64 {
         self.arcs[k].n_until

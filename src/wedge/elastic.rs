@@ -1,10 +1,8 @@
 //! What yields when a sprag is pressed between the races: every compliance of one design, ready to evaluate.
 
-use std::sync::Arc;
-
 use super::axial::shaped;
 use crate::contact::{
-    Approach, ContactError, HertzBody, LayerBody, LineContact, SliceRatio, layer_transition_m,
+    Approach, ContactError, CurvedApproach, HertzBody, LayerBody, LineContact, SliceRatio, layer_transition_m,
 };
 use crate::design::{Clutch, ContactLaw, StressState};
 use crate::kinematics::Deformations;
@@ -74,7 +72,7 @@ impl Elastic {
             ContactLaw::Elastic { state: StressState::PlaneStress } => PlaneState::Stress,
             _ => PlaneState::Strain,
         };
-        let modulus = |race: &Material| 1.0 / (near.compliance(&m.sprag) + near.compliance(race));
+        let modulus = |race: &Material| near.contact_modulus_pa(&m.sprag, race);
         let (e_inner, e_outer) = (modulus(&m.inner_race), modulus(&m.outer_race));
         // Rings in plane strain follow Lame with E/(1-nu^2) and nu/(1-nu).
         let ring = |material: Material| match clutch.contact {
@@ -98,7 +96,7 @@ impl Elastic {
             .collect::<Result<Vec<_>, _>>()?;
         let outer_contact = LineContact::internal(s.outer_radius_m, r.outer_radius_m, length_m, e_outer)?;
         let ratio = match clutch.contact {
-            ContactLaw::Slice { .. } => Some(Arc::new(SliceRatio::new(clutch.axial.slices)?)),
+            ContactLaw::Slice { .. } => Some(SliceRatio::shared(clutch.axial.slices)?),
             _ => None,
         };
         let half_height_m = 0.5 * (r.outer_radius_m - r.inner_radius_m);
@@ -149,20 +147,45 @@ impl Elastic {
         })
     }
 
-    /// Deformations at inner normal force `n_bi` and outer `n_be` (N) on arc `arc` at `speed` rad/s.
-    pub fn deformations(&self, arc: usize, n_bi: Dual, n_be: Dual, speed_rad_s: f64) -> Deformations {
-        let law = |approach: &Approach, n: Dual| {
-            n.chain(approach.approach_m(n.v), approach.compliance_m_per_n(n.v))
-        };
+    /// The law at A on arc `arc` with the effective curvature `curvature_per_m` in place of the arc's; `None` for a
+    /// law that does not know the radius.
+    pub fn curved_inner(&self, arc: usize, normal_n: f64, curvature_per_m: f64) -> Option<CurvedApproach> {
+        self.inner[arc].curved(normal_n, curvature_per_m)
+    }
+
+    /// delta_H at A with the radius of arc `arc` alone, m.
+    pub fn pointwise_inner(&self, arc: usize, n_bi: Dual) -> Dual {
+        law(&self.inner[arc], n_bi)
+    }
+
+    /// Whether the contacts are shaped along the axis, and the law knows it.
+    pub(super) fn is_shaped(&self) -> bool {
+        matches!(self.outer, Approach::Shaped(_))
+    }
+
+    /// Deformations at inner normal force `n_bi` and outer `n_be` (N) and approach `contact_inner` (m) at A, at
+    /// `speed` rad/s.
+    pub fn deformations(
+        &self,
+        n_bi: Dual,
+        n_be: Dual,
+        contact_inner: Dual,
+        speed_rad_s: f64,
+    ) -> Deformations {
         Deformations {
             race_inner: n_bi * self.race_inner_m_per_n,
             race_outer: n_be * self.race_outer_m_per_n,
-            contact_inner: law(&self.inner[arc], n_bi),
+            contact_inner,
             contact_outer: law(&self.outer, n_be),
             body: n_bi * self.body_m_per_n,
             growth_m: self.outer_race.centrifugal_bore_growth_m(speed_rad_s),
         }
     }
+}
+
+fn law(approach: &Approach, n: Dual) -> Dual {
+    let (value, slope) = approach.at(n.v);
+    n.chain(value, slope)
 }
 
 /// The elastic law at one contact: half the sprag as a disc, the ring with its harmonics, each plane strain near

@@ -2,12 +2,16 @@
 //!
 //! In: `Clutch`, `Profile`, mean speed. Out: [`WedgeCurve`], static points, torque, windup, stiffness.
 //! Absent: inertia, slip, limits. Equations: (10), (A.7)-(A.9), the junction crossing of Figure 5.
+//!
+//! Laws that know the radius are given the profile's curvature averaged over the patch at A ([`InnerCurvature`]), which
+//! makes alpha, N and windup continuous at a junction by themselves; the paper's pointwise radius needs Figure 5's shift.
 
 mod axial;
 mod build;
 mod closure;
 mod curve;
 mod elastic;
+mod patch;
 mod stiffness;
 mod table;
 
@@ -15,4 +19,5 @@ pub use axial::{Side, along, knows_shape};
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};
+pub use patch::{InnerCurvature, Straddle};
 pub use stiffness::StaticPoint;

@@ -2,7 +2,6 @@
 
 use super::closure::Closure;
 use super::curve::WedgeCurve;
-use crate::contact::LineContact;
 
 /// Static state of the clutch under torque; per sprag where a force is meant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +84,7 @@ impl WedgeCurve {
         let windup_rad = self.windup_rad(c.alpha.v);
         let elastic = &statics.elastic;
         let arc = self.first_arc() + k;
-        let (patch, straddles) = self.patch(arc, c);
+        let (patch, straddles) = statics.patch(arc, c);
         StaticPoint {
             torque_nm: torque.v,
             normal_inner_n: c.n_bi,
@@ -105,27 +104,5 @@ impl WedgeCurve {
             hertz_outer_pa: elastic.outer_contact.peak_pressure_pa(c.n_be.v),
             half_width_inner_m: patch.half_width_m(c.n_bi),
         }
-    }
-
-    /// The contact at A with the curvature that its patch feels, and whether that patch straddles a junction: the
-    /// patch is about as wide as an arc is long, so its width and the mean curvature under it are found together.
-    fn patch(&self, arc: usize, c: &Closure) -> (LineContact, bool) {
-        let statics = self.statics();
-        let mut contact = statics.elastic.inner_contact[arc];
-        let turn = c.turn_rad(statics.profile.beta0_rad);
-        // 1/R of the race alone: what the pointwise contact has beside the arc.
-        let race = 1.0 / contact.effective_radius_m - 1.0 / statics.profile.arcs[arc].radius_m;
-        let mut straddles = false;
-        for _ in 0..20 {
-            let under = statics.profile.patch_curvature(arc, turn, contact.half_width_m(c.n_bi));
-            let radius = 1.0 / (race + under.curvature_per_m);
-            let change = (radius / contact.effective_radius_m - 1.0).abs();
-            contact = LineContact { effective_radius_m: radius, ..contact };
-            straddles = under.straddles;
-            if change < 1e-14 {
-                break;
-            }
-        }
-        (contact, straddles)
     }
 }

@@ -2,11 +2,15 @@
 //!
 //! On the first arc N ~ (alpha - alpha_0)^(1/0.9) is singular at first contact but analytic in N^0.1, so arc 1
 //! is tabulated in s = (alpha - alpha_0)^(1/q) with q = 9 (roller-like laws; 10 for the logarithmic one),
-//! later arcs in alpha itself. Inside an arc every lane is one smooth function.
+//! later arcs in alpha itself. Inside an arc every lane is one smooth function, but where an edge of the patch at A
+//! passes a junction and the law knows the radius: there delta_H goes on as (x - x_0)^(5/2), and a panel ends.
 
 use super::closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 use super::curve::WedgePoint;
-use crate::numeric::{panels::Panels, quadrature};
+use crate::numeric::{
+    panels::{Grade, Panels},
+    quadrature,
+};
 
 pub(super) const LANES: usize = 11;
 
@@ -16,6 +20,14 @@ pub(super) const SLOPE_HELD_RAD: f64 = 1e-9;
 /// Panels of the first arc in s, as fractions of its end. The lowest two hold N below 1e-10 of the end's and
 /// matter only for continuity.
 const FIRST_BREAKS: [f64; 6] = [0.0, 0.02, 0.1, 0.3, 0.6, 1.0];
+/// The same for contacts that are shaped along the axis, which open and close along their length.
+const SHAPED_BREAKS: [f64; 14] = [0.0, 0.02, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8, 1.0];
+
+/// Breaks of the first arc up to `end`.
+fn first_breaks(statics: &Statics, end: f64) -> Vec<f64> {
+    let breaks: &[f64] = if statics.elastic.is_shaped() { &SHAPED_BREAKS } else { &FIRST_BREAKS };
+    breaks.iter().map(|b| b * end).collect()
+}
 
 #[derive(Debug, Clone)]
 pub(super) struct ArcTable {
@@ -76,6 +88,64 @@ fn lanes_of(c: &Closure, normal_lane: f64) -> [f64; LANES] {
     ]
 }
 
+/// Where an edge of the patch passes a junction, in one of the variables N, N^0.1, s, alpha.
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    at: f64,
+    /// The patch comes upon the junction; else it leaves it. Half-integer powers lie on the side where the junction is
+    /// under the patch.
+    comes: bool,
+}
+
+/// Panels: their breaks and how each is graded.
+struct Layout {
+    breaks: Vec<f64>,
+    grades: Vec<Grade>,
+}
+
+impl Layout {
+    /// `fixed` breaks with those of `edges` that lie inside; a fixed one gives way to an edge near it. An edge so near
+    /// to an end or to the one before that its panel would be a thousandth of the whole is left to the panel.
+    fn new(fixed: &[f64], edges: &[Edge]) -> Self {
+        let (from, until) = (fixed[0], fixed[fixed.len() - 1]);
+        let apart = 1e-3 * (until - from);
+        let mut kept: Vec<Edge> = Vec::new();
+        for &e in edges {
+            let last = kept.last().map_or(from, |k| k.at);
+            if e.at > last + apart && e.at < until - apart {
+                kept.push(e);
+            }
+        }
+        let near = |b: f64| 0.1 * (b - from).min(until - b);
+        let free = |b: f64| kept.iter().all(|e| (e.at - b).abs() > near(b));
+        let mut breaks: Vec<(f64, Option<bool>)> = kept.iter().map(|e| (e.at, Some(e.comes))).collect();
+        breaks.extend(fixed.iter().filter(|&&b| b == from || b == until || free(b)).map(|&b| (b, None)));
+        breaks.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut layout = Self { breaks: vec![from], grades: Vec::new() };
+        for w in breaks.windows(2) {
+            match (w[0].1, w[1].1) {
+                (Some(true), Some(false)) => {
+                    layout.push(0.5 * (w[0].0 + w[1].0), Grade::From);
+                    layout.push(w[1].0, Grade::Until);
+                }
+                (Some(true), _) => layout.push(w[1].0, Grade::From),
+                (_, Some(false)) => layout.push(w[1].0, Grade::Until),
+                _ => layout.push(w[1].0, Grade::Smooth),
+            }
+        }
+        layout
+    }
+
+    fn push(&mut self, until: f64, grade: Grade) {
+        self.breaks.push(until);
+        self.grades.push(grade);
+    }
+
+    fn panels<const M: usize, E>(&self, f: impl FnMut(f64) -> Result<[f64; M], E>) -> Result<Panels<M>, E> {
+        Panels::build_graded(&self.breaks, &self.grades, f)
+    }
+}
+
 pub(super) struct ArcBuilder<'a> {
     pub(super) statics: &'a Statics,
     pub(super) k: usize,
@@ -86,6 +156,15 @@ pub(super) struct ArcBuilder<'a> {
 }
 
 impl ArcBuilder<'_> {
+    /// Forces inside the arc at which a panel has to end.
+    fn edges(&self, n_from: f64, n_until: f64) -> Vec<Edge> {
+        if !self.statics.feels_junctions() {
+            return Vec::new();
+        }
+        let passages = self.statics.edge_passages(self.k, n_from, n_until, self.speed, self.shift);
+        passages.into_iter().map(|(n, _, comes)| Edge { at: n, comes }).collect()
+    }
+
     fn closure(&self, n: f64) -> Result<Closure, NoClosure> {
         self.statics.closure(self.k, n, self.speed, self.shift)
     }
@@ -99,15 +178,19 @@ impl ArcBuilder<'_> {
     ) -> Result<ArcTable, NoClosure> {
         let end = self.closure(n_until)?;
         let alpha_until = end.alpha.v;
+        let edges = self.edges(n_from, n_until);
         let (lanes, windup) = if first {
-            let lanes = self.first(n_until)?;
+            let (lanes, edges) = self.first(n_until, &edges)?;
             let s_end = (alpha_until - self.alpha0).powf(1.0 / self.exponent);
-            let windup = first_windup(&lanes, s_end, self.exponent);
+            let windup = first_windup(&lanes, &first_breaks(self.statics, s_end), &edges, self.exponent);
             (lanes, windup)
         } else {
             let alpha_from = self.closure(n_from)?.alpha.v;
-            let lanes = self.later(alpha_from, alpha_until, n_from, n_until)?;
-            let windup = later_windup(&lanes, alpha_from, alpha_until, windup_from);
+            let at_alpha = |e: &Edge| Ok(Edge { at: self.closure(e.at)?.alpha.v, ..*e });
+            let edges = edges.iter().map(at_alpha).collect::<Result<Vec<_>, _>>()?;
+            let layout = Layout::new(&[alpha_from, 0.5 * (alpha_from + alpha_until), alpha_until], &edges);
+            let lanes = self.later(&layout, n_from, n_until)?;
+            let windup = later_windup(&lanes, &layout, windup_from);
             (lanes, windup)
         };
         let rho_slopes = lanes.derivative([2, 3]);
@@ -116,17 +199,19 @@ impl ArcBuilder<'_> {
     }
 
     /// Arc 1, lanes over s. alpha - alpha_0 = 10 int_0^z (z alpha_N) z^8 dz with N = z^10 keeps relative
-    /// accuracy down to N -> 0, which a difference of two alphas does not.
-    fn first(&self, n_until: f64) -> Result<Panels<LANES>, NoClosure> {
+    /// accuracy down to N -> 0, which a difference of two alphas does not. Returns s at the `edges` (N) as well.
+    fn first(&self, n_until: f64, edges: &[Edge]) -> Result<(Panels<LANES>, Vec<Edge>), NoClosure> {
         let z_end = n_until.powf(0.1);
-        let rate = Panels::<1>::build(&FIRST_BREAKS.map(|b| b * z_end), |z| {
-            Ok([z * self.closure(z.powi(10).max(FIRST_CONTACT_N))?.alpha.d])
-        })?;
+        let edges: Vec<Edge> = edges.iter().map(|e| Edge { at: e.at.powf(0.1), ..*e }).collect();
+        let rate = Layout::new(&first_breaks(self.statics, z_end), &edges)
+            .panels::<1, _>(|z| Ok([z * self.closure(z.powi(10).max(FIRST_CONTACT_N))?.alpha.d]))?;
         // A(z) = (alpha - alpha_0)/z^9, split so that each piece of the quadrature is smooth.
-        let mean = |z: f64| 10.0 * unit_integral(|x| rate.at(z * x)[0] * x.powi(8));
+        let mean = |z: f64| 10.0 * unit_integral(z, &edges, |x| rate.at(z * x)[0] * x.powi(8));
         let q = self.exponent;
-        let s_end = (z_end.powi(9) * mean(z_end)).powf(1.0 / q);
-        Panels::build(&FIRST_BREAKS.map(|b| b * s_end), |s| {
+        let of = |z: f64| (z.powi(9) * mean(z)).powf(1.0 / q);
+        let s_end = of(z_end);
+        let s_edges: Vec<Edge> = edges.iter().map(|e| Edge { at: of(e.at), ..*e }).collect();
+        let lanes = Layout::new(&first_breaks(self.statics, s_end), &s_edges).panels(|s| {
             // q ln s = 9 ln z + ln A(z), by Newton in ln z.
             let mut z = z_end * s / s_end;
             for _ in 0..50 {
@@ -139,13 +224,14 @@ impl ArcBuilder<'_> {
                 }
             }
             Ok(lanes_of(&self.closure(z.powi(10).max(FIRST_CONTACT_N))?, z / s))
-        })
+        })?;
+        Ok((lanes, s_edges))
     }
 
     /// Later arcs, lanes over alpha.
-    fn later(&self, from: f64, until: f64, n_from: f64, n_until: f64) -> Result<Panels<LANES>, NoClosure> {
-        let middle = 0.5 * (from + until);
-        Panels::build(&[from, middle, until], |alpha| {
+    fn later(&self, layout: &Layout, n_from: f64, n_until: f64) -> Result<Panels<LANES>, NoClosure> {
+        let (from, until) = (layout.breaks[0], layout.breaks[layout.breaks.len() - 1]);
+        layout.panels(|alpha| {
             let mut n = n_from + (n_until - n_from) * (alpha - from) / (until - from);
             let mut c = self.closure(n)?;
             for _ in 0..50 {
@@ -161,42 +247,45 @@ impl ArcBuilder<'_> {
     }
 }
 
-/// Integral over [0, 1] in two halves: to rounding for the weights x^8 and x^9 used here.
-fn unit_integral(f: impl Fn(f64) -> f64) -> f64 {
-    quadrature::integral(0.0, 0.5, &f) + quadrature::integral(0.5, 1.0, &f)
+/// Integral of f(x) over [0, 1] in two halves, and split where z x passes an edge: to rounding for the weights x^8
+/// and x^9 used here.
+fn unit_integral(z: f64, edges: &[Edge], f: impl Fn(f64) -> f64) -> f64 {
+    let mut splits = vec![0.0, 0.5, 1.0];
+    splits.extend(edges.iter().map(|e| e.at / z).filter(|x| *x < 1.0));
+    splits.sort_by(f64::total_cmp);
+    splits.windows(2).map(|w| quadrature::integral(w[0], w[1], &f)).sum()
 }
 
 /// W/s^q on arc 1 as a function of s.
-fn first_windup(lanes: &Panels<LANES>, s_end: f64, q: f64) -> Panels<1> {
+fn first_windup(lanes: &Panels<LANES>, breaks: &[f64], edges: &[Edge], q: f64) -> Panels<1> {
     let exponent = q as i32 - 1;
     let mean = |s: f64| {
-        q * unit_integral(|x| {
+        q * unit_integral(s, edges, |x| {
             let v = lanes.at(s * x);
             (v[2] + v[3]) * x.powi(exponent)
         })
     };
-    let build: Result<_, std::convert::Infallible> =
-        Panels::build(&FIRST_BREAKS.map(|b| b * s_end), |s| Ok([mean(s)]));
+    let layout = Layout::new(breaks, edges);
+    let build: Result<_, std::convert::Infallible> = layout.panels(|s| Ok([mean(s)]));
     match build {
         Ok(p) => p,
     }
 }
 
 /// W on a later arc as a function of alpha: the integral of rho_i + rho_e from the arc's beginning.
-fn later_windup(lanes: &Panels<LANES>, from: f64, until: f64, windup_from: f64) -> Panels<1> {
+fn later_windup(lanes: &Panels<LANES>, layout: &Layout, windup_from: f64) -> Panels<1> {
     let rate = |a: f64| {
         let v = lanes.at(a);
         v[2] + v[3]
     };
-    let middle = 0.5 * (from + until);
-    let half = quadrature::integral(from, middle, rate);
-    let build: Result<_, std::convert::Infallible> = Panels::build(&[from, middle, until], |a| {
-        let rest = if a > middle {
-            half + quadrature::integral(middle, a, rate)
-        } else {
-            quadrature::integral(from, a, rate)
-        };
-        Ok([windup_from + rest])
+    let breaks = &layout.breaks;
+    let mut until = vec![0.0];
+    for w in breaks.windows(2) {
+        until.push(until[until.len() - 1] + quadrature::integral(w[0], w[1], rate));
+    }
+    let build: Result<_, std::convert::Infallible> = layout.panels(|a| {
+        let panel = breaks[1..breaks.len() - 1].partition_point(|&b| b < a);
+        Ok([windup_from + (until[panel] + quadrature::integral(breaks[panel], a, rate))])
     });
     match build {
         Ok(p) => p,

@@ -1,0 +1,199 @@
+//! The profile under the contact patch at A, which is about as wide as an arc is long: what a law that knows the
+//! radius is given there, and where the patch lies on two arcs.
+//!
+//! Left out: where a patch straddles a junction its pressure is not symmetric, so its resultant lies up to 0.4 um off the
+//! contact point for Table 1's radii (tests/patch_contact.rs), which is 5e-4 of the lever OB sin beta = 0.8 mm of N_bi
+//! about B. The wedge keeps the contact point; therefore dC/dN keeps its jump where that passes a junction, the kink of
+//! the torque curve. With the resultant's shift the jump would be spread over the patch's width.
+
+use super::closure::{Closure, Statics};
+use super::curve::WedgeCurve;
+use crate::contact::LineContact;
+use crate::numeric::{dual::Dual, root};
+
+/// The curvature that a law which knows the radius is given at A.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InnerCurvature {
+    /// Averaged over the patch for the approach ([`crate::profile::Profile::approach_curvature`]): delta_H passes a
+    /// junction without a jump.
+    Patch,
+    /// That of the arc in contact, as the paper takes it: delta_H jumps at a junction and alpha is shifted there to
+    /// keep N (the paper's Figure 5). For comparison.
+    Pointwise,
+}
+
+/// A junction under the patch at A.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Straddle {
+    /// The junction lies at the end of this arc, from 0.
+    pub junction: usize,
+    /// N_bi at which the patch's edge reaches the junction, N.
+    pub from_n: f64,
+    /// N_bi at which its other edge leaves it, N; `None` where the curve ends before.
+    pub until_n: Option<f64>,
+}
+
+/// delta_H at A with the curvature behind it, while the closure settles.
+pub(super) struct InnerApproach {
+    pub(super) approach_m: Dual,
+    /// 1/R.
+    pub(super) curvature_per_m: Dual,
+    /// d delta_H/d(1/R), m^2; `None` for a law without radius or where the arc's own is wanted.
+    by_curvature_m2: Option<f64>,
+}
+
+impl InnerApproach {
+    pub(super) fn new(statics: &Statics, arc: usize, n: Dual) -> Self {
+        let own = Dual::constant(1.0 / statics.elastic.inner_contact[arc].effective_radius_m);
+        let pointwise = Self {
+            approach_m: statics.elastic.pointwise_inner(arc, n),
+            curvature_per_m: own,
+            by_curvature_m2: None,
+        };
+        match statics.inner_curvature {
+            InnerCurvature::Patch => Self::curved(statics, arc, n, own).unwrap_or(pointwise),
+            InnerCurvature::Pointwise => pointwise,
+        }
+    }
+
+    fn curved(statics: &Statics, arc: usize, n: Dual, curvature: Dual) -> Option<Self> {
+        let at = statics.elastic.curved_inner(arc, n.v, curvature.v)?;
+        let slope = at.by_force_m_per_n * n.d + at.by_curvature_m2 * curvature.d;
+        Some(Self {
+            approach_m: Dual { v: at.approach_m, d: slope },
+            curvature_per_m: curvature,
+            by_curvature_m2: Some(at.by_curvature_m2),
+        })
+    }
+
+    /// Take the curvature at the turn that the last one led to. Returns the relative changes of delta_H and of its
+    /// slope.
+    pub(super) fn update(&mut self, statics: &Statics, arc: usize, n: Dual, turn: Dual) -> Dual {
+        let Some(by_curvature) = self.by_curvature_m2 else { return Dual::constant(0.0) };
+        let contact = &statics.elastic.inner_contact[arc];
+        let k = self.curvature_per_m;
+        // a ~ (N R)^(1/2)
+        let half = at_curvature(contact, k.v).half_width_m(n.v);
+        let half_slope = 0.5 * half * (n.d / n.v - k.d / k.v);
+        let under = statics.profile.approach_curvature(arc, turn.v, half);
+        let next = Dual {
+            v: 1.0 / contact.effective_radius_m
+                + (under.curvature_per_m - 1.0 / statics.profile.arcs[arc].radius_m),
+            d: under.by_turn_per_m_rad * turn.d + under.by_half_width_per_m2 * half_slope,
+        };
+        if next == k {
+            return Dual::constant(0.0);
+        }
+        let change = Dual {
+            v: (by_curvature * (next.v - k.v) / self.approach_m.v).abs(),
+            d: (by_curvature * (next.d - k.d) / self.approach_m.d).abs(),
+        };
+        if let Some(updated) = Self::curved(statics, arc, n, next) {
+            *self = updated;
+        }
+        change
+    }
+}
+
+fn at_curvature(contact: &LineContact, curvature_per_m: f64) -> LineContact {
+    LineContact { effective_radius_m: 1.0 / curvature_per_m, ..*contact }
+}
+
+impl Statics {
+    /// The contact at A with the curvature that decides its width, and whether its patch straddles a junction: width
+    /// and mean curvature under it are found together.
+    pub(super) fn patch(&self, arc: usize, c: &Closure) -> (LineContact, bool) {
+        let mut contact = self.elastic.inner_contact[arc];
+        let turn = c.turn_rad(self.profile.beta0_rad);
+        // 1/R of the race alone: what the pointwise contact has beside the arc.
+        let race = 1.0 / contact.effective_radius_m - 1.0 / self.profile.arcs[arc].radius_m;
+        let mut straddles = false;
+        for _ in 0..20 {
+            let under = self.profile.patch_curvature(arc, turn, contact.half_width_m(c.n_bi));
+            let radius = 1.0 / (race + under.curvature_per_m);
+            let change = (radius / contact.effective_radius_m - 1.0).abs();
+            contact = LineContact { effective_radius_m: radius, ..contact };
+            straddles = under.straddles;
+            if change < 1e-14 {
+                break;
+            }
+        }
+        (contact, straddles)
+    }
+
+    /// Whether the approach at A feels the curvature beyond the arc in contact.
+    pub(super) fn feels_junctions(&self) -> bool {
+        let own = 1.0 / self.elastic.inner_contact[0].effective_radius_m;
+        self.inner_curvature == InnerCurvature::Patch && self.elastic.curved_inner(0, 1.0, own).is_some()
+    }
+
+    /// Normal forces between `n_from` and `n_until` (N) on arc `arc` at which an edge of the patch passes a junction,
+    /// with the junction and whether the patch comes upon it, ascending.
+    pub(super) fn edge_passages(
+        &self,
+        arc: usize,
+        n_from: f64,
+        n_until: f64,
+        speed_rad_s: f64,
+        shift_rad: f64,
+    ) -> Vec<(f64, usize, bool)> {
+        // Forces between which each junction is looked for: a passage each way inside one of these would be missed,
+        // which costs accuracy of the table and shows in its truncation.
+        const PIECES: usize = 4;
+        let contact = &self.elastic.inner_contact[arc];
+        // Distance of the junction from the edge; positive while it lies outside the patch.
+        let outside = |junction: usize, n: f64| {
+            self.closure(arc, n, speed_rad_s, shift_rad).map_or(f64::NAN, |c| {
+                let half = at_curvature(contact, c.curvature_inner_per_m).half_width_m(n);
+                let turn = c.turn_rad(self.profile.beta0_rad);
+                self.profile.junction_distance_m(arc, turn, junction).abs() - half
+            })
+        };
+        let mut found = Vec::new();
+        for junction in 0..self.profile.arcs.len() - 1 {
+            let force = |i: usize| {
+                (n_from + (n_until - n_from) * i as f64 / PIECES as f64).max(super::closure::FIRST_CONTACT_N)
+            };
+            let (mut a, mut fa) = (force(0), outside(junction, force(0)));
+            for i in 1..=PIECES {
+                let (b, fb) = (force(i), outside(junction, force(i)));
+                if fa * fb < 0.0
+                    && let Some(n) = root::bracketed(a, b, fa, fb, 1e-13 * b, |n| outside(junction, n))
+                {
+                    found.push((n, junction, fb < 0.0));
+                }
+                (a, fa) = (b, fb);
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found
+    }
+}
+
+impl WedgeCurve {
+    /// Where the patch at A straddles a junction, in order of the junctions; whatever the law, with the half width of
+    /// the curvature that the law is given.
+    pub fn straddles(&self) -> Vec<Straddle> {
+        let mut list: Vec<Straddle> = Vec::new();
+        for k in 0..self.arc_count() {
+            let (n_from, n_until) = (if k == 0 { 0.0 } else { self.arc_end_n(k - 1) }, self.arc_end_n(k));
+            let passages = self.statics().edge_passages(
+                self.first_arc() + k,
+                n_from,
+                n_until,
+                self.speed_rad_s(),
+                self.shift_rad(k),
+            );
+            for (n, junction, comes) in passages {
+                match list.iter_mut().rev().find(|s| s.junction == junction) {
+                    Some(open) if !comes => open.until_n = Some(n),
+                    _ if comes => list.push(Straddle { junction, from_n: n, until_n: None }),
+                    // It lies under the patch from first contact on.
+                    _ => list.push(Straddle { junction, from_n: 0.0, until_n: Some(n) }),
+                }
+            }
+        }
+        list.sort_by_key(|s| s.junction);
+        list
+    }
+}
