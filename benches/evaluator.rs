@@ -53,7 +53,7 @@ fn build_curve_that_knows_the_radius(bencher: Bencher, law: &str) {
     clutch.contact = match law {
         "hertz" => ContactLaw::Hertz,
         "elastic" => ContactLaw::Elastic { state: StressState::Layer },
-        _ => ContactLaw::Slice { coefficient: 3.944e-5, slices: 60 },
+        _ => ContactLaw::Slice { coefficient: 3.944e-5 },
     };
     let profile = place_profile(&clutch).expect("profile");
     bencher.bench(|| WedgeCurve::build(black_box(&clutch), &profile, 0.0));

@@ -1,8 +1,10 @@
 //! `stiffness`: the static curve, for one contact law or several side by side.
 
 mod body;
+mod fem;
 mod laws;
 mod page;
+mod pressure;
 mod tables;
 
 use super::exit::{Exit, Failure};
@@ -16,7 +18,9 @@ use crate::scenario::place_profile;
 use crate::wedge::{StaticPoint, WedgeCurve};
 use body::Body;
 use clap::Args;
+use fem::Fem;
 pub use laws::ContactName;
+use pressure::PressureMap;
 use rayon::prelude::*;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -25,7 +29,12 @@ const EXAMPLES: &str = "\
 Examples:
   sprag-design stiffness designs/huang2017-multi-arc.toml
   sprag-design stiffness designs/huang2017-multi-arc.toml --torques 3.34,16.8,50
-  sprag-design stiffness designs/huang2017-multi-arc.toml --contact roller,hertz,slice --max-torque 50 --report laws.html";
+  sprag-design stiffness designs/huang2017-multi-arc.toml --contact roller,hertz,slice --max-torque 50 --report laws.html
+  sprag-design stiffness designs/huang2017-multi-arc.toml --contact roller,slice,elastic --pressure --report map.html
+  sprag-design stiffness designs/huang2017-multi-arc.toml --contact roller,slice,elastic --fem result.csv
+
+Finite elements: a CSV with the columns torque_nm and windup_deg, normal_inner_n or normal_n if there; what
+`export --format calculix --read ... --csv` writes is one. Several FILEs go onto one page, each with its --fem.";
 
 /// Rows of an even table.
 const EVEN_ROWS: usize = 20;
@@ -36,9 +45,9 @@ const SMALLEST_NM: f64 = 1e-6;
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct StiffnessArgs {
-    /// Design file (TOML)
-    #[arg(value_name = "FILE")]
-    pub file: PathBuf,
+    /// Design files (TOML); more than one only with --report
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
     /// Contact laws to compare, comma separated [default: the design's]
     #[arg(long, value_name = "LAW,...", value_enum, value_delimiter = ',')]
     pub contact: Vec<ContactName>,
@@ -48,6 +57,15 @@ pub struct StiffnessArgs {
     /// Largest torque of an even table, Nm [default: the design's peak torque]
     #[arg(long, value_name = "NM", value_parser = positive)]
     pub max_torque: Option<f64>,
+    /// Finite-element result to compare with, CSV; once for each FILE, in their order
+    #[arg(long, value_name = "PATH")]
+    pub fem: Vec<PathBuf>,
+    /// Rows of --fem whose column `model` holds one of these texts, separated by | [default: all]
+    #[arg(long, value_name = "TEXT|...", requires = "fem")]
+    pub fem_model: Option<String>,
+    /// Pressure along the length of the contacts, by slices; on by itself with an end profile or a tilt
+    #[arg(long)]
+    pub pressure: bool,
 }
 
 /// One law's curve and the rows asked for.
@@ -56,8 +74,21 @@ struct LawCurve {
     /// The clutch with this law.
     clutch: Clutch,
     curve: WedgeCurve,
+    /// The same with local deformation alone.
+    local: WedgeCurve,
     /// Static point at each torque of the table; none beyond the curve's end.
     rows: Vec<(f64, Option<StaticPoint>)>,
+}
+
+/// One design with all that was asked of it.
+struct Study {
+    design: Design,
+    profile: Profile,
+    laws: Vec<LawCurve>,
+    fem: Option<Fem>,
+    /// Pressure along the length with the first law; absent: not asked for.
+    pressure: Option<PressureMap>,
+    run_time_s: f64,
 }
 
 /// Run the command.
@@ -65,34 +96,64 @@ struct LawCurve {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
-    context.outputs.check(&args.file, &[])?;
+    for file in &args.files {
+        context.outputs.check(file, &args.fem.iter().map(PathBuf::as_path).collect::<Vec<_>>())?;
+    }
     refuse_tiny(args)?;
-    let design = parts::read_design(&args.file, context)?;
+    let several = args.files.len() > 1;
+    if several && (context.json || context.outputs.csv.is_some() || context.outputs.report.is_none()) {
+        return Err(Failure::malformed(
+            "several FILEs make one page: --report PATH.html, without --json and --csv",
+        ));
+    }
+    if !args.fem.is_empty() && args.fem.len() != args.files.len() {
+        let (fem, files) = (args.fem.len(), args.files.len());
+        return Err(Failure::malformed(format!(
+            "{fem} --fem for {files} FILEs: give one for each, in their order"
+        )));
+    }
+    let studies = (0..args.files.len()).map(|i| study(args, i, context)).collect::<Result<Vec<_>, _>>()?;
+    let answers: Vec<_> = studies.iter().map(answer).collect();
+    if let [study] = studies.as_slice() {
+        context.outputs.write_csv(&tables::csv(&study.laws))?;
+    }
+    context.outputs.write_report(|| page::page(&studies, &answers, context))?;
+    for (study, answer) in studies.iter().zip(&answers) {
+        context.answer(&tables::text(study))?;
+        answer.print(context)?;
+    }
+    Ok(Exit::Held)
+}
+
+/// What is asked of the `i`-th file.
+fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<Study, Failure> {
+    let design = parts::read_design(&args.files[i], context)?;
+    let fem = args.fem.get(i).map(|path| Fem::read(path, args.fem_model.as_deref())).transpose()?;
     let profile =
         place_profile(&design.clutch).map_err(|e| Failure::malformed(format!("no profile: {e:?}")))?;
     let started = Instant::now();
     let laws = compute(args, &design, &profile, context)?;
-    let run_time_s = started.elapsed().as_secs_f64();
-    let mut terms = left_out(&design.clutch);
+    let wanted = args.pressure || !design.clutch.axial.is_straight();
+    let pressure = laws.first().filter(|_| wanted).map(PressureMap::of).transpose()?;
+    Ok(Study { design, profile, laws, fem, pressure, run_time_s: started.elapsed().as_secs_f64() })
+}
+
+fn answer(study: &Study) -> Answer<'_, Body> {
+    let mut terms = left_out(&study.design.clutch);
     // A term that one of the laws compared does hold is left out by the others all the same.
-    for term in laws.iter().flat_map(|l| left_out(&l.clutch)) {
+    for term in study.laws.iter().flat_map(|l| left_out(&l.clutch)) {
         if terms.iter().all(|t| t.term != term.term) {
             terms.push(term);
         }
     }
-    let truncation = laws.iter().map(|l| l.curve.truncation()).fold(0.0, f64::max);
-    let answer = Answer {
-        design: &design,
-        run_time_s,
+    let truncation = study.laws.iter().map(|l| l.curve.truncation()).fold(0.0, f64::max);
+    Answer {
+        design: &study.design,
+        run_time_s: study.run_time_s,
         left_out: terms,
         error_estimate: Some(truncation.into()),
-        body: Body::new(&laws),
-    };
-    context.outputs.write_csv(&tables::csv(&laws))?;
-    context.outputs.write_report(|| page::page(&design, &profile, &laws, &answer, context))?;
-    context.answer(&tables::text(&design, &laws))?;
-    answer.print(context)?;
-    Ok(Exit::Held)
+        body: Body::new(study),
+    }
 }
 
 fn refuse_tiny(args: &StiffnessArgs) -> Result<(), Failure> {
@@ -122,23 +183,28 @@ fn compute(
             }
             let contact = name.law(&design.clutch.contact);
             let clutch = Clutch { contact, ..design.clutch.clone() };
-            let curve = WedgeCurve::build(&clutch, profile, 0.0)
-                .map_err(|e| Failure::malformed(format!("no curve with the {} law: {e:?}", name.key())))?;
+            let none = |e| Failure::malformed(format!("no curve with the {} law: {e}", name.key()));
+            let curve = WedgeCurve::build(&clutch, profile, 0.0).map_err(none)?;
+            let local = WedgeCurve::build_local(&clutch, profile).map_err(none)?;
             progress.advance(1);
-            Ok((name, clutch, curve))
+            Ok((name, clutch, curve, local))
         })
         .collect::<Result<Vec<_>, Failure>>()?;
     let torques = torques(args, design, &curves);
-    let laws = curves.into_par_iter().map(|(name, clutch, curve)| {
+    let laws = curves.into_par_iter().map(|(name, clutch, curve, local)| {
         let rows = torques.iter().map(|&t| (t, curve.at_torque(t))).collect();
-        LawCurve { name, clutch, curve, rows }
+        LawCurve { name, clutch, curve, local, rows }
     });
     Ok(laws.collect())
 }
 
 /// Torques of the table, N m: those asked for, or an even table up to the largest asked for, else up to the
 /// design's peak torque or the first end of a curve, whichever comes first.
-fn torques(args: &StiffnessArgs, design: &Design, curves: &[(ContactName, Clutch, WedgeCurve)]) -> Vec<f64> {
+fn torques(
+    args: &StiffnessArgs,
+    design: &Design,
+    curves: &[(ContactName, Clutch, WedgeCurve, WedgeCurve)],
+) -> Vec<f64> {
     if !args.torques.is_empty() {
         return args.torques.clone();
     }

@@ -94,7 +94,9 @@ pub(super) fn edges_and_peak(
         }
     };
     let edges = [edge(0), edge(1)];
-    let largest = (0..n).max_by(|a, b| pressure_pa[*a].total_cmp(&pressure_pa[*b])).unwrap_or(0);
+    // The first of equals, to rounding, so that a symmetric contact names the same end at every force.
+    let most = pressure_pa.iter().fold(0.0, |m: f64, p| m.max(*p));
+    let largest = pressure_pa.iter().position(|p| *p >= most * (1.0 - 1e-9)).unwrap_or(0);
     let bounded = |end: usize| matches!(edges[end], Edge::Open | Edge::Bounded { .. });
     let peak = match largest {
         _ if pressure_pa[largest] == 0.0 => Peak::None,

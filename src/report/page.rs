@@ -5,7 +5,7 @@ use super::table::Table;
 const STYLE: &str = include_str!("page.css");
 
 /// What every page says about its origin.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct PageHead {
     /// Title, e.g. `"Margin check"`.
     pub title: String,

@@ -28,8 +28,24 @@ impl WedgeCurve {
         inner_curvature: InnerCurvature,
     ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), inner_curvature).map_err(NoCurve::NoElastic)?;
-        let exponent =
-            if matches!(clutch.contact, ContactLaw::Hertz | ContactLaw::Elastic { .. }) { 10.0 } else { 9.0 };
+        Self::march(statics, exponent(clutch), speed_rad_s)
+    }
+
+    /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).
+    /// The paper's Figure 11 sets it beside the whole.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_local(clutch: &Clutch, profile: &Profile) -> Result<Self, NoCurve> {
+        let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
+        let mut statics = whole.map_err(NoCurve::NoElastic)?;
+        statics.elastic = statics.elastic.local_only();
+        Self::march(statics, exponent(clutch), 0.0)
+    }
+
+    /// Arc after arc from first contact to the end.
+    fn march(statics: Statics, exponent: f64, speed_rad_s: f64) -> Result<Self, NoCurve> {
+        let profile = statics.profile.clone();
         let beta0 = profile.beta0_rad;
         // The arc on which first contact lies at this speed: growth of the race may already have turned it.
         let mut first = 0;
@@ -82,6 +98,11 @@ impl WedgeCurve {
         }
         Ok(Self { statics, speed_rad_s, exponent, alpha0, first, arcs, end, touch })
     }
+}
+
+/// q of s = (alpha - alpha_0)^(1/q): 9 for the power of the roller law, 10 for logarithmic laws.
+fn exponent(clutch: &Clutch) -> f64 {
+    if matches!(clutch.contact, ContactLaw::Hertz | ContactLaw::Elastic { .. }) { 10.0 } else { 9.0 }
 }
 
 /// N at which arc `k` ends and, where that ends the curve, why. `None`: nothing of this arc can be used.

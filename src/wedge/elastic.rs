@@ -158,6 +158,11 @@ impl Elastic {
         law(&self.inner[arc], n_bi)
     }
 
+    /// Without growth of the rings and compression of the body.
+    pub(super) fn local_only(self) -> Self {
+        Self { race_inner_m_per_n: 0.0, race_outer_m_per_n: 0.0, body_m_per_n: 0.0, ..self }
+    }
+
     /// Whether the contacts are shaped along the axis, and the law knows it.
     pub(super) fn is_shaped(&self) -> bool {
         matches!(self.outer, Approach::Shaped(_))

@@ -1,6 +1,8 @@
 //! The JSON of `stiffness`.
 
-use super::LawCurve;
+use super::fem::{Distance, FemRow, distance};
+use super::pressure::{PressureJson, PressureMap};
+use super::{LawCurve, Study};
 use crate::cli::parts::{self, Junction};
 use crate::design::ContactLaw;
 use crate::report::Unit;
@@ -21,7 +23,11 @@ struct Point {
     k_tangent_nm_per_rad: f64,
     /// From 1.
     arc: usize,
+    /// Whether the patch at A lies on two arcs.
+    straddles_junction: bool,
     hertz_inner_mpa: f64,
+    /// With the radius at the contact point alone, as the paper takes it.
+    hertz_inner_pointwise_mpa: f64,
     hertz_outer_mpa: f64,
 }
 
@@ -58,16 +64,39 @@ pub(super) struct Body {
     laws: Vec<Law>,
     #[serde(flatten)]
     only: Option<Curve>,
+    /// Finite elements and the distance of each law to them, in the order of `laws`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fem: Option<Vec<FemJson>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pressure: Option<PressureJson>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct FemJson {
+    torque_nm: f64,
+    windup_deg: f64,
+    normal_inner_n: Option<f64>,
+    laws: Vec<Distance>,
 }
 
 impl Body {
-    pub(super) fn new(curves: &[LawCurve]) -> Self {
-        let laws: Vec<Law> = curves.iter().map(law).collect();
+    pub(super) fn new(study: &Study) -> Self {
+        let laws: Vec<Law> = study.laws.iter().map(law).collect();
         let only = match laws.as_slice() {
             [one] => Some(one.curve.clone()),
             _ => None,
         };
-        Self { laws, only }
+        let fem = study.fem.as_ref().map(|fem| fem.rows.iter().map(|row| against(study, row)).collect());
+        Self { laws, only, fem, pressure: study.pressure.as_ref().map(PressureMap::to_json) }
+    }
+}
+
+fn against(study: &Study, row: &FemRow) -> FemJson {
+    FemJson {
+        torque_nm: row.torque_nm,
+        windup_deg: Unit::Degree.from_si(row.windup_rad),
+        normal_inner_n: row.normal_n,
+        laws: study.laws.iter().map(|l| distance(l, row)).collect(),
     }
 }
 
@@ -99,6 +128,8 @@ fn point(torque_nm: f64, p: &StaticPoint) -> Point {
         k_secant_nm_per_rad: p.k_secant_nm_per_rad,
         k_tangent_nm_per_rad: p.k_tangent_nm_per_rad,
         arc: p.arc + 1,
+        straddles_junction: p.straddles_junction,
+        hertz_inner_pointwise_mpa: Unit::Megapascal.from_si(p.hertz_inner_pointwise_pa),
         hertz_inner_mpa: Unit::Megapascal.from_si(p.hertz_inner_pa),
         hertz_outer_mpa: Unit::Megapascal.from_si(p.hertz_outer_pa),
     }

@@ -90,7 +90,7 @@ pub(super) fn description(law: &ContactLaw, axial: &Axial) -> String {
         }
         ContactLaw::Elastic { state } => format!(
             "elastic, {}: exact plane elasticity of each ring under its contacts and of the sprag as a disc, nothing \
-             fitted and no bulk counted twice; windup within 2 % of finite elements (clutch of Table 1)",
+             fitted and no bulk counted twice; windup within 0.9 % of finite elements (three clutches, 32 rows)",
             match state {
                 StressState::Layer => "layer (plane strain near the contact, plane stress farther away)",
                 StressState::PlaneStrain => "plane strain",

@@ -1,24 +1,33 @@
 //! The stiffness curves as a page.
 
 use super::body::Body;
+use super::fem::{self, Distance, Fem, distance, findings};
 use super::laws::description;
 use super::tables::{full, junction_text, tangents, windups};
-use super::{LawCurve, end_text};
+use super::{LawCurve, Study, end_text};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
 use crate::design::Design;
 use crate::profile::Profile;
-use crate::report::{Page, Plot, Unit};
+use crate::report::plot::{Curve, Dash};
+use crate::report::{Column, Page, PageHead, Plot, Table, Unit};
 use crate::wedge::StaticPoint;
 
-pub(super) fn page(
-    design: &Design,
-    profile: &Profile,
-    laws: &[LawCurve],
-    answer: &Answer<'_, Body>,
-    context: &Context,
-) -> Page {
-    let mut page = parts::page("Stiffness", design, context);
+pub(super) fn page(studies: &[Study], answers: &[Answer<'_, Body>], context: &Context) -> Page {
+    let Some(first) = studies.first() else { return Page::new(PageHead::default()) };
+    let mut page = parts::page("Stiffness", &first.design, context);
+    for (study, answer) in studies.iter().zip(answers) {
+        if studies.len() > 1 {
+            page.heading(&study.design.name);
+        }
+        section(&mut page, study);
+        answer.close(&mut page);
+    }
+    page
+}
+
+fn section(page: &mut Page, study: &Study) {
+    let (design, profile, laws) = (&study.design, &study.profile, study.laws.as_slice());
     page.list(laws.iter().map(|l| {
         format!(
             "{}. Curve ends {}{}.",
@@ -30,16 +39,29 @@ pub(super) fn page(
     let up_to = laws.iter().flat_map(|l| &l.rows).map(|r| r.0).fold(0.0, f64::max);
     let curves = Curves::new(laws, up_to);
     page.heading("Torque and windup");
-    page.figure(
-        &curves.windup().to_svg(),
-        "Torque over windup. Vertical lines: junctions of the first law's curve.",
-    );
-    if laws.len() > 1 {
+    let mut windup = curves.windup();
+    if let Some(fem) = &study.fem {
+        let points = fem.rows.iter().map(|r| [Unit::Degree.from_si(r.windup_rad), r.torque_nm]).collect();
+        windup.curves.push(Curve { dots: true, ..Curve::new("finite elements", points) });
+    }
+    page.figure(&windup.to_svg(), "Torque over windup. Vertical lines: junctions of the first law's curve.");
+    if let Some(fem) = &study.fem {
+        page.figure(
+            &curves.against(fem).to_svg(),
+            "Windup of each law against finite elements, at their torques. Dashed: local deformation alone.",
+        );
+        page.list(findings(study, fem));
+        page.table("Distance to finite elements; local only: without (5) and (6).", &fem::table(study, fem));
+    } else if laws.len() > 1 {
         page.figure(
             &curves.difference().to_svg(),
             "Windup of the other laws against that of the first, at the same torque.",
         );
     }
+    page.figure(
+        &curves.structure().to_svg(),
+        "Local deformation alone (dashed) and with the growth of the rings (5) and the body (6): the paper's Figure 11.",
+    );
     page.heading("Stiffness");
     let caption =
         "Secant: torque over windup. Tangent: its slope, which jumps where the radius of curvature does.";
@@ -57,6 +79,7 @@ pub(super) fn page(
             ]);
         }
     }
+    junctions(page, laws);
     page.heading("Contacts");
     let mpa = |pa: f64| Unit::Megapascal.from_si(pa);
     let inner = curves.plot("Hertz pressure at A, MPa", &|p| mpa(p.hertz_inner_pa));
@@ -65,12 +88,17 @@ pub(super) fn page(
     let omega = curves.plot("tan ω, inner contact", &|p| p.tan_omega).level(friction, "μs");
     let nu = curves.plot("tan ν, outer contact", &|p| p.tan_nu);
     page.figures(&[
-        (parts::half(inner), "Peak pressure on the inner race, radius taken at one point."),
+        (parts::half(inner), "Peak pressure on the inner race, curvature averaged over the patch."),
         (parts::half(outer), "Peak pressure on the outer race."),
         (parts::half(omega), "Friction that the inner contact must give."),
         (parts::half(nu), "Friction that the outer contact must give."),
     ]);
-    draw(&mut page, design, profile, laws, up_to);
+    if let Some(map) = &study.pressure {
+        page.heading("Pressure along the length");
+        page.figures(&map.figures());
+        page.table("By slices; a sharp end has no pressure of its own.", &map.table());
+    }
+    draw(page, design, profile, laws, up_to);
     page.heading("Tables");
     if laws.len() > 1 {
         page.table("Windup; diff.: against the first law.", &windups(laws));
@@ -79,8 +107,55 @@ pub(super) fn page(
     for law in laws {
         page.table(&format!("Law: {}", law.name.key()), &full(law));
     }
-    answer.close(&mut page);
-    page
+}
+
+/// What happens where one arc hands over to the next, on every law's curve.
+fn junctions(page: &mut Page, laws: &[LawCurve]) {
+    let mut table = Table::new(vec![
+        Column::text("law", "Law"),
+        Column::text("junction", "Junction"),
+        Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
+        Column::number("k_before", "K tan before", Unit::NewtonMetrePerRadian, 5),
+        Column::number("k_after", "after", Unit::NewtonMetrePerRadian, 5),
+        Column::number("jump", "Jump", Unit::Percent, 3),
+        Column::number("shift_rad", "Shift of α", Unit::Radian, 2),
+        Column::text("patch", "Patch at A lies on both arcs"),
+    ]);
+    let mut any = false;
+    for law in laws {
+        let curve = &law.curve;
+        for (k, junction) in parts::junctions(curve).iter().enumerate() {
+            let n = curve.arc_end_n(k);
+            let Some((before, after)) =
+                curve.at_normal(n * (1.0 - 1e-9)).zip(curve.at_normal(n * (1.0 + 1e-9)))
+            else {
+                continue;
+            };
+            any = true;
+            let (a, b) = (before.k_tangent_nm_per_rad, after.k_tangent_nm_per_rad);
+            let newton = |n: f64| Unit::Newton.show_plain(n, 4);
+            let patch = curve.straddles().into_iter().find(|s| s.junction == k).map_or_else(
+                || "the law does not know the radius".to_owned(),
+                |s| {
+                    let until = s.until_n.map_or("the curve's end".to_owned(), newton);
+                    format!("{} to {until} per sprag", newton(s.from_n))
+                },
+            );
+            table.row(vec![
+                law.name.key().into(),
+                junction.label().as_str().into(),
+                junction.torque_nm.into(),
+                a.into(),
+                b.into(),
+                (b / a - 1.0).into(),
+                (curve.shift_rad(k + 1) - curve.shift_rad(k)).into(),
+                patch.as_str().into(),
+            ]);
+        }
+    }
+    if any {
+        page.table("Junctions: the tangent stiffness jumps there and nowhere else.", &table);
+    }
 }
 
 /// First contact in full, the sprag at peak torque (or the largest of the table) dashed over it.
@@ -137,6 +212,42 @@ impl<'a> Curves<'a> {
         }
         let first = self.laws.first().map(|l| &l.curve);
         self.marked(plot, |torque| first.and_then(|c| c.at_torque(torque)).map_or(f64::NAN, |p| degrees(&p)))
+    }
+
+    /// Every law whole, and dashed with local deformation alone.
+    fn structure(&self) -> Plot {
+        let degrees = |p: &StaticPoint| Unit::Degree.from_si(p.windup_rad);
+        let mut plot = Plot::new("Windup, deg", "Torque, Nm");
+        for (law, points) in self.laws.iter().zip(&self.points) {
+            let whole = points.iter().map(|p| [degrees(p), p.torque_nm]).collect();
+            plot = plot.curve(law.name.key(), whole);
+            let local = points.iter().filter_map(|p| law.local.at_torque(p.torque_nm));
+            plot.curves.push(Curve {
+                dash: Dash::Dashed,
+                ..Curve::new(
+                    &format!("{}, local", law.name.key()),
+                    local.map(|p| [degrees(&p), p.torque_nm]).collect(),
+                )
+            });
+        }
+        plot
+    }
+
+    /// Windup over that of finite elements, less one, %, whole and with local deformation alone.
+    fn against(&self, fem: &Fem) -> Plot {
+        let mut plot = Plot::new("Torque, Nm", "Windup against finite elements, %");
+        for law in self.laws {
+            let points = |of: &dyn Fn(&Distance) -> Option<f64>| {
+                let each = fem.rows.iter();
+                each.filter_map(|r| Some([r.torque_nm, Unit::Percent.from_si(of(&distance(law, r))?)]))
+                    .collect()
+            };
+            let key = law.name.key();
+            plot.curves.push(Curve { dots: true, ..Curve::new(key, points(&|d| d.windup)) });
+            let local = Curve::new(&format!("{key}, local"), points(&|d| d.windup_local_only));
+            plot.curves.push(Curve { dots: true, dash: Dash::Dashed, ..local });
+        }
+        self.marked(plot, |j| j)
     }
 
     fn stiffness(&self) -> Plot {

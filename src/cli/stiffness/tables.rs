@@ -1,9 +1,8 @@
 //! The curve as tables: one law in full, several side by side, all of it as CSV.
 
 use super::laws::description;
-use super::{LawCurve, end_text};
+use super::{LawCurve, Study, end_text, fem};
 use crate::cli::parts;
-use crate::design::Design;
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::wedge::StaticPoint;
 
@@ -130,7 +129,8 @@ pub(super) fn csv(laws: &[LawCurve]) -> Table {
 }
 
 /// The answer for a terminal.
-pub(super) fn text(design: &Design, laws: &[LawCurve]) -> String {
+pub(super) fn text(study: &Study) -> String {
+    let (design, laws) = (&study.design, study.laws.as_slice());
     let mut out = format!("{}  {}\n\n", design.name, design.hash.get(..12).unwrap_or(&design.hash));
     for law in laws {
         out.push_str(&format!("{}\n", description(&law.clutch.contact, &law.clutch.axial)));
@@ -147,6 +147,16 @@ pub(super) fn text(design: &Design, laws: &[LawCurve]) -> String {
     out.push('\n');
     for law in laws {
         out.push_str(&format!("{}: curve ends {}{}\n", law.name.key(), end_text(law), junction_text(law)));
+    }
+    if let Some(fem) = &study.fem {
+        out.push_str(&format!(
+            "\nAgainst finite elements\n{}\n{}\n",
+            fem::table(study, fem).to_text(false),
+            fem::findings(study, fem).join("\n")
+        ));
+    }
+    if let Some(map) = &study.pressure {
+        out.push_str(&format!("\nPressure along the length, by slices\n{}\n", map.table().to_text(false)));
     }
     if laws.len() > 1 {
         if laws.iter().flat_map(|l| &l.rows).any(|(_, p)| p.is_none()) {
