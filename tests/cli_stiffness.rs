@@ -59,7 +59,7 @@ fn every_key_of_every_point_is_a_number_and_arcs_count_from_1() {
     assert_eq!(points.len(), 20);
     assert_eq!(number(points.last().unwrap(), "torque_nm"), 110.0, "up to the design's peak torque");
     for point in points {
-        assert_eq!(point.as_object().unwrap().len(), KEYS.len());
+        assert_eq!(point.as_object().unwrap().len(), KEYS.len() + 2);
         KEYS.iter().for_each(|key| assert!(number(point, key) > 0.0, "{key}"));
     }
     let arcs: Vec<u64> = points.iter().map(|p| p["arc"].as_u64().unwrap()).collect();
@@ -178,4 +178,75 @@ fn the_schema_is_json_that_names_the_keys() {
     assert_eq!(output.status.code(), Some(0));
     let schema: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert!(schema["$schema"].is_string() && schema["properties"]["sprags"].is_object());
+}
+
+const FEM: &str = "tests/reference/fem_single_arc.csv";
+
+#[test]
+fn laws_stand_beside_finite_elements() {
+    let folder = Folder::new();
+    let html = folder.path("fem.html");
+    let args =
+        ["stiffness", SINGLE, "--contact", "roller,slice,elastic", "--fem", FEM, "--fem-model", "6 mm layer"];
+    let value = json(&run(&[&args[..], &["--json", "--report", &html]].concat()));
+    let rows = value["fem"].as_array().unwrap();
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        let off = |law: usize, key: &str| number(&row["laws"][law], key);
+        // Figures of tests/elastic_law.rs; local deformation alone is far too stiff.
+        assert!((0.12..0.14).contains(&off(0, "windup")) && off(1, "windup") < off(0, "windup"));
+        assert!(off(2, "windup").abs() < 0.01 && off(2, "normal").abs() < 0.005);
+        assert!((0..3).all(|law| off(law, "windup_local_only") < -0.3));
+    }
+    let text = stdout(&run(&args));
+    for part in ["Against finite elements", "the paper's order holds", "local plus structural is nearer"] {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
+    let page = is_self_contained(&html);
+    assert!(page.contains("finite elements, %") && page.contains("Figure 11"));
+}
+
+#[test]
+fn pressure_along_the_length_is_asked_for_or_comes_with_a_shape() {
+    let plain = json(&run(&["stiffness", MULTI, "--torques", "20,50", "--json"]));
+    assert!(plain.get("pressure").is_none());
+    let asked = json(&run(&["stiffness", MULTI, "--torques", "20,50", "--pressure", "--json"]));
+    assert_eq!(asked["pressure"]["inner"]["peak"][1]["kind"], "flush-ends");
+    assert_eq!(asked["pressure"]["outer"]["pressure_mpa"][0].as_array().unwrap().len(), 60);
+    let folder = Folder::new();
+    let shaped = folder.changed(
+        MULTI,
+        &[(
+            "law = \"roller\"",
+            "end_profile = { kind = \"lundberg\", design_load_n = 4500.0 }\nlaw = \"slice\"",
+        )],
+    );
+    let found = json(&run(&["stiffness", &shaped, "--torques", "20,50", "--json"]));
+    assert_eq!(found["pressure"]["inner"]["peak"][1]["kind"], "bounded");
+    let largest = number(&found["pressure"]["inner"]["peak"][1], "mpa");
+    let hertz = number(&found["points"][1], "hertz_inner_mpa");
+    assert!(largest > 0.95 * hertz && largest < 1.25 * hertz, "{largest} {hertz}");
+}
+
+#[test]
+fn several_designs_make_one_page() {
+    let folder = Folder::new();
+    let html = folder.path("both.html");
+    let output = run(&["stiffness", SINGLE, MULTI, "--torques", "20", "--report", &html]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = is_self_contained(&html);
+    assert!(page.contains("single-arc") && page.contains("Huang 2017, multi-arc"));
+    let twice = [FEM, "no-such-file.csv", "Cargo.toml"];
+    for args in [
+        &["stiffness", SINGLE, MULTI, "--json"][..],
+        &["stiffness", SINGLE, MULTI],
+        &["stiffness", SINGLE, "--fem", twice[0], "--fem", twice[0]],
+        &["stiffness", SINGLE, "--fem", twice[1]],
+        &["stiffness", SINGLE, "--fem", twice[2]],
+        &["stiffness", SINGLE, "--fem", FEM, "--fem-model", "no such model"],
+    ] {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(output.stdout.is_empty() && !output.stderr.is_empty(), "{args:?}");
+    }
 }
