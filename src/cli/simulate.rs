@@ -200,7 +200,8 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
 fn duration_s(scenario: &Scenario) -> Option<f64> {
     match scenario.kind {
         ScenarioKind::TorsionalExcitation { duration_s, .. }
-        | ScenarioKind::Engagement { duration_s, .. } => Some(duration_s),
+        | ScenarioKind::Engagement { duration_s, .. }
+        | ScenarioKind::Transient { duration_s, .. } => Some(duration_s),
         ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. } => None,
     }
 }
@@ -256,7 +257,15 @@ impl Scene<'_> {
 
     /// Whether the clutch does what the scenario asks: hold, or slip freely in overrun.
     fn held(&self) -> bool {
-        let overruns = matches!(self.scenario.kind, ScenarioKind::Overrun { .. });
+        let overruns = match self.scenario.kind {
+            ScenarioKind::Overrun { .. } => true,
+            // A clutch that starts in overrun, or whose torque turns round, is to let go.
+            ScenarioKind::Transient { overrun_rad_s, .. } => {
+                let turns = |h: &Vec<[f64; 2]>| h.iter().any(|row| row[1] < 0.0);
+                overrun_rad_s > 0.0 || self.scenario.torque_history.as_ref().is_some_and(turns)
+            }
+            _ => false,
+        };
         match self.simulation().and_then(|s| s.verdict) {
             Some(Verdict::Sticks) => true,
             Some(Verdict::SlipsOverrunning) => overruns,
@@ -270,6 +279,10 @@ impl Scene<'_> {
             ScenarioKind::Static { torque_nm } => Some(torque_nm),
             ScenarioKind::TorsionalExcitation { preload_nm, .. } => Some(preload_nm),
             ScenarioKind::Engagement { reversing_torque_nm, .. } => Some(reversing_torque_nm),
+            ScenarioKind::Transient { preload_nm, torque_step_nm, .. } => {
+                let rows = self.scenario.torque_history.iter().flatten();
+                Some(rows.map(|row| row[1]).fold(preload_nm.max(preload_nm + torque_step_nm), f64::max))
+            }
             ScenarioKind::Overrun { .. } => None,
         }
         .filter(|&t| t > 0.0)

@@ -5,7 +5,8 @@
 //! at first contact is asked of `profile`.
 
 use super::file::{
-    BodyFile, ContactFile, DesignFile, LawFile, LimitsFile, MaterialFile, RacesFile, StateFile,
+    BodyFile, ContactFile, DesignFile, FrictionModelFile, LawFile, LimitsFile, MaterialFile, RacesFile,
+    StateFile,
 };
 use super::findings::Findings;
 use super::geometry;
@@ -36,6 +37,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
     let friction = friction(file, out);
     let materials = materials(&file.material, out);
     let contact = contact(&file.contact, out);
+    let hunt_crossley_s_per_m = file.contact.hunt_crossley_s_per_m;
     let spring = Spring {
         stiffness_nm_per_rad: file.spring.stiffness_nm_per_rad,
         drag_torque_nm: file.spring.drag_torque_nm,
@@ -56,6 +58,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
         materials: materials?,
         friction: friction?,
         contact: contact?,
+        hunt_crossley_s_per_m,
     })
 }
 
@@ -101,7 +104,18 @@ fn friction(file: &DesignFile, out: &mut Findings) -> Option<Friction> {
         );
         return None;
     }
-    Some(Friction { static_: f.static_, kinetic: f.kinetic, decay_s_per_m: f.decay_s_per_m })
+    Some(match f.model {
+        FrictionModelFile::Stribeck => Friction {
+            static_: f.static_,
+            kinetic: f.kinetic,
+            decay_s_per_m: f.decay_s_per_m,
+            outer_holds: false,
+        },
+        // Coulomb knows one coefficient.
+        FrictionModelFile::Vernay => {
+            Friction { static_: f.static_, kinetic: f.static_, decay_s_per_m: 0.0, outer_holds: true }
+        }
+    })
 }
 
 /// The three keys that a material has, and the three bodies.

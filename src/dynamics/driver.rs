@@ -74,12 +74,13 @@ impl<'a> Driver<'a> {
             if self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                 return self.stop(Stop::Interrupted);
             }
+            self.run.t_s = model.drive.past_break_s(self.run.t_s);
             let mode = self.run.mode;
             let (t, y) = (self.run.t_s, self.run.state);
             let mut rhs = |t: f64, y: &State| model.slope(&mode, t, y).ok_or(());
             self.run.counters.rhs_evaluations += 1;
             let Ok(slope) = rhs(t, &y) else { return self.stop(Stop::NotFinite) };
-            let rest = self.settings.duration_s - t;
+            let rest = self.settings.duration_s.min(model.drive.next_break_s(t)) - t;
             let mut h = self.h.min(self.settings.longest_step_s).min(rest);
             let step = loop {
                 let trial = dop853::step(&mut rhs, t, &y, &slope, h, &self.tolerance, &mut self.run.counters);

@@ -44,6 +44,7 @@ pub(super) fn events(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool)
     };
     let outer = match mode.outer {
         Grip::Slip(s) => s * f.v_b,
+        Grip::Stick if model.outer_holds => 1.0,
         Grip::Stick => mu * f.n_be - f.t_be.abs(),
     };
     [lower, upper, inner, outer]

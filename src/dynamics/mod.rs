@@ -19,8 +19,8 @@ mod run;
 mod start;
 mod watch;
 
-pub use model::{Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
+pub use model::{Drive, Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
 pub use published::{PublishedSettings, published};
 pub use rolling::{Rolling, rolling};
 pub use run::{Engaged, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run};
-pub use start::{Overrun, alpha_max_rad, overrun, preloaded};
+pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled};

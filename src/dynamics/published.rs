@@ -40,7 +40,8 @@ fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(S
     let rates = [y[4], y[5], y[6], y[7]];
     let (v_a, v_b) = model.slip_velocities(&p, &rates);
     let grip = |v: f64| if v.abs() < band_m_s { Grip::Stick } else { Grip::Slip(v.signum()) };
-    let mut mode = Mode { place, inner: grip(v_a), outer: grip(v_b) };
+    let outer = if model.outer_holds { Grip::Stick } else { grip(v_b) };
+    let mut mode = Mode { place, inner: grip(v_a), outer };
     let mut f = model.forces_at(&mode, t, y, &p, &rates);
     let mu = model.friction.static_;
     // Stick-slip transition: T = mu_s N sgn(T_f). Slip(s) gives T_bi = -s mu_s N at A, T_be = s mu_s N at B
@@ -50,7 +51,7 @@ fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(S
         mode.inner = Grip::Slip(-f.t_bi.signum());
         limited = true;
     }
-    if mode.outer == Grip::Stick && f.t_be.abs() > mu * f.n_be {
+    if mode.outer == Grip::Stick && !model.outer_holds && f.t_be.abs() > mu * f.n_be {
         mode.outer = Grip::Slip(f.t_be.signum());
         limited = true;
     }

@@ -269,17 +269,21 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<R
         (!d.interrupted).then_some(d)
     };
     let finished = other.filter(|o| o.stop != Stop::Interrupted);
-    let fine_demand = finished.as_ref().and_then(|_| asked(0.1 * settings.tolerance));
+    // What overruns to the end is not to stick: there is no demand.
+    let holds = prepared.overrun.is_none() || fine.engaged.is_some();
+    let fine_demand = finished.as_ref().filter(|_| holds).and_then(|_| asked(0.1 * settings.tolerance));
     let coarse_demand = fine_demand.and_then(|_| asked(settings.tolerance));
+    let demanded = fine_demand.zip(coarse_demand);
+    let complete = demanded.is_some() || !holds;
     let fine_offset = offset(prepared, &fine);
-    let error = match (&finished, fine_demand, coarse_demand) {
-        (Some(o), Some(f), Some(c)) => Some(ErrorEstimate {
+    let error = match &finished {
+        Some(o) if complete => Some(ErrorEstimate {
             theta_inner_rad: (fine.state[2] - o.state[2]).abs(),
             theta_outer_rad: (fine.state[3] - o.state[3]).abs(),
             offset_rad: (fine_offset - offset(prepared, o)).abs(),
             net_slip_m: (slips(&fine)[0].net_m - slips(o)[0].net_m).abs(),
             normal_min_n: (fine.peaks.normal_min_n - o.peaks.normal_min_n).abs(),
-            slip_margin: (f.slip_margin - c.slip_margin).abs(),
+            slip_margin: demanded.map_or(0.0, |(f, c)| (f.slip_margin - c.slip_margin).abs()),
         }),
         _ => None,
     };

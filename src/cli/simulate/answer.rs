@@ -98,6 +98,7 @@ impl Body {
             ScenarioKind::TorsionalExcitation { .. } => "torsional-excitation",
             ScenarioKind::Engagement { .. } => "engagement",
             ScenarioKind::Overrun { .. } => "overrun",
+            ScenarioKind::Transient { .. } => "transient",
         };
         let base = Self {
             scenario: scene.scenario.name.clone(),

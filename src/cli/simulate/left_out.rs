@@ -54,6 +54,9 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
     );
     let speed = match kind {
         ScenarioKind::TorsionalExcitation { speed_rad_s, .. } => *speed_rad_s,
+        ScenarioKind::Transient { .. } => {
+            scene.outcome.as_ref().map_or(0.0, |(p, _)| p.model.curve.speed_rad_s())
+        }
         _ => 0.0,
     };
     add(

@@ -72,6 +72,20 @@ fn described(scene: &Scene) -> String {
             Unit::Second.show_plain(duration_s, 5),
             scene.method
         ),
+        ScenarioKind::Transient { duration_s, .. } => {
+            let [torque, speed] = courses(scene);
+            let start = match scene.scenario.kind {
+                ScenarioKind::Transient { overrun_rad_s, .. } if overrun_rad_s > 0.0 => {
+                    format!(", from an overrun at {}", Unit::Rpm.show_plain(overrun_rad_s, 6))
+                }
+                _ => String::new(),
+            };
+            let length = Unit::Second.show_plain(duration_s, 5);
+            format!(
+                "Torque on the inner race {torque}, mean speed {speed}{start}; {length} long, method: {}.",
+                scene.method
+            )
+        }
         ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => format!(
             "Outer race at {}, the inner race ahead of it by {}.",
             Unit::Rpm.show_plain(speed_rad_s, 6),
@@ -79,6 +93,41 @@ fn described(scene: &Scene) -> String {
         ),
     };
     what + &overrides
+}
+
+/// Course of the torque and of the mean speed of a transient, in words.
+fn courses(scene: &Scene) -> [String; 2] {
+    let ScenarioKind::Transient { preload_nm, torque_step_nm, step_time_s, speed_rad_s, .. } =
+        scene.scenario.kind
+    else {
+        return [String::new(), String::new()];
+    };
+    let nm = |t: f64| Unit::NewtonMetre.show_plain(t, 5);
+    let span = |rows: &[[f64; 2]], unit: Unit| {
+        let fold = |f: fn(f64, f64) -> f64, from: f64| rows.iter().map(|r| r[1]).fold(from, f);
+        let (low, high) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
+        format!(
+            "from a file, {} rows, {} to {}",
+            rows.len(),
+            unit.show_plain(low, 5),
+            unit.show_plain(high, 5)
+        )
+    };
+    let torque = match &scene.scenario.torque_history {
+        Some(rows) => span(rows, Unit::NewtonMetre),
+        None if torque_step_nm == 0.0 => nm(preload_nm),
+        None => format!(
+            "{}, from {} on {}",
+            nm(preload_nm),
+            Unit::Second.show_plain(step_time_s, 5),
+            nm(preload_nm + torque_step_nm)
+        ),
+    };
+    let speed = match &scene.scenario.speed_history {
+        Some(rows) => span(rows, Unit::Rpm),
+        None => Unit::Rpm.show_plain(speed_rad_s, 6),
+    };
+    [torque, speed]
 }
 
 fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation) {
