@@ -216,3 +216,26 @@ fn contact_damping_takes_the_energy_that_it_should() {
     println!("damping took {taken:.6e} J, the clutch lost {lost:.6e} J");
     assert!(taken > 1e-6 && (taken / lost - 1.0).abs() < 1e-4, "{taken} {lost}");
 }
+
+/// Rolling from the reversal would need a little tension, and yet the clutch holds: no peak of |T|/N says what
+/// friction that takes, a bisection does.
+#[test]
+fn where_the_contact_opens_the_friction_is_bisected() {
+    let mut scene = scene("engagement");
+    if let ScenarioKind::Engagement { free_run_rad_s, reversing_torque_nm, .. } = &mut scene.kind {
+        (*free_run_rad_s, *reversing_torque_nm) = (1000.0 * std::f64::consts::PI / 30.0, 50.0);
+    }
+    let demand = simulate(&scene, &Settings::default()).unwrap().demand.unwrap();
+    let needed = demand.required_friction.unwrap();
+    assert!(demand.by_bisection && demand.contact_margin < 0.0);
+    assert!((0.10..0.11).contains(&needed), "{needed}");
+    for (factor, sticks) in [(1.001, true), (0.999, false)] {
+        let friction = &mut scene.clutch.friction;
+        (friction.static_, friction.kinetic) = (factor * needed, friction.kinetic.min(factor * needed));
+        let verdict = simulate(&scene, &Settings::default()).unwrap().verdict;
+        assert_eq!(verdict == Some(Verdict::Sticks), sticks, "{factor}: {verdict:?}");
+    }
+    // Where the excitation itself pulls the contact open, none does.
+    let open = simulate(&self::scene("high-10-damped"), &Settings::default()).unwrap().demand.unwrap();
+    assert!(open.by_bisection && open.required_friction.is_none() && open.slip_margin == -1.0);
+}

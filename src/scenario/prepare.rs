@@ -78,14 +78,34 @@ pub fn place_profile(clutch: &Clutch) -> Result<Profile, ProfileError> {
     )
 }
 
+/// What the model of a scenario may do without.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Reduction {
+    /// Torque beyond which no further arc of the curve is built, N m.
+    pub reach_nm: Option<f64>,
+    /// Whether a constant mean speed is taken for rest.
+    pub at_rest: bool,
+}
+
 /// Build model and initial state.
 ///
 /// # Errors
 /// [`NoScenario`] where the clutch cannot carry the scenario's start.
 pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
+    prepare_reduced(scenario, &Reduction::default())
+}
+
+/// As [`prepare`], without what `reduction` names.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoScenario> {
     let clutch = &scenario.clutch;
     let profile = place_profile(clutch).map_err(NoScenario::Profile)?;
-    let build = |speed| WedgeCurve::build(clutch, &profile, speed).map_err(NoScenario::Curve);
+    let build = |speed: f64| {
+        let speed = if reduction.at_rest { 0.0 } else { speed };
+        WedgeCurve::build_reaching(clutch, &profile, speed, reduction.reach_nm).map_err(NoScenario::Curve)
+    };
     let at_rest = build(0.0)?;
     let alpha_max = alpha_max_rad(clutch, &at_rest);
     let stuck = |place| Mode { place, inner: Grip::Stick, outer: Grip::Stick };

@@ -2,11 +2,12 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::demand::{Demand, demand, roll};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
 use crate::dynamics::{
-    Engaged, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Rolling, Run, RunSettings, Sample,
-    SlipRecord, Stop, published, rolling, run,
+    Engaged, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Run, RunSettings, Sample, SlipRecord,
+    Stop, published, run,
 };
 
 /// Settings of a simulation.
@@ -67,25 +68,6 @@ impl Verdict {
     }
 }
 
-/// What pure rolling would demand: the basis of slip margin and contact margin.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Demand {
-    /// mu_req; `None`: no friction suffices, contact would open.
-    pub required_friction: Option<f64>,
-    /// mu_s/mu_req - 1; -1 where no friction suffices.
-    pub slip_margin: f64,
-    /// N_min/N_static of the rolling run, below zero by the tension that rolling would need.
-    pub contact_margin: f64,
-    /// Largest N_bi and N_be of the rolling run, N.
-    pub normal_max_n: [f64; 2],
-    /// Whether the rolling run reached its end; if not, it left the profile or rolled over.
-    pub finished: bool,
-    /// Whether it was interrupted from outside; then nothing of it holds.
-    pub interrupted: bool,
-    /// Right-hand sides it took.
-    pub rhs_evaluations: u64,
-}
-
 /// Differences between the two runs of a simulation.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ErrorEstimate {
@@ -129,6 +111,10 @@ pub struct Simulation {
     pub peaks: Peaks,
     /// Largest Hertz pressure, Pa.
     pub hertz_peak_pa: f64,
+    /// Hertz pressure of the static load that the scene is about (preload, reversing or largest torque), Pa.
+    pub hertz_static_pa: f64,
+    /// Hertz pressure at A at the smallest N_bi, Pa.
+    pub hertz_least_pa: f64,
     /// N_bi at the start, N.
     pub static_normal_n: f64,
     /// Rolling demand; `None` where the run was interrupted, and in overrun, where nothing is to stick.
@@ -151,7 +137,12 @@ pub struct Simulation {
     pub overrun: Option<Overrun>,
 }
 
-fn run_settings(prepared: &Prepared, settings: &Settings, tolerance: f64, samples: usize) -> RunSettings {
+pub(super) fn run_settings(
+    prepared: &Prepared,
+    settings: &Settings,
+    tolerance: f64,
+    samples: usize,
+) -> RunSettings {
     // Short enough for four looks per step to see every half wave of excitation.
     let chosen = || prepared.period_s.map_or(prepared.duration_s / 200.0, |p| p / 20.0);
     let longest_step_s = settings.longest_step_s.unwrap_or_else(chosen);
@@ -167,65 +158,63 @@ fn run_settings(prepared: &Prepared, settings: &Settings, tolerance: f64, sample
     }
 }
 
-/// Pure-rolling demand of a prepared scenario; static kinds read it off the curve. An engagement is rolled from
-/// the moment at which it has ceased to overrun.
-pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
-    let mu = prepared.model.friction.static_;
-    if prepared.duration_s == 0.0 {
-        let f = prepared.model.curve.at_normal(prepared.static_normal_n);
-        let required = f.map(|f| f.tan_omega.max(f.tan_nu));
-        return Demand {
-            required_friction: required,
-            slip_margin: required.map_or(-1.0, |r| mu / r - 1.0),
-            contact_margin: 1.0,
-            normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
-            finished: true,
-            interrupted: false,
-            rhs_evaluations: 0,
-        };
-    }
-    let mut s = run_settings(prepared, settings, settings.tolerance, 0);
-    let (mut state, mut place) = (prepared.state, prepared.mode.place);
-    let mut before = 0;
-    if prepared.overrun.is_some() {
-        let free = run(&prepared.model, prepared.state, prepared.mode, &s);
-        before = free.counters.rhs_evaluations;
-        if let Some(start) = free.engaged {
-            (state, place) = (start.state, start.place);
-            s.duration_s -= start.t_s;
-        }
-    }
-    let r: Rolling = rolling(&prepared.model, state, place, &s);
-    let finished = r.stop == Stop::Finished;
-    let required = r.required_friction.filter(|_| finished);
-    Demand {
-        required_friction: required,
-        slip_margin: required.map_or(-1.0, |q| mu / q - 1.0),
-        contact_margin: r.normal_min_n / prepared.static_normal_n.max(f64::MIN_POSITIVE),
-        normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
-        finished,
-        interrupted: r.stop == Stop::Interrupted,
-        rhs_evaluations: before + r.run.counters.rhs_evaluations,
-    }
-}
-
 /// Simulate `scenario` with the event-driven scheme, at a tenth of the tolerance and at the tolerance; the finer
 /// run is the answer and the difference its error estimate.
 ///
 /// # Errors
 /// [`NoScenario`] where the scenario has no start; whatever happens afterwards is a result.
 pub fn simulate(scenario: &Scenario, settings: &Settings) -> Result<Simulation, NoScenario> {
-    let prepared = prepare(scenario)?;
+    Ok(simulate_prepared(&prepare(scenario)?, settings, None))
+}
+
+/// As [`simulate`], from a prepared scenario; `known` are its demands at a tenth of the tolerance and at the
+/// tolerance where they have been found already.
+pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, known: Option<[Demand; 2]>) -> Simulation {
     if prepared.duration_s == 0.0 {
-        return Ok(steady(&prepared, settings));
+        return steady(prepared, settings);
     }
     let go = |tolerance: f64, samples: usize| {
-        let s = run_settings(&prepared, settings, tolerance, samples);
+        let s = run_settings(prepared, settings, tolerance, samples);
         run(&prepared.model, prepared.state, prepared.mode, &s)
     };
     let fine = go(0.1 * settings.tolerance, settings.samples);
     let other = (fine.stop != Stop::Interrupted).then(|| go(settings.tolerance, 0));
-    Ok(conclude(&prepared, settings, fine, other))
+    conclude(prepared, settings, fine, other, known)
+}
+
+/// How far static friction must exceed what rolling needs before the friction law is left out; ten times the
+/// error of the demand comes on top.
+const RESERVE: f64 = 1e-6;
+
+/// The two pure-rolling runs as the answer, where they never ask for as much friction as there is: both obey the
+/// same equations. Otherwise their demands, if they came that far, for [`simulate_prepared`].
+///
+/// # Errors
+/// The demands, where the friction law matters or the scene does not start in stick.
+pub fn simulate_rolling(prepared: &Prepared, settings: &Settings) -> Result<Simulation, Option<[Demand; 2]>> {
+    let mode = prepared.mode;
+    let stuck = mode.inner == Grip::Stick && mode.outer == Grip::Stick && mode.place != Place::Open;
+    if prepared.duration_s == 0.0 || !stuck || prepared.overrun.is_some() {
+        return Err(None);
+    }
+    let (fine, fine_demand) = roll(prepared, &Settings { tolerance: 0.1 * settings.tolerance, ..*settings });
+    if fine.stop == Stop::Interrupted {
+        return Err(None);
+    }
+    let (coarse, coarse_demand) = roll(prepared, &Settings { samples: 0, ..*settings });
+    let demands = [fine_demand, coarse_demand];
+    if demands.iter().any(|d| d.interrupted) {
+        return Err(None);
+    }
+    let least = demands.iter().map(|d| d.slip_margin).fold(f64::INFINITY, f64::min);
+    let error = (fine_demand.slip_margin - coarse_demand.slip_margin).abs();
+    let rolls = demands.iter().all(|d| d.finished && !d.by_bisection);
+    if !(rolls && least > RESERVE + 10.0 * error) {
+        return Err(Some(demands));
+    }
+    // The work of the two runs is counted as theirs, not once more as the demands'.
+    let known = demands.map(|d| Demand { rhs_evaluations: 0, ..d });
+    Ok(conclude(prepared, settings, fine, Some(coarse), Some(known)))
 }
 
 /// Simulate `scenario` with the paper's own scheme, kept as a reference: at `step_s` and at half of it; the
@@ -253,7 +242,7 @@ pub fn simulate_published(
     let answer = go(step_s, settings.samples, 0);
     let before = answer.counters.steps;
     let other = (answer.stop != Stop::Interrupted).then(|| go(0.5 * step_s, 0, before));
-    Ok(conclude(&prepared, settings, answer, other))
+    Ok(conclude(&prepared, settings, answer, other, None))
 }
 
 /// Steps of both runs of [`simulate_published`] over `duration_s`.
@@ -263,16 +252,24 @@ pub fn published_steps(duration_s: f64, step_s: f64) -> u64 {
 }
 
 /// The answer `fine`, its error by `other` (absent: interrupted), the rolling demand, the verdict.
-fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<Run>) -> Simulation {
-    let asked = |tolerance: f64| {
-        let d = demand(prepared, &Settings { tolerance, ..*settings });
+fn conclude(
+    prepared: &Prepared,
+    settings: &Settings,
+    fine: Run,
+    other: Option<Run>,
+    known: Option<[Demand; 2]>,
+) -> Simulation {
+    let asked = |tolerance: f64, i: usize| {
+        let d = known
+            .and_then(|k| k.get(i).copied())
+            .unwrap_or_else(|| demand(prepared, &Settings { tolerance, ..*settings }));
         (!d.interrupted).then_some(d)
     };
     let finished = other.filter(|o| o.stop != Stop::Interrupted);
     // What overruns to the end is not to stick: there is no demand.
     let holds = prepared.overrun.is_none() || fine.engaged.is_some();
-    let fine_demand = finished.as_ref().filter(|_| holds).and_then(|_| asked(0.1 * settings.tolerance));
-    let coarse_demand = fine_demand.and_then(|_| asked(settings.tolerance));
+    let fine_demand = finished.as_ref().filter(|_| holds).and_then(|_| asked(0.1 * settings.tolerance, 0));
+    let coarse_demand = fine_demand.and_then(|_| asked(settings.tolerance, 1));
     let demanded = fine_demand.zip(coarse_demand);
     let complete = demanded.is_some() || !holds;
     let fine_offset = offset(prepared, &fine);
@@ -306,6 +303,8 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<R
         contact_lost_s: fine.open_s,
         peaks: fine.peaks,
         hertz_peak_pa: hertz_peak(prepared, fine.peaks.normal_max_n, fine.peaks.normal_outer_max_n),
+        hertz_static_pa: hertz_at(prepared, prepared.static_normal_n),
+        hertz_least_pa: hertz_at(prepared, fine.peaks.normal_min_n),
         static_normal_n: prepared.static_normal_n,
         demand: fine_demand,
         events: fine.events,
@@ -337,13 +336,19 @@ fn hertz_peak(prepared: &Prepared, n_bi: f64, n_be: f64) -> f64 {
     inner.max(elastic.outer_contact.peak_pressure_pa(n_be.max(0.0)))
 }
 
+/// p_0 at A at static equilibrium with `n_bi`, Pa; 0 without load.
+fn hertz_at(prepared: &Prepared, n_bi: f64) -> f64 {
+    let row = (n_bi > 0.0).then(|| prepared.model.curve.at_normal(n_bi)).flatten();
+    row.map_or(0.0, |p| p.hertz_inner_pa)
+}
+
 /// Net slip beyond which a scene counts as slipped, m (INTERFACE: 1 um).
 const SLIPPED_M: f64 = 1e-6;
 /// Stretch without contact beyond which a scene counts as disengaged, s (INTERFACE: 1 ms).
 const LOST_S: f64 = 1e-3;
 
 /// `None` where the run ended before it could be told.
-fn verdict(run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
+pub(super) fn verdict(run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
     let left = matches!(run.stop, Stop::CurveEnd | Stop::FellAway);
     if left || run.longest_open_s > LOST_S {
         return Some(Verdict::Disengages);
@@ -400,6 +405,8 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
             ..Peaks::NONE
         },
         hertz_peak_pa: hertz_peak(prepared, n_bi, n_be),
+        hertz_static_pa: hertz_peak(prepared, n_bi, n_be),
+        hertz_least_pa: hertz_at(prepared, n_bi),
         static_normal_n: n_bi,
         demand,
         events: 0,

@@ -13,6 +13,20 @@ impl WedgeCurve {
     /// # Errors
     /// [`NoCurve`] where there is no first contact. A curve that ends early is a result, see [`Self::end`].
     pub fn build(clutch: &Clutch, profile: &Profile, speed_rad_s: f64) -> Result<Self, NoCurve> {
+        Self::build_reaching(clutch, profile, speed_rad_s, None)
+    }
+
+    /// As [`Self::build`], without the arcs after the one that carries `reach_nm` (N m), if that is given: the
+    /// curve then ends for the reason [`EndReason::NotBuilt`]; what it has is the same.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_reaching(
+        clutch: &Clutch,
+        profile: &Profile,
+        speed_rad_s: f64,
+        reach_nm: Option<f64>,
+    ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone()).map_err(NoCurve::NoElastic)?;
         let exponent =
             if matches!(clutch.contact, ContactLaw::Hertz | ContactLaw::Elastic { .. }) { 10.0 } else { 9.0 };
@@ -59,6 +73,14 @@ impl WedgeCurve {
             n_from = n_until;
             if let Some(reason) = reason {
                 end = reason;
+                break;
+            }
+            let carried = statics.closure(k, n_until, speed_rad_s, shift);
+            let carries = |c: &super::Closure, reach: f64| c.torque_nm(clutch.sprags.count).v > reach;
+            if let (Some(reach), Ok(c)) = (reach_nm, &carried)
+                && carries(c, reach)
+            {
+                end = EndReason::NotBuilt;
                 break;
             }
         }

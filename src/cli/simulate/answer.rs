@@ -1,6 +1,7 @@
 //! The JSON object of `simulate`.
 
 use super::Scene;
+use crate::cli::left_out::LeftOut;
 use crate::design::ScenarioKind;
 use crate::dynamics::{SlipRecord, Stop};
 use crate::scenario::ErrorEstimate;
@@ -55,6 +56,9 @@ pub(super) struct Body {
     normal_min_n: Option<f64>,
     normal_max_n: Option<f64>,
     hertz_peak_mpa: Option<f64>,
+    hertz_static_mpa: Option<f64>,
+    hertz_least_mpa: Option<f64>,
+    hertz_rated_mpa: Option<f64>,
     events: Option<u64>,
     steps: Option<u64>,
     rhs_evaluations: Option<u64>,
@@ -65,6 +69,8 @@ pub(super) struct Body {
     drag_torque_nm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     lift_off_rpm: Option<f64>,
+    /// Terms that the planner looked at and kept.
+    kept: Vec<LeftOut>,
     notes: Vec<String>,
 }
 
@@ -105,6 +111,7 @@ impl Body {
             kind,
             method: scene.method,
             verdict: scene.verdict(),
+            kept: scene.planned[1].iter().map(|t| LeftOut::new(t.term, &t.why, &t.cost)).collect(),
             notes: scene.notes.clone(),
             ..Self::default()
         };
@@ -128,6 +135,9 @@ impl Body {
             normal_min_n: Some(s.peaks.normal_min_n),
             normal_max_n: Some(s.peaks.normal_max_n),
             hertz_peak_mpa: Some(s.hertz_peak_pa / 1e6),
+            hertz_static_mpa: Some(s.hertz_static_pa / 1e6),
+            hertz_least_mpa: Some(s.hertz_least_pa / 1e6),
+            hertz_rated_mpa: super::facts::rated_pa(scene).map(|p| p / 1e6),
             events: Some(s.events),
             steps: Some(s.steps),
             rhs_evaluations: Some(s.rhs_evaluations),

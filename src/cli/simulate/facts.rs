@@ -109,12 +109,19 @@ pub(super) fn table(scene: &Scene) -> Table {
     match &scene.outcome {
         Err(why) => facts.word("no start", &why.to_string()),
         Ok((prepared, s)) if scene.method == "equilibrium" => equilibrium(&mut facts, scene, prepared, s),
-        Ok((_, s)) => motion(&mut facts, s),
+        Ok((_, s)) => motion(&mut facts, scene, s),
     }
     facts.0
 }
 
-fn motion(f: &mut Facts, s: &Simulation) {
+/// Hertz pressure at A at the nominal torque of `[limits]`, Pa: what the paper's 4.1.2 compares with.
+pub(super) fn rated_pa(scene: &Scene) -> Option<f64> {
+    // The scene's own curve may end where the scene has no use for it.
+    let state = load_state(&scene.own).ok()?;
+    Some(state.curve.at_torque(scene.own.limits.nominal_torque_nm?)?.hertz_inner_pa)
+}
+
+fn motion(f: &mut Facts, scene: &Scene, s: &Simulation) {
     let e = s.error;
     f.add("inner race at the end", s.theta_inner_rad, Unit::Radian, e.map(|e| e.theta_inner_rad));
     f.add("outer race at the end", s.theta_outer_rad, Unit::Radian, e.map(|e| e.theta_outer_rad));
@@ -130,6 +137,11 @@ fn motion(f: &mut Facts, s: &Simulation) {
     f.add("time without contact", s.contact_lost_s, Unit::Millisecond, None);
     peaks(f, &s.peaks, e.map(|e| e.normal_min_n));
     f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, None);
+    f.add("smallest Hertz pressure, inner", s.hertz_least_pa, Unit::Megapascal, None);
+    f.add("Hertz pressure, static load", s.hertz_static_pa, Unit::Megapascal, None);
+    if let Some(rated) = rated_pa(scene) {
+        f.add("Hertz pressure, nominal torque", rated, Unit::Megapascal, None);
+    }
     demand(f, s);
     f.count("changes of mode", s.events);
     f.count("steps, both runs", s.steps);
@@ -149,6 +161,9 @@ fn peaks(f: &mut Facts, p: &Peaks, error_n: Option<f64>) {
 fn demand(f: &mut Facts, s: &Simulation) {
     let Some(d) = s.demand else { return };
     match d.required_friction {
+        Some(needed) if d.by_bisection => {
+            f.add("static friction needed to stick (bisected: rolling would open)", needed, Unit::One, None);
+        }
         Some(needed) => f.add("static friction needed to stick", needed, Unit::One, None),
         None => f.word("static friction needed to stick", "none suffices"),
     }

@@ -9,6 +9,7 @@ use crate::report::Unit;
 /// The list for `scene`.
 pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
     let mut list = left_out(&scene.own.clutch);
+    list.extend(scene.planned[0].iter().map(|t| LeftOut::new(t.term, &t.why, &t.cost)));
     let mut add = |term: &str, why: &str, cost: &str| list.push(LeftOut::new(term, why, cost));
     let kind = &scene.scenario.kind;
     if !matches!(kind, ScenarioKind::Static { .. }) {
@@ -26,11 +27,20 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
     if scene.method == "equilibrium" {
         return list;
     }
-    add(
-        "contact damping",
-        "the contacts are elastic, as in the paper; damped are only the races against one another",
-        "not estimated; it would take energy out of every oscillation",
-    );
+    if scene.own.clutch.hunt_crossley_s_per_m == 0.0 {
+        let cost = scene.damping.as_ref().map_or_else(
+            || {
+                "not estimated; the contact stays closed, it would only take energy out of oscillations"
+                    .to_owned()
+            },
+            super::damping::Effect::words,
+        );
+        add(
+            "contact damping",
+            "the contacts are elastic, as in the paper; damped are only the races against one another",
+            &cost,
+        );
+    }
     add(
         "impact where a contact closes",
         "velocities are continuous at touch, nothing bounces",
