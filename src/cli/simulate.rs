@@ -26,6 +26,7 @@ Examples:
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --csv history.csv --report high-10.html
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --method published --step 2e-6
+  sprag-design simulate designs/huang2017-bench.toml --scenario in-and-out --report in-and-out.html
 
 The verdict is the answer: sticks, slips-overrunning, slips-engaging, disengages and at-threshold all exit with 0.";
 

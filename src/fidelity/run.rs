@@ -4,7 +4,7 @@ use super::plan::{Plan, Term, plan};
 use crate::design::{ContactLaw, Scenario};
 use crate::dynamics::Stop;
 use crate::scenario::{
-    NoScenario, Prepared, Settings, Simulation, prepare, simulate_prepared, simulate_rolling,
+    NoScenario, Prepared, Rolled, Settings, Simulation, prepare, simulate_prepared, simulate_rolling,
 };
 
 /// A simulation with what it left out.
@@ -38,11 +38,11 @@ pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<
         return whole(settings);
     };
     let simulation = match simulate_rolling(&prepared, settings) {
-        Ok(simulation) => {
+        Rolled::Whole(simulation) => {
             left_out.push(friction_law(&simulation, &prepared));
-            simulation
+            *simulation
         }
-        Err(known) => simulate_prepared(&prepared, settings, known),
+        Rolled::Part(known) => simulate_prepared(&prepared, settings, known),
     };
     if reduction.reach_nm.is_some() && reached_the_end(&simulation) {
         // The shortened curve was too short after all.

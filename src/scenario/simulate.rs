@@ -186,35 +186,41 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, known: Option
 /// error of the demand comes on top.
 const RESERVE: f64 = 1e-6;
 
+/// What the two pure-rolling runs of a scene tell.
+#[derive(Debug, Clone)]
+pub enum Rolled {
+    /// They never ask for as much friction as there is: they are the scene.
+    Whole(Box<Simulation>),
+    /// The friction law matters, or the scene does not start in stick; the demands, if the runs came that far.
+    Part(Option<[Demand; 2]>),
+}
+
 /// The two pure-rolling runs as the answer, where they never ask for as much friction as there is: both obey the
 /// same equations. Otherwise their demands, if they came that far, for [`simulate_prepared`].
-///
-/// # Errors
-/// The demands, where the friction law matters or the scene does not start in stick.
-pub fn simulate_rolling(prepared: &Prepared, settings: &Settings) -> Result<Simulation, Option<[Demand; 2]>> {
+pub fn simulate_rolling(prepared: &Prepared, settings: &Settings) -> Rolled {
     let mode = prepared.mode;
     let stuck = mode.inner == Grip::Stick && mode.outer == Grip::Stick && mode.place != Place::Open;
     if prepared.duration_s == 0.0 || !stuck || prepared.overrun.is_some() {
-        return Err(None);
+        return Rolled::Part(None);
     }
     let (fine, fine_demand) = roll(prepared, &Settings { tolerance: 0.1 * settings.tolerance, ..*settings });
     if fine.stop == Stop::Interrupted {
-        return Err(None);
+        return Rolled::Part(None);
     }
     let (coarse, coarse_demand) = roll(prepared, &Settings { samples: 0, ..*settings });
     let demands = [fine_demand, coarse_demand];
     if demands.iter().any(|d| d.interrupted) {
-        return Err(None);
+        return Rolled::Part(None);
     }
     let least = demands.iter().map(|d| d.slip_margin).fold(f64::INFINITY, f64::min);
     let error = (fine_demand.slip_margin - coarse_demand.slip_margin).abs();
     let rolls = demands.iter().all(|d| d.finished && !d.by_bisection);
     if !(rolls && least > RESERVE + 10.0 * error) {
-        return Err(Some(demands));
+        return Rolled::Part(Some(demands));
     }
     // The work of the two runs is counted as theirs, not once more as the demands'.
     let known = demands.map(|d| Demand { rhs_evaluations: 0, ..d });
-    Ok(conclude(prepared, settings, fine, Some(coarse), Some(known)))
+    Rolled::Whole(Box::new(conclude(prepared, settings, fine, Some(coarse), Some(known))))
 }
 
 /// Simulate `scenario` with the paper's own scheme, kept as a reference: at `step_s` and at half of it; the

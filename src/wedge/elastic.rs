@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use crate::contact::{
-    Approach, ContactError, HertzBody, LayerBody, LineContact, SliceRatio, layer_transition_m,
+    Approach, ContactError, HertzBody, LayerBody, LineContact, RollerLaw, SliceContact, SliceRatio,
+    layer_transition_m,
 };
 use crate::design::{Clutch, ContactLaw, StressState};
 use crate::kinematics::Deformations;
@@ -60,6 +61,8 @@ pub struct Elastic {
     race_inner_m_per_n: f64,
     race_outer_m_per_n: f64,
     body_m_per_n: f64,
+    /// K of the roller law and number of slices, where the law is that of slices.
+    slices: Option<(f64, usize)>,
 }
 
 impl Elastic {
@@ -129,6 +132,10 @@ impl Elastic {
                 .map(|c| law(c, &half[0], inner_wall_m))
                 .collect::<Result<Vec<_>, _>>()?,
             outer: law(&outer_contact, &half[1], outer_wall_m)?,
+            slices: match clutch.contact {
+                ContactLaw::Slice { coefficient, slices } => Some((coefficient, slices)),
+                _ => None,
+            },
             inner_contact,
             outer_contact,
             inner_race,
@@ -143,6 +150,16 @@ impl Elastic {
                 m.sprag.youngs_modulus_pa,
             ),
         })
+    }
+
+    /// Peak pressure of each slice along the sprag under `normal_n` (N), Pa, at A on arc `arc`, at B without one;
+    /// `None` unless the law is that of slices. The end slices of square ends grow with their number.
+    pub fn slice_pressure_pa(&self, arc: Option<usize>, normal_n: f64) -> Option<Vec<f64>> {
+        let (coefficient, slices) = self.slices?;
+        let contact = arc.map_or(Some(&self.outer_contact), |k| self.inner_contact.get(k))?;
+        let law = RollerLaw::new(contact, coefficient).ok()?;
+        let solution = SliceContact::new(*contact, law, slices).ok()?.solve(normal_n).ok()?;
+        Some(solution.pressure_pa)
     }
 
     /// Deformations at inner normal force `n_bi` and outer `n_be` (N) on arc `arc` at `speed` rad/s.

@@ -63,6 +63,9 @@ pub(super) struct Body {
     steps: Option<u64>,
     rhs_evaluations: Option<u64>,
     error_estimates: Option<Errors>,
+    /// Inputs of an engagement that the paper does not publish for its Figure 8.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    assumptions: Vec<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     initial_slip_s: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -142,6 +145,12 @@ impl Body {
             steps: Some(s.steps),
             rhs_evaluations: Some(s.rhs_evaluations),
             error_estimates: s.error.as_ref().filter(|_| s.stop != Stop::Interrupted).map(Errors::of),
+            assumptions: match scene.scenario.kind {
+                ScenarioKind::Engagement { .. } => {
+                    vec!["free_run_rpm", "reversing_torque_nm", "stop_stiffness_nm_per_rad"]
+                }
+                _ => Vec::new(),
+            },
             initial_slip_s: s.initial_slip_s(),
             drag_torque_nm: s.overrun.filter(|_| overruns).map(|o| o.drag_torque_nm),
             lift_off_rpm: super::facts::lift_off_rad_s(scene).map(|w| w * 30.0 / std::f64::consts::PI),

@@ -121,6 +121,24 @@ pub(super) fn rated_pa(scene: &Scene) -> Option<f64> {
     Some(state.curve.at_torque(scene.own.limits.nominal_torque_nm?)?.hertz_inner_pa)
 }
 
+/// What an engagement takes for given: the paper publishes none of it for its Figure 8.
+fn assumed(f: &mut Facts, scene: &Scene) {
+    let ScenarioKind::Engagement {
+        free_run_rad_s,
+        reversing_torque_nm,
+        stop_stiffness_nm_per_rad,
+        bench_inertia_kg_m2,
+        ..
+    } = scene.scenario.kind
+    else {
+        return;
+    };
+    f.add("input: free-run speed", free_run_rad_s, Unit::Rpm, None);
+    f.add("input: reversing torque", reversing_torque_nm, Unit::NewtonMetre, None);
+    f.add("input: stiffness of the stop", stop_stiffness_nm_per_rad, Unit::NewtonMetrePerRadian, None);
+    f.add("input: inertia of the bench, kg m²", bench_inertia_kg_m2, Unit::One, None);
+}
+
 fn motion(f: &mut Facts, scene: &Scene, s: &Simulation) {
     let e = s.error;
     f.add("inner race at the end", s.theta_inner_rad, Unit::Radian, e.map(|e| e.theta_inner_rad));
@@ -131,6 +149,7 @@ fn motion(f: &mut Facts, scene: &Scene, s: &Simulation) {
         f.add(&format!("slip path, {name}"), record.distance_m, Unit::Micrometre, None);
         f.add(&format!("slip time, {name}"), record.time_s, Unit::Millisecond, None);
     }
+    assumed(f, scene);
     if let Some(initial) = s.initial_slip_s() {
         f.add("initial slip after the reversal", initial, Unit::Millisecond, None);
     }

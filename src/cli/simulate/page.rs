@@ -172,8 +172,62 @@ fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
         &slip.to_svg(),
         "Signed slip distance since the clutch engaged; at the inner contact + is towards overrunning.",
     );
+    pressures(page, scene, prepared, s, &rows);
     let torque = plot("Torque of the clutch, Nm").curve("", curve(&|r| r.torque_nm));
     page.figure(&torque.to_svg(), "Torque on the inner race, positive in the sense that the clutch carries.");
+}
+
+/// Contact pressure over time (the paper's Figures 9 and 10) and, with slices, along the length.
+fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
+    let mega = |value: &dyn Fn(&Row) -> f64| -> Vec<[f64; 2]> {
+        rows.iter().map(|r| [r.sample.t * 1e3, value(r) / 1e6]).collect()
+    };
+    let mut plot = Plot::new(TIME, "Contact pressure, MPa")
+        .sized(720.0, 300.0)
+        .curve("inner contact", mega(&|r| r.hertz_pa[0]))
+        .curve("outer contact", mega(&|r| r.hertz_pa[1]))
+        .level(s.hertz_static_pa / 1e6, "static load");
+    if rows.iter().any(|r| r.slice_pa.is_some()) {
+        plot = plot.curve("inner contact, end slice", mega(&|r| r.slice_pa.map_or(f64::NAN, |p| p[0])));
+    }
+    let rated = match facts::rated_pa(scene) {
+        Some(p) => {
+            let share = Unit::Percent.show(s.hertz_peak_pa / p, 3);
+            format!(
+                " At nominal torque it is {}: the largest here is {share} of that.",
+                Unit::Megapascal.show(p, 4)
+            )
+        }
+        None => String::new(),
+    };
+    page.figure(
+        &plot.to_svg(),
+        &format!("Hertz pressure p0 at both contacts beside that of the static load.{rated}"),
+    );
+    let curve = &prepared.model.curve;
+    let elastic = &curve.statics().elastic;
+    let along = |n: f64| -> Option<Vec<[f64; 2]>> {
+        let arc = curve.first_arc() + curve.arc_at(curve.alpha_at_normal(n)?);
+        let p = elastic.slice_pressure_pa(Some(arc), n)?;
+        let length_mm = scene.own.clutch.sprags.length_m * 1e3;
+        let place = |j: usize| (j as f64 + 0.5) / p.len() as f64 * length_mm;
+        Some(p.iter().enumerate().map(|(j, p)| [place(j), p / 1e6]).collect())
+    };
+    let loads = [
+        ("largest load", s.peaks.normal_max_n),
+        ("static load", s.static_normal_n),
+        ("smallest load", s.peaks.normal_min_n),
+    ];
+    let curves: Vec<_> =
+        loads.into_iter().filter(|l| l.1 > 0.0).filter_map(|(name, n)| Some((name, along(n)?))).collect();
+    let Some(slices) = curves.first().map(|c| c.1.len()) else { return };
+    let mut plot = Plot::new("Along the sprag, mm", "Contact pressure, inner, MPa").sized(720.0, 300.0);
+    for (name, points) in curves {
+        plot = plot.curve(name, points);
+    }
+    let caption =
+        format!("Pressure along the sprag by {slices} slices; at a square end it grows with their number.");
+    page.figure(&plot.to_svg(), &caption);
 }
 
 /// When, and where in the excitation's period.
