@@ -239,7 +239,7 @@ pub(super) struct ContactFile {
     /// Hunt and Crossley's damping: the normal force is raised by this times the rate of approach, s/m; steel
     /// 0.08 to 0.32; absent or 0: none, as in the paper.
     #[serde(default)]
-    #[schemars(extend("minimum" = 0))]
+    #[schemars(extend("minimum" = 0, "maximum" = 10))]
     pub hunt_crossley_s_per_m: f64,
 }
 
