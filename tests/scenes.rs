@@ -277,3 +277,22 @@ fn the_inner_contact_asks_for_more_friction_while_both_stick() {
     }
     println!("samples with more friction outside: {more_outside}");
 }
+
+/// The rolling run of a scene that first overruns begins where it engages, and so does the torque in it.
+#[test]
+fn a_demand_after_an_overrun_keeps_the_time_of_the_history() {
+    let mut late = scene("speed-ramp");
+    late.speed_history = None;
+    late.clutch.friction = scene("in-and-out").clutch.friction;
+    if let ScenarioKind::Transient { duration_s, overrun_rad_s, .. } = &mut late.kind {
+        (*duration_s, *overrun_rad_s) = (0.3, 5.0);
+    }
+    // The overrun ends under 1 Nm long before the rise to 20 Nm, so the largest forces of both runs are its.
+    late.torque_history = Some(vec![[0.0, 1.0], [0.2, 1.0], [0.25, 20.0], [0.3, 20.0]]);
+    let s = simulate(&late, &Settings { samples: 2, ..Settings::default() }).unwrap();
+    let engaged = s.engaged.unwrap().t_s;
+    assert!(engaged > 1e-3 && engaged < 0.1, "{engaged}");
+    let rolled = s.demand.unwrap().normal_max_n[0];
+    assert!((rolled / s.peaks.normal_max_n - 1.0).abs() < 1e-3, "{rolled} {}", s.peaks.normal_max_n);
+    assert!(s.peaks.at_s[3] > 0.2);
+}

@@ -80,6 +80,12 @@ impl Drive {
         self.courses().fold(t, |t, c| c.past_knot(t))
     }
 
+    /// The same with time counted from `t` (s).
+    pub fn from(&self, t: f64) -> Self {
+        let later = |c: &Option<Course>| c.as_ref().map(|c| c.from(t));
+        Self { torque_nm: later(&self.torque_nm), speed_rad_s: later(&self.speed_rad_s) }
+    }
+
     /// Engaging torque at `t`, N m.
     pub fn torque_at(&self, t: f64) -> f64 {
         self.torque_nm.as_ref().map_or(0.0, |c| c.at(t).0)

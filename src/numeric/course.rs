@@ -52,6 +52,11 @@ impl Course {
         }
     }
 
+    /// The same course with its time counted from `t`.
+    pub fn from(&self, t: f64) -> Self {
+        Self { points: self.points.iter().map(|p| [p[0] - t, p[1]]).collect() }
+    }
+
     /// Smallest and largest value.
     pub fn extremes(&self) -> [f64; 2] {
         self.points
@@ -96,5 +101,6 @@ mod tests {
         let at_zero = Course::new(vec![[0.0, 1.0], [0.0, 2.0]]).unwrap();
         assert_eq!((at_zero.at(0.0).0, at_zero.at(at_zero.past_knot(0.0)).0), (1.0, 2.0));
         assert_eq!(c.past_knot(0.5), 0.5);
+        assert!((c.from(0.2).at(0.0).0 - c.at(0.2).0).abs() < 1e-14);
     }
 }

@@ -60,15 +60,17 @@ pub(super) fn roll(prepared: &Prepared, settings: &Settings) -> (Run, Demand) {
     let mut s = run_settings(prepared, settings, settings.tolerance, settings.samples);
     let (mut state, mut place) = (prepared.state, prepared.mode.place);
     let mut before = 0;
+    let mut model = std::borrow::Cow::Borrowed(&prepared.model);
     if prepared.overrun.is_some() {
         let free = run(&prepared.model, prepared.state, prepared.mode, &s);
         before = free.counters.rhs_evaluations;
         if let Some(start) = free.engaged {
             (state, place) = (start.state, start.place);
             s.duration_s -= start.t_s;
+            model.to_mut().drive = prepared.model.drive.from(start.t_s);
         }
     }
-    let r: Rolling = rolling(&prepared.model, state, place, &s);
+    let r: Rolling = rolling(&model, state, place, &s);
     let finished = r.stop == Stop::Finished;
     let mut required = r.required_friction.filter(|_| finished);
     let mut interrupted = r.stop == Stop::Interrupted;
