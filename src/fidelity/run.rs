@@ -3,9 +3,7 @@
 use super::plan::{Plan, Term, plan};
 use crate::design::{ContactLaw, Scenario};
 use crate::dynamics::Stop;
-use crate::scenario::{
-    NoScenario, Prepared, Rolled, Settings, Simulation, prepare, simulate_prepared, simulate_rolling,
-};
+use crate::scenario::{NoScenario, Prepared, Settings, Simulation, prepare, simulate_prepared};
 
 /// A simulation with what it left out.
 #[derive(Debug, Clone)]
@@ -27,7 +25,7 @@ pub struct Planned {
 pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<Planned, NoScenario> {
     let whole = |settings: &Settings| {
         let prepared = prepare(scenario)?;
-        let simulation = simulate_prepared(&prepared, settings, None);
+        let simulation = simulate_prepared(&prepared, settings, false);
         Ok(Planned { prepared, simulation, left_out: Vec::new(), kept: Vec::new() })
     };
     if full {
@@ -37,13 +35,10 @@ pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<
     let Ok((Plan { reduction, mut left_out, mut kept }, prepared)) = plan(scenario, settings) else {
         return whole(settings);
     };
-    let simulation = match simulate_rolling(&prepared, settings) {
-        Rolled::Whole(simulation) => {
-            left_out.push(friction_law(&simulation, &prepared));
-            *simulation
-        }
-        Rolled::Part(known) => simulate_prepared(&prepared, settings, known),
-    };
+    let simulation = simulate_prepared(&prepared, settings, true);
+    if simulation.rolled {
+        left_out.push(friction_law(&simulation, &prepared));
+    }
     if reduction.reach_nm.is_some() && reached_the_end(&simulation) {
         // The shortened curve was too short after all.
         let all = Planned { kept, ..whole(settings)? };

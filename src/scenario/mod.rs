@@ -10,6 +10,6 @@ mod simulate;
 pub use demand::{Demand, demand};
 pub use prepare::{NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced};
 pub use simulate::{
-    ErrorEstimate, Rolled, Settings, Simulation, Verdict, published_steps, simulate, simulate_prepared,
-    simulate_published, simulate_rolling,
+    ErrorEstimate, Settings, Simulation, Verdict, published_steps, simulate, simulate_prepared,
+    simulate_published,
 };

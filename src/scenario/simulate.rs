@@ -119,6 +119,8 @@ pub struct Simulation {
     pub static_normal_n: f64,
     /// Rolling demand; `None` where the run was interrupted, and in overrun, where nothing is to stick.
     pub demand: Option<Demand>,
+    /// Whether the friction law was left out: the pure-rolling run is the run.
+    pub rolled: bool,
     /// Mode changes.
     pub events: u64,
     /// Steps of both runs.
@@ -164,63 +166,64 @@ pub(super) fn run_settings(
 /// # Errors
 /// [`NoScenario`] where the scenario has no start; whatever happens afterwards is a result.
 pub fn simulate(scenario: &Scenario, settings: &Settings) -> Result<Simulation, NoScenario> {
-    Ok(simulate_prepared(&prepare(scenario)?, settings, None))
+    Ok(simulate_prepared(&prepare(scenario)?, settings, false))
 }
 
-/// As [`simulate`], from a prepared scenario; `known` are its demands at a tenth of the tolerance and at the
-/// tolerance where they have been found already.
-pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, known: Option<[Demand; 2]>) -> Simulation {
+/// As [`simulate`], from a prepared scenario. `reduced`: where the pure-rolling run never asks for as much friction
+/// as there is, it is the run, and the scene is not integrated twice.
+pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool) -> Simulation {
     if prepared.duration_s == 0.0 {
         return steady(prepared, settings);
     }
-    let go = |tolerance: f64, samples: usize| {
-        let s = run_settings(prepared, settings, tolerance, samples);
-        run(&prepared.model, prepared.state, prepared.mode, &s)
-    };
-    let fine = go(0.1 * settings.tolerance, settings.samples);
-    let other = (fine.stop != Stop::Interrupted).then(|| go(settings.tolerance, 0));
-    conclude(prepared, settings, fine, other, known)
+    let fine = attempt(prepared, settings, 0.1 * settings.tolerance, settings.samples, reduced);
+    let other = (!fine.interrupted()).then(|| attempt(prepared, settings, settings.tolerance, 0, reduced));
+    conclude(prepared, fine, other)
 }
 
-/// How far static friction must exceed what rolling needs before the friction law is left out; ten times the
-/// error of the demand comes on top.
+/// One run with the demand of pure rolling beside it.
+struct Try {
+    run: Run,
+    /// `None`: nothing is to stick, or interrupted.
+    demand: Option<Demand>,
+    /// Whether the run is the pure-rolling run.
+    rolled: bool,
+}
+
+impl Try {
+    fn new(prepared: &Prepared, run: Run, demand: impl FnOnce() -> Demand) -> Self {
+        // What overruns to the end is not to stick: there is no demand.
+        let holds = prepared.overrun.is_none() || run.engaged.is_some();
+        let demand = (holds && run.stop != Stop::Interrupted).then(demand);
+        Self { run, demand, rolled: false }
+    }
+
+    fn interrupted(&self) -> bool {
+        self.run.stop == Stop::Interrupted || self.demand.is_some_and(|d| d.interrupted)
+    }
+
+    fn rhs_evaluations(&self) -> u64 {
+        let own = if self.rolled { 0 } else { self.run.counters.rhs_evaluations };
+        own + self.demand.map_or(0, |d| d.rhs_evaluations)
+    }
+}
+
+/// How far static friction must exceed what rolling needs before the friction law is left out.
 const RESERVE: f64 = 1e-6;
 
-/// What the two pure-rolling runs of a scene tell.
-#[derive(Debug, Clone)]
-pub enum Rolled {
-    /// They never ask for as much friction as there is: they are the scene.
-    Whole(Box<Simulation>),
-    /// The friction law matters, or the scene does not start in stick; the demands, if the runs came that far.
-    Part(Option<[Demand; 2]>),
-}
-
-/// The two pure-rolling runs as the answer, where they never ask for as much friction as there is: both obey the
-/// same equations. Otherwise their demands, if they came that far, for [`simulate_prepared`].
-pub fn simulate_rolling(prepared: &Prepared, settings: &Settings) -> Rolled {
+fn attempt(prepared: &Prepared, settings: &Settings, tolerance: f64, samples: usize, reduced: bool) -> Try {
     let mode = prepared.mode;
     let stuck = mode.inner == Grip::Stick && mode.outer == Grip::Stick && mode.place != Place::Open;
-    if prepared.duration_s == 0.0 || !stuck || prepared.overrun.is_some() {
-        return Rolled::Part(None);
+    let s = Settings { tolerance, samples, ..*settings };
+    let go = || run(&prepared.model, prepared.state, mode, &run_settings(prepared, &s, tolerance, samples));
+    if !(reduced && stuck && prepared.overrun.is_none()) {
+        return Try::new(prepared, go(), || demand(prepared, &s));
     }
-    let (fine, fine_demand) = roll(prepared, &Settings { tolerance: 0.1 * settings.tolerance, ..*settings });
-    if fine.stop == Stop::Interrupted {
-        return Rolled::Part(None);
+    let (rolling, demand) = roll(prepared, &s);
+    let suffices = demand.finished && !demand.by_bisection && demand.slip_margin > RESERVE;
+    if suffices || demand.interrupted {
+        return Try { run: rolling, demand: Some(demand), rolled: true };
     }
-    let (coarse, coarse_demand) = roll(prepared, &Settings { samples: 0, ..*settings });
-    let demands = [fine_demand, coarse_demand];
-    if demands.iter().any(|d| d.interrupted) {
-        return Rolled::Part(None);
-    }
-    let least = demands.iter().map(|d| d.slip_margin).fold(f64::INFINITY, f64::min);
-    let error = (fine_demand.slip_margin - coarse_demand.slip_margin).abs();
-    let rolls = demands.iter().all(|d| d.finished && !d.by_bisection);
-    if !(rolls && least > RESERVE + 10.0 * error) {
-        return Rolled::Part(Some(demands));
-    }
-    // The work of the two runs is counted as theirs, not once more as the demands'.
-    let known = demands.map(|d| Demand { rhs_evaluations: 0, ..d });
-    Rolled::Whole(Box::new(conclude(prepared, settings, fine, Some(coarse), Some(known))))
+    Try::new(prepared, go(), || demand)
 }
 
 /// Simulate `scenario` with the paper's own scheme, kept as a reference: at `step_s` and at half of it; the
@@ -241,14 +244,15 @@ pub fn simulate_published(
         return Ok(steady(&prepared, settings));
     }
     let duration_s = prepared.duration_s;
-    let mut go = |step_s: f64, samples: usize, before: u64| {
+    let mut go = |step_s: f64, samples: usize, before: u64, tolerance: f64| {
         let s = PublishedSettings { duration_s, step_s, band_m_s, samples };
-        published(&prepared.model, prepared.state, &s, &mut |steps| go_on(before + steps))
+        let run = published(&prepared.model, prepared.state, &s, &mut |steps| go_on(before + steps));
+        Try::new(&prepared, run, || demand(&prepared, &Settings { tolerance, ..*settings }))
     };
-    let answer = go(step_s, settings.samples, 0);
-    let before = answer.counters.steps;
-    let other = (answer.stop != Stop::Interrupted).then(|| go(0.5 * step_s, 0, before));
-    Ok(conclude(&prepared, settings, answer, other, None))
+    let answer = go(step_s, settings.samples, 0, 0.1 * settings.tolerance);
+    let before = answer.run.counters.steps;
+    let other = (!answer.interrupted()).then(|| go(0.5 * step_s, 0, before, settings.tolerance));
+    Ok(conclude(&prepared, answer, other))
 }
 
 /// Steps of both runs of [`simulate_published`] over `duration_s`.
@@ -257,45 +261,26 @@ pub fn published_steps(duration_s: f64, step_s: f64) -> u64 {
     steps(step_s) + steps(0.5 * step_s)
 }
 
-/// The answer `fine`, its error by `other` (absent: interrupted), the rolling demand, the verdict.
-fn conclude(
-    prepared: &Prepared,
-    settings: &Settings,
-    fine: Run,
-    other: Option<Run>,
-    known: Option<[Demand; 2]>,
-) -> Simulation {
-    let asked = |tolerance: f64, i: usize| {
-        let d = known
-            .and_then(|k| k.get(i).copied())
-            .unwrap_or_else(|| demand(prepared, &Settings { tolerance, ..*settings }));
-        (!d.interrupted).then_some(d)
-    };
-    let finished = other.filter(|o| o.stop != Stop::Interrupted);
-    // What overruns to the end is not to stick: there is no demand.
-    let holds = prepared.overrun.is_none() || fine.engaged.is_some();
-    let fine_demand = finished.as_ref().filter(|_| holds).and_then(|_| asked(0.1 * settings.tolerance, 0));
-    let coarse_demand = fine_demand.and_then(|_| asked(settings.tolerance, 1));
-    let demanded = fine_demand.zip(coarse_demand);
-    let complete = demanded.is_some() || !holds;
-    let fine_offset = offset(prepared, &fine);
-    let error = match &finished {
-        Some(o) if complete => Some(ErrorEstimate {
-            theta_inner_rad: (fine.state[2] - o.state[2]).abs(),
-            theta_outer_rad: (fine.state[3] - o.state[3]).abs(),
-            offset_rad: (fine_offset - offset(prepared, o)).abs(),
-            net_slip_m: (slips(&fine)[0].net_m - slips(o)[0].net_m).abs(),
-            normal_min_n: (fine.peaks.normal_min_n - o.peaks.normal_min_n).abs(),
-            slip_margin: demanded.map_or(0.0, |(f, c)| (f.slip_margin - c.slip_margin).abs()),
-        }),
-        _ => None,
-    };
+/// The answer `fine`, its error by `other` (absent: interrupted), the verdict.
+fn conclude(prepared: &Prepared, fine: Try, other: Option<Try>) -> Simulation {
+    let finished = other.filter(|o| !o.interrupted());
+    let fine_offset = offset(prepared, &fine.run);
+    let error = finished.as_ref().map(|o| ErrorEstimate {
+        theta_inner_rad: (fine.run.state[2] - o.run.state[2]).abs(),
+        theta_outer_rad: (fine.run.state[3] - o.run.state[3]).abs(),
+        offset_rad: (fine_offset - offset(prepared, &o.run)).abs(),
+        net_slip_m: (slips(&fine.run)[0].net_m - slips(&o.run)[0].net_m).abs(),
+        normal_min_n: (fine.run.peaks.normal_min_n - o.run.peaks.normal_min_n).abs(),
+        slip_margin: fine.demand.zip(o.demand).map_or(0.0, |(f, c)| (f.slip_margin - c.slip_margin).abs()),
+    });
     let agreed = error.zip(finished.as_ref()).and_then(|(error, other)| {
-        let (a, b) = (verdict(&fine, &error)?, verdict(other, &error)?);
+        let (a, b) = (verdict(&fine.run, &error)?, verdict(&other.run, &error)?);
         Some(if a == b { a } else { Verdict::AtThreshold })
     });
-    let work = |of: fn(&Run) -> u64| of(&fine) + finished.as_ref().map_or(0, of);
-    let demands = [fine_demand, coarse_demand].into_iter().flatten().map(|d| d.rhs_evaluations).sum::<u64>();
+    let rhs_evaluations = fine.rhs_evaluations() + finished.as_ref().map_or(0, Try::rhs_evaluations);
+    let steps = fine.run.counters.steps + finished.as_ref().map_or(0, |o| o.run.counters.steps);
+    let demand = fine.demand.filter(|_| finished.is_some());
+    let (rolled, fine) = (fine.rolled, fine.run);
     Simulation {
         verdict: agreed,
         // No estimate means that one of the runs was interrupted.
@@ -312,10 +297,11 @@ fn conclude(
         hertz_static_pa: hertz_at(prepared, prepared.static_normal_n),
         hertz_least_pa: hertz_at(prepared, fine.peaks.normal_min_n),
         static_normal_n: prepared.static_normal_n,
-        demand: fine_demand,
+        demand,
+        rolled,
         events: fine.events,
-        steps: work(|r| r.counters.steps),
-        rhs_evaluations: work(|r| r.counters.rhs_evaluations) + demands,
+        steps,
+        rhs_evaluations,
         error,
         samples: fine.samples,
         engaged: fine.engaged,
@@ -415,6 +401,7 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         hertz_least_pa: hertz_at(prepared, n_bi),
         static_normal_n: n_bi,
         demand,
+        rolled: false,
         events: 0,
         steps: 0,
         rhs_evaluations: 0,

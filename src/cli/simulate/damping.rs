@@ -33,7 +33,7 @@ pub(super) fn effect(scene: &Scene, settings: &Settings) -> Option<Effect> {
     let mut other = Scenario::clone(scene.scenario);
     other.clutch.hunt_crossley_s_per_m = if given == 0.0 { TRIED_S_PER_M } else { 0.0 };
     let settings = Settings { samples: 0, ..*settings };
-    let s = simulate_prepared(&prepare(&other).ok()?, &settings, None);
+    let s = simulate_prepared(&prepare(&other).ok()?, &settings, true);
     let error_rad = own.error?.theta_inner_rad + s.error?.theta_inner_rad;
     Some(Effect {
         other_s_per_m: other.clutch.hunt_crossley_s_per_m,
