@@ -1,39 +1,22 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
-use super::driver::Driver;
-use super::model::{N_STATE, Place, State};
+use super::driver::{Driver, LOOKS};
+use super::events::look;
+use super::model::{N_STATE, State};
 use super::run::{Peaks, Sample};
-use crate::ode::dop853::Step;
+use crate::ode::step::Step;
 
 impl Driver<'_> {
-    /// Extremes and samples inside the step.
+    /// Extremes and samples inside the step, of which `values` are the figures at [`LOOKS`].
     pub(super) fn watch(
         &mut self,
         step: &Step<N_STATE>,
-        t_end: f64,
+        values: [[f64; 5]; LOOKS.len()],
         rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
     ) -> Result<(), ()> {
-        let mode = self.run.mode;
-        let model = self.model;
-        let figures = |t: f64, y: &State| {
-            let f = model.forces(&mode, t, y);
-            let ratio = |a: f64, b: f64| if b > 0.0 { a.abs() / b } else { 0.0 };
-            let closed = matches!(mode.place, Place::Arc(_));
-            if closed {
-                [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be]
-            } else {
-                [0.0, 0.0, -f.n_bi, f.n_bi, f.n_be]
-            }
-        };
-        let thetas = [0.0, 0.25, 0.5, 0.75, 1.0];
-        let values = thetas.map(|theta| {
-            let y = match theta {
-                0.0 => step.y0,
-                1.0 => step.y1,
-                _ => step.glance(theta),
-            };
-            figures(step.t + theta * step.h, &y)
-        });
+        let (mode, model, thetas) = (self.run.mode, self.model, LOOKS);
+        let (start, length) = (step.t(), step.h());
+        let t_end = start + length;
         let p = &mut self.run.peaks;
         let mut best = [p.tan_inner, p.tan_outer, -p.normal_min_n, p.normal_max_n, p.normal_outer_max_n];
         let mut at_s = p.at_s;
@@ -44,7 +27,7 @@ impl Driver<'_> {
         for i in 0..best.len() {
             for (j, theta) in [(0, 0.0), (4, 1.0)] {
                 if values[j][i] > best[i] {
-                    (best[i], at_s[i]) = (values[j][i], step.t + theta * step.h);
+                    (best[i], at_s[i]) = (values[j][i], start + theta * length);
                 }
             }
             for j in 0..thetas.len() {
@@ -61,12 +44,12 @@ impl Driver<'_> {
                         None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
                     };
                     let value = |theta: f64| {
-                        let t = step.t + theta * step.h;
-                        figures(t, &d.at(t))[i]
+                        let t = start + theta * length;
+                        look(model, &mode, t, &d.at(t), false).figures[i]
                     };
                     let (theta, found) = golden(thetas[left], thetas[right], value);
                     if found > best[i] {
-                        (best[i], at_s[i]) = (found, step.t + theta * step.h);
+                        (best[i], at_s[i]) = (found, start + theta * length);
                     }
                 }
             }
