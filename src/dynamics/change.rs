@@ -133,8 +133,8 @@ impl Driver<'_> {
             }
             _ => {}
         }
+        self.renew(mode);
         self.run.mode = mode;
-        self.renew();
         self.run.note_engagement();
         if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {
             self.run.modes.push((t, mode));

@@ -3,6 +3,7 @@
 use super::events::{EVENTS, Look, look};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{Run, RunSettings, Stop};
+use super::watch::highest;
 use crate::numeric::root;
 use crate::ode::adaptive::Adaptive;
 use crate::ode::step::{Dense, Step, Tolerance};
@@ -26,6 +27,15 @@ pub(super) struct Driver<'a> {
     /// Slope and look at the present state where the last step has left them.
     slope: Option<State>,
     seen: Option<Look>,
+    /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
+    lengths: [f64; 8],
+}
+
+/// Which contacts hold, for the memory of step lengths.
+fn kind(mode: &Mode) -> usize {
+    usize::from(mode.inner == Grip::Stick)
+        + 2 * usize::from(mode.outer == Grip::Stick)
+        + 4 * usize::from(mode.place == Place::Open)
 }
 
 /// The right-hand side in one mode.
@@ -51,6 +61,7 @@ impl<'a> Driver<'a> {
             stepper: Adaptive::new(tolerance, settings.longest_step_s * 0.01, SMALL),
             slope: None,
             seen: None,
+            lengths: [f64::INFINITY; 8],
         };
         driver.enter(mode);
         driver.look(state, 0.0);
@@ -126,7 +137,10 @@ impl<'a> Driver<'a> {
                 };
                 match self.first_event(d, step, LOOKS[i - 1], theta, &looks[i - 1].events) {
                     Found::Nothing => {}
-                    Found::At(theta, which) => return self.land(step, theta, which, slope, rhs),
+                    Found::At(theta, which) => {
+                        let d = d.clone();
+                        return self.land(step, theta, which, d, rhs);
+                    }
                     Found::TooCoarse => {
                         // The event function is negative from the start: look closer, then give way.
                         let h = step.h() * 0.125 * theta;
@@ -141,17 +155,72 @@ impl<'a> Driver<'a> {
             }
         }
         let seen = looks[LOOKS.len() - 1];
-        if !self.accept(step, looks, rhs) {
-            return false;
+        let figures = looks.map(|l| l.figures);
+        match self.crest(step, &looks, dense, rhs) {
+            Ok(Some((theta, which, d))) => return self.land(step, theta, which, d, rhs),
+            Ok(None) if self.watch(step, &figures, rhs).is_ok() => self.accept(step),
+            _ => {
+                self.stop(Stop::NotFinite);
+                return false;
+            }
         }
         self.seen = Some(seen);
         // The end of an explicit step is the first stage of the next; the correction of the windup in between is
         // of the size of the step's error.
         self.slope = match step {
             Step::Explicit(s) => Some(*s.slope1()),
-            Step::Implicit(_) => None,
+            Step::Implicit(_) | Step::Part(_) => None,
         };
         true
+    }
+
+    /// The first event of a function that dips below zero and rises again between two looks: where its lowest look
+    /// is nearer to zero than a parabola through three looks can reach (twice an eighth of their second difference).
+    fn crest(
+        &mut self,
+        step: &Step<N_STATE>,
+        looks: &[Look; LOOKS.len()],
+        mut dense: Option<Dense<N_STATE>>,
+        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
+    ) -> Result<Option<(f64, usize, Dense<N_STATE>)>, ()> {
+        let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
+        let last = LOOKS.len() - 1;
+        for i in 0..EVENTS {
+            for j in 0..=last {
+                let (left, right) = (j.saturating_sub(1), (j + 1).min(last));
+                let e = |j: usize| looks[j].events[i];
+                let m = j.clamp(1, last - 1);
+                let bend = (e(m - 1) - 2.0 * e(m) + e(m + 1)).abs();
+                // A contact just released starts at zero and rises: that is no dip.
+                let bottom = e(j) <= e(left) && e(j) <= e(right) && j > 0;
+                if !bottom || e(j) > 0.25 * bend {
+                    continue;
+                }
+                let d = match dense.take() {
+                    Some(d) => d,
+                    None => step.dense(rhs, &mut self.run.counters)?,
+                };
+                let value = |theta: f64| {
+                    -look(
+                        model,
+                        &mode,
+                        step.t() + theta * step.h(),
+                        &d.at(step.t() + theta * step.h()),
+                        grips,
+                    )
+                    .events[i]
+                };
+                let (theta, depth) = highest(LOOKS[left], LOOKS[right], value);
+                if depth > 0.0
+                    && let Found::At(theta, which) =
+                        self.first_event(&d, step, LOOKS[left], theta, &looks[left].events)
+                {
+                    return Ok(Some((theta, which, d)));
+                }
+                dense = Some(d);
+            }
+        }
+        Ok(None)
     }
 
     /// Earliest zero between the fractions `from` and `to` of the step.
@@ -203,24 +272,23 @@ impl<'a> Driver<'a> {
         step: &Step<N_STATE>,
         theta: f64,
         which: usize,
-        slope: &State,
+        dense: Dense<N_STATE>,
         rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
     ) -> bool {
         let h = theta * step.h();
         if h > 0.0 {
-            let Some(part) = self.stepper.part(rhs, step, slope, h, &mut self.run.counters) else {
-                self.stop(Stop::NotFinite);
-                return false;
-            };
+            let part = step.until(h, dense);
             self.stepper.h = step.h();
             let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
-            let looks = LOOKS.map(|theta| {
+            let figures = LOOKS.map(|theta| {
                 let t = part.t() + theta * part.h();
-                look(model, &mode, t, &part.glance(theta), grips)
+                look(model, &mode, t, &part.glance(theta), grips).figures
             });
-            if !self.accept(&part, looks, rhs) {
+            if self.watch(&part, &figures, rhs).is_err() {
+                self.stop(Stop::NotFinite);
                 return false;
             }
+            self.accept(&part);
         }
         let (t, y) = (step.t() + h, self.run.state);
         self.count_event() && self.change(which, t, y)
@@ -236,19 +304,22 @@ impl<'a> Driver<'a> {
         go_on
     }
 
-    /// The right-hand side is a new one.
-    pub(super) fn renew(&mut self) {
+    /// The right-hand side becomes that of `mode`.
+    pub(super) fn renew(&mut self, mode: Mode) {
+        let (old, new) = (kind(&self.run.mode), kind(&mode));
+        if old != new {
+            self.lengths[old] = self.stepper.h;
+            self.stepper.h = self.stepper.h.min(self.settings.longest_step_s).min(self.lengths[new]);
+            if self.lengths[new].is_finite() {
+                self.stepper.h = self.lengths[new];
+            }
+        }
         self.stepper.forget();
         (self.slope, self.seen) = (None, None);
     }
 
-    /// Take over an accepted step: constraint, peaks, samples, slip records.
-    fn accept(
-        &mut self,
-        step: &Step<N_STATE>,
-        looks: [Look; LOOKS.len()],
-        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
-    ) -> bool {
+    /// Take over an accepted step: constraint, slip records.
+    fn accept(&mut self, step: &Step<N_STATE>) {
         let mode = self.run.mode;
         let (t, mut y) = (step.t() + step.h(), *step.y1());
         self.run.counters.steps += 1;
@@ -270,14 +341,8 @@ impl<'a> Driver<'a> {
                 }
             }
         }
-        let mut ok = true;
-        if let Err(()) = self.watch(step, looks.map(|l| l.figures), rhs) {
-            self.stop(Stop::NotFinite);
-            ok = false;
-        }
         self.run.t_s = t;
         self.run.state = y;
-        ok
     }
 
     pub(super) fn stop(&mut self, why: Stop) {

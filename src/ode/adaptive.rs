@@ -66,6 +66,7 @@ where
         counters: &mut Counters,
     ) -> Option<Step<N>> {
         let mut h = self.h.min(longest).min(rest);
+        let mut rejected = false;
         let step = loop {
             if h < SHORTEST_STEP && h < rest {
                 return None;
@@ -84,9 +85,12 @@ where
                 }
             }
             counters.rejections += 1;
+            rejected = true;
         };
-        Some(match step {
+        let tried = h;
+        let next = match step {
             Step::Explicit(s) => self.maybe_implicit(rhs, slope, longest, rest, s, counters),
+            Step::Part(_) => step,
             Step::Implicit(s) => {
                 self.h = s.next_h();
                 let explicit = self.radau.fastest().map_or(f64::INFINITY, |rate| STABLE / rate);
@@ -96,28 +100,12 @@ where
                 counters.implicit_steps += 1;
                 Step::Implicit(s)
             }
-        })
-    }
-
-    /// A step of the same kind as `like` over another length from the same start: what lies before an event.
-    pub fn part<X>(
-        &mut self,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
-        like: &Step<N>,
-        slope: &[f64; N],
-        h: f64,
-        counters: &mut Counters,
-    ) -> Option<Step<N>> {
-        let (t, y) = (like.t(), like.y0());
-        match like {
-            Step::Explicit(_) => {
-                dop853::step(rhs, t, y, slope, h, &self.tolerance, counters).ok().map(Step::Explicit)
-            }
-            Step::Implicit(_) => self
-                .radau
-                .step(rhs, t, y, slope, h, &self.tolerance, self.floor, counters)
-                .map(Step::Implicit),
+        };
+        // No longer at once after a rejection: a step held by stability would be rejected every other time.
+        if rejected && matches!(next, Step::Explicit(_)) {
+            self.h = self.h.min(tried);
         }
+        Some(next)
     }
 
     fn maybe_implicit<X>(

@@ -70,13 +70,17 @@ pub fn step<const N: usize, X>(
     }
     let blend = err5 + 0.01 * err3;
     let error = if blend > 0.0 { h.abs() * err5 / (blend * N as f64).sqrt() } else { 0.0 };
-    let slope1 = rhs(t + h, &y1)?;
-    counters.rhs_evaluations += 12;
+    counters.rhs_evaluations += 11;
+    let mut slope1 = [0.0; N];
+    if error <= 1.0 {
+        slope1 = rhs(t + h, &y1)?;
+        counters.rhs_evaluations += 1;
+    }
     Ok(Step { t, h, y0: *y, y1, error, stages: k, slope1 })
 }
 
 impl<const N: usize> Step<N> {
-    /// f at the end of the step, the first stage of the next.
+    /// f at the end of an accepted step, the first stage of the next.
     pub fn slope1(&self) -> &[f64; N] {
         &self.slope1
     }
@@ -165,7 +169,7 @@ mod tests {
     }
 
     fn end_error(n: usize) -> (f64, f64) {
-        let tolerance = Tolerance { relative: 1e-12, absolute: [1e-12; 3], integrated: [0.0; 3] };
+        let tolerance = Tolerance { relative: 1.0, absolute: [1.0; 3], integrated: [0.0; 3] };
         let mut counters = Counters::default();
         let (mut t, mut y) = (0.0, [0.0, 1.0, 0.0]);
         let h = 2.0 / n as f64;

@@ -45,6 +45,18 @@ pub enum Step<const N: usize> {
     Explicit(dop853::Step<N>),
     /// Radau IIA.
     Implicit(radau5::Step<N>),
+    /// The beginning of either, up to an event, read off its dense output.
+    Part(Part<N>),
+}
+
+/// The first `h` of a longer step.
+#[derive(Debug, Clone)]
+pub struct Part<const N: usize> {
+    h: f64,
+    y0: [f64; N],
+    y1: [f64; N],
+    t: f64,
+    dense: Dense<N>,
 }
 
 /// Dense output of a step.
@@ -62,6 +74,7 @@ impl<const N: usize> Step<N> {
         match self {
             Self::Explicit(s) => s.t,
             Self::Implicit(s) => s.t,
+            Self::Part(s) => s.t,
         }
     }
 
@@ -70,6 +83,7 @@ impl<const N: usize> Step<N> {
         match self {
             Self::Explicit(s) => s.h,
             Self::Implicit(s) => s.h,
+            Self::Part(s) => s.h,
         }
     }
 
@@ -78,6 +92,7 @@ impl<const N: usize> Step<N> {
         match self {
             Self::Explicit(s) => &s.y0,
             Self::Implicit(s) => &s.y0,
+            Self::Part(s) => &s.y0,
         }
     }
 
@@ -86,6 +101,7 @@ impl<const N: usize> Step<N> {
         match self {
             Self::Explicit(s) => &s.y1,
             Self::Implicit(s) => &s.y1,
+            Self::Part(s) => &s.y1,
         }
     }
 
@@ -94,7 +110,14 @@ impl<const N: usize> Step<N> {
         match self {
             Self::Explicit(s) => s.glance(theta),
             Self::Implicit(s) => s.at(s.t + theta * s.h),
+            Self::Part(s) => s.dense.at(s.t + theta * s.h),
         }
+    }
+
+    /// Its first `h`, known by its dense output.
+    pub fn until(&self, h: f64, dense: Dense<N>) -> Self {
+        let (t, y0) = (self.t(), *self.y0());
+        Self::Part(Part { h, y0, y1: dense.at(t + h), t, dense })
     }
 
     /// Dense output.
@@ -109,6 +132,7 @@ impl<const N: usize> Step<N> {
         Ok(match self {
             Self::Explicit(s) => Dense::Explicit(s.dense(rhs, counters)?),
             Self::Implicit(s) => Dense::Implicit(s.clone()),
+            Self::Part(s) => s.dense.clone(),
         })
     }
 }

@@ -3,11 +3,12 @@
 //! In: a `Scenario` of the design. Out: [`Simulation`]. Absent: allowables (margin), files.
 //! Equations: none of its own; definitions of offset, slip margin, contact margin and verdict.
 
+mod demand;
+mod error;
 mod prepare;
 mod simulate;
 
+pub use demand::{Demand, demand};
+pub use error::ErrorEstimate;
 pub use prepare::{NoScenario, Prepared, place_profile, prepare};
-pub use simulate::{
-    Demand, ErrorEstimate, Settings, Simulation, Verdict, demand, published_steps, simulate,
-    simulate_published,
-};
+pub use simulate::{Settings, Simulation, Verdict, published_steps, simulate, simulate_published};
