@@ -33,13 +33,18 @@ fn holds(name: &str, [reduced, full]: &[Planned; 2]) {
     assert_eq!((a.verdict, a.stop), (b.verdict, b.stop), "{name}");
     assert!(full.left_out.is_empty());
     if cost == 0.0 {
-        // Nothing but work is saved.
-        assert_eq!(a.peaks, b.peaks, "{name}");
-        assert_eq!((a.inner, a.outer, a.offset_rad), (b.inner, b.outer, b.offset_rad), "{name}");
-        assert_eq!(
-            a.demand.map(|d| (d.required_friction, d.contact_margin)),
-            b.demand.map(|d| (d.required_friction, d.contact_margin))
-        );
+        // Nothing but work is saved: the figures agree to what the tolerance promises of both.
+        let (p, q) = (&a.peaks, &b.peaks);
+        let near = |x: f64, y: f64, scale: f64| assert!((x - y).abs() <= 2e-6 * scale, "{name}: {x} {y}");
+        near(p.normal_min_n, q.normal_min_n, q.normal_max_n.max(1.0));
+        near(p.normal_max_n, q.normal_max_n, q.normal_max_n.max(1.0));
+        near(a.offset_rad, b.offset_rad, 1.0);
+        let margins = |s: &sprag_design::scenario::Simulation| {
+            s.demand.map_or([0.0; 2], |d| [d.slip_margin, d.contact_margin])
+        };
+        for (x, y) in margins(a).into_iter().zip(margins(b)) {
+            near(x, y, 1.0);
+        }
     }
     assert!(a.rhs_evaluations <= b.rhs_evaluations, "{name}");
 }

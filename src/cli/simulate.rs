@@ -204,6 +204,21 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
         notes.push(format!("no verdict: {why}; the figures hold up to {:.6} s", s.t_s));
     }
     notes.extend(scene.damping.as_ref().and_then(damping::Effect::note));
+    if let Some(s) = simulation
+        && s.stop == Stop::StepLimit
+        && let Some(rate) = s.fastest_rad_s
+    {
+        notes.push(format!("the fastest motion where the run gave up: {rate:.2e} rad/s"));
+    }
+    if let Some(s) =
+        simulation.filter(|s| scene.method == "event" && s.error.is_some() && !s.tolerance_reached)
+    {
+        let [low, high] = s.spread_rad;
+        notes.push(format!(
+            "the tolerance is not reached: theta_inner_end lies between {low:.9} and {high:.9} rad over the runs made; \
+             the scene may be sensitive by nature"
+        ));
+    }
     let moved = simulation.and_then(|s| s.error).map_or(0.0, |e| e.theta_inner_rad);
     if scene.method == "published" && moved > CONVERGED_RAD {
         notes.push(format!(
@@ -228,7 +243,7 @@ fn refuse_senseless(args: &SimulateArgs) -> Result<(), Failure> {
     if let Some(x) = args.tolerance {
         let [low, high] = TOLERANCES;
         if !(low..=high).contains(&x) {
-            return Err(refused("--tolerance", x, &format!("{low:e} to {high:e}; 1e-8 serves well")));
+            return Err(refused("--tolerance", x, &format!("{low:e} to {high:e}; 1e-6 serves well")));
         }
         if args.method == Method::Published {
             return Err(refused("--tolerance", x, "--step with --method published, whose step is fixed"));

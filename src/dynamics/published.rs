@@ -4,8 +4,8 @@
 //! lost it runs away. Never the default.
 
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
-use super::run::{Peaks, Run, Sample, SlipRecord, Stop};
-use crate::ode::{dop853::Counters, rk4};
+use super::run::{Run, Sample, Stop};
+use crate::ode::rk4;
 
 /// Settings of the published scheme.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,22 +82,8 @@ pub fn published(
     let steps = settings.steps();
     let h = settings.duration_s / steps as f64;
     let band = settings.band_m_s;
-    let mut run = Run {
-        stop: Stop::Finished,
-        t_s: 0.0,
-        state,
-        mode: Mode { place: Place::Open, inner: Grip::Stick, outer: Grip::Stick },
-        inner: SlipRecord::default(),
-        outer: SlipRecord::default(),
-        open_s: 0.0,
-        longest_open_s: 0.0,
-        peaks: Peaks::NONE,
-        events: 0,
-        counters: Counters::default(),
-        samples: Vec::with_capacity(settings.samples),
-        engaged: None,
-        modes: Vec::new(),
-    };
+    let free = Mode { place: Place::Open, inner: Grip::Stick, outer: Grip::Stick };
+    let mut run = Run::start(state, free, settings.samples);
     let (_, end_alpha) = model.curve.end();
     let mut open_s = 0.0;
     for i in 0..=steps {

@@ -1,8 +1,9 @@
-//! What friction a scene needs to stick, and how near its contact comes to opening.
+//! What a scene demands of friction and contact if it is to roll throughout, and how runs are set up.
 
+use super::error::ErrorEstimate;
 use super::prepare::Prepared;
-use super::simulate::{ErrorEstimate, Settings, Verdict, run_settings, verdict};
-use crate::dynamics::{Rolling, Run, Stop, rolling, run};
+use super::simulate::{Settings, Verdict, verdict};
+use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, run};
 use crate::friction::Stribeck;
 
 /// What pure rolling would demand: the basis of slip margin and contact margin.
@@ -26,17 +27,41 @@ pub struct Demand {
     pub rhs_evaluations: u64,
 }
 
-/// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.
-const MOST_FRICTION: f64 = 1.0;
-/// Smallest coefficient that is tried.
-const LEAST_FRICTION: f64 = 1e-3;
-/// Relative width at which the bisection ends.
-const BISECTED: f64 = 1e-4;
+/// Steps per period: four looks in each see every half wave.
+pub(super) const STEPS_PER_PERIOD: f64 = 8.0;
+/// The same where peaks of a single run must be good to a hundredth of the tolerance.
+const STEPS_PER_PERIOD_OF_DEMAND: f64 = 20.0;
+
+pub(super) fn run_settings(
+    prepared: &Prepared,
+    settings: &Settings,
+    tolerance: f64,
+    samples: usize,
+    per_period: f64,
+) -> RunSettings {
+    let chosen = || prepared.period_s.map_or(prepared.duration_s / 200.0, |p| p / per_period);
+    let longest_step_s = settings.longest_step_s.unwrap_or_else(chosen);
+    RunSettings {
+        tolerance,
+        duration_s: prepared.duration_s,
+        longest_step_s,
+        most_events: settings.most_events,
+        most_steps: settings.most_steps,
+        samples,
+        rolling: false,
+        interrupt: settings.interrupt,
+    }
+}
 
 /// Pure-rolling demand of a prepared scenario; static kinds read it off the curve. An engagement is rolled from
 /// the moment at which it has ceased to overrun. Where rolling would need tension, no peak of |T|/N says what
 /// friction suffices: then the smallest static friction with the verdict "sticks" is bisected.
 pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
+    demand_at(prepared, settings, 0.01 * settings.tolerance)
+}
+
+/// The same at steps of relative tolerance `tolerance`.
+pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, tolerance: f64) -> Demand {
     let mu = prepared.model.friction.static_;
     if prepared.duration_s == 0.0 {
         let f = prepared.model.curve.at_normal(prepared.static_normal_n);
@@ -52,12 +77,25 @@ pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
             rhs_evaluations: 0,
         };
     }
-    roll(prepared, &Settings { samples: 0, ..*settings }).1
+    roll(prepared, settings, tolerance, 0, STEPS_PER_PERIOD_OF_DEMAND).1
 }
 
+/// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.
+const MOST_FRICTION: f64 = 1.0;
+/// Smallest coefficient that is tried.
+const LEAST_FRICTION: f64 = 1e-3;
+/// Relative width at which the bisection ends.
+const BISECTED: f64 = 1e-4;
+
 /// The pure-rolling run of a prepared scenario that is integrated, and its demand.
-pub(super) fn roll(prepared: &Prepared, settings: &Settings) -> (Run, Demand) {
-    let mut s = run_settings(prepared, settings, settings.tolerance, settings.samples);
+pub(super) fn roll(
+    prepared: &Prepared,
+    settings: &Settings,
+    tolerance: f64,
+    samples: usize,
+    per_period: f64,
+) -> (Run, Demand) {
+    let mut s = run_settings(prepared, settings, tolerance, samples, per_period);
     let (mut state, mut place) = (prepared.state, prepared.mode.place);
     let mut before = 0;
     let mut model = std::borrow::Cow::Borrowed(&prepared.model);
@@ -76,7 +114,7 @@ pub(super) fn roll(prepared: &Prepared, settings: &Settings) -> (Run, Demand) {
     let mut interrupted = r.stop == Stop::Interrupted;
     let by_bisection = finished && required.is_none();
     if by_bisection {
-        let (found, work, stopped) = bisected(prepared, settings);
+        let (found, work, stopped) = bisected(prepared, settings, tolerance);
         required = found;
         before += work;
         interrupted |= stopped;
@@ -96,8 +134,8 @@ pub(super) fn roll(prepared: &Prepared, settings: &Settings) -> (Run, Demand) {
 
 /// Smallest static friction with which the scene has the verdict "sticks", the kinetic one lowered with it;
 /// right-hand sides; whether it was interrupted. `None` where even the largest does not do.
-fn bisected(prepared: &Prepared, settings: &Settings) -> (Option<f64>, u64, bool) {
-    let s = run_settings(prepared, settings, settings.tolerance, 0);
+fn bisected(prepared: &Prepared, settings: &Settings, tolerance: f64) -> (Option<f64>, u64, bool) {
+    let s = run_settings(prepared, settings, tolerance, 0, STEPS_PER_PERIOD_OF_DEMAND);
     let law = prepared.model.friction;
     let mut model = prepared.model.clone();
     let (mut work, mut interrupted) = (0, false);

@@ -4,12 +4,13 @@
 //! Equations: none of its own; definitions of offset, slip margin, contact margin and verdict.
 
 mod demand;
+mod error;
 mod prepare;
 mod simulate;
 
 pub use demand::{Demand, demand};
+pub use error::ErrorEstimate;
 pub use prepare::{NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced};
 pub use simulate::{
-    ErrorEstimate, Settings, Simulation, Verdict, published_steps, simulate, simulate_prepared,
-    simulate_published,
+    Settings, Simulation, Verdict, published_steps, simulate, simulate_prepared, simulate_published,
 };
