@@ -3,9 +3,10 @@
 
 use divan::{Bencher, black_box};
 use sprag_design::design::StressState;
-use sprag_design::dynamics::{Grip, Mode, Place};
+use sprag_design::dynamics::{Grip, Mode, Place, PublishedSettings, RunSettings, published, run};
 use sprag_design::scenario::{Prepared, demand, prepare};
 use sprag_design::{ContactLaw, Design, Settings, WedgeCurve, place_profile, simulate};
+use std::time::Instant;
 
 const SOURCE: &str = include_str!("../designs/huang2017-multi-arc.toml");
 
@@ -34,7 +35,45 @@ fn main() {
             s.rhs_evaluations as f64 / s.steps as f64
         );
     }
+    beside_the_published_scheme();
     divan::main();
+}
+
+/// One run of high-10 with the steps that the default tolerance begins with, against one of the published scheme at
+/// its own step; medians of 15, in turn.
+fn beside_the_published_scheme() {
+    let p = prepared("high-10");
+    let at = |tolerance: f64| RunSettings {
+        tolerance,
+        duration_s: p.duration_s,
+        longest_step_s: p.period_s.expect("excited") / 8.0,
+        most_events: 1_000,
+        most_steps: 100_000,
+        samples: 0,
+        rolling: false,
+        interrupt: None,
+    };
+    let scheme = PublishedSettings { duration_s: p.duration_s, step_s: 1e-5, band_m_s: 1e-4, samples: 0 };
+    let [mut ours, mut theirs] = [Vec::new(), Vec::new()];
+    for _ in 0..15 {
+        let start = Instant::now();
+        black_box(run(&p.model, p.state, p.mode, &at(1e-5)));
+        ours.push(start.elapsed().as_secs_f64());
+        let start = Instant::now();
+        black_box(published(&p.model, p.state, &scheme, &mut |_| true));
+        theirs.push(start.elapsed().as_secs_f64());
+    }
+    for times in [&mut ours, &mut theirs] {
+        times.sort_by(f64::total_cmp);
+    }
+    let theta = |tolerance: f64| run(&p.model, p.state, p.mode, &at(tolerance)).state[2];
+    println!(
+        "high-10, one run: {:.2} ms, theta_bi off by {:.1e} rad; published {:.2} ms: {:.1} times",
+        ours[7] * 1e3,
+        (theta(1e-5) - theta(1e-12)).abs(),
+        theirs[7] * 1e3,
+        theirs[7] / ours[7]
+    );
 }
 
 /// The wedge curve of the multi-arc clutch; every evaluation of the optimiser builds two or three.

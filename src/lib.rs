@@ -23,6 +23,7 @@
 //! | 3 | [`wedge`] | the only static iteration: the curve N(alpha) of one design at one speed |
 //! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |
 //! | 4 | [`scenario`] | a named scene in, history and verdict out |
+//! | 4 | [`fidelity`] | what a scene can leave out, and what that costs |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP |
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
@@ -74,6 +75,7 @@ pub mod contact;
 pub mod design;
 pub mod dynamics;
 pub mod export;
+pub mod fidelity;
 pub mod friction;
 pub mod kinematics;
 pub mod margin;

@@ -74,7 +74,8 @@ fn the_paper_s_nine_statements_come_out() {
             let found = number(&answer, "theta_inner_end_rad");
             assert!((found / theta - 1.0).abs() < within, "{scenario}: {found} against {theta}");
         }
-        assert!(number(&answer, "error_estimate") < 1e-8);
+        assert!(number(&answer, "error_estimate") < 1e-6);
+        assert_eq!(answer["tolerance_reached"], true);
     }
 }
 
@@ -246,4 +247,82 @@ fn equilibria_overrun_and_engagement_are_answered() {
     assert_eq!(engage["verdict"], "sticks");
     assert!(number(&engage, "initial_slip_s") < 0.5e-3);
     assert!(number(&engage["slip"]["inner"], "distance_mm") < 1e-6);
+}
+
+const BENCH: &str = "designs/huang2017-bench.toml";
+
+#[test]
+fn transients_name_their_courses_and_what_one_wedge_curve_costs() {
+    let step = json(BENCH, "step-up", &[]);
+    assert_eq!((&step["kind"], &step["verdict"]), (&"transient".into(), &"sticks".into()));
+    let ramp = json(BENCH, "speed-ramp", &[]);
+    assert_eq!(ramp["verdict"], "disengages");
+    let growth =
+        ramp["left_out"].as_array().unwrap().iter().find(|e| e["term"].as_str().unwrap().contains("growth"));
+    let cost = growth.unwrap()["cost"].as_str().unwrap();
+    assert!(cost.contains("of sprag rotation at first contact"), "{cost}");
+    let engage = json(BENCH, "engagement", &[]);
+    assert_eq!(engage["assumptions"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn dynamic_static_and_rated_pressure_stand_side_by_side() {
+    let low = json(DESIGN, "low-10", &[]);
+    let [least, still, most, rated] =
+        ["hertz_least_mpa", "hertz_static_mpa", "hertz_peak_mpa", "hertz_rated_mpa"].map(|k| number(&low, k));
+    // 4.1.2: the dynamic stress fluctuates around that of the preload, within the order of the rated one.
+    assert!(least < still && still < most && most < rated, "{least} {still} {most} {rated}");
+    assert!((still - 0.5 * (least + most)).abs() < 0.1 * still);
+    assert!(most > 0.1 * rated);
+}
+
+#[test]
+fn what_is_left_out_is_said_and_full_runs_everything() {
+    let terms = |answer: &serde_json::Value| -> Vec<String> {
+        let list = answer["left_out"].as_array().unwrap().iter();
+        list.map(|e| e["term"].as_str().unwrap().to_owned()).collect()
+    };
+    let (reduced, full) = (json(DESIGN, "high-6", &[]), json(DESIGN, "high-6", &["--full"]));
+    for term in
+        ["friction law (12) in slip", "arcs that are never touched", "centrifugal growth of the races"]
+    {
+        assert!(terms(&reduced).iter().any(|t| t == term), "{term}");
+        assert!(terms(&full).iter().all(|t| t != term), "{term}");
+    }
+    assert!(reduced["kept"][0]["term"].as_str().unwrap().contains("inertia of the sprags"));
+    assert_eq!(reduced["theta_inner_end_rad"], full["theta_inner_end_rad"]);
+    assert!(number(&reduced, "rhs_evaluations") < 0.6 * number(&full, "rhs_evaluations"));
+}
+
+#[test]
+fn a_result_that_depends_on_contact_damping_says_so() {
+    for (file, scenario, words) in
+        [(DESIGN, "high-10", "with contact damping of 0.2"), (BENCH, "high-10-damped", "without")]
+    {
+        let notes = json(file, scenario, &[])["notes"].clone();
+        assert!(notes[0].as_str().unwrap().contains(words), "{notes}");
+    }
+    assert!(json(DESIGN, "low-10", &[])["notes"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn slices_show_the_pressure_along_the_length() {
+    let csv = std::env::temp_dir().join(format!("sprag-slices-{}.csv", std::process::id()));
+    let html = csv.with_extension("html");
+    json(BENCH, "high-6-slices", &["--csv", csv.to_str().unwrap(), "--report", html.to_str().unwrap()]);
+    let mut reader = csv::Reader::from_path(&csv).unwrap();
+    let at = |name: &str, h: &csv::StringRecord| h.iter().position(|c| c == name).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let (p0, end) = (at("hertz_inner_mpa", &header), at("slice_peak_inner_mpa", &header));
+    let mut rows = 0;
+    for record in reader.records().map(Result::unwrap) {
+        let value = |i: usize| record[i].parse::<f64>().unwrap();
+        // A square end of 60 slices bears a third more than Hertz's mean, at every load.
+        assert!((1.2..1.5).contains(&(value(end) / value(p0))), "{record:?}");
+        rows += 1;
+    }
+    assert_eq!(rows, 1200);
+    let page = std::fs::read_to_string(&html).unwrap();
+    assert!(page.contains("Pressure along the sprag by 60 slices"));
+    let _ = (std::fs::remove_file(csv), std::fs::remove_file(html));
 }

@@ -1,6 +1,6 @@
 //! Dynamics of the paper's scenes: converged figures, the published scheme beside them, energy, overrun.
 
-use sprag_design::design::{Clutch, ContactLaw, Design, Scenario, StressState};
+use sprag_design::design::{Clutch, ContactLaw, Design, Scenario, ScenarioKind, StressState};
 use sprag_design::dynamics::{
     Grip, Loads, Mode, Model, Place, PublishedSettings, Run, RunSettings, Stop, alpha_max_rad, overrun,
     preloaded, published, run,
@@ -112,6 +112,59 @@ fn the_published_scheme_agrees_where_nothing_slips_and_does_not_converge_where_i
             }
         }
     }
+}
+
+#[test]
+fn the_error_stays_below_the_tolerance_asked_for() {
+    for name in ["high-6", "high-8", "high-10", "low-6", "low-10", "low-8-mu082", "low-10-mu082"] {
+        let p = prepare(&scene(name)).unwrap();
+        let exact = run_at(&p, 1e-12);
+        for tolerance in [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
+            let s = simulate(&scene(name), &Settings { tolerance, ..Settings::default() }).unwrap();
+            let error = s.error.unwrap();
+            let (largest, lever) = (exact.peaks.normal_max_n, p.model.curve.touch().lengths.oa.v);
+            for (what, own, exact, scale, estimate) in [
+                ("theta_bi", s.theta_inner_rad, exact.state[2], 1.0, error.theta_inner_rad),
+                ("theta_be", s.theta_outer_rad, exact.state[3], 1.0, error.theta_outer_rad),
+                ("net slip", s.inner.net_m, exact.inner.net_m, lever, error.net_slip_m),
+                ("slip path", s.inner.distance_m, exact.inner.distance_m, lever, error.slip_distance_m[0]),
+                ("slip time", s.inner.time_s, exact.inner.time_s, p.duration_s, error.slip_time_s[0]),
+                ("open", s.contact_lost_s, exact.open_s, p.duration_s, error.contact_lost_s),
+                ("N_min", s.peaks.normal_min_n, exact.peaks.normal_min_n, largest, error.normal_min_n),
+                ("N_max", s.peaks.normal_max_n, exact.peaks.normal_max_n, largest, error.normal_max_n),
+                ("|T|/N", s.peaks.tan_inner, exact.peaks.tan_inner, 1.0, error.tan_demand[0]),
+            ] {
+                let off = (own - exact).abs() / scale;
+                assert!(
+                    !s.tolerance_reached || off <= tolerance,
+                    "{name}, {tolerance:e}: {what} off by {off:e}"
+                );
+                assert!(
+                    !s.tolerance_reached || estimate / scale <= tolerance,
+                    "{name}: {what} said {estimate:e}"
+                );
+            }
+            assert!(s.tolerance_reached, "{name}: {tolerance:e} is not reached: {error:?}");
+        }
+    }
+}
+
+/// A race of 1e-6 kg m^2 on an abutment of 1e9 Nm/rad: 3e7 rad/s, ten million periods in 0.3 s.
+#[test]
+fn a_stiff_race_does_not_hold_the_steps() {
+    let mut stiff = scene("low-6");
+    stiff.clutch.races.outer_inertia_kg_m2 = 1e-6;
+    if let ScenarioKind::TorsionalExcitation { abutment_stiffness_nm_per_rad, .. } = &mut stiff.kind {
+        *abutment_stiffness_nm_per_rad = 1e9;
+    }
+    let p = prepare(&stiff).unwrap();
+    let [coarse, fine] = [1e-5, 1e-6].map(|tolerance| run_at(&p, tolerance));
+    for r in [&coarse, &fine] {
+        assert_eq!(r.stop, Stop::Finished);
+        assert!(r.counters.implicit_steps > 100 && r.counters.steps < 20_000, "{:?}", r.counters);
+    }
+    let apart = (coarse.state[2] - fine.state[2]).abs();
+    assert!(apart < 1e-6, "{apart:e}");
 }
 
 #[test]

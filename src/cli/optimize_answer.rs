@@ -277,7 +277,7 @@ impl Told<'_> {
 
     /// Profiles before and after, to scale, one over the other.
     fn draw(&self, page: &mut Page) {
-        let Ok(after) = Design::parse(&self.found.file, "optimum") else { return };
+        let Ok(after) = Design::parse_in(&self.design.folder, &self.found.file, "optimum") else { return };
         let (Ok(p), Ok(q)) = (place_profile(&self.design.clutch), place_profile(&after.clutch)) else {
             return;
         };

@@ -1,6 +1,7 @@
 //! `simulate`: one scenario in time.
 
 mod answer;
+mod damping;
 mod facts;
 mod history;
 mod left_out;
@@ -11,9 +12,9 @@ use super::parts::{self, Answer};
 use super::{Context, positive};
 use crate::design::{Design, Scenario, ScenarioKind};
 use crate::dynamics::Stop;
+use crate::fidelity::{self, Term};
 use crate::scenario::{
-    NoScenario, Prepared, Settings, Simulation, Verdict, prepare, published_steps, simulate,
-    simulate_published,
+    NoScenario, Prepared, Settings, Simulation, Verdict, prepare, published_steps, simulate_published,
 };
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -25,6 +26,7 @@ Examples:
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --csv history.csv --report high-10.html
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --method published --step 2e-6
+  sprag-design simulate designs/huang2017-bench.toml --scenario in-and-out --report in-and-out.html
 
 The verdict is the answer: sticks, slips-overrunning, slips-engaging, disengages and at-threshold all exit with 0.";
 
@@ -70,7 +72,7 @@ pub struct SimulateArgs {
     /// Half width of the band of zero velocity of the published method, m/s [default: 1e-4]
     #[arg(long, value_name = "M_PER_S", value_parser = positive)]
     pub band: Option<f64>,
-    /// Make no simplification of its own (simulate makes none yet; what the model leaves out is listed)
+    /// Run everything, also what the scene cannot feel (arcs never touched, the friction law where nothing slips)
     #[arg(long)]
     pub full: bool,
 }
@@ -83,6 +85,10 @@ struct Scene<'a> {
     /// `event`, `published`, or `equilibrium` where nothing is integrated.
     method: &'static str,
     outcome: Result<(Prepared, Simulation), NoScenario>,
+    /// Terms that the planner left out, and those it looked at and kept.
+    planned: [Vec<Term>; 2],
+    /// What contact damping changes, where that was asked.
+    damping: Option<damping::Effect>,
     /// What a reader must know beside the figures.
     notes: Vec<String>,
     run_time_s: f64,
@@ -104,7 +110,10 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
         return Err(refused("--step", step, &format!("at most the duration of the scenario, {duration} s")));
     }
     let start = Instant::now();
-    let outcome = computed(args, context, scenario);
+    let (outcome, planned) = match computed(args, context, scenario) {
+        Ok((prepared, simulation, planned)) => (Ok((prepared, simulation)), planned),
+        Err(why) => (Err(why), Default::default()),
+    };
     let run_time_s = start.elapsed().as_secs_f64();
     let method = match args.method {
         _ if duration.is_none() => "equilibrium",
@@ -112,34 +121,45 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
         Method::Published => "published",
     };
     let own = Design { clutch: scenario.clutch.clone(), ..design.clone() };
-    let mut scene = Scene { scenario, own, method, outcome, notes: Vec::new(), run_time_s };
+    let mut scene =
+        Scene { scenario, own, method, outcome, planned, damping: None, notes: Vec::new(), run_time_s };
+    scene.damping = damping::effect(&scene, &settings_of(args, context));
     scene.notes = notes(&scene, args);
     report(&design, &scene, context)
+}
+
+fn settings_of(args: &SimulateArgs, context: &Context) -> Settings {
+    let interrupt = Some(context.interrupt.flag());
+    let chosen = Settings { samples: SAMPLES, interrupt, ..Settings::default() };
+    // The published scheme has a step of its own.
+    let longest_step_s = args.step.filter(|_| args.method == Method::Event);
+    Settings { tolerance: args.tolerance.unwrap_or(chosen.tolerance), longest_step_s, ..chosen }
 }
 
 fn computed(
     args: &SimulateArgs,
     context: &Context,
     scenario: &Scenario,
-) -> Result<(Prepared, Simulation), NoScenario> {
-    let mut settings =
-        Settings { samples: SAMPLES, interrupt: Some(context.interrupt.flag()), ..Settings::default() };
-    settings.tolerance = args.tolerance.unwrap_or(settings.tolerance);
-    let prepared = prepare(scenario)?;
-    let simulation = match args.method {
-        Method::Event => simulate(scenario, &Settings { longest_step_s: args.step, ..settings })?,
+) -> Result<(Prepared, Simulation, [Vec<Term>; 2]), NoScenario> {
+    let settings = settings_of(args, context);
+    match args.method {
+        Method::Event => {
+            let planned = fidelity::simulate(scenario, &settings, args.full)?;
+            Ok((planned.prepared, planned.simulation, [planned.left_out, planned.kept]))
+        }
         Method::Published => {
+            let prepared = prepare(scenario)?;
             let step_s = args.step.unwrap_or(PUBLISHED_STEP_S);
             let total = published_steps(prepared.duration_s, step_s);
             let progress = context.progress("published scheme", "steps", Some(total));
             let band = args.band.unwrap_or(PUBLISHED_BAND_M_S);
-            simulate_published(scenario, &settings, step_s, band, &mut |steps| {
+            let simulation = simulate_published(scenario, &settings, step_s, band, &mut |steps| {
                 progress.set(steps);
                 !context.interrupt.requested()
-            })?
+            })?;
+            Ok((prepared, simulation, Default::default()))
         }
-    };
-    Ok((prepared, simulation))
+    }
 }
 
 fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Failure> {
@@ -183,15 +203,28 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
         };
         notes.push(format!("no verdict: {why}; the figures hold up to {:.6} s", s.t_s));
     }
+    notes.extend(scene.damping.as_ref().and_then(damping::Effect::note));
+    if let Some(s) = simulation
+        && s.stop == Stop::StepLimit
+        && let Some(rate) = s.fastest_rad_s
+    {
+        notes.push(format!("the fastest motion where the run gave up: {rate:.2e} rad/s"));
+    }
+    if let Some(s) =
+        simulation.filter(|s| scene.method == "event" && s.error.is_some() && !s.tolerance_reached)
+    {
+        let [low, high] = s.spread_rad;
+        notes.push(format!(
+            "the tolerance is not reached: theta_inner_end lies between {low:.9} and {high:.9} rad over the runs made; \
+             the scene may be sensitive by nature"
+        ));
+    }
     let moved = simulation.and_then(|s| s.error).map_or(0.0, |e| e.theta_inner_rad);
     if scene.method == "published" && moved > CONVERGED_RAD {
         notes.push(format!(
             "the published scheme has not converged: half the step moves theta_inner_end by {moved:.2e} rad; \
              --method event does converge"
         ));
-    }
-    if args.full {
-        notes.push("simulate makes no simplification of its own, so --full changes nothing".into());
     }
     notes
 }
@@ -200,7 +233,8 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
 fn duration_s(scenario: &Scenario) -> Option<f64> {
     match scenario.kind {
         ScenarioKind::TorsionalExcitation { duration_s, .. }
-        | ScenarioKind::Engagement { duration_s, .. } => Some(duration_s),
+        | ScenarioKind::Engagement { duration_s, .. }
+        | ScenarioKind::Transient { duration_s, .. } => Some(duration_s),
         ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. } => None,
     }
 }
@@ -209,7 +243,7 @@ fn refuse_senseless(args: &SimulateArgs) -> Result<(), Failure> {
     if let Some(x) = args.tolerance {
         let [low, high] = TOLERANCES;
         if !(low..=high).contains(&x) {
-            return Err(refused("--tolerance", x, &format!("{low:e} to {high:e}; 1e-8 serves well")));
+            return Err(refused("--tolerance", x, &format!("{low:e} to {high:e}; 1e-6 serves well")));
         }
         if args.method == Method::Published {
             return Err(refused("--tolerance", x, "--step with --method published, whose step is fixed"));
@@ -256,7 +290,15 @@ impl Scene<'_> {
 
     /// Whether the clutch does what the scenario asks: hold, or slip freely in overrun.
     fn held(&self) -> bool {
-        let overruns = matches!(self.scenario.kind, ScenarioKind::Overrun { .. });
+        let overruns = match self.scenario.kind {
+            ScenarioKind::Overrun { .. } => true,
+            // A clutch that starts in overrun, or whose torque turns round, is to let go.
+            ScenarioKind::Transient { overrun_rad_s, .. } => {
+                let turns = |h: &Vec<[f64; 2]>| h.iter().any(|row| row[1] < 0.0);
+                overrun_rad_s > 0.0 || self.scenario.torque_history.as_ref().is_some_and(turns)
+            }
+            _ => false,
+        };
         match self.simulation().and_then(|s| s.verdict) {
             Some(Verdict::Sticks) => true,
             Some(Verdict::SlipsOverrunning) => overruns,
@@ -270,6 +312,10 @@ impl Scene<'_> {
             ScenarioKind::Static { torque_nm } => Some(torque_nm),
             ScenarioKind::TorsionalExcitation { preload_nm, .. } => Some(preload_nm),
             ScenarioKind::Engagement { reversing_torque_nm, .. } => Some(reversing_torque_nm),
+            ScenarioKind::Transient { preload_nm, torque_step_nm, .. } => {
+                let rows = self.scenario.torque_history.iter().flatten();
+                Some(rows.map(|row| row[1]).fold(preload_nm.max(preload_nm + torque_step_nm), f64::max))
+            }
             ScenarioKind::Overrun { .. } => None,
         }
         .filter(|&t| t > 0.0)

@@ -5,7 +5,7 @@
 //! at first contact is asked of `profile`.
 
 use super::contact_file::{ContactFile, LawFile, StateFile};
-use super::file::{BodyFile, DesignFile, LimitsFile, MaterialFile, RacesFile};
+use super::file::{BodyFile, DesignFile, FrictionModelFile, LimitsFile, MaterialFile, RacesFile};
 use super::findings::Findings;
 use super::{Clutch, ContactLaw, Friction, Limits, Materials, Races, Spring, StressState};
 use super::{axial, geometry};
@@ -32,6 +32,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
     let friction = friction(file, out);
     let materials = materials(&file.material, out);
     let contact = contact(&file.contact, out);
+    let hunt_crossley_s_per_m = file.contact.hunt_crossley_s_per_m;
     let spring = Spring {
         stiffness_nm_per_rad: file.spring.stiffness_nm_per_rad,
         drag_torque_nm: file.spring.drag_torque_nm,
@@ -47,6 +48,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
         friction: friction?,
         contact: contact?,
         axial: axial?,
+        hunt_crossley_s_per_m,
     })
 }
 
@@ -92,7 +94,18 @@ fn friction(file: &DesignFile, out: &mut Findings) -> Option<Friction> {
         );
         return None;
     }
-    Some(Friction { static_: f.static_, kinetic: f.kinetic, decay_s_per_m: f.decay_s_per_m })
+    Some(match f.model {
+        FrictionModelFile::Stribeck => Friction {
+            static_: f.static_,
+            kinetic: f.kinetic,
+            decay_s_per_m: f.decay_s_per_m,
+            outer_holds: false,
+        },
+        // Coulomb knows one coefficient.
+        FrictionModelFile::Vernay => {
+            Friction { static_: f.static_, kinetic: f.static_, decay_s_per_m: 0.0, outer_holds: true }
+        }
+    })
 }
 
 /// The three keys that a material has, and the three bodies.

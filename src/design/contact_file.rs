@@ -27,6 +27,11 @@ pub(super) struct ContactFile {
     pub tilt_mrad: Option<f64>,
     /// How far the middle of the sprags lies from the middle of the races, along the axis, mm; absent: 0.
     pub axial_offset_mm: Option<f64>,
+    /// Hunt and Crossley's damping: the normal force is raised by this times the rate of approach, s/m; steel
+    /// 0.08 to 0.32; absent or 0: none, as in the paper.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 10))]
+    pub hunt_crossley_s_per_m: f64,
     /// Stress state of the elastic law; absent: layer.
     #[schemars(with = "StateFile")]
     #[serde(default)]

@@ -150,8 +150,8 @@ pub(super) struct RacesFile {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SpringFile {
-    /// Stiffness K_r per sprag, N m/rad.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    /// Stiffness K_r per sprag, N m/rad; 0: no spring.
+    #[schemars(extend("minimum" = 0))]
     pub stiffness_nm_per_rad: f64,
     /// Drag torque C_f of the whole clutch in slow overrun, N m; fixes the spring's free angle.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -208,6 +208,18 @@ pub(super) struct FrictionFile {
     /// Decay gamma_b with sliding speed, s/m.
     #[schemars(extend("minimum" = 0))]
     pub decay_s_per_m: f64,
+    /// stribeck: (12) at both races; vernay: at the inner race Coulomb friction with the static coefficient at
+    /// every speed, at the outer race no slip.
+    #[serde(default)]
+    pub model: FrictionModelFile,
+}
+
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum FrictionModelFile {
+    #[default]
+    Stribeck,
+    Vernay,
 }
 
 /// Allowables of the margin check; an absent one is not checked.
@@ -257,7 +269,8 @@ pub(super) struct CheckFile {
 /// One scenario. Keys belong to kinds: static: torque_nm; torsional-excitation: preload_nm, amplitude_nm,
 /// frequency_hz, abutment_stiffness_nm_per_rad, duration_s, speed_rpm; engagement: free_run_rpm,
 /// reversing_torque_nm, stop_stiffness_nm_per_rad, bench_inertia_kg_m2, duration_s; overrun: speed_rpm,
-/// overrun_rpm. Any of the clutch's tables may be overridden in part.
+/// overrun_rpm; transient: abutment_stiffness_nm_per_rad, duration_s, preload_nm, torque_step_nm, step_time_s,
+/// torque_history_csv, speed_rpm, speed_history_csv, overrun_rpm. Any of the clutch's tables may be overridden in part.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ScenarioFile {
@@ -269,7 +282,7 @@ pub(super) struct ScenarioFile {
     /// static: torque held, N m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub torque_nm: Option<f64>,
-    /// torsional-excitation: preload on the inner race, N m.
+    /// torsional-excitation and transient: preload on the inner race, N m.
     #[schemars(extend("minimum" = 0))]
     pub preload_nm: Option<f64>,
     /// torsional-excitation: amplitude of the torque on the outer race, N m.
@@ -278,13 +291,13 @@ pub(super) struct ScenarioFile {
     /// torsional-excitation: frequency of that torque, Hz.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub frequency_hz: Option<f64>,
-    /// torsional-excitation: stiffness that ties the outer race to ground, N m/rad.
+    /// torsional-excitation and transient: stiffness that ties the outer race to ground, N m/rad.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub abutment_stiffness_nm_per_rad: Option<f64>,
-    /// torsional-excitation and engagement: duration, s.
+    /// torsional-excitation, engagement and transient: duration, s.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub duration_s: Option<f64>,
-    /// torsional-excitation: mean speed of the whole clutch, rev/min, absent: 0; overrun: speed of the outer race, rev/min.
+    /// torsional-excitation and transient: mean speed of the whole clutch, rev/min, absent: 0; overrun: speed of the outer race, rev/min.
     #[schemars(extend("minimum" = 0))]
     pub speed_rpm: Option<f64>,
     /// engagement: overrunning speed of the inner race at the start, rev/min.
@@ -299,7 +312,21 @@ pub(super) struct ScenarioFile {
     /// engagement: inertia of the test bench on the inner race, kg m^2; 0: none.
     #[schemars(extend("minimum" = 0))]
     pub bench_inertia_kg_m2: Option<f64>,
-    /// overrun: by how much the inner race is faster than the outer, rev/min.
+    /// transient: by how much the torque on the inner race jumps, N m, positive: engaging.
+    pub torque_step_nm: Option<f64>,
+    /// transient: when the torque jumps, s; absent: at the start.
+    #[schemars(extend("minimum" = 0))]
+    pub step_time_s: Option<f64>,
+    /// transient: CSV file, named from the design file's folder, with the columns time_s and torque_nm: the torque
+    /// on the inner race, engaging positive, straight between the rows; two rows at one time are a jump.
+    #[schemars(length(min = 1))]
+    pub torque_history_csv: Option<String>,
+    /// transient: CSV file, named from the design file's folder, with the columns time_s and speed_rpm: the mean
+    /// speed, straight between the rows.
+    #[schemars(length(min = 1))]
+    pub speed_history_csv: Option<String>,
+    /// overrun and transient: by how much the inner race is faster than the outer, in a transient at the start,
+    /// rev/min.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub overrun_rpm: Option<f64>,
     /// Keys of sprags that differ in this scenario.
@@ -335,6 +362,7 @@ pub(super) enum KindFile {
     TorsionalExcitation,
     Engagement,
     Overrun,
+    Transient,
 }
 
 /// Task of the optimiser.

@@ -12,6 +12,7 @@ mod edit;
 mod file;
 mod findings;
 mod geometry;
+mod history;
 mod outline;
 mod read;
 mod scenarios;
@@ -135,6 +136,8 @@ pub struct Friction {
     pub kinetic: f64,
     /// gamma_b, s/m.
     pub decay_s_per_m: f64,
+    /// Whether B never slips (model "vernay": Coulomb friction inside, no slip outside).
+    pub outer_holds: bool,
 }
 
 /// Stress state along the axis for the elastic law.
@@ -255,6 +258,8 @@ pub struct Clutch {
     pub contact: ContactLaw,
     /// How sprag and race lie along the axis.
     pub axial: Axial,
+    /// Hunt and Crossley's damping of both contacts: N is raised by this times the rate of approach, s/m; 0: none.
+    pub hunt_crossley_s_per_m: f64,
 }
 
 impl Clutch {
@@ -327,6 +332,23 @@ pub enum ScenarioKind {
         /// Duration, s.
         duration_s: f64,
     },
+    /// A torque on the inner race over time, engaging positive, the outer race tied to what turns at the mean speed.
+    Transient {
+        /// Torque at the start, N m; 0 where a history gives it.
+        preload_nm: f64,
+        /// Jump of the torque, N m; 0: none.
+        torque_step_nm: f64,
+        /// When it jumps, s.
+        step_time_s: f64,
+        /// Stiffness that ties the outer race to the mean speed, N m/rad.
+        abutment_stiffness_nm_per_rad: f64,
+        /// Duration, s.
+        duration_s: f64,
+        /// Mean speed, rad/s; that of a speed history at its start.
+        speed_rad_s: f64,
+        /// Inner race faster than outer at the start, rad/s; 0: at rest against it.
+        overrun_rad_s: f64,
+    },
     /// Steady overrun.
     Overrun {
         /// Speed of the outer race, rad/s.
@@ -347,6 +369,10 @@ pub struct Scenario {
     pub clutch: Clutch,
     /// Dotted names of the tables that the scenario overrides, for the reports.
     pub overrides: Vec<String>,
+    /// Torque on the inner race over time, (s, N m), engaging positive; two points at one time are a jump.
+    pub torque_history: Option<Vec<[f64; 2]>>,
+    /// Mean speed over time, (s, rad/s).
+    pub speed_history: Option<Vec<[f64; 2]>>,
 }
 
 /// One variable of the optimiser, in the unit of its name.
@@ -392,10 +418,12 @@ pub struct Design {
     pub scenarios: Vec<Scenario>,
     /// The optimiser's task, if any.
     pub optimize: Option<Optimize>,
-    /// SHA-256 (hex) of the file's text.
+    /// SHA-256 (hex) of the file's text and of the histories that it names.
     pub hash: String,
     /// The file's text, kept for reports and for `optimize` to edit.
     pub source: String,
+    /// Where the file lies: its histories are named from there.
+    pub folder: std::path::PathBuf,
 }
 
 impl Design {

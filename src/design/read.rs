@@ -3,7 +3,8 @@
 //! In: a path or a text. Out: [`Design`] or everything found wrong at the first stage that objects. Absent:
 //! the rules themselves. Equations: none.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
@@ -11,6 +12,7 @@ use super::diagnostic::{DesignError, Place, Problem};
 use super::document::Document;
 use super::file::DesignFile;
 use super::findings::Findings;
+use super::history;
 use super::{Design, Limits, check, scenarios, shape, task};
 
 const WHAT: &str = "a text file (UTF-8, TOML) that holds a clutch design";
@@ -48,11 +50,21 @@ impl Design {
         }
     }
 
-    /// Check the text of a design file; `name_for_errors` stands for the file in messages.
+    /// Check the text of a design file; `name_for_errors` stands for the file in messages, and histories are named
+    /// from its folder.
     ///
     /// # Errors
     /// As [`Design::read`].
     pub fn parse(source: &str, name_for_errors: &str) -> Result<Self, DesignError> {
+        let folder = Path::new(name_for_errors).parent().unwrap_or(Path::new(""));
+        Self::parse_in(folder, source, name_for_errors)
+    }
+
+    /// Check the text of a design file that would lie in `folder`.
+    ///
+    /// # Errors
+    /// As [`Design::read`], and where a history is refused.
+    pub fn parse_in(folder: &Path, source: &str, name_for_errors: &str) -> Result<Self, DesignError> {
         let refuse = |problems| DesignError::in_source(name_for_errors, source, problems);
         if source.trim_start_matches('\u{feff}').trim().is_empty() {
             let help = "start from one of the files in designs/";
@@ -74,9 +86,25 @@ impl Design {
         let mut out = Findings::new(&doc);
         let clutch = check::clutch(&file, &mut out);
         let limits = check::limits(&file.limits, Limits::default(), &mut out);
-        let scenarios = scenarios::scenarios(&file, &document, clutch.as_ref(), &mut out);
+        let mut texts: BTreeMap<PathBuf, String> = BTreeMap::new();
+        let mut refused = None;
+        let mut load = |name: &str, kind| {
+            let path = folder.join(name);
+            let text =
+                std::fs::read_to_string(&path).map_err(|e| Some(format!("{}: {e}", path.display())))?;
+            let rows = history::rows(&text, kind).map_err(|problems| {
+                refused.get_or_insert(DesignError::in_source(&path.display().to_string(), &text, problems));
+                None
+            });
+            texts.insert(path, text);
+            rows
+        };
+        let scenarios = scenarios::scenarios(&file, &document, clutch.as_ref(), &mut load, &mut out);
         let check_scenarios = task::check_scenarios(&file, &mut out);
         let optimize = file.optimize.as_ref().map(|t| task::optimize(&file, t, limits, &mut out));
+        if let (true, Some(error)) = (out.problems.is_empty(), refused) {
+            return Err(error);
+        }
         match (clutch, scenarios, out.problems) {
             (Some(clutch), Some(scenarios), problems) if problems.is_empty() => Ok(Self {
                 name: file.name,
@@ -85,8 +113,9 @@ impl Design {
                 check_scenarios,
                 scenarios,
                 optimize,
-                hash: hash(source),
+                hash: hash(source, texts.values()),
                 source: source.to_owned(),
+                folder: folder.to_owned(),
             }),
             (_, _, problems) if !problems.is_empty() => Err(refuse(problems)),
             _ => {
@@ -116,7 +145,9 @@ fn one_problem(name: &str, source: &str, at: usize, found: String, allowed: &str
     DesignError::in_source(name, source, vec![problem])
 }
 
-/// SHA-256 of the text, lower-case hex.
-fn hash(source: &str) -> String {
-    Sha256::digest(source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+/// SHA-256 of the text and of the histories' texts, lower-case hex.
+fn hash<'t>(source: &str, histories: impl Iterator<Item = &'t String>) -> String {
+    let mut digest = Sha256::new_with_prefix(source.as_bytes());
+    histories.for_each(|text| digest.update(text.as_bytes()));
+    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -8,12 +8,13 @@ use toml::{Table, Value};
 use super::check::{self, BODIES, MATERIAL_KEYS, rad_s};
 use super::file::{DesignFile, KindFile, ScenarioFile};
 use super::findings::Findings;
+use super::history::HistoryKind;
 use super::{Clutch, Scenario, ScenarioKind, shape};
 
 /// Kind, its name, the keys it must have, those it may have.
 type KindKeys = (KindFile, &'static str, &'static [&'static str], &'static [&'static str]);
 
-const KINDS: [KindKeys; 4] = [
+const KINDS: [KindKeys; 5] = [
     (KindFile::Static, "static", &["torque_nm"], &[]),
     (
         KindFile::TorsionalExcitation,
@@ -34,7 +35,35 @@ const KINDS: [KindKeys; 4] = [
         &[],
     ),
     (KindFile::Overrun, "overrun", &["speed_rpm", "overrun_rpm"], &[]),
+    (
+        KindFile::Transient,
+        "transient",
+        &["abutment_stiffness_nm_per_rad", "duration_s"],
+        &[
+            "preload_nm",
+            "torque_step_nm",
+            "step_time_s",
+            "torque_history_csv",
+            "speed_rpm",
+            "speed_history_csv",
+            "overrun_rpm",
+        ],
+    ),
 ];
+
+/// Keys of a transient of which at least one is needed.
+const CHANGES: [&str; 4] = ["torque_step_nm", "torque_history_csv", "speed_history_csv", "overrun_rpm"];
+
+/// Keys of a transient that give one thing twice.
+const EITHER: [[&str; 2]; 4] = [
+    ["torque_history_csv", "preload_nm"],
+    ["torque_history_csv", "torque_step_nm"],
+    ["torque_history_csv", "step_time_s"],
+    ["speed_history_csv", "speed_rpm"],
+];
+
+/// Reads a history named in a file; the error is what was found instead of a file.
+pub(super) type Load<'l> = &'l mut dyn FnMut(&str, HistoryKind) -> Result<Vec<[f64; 2]>, Option<String>>;
 
 /// Tables that a scenario may override.
 const OVERRIDABLE: [&str; 6] = ["sprags", "races", "spring", "material", "friction", "contact"];
@@ -45,6 +74,7 @@ pub(super) fn scenarios(
     file: &DesignFile,
     document: &Table,
     base: Option<&Clutch>,
+    load: Load<'_>,
     out: &mut Findings,
 ) -> Option<Vec<Scenario>> {
     let mut all = Some(Vec::new());
@@ -60,6 +90,21 @@ pub(super) fn scenarios(
             all = None;
         }
         let kind = kind(entry, &path, out);
+        let mut history = |name: &str, file: &Option<String>, which| {
+            let Some(file) = file else { return Some(None) };
+            match load(file, which) {
+                Ok(rows) => Some(Some(rows)),
+                Err(found) => {
+                    if let Some(found) = found {
+                        let help = format!("{found}; name a CSV file from the folder of the design file");
+                        out.refuse(&[&format!("{path}.{name}")], "a file that can be read".to_owned(), help);
+                    }
+                    None
+                }
+            }
+        };
+        let torque = history("torque_history_csv", &entry.torque_history_csv, HistoryKind::Torque);
+        let speed = history("speed_history_csv", &entry.speed_history_csv, HistoryKind::Speed);
         let overrides: Vec<(&str, &Table)> = OVERRIDABLE
             .into_iter()
             .zip([
@@ -77,13 +122,17 @@ pub(super) fn scenarios(
         } else {
             out.within(&path, |out| overridden(document, &overrides, out))
         };
-        match (&mut all, kind, clutch) {
-            (Some(list), Some(kind), Some(clutch)) => list.push(Scenario {
-                name: entry.name.clone(),
-                kind,
-                clutch,
-                overrides: overrides.iter().map(|(name, _)| (*name).to_owned()).collect(),
-            }),
+        match (&mut all, kind, clutch, torque, speed) {
+            (Some(list), Some(kind), Some(clutch), Some(torque_history), Some(speed_history)) => {
+                list.push(Scenario {
+                    name: entry.name.clone(),
+                    kind,
+                    clutch,
+                    torque_history,
+                    speed_history,
+                    overrides: overrides.iter().map(|(name, _)| (*name).to_owned()).collect(),
+                })
+            }
             _ => all = None,
         }
     }
@@ -105,6 +154,10 @@ fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind
         ("stop_stiffness_nm_per_rad", s.stop_stiffness_nm_per_rad),
         ("bench_inertia_kg_m2", s.bench_inertia_kg_m2),
         ("overrun_rpm", s.overrun_rpm),
+        ("torque_step_nm", s.torque_step_nm),
+        ("step_time_s", s.step_time_s),
+        ("torque_history_csv", s.torque_history_csv.as_ref().map(|_| 0.0)),
+        ("speed_history_csv", s.speed_history_csv.as_ref().map(|_| 0.0)),
     ];
     let kind_key = format!("{path}.kind");
     for (name, value) in values {
@@ -119,6 +172,32 @@ fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind
                 format!("for kind {kind}: {keys}"),
                 format!("remove {name}, or change the kind"),
             );
+        }
+    }
+    if s.kind == KindFile::Transient {
+        let given = |name: &str| values.iter().any(|(n, v)| *n == name && v.is_some());
+        if !CHANGES.into_iter().any(given) {
+            out.refuse(
+                &[&kind_key],
+                format!("transient together with one of {}", CHANGES.join(", ")),
+                "say what changes, or take kind static".to_owned(),
+            );
+            return None;
+        }
+        for [one, other] in EITHER {
+            if given(one) && given(other) {
+                let keys = [other, one].map(|k| format!("{path}.{k}"));
+                let keys = keys.each_ref().map(String::as_str);
+                out.refuse(
+                    &keys,
+                    format!("no {other} beside {one}"),
+                    format!("remove {other}: the file says it"),
+                );
+            }
+        }
+        if given("step_time_s") && !given("torque_step_nm") {
+            let key = format!("{path}.step_time_s");
+            out.refuse(&[&key], "only with torque_step_nm".to_owned(), "remove step_time_s".to_owned());
         }
     }
     Some(match s.kind {
@@ -137,6 +216,15 @@ fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind
             stop_stiffness_nm_per_rad: s.stop_stiffness_nm_per_rad?,
             bench_inertia_kg_m2: s.bench_inertia_kg_m2?,
             duration_s: s.duration_s?,
+        },
+        KindFile::Transient => ScenarioKind::Transient {
+            preload_nm: s.preload_nm.unwrap_or(0.0),
+            torque_step_nm: s.torque_step_nm.unwrap_or(0.0),
+            step_time_s: s.step_time_s.unwrap_or(0.0),
+            abutment_stiffness_nm_per_rad: s.abutment_stiffness_nm_per_rad?,
+            duration_s: s.duration_s?,
+            speed_rad_s: rad_s(s.speed_rpm.unwrap_or(0.0)),
+            overrun_rad_s: rad_s(s.overrun_rpm.unwrap_or(0.0)),
         },
         KindFile::Overrun => {
             ScenarioKind::Overrun { speed_rad_s: rad_s(s.speed_rpm?), overrun_rad_s: rad_s(s.overrun_rpm?) }

@@ -23,8 +23,7 @@ use super::file::DesignFile;
 const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e15;
 
 /// Keys that a later version will read.
-const RESERVED: &[&str] =
-    &["press_fit", "thermal", "tolerances", "torque_history_csv", "speed_history_csv", "torque_step_nm"];
+const RESERVED: &[&str] = &["press_fit", "thermal", "tolerances"];
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);

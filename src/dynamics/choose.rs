@@ -27,7 +27,8 @@ pub(super) fn choose(model: &Model, t: f64, y: &State, place: Place, inner: Know
     let mut best = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
     let mut least = f64::INFINITY;
     for &a in candidates(if place == Place::Open { Known::Slips(1.0) } else { inner }).iter().flatten() {
-        for &b in candidates(outer).iter().flatten() {
+        let at_b = if model.outer_holds { [Some(Grip::Stick), None, None] } else { candidates(outer) };
+        for &b in at_b.iter().flatten() {
             let mode = Mode { place, inner: a, outer: b };
             let f = model.forces(&mode, t, y);
             let (da, db) = model.slip_accelerations(&mode, y, &f);
@@ -36,7 +37,9 @@ pub(super) fn choose(model: &Model, t: f64, y: &State, place: Place, inner: Know
             if place != Place::Open {
                 violation += violation_of(a, inner, f.t_bi, mu * f.n_bi, da);
             }
-            violation += violation_of(b, outer, f.t_be, mu * f.n_be, db);
+            if !model.outer_holds {
+                violation += violation_of(b, outer, f.t_be, mu * f.n_be, db);
+            }
             if violation < least {
                 (best, least) = (mode, violation);
             }

@@ -1,29 +1,46 @@
 //! Event-driven integration: smooth inside a mode, every change of mode located.
 
-use super::choose::{Known, choose};
-use super::crossing::cross;
-use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER, events};
+use super::events::{EVENTS, Look, look};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
-use super::run::{Peaks, Run, RunSettings, SlipRecord, Stop};
+use super::run::{Run, RunSettings, Stop};
+use super::watch::highest;
 use crate::numeric::root;
-use crate::ode::dop853::{self, Counters, Dense, Step, Tolerance};
+use crate::ode::adaptive::Adaptive;
+use crate::ode::step::{Dense, Step, Tolerance};
 use std::sync::atomic::Ordering;
 
-/// Shortest step that is still taken, s.
-const SHORTEST_STEP_S: f64 = 1e-15;
-const GLANCES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// Where a step is looked at, as fractions of its length.
+pub(super) const LOOKS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+/// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
+const SMALL: f64 = 1e-3;
 
 pub(super) struct Driver<'a> {
     pub(super) model: &'a Model,
     pub(super) settings: &'a RunSettings,
-    tolerance: Tolerance<N_STATE>,
     pub(super) run: Run,
-    /// Start of the current stretches, for slip times and open time.
-    open_since: Option<f64>,
+    /// Start of the current stretch without contact.
+    pub(super) open_since: Option<f64>,
     /// Windup reference of stick: theta_bi - theta_be + W(alpha) is kept while both stick.
-    phase: Option<f64>,
+    pub(super) phase: Option<f64>,
     pub(super) next_sample: usize,
-    h: f64,
+    stepper: Adaptive<N_STATE>,
+    /// Slope and look at the present state where the last step has left them.
+    slope: Option<State>,
+    seen: Option<Look>,
+    /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
+    lengths: [f64; 8],
+}
+
+/// Which contacts hold, for the memory of step lengths.
+fn kind(mode: &Mode) -> usize {
+    usize::from(mode.inner == Grip::Stick)
+        + 2 * usize::from(mode.outer == Grip::Stick)
+        + 4 * usize::from(mode.place == Place::Open)
+}
+
+/// The right-hand side in one mode.
+pub(super) fn slope_in(model: &Model, mode: Mode) -> impl Fn(f64, &State) -> Result<State, ()> {
+    move |t, y| model.slope(&mode, t, y).ok_or(())
 }
 
 impl<'a> Driver<'a> {
@@ -32,30 +49,19 @@ impl<'a> Driver<'a> {
         let tol = settings.tolerance;
         let (angle, rate, slip) = (1e-2 * tol, 10.0 * tol, 1e-3 * tol);
         let absolute = [angle, angle, angle, angle, rate, rate, rate, rate, slip, slip];
+        let integrated = [0.0, 0.0, 0.0, 0.0, angle, angle, angle, angle, 0.0, 0.0];
+        let tolerance = Tolerance { relative: tol, absolute, integrated };
         let mut driver = Self {
             model,
             settings,
-            tolerance: Tolerance { relative: tol, absolute },
-            run: Run {
-                stop: Stop::Finished,
-                t_s: 0.0,
-                state,
-                mode,
-                inner: SlipRecord::default(),
-                outer: SlipRecord::default(),
-                open_s: 0.0,
-                longest_open_s: 0.0,
-                peaks: Peaks::NONE,
-                events: 0,
-                counters: Counters::default(),
-                samples: Vec::with_capacity(settings.samples),
-                engaged: None,
-                modes: Vec::new(),
-            },
+            run: Run::start(state, mode, settings.samples),
             open_since: (mode.place == Place::Open).then_some(0.0),
             phase: None,
             next_sample: 0,
-            h: settings.longest_step_s * 0.01,
+            stepper: Adaptive::new(tolerance, settings.longest_step_s * 0.01, SMALL),
+            slope: None,
+            seen: None,
+            lengths: [f64::INFINITY; 8],
         };
         driver.enter(mode);
         driver.look(state, 0.0);
@@ -69,35 +75,45 @@ impl<'a> Driver<'a> {
     }
 
     fn integrate(&mut self) {
-        let model = self.model;
         while self.run.t_s < self.settings.duration_s {
             if self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                 return self.stop(Stop::Interrupted);
             }
-            let mode = self.run.mode;
+            let past = self.model.drive.past_break_s(self.run.t_s);
+            if past != self.run.t_s {
+                // Beyond a knot other forces act: nothing of the last step serves the next.
+                (self.slope, self.seen) = (None, None);
+                self.run.t_s = past;
+            }
+            let work = self.run.counters.steps + self.run.counters.rejections;
             let (t, y) = (self.run.t_s, self.run.state);
-            let mut rhs = |t: f64, y: &State| model.slope(&mode, t, y).ok_or(());
-            self.run.counters.rhs_evaluations += 1;
-            let Ok(slope) = rhs(t, &y) else { return self.stop(Stop::NotFinite) };
-            let rest = self.settings.duration_s - t;
-            let mut h = self.h.min(self.settings.longest_step_s).min(rest);
-            let step = loop {
-                let trial = dop853::step(&mut rhs, t, &y, &slope, h, &self.tolerance, &mut self.run.counters);
-                match trial {
-                    Ok(s) if s.error <= 1.0 => break s,
-                    Ok(s) => h = s.next_h().min(0.9 * h),
-                    Err(()) => h *= 0.25,
-                }
-                self.run.counters.rejections += 1;
-                if h < SHORTEST_STEP_S {
-                    return self.stop(Stop::StepLimit);
+            let mut rhs = slope_in(self.model, self.run.mode);
+            let slope = match self.slope.take() {
+                Some(slope) => slope,
+                None => {
+                    self.run.counters.rhs_evaluations += 1;
+                    match rhs(t, &y) {
+                        Ok(slope) => slope,
+                        Err(()) => return self.stop(Stop::NotFinite),
+                    }
                 }
             };
-            if self.run.counters.steps >= self.settings.most_steps {
-                return self.stop(Stop::StepLimit);
-            }
-            if !self.advance(&step, &mut rhs) {
-                return;
+            let (longest, rest) = (
+                self.settings.longest_step_s,
+                self.settings.duration_s.min(self.model.drive.next_break_s(t)) - t,
+            );
+            let counters = &mut self.run.counters;
+            let step = self.stepper.step(&mut rhs, t, &y, &slope, longest, rest, counters);
+            match step.filter(|_| work < self.settings.most_steps) {
+                Some(step) => {
+                    if !self.advance(&step, &slope, &mut rhs) {
+                        return;
+                    }
+                }
+                None => {
+                    self.run.fastest_rad_s = self.stepper.fastest(&mut rhs, t, &y, &mut self.run.counters);
+                    return self.stop(Stop::StepLimit);
+                }
             }
         }
     }
@@ -106,52 +122,114 @@ impl<'a> Driver<'a> {
     fn advance(
         &mut self,
         step: &Step<N_STATE>,
+        slope: &State,
         rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
     ) -> bool {
-        let mode = self.run.mode;
-        let grips = !self.settings.rolling;
-        let at = |t: f64, y: &State| events(self.model, &mode, t, y, grips);
-        // Which events can fire: those that are positive now, or have become so inside the step.
-        let mut before = at(step.t, &step.y0);
-        let mut from = 0.0;
+        let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
+        let first = self.seen.take().unwrap_or_else(|| look(model, &mode, step.t(), step.y0(), grips));
+        let mut looks = [first; LOOKS.len()];
         let mut dense: Option<Dense<N_STATE>> = None;
-        for theta in GLANCES {
-            let t = step.t + theta * step.h;
-            let y = if theta == 1.0 { step.y1 } else { step.glance(theta) };
-            let now = at(t, &y);
-            let suspect = (0..EVENTS).any(|i| now[i] < 0.0);
-            if suspect {
+        for i in 1..LOOKS.len() {
+            let theta = LOOKS[i];
+            let y = if theta == 1.0 { *step.y1() } else { step.glance(theta) };
+            looks[i] = look(model, &mode, step.t() + theta * step.h(), &y, grips);
+            if looks[i].events.iter().any(|&e| e < 0.0) {
                 let d = match &dense {
-                    Some(d) => d.clone(),
+                    Some(d) => d,
                     None => match step.dense(rhs, &mut self.run.counters) {
-                        Ok(d) => d,
+                        Ok(d) => dense.insert(d),
                         Err(()) => {
                             self.stop(Stop::NotFinite);
                             return false;
                         }
                     },
                 };
-                let first = self.first_event(&d, step, from, theta, &before, &mode, grips);
-                dense = Some(d);
-                match first {
+                match self.first_event(d, step, LOOKS[i - 1], theta, &looks[i - 1].events) {
                     Found::Nothing => {}
-                    Found::At(theta, which) => return self.land(step, theta, which, rhs),
+                    Found::At(theta, which) => {
+                        let d = d.clone();
+                        return self.land(step, theta, which, d, rhs);
+                    }
                     Found::TooCoarse => {
                         // The event function is negative from the start: look closer, then give way.
-                        let h = step.h * 0.125 * theta;
+                        let h = step.h() * 0.125 * theta;
                         if h > 1e-13 {
-                            self.h = h;
+                            self.stepper.h = h;
+                            self.slope = Some(*slope);
                             return true;
                         }
-                        return self.give_way(&now);
+                        return self.give_way(&looks[i].events);
                     }
                 }
             }
-            before = now;
-            from = theta;
         }
-        self.h = step.next_h();
-        self.accept(step, step.t + step.h, step.y1, rhs)
+        let seen = looks[LOOKS.len() - 1];
+        let figures = looks.map(|l| l.figures);
+        match self.crest(step, &looks, dense, rhs) {
+            Ok(Some((theta, which, d))) => return self.land(step, theta, which, d, rhs),
+            Ok(None) if self.watch(step, &figures, rhs).is_ok() => self.accept(step),
+            _ => {
+                self.stop(Stop::NotFinite);
+                return false;
+            }
+        }
+        self.seen = Some(seen);
+        // The end of an explicit step is the first stage of the next; the correction of the windup in between is
+        // of the size of the step's error.
+        self.slope = match step {
+            Step::Explicit(s) => Some(*s.slope1()),
+            Step::Implicit(_) | Step::Part(_) => None,
+        };
+        true
+    }
+
+    /// The first event of a function that dips below zero and rises again between two looks: where its lowest look
+    /// is nearer to zero than a parabola through three looks can reach (twice an eighth of their second difference).
+    fn crest(
+        &mut self,
+        step: &Step<N_STATE>,
+        looks: &[Look; LOOKS.len()],
+        mut dense: Option<Dense<N_STATE>>,
+        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
+    ) -> Result<Option<(f64, usize, Dense<N_STATE>)>, ()> {
+        let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
+        let last = LOOKS.len() - 1;
+        for i in 0..EVENTS {
+            for j in 0..=last {
+                let (left, right) = (j.saturating_sub(1), (j + 1).min(last));
+                let e = |j: usize| looks[j].events[i];
+                let m = j.clamp(1, last - 1);
+                let bend = (e(m - 1) - 2.0 * e(m) + e(m + 1)).abs();
+                // A contact just released starts at zero and rises: that is no dip.
+                let bottom = e(j) <= e(left) && e(j) <= e(right) && j > 0;
+                if !bottom || e(j) > 0.25 * bend {
+                    continue;
+                }
+                let d = match dense.take() {
+                    Some(d) => d,
+                    None => step.dense(rhs, &mut self.run.counters)?,
+                };
+                let value = |theta: f64| {
+                    -look(
+                        model,
+                        &mode,
+                        step.t() + theta * step.h(),
+                        &d.at(step.t() + theta * step.h()),
+                        grips,
+                    )
+                    .events[i]
+                };
+                let (theta, depth) = highest(LOOKS[left], LOOKS[right], value);
+                if depth > 0.0
+                    && let Found::At(theta, which) =
+                        self.first_event(&d, step, LOOKS[left], theta, &looks[left].events)
+                {
+                    return Ok(Some((theta, which, d)));
+                }
+                dense = Some(d);
+            }
+        }
+        Ok(None)
     }
 
     /// Earliest zero between the fractions `from` and `to` of the step.
@@ -162,22 +240,23 @@ impl<'a> Driver<'a> {
         from: f64,
         to: f64,
         before: &[f64; EVENTS],
-        mode: &Mode,
-        grips: bool,
     ) -> Found {
+        let (mode, grips) = (self.run.mode, !self.settings.rolling);
         let mut first = Found::Nothing;
         let mut earliest = f64::INFINITY;
-        let value = |theta: f64, i: usize| {
-            let t = step.t + theta * step.h;
-            events(self.model, mode, t, &dense.at(t), grips)[i]
+        let all = |theta: f64| {
+            let t = step.t() + theta * step.h();
+            look(self.model, &mode, t, &dense.at(t), grips).events
         };
+        let value = |theta: f64, i: usize| all(theta)[i];
+        let (begin, end) = (all(from), all(to));
         for (i, &known) in before.iter().enumerate() {
-            let end = value(to, i);
+            let end = end[i];
             if end >= 0.0 {
                 continue;
             }
             let mut start = from;
-            let mut at_start = if from == 0.0 { known } else { value(from, i) };
+            let mut at_start = if from == 0.0 { known } else { begin[i] };
             if at_start <= 0.0 {
                 // Starts at zero (a contact just released): find where it has become positive.
                 let inside = [0.02, 0.1, 0.25, 0.5, 0.75].map(|f| from + f * (to - from));
@@ -202,180 +281,56 @@ impl<'a> Driver<'a> {
         step: &Step<N_STATE>,
         theta: f64,
         which: usize,
+        dense: Dense<N_STATE>,
         rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
     ) -> bool {
-        let h = theta * step.h;
-        let t = step.t + h;
-        let mut y = step.y0;
+        let h = theta * step.h();
         if h > 0.0 {
-            self.run.counters.rhs_evaluations += 1;
-            let Ok(slope) = rhs(step.t, &step.y0) else {
+            let part = step.until(h, dense);
+            self.stepper.h = step.h();
+            let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
+            let figures = LOOKS.map(|theta| {
+                let t = part.t() + theta * part.h();
+                look(model, &mode, t, &part.glance(theta), grips).figures
+            });
+            if self.watch(&part, &figures, rhs).is_err() {
                 self.stop(Stop::NotFinite);
-                return false;
-            };
-            let counters = &mut self.run.counters;
-            let Ok(part) = dop853::step(rhs, step.t, &step.y0, &slope, h, &self.tolerance, counters) else {
-                self.stop(Stop::NotFinite);
-                return false;
-            };
-            y = part.y1;
-            self.h = step.h;
-            if !self.accept(&part, t, y, rhs) {
                 return false;
             }
-            y = self.run.state;
+            self.accept(&part);
         }
+        let (t, y) = (step.t() + h, self.run.state);
+        self.count_event() && self.change(which, t, y)
+    }
+
+    /// False where there have been too many.
+    pub(super) fn count_event(&mut self) -> bool {
         self.run.events += 1;
-        if self.run.events > self.settings.most_events {
+        let go_on = self.run.events <= self.settings.most_events;
+        if !go_on {
             self.stop(Stop::EventLimit);
-            return false;
         }
-        self.change(which, t, y)
+        go_on
     }
 
-    /// Change of mode at event `which`.
-    fn change(&mut self, which: usize, t: f64, mut y: State) -> bool {
-        let model = self.model;
-        let mode = self.run.mode;
-        let f = model.forces(&mode, t, &y);
-        let known = |grip: Grip, here: bool, tangential: f64, outward: f64| match grip {
-            Grip::Stick if here => Known::Released(outward * tangential.signum()),
-            Grip::Stick | Grip::Slip(_) if here => Known::Still,
-            Grip::Stick => Known::Still,
-            Grip::Slip(s) => Known::Slips(s),
-        };
-        // T_bi = -sgn(v_A) mu N, T_be = +sgn(v_B) mu N.
-        let inner = known(mode.inner, which == INNER, f.t_bi, -1.0);
-        let outer = known(mode.outer, which == OUTER, f.t_be, 1.0);
-        let place = match which {
-            LOWER => match mode.place {
-                Place::Arc(0) if self.settings.rolling => Place::Tension,
-                Place::Arc(0) => Place::Open,
-                Place::Arc(k) => Place::Arc(k - 1),
-                Place::Open | Place::Tension => {
-                    self.stop(Stop::FellAway);
-                    return false;
-                }
-            },
-            UPPER => match mode.place {
-                Place::Arc(k) if k + 1 < model.curve.arc_count() => Place::Arc(k + 1),
-                Place::Arc(_) => {
-                    self.stop(Stop::CurveEnd);
-                    return false;
-                }
-                Place::Open | Place::Tension => Place::Arc(0),
-            },
-            _ => mode.place,
-        };
-        let next = if which == LOWER || which == UPPER {
-            self.pass(&mode, place, t, &mut y, inner, outer)
-        } else {
-            choose(model, t, &y, place, inner, outer)
-        };
-        self.run.state = y;
-        self.enter(next);
-        true
-    }
-
-    /// Pass into another place; a closed contact that touches begins in slip unless v = 0.
-    fn pass(&mut self, mode: &Mode, place: Place, t: f64, y: &mut State, inner: Known, outer: Known) -> Mode {
-        let model = self.model;
-        let (p, q) = (model.point(mode.place, y[0]), model.point(place, y[0]));
-        let rates = model.rates(mode, &p, y);
-        let touching = mode.place == Place::Open;
-        let held =
-            Mode { place, inner: if touching { Grip::Slip(1.0) } else { mode.inner }, outer: mode.outer };
-        let after = cross(model, &held, &p, &q, rates);
-        y[4..8].copy_from_slice(&after);
-        if self.settings.rolling {
-            return Mode { place, ..*mode };
-        }
-        let (v_a, v_b) = model.slip_velocities(&q, &after);
-        let inner = match inner {
-            _ if touching => moving(v_a),
-            Known::Slips(_) => moving(v_a),
-            other => other,
-        };
-        let outer = if matches!(outer, Known::Slips(_)) { moving(v_b) } else { outer };
-        choose(model, t, y, place, inner, outer)
-    }
-
-    /// An event function is negative right after a change although the choice was consistent to rounding:
-    /// settle it by choosing again with every still contact free.
-    fn give_way(&mut self, now: &[f64; EVENTS]) -> bool {
-        self.run.events += 1;
-        if self.run.events > self.settings.most_events {
-            self.stop(Stop::EventLimit);
-            return false;
-        }
-        let mode = self.run.mode;
-        let (t, y) = (self.run.t_s, self.run.state);
-        let again = |grip: Grip, negative: bool| match grip {
-            Grip::Slip(s) if !negative => Known::Slips(s),
-            _ => Known::Still,
-        };
-        let next = if now[LOWER] < 0.0 || now[UPPER] < 0.0 {
-            let which = if now[LOWER] < 0.0 { LOWER } else { UPPER };
-            return self.change(which, t, y);
-        } else {
-            choose(
-                self.model,
-                t,
-                &y,
-                mode.place,
-                again(mode.inner, now[INNER] < 0.0),
-                again(mode.outer, now[OUTER] < 0.0),
-            )
-        };
-        if next == mode {
-            // Nothing better: go on in this mode for a step that rounding cannot undo.
-            self.run.t_s = t + 1e-12;
-            let rhs = |t: f64, y: &State| self.model.slope(&mode, t, y).ok_or(());
-            let Ok(slope) = rhs(t, &y) else {
-                self.stop(Stop::NotFinite);
-                return false;
-            };
-            for (y, rate) in self.run.state.iter_mut().zip(slope) {
-                *y += 1e-12 * rate;
+    /// The right-hand side becomes that of `mode`.
+    pub(super) fn renew(&mut self, mode: Mode) {
+        let (old, new) = (kind(&self.run.mode), kind(&mode));
+        if old != new {
+            self.lengths[old] = self.stepper.h;
+            self.stepper.h = self.stepper.h.min(self.settings.longest_step_s).min(self.lengths[new]);
+            if self.lengths[new].is_finite() {
+                self.stepper.h = self.lengths[new];
             }
         }
-        self.enter(next);
-        true
+        self.stepper.forget();
+        (self.slope, self.seen) = (None, None);
     }
 
-    fn enter(&mut self, mode: Mode) {
-        let (t, y) = (self.run.t_s, &mut self.run.state);
-        let p = self.model.point(mode.place, y[0]);
-        let rates = self.model.rates(&mode, &p, y);
-        y[4..8].copy_from_slice(&rates);
-        let both = mode.inner == Grip::Stick && mode.outer == Grip::Stick;
-        let closed = matches!(mode.place, Place::Arc(_));
-        self.phase = (both && closed).then(|| y[2] - y[3] + self.model.curve.windup_rad(y[0]));
-        match (mode.place == Place::Open, self.open_since) {
-            (true, None) => self.open_since = Some(t),
-            (false, Some(since)) => {
-                self.run.open_s += t - since;
-                self.run.longest_open_s = self.run.longest_open_s.max(t - since);
-                self.open_since = None;
-            }
-            _ => {}
-        }
-        self.run.mode = mode;
-        self.run.note_engagement();
-        if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {
-            self.run.modes.push((t, mode));
-        }
-    }
-
-    /// Take over an accepted step: constraint, peaks, samples, slip records.
-    fn accept(
-        &mut self,
-        step: &Step<N_STATE>,
-        t: f64,
-        mut y: State,
-        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
-    ) -> bool {
+    /// Take over an accepted step: constraint, slip records.
+    fn accept(&mut self, step: &Step<N_STATE>) {
         let mode = self.run.mode;
+        let (t, mut y) = (step.t() + step.h(), *step.y1());
         self.run.counters.steps += 1;
         if let Some(phase) = self.phase {
             // Rolling keeps theta_bi - theta_be = -W(alpha): one Newton step removes the drift of the step.
@@ -389,23 +344,17 @@ impl<'a> Driver<'a> {
                 [(&mut self.run.inner, mode.inner, 8), (&mut self.run.outer, mode.outer, 9)]
             {
                 if matches!(grip, Grip::Slip(_)) {
-                    record.time_s += t - step.t;
+                    record.time_s += t - step.t();
                     record.net_m += y[i] - before[i];
                     record.distance_m += (y[i] - before[i]).abs();
                 }
             }
         }
-        let mut ok = true;
-        if let Err(()) = self.watch(step, t, rhs) {
-            self.stop(Stop::NotFinite);
-            ok = false;
-        }
         self.run.t_s = t;
         self.run.state = y;
-        ok
     }
 
-    fn stop(&mut self, why: Stop) {
+    pub(super) fn stop(&mut self, why: Stop) {
         self.run.stop = why;
     }
 
@@ -423,8 +372,4 @@ enum Found {
     Nothing,
     At(f64, usize),
     TooCoarse,
-}
-
-fn moving(v: f64) -> Known {
-    if v == 0.0 { Known::Still } else { Known::Slips(v.signum()) }
 }

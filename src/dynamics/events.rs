@@ -20,8 +20,17 @@ const LEAVE_RAD: f64 = 1e-12;
 /// How far an open sprag may turn back before the run ends with a name, rad.
 pub(super) const OPEN_REACH_RAD: f64 = 0.5;
 
-/// Positive inside the mode. `grips`: whether the friction limits count (the pure-rolling run ignores them).
-pub(super) fn events(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool) -> [f64; EVENTS] {
+/// What one evaluation of the forces tells.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Look {
+    /// Positive inside the mode.
+    pub(super) events: [f64; EVENTS],
+    /// What a run keeps the largest of: |T_bi|/N_bi, |T_be|/N_be (0 without contact), -N_bi, N_bi, N_be.
+    pub(super) figures: [f64; 5],
+}
+
+/// `grips`: whether the friction limits count (the pure-rolling run ignores them).
+pub(super) fn look(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool) -> Look {
     let alpha = y[0];
     let touch = model.curve.first_contact_rad();
     let (lower, upper) = match mode.place {
@@ -32,19 +41,23 @@ pub(super) fn events(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool)
             (alpha - from, model.curve.arc_end_rad(k) - alpha)
         }
     };
-    if !grips {
-        return [lower, upper, 1.0, 1.0];
-    }
     let f = model.forces(mode, t, y);
     let mu = model.friction.static_;
     let inner = match mode.inner {
-        _ if mode.place == Place::Open => 1.0,
+        _ if mode.place == Place::Open || !grips => 1.0,
         Grip::Slip(s) => s * f.v_a,
         Grip::Stick => mu * f.n_bi - f.t_bi.abs(),
     };
     let outer = match mode.outer {
+        _ if !grips => 1.0,
         Grip::Slip(s) => s * f.v_b,
+        Grip::Stick if model.outer_holds => 1.0,
         Grip::Stick => mu * f.n_be - f.t_be.abs(),
     };
-    [lower, upper, inner, outer]
+    let closed = matches!(mode.place, Place::Arc(_));
+    let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
+    Look {
+        events: [lower, upper, inner, outer],
+        figures: [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be],
+    }
 }

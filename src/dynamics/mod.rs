@@ -8,6 +8,7 @@
 //! distances at A and B. T_bi acts on the inner race in its positive sense, -T_be on the outer race.
 //! v is race minus sprag surface; in slip T_bi = -sgn(v_A) mu N_bi and T_be = +sgn(v_B) mu N_be.
 
+mod change;
 mod choose;
 mod crossing;
 mod driver;
@@ -19,8 +20,8 @@ mod run;
 mod start;
 mod watch;
 
-pub use model::{Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
+pub use model::{Drive, Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
 pub use published::{PublishedSettings, published};
 pub use rolling::{Rolling, rolling};
 pub use run::{Engaged, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run};
-pub use start::{Overrun, alpha_max_rad, overrun, preloaded};
+pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled};

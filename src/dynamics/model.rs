@@ -4,6 +4,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::design::Clutch;
 use crate::friction::Stribeck;
+use crate::numeric::course::Course;
 use crate::wedge::{WedgeCurve, WedgePoint};
 
 /// Length of the state: 4 angles (rad), 4 rates (rad/s), signed slip distances at A and B (m).
@@ -55,6 +56,42 @@ pub struct Loads {
     pub abutment_nm_per_rad: f64,
 }
 
+/// What acts over time beside [`Loads`]; nothing by default.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Drive {
+    /// Engaging torque on the inner race, added as C_bi = -torque, N m.
+    pub torque_nm: Option<Course>,
+    /// Mean speed Omega(t), rad/s, in place of the curve's; angles are measured from its integral.
+    pub speed_rad_s: Option<Course>,
+}
+
+impl Drive {
+    fn courses(&self) -> impl Iterator<Item = &Course> {
+        self.torque_nm.iter().chain(&self.speed_rad_s)
+    }
+
+    /// First time after `t` (s) at which a course has a knot: no step may cross it.
+    pub fn next_break_s(&self, t: f64) -> f64 {
+        self.courses().filter_map(|c| c.next_knot(t)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// `t`, or the first time beyond a knot that a step ended at.
+    pub fn past_break_s(&self, t: f64) -> f64 {
+        self.courses().fold(t, |t, c| c.past_knot(t))
+    }
+
+    /// The same with time counted from `t` (s).
+    pub fn from(&self, t: f64) -> Self {
+        let later = |c: &Option<Course>| c.as_ref().map(|c| c.from(t));
+        Self { torque_nm: later(&self.torque_nm), speed_rad_s: later(&self.speed_rad_s) }
+    }
+
+    /// Engaging torque at `t`, N m.
+    pub fn torque_at(&self, t: f64) -> f64 {
+        self.torque_nm.as_ref().map_or(0.0, |c| c.at(t).0)
+    }
+}
+
 /// A clutch under loads, ready to be integrated.
 #[derive(Debug, Clone)]
 pub struct Model {
@@ -62,8 +99,12 @@ pub struct Model {
     pub curve: WedgeCurve,
     /// Friction law.
     pub friction: Stribeck,
+    /// Whether B rolls without slip whatever that takes (Vernay's assumption).
+    pub outer_holds: bool,
     /// Loads.
     pub loads: Loads,
+    /// What acts over time beside them.
+    pub drive: Drive,
     /// alpha_max of the spring, rad.
     pub alpha_max_rad: f64,
     pub(super) count: f64,
@@ -73,6 +114,7 @@ pub struct Model {
     pub(super) inner_inertia_kg_m2: f64,
     pub(super) outer_inertia_kg_m2: f64,
     pub(super) damping_nm_s_per_rad: f64,
+    pub(super) hunt_crossley_s_per_m: f64,
 }
 
 /// Forces at one instant, per sprag.
@@ -107,7 +149,9 @@ impl Model {
         Self {
             curve,
             friction: Stribeck { static_: f.static_, kinetic: f.kinetic, decay_s_per_m: f.decay_s_per_m },
+            outer_holds: f.outer_holds,
             loads,
+            drive: Drive::default(),
             alpha_max_rad,
             count: clutch.sprags.count as f64,
             mass_kg: clutch.sprags.mass_kg,
@@ -116,6 +160,7 @@ impl Model {
             inner_inertia_kg_m2: clutch.races.inner_inertia_kg_m2 + bench_inertia_kg_m2,
             outer_inertia_kg_m2: clutch.races.outer_inertia_kg_m2,
             damping_nm_s_per_rad: clutch.races.viscous_damping_nm_s_per_rad,
+            hunt_crossley_s_per_m: clutch.hunt_crossley_s_per_m,
         }
     }
 
@@ -163,6 +208,22 @@ impl Model {
         Matrix2::new((i + orbit) / (i * orbit), -1.0 / orbit, -1.0 / orbit, 1.0 / orbit) / self.count
     }
 
+    /// Mean speed Omega at `t`, rad/s, and its rate, rad/s^2.
+    pub fn mean_speed(&self, t: f64) -> (f64, f64) {
+        self.drive.speed_rad_s.as_ref().map_or((self.curve.speed_rad_s(), 0.0), |c| c.at(t))
+    }
+
+    /// T_bi that static equilibrium demands at mean speed `speed`, N: that of the curve, its centrifugal force
+    /// exchanged for the present one, T_bi = [N_bi OB sin beta - F_c OB sin gamma]/(OB cos beta - OA).
+    pub(super) fn static_tangential_n(&self, p: &WedgePoint, speed: f64) -> f64 {
+        let in_curve = self.curve.speed_rad_s();
+        if speed == in_curve {
+            return p.t_static;
+        }
+        let more = self.mass_kg * p.oc_g * (speed * speed - in_curve * in_curve);
+        p.t_static - more * p.ob * p.gamma.sin() / (p.ob * (p.beta_gamma - p.gamma).cos() - p.oa)
+    }
+
     /// Accelerations and forces at time `t` (s) in `mode`.
     ///
     /// Eq. (13), Eq. (15), in the energy-consistent form: OC_g' times the radial equation is added to the
@@ -177,6 +238,10 @@ impl Model {
     /// The printed (13) counts the spring as a couple without reaction, has no Coriolis term and "mg OC_g" for
     /// m_g OC_g phi''; the printed (15) has no abutment. N_be closes radially:
     /// N_be cos gamma = N_bi cos(beta+gamma) + T_bi sin(beta+gamma) - T_be sin gamma + m_g OC_g phi'^2.
+    ///
+    /// Where the mean speed is a course in time, angles are measured from its integral, each inertia is slowed by
+    /// its own d Omega/dt, and U' holds the centrifugal force of the momentary speed; the growth of the race stays
+    /// that of the curve's speed.
     #[doc(alias = "Eq. (13)")]
     #[doc(alias = "Eq. (15)")]
     pub fn forces(&self, mode: &Mode, t: f64, y: &State) -> Forces {
@@ -195,22 +260,27 @@ impl Model {
     ) -> Forces {
         let [da, dp, di, de] = *rates;
         let n = self.count;
-        let speed = self.curve.speed_rad_s();
+        let (speed, spin) = self.mean_speed(t);
         let phi_rate = speed + dp;
         let open = mode.place == Place::Open;
         let (v_a, v_b) = self.slip_velocities(p, rates);
         // What acts without T_bi, T_be.
-        let wedge = p.t_static * p.oa * (p.rho_i + p.rho_e);
+        let wedge = self.static_tangential_n(p, speed) * p.oa * (p.rho_i + p.rho_e);
         let swing = self.mass_kg * p.oc_g * p.oc_g_slope;
         let centrifugal = if open { phi_rate * phi_rate } else { phi_rate * phi_rate - speed * speed };
+        let (n_bi, damping) = self.damped(p, speed, da);
         let f_alpha = n
-            * (self.spring_nm_per_rad * (self.alpha_max_rad - y[0]) - if open { 0.0 } else { wedge }
-                + swing * centrifugal);
-        let f_phi = -2.0 * n * swing * da * phi_rate;
+            * (damping + self.spring_nm_per_rad * (self.alpha_max_rad - y[0])
+                - if open { 0.0 } else { wedge }
+                + swing * centrifugal
+                - self.inertia_kg_m2 * spin);
+        let orbit = self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g;
+        let f_phi = -n * (2.0 * swing * da * phi_rate + orbit * spin);
         let drag = self.damping_nm_s_per_rad * (di - de);
-        let f_i = self.loads.inner_nm - drag;
+        let f_i = self.loads.inner_nm - self.drive.torque_at(t) - drag - self.inner_inertia_kg_m2 * spin;
         let f_e = self.loads.amplitude_nm * (self.loads.omega_rad_s * t).sin() + drag
-            - self.loads.abutment_nm_per_rad * y[3];
+            - self.loads.abutment_nm_per_rad * y[3]
+            - self.outer_inertia_kg_m2 * spin;
         let inverse = self.sprag_inverse(p.oc_g);
         let free = inverse * Vector2::new(f_alpha, f_phi);
         let (free_i, free_e) = (f_i / self.inner_inertia_kg_m2, f_e / self.outer_inertia_kg_m2);
@@ -225,7 +295,7 @@ impl Model {
         let row_e = |v: &Vector2<f64>, race: f64| race - v[1] - p.rho_e * v[0];
         let (sin_bg, cos_bg) = p.beta_gamma.sin_cos();
         let (sin_g, cos_g) = p.gamma.sin_cos();
-        let press = p.n_bi * cos_bg + self.mass_kg * p.oc_g * phi_rate * phi_rate;
+        let press = n_bi * cos_bg + self.mass_kg * p.oc_g * phi_rate * phi_rate;
         // A x = b for x = (T_bi, T_be).
         let (mut a, mut b) = (Matrix2::zeros(), Vector2::zeros());
         let inner_sticks = mode.inner == Grip::Stick && !open;
@@ -236,7 +306,7 @@ impl Model {
         } else {
             a[(0, 0)] = 1.0;
             b[0] = match mode.inner {
-                Grip::Slip(s) if !open => -s * self.friction.coefficient((s * v_a).max(0.0)) * p.n_bi,
+                Grip::Slip(s) if !open => -s * self.friction.coefficient((s * v_a).max(0.0)) * n_bi,
                 _ => 0.0,
             };
         }
@@ -272,11 +342,39 @@ impl Model {
             acceleration: [sprag[0], sprag[1], free_i + race_i * t_bi, free_e + race_e * t_be],
             t_bi,
             t_be,
-            n_bi: p.n_bi,
+            n_bi,
             n_be,
             v_a,
             v_b,
         }
+    }
+
+    /// Normal force at A with Hunt and Crossley's damping (N), and the generalized force of the damping of both
+    /// contacts on alpha (N m per sprag).
+    ///
+    /// N(1 + c delta') at each contact, never below 0, delta' the rate of approach: delta_i' = -OC_i' alpha' and
+    /// delta_e' = OC_e' alpha' by the motion of a rigid sprag whose centroid moves by OC_g' (slopes by alpha):
+    ///
+    ///   OC_i' = OC_g' cos(beta+gamma) - OC_g sin(beta+gamma)      OC_e' = OC_g' cos gamma - OC_g sin gamma
+    ///
+    /// Normal forces act through O, so they do work on alpha alone: Q = -c alpha' (N_bi delta_i'^2 + N_be delta_e'^2),
+    /// slopes by alpha, which takes power at every alpha'. N_be here is that of static equilibrium at N_bi.
+    fn damped(&self, p: &WedgePoint, speed: f64, alpha_rate: f64) -> (f64, f64) {
+        let c = self.hunt_crossley_s_per_m;
+        if c == 0.0 || p.n_bi <= 0.0 {
+            return (p.n_bi, 0.0);
+        }
+        let (sin_bg, cos_bg) = p.beta_gamma.sin_cos();
+        let (sin_g, cos_g) = p.gamma.sin_cos();
+        let slope_i = p.oc_g * sin_bg - p.oc_g_slope * cos_bg;
+        let slope_e = p.oc_g_slope * cos_g - p.oc_g * sin_g;
+        let t = self.static_tangential_n(p, speed);
+        let n_be =
+            (p.n_bi * cos_bg + t * (sin_bg - p.oa / p.ob * sin_g) + self.mass_kg * p.oc_g * speed * speed)
+                / cos_g;
+        let more_i = (c * slope_i * alpha_rate).max(-1.0) * p.n_bi;
+        let more_e = (c * slope_e * alpha_rate).max(-1.0) * n_be.max(0.0);
+        (p.n_bi + more_i, -(more_i * slope_i + more_e * slope_e))
     }
 
     /// Right-hand side of the first-order system; `None` where it is not finite.

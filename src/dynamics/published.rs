@@ -4,8 +4,8 @@
 //! lost it runs away. Never the default.
 
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
-use super::run::{Peaks, Run, Sample, SlipRecord, Stop};
-use crate::ode::{dop853::Counters, rk4};
+use super::run::{Run, Sample, Stop};
+use crate::ode::rk4;
 
 /// Settings of the published scheme.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +40,8 @@ fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(S
     let rates = [y[4], y[5], y[6], y[7]];
     let (v_a, v_b) = model.slip_velocities(&p, &rates);
     let grip = |v: f64| if v.abs() < band_m_s { Grip::Stick } else { Grip::Slip(v.signum()) };
-    let mut mode = Mode { place, inner: grip(v_a), outer: grip(v_b) };
+    let outer = if model.outer_holds { Grip::Stick } else { grip(v_b) };
+    let mut mode = Mode { place, inner: grip(v_a), outer };
     let mut f = model.forces_at(&mode, t, y, &p, &rates);
     let mu = model.friction.static_;
     // Stick-slip transition: T = mu_s N sgn(T_f). Slip(s) gives T_bi = -s mu_s N at A, T_be = s mu_s N at B
@@ -50,7 +51,7 @@ fn published_slope(model: &Model, t: f64, y: &State, band_m_s: f64) -> Option<(S
         mode.inner = Grip::Slip(-f.t_bi.signum());
         limited = true;
     }
-    if mode.outer == Grip::Stick && f.t_be.abs() > mu * f.n_be {
+    if mode.outer == Grip::Stick && !model.outer_holds && f.t_be.abs() > mu * f.n_be {
         mode.outer = Grip::Slip(f.t_be.signum());
         limited = true;
     }
@@ -81,22 +82,8 @@ pub fn published(
     let steps = settings.steps();
     let h = settings.duration_s / steps as f64;
     let band = settings.band_m_s;
-    let mut run = Run {
-        stop: Stop::Finished,
-        t_s: 0.0,
-        state,
-        mode: Mode { place: Place::Open, inner: Grip::Stick, outer: Grip::Stick },
-        inner: SlipRecord::default(),
-        outer: SlipRecord::default(),
-        open_s: 0.0,
-        longest_open_s: 0.0,
-        peaks: Peaks::NONE,
-        events: 0,
-        counters: Counters::default(),
-        samples: Vec::with_capacity(settings.samples),
-        engaged: None,
-        modes: Vec::new(),
-    };
+    let free = Mode { place: Place::Open, inner: Grip::Stick, outer: Grip::Stick };
+    let mut run = Run::start(state, free, settings.samples);
     let (_, end_alpha) = model.curve.end();
     let mut open_s = 0.0;
     for i in 0..=steps {

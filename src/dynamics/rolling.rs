@@ -28,7 +28,8 @@ pub fn rolling(model: &Model, state: State, place: Place, settings: &RunSettings
     };
     let run = run(model, state, mode, &RunSettings { rolling: true, ..*settings });
     let p = run.peaks;
-    let required = (p.normal_min_n > 0.0).then(|| p.tan_inner.max(p.tan_outer));
+    let asked = if model.outer_holds { p.tan_inner } else { p.tan_inner.max(p.tan_outer) };
+    let required = (p.normal_min_n > 0.0).then_some(asked);
     Rolling {
         required_friction: required,
         required_outer: p.tan_outer,

@@ -2,7 +2,7 @@
 
 use super::driver::Driver;
 use super::model::{Forces, Grip, Mode, Model, Place, State};
-use crate::ode::dop853::Counters;
+use crate::ode::step::Counters;
 use std::sync::atomic::AtomicBool;
 
 /// Settings of a run.
@@ -154,6 +154,8 @@ pub struct Run {
     pub events: u64,
     /// Work of the integrator.
     pub counters: Counters,
+    /// Where the run ended at its limit of steps: the fastest rate in the motion then, rad/s.
+    pub fastest_rad_s: Option<f64>,
     /// Equidistant samples.
     pub samples: Vec<Sample>,
     /// When the clutch began to be one; `None`: it overran or was open to the end.
@@ -163,6 +165,27 @@ pub struct Run {
 }
 
 impl Run {
+    /// At t = 0, before anything has happened.
+    pub(super) fn start(state: State, mode: Mode, samples: usize) -> Self {
+        Self {
+            stop: Stop::Finished,
+            t_s: 0.0,
+            state,
+            mode,
+            inner: SlipRecord::default(),
+            outer: SlipRecord::default(),
+            open_s: 0.0,
+            longest_open_s: 0.0,
+            peaks: Peaks::NONE,
+            events: 0,
+            counters: Counters::default(),
+            fastest_rad_s: None,
+            samples: Vec::with_capacity(samples),
+            engaged: None,
+            modes: Vec::new(),
+        }
+    }
+
     /// Remember the first moment at which A carries load without overrunning.
     pub(super) fn note_engagement(&mut self) {
         let holds = matches!(self.mode.place, Place::Arc(_)) && self.mode.inner != Grip::Slip(1.0);

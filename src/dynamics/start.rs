@@ -46,6 +46,42 @@ pub fn preloaded(model: &Model, torque_nm: f64) -> Option<(State, Place)> {
     Some((y, Place::Arc(model.curve.arc_at(alpha))))
 }
 
+/// State at rest under `torque_nm` >= 0 with the spring at work, at the mean speed of t = 0: both races in balance
+/// (n_s T_bi OA = n_s T_be OB = C, theta_be = -C/k_ab), the sprag by
+/// T(alpha) OA (rho_i + rho_e) = C (rho_i + rho_e)/n_s + K_r(alpha_max - alpha). Open at first contact where nothing presses the sprag in. `None` where the curve does
+/// not carry it.
+pub fn settled(model: &Model, torque_nm: f64) -> Option<(State, Place)> {
+    let mut y = [0.0; super::N_STATE];
+    let (speed, _) = model.mean_speed(0.0);
+    let left = |k: usize, alpha: f64| {
+        let p = model.curve.in_arc(k, alpha);
+        let rho = p.rho_i + p.rho_e;
+        model.static_tangential_n(&p, speed) * p.oa * rho
+            - torque_nm / model.count * rho
+            - model.spring_nm_per_rad * (model.alpha_max_rad - alpha)
+    };
+    let mut from = model.curve.first_contact_rad();
+    if left(0, from) >= 0.0 {
+        y[0] = from;
+        return Some((y, Place::Open));
+    }
+    for k in 0..model.curve.arc_count() {
+        let until = model.curve.arc_end_rad(k);
+        let end = left(k, until);
+        if end >= 0.0 {
+            let alpha = root::bracketed(from, until, left(k, from).min(-0.0), end, 1e-16, |a| left(k, a))?;
+            if model.loads.abutment_nm_per_rad > 0.0 {
+                y[3] = -torque_nm / model.loads.abutment_nm_per_rad;
+            }
+            y[0] = alpha;
+            y[2] = y[3] - model.curve.windup_rad(alpha);
+            return Some((y, Place::Arc(k)));
+        }
+        from = until;
+    }
+    None
+}
+
 /// Steady overrun: the outer race carries the sprags round, the inner race slips ahead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overrun {

@@ -1,39 +1,22 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
-use super::driver::Driver;
-use super::model::{N_STATE, Place, State};
+use super::driver::{Driver, LOOKS};
+use super::events::look;
+use super::model::{N_STATE, State};
 use super::run::{Peaks, Sample};
-use crate::ode::dop853::Step;
+use crate::ode::step::Step;
 
 impl Driver<'_> {
-    /// Extremes and samples inside the step.
+    /// Extremes and samples inside the step, of which `values` are the figures at [`LOOKS`].
     pub(super) fn watch(
         &mut self,
         step: &Step<N_STATE>,
-        t_end: f64,
+        values: &[[f64; 5]; LOOKS.len()],
         rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
     ) -> Result<(), ()> {
-        let mode = self.run.mode;
-        let model = self.model;
-        let figures = |t: f64, y: &State| {
-            let f = model.forces(&mode, t, y);
-            let ratio = |a: f64, b: f64| if b > 0.0 { a.abs() / b } else { 0.0 };
-            let closed = matches!(mode.place, Place::Arc(_));
-            if closed {
-                [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be]
-            } else {
-                [0.0, 0.0, -f.n_bi, f.n_bi, f.n_be]
-            }
-        };
-        let thetas = [0.0, 0.25, 0.5, 0.75, 1.0];
-        let values = thetas.map(|theta| {
-            let y = match theta {
-                0.0 => step.y0,
-                1.0 => step.y1,
-                _ => step.glance(theta),
-            };
-            figures(step.t + theta * step.h, &y)
-        });
+        let (mode, model, thetas) = (self.run.mode, self.model, LOOKS);
+        let (start, length) = (step.t(), step.h());
+        let t_end = start + length;
         let p = &mut self.run.peaks;
         let mut best = [p.tan_inner, p.tan_outer, -p.normal_min_n, p.normal_max_n, p.normal_outer_max_n];
         let mut at_s = p.at_s;
@@ -44,7 +27,7 @@ impl Driver<'_> {
         for i in 0..best.len() {
             for (j, theta) in [(0, 0.0), (4, 1.0)] {
                 if values[j][i] > best[i] {
-                    (best[i], at_s[i]) = (values[j][i], step.t + theta * step.h);
+                    (best[i], at_s[i]) = (values[j][i], start + theta * length);
                 }
             }
             for j in 0..thetas.len() {
@@ -61,12 +44,12 @@ impl Driver<'_> {
                         None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
                     };
                     let value = |theta: f64| {
-                        let t = step.t + theta * step.h;
-                        figures(t, &d.at(t))[i]
+                        let t = start + theta * length;
+                        look(model, &mode, t, &d.at(t), false).figures[i]
                     };
-                    let (theta, found) = golden(thetas[left], thetas[right], value);
+                    let (theta, found) = highest(thetas[left], thetas[right], value);
                     if found > best[i] {
-                        (best[i], at_s[i]) = (found, step.t + theta * step.h);
+                        (best[i], at_s[i]) = (found, start + theta * length);
                     }
                 }
             }
@@ -107,21 +90,58 @@ impl Driver<'_> {
     }
 }
 
-/// Place and value of the largest value of a unimodal function on [a, b].
-fn golden(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
-    const RATIO: f64 = 0.618_033_988_749_894_9;
-    let (mut c, mut d) = (b - RATIO * (b - a), a + RATIO * (b - a));
-    let (mut fc, mut fd) = (f(c), f(d));
-    for _ in 0..24 {
-        if fc > fd {
-            (b, d, fd) = (d, c, fc);
-            c = b - RATIO * (b - a);
-            fc = f(c);
-        } else {
-            (a, c, fc) = (c, d, fd);
-            d = a + RATIO * (b - a);
-            fd = f(d);
+/// Place and value of the largest value of a smooth function with one hump on [a, b]: parabolas through the last three
+/// points, golden sections where those leave the bracket; to 1e-5 of the bracket, so 1e-10 in the value.
+pub(super) fn highest(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
+    const GOLDEN: f64 = 0.381_966_011_250_105_1;
+    let enough = 1e-5 * (b - a);
+    let (mut fa, mut fb) = (f(a), f(b));
+    let mut m = 0.5 * (a + b);
+    let mut fm = f(m);
+    for i in 0..20 {
+        let (p, q) = ((m - a) * (fm - fb), (m - b) * (fm - fa));
+        let mut x = m - 0.5 * ((m - a) * p - (m - b) * q) / (p - q);
+        // Every third step in the larger part, or a bracket might shrink from one side for ever.
+        if !(x > a && x < b) || i % 3 == 2 {
+            x = if b - m > m - a { m + GOLDEN * (b - m) } else { m - GOLDEN * (m - a) };
+        } else if (x - m).abs() < enough {
+            break;
+        }
+        let fx = f(x);
+        match (fx > fm, x > m) {
+            (true, true) => (a, fa) = (m, fm),
+            (true, false) => (b, fb) = (m, fm),
+            (false, true) => (b, fb) = (x, fx),
+            (false, false) => (a, fa) = (x, fx),
+        }
+        if fx > fm {
+            (m, fm) = (x, fx);
+        }
+        if b - a < enough {
+            break;
         }
     }
-    if fc > fd { (c, fc) } else { (d, fd) }
+    if fm >= fa && fm >= fb {
+        (m, fm)
+    } else if fa > fb {
+        (a, fa)
+    } else {
+        (b, fb)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::highest;
+
+    #[test]
+    fn the_top_of_a_hump_is_found_inside_and_at_an_end() {
+        for top in [0.05, 0.3, 0.5, 0.77, 1.0] {
+            let (x, value) = highest(0.0, 1.0, |x: f64| (1.3 * (x - top)).cos());
+            assert!((x - top).abs() < 1e-4 && (value - 1.0).abs() < 1e-9, "{top}: {x} {value}");
+        }
+        assert_eq!(highest(0.0, 1.0, |x| x).0, 1.0);
+        // A kink.
+        assert!((highest(0.0, 1.0, |x: f64| -(x - 0.3).abs()).1).abs() < 1e-3);
+    }
 }

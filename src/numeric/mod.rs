@@ -1,10 +1,11 @@
 //! Numerical tools that never heard of a machine part: duals, bracketed roots, quadrature, Chebyshev curves,
-//! Toeplitz systems.
+//! Toeplitz systems, courses over time.
 //!
 //! In: functions of one variable, rows of matrices. Out: roots, integrals, approximations with a stated error.
 //! Absent: physics, units. Equations: none of the paper's.
 
 pub mod chebyshev;
+pub mod course;
 pub mod dual;
 pub mod panels;
 pub mod quadrature;

@@ -13,6 +13,7 @@ const SLIP: &str = "slip:";
 #[derive(Debug, Clone)]
 pub struct ClutchProblem {
     source: String,
+    folder: std::path::PathBuf,
     variables: Vec<String>,
     limits: Limits,
     scenarios: Vec<String>,
@@ -33,6 +34,7 @@ impl ClutchProblem {
     pub fn new(design: &Design, task: &Optimize, variables: Vec<String>, settings: Settings) -> Self {
         Self {
             source: design.source.clone(),
+            folder: design.folder.clone(),
             variables,
             limits: task.limits,
             scenarios: task.scenarios.clone(),
@@ -56,7 +58,7 @@ impl ClutchProblem {
     /// [`Failure::Refused`] with the first reason where the geometry at `x` is impossible.
     pub fn design_at(&self, x: &[f64]) -> Result<Design, Failure> {
         let text = self.file_at(x).map_err(|e| Failure::Refused(e.to_string()))?;
-        Design::parse(&text, "candidate").map_err(|e| {
+        Design::parse_in(&self.folder, &text, "candidate").map_err(|e| {
             let first = e.problems().first().map_or(String::new(), |p| format!("{}: {}", p.key, p.allowed));
             Failure::Refused(first)
         })

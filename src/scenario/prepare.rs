@@ -2,9 +2,11 @@
 
 use crate::design::{Clutch, Friction, Scenario, ScenarioKind};
 use crate::dynamics::{
-    Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
+    Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
+    settled,
 };
 use crate::friction::Stribeck;
+use crate::numeric::course::Course;
 use crate::profile::{Profile, ProfileError};
 use crate::wedge::{NoCurve, WedgeCurve};
 
@@ -53,7 +55,8 @@ pub struct Prepared {
     pub duration_s: f64,
     /// Shortest period of the excitation, s, if any.
     pub period_s: Option<f64>,
-    /// N_bi at the start, N; for an engagement that under the reversing torque, which it leads to.
+    /// N_bi at the start, N; for an engagement that under the reversing torque, which it leads to, for a transient
+    /// that under its largest torque.
     pub static_normal_n: f64,
     /// Steady overrun, for that kind of scenario and as the start of an engagement.
     pub overrun: Option<Overrun>,
@@ -75,14 +78,34 @@ pub fn place_profile(clutch: &Clutch) -> Result<Profile, ProfileError> {
     )
 }
 
+/// What the model of a scenario may do without.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Reduction {
+    /// Torque beyond which no further arc of the curve is built, N m.
+    pub reach_nm: Option<f64>,
+    /// Whether a constant mean speed is taken for rest.
+    pub at_rest: bool,
+}
+
 /// Build model and initial state.
 ///
 /// # Errors
 /// [`NoScenario`] where the clutch cannot carry the scenario's start.
 pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
+    prepare_reduced(scenario, &Reduction::default())
+}
+
+/// As [`prepare`], without what `reduction` names.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoScenario> {
     let clutch = &scenario.clutch;
     let profile = place_profile(clutch).map_err(NoScenario::Profile)?;
-    let build = |speed| WedgeCurve::build(clutch, &profile, speed).map_err(NoScenario::Curve);
+    let build = |speed: f64| {
+        let speed = if reduction.at_rest { 0.0 } else { speed };
+        WedgeCurve::build_reaching(clutch, &profile, speed, reduction.reach_nm).map_err(NoScenario::Curve)
+    };
     let at_rest = build(0.0)?;
     let alpha_max = alpha_max_rad(clutch, &at_rest);
     let stuck = |place| Mode { place, inner: Grip::Stick, outer: Grip::Stick };
@@ -127,20 +150,69 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
             duration_s,
         } => {
             let free = overrun(clutch, &at_rest, alpha_max, sliding_friction(clutch, free_run_rad_s));
+            let (state, mode) = overrunning(&free, &at_rest, free_run_rad_s);
             let loads = Loads {
                 inner_nm: -reversing_torque_nm,
                 abutment_nm_per_rad: stop_stiffness_nm_per_rad,
                 ..still
             };
             let model = Model::new(clutch, at_rest, loads, alpha_max, bench_inertia_kg_m2);
-            let mut state = [0.0; N_STATE];
-            state[0] = free.alpha_rad;
-            state[6] = free_run_rad_s;
-            let place = if free.normal_inner_n > 0.0 { Place::Arc(0) } else { Place::Open };
-            let mode = Mode { place, inner: Grip::Slip(1.0), outer: Grip::Stick };
             let held = model.curve.at_torque(reversing_torque_nm).map(|p| p.normal_inner_n);
             let prepared = finish(model, state, mode, duration_s, None, Some(free));
             Ok(Prepared { static_normal_n: held.unwrap_or(prepared.static_normal_n), ..prepared })
+        }
+        ScenarioKind::Transient {
+            preload_nm,
+            torque_step_nm,
+            step_time_s,
+            abutment_stiffness_nm_per_rad,
+            duration_s,
+            speed_rad_s,
+            overrun_rad_s,
+        } => {
+            let jump = vec![[step_time_s, preload_nm], [step_time_s, preload_nm + torque_step_nm]];
+            let torque = Course::new(scenario.torque_history.clone().unwrap_or(jump));
+            let speed = scenario.speed_history.clone().and_then(Course::new);
+            let drive = Drive { torque_nm: torque, speed_rad_s: speed };
+            let at_start = drive.speed_rad_s.as_ref().map_or(speed_rad_s, |c| c.at(0.0).0);
+            // The growth of the races is that of one speed: the middle of the extremes in Omega^2, which drives it.
+            let of_curve = drive.speed_rad_s.as_ref().map_or(speed_rad_s, |c| {
+                let [low, high] = c.extremes();
+                (0.5 * (low * low + high * high)).sqrt()
+            });
+            let curve = if of_curve == 0.0 { at_rest } else { build(of_curve)? };
+            let loads = Loads { abutment_nm_per_rad: abutment_stiffness_nm_per_rad, ..still };
+            let free = if overrun_rad_s > 0.0 {
+                let curve = if at_start == of_curve { curve.clone() } else { build(at_start)? };
+                let mu = sliding_friction(clutch, overrun_rad_s);
+                let mut free = overrun(clutch, &curve, alpha_max, mu);
+                free.alpha_rad -= curve.first_contact_rad();
+                Some(free)
+            } else {
+                None
+            };
+            let first_contact = curve.first_contact_rad();
+            let free = free.map(|f| Overrun { alpha_rad: f.alpha_rad + first_contact, ..f });
+            let largest = drive.torque_nm.as_ref().map_or(0.0, |c| c.extremes()[1]);
+            let mut model = Model::new(clutch, curve, loads, alpha_max, 0.0);
+            model.drive = drive;
+            let (state, mode) = match &free {
+                Some(free) => overrunning(free, &model.curve, overrun_rad_s),
+                None => {
+                    let torque_nm = model.drive.torque_at(0.0).max(0.0);
+                    let (state, place) =
+                        settled(&model, torque_nm).ok_or_else(|| NoScenario::NotCarried {
+                            torque_nm,
+                            end_torque_nm: model.curve.end_torque_nm(),
+                            reason: model.curve.end().0.name(),
+                        })?;
+                    (state, stuck(place))
+                }
+            };
+            let held = model.curve.at_torque(largest).map(|p| p.normal_inner_n);
+            let prepared = finish(model, state, mode, duration_s, None, free);
+            let static_normal_n = held.unwrap_or(0.0).max(prepared.static_normal_n);
+            Ok(Prepared { static_normal_n, ..prepared })
         }
         ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
             let curve = build(speed_rad_s)?;
@@ -156,8 +228,18 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
 
 /// mu at A, where the inner race runs ahead of the sprags by `overrun_rad_s`.
 fn sliding_friction(clutch: &Clutch, overrun_rad_s: f64) -> f64 {
-    let Friction { static_, kinetic, decay_s_per_m } = clutch.friction;
+    let Friction { static_, kinetic, decay_s_per_m, .. } = clutch.friction;
     Stribeck { static_, kinetic, decay_s_per_m }.coefficient(overrun_rad_s * clutch.races.inner_radius_m)
+}
+
+/// Start in steady overrun: the sprags ride with the outer race, the inner race runs ahead by `speed_rad_s`.
+fn overrunning(free: &Overrun, curve: &WedgeCurve, speed_rad_s: f64) -> (State, Mode) {
+    let mut state = [0.0; N_STATE];
+    state[0] = free.alpha_rad;
+    state[6] = speed_rad_s;
+    let closed = free.normal_inner_n > 0.0;
+    let place = if closed { Place::Arc(curve.arc_at(free.alpha_rad)) } else { Place::Open };
+    (state, Mode { place, inner: Grip::Slip(1.0), outer: Grip::Stick })
 }
 
 fn finish(

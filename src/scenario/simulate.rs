@@ -2,25 +2,31 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::demand::{Demand, STEPS_PER_PERIOD, demand, demand_at, roll, run_settings};
+use super::error::{ErrorEstimate, Figures, Scales};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
 use crate::dynamics::{
-    Engaged, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Rolling, Run, RunSettings, Sample,
-    SlipRecord, Stop, published, rolling, run,
+    Engaged, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Run, Sample, SlipRecord, Stop, published,
+    run,
 };
 
 /// Settings of a simulation.
 #[derive(Debug, Clone, Copy)]
 pub struct Settings {
-    /// Relative tolerance of a step. Default 1e-8: errors of the angles stay below 1e-8 rad in the paper's scenes.
+    /// What the error of every figure of a simulation must stay below: angles in rad, slip as rad at the inner
+    /// race, times by the duration, forces by the largest of the run, |T|/N, margins and pressure (by the largest)
+    /// as pure numbers. Default 1e-6. Steps are tightened until two runs agree to it. [`demand`] alone runs once,
+    /// at steps of a hundredth of it.
     pub tolerance: f64,
-    /// Longest step, s; `None`: a twentieth of the excitation's period, or 1/200 of the duration without one.
+    /// Longest step, s; `None`: an eighth of the excitation's period (a twentieth where only the demand is asked for),
+    /// or 1/200 of the duration without one.
     pub longest_step_s: Option<f64>,
     /// Samples of the history, 0 for none.
     pub samples: usize,
-    /// Mode changes before the run ends with a name.
+    /// Mode changes before a run ends with a name. Default 100 000.
     pub most_events: u64,
-    /// Steps before the run ends with a name.
+    /// Steps, rejected ones included, before a run ends with a name. Default 200 000: some 3 s.
     pub most_steps: u64,
     /// Set from outside to end the runs at the next step.
     pub interrupt: Option<&'static AtomicBool>,
@@ -29,11 +35,11 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            tolerance: 1e-8,
+            tolerance: 1e-6,
             longest_step_s: None,
             samples: 0,
-            most_events: 200_000,
-            most_steps: 5_000_000,
+            most_events: 100_000,
+            most_steps: 200_000,
             interrupt: None,
         }
     }
@@ -67,42 +73,6 @@ impl Verdict {
     }
 }
 
-/// What pure rolling would demand: the basis of slip margin and contact margin.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Demand {
-    /// mu_req; `None`: no friction suffices, contact would open.
-    pub required_friction: Option<f64>,
-    /// mu_s/mu_req - 1; -1 where no friction suffices.
-    pub slip_margin: f64,
-    /// N_min/N_static of the rolling run, below zero by the tension that rolling would need.
-    pub contact_margin: f64,
-    /// Largest N_bi and N_be of the rolling run, N.
-    pub normal_max_n: [f64; 2],
-    /// Whether the rolling run reached its end; if not, it left the profile or rolled over.
-    pub finished: bool,
-    /// Whether it was interrupted from outside; then nothing of it holds.
-    pub interrupted: bool,
-    /// Right-hand sides it took.
-    pub rhs_evaluations: u64,
-}
-
-/// Differences between the two runs of a simulation.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct ErrorEstimate {
-    /// theta_bi at the end, rad.
-    pub theta_inner_rad: f64,
-    /// theta_be at the end, rad.
-    pub theta_outer_rad: f64,
-    /// Offset, rad.
-    pub offset_rad: f64,
-    /// Net slip at A, m.
-    pub net_slip_m: f64,
-    /// Smallest N_bi, N.
-    pub normal_min_n: f64,
-    /// Slip margin.
-    pub slip_margin: f64,
-}
-
 /// Result of a simulation.
 #[derive(Debug, Clone)]
 pub struct Simulation {
@@ -129,10 +99,16 @@ pub struct Simulation {
     pub peaks: Peaks,
     /// Largest Hertz pressure, Pa.
     pub hertz_peak_pa: f64,
+    /// Hertz pressure of the static load that the scene is about (preload, reversing or largest torque), Pa.
+    pub hertz_static_pa: f64,
+    /// Hertz pressure at A at the smallest N_bi, Pa.
+    pub hertz_least_pa: f64,
     /// N_bi at the start, N.
     pub static_normal_n: f64,
     /// Rolling demand; `None` where the run was interrupted, and in overrun, where nothing is to stick.
     pub demand: Option<Demand>,
+    /// Whether the friction law was left out: the pure-rolling run is the run.
+    pub rolled: bool,
     /// Mode changes.
     pub events: u64,
     /// Steps of both runs.
@@ -141,6 +117,13 @@ pub struct Simulation {
     pub rhs_evaluations: u64,
     /// Error estimate; `None` for static kinds, which are exact to 1e-12, and where the run was interrupted.
     pub error: Option<ErrorEstimate>,
+    /// Whether every error is below the tolerance asked for.
+    pub tolerance_reached: bool,
+    /// Smallest and largest theta_bi at the end over all runs made, rad: where the tolerance is not reached, what
+    /// can be said in place of a digit.
+    pub spread_rad: [f64; 2],
+    /// Where the run gave up at its limit of steps: the fastest rate in the motion then, rad/s.
+    pub fastest_rad_s: Option<f64>,
     /// History.
     pub samples: Vec<Sample>,
     /// When A first carried load without overrunning; `None`: never, or an equilibrium.
@@ -151,81 +134,95 @@ pub struct Simulation {
     pub overrun: Option<Overrun>,
 }
 
-fn run_settings(prepared: &Prepared, settings: &Settings, tolerance: f64, samples: usize) -> RunSettings {
-    // Short enough for four looks per step to see every half wave of excitation.
-    let chosen = || prepared.period_s.map_or(prepared.duration_s / 200.0, |p| p / 20.0);
-    let longest_step_s = settings.longest_step_s.unwrap_or_else(chosen);
-    RunSettings {
-        tolerance,
-        duration_s: prepared.duration_s,
-        longest_step_s,
-        most_events: settings.most_events,
-        most_steps: settings.most_steps,
-        samples,
-        rolling: false,
-        interrupt: settings.interrupt,
-    }
-}
+/// Loosest and tightest relative tolerance of a step.
+const STEP_TOLERANCES: [f64; 2] = [1e-4, 1e-13];
 
-/// Pure-rolling demand of a prepared scenario; static kinds read it off the curve. An engagement is rolled from
-/// the moment at which it has ceased to overrun.
-pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
-    let mu = prepared.model.friction.static_;
-    if prepared.duration_s == 0.0 {
-        let f = prepared.model.curve.at_normal(prepared.static_normal_n);
-        let required = f.map(|f| f.tan_omega.max(f.tan_nu));
-        return Demand {
-            required_friction: required,
-            slip_margin: required.map_or(-1.0, |r| mu / r - 1.0),
-            contact_margin: 1.0,
-            normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
-            finished: true,
-            interrupted: false,
-            rhs_evaluations: 0,
-        };
-    }
-    let mut s = run_settings(prepared, settings, settings.tolerance, 0);
-    let (mut state, mut place) = (prepared.state, prepared.mode.place);
-    let mut before = 0;
-    if prepared.overrun.is_some() {
-        let free = run(&prepared.model, prepared.state, prepared.mode, &s);
-        before = free.counters.rhs_evaluations;
-        if let Some(start) = free.engaged {
-            (state, place) = (start.state, start.place);
-            s.duration_s -= start.t_s;
-        }
-    }
-    let r: Rolling = rolling(&prepared.model, state, place, &s);
-    let finished = r.stop == Stop::Finished;
-    let required = r.required_friction.filter(|_| finished);
-    Demand {
-        required_friction: required,
-        slip_margin: required.map_or(-1.0, |q| mu / q - 1.0),
-        contact_margin: r.normal_min_n / prepared.static_normal_n.max(f64::MIN_POSITIVE),
-        normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
-        finished,
-        interrupted: r.stop == Stop::Interrupted,
-        rhs_evaluations: before + r.run.counters.rhs_evaluations,
-    }
-}
-
-/// Simulate `scenario` with the event-driven scheme, at a tenth of the tolerance and at the tolerance; the finer
-/// run is the answer and the difference its error estimate.
+/// Simulate `scenario` with the event-driven scheme. Two runs, whose steps differ tenfold in tolerance: the finer is
+/// the answer, the difference its error estimate. Where that exceeds the tolerance asked for, a finer run follows,
+/// until they agree, a run meets its limit of work, or steps reach rounding.
 ///
 /// # Errors
 /// [`NoScenario`] where the scenario has no start; whatever happens afterwards is a result.
 pub fn simulate(scenario: &Scenario, settings: &Settings) -> Result<Simulation, NoScenario> {
-    let prepared = prepare(scenario)?;
+    Ok(simulate_prepared(&prepare(scenario)?, settings, false))
+}
+
+/// As [`simulate`], from a prepared scenario. `reduced`: where the pure-rolling run never asks for as much friction
+/// as there is, it is the run, and the scene is not integrated twice.
+pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool) -> Simulation {
     if prepared.duration_s == 0.0 {
-        return Ok(steady(&prepared, settings));
+        return steady(prepared, settings);
     }
-    let go = |tolerance: f64, samples: usize| {
-        let s = run_settings(&prepared, settings, tolerance, samples);
-        run(&prepared.model, prepared.state, prepared.mode, &s)
+    let go = |tolerance: f64, samples: usize| attempt(prepared, settings, tolerance, samples, reduced);
+    let mut tolerance = (10.0 * settings.tolerance).clamp(100.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
+    let mut coarse = go(tolerance, 0);
+    let (mut steps, mut rhs, mut spread) = (0, 0, [f64::INFINITY, f64::NEG_INFINITY]);
+    loop {
+        tolerance *= 0.1;
+        let fine = if coarse.interrupted() { coarse.clone() } else { go(tolerance, settings.samples) };
+        for theta in [coarse.run.state[2], fine.run.state[2]] {
+            spread = [spread[0].min(theta), spread[1].max(theta)];
+        }
+        let s = conclude(prepared, settings, &fine, &coarse);
+        let gave_up = matches!(fine.run.stop, Stop::StepLimit | Stop::EventLimit | Stop::NotFinite);
+        let last = gave_up || tolerance < 9.0 * STEP_TOLERANCES[1] || s.stop == Stop::Interrupted;
+        if last || s.tolerance_reached {
+            let (steps, rhs_evaluations) = (s.steps + steps, s.rhs_evaluations + rhs);
+            return Simulation { steps, rhs_evaluations, spread_rad: spread, ..s };
+        }
+        (steps, rhs) = (steps + coarse.run.counters.steps, rhs + coarse.rhs_evaluations());
+        coarse = fine;
+    }
+}
+
+/// One run with the demand of pure rolling beside it, at one tolerance.
+#[derive(Clone)]
+struct Try {
+    run: Run,
+    /// `None`: nothing is to stick, or interrupted.
+    demand: Option<Demand>,
+    /// Whether the run is the pure-rolling run.
+    rolled: bool,
+}
+
+impl Try {
+    fn new(prepared: &Prepared, run: Run, demand: impl FnOnce() -> Demand) -> Self {
+        // What overruns to the end is not to stick: there is no demand.
+        let holds = prepared.overrun.is_none() || run.engaged.is_some();
+        let demand = (holds && run.stop != Stop::Interrupted).then(demand);
+        Self { run, demand, rolled: false }
+    }
+
+    fn interrupted(&self) -> bool {
+        self.run.stop == Stop::Interrupted || self.demand.is_some_and(|d| d.interrupted)
+    }
+
+    fn rhs_evaluations(&self) -> u64 {
+        let own = if self.rolled { 0 } else { self.run.counters.rhs_evaluations };
+        own + self.demand.map_or(0, |d| d.rhs_evaluations)
+    }
+}
+
+/// How many tolerances static friction must exceed what rolling needs before the friction law is left out.
+const RESERVE: f64 = 10.0;
+
+fn attempt(prepared: &Prepared, settings: &Settings, tolerance: f64, samples: usize, reduced: bool) -> Try {
+    let mode = prepared.mode;
+    let stuck = mode.inner == Grip::Stick && mode.outer == Grip::Stick && mode.place != Place::Open;
+    let go = || {
+        let s = run_settings(prepared, settings, tolerance, samples, STEPS_PER_PERIOD);
+        run(&prepared.model, prepared.state, mode, &s)
     };
-    let fine = go(0.1 * settings.tolerance, settings.samples);
-    let other = (fine.stop != Stop::Interrupted).then(|| go(settings.tolerance, 0));
-    Ok(conclude(&prepared, settings, fine, other))
+    if !(reduced && stuck && prepared.overrun.is_none()) {
+        return Try::new(prepared, go(), || demand_at(prepared, settings, tolerance));
+    }
+    let (rolling, demand) = roll(prepared, settings, tolerance, samples, STEPS_PER_PERIOD);
+    let suffices =
+        demand.finished && !demand.by_bisection && demand.slip_margin > RESERVE * settings.tolerance;
+    if suffices || demand.interrupted {
+        return Try { run: rolling, demand: Some(demand), rolled: true };
+    }
+    Try::new(prepared, go(), || demand)
 }
 
 /// Simulate `scenario` with the paper's own scheme, kept as a reference: at `step_s` and at half of it; the
@@ -246,14 +243,21 @@ pub fn simulate_published(
         return Ok(steady(&prepared, settings));
     }
     let duration_s = prepared.duration_s;
-    let mut go = |step_s: f64, samples: usize, before: u64| {
+    let mut go = |step_s: f64, samples: usize, before: u64, tolerance: f64| -> Try {
         let s = PublishedSettings { duration_s, step_s, band_m_s, samples };
-        published(&prepared.model, prepared.state, &s, &mut |steps| go_on(before + steps))
+        let run = published(&prepared.model, prepared.state, &s, &mut |steps| go_on(before + steps));
+        Try::new(&prepared, run, || demand_at(&prepared, settings, tolerance))
     };
-    let answer = go(step_s, settings.samples, 0);
-    let before = answer.counters.steps;
-    let other = (answer.stop != Stop::Interrupted).then(|| go(0.5 * step_s, 0, before));
-    Ok(conclude(&prepared, settings, answer, other))
+    let answer = go(step_s, settings.samples, 0, 1e-3 * settings.tolerance);
+    let before = answer.run.counters.steps;
+    let other = if answer.interrupted() {
+        answer.clone()
+    } else {
+        go(0.5 * step_s, 0, before, 1e-2 * settings.tolerance)
+    };
+    let s = conclude(&prepared, settings, &answer, &other);
+    let (a, b) = (answer.run.state[2], other.run.state[2]);
+    Ok(Simulation { spread_rad: [a.min(b), a.max(b)], ..s })
 }
 
 /// Steps of both runs of [`simulate_published`] over `duration_s`.
@@ -262,33 +266,21 @@ pub fn published_steps(duration_s: f64, step_s: f64) -> u64 {
     steps(step_s) + steps(0.5 * step_s)
 }
 
-/// The answer `fine`, its error by `other` (absent: interrupted), the rolling demand, the verdict.
-fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<Run>) -> Simulation {
-    let asked = |tolerance: f64| {
-        let d = demand(prepared, &Settings { tolerance, ..*settings });
-        (!d.interrupted).then_some(d)
-    };
-    let finished = other.filter(|o| o.stop != Stop::Interrupted);
-    let fine_demand = finished.as_ref().and_then(|_| asked(0.1 * settings.tolerance));
-    let coarse_demand = fine_demand.and_then(|_| asked(settings.tolerance));
-    let fine_offset = offset(prepared, &fine);
-    let error = match (&finished, fine_demand, coarse_demand) {
-        (Some(o), Some(f), Some(c)) => Some(ErrorEstimate {
-            theta_inner_rad: (fine.state[2] - o.state[2]).abs(),
-            theta_outer_rad: (fine.state[3] - o.state[3]).abs(),
-            offset_rad: (fine_offset - offset(prepared, o)).abs(),
-            net_slip_m: (slips(&fine)[0].net_m - slips(o)[0].net_m).abs(),
-            normal_min_n: (fine.peaks.normal_min_n - o.peaks.normal_min_n).abs(),
-            slip_margin: (f.slip_margin - c.slip_margin).abs(),
-        }),
-        _ => None,
-    };
-    let agreed = error.zip(finished.as_ref()).and_then(|(error, other)| {
-        let (a, b) = (verdict(&fine, &error)?, verdict(other, &error)?);
+/// The answer `fine`, its error by `other`, the verdict of both.
+fn conclude(prepared: &Prepared, settings: &Settings, fine: &Try, other: &Try) -> Simulation {
+    let whole = !fine.interrupted() && !other.interrupted();
+    let figures = |t: &Try| Figures::of(prepared, &t.run, t.demand);
+    let error = whole.then(|| figures(fine).difference(&figures(other)));
+    let agreed = error.and_then(|error| {
+        let (a, b) = (verdict(&fine.run, &error)?, verdict(&other.run, &error)?);
         Some(if a == b { a } else { Verdict::AtThreshold })
     });
-    let work = |of: fn(&Run) -> u64| of(&fine) + finished.as_ref().map_or(0, of);
-    let demands = [fine_demand, coarse_demand].into_iter().flatten().map(|d| d.rhs_evaluations).sum::<u64>();
+    let scales = Scales::of(prepared, &fine.run);
+    let tolerance_reached = error.is_some_and(|e| scales.worst(&e) <= settings.tolerance);
+    let rhs_evaluations = fine.rhs_evaluations() + if whole { other.rhs_evaluations() } else { 0 };
+    let steps = fine.run.counters.steps + if whole { other.run.counters.steps } else { 0 };
+    let rolled = fine.rolled;
+    let (fine_offset, fine_demand, fine) = (offset(prepared, &fine.run), fine.demand, &fine.run);
     Simulation {
         verdict: agreed,
         // No estimate means that one of the runs was interrupted.
@@ -297,40 +289,52 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: Run, other: Option<R
         theta_inner_rad: fine.state[2],
         theta_outer_rad: fine.state[3],
         offset_rad: fine_offset,
-        inner: slips(&fine)[0],
-        outer: slips(&fine)[1],
+        inner: slips(fine)[0],
+        outer: slips(fine)[1],
         contact_lost_s: fine.open_s,
         peaks: fine.peaks,
         hertz_peak_pa: hertz_peak(prepared, fine.peaks.normal_max_n, fine.peaks.normal_outer_max_n),
+        hertz_static_pa: hertz_at(prepared, prepared.static_normal_n),
+        hertz_least_pa: hertz_at(prepared, fine.peaks.normal_min_n),
         static_normal_n: prepared.static_normal_n,
-        demand: fine_demand,
+        demand: fine_demand.filter(|_| whole),
+        rolled,
         events: fine.events,
-        steps: work(|r| r.counters.steps),
-        rhs_evaluations: work(|r| r.counters.rhs_evaluations) + demands,
+        steps,
+        rhs_evaluations,
         error,
-        samples: fine.samples,
+        tolerance_reached,
+        spread_rad: [fine.state[2]; 2],
+        fastest_rad_s: fine.fastest_rad_s,
+        samples: fine.samples.clone(),
         engaged: fine.engaged,
-        modes: fine.modes,
+        modes: fine.modes.clone(),
         overrun: prepared.overrun,
     }
 }
 
-fn offset(prepared: &Prepared, run: &Run) -> f64 {
+pub(super) fn offset(prepared: &Prepared, run: &Run) -> f64 {
     let phase = |y: &crate::dynamics::State| y[2] - y[3] + prepared.model.curve.windup_rad(y[0]);
     phase(&run.state) - phase(&run.engaged.map_or(prepared.state, |e| e.state))
 }
 
 /// Slip at A and B since the clutch engaged.
-fn slips(run: &Run) -> [SlipRecord; 2] {
+pub(super) fn slips(run: &Run) -> [SlipRecord; 2] {
     let zero = SlipRecord::default();
     let (inner, outer) = run.engaged.map_or((zero, zero), |e| (e.inner, e.outer));
     [run.inner.since(&inner), run.outer.since(&outer)]
 }
 
-fn hertz_peak(prepared: &Prepared, n_bi: f64, n_be: f64) -> f64 {
+pub(super) fn hertz_peak(prepared: &Prepared, n_bi: f64, n_be: f64) -> f64 {
     let elastic = &prepared.model.curve.statics().elastic;
     let inner = prepared.model.curve.at_normal(n_bi).map_or(0.0, |p| p.hertz_inner_pa);
     inner.max(elastic.outer_contact.peak_pressure_pa(n_be.max(0.0)))
+}
+
+/// p_0 at A at static equilibrium with `n_bi`, Pa; 0 without load.
+fn hertz_at(prepared: &Prepared, n_bi: f64) -> f64 {
+    let row = (n_bi > 0.0).then(|| prepared.model.curve.at_normal(n_bi)).flatten();
+    row.map_or(0.0, |p| p.hertz_inner_pa)
 }
 
 /// Net slip beyond which a scene counts as slipped, m (INTERFACE: 1 um).
@@ -339,7 +343,7 @@ const SLIPPED_M: f64 = 1e-6;
 const LOST_S: f64 = 1e-3;
 
 /// `None` where the run ended before it could be told.
-fn verdict(run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
+pub(super) fn verdict(run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
     let left = matches!(run.stop, Stop::CurveEnd | Stop::FellAway);
     if left || run.longest_open_s > LOST_S {
         return Some(Verdict::Disengages);
@@ -396,12 +400,18 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
             ..Peaks::NONE
         },
         hertz_peak_pa: hertz_peak(prepared, n_bi, n_be),
+        hertz_static_pa: hertz_peak(prepared, n_bi, n_be),
+        hertz_least_pa: hertz_at(prepared, n_bi),
         static_normal_n: n_bi,
         demand,
+        rolled: false,
         events: 0,
         steps: 0,
         rhs_evaluations: 0,
         error: None,
+        tolerance_reached: true,
+        spread_rad: [prepared.state[2]; 2],
+        fastest_rad_s: None,
         samples: Vec::new(),
         engaged: None,
         modes: Vec::new(),

@@ -32,6 +32,11 @@ pub fn along(
     slices.solve_along(normal_n, &fit)
 }
 
+/// Whether a design asks for the pressure along its contacts: by the slice law, an end profile or a tilt.
+pub fn asks_for_slices(clutch: &Clutch) -> bool {
+    matches!(clutch.contact, ContactLaw::Slice { .. }) || !clutch.axial.is_straight()
+}
+
 /// The laws `inner` (one per arc) and `outer` of a clutch, shaped along the axis where the design and the law know a
 /// shape; as they are otherwise. All arcs share one factor, that of the first: it is continuous across junctions, and
 /// the radius enters it only through the logarithm of a width.

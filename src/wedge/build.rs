@@ -28,7 +28,22 @@ impl WedgeCurve {
         inner_curvature: InnerCurvature,
     ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), inner_curvature).map_err(NoCurve::NoElastic)?;
-        Self::march(statics, exponent(clutch), speed_rad_s)
+        Self::march(statics, exponent(clutch), speed_rad_s, None)
+    }
+
+    /// As [`Self::build`], without the arcs after the one that carries `reach_nm` (N m), if that is given: the
+    /// curve then ends for the reason [`EndReason::NotBuilt`]; what it has is the same.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_reaching(
+        clutch: &Clutch,
+        profile: &Profile,
+        speed_rad_s: f64,
+        reach_nm: Option<f64>,
+    ) -> Result<Self, NoCurve> {
+        let statics = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
+        Self::march(statics.map_err(NoCurve::NoElastic)?, exponent(clutch), speed_rad_s, reach_nm)
     }
 
     /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).
@@ -40,11 +55,16 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = statics.elastic.local_only();
-        Self::march(statics, exponent(clutch), 0.0)
+        Self::march(statics, exponent(clutch), 0.0, None)
     }
 
-    /// Arc after arc from first contact to the end.
-    fn march(statics: Statics, exponent: f64, speed_rad_s: f64) -> Result<Self, NoCurve> {
+    /// Arc after arc from first contact to the end, or to the arc that carries `reach_nm`.
+    fn march(
+        statics: Statics,
+        exponent: f64,
+        speed_rad_s: f64,
+        reach_nm: Option<f64>,
+    ) -> Result<Self, NoCurve> {
         let profile = statics.profile.clone();
         let beta0 = profile.beta0_rad;
         // The arc on which first contact lies at this speed: growth of the race may already have turned it.
@@ -90,6 +110,12 @@ impl WedgeCurve {
             n_from = n_until;
             if let Some(reason) = reason {
                 end = reason;
+                break;
+            }
+            if let (Some(reach), Ok(c)) = (reach_nm, statics.closure(k, n_until, speed_rad_s, shift))
+                && c.torque_nm(statics.count).v > reach
+            {
+                end = EndReason::NotBuilt;
                 break;
             }
         }

@@ -15,6 +15,8 @@ pub enum EndReason {
     RollsOver,
     /// No equilibrium was found.
     NoConvergence,
+    /// Nobody asked for the arcs beyond.
+    NotBuilt,
 }
 
 impl EndReason {
@@ -24,6 +26,7 @@ impl EndReason {
             Self::OffProfile => "off-profile",
             Self::RollsOver => "rolls-over",
             Self::NoConvergence => "no-convergence",
+            Self::NotBuilt => "not-built",
         }
     }
 }

@@ -15,7 +15,7 @@ mod patch;
 mod stiffness;
 mod table;
 
-pub use axial::{Side, along, knows_shape};
+pub use axial::{Side, along, asks_for_slices, knows_shape};
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};

@@ -36,9 +36,10 @@ pub fn clutch(arcs: &[(f64, f64)]) -> (Clutch, Profile) {
         },
         spring: Spring { stiffness_nm_per_rad: 0.01, drag_torque_nm: 0.0166 },
         materials: Materials { sprag: steel, inner_race: steel, outer_race: steel },
-        friction: Friction { static_: 0.12, kinetic: 0.09, decay_s_per_m: 5.0 },
+        friction: Friction { static_: 0.12, kinetic: 0.09, decay_s_per_m: 5.0, outer_holds: false },
         contact: ContactLaw::Roller { coefficient: 3.944e-5 },
         axial: Axial::STRAIGHT,
+        hunt_crossley_s_per_m: 0.0,
     };
     let profile = Profile::new(4.68e-3, 0.62e-3, arcs, 11.11e-3, 19.44e-3).unwrap();
     (clutch, profile)

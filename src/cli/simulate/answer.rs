@@ -1,6 +1,7 @@
 //! The JSON object of `simulate`.
 
 use super::Scene;
+use crate::cli::left_out::LeftOut;
 use crate::design::ScenarioKind;
 use crate::dynamics::{SlipRecord, Stop};
 use crate::scenario::ErrorEstimate;
@@ -28,8 +29,17 @@ struct Errors {
     theta_outer_rad: f64,
     offset_rad: f64,
     net_slip_mm: f64,
+    net_slip_outer_mm: f64,
+    slip_distance_mm: [f64; 2],
+    slip_time_s: [f64; 2],
+    contact_lost_s: f64,
+    peak_tan_demand: f64,
     normal_min_n: f64,
+    normal_max_n: f64,
+    hertz_peak_mpa: f64,
+    required_static_friction: f64,
     slip_margin: f64,
+    contact_margin: f64,
 }
 
 /// Keys of `simulate`; null where a figure does not exist for the scenario.
@@ -55,16 +65,29 @@ pub(super) struct Body {
     normal_min_n: Option<f64>,
     normal_max_n: Option<f64>,
     hertz_peak_mpa: Option<f64>,
+    hertz_static_mpa: Option<f64>,
+    hertz_least_mpa: Option<f64>,
+    hertz_rated_mpa: Option<f64>,
     events: Option<u64>,
     steps: Option<u64>,
     rhs_evaluations: Option<u64>,
     error_estimates: Option<Errors>,
+    /// Inputs of an engagement that the paper does not publish for its Figure 8.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    assumptions: Vec<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerance_reached: Option<bool>,
+    /// Smallest and largest theta_inner_end over the runs made, where the tolerance is not reached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spread_rad: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     initial_slip_s: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     drag_torque_nm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     lift_off_rpm: Option<f64>,
+    /// Terms that the planner looked at and kept.
+    kept: Vec<LeftOut>,
     notes: Vec<String>,
 }
 
@@ -85,8 +108,17 @@ impl Errors {
             theta_outer_rad: e.theta_outer_rad,
             offset_rad: e.offset_rad,
             net_slip_mm: e.net_slip_m * 1e3,
+            net_slip_outer_mm: e.net_slip_outer_m * 1e3,
+            slip_distance_mm: e.slip_distance_m.map(|d| d * 1e3),
+            slip_time_s: e.slip_time_s,
+            contact_lost_s: e.contact_lost_s,
+            peak_tan_demand: e.tan_demand[0].max(e.tan_demand[1]),
             normal_min_n: e.normal_min_n,
+            normal_max_n: e.normal_max_n,
+            hertz_peak_mpa: e.hertz_peak_pa / 1e6,
+            required_static_friction: e.required_friction,
             slip_margin: e.slip_margin,
+            contact_margin: e.contact_margin,
         }
     }
 }
@@ -98,12 +130,14 @@ impl Body {
             ScenarioKind::TorsionalExcitation { .. } => "torsional-excitation",
             ScenarioKind::Engagement { .. } => "engagement",
             ScenarioKind::Overrun { .. } => "overrun",
+            ScenarioKind::Transient { .. } => "transient",
         };
         let base = Self {
             scenario: scene.scenario.name.clone(),
             kind,
             method: scene.method,
             verdict: scene.verdict(),
+            kept: scene.planned[1].iter().map(|t| LeftOut::new(t.term, &t.why, &t.cost)).collect(),
             notes: scene.notes.clone(),
             ..Self::default()
         };
@@ -127,10 +161,21 @@ impl Body {
             normal_min_n: Some(s.peaks.normal_min_n),
             normal_max_n: Some(s.peaks.normal_max_n),
             hertz_peak_mpa: Some(s.hertz_peak_pa / 1e6),
+            hertz_static_mpa: Some(s.hertz_static_pa / 1e6),
+            hertz_least_mpa: Some(s.hertz_least_pa / 1e6),
+            hertz_rated_mpa: super::facts::rated_pa(scene).map(|p| p / 1e6),
             events: Some(s.events),
             steps: Some(s.steps),
             rhs_evaluations: Some(s.rhs_evaluations),
             error_estimates: s.error.as_ref().filter(|_| s.stop != Stop::Interrupted).map(Errors::of),
+            assumptions: match scene.scenario.kind {
+                ScenarioKind::Engagement { .. } => {
+                    vec!["free_run_rpm", "reversing_torque_nm", "stop_stiffness_nm_per_rad"]
+                }
+                _ => Vec::new(),
+            },
+            tolerance_reached: s.error.filter(|_| scene.method == "event").map(|_| s.tolerance_reached),
+            spread_rad: s.error.filter(|_| !s.tolerance_reached).map(|_| s.spread_rad),
             initial_slip_s: s.initial_slip_s(),
             drag_torque_nm: s.overrun.filter(|_| overruns).map(|o| o.drag_torque_nm),
             lift_off_rpm: super::facts::lift_off_rad_s(scene).map(|w| w * 30.0 / std::f64::consts::PI),

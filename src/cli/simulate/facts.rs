@@ -5,7 +5,7 @@ use crate::design::ScenarioKind;
 use crate::dynamics::Peaks;
 use crate::margin::{lift_off_rad_s as lift_off, load_state};
 use crate::report::{Cell, Column, Table, Unit};
-use crate::scenario::{Prepared, Simulation, Verdict};
+use crate::scenario::{ErrorEstimate, Prepared, Simulation, Verdict};
 
 /// Lift-off is looked for up to this speed of the outer race, rad/s: 60 000 rev/min, a choice.
 const LIFT_OFF_SEARCH_RAD_S: f64 = 2000.0 * std::f64::consts::PI;
@@ -109,51 +109,97 @@ pub(super) fn table(scene: &Scene) -> Table {
     match &scene.outcome {
         Err(why) => facts.word("no start", &why.to_string()),
         Ok((prepared, s)) if scene.method == "equilibrium" => equilibrium(&mut facts, scene, prepared, s),
-        Ok((_, s)) => motion(&mut facts, s),
+        Ok((_, s)) => motion(&mut facts, scene, s),
     }
     facts.0
 }
 
-fn motion(f: &mut Facts, s: &Simulation) {
+/// Hertz pressure at A at the nominal torque of `[limits]`, Pa: what the paper's 4.1.2 compares with.
+pub(super) fn rated_pa(scene: &Scene) -> Option<f64> {
+    // The scene's own curve may end where the scene has no use for it.
+    let state = load_state(&scene.own).ok()?;
+    Some(state.curve.at_torque(scene.own.limits.nominal_torque_nm?)?.hertz_inner_pa)
+}
+
+/// What an engagement takes for given: the paper publishes none of it for its Figure 8.
+fn assumed(f: &mut Facts, scene: &Scene) {
+    let ScenarioKind::Engagement {
+        free_run_rad_s,
+        reversing_torque_nm,
+        stop_stiffness_nm_per_rad,
+        bench_inertia_kg_m2,
+        ..
+    } = scene.scenario.kind
+    else {
+        return;
+    };
+    f.add("input: free-run speed", free_run_rad_s, Unit::Rpm, None);
+    f.add("input: reversing torque", reversing_torque_nm, Unit::NewtonMetre, None);
+    f.add("input: stiffness of the stop", stop_stiffness_nm_per_rad, Unit::NewtonMetrePerRadian, None);
+    f.add("input: inertia of the bench, kg m²", bench_inertia_kg_m2, Unit::One, None);
+}
+
+fn motion(f: &mut Facts, scene: &Scene, s: &Simulation) {
     let e = s.error;
     f.add("inner race at the end", s.theta_inner_rad, Unit::Radian, e.map(|e| e.theta_inner_rad));
     f.add("outer race at the end", s.theta_outer_rad, Unit::Radian, e.map(|e| e.theta_outer_rad));
     f.add("offset (+ overrunning)", s.offset_rad, Unit::Radian, e.map(|e| e.offset_rad));
     f.add("net slip, inner contact", s.inner.net_m, Unit::Micrometre, e.map(|e| e.net_slip_m));
-    for (name, record) in [("inner contact", &s.inner), ("outer contact", &s.outer)] {
-        f.add(&format!("slip path, {name}"), record.distance_m, Unit::Micrometre, None);
-        f.add(&format!("slip time, {name}"), record.time_s, Unit::Millisecond, None);
+    for (name, record, i) in [("inner contact", &s.inner, 0), ("outer contact", &s.outer, 1)] {
+        f.add(
+            &format!("slip path, {name}"),
+            record.distance_m,
+            Unit::Micrometre,
+            e.map(|e| e.slip_distance_m[i]),
+        );
+        f.add(&format!("slip time, {name}"), record.time_s, Unit::Millisecond, e.map(|e| e.slip_time_s[i]));
     }
+    assumed(f, scene);
     if let Some(initial) = s.initial_slip_s() {
         f.add("initial slip after the reversal", initial, Unit::Millisecond, None);
     }
-    f.add("time without contact", s.contact_lost_s, Unit::Millisecond, None);
-    peaks(f, &s.peaks, e.map(|e| e.normal_min_n));
-    f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, None);
+    f.add("time without contact", s.contact_lost_s, Unit::Millisecond, e.map(|e| e.contact_lost_s));
+    peaks(f, &s.peaks, e);
+    f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, e.map(|e| e.hertz_peak_pa));
+    f.add("smallest Hertz pressure, inner", s.hertz_least_pa, Unit::Megapascal, None);
+    f.add("Hertz pressure, static load", s.hertz_static_pa, Unit::Megapascal, None);
+    if let Some(rated) = rated_pa(scene) {
+        f.add("Hertz pressure, nominal torque", rated, Unit::Megapascal, None);
+    }
     demand(f, s);
     f.count("changes of mode", s.events);
-    f.count("steps, both runs", s.steps);
+    f.count("steps, all runs", s.steps);
     f.count("right-hand sides, all runs", s.rhs_evaluations);
 }
 
-fn peaks(f: &mut Facts, p: &Peaks, error_n: Option<f64>) {
+fn peaks(f: &mut Facts, p: &Peaks, e: Option<ErrorEstimate>) {
     let at = |name: &str, i: usize| {
         format!("{name} (at {})", Unit::Millisecond.show(p.at_s.get(i).copied().unwrap_or(0.0), 5))
     };
-    f.add(&at("smallest normal force, inner", 2), p.normal_min_n, Unit::Newton, error_n);
-    f.add(&at("largest normal force, inner", 3), p.normal_max_n, Unit::Newton, None);
-    f.add(&at("largest |T|/N, inner", 0), p.tan_inner, Unit::One, None);
-    f.add(&at("largest |T|/N, outer", 1), p.tan_outer, Unit::One, None);
+    f.add(&at("smallest normal force, inner", 2), p.normal_min_n, Unit::Newton, e.map(|e| e.normal_min_n));
+    f.add(&at("largest normal force, inner", 3), p.normal_max_n, Unit::Newton, e.map(|e| e.normal_max_n));
+    f.add(&at("largest |T|/N, inner", 0), p.tan_inner, Unit::One, e.map(|e| e.tan_demand[0]));
+    f.add(&at("largest |T|/N, outer", 1), p.tan_outer, Unit::One, e.map(|e| e.tan_demand[1]));
 }
 
 fn demand(f: &mut Facts, s: &Simulation) {
     let Some(d) = s.demand else { return };
     match d.required_friction {
-        Some(needed) => f.add("static friction needed to stick", needed, Unit::One, None),
+        Some(needed) if d.by_bisection => {
+            f.add(
+                "static friction needed to stick (bisected: rolling would open)",
+                needed,
+                Unit::One,
+                s.error.map(|e| e.required_friction),
+            );
+        }
+        Some(needed) => {
+            f.add("static friction needed to stick", needed, Unit::One, s.error.map(|e| e.required_friction))
+        }
         None => f.word("static friction needed to stick", "none suffices"),
     }
     f.add("slip margin", d.slip_margin, Unit::Percent, s.error.map(|e| e.slip_margin));
-    f.add("contact margin", d.contact_margin, Unit::Percent, None);
+    f.add("contact margin", d.contact_margin, Unit::Percent, s.error.map(|e| e.contact_margin));
 }
 
 fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {

@@ -1,9 +1,11 @@
 //! Histories: one row per sample, as CSV and as curves.
 
 use super::Scene;
+use crate::design::Clutch;
 use crate::dynamics::{Grip, Mode, Place, Sample};
 use crate::report::{Cell, Column, Table, Unit};
 use crate::scenario::Prepared;
+use crate::wedge::{Elastic, Side, along, asks_for_slices};
 
 /// One sample with what follows from it, SI.
 pub(super) struct Row {
@@ -16,6 +18,10 @@ pub(super) struct Row {
     pub(super) torque_nm: f64,
     /// p_0 at A and B, Pa.
     pub(super) hertz_pa: [f64; 2],
+    /// Largest pressure of a slice at A and B, Pa, where the design asks for slices.
+    pub(super) slice_pa: Option<[f64; 2]>,
+    /// Torque from outside on the inner race, N m, engaging positive, and mean speed, rad/s.
+    pub(super) acting: [f64; 2],
     /// Arc in contact, from 0, in the profile's count.
     pub(super) arc: usize,
     /// dOC_g/dalpha, m.
@@ -26,10 +32,64 @@ pub(super) struct Row {
 pub(super) fn rows(scene: &Scene) -> Vec<Row> {
     let Ok((prepared, simulation)) = &scene.outcome else { return Vec::new() };
     let count = scene.own.clutch.sprags.count as f64;
-    simulation.samples.iter().map(|sample| row(prepared, count, sample)).collect()
+    let most = [simulation.peaks.normal_max_n, simulation.peaks.normal_outer_max_n];
+    let slices = SlicePeaks::new(prepared, &scene.own.clutch, most);
+    simulation.samples.iter().map(|sample| row(prepared, count, sample, slices.as_ref())).collect()
 }
 
-fn row(prepared: &Prepared, count: f64, sample: &Sample) -> Row {
+/// Largest slice pressure over Hertz's p_0 by normal force, from a few loads: it changes by per cents over decades,
+/// and each load is a system of equations.
+struct SlicePeaks<'p> {
+    elastic: &'p Elastic,
+    /// (ln N, ratio) at A on each arc, then at B.
+    ratios: Vec<Vec<[f64; 2]>>,
+}
+
+/// Loads at which slices are solved for the history, a factor of 10 over three of them.
+const SLICE_LOADS: usize = 16;
+
+impl<'p> SlicePeaks<'p> {
+    fn new(prepared: &'p Prepared, clutch: &Clutch, most_n: [f64; 2]) -> Option<Self> {
+        let elastic = &prepared.model.curve.statics().elastic;
+        if !asks_for_slices(clutch) {
+            return None;
+        }
+        let places = (0..elastic.inner_contact.len()).map(Some).chain([None]);
+        let ratios = places.map(|arc| {
+            let (contact, side) = match arc {
+                Some(k) => (elastic.inner_contact.get(k)?, Side::Inner),
+                None => (&elastic.outer_contact, Side::Outer),
+            };
+            let most = most_n[usize::from(arc.is_none())].max(1.0);
+            let at = |i: usize| {
+                let n = most * 10f64.powf(-(i as f64) / 3.0);
+                let peak = along(clutch, contact, side, n).ok()?.pressure_pa.into_iter().fold(0.0, f64::max);
+                Some([n.ln(), peak / contact.peak_pressure_pa(n)])
+            };
+            (0..SLICE_LOADS).rev().map(at).collect::<Option<Vec<_>>>()
+        });
+        Some(Self { elastic, ratios: ratios.collect::<Option<_>>()? })
+    }
+
+    fn at(&self, arc: usize, n_bi: f64, n_be: f64) -> [f64; 2] {
+        let value = |place: usize, n: f64, p0: f64| {
+            let table = self.ratios.get(place).map_or(&[][..], Vec::as_slice);
+            let right = table.partition_point(|r| r[0] < n.max(f64::MIN_POSITIVE).ln());
+            let ratio = match (right.checked_sub(1).and_then(|i| table.get(i)), table.get(right)) {
+                (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (n.ln() - a[0]) / (b[0] - a[0]),
+                (Some(a), None) => a[1],
+                (None, Some(b)) => b[1],
+                (None, None) => return 0.0,
+            };
+            ratio * p0
+        };
+        let inner = self.elastic.inner_contact.get(arc).map_or(0.0, |c| c.peak_pressure_pa(n_bi.max(0.0)));
+        let outer = self.elastic.outer_contact.peak_pressure_pa(n_be.max(0.0));
+        [value(arc, n_bi, inner), value(self.ratios.len() - 1, n_be, outer)]
+    }
+}
+
+fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePeaks>) -> Row {
     let model = &prepared.model;
     let p = model.point(sample.mode.place, sample.state[0]);
     let f = &sample.forces;
@@ -49,6 +109,8 @@ fn row(prepared: &Prepared, count: f64, sample: &Sample) -> Row {
             elastic.inner_contact.get(arc).map_or(0.0, |c| c.peak_pressure_pa(f.n_bi.max(0.0))),
             elastic.outer_contact.peak_pressure_pa(f.n_be.max(0.0)),
         ],
+        slice_pa: slices.map(|s| s.at(arc, f.n_bi, f.n_be)),
+        acting: [model.drive.torque_at(sample.t) - model.loads.inner_nm, model.mean_speed(sample.t).0],
         arc,
         oc_g_slope_m: p.oc_g_slope,
     }
@@ -112,9 +174,15 @@ pub(super) fn table(scene: &Scene) -> Table {
         number("hertz_inner_mpa", Unit::Megapascal),
         number("hertz_outer_mpa", Unit::Megapascal),
         number("torque_nm", Unit::NewtonMetre),
+        number("acting_torque_nm", Unit::NewtonMetre),
+        number("speed_rpm", Unit::Rpm),
     ]);
+    let rows = rows(scene);
+    if rows.first().is_some_and(|r| r.slice_pa.is_some()) {
+        columns.extend(["slice_peak_inner_mpa", "slice_peak_outer_mpa"].map(|k| number(k, Unit::Megapascal)));
+    }
     let mut table = Table::new(columns);
-    for row in rows(scene) {
+    for row in rows {
         table.row(cells(&row));
     }
     table
@@ -133,6 +201,7 @@ fn cells(row: &Row) -> Vec<Cell> {
     cells.extend(tan.map(Cell::from));
     cells.extend(numbers(&[f.t_bi, f.t_be, f.v_a, f.v_b, y[8], y[9]]));
     cells.extend([word(&sample.mode, true).into(), word(&sample.mode, false).into(), arc]);
-    cells.extend(numbers(&[hertz_pa[0], hertz_pa[1], *torque_nm]));
+    cells.extend(numbers(&[hertz_pa[0], hertz_pa[1], *torque_nm, row.acting[0], row.acting[1]]));
+    cells.extend(row.slice_pa.iter().flat_map(|p| numbers(p)));
     cells
 }

@@ -3,12 +3,15 @@
 use super::Scene;
 use super::history::{Row, rows};
 use crate::cli::left_out::{LeftOut, left_out};
-use crate::design::ScenarioKind;
+use crate::design::{ContactLaw, ScenarioKind};
 use crate::report::Unit;
+use crate::scenario::place_profile;
+use crate::wedge::WedgeCurve;
 
 /// The list for `scene`.
 pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
     let mut list = left_out(&scene.own.clutch);
+    list.extend(scene.planned[0].iter().map(|t| LeftOut::new(t.term, &t.why, &t.cost)));
     let mut add = |term: &str, why: &str, cost: &str| list.push(LeftOut::new(term, why, cost));
     let kind = &scene.scenario.kind;
     if !matches!(kind, ScenarioKind::Static { .. }) {
@@ -26,11 +29,20 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
     if scene.method == "equilibrium" {
         return list;
     }
-    add(
-        "contact damping",
-        "the contacts are elastic, as in the paper; damped are only the races against one another",
-        "not estimated; it would take energy out of every oscillation",
-    );
+    if scene.own.clutch.hunt_crossley_s_per_m == 0.0 {
+        let cost = scene.damping.as_ref().map_or_else(
+            || {
+                "not estimated; the contact stays closed, it would only take energy out of oscillations"
+                    .to_owned()
+            },
+            super::damping::Effect::words,
+        );
+        add(
+            "contact damping",
+            "the contacts are elastic, as in the paper; damped are only the races against one another",
+            &cost,
+        );
+    }
     add(
         "impact where a contact closes",
         "velocities are continuous at touch, nothing bounces",
@@ -41,11 +53,13 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
         "the races are rigid in rotation, their growth is quasi-static",
         "not estimated",
     );
-    add(
-        "pressure along the length over time",
-        "the load is spread as the contact law spreads it at rest",
-        "none on the motion; edge pressure in time not estimated",
-    );
+    if !matches!(scene.own.clutch.contact, ContactLaw::Slice { .. }) {
+        add(
+            "pressure along the length over time",
+            "the load is spread as the contact law spreads it at rest",
+            "none on the motion; edge pressure in time not estimated: take the slice law",
+        );
+    }
     let rows = rows(scene);
     add(
         "radial inertia of the sprag",
@@ -54,11 +68,16 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
     );
     let speed = match kind {
         ScenarioKind::TorsionalExcitation { speed_rad_s, .. } => *speed_rad_s,
+        ScenarioKind::Transient { .. } => {
+            scene.outcome.as_ref().map_or(0.0, |(p, _)| p.model.curve.speed_rad_s())
+        }
         _ => 0.0,
     };
     add(
         "growth of the races by changes of speed",
-        if speed == 0.0 {
+        if scene.scenario.speed_history.is_some() {
+            "the wedge curve is that at one speed, the middle of the history in Omega^2; centrifugal force follows it"
+        } else if speed == 0.0 {
             "the wedge curve is that at rest; speed enters through phi'^2 alone"
         } else {
             "the wedge curve is that at the mean speed; its fluctuation enters through phi'^2 alone"
@@ -93,6 +112,32 @@ fn growth(scene: &Scene, rows: &[Row], speed: f64) -> String {
     let Ok((prepared, _)) = &scene.outcome else { return "not estimated".to_owned() };
     let fluctuation = rows.iter().map(|r| r.rates[3].abs()).fold(0.0, f64::max);
     let race = &prepared.model.curve.statics().elastic.outer_race;
+    if let Some(history) = &scene.scenario.speed_history {
+        return growth_over(scene, history);
+    }
     let change = race.centrifugal_bore_growth_m(speed + fluctuation) - race.centrifugal_bore_growth_m(speed);
     format!("outer race track within {} over this run", Unit::Micrometre.show(change, 2))
+}
+
+/// What one wedge curve for a history of speeds leaves out: the windup at the largest torque by the curves at the
+/// extremes.
+fn growth_over(scene: &Scene, history: &[[f64; 2]]) -> String {
+    let ends = [
+        history.iter().map(|r| r[1]).fold(f64::INFINITY, f64::min),
+        history.iter().map(|r| r[1]).fold(0.0, f64::max),
+    ];
+    let at = |speed: f64| {
+        let curve =
+            WedgeCurve::build(&scene.own.clutch, &place_profile(&scene.own.clutch).ok()?, speed).ok()?;
+        let windup = scene.drawn_torque_nm().and_then(|t| curve.at_torque(t)).map_or(0.0, |p| p.windup_rad);
+        Some((windup, curve.first_contact_rad()))
+    };
+    match ends.map(at) {
+        [Some(low), Some(high)] => format!(
+            "between the slowest and the fastest, {} of windup at the largest torque, {} of sprag rotation at first contact",
+            Unit::Radian.show((high.0 - low.0).abs(), 2),
+            Unit::Radian.show((high.1 - low.1).abs(), 2)
+        ),
+        _ => "not estimated: no curve at one of the extremes".to_owned(),
+    }
 }

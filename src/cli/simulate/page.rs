@@ -10,6 +10,7 @@ use crate::dynamics::Mode;
 use crate::report::plot::Dash;
 use crate::report::{Curve, Page, Plot, Span, Strip, Unit};
 use crate::scenario::{Prepared, Simulation, place_profile};
+use crate::wedge::{Side, along};
 
 const TIME: &str = "Time, ms";
 
@@ -72,6 +73,20 @@ fn described(scene: &Scene) -> String {
             Unit::Second.show_plain(duration_s, 5),
             scene.method
         ),
+        ScenarioKind::Transient { duration_s, .. } => {
+            let [torque, speed] = courses(scene);
+            let start = match scene.scenario.kind {
+                ScenarioKind::Transient { overrun_rad_s, .. } if overrun_rad_s > 0.0 => {
+                    format!(", from an overrun at {}", Unit::Rpm.show_plain(overrun_rad_s, 6))
+                }
+                _ => String::new(),
+            };
+            let length = Unit::Second.show_plain(duration_s, 5);
+            format!(
+                "Torque on the inner race {torque}, mean speed {speed}{start}; {length} long, method: {}.",
+                scene.method
+            )
+        }
         ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => format!(
             "Outer race at {}, the inner race ahead of it by {}.",
             Unit::Rpm.show_plain(speed_rad_s, 6),
@@ -79,6 +94,41 @@ fn described(scene: &Scene) -> String {
         ),
     };
     what + &overrides
+}
+
+/// Course of the torque and of the mean speed of a transient, in words.
+fn courses(scene: &Scene) -> [String; 2] {
+    let ScenarioKind::Transient { preload_nm, torque_step_nm, step_time_s, speed_rad_s, .. } =
+        scene.scenario.kind
+    else {
+        return [String::new(), String::new()];
+    };
+    let nm = |t: f64| Unit::NewtonMetre.show_plain(t, 5);
+    let span = |rows: &[[f64; 2]], unit: Unit| {
+        let fold = |f: fn(f64, f64) -> f64, from: f64| rows.iter().map(|r| r[1]).fold(from, f);
+        let (low, high) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
+        format!(
+            "from a file, {} rows, {} to {}",
+            rows.len(),
+            unit.show_plain(low, 5),
+            unit.show_plain(high, 5)
+        )
+    };
+    let torque = match &scene.scenario.torque_history {
+        Some(rows) => span(rows, Unit::NewtonMetre),
+        None if torque_step_nm == 0.0 => nm(preload_nm),
+        None => format!(
+            "{}, from {} on {}",
+            nm(preload_nm),
+            Unit::Second.show_plain(step_time_s, 5),
+            nm(preload_nm + torque_step_nm)
+        ),
+    };
+    let speed = match &scene.scenario.speed_history {
+        Some(rows) => span(rows, Unit::Rpm),
+        None => Unit::Rpm.show_plain(speed_rad_s, 6),
+    };
+    [torque, speed]
 }
 
 fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation) {
@@ -123,8 +173,64 @@ fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
         &slip.to_svg(),
         "Signed slip distance since the clutch engaged; at the inner contact + is towards overrunning.",
     );
+    pressures(page, scene, prepared, s, &rows);
     let torque = plot("Torque of the clutch, Nm").curve("", curve(&|r| r.torque_nm));
     page.figure(&torque.to_svg(), "Torque on the inner race, positive in the sense that the clutch carries.");
+}
+
+/// Contact pressure over time (the paper's Figures 9 and 10) and, with slices, along the length.
+fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
+    let mega = |value: &dyn Fn(&Row) -> f64| -> Vec<[f64; 2]> {
+        rows.iter().map(|r| [r.sample.t * 1e3, value(r) / 1e6]).collect()
+    };
+    let mut plot = Plot::new(TIME, "Contact pressure, MPa")
+        .sized(720.0, 300.0)
+        .curve("inner contact", mega(&|r| r.hertz_pa[0]))
+        .curve("outer contact", mega(&|r| r.hertz_pa[1]))
+        .level(s.hertz_static_pa / 1e6, "static load");
+    if rows.iter().any(|r| r.slice_pa.is_some()) {
+        plot = plot.curve("inner contact, end slice", mega(&|r| r.slice_pa.map_or(f64::NAN, |p| p[0])));
+    }
+    let rated = match facts::rated_pa(scene) {
+        Some(p) => {
+            let share = Unit::Percent.show(s.hertz_peak_pa / p, 3);
+            format!(
+                " At nominal torque it is {}: the largest here is {share} of that.",
+                Unit::Megapascal.show(p, 4)
+            )
+        }
+        None => String::new(),
+    };
+    page.figure(
+        &plot.to_svg(),
+        &format!("Hertz pressure p0 at both contacts beside that of the static load.{rated}"),
+    );
+    let curve = &prepared.model.curve;
+    let elastic = &curve.statics().elastic;
+    let clutch = &scene.own.clutch;
+    let over_length = |n: f64| -> Option<Vec<[f64; 2]>> {
+        let arc = curve.first_arc() + curve.arc_at(curve.alpha_at_normal(n)?);
+        let found = along(clutch, elastic.inner_contact.get(arc)?, Side::Inner, n).ok()?;
+        Some(found.y_m.iter().zip(&found.pressure_pa).map(|(y, p)| [y * 1e3, p / 1e6]).collect())
+    };
+    let loads = [
+        ("largest load", s.peaks.normal_max_n),
+        ("static load", s.static_normal_n),
+        ("smallest load", s.peaks.normal_min_n),
+    ];
+    let curves: Vec<_> = loads
+        .into_iter()
+        .filter(|l| l.1 > 0.0)
+        .filter_map(|(name, n)| Some((name, over_length(n)?)))
+        .collect();
+    let Some(slices) = curves.first().map(|c| c.1.len()) else { return };
+    let mut plot = Plot::new("Along the sprag, mm", "Contact pressure, inner, MPa").sized(720.0, 300.0);
+    for (name, points) in curves {
+        plot = plot.curve(name, points);
+    }
+    let caption =
+        format!("Pressure along the sprag by {slices} slices; at a square end it grows with their number.");
+    page.figure(&plot.to_svg(), &caption);
 }
 
 /// When, and where in the excitation's period.

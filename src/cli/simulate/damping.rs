@@ -1,0 +1,65 @@
+//! What contact damping changes: the same scene with and without it.
+
+use super::Scene;
+use crate::design::Scenario;
+use crate::dynamics::Stop;
+use crate::report::Unit;
+use crate::scenario::{Settings, Verdict, prepare, simulate_prepared};
+
+/// Damping that is tried where a design has none, s/m: the middle of the 0.08 to 0.32 that Hunt and Crossley (1975)
+/// give for steel.
+const TRIED_S_PER_M: f64 = 0.2;
+
+/// What the other damping does.
+pub(super) struct Effect {
+    /// Damping of the other run, s/m.
+    other_s_per_m: f64,
+    /// By how much the inner race ends elsewhere, rad.
+    moved_rad: f64,
+    /// Error of that difference, rad.
+    error_rad: f64,
+    verdict: &'static str,
+    same: bool,
+}
+
+/// Run `scene` with the damping taken out, or, where it has none and its contact opened, with some. `None` where
+/// there is nothing to ask.
+pub(super) fn effect(scene: &Scene, settings: &Settings) -> Option<Effect> {
+    let own = scene.simulation().filter(|s| scene.method == "event" && s.stop == Stop::Finished)?;
+    let given = scene.scenario.clutch.hunt_crossley_s_per_m;
+    if given == 0.0 && own.contact_lost_s == 0.0 {
+        return None;
+    }
+    let mut other = Scenario::clone(scene.scenario);
+    other.clutch.hunt_crossley_s_per_m = if given == 0.0 { TRIED_S_PER_M } else { 0.0 };
+    let settings = Settings { samples: 0, ..*settings };
+    let s = simulate_prepared(&prepare(&other).ok()?, &settings, true);
+    let error_rad = own.error?.theta_inner_rad + s.error?.theta_inner_rad;
+    Some(Effect {
+        other_s_per_m: other.clutch.hunt_crossley_s_per_m,
+        moved_rad: s.theta_inner_rad - own.theta_inner_rad,
+        error_rad,
+        verdict: s.verdict.map_or("no verdict", Verdict::name),
+        same: s.verdict == own.verdict,
+    })
+}
+
+impl Effect {
+    /// The other run, and what it changes.
+    pub(super) fn words(&self) -> String {
+        let other = match self.other_s_per_m {
+            0.0 => "without contact damping".to_owned(),
+            c => format!("with contact damping of {c} s/m (steel: 0.08 to 0.32)"),
+        };
+        let moved = Unit::Radian.show(self.moved_rad.abs(), 2);
+        let verdict =
+            if self.same { "the same verdict".to_owned() } else { format!("verdict {}", self.verdict) };
+        format!("{other} the inner race ends {moved} elsewhere, {verdict}")
+    }
+
+    /// A warning where the result depends on it by more than its error.
+    pub(super) fn note(&self) -> Option<String> {
+        let depends = !self.same || self.moved_rad.abs() > self.error_rad;
+        depends.then(|| format!("the result depends on contact damping: {}", self.words()))
+    }
+}

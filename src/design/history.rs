@@ -1,0 +1,206 @@
+//! Histories over time from a CSV file named in a scenario.
+//!
+//! In: the text of a file with two named columns. Out: rows in SI, or every fault with line and column. Absent:
+//! reading files, what a history does. Equations: none.
+
+use super::check::rad_s;
+use super::diagnostic::{Place, Problem};
+
+/// Which history a file holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum HistoryKind {
+    /// Engaging torque on the inner race; two rows at one time are a jump.
+    Torque,
+    /// Mean speed.
+    Speed,
+}
+
+/// Most rows that are read.
+const MOST_ROWS: usize = 100_000;
+/// Most problems that are told of one file.
+const MOST_PROBLEMS: usize = 20;
+
+impl HistoryKind {
+    fn column(self) -> &'static str {
+        match self {
+            Self::Torque => "torque_nm",
+            Self::Speed => "speed_rpm",
+        }
+    }
+
+    /// Largest magnitude of a value, in the file's unit.
+    fn most(self) -> f64 {
+        match self {
+            Self::Torque => 1e6,
+            Self::Speed => 1e6,
+        }
+    }
+
+    fn allowed(self) -> String {
+        match self {
+            Self::Torque => format!("a finite number of at most {:e} N m in magnitude", self.most()),
+            Self::Speed => format!("a finite number from 0 to {:e} rev/min", self.most()),
+        }
+    }
+}
+
+/// Rows (time in s, value in N m or rad/s) of a CSV text with the header `time_s,torque_nm` or `time_s,speed_rpm`;
+/// lines that begin with # are comments.
+pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<Problem>> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let mut faults = Faults { text, problems: Vec::new() };
+    let mut rows: Vec<[f64; 2]> = Vec::new();
+    let header = format!("time_s,{}", kind.column());
+    let mut named = false;
+    for record in reader.records() {
+        let record = match record {
+            Ok(record) => record,
+            Err(e) => {
+                let at = e.position().map_or(0, |p| p.byte() as usize);
+                faults.add("", at..at + 1, e.to_string(), "rows of two numbers", "mend this row");
+                break;
+            }
+        };
+        let fields: Vec<&str> = record.iter().collect();
+        let start = record.position().map_or(0, |p| p.byte() as usize);
+        // The position may be that of a comment before the record.
+        let start = start + text.get(start..).and_then(|rest| rest.find(&fields.join(","))).unwrap_or(0);
+        let whole = fields.join(",");
+        if !named {
+            named = true;
+            if whole != header {
+                let found = format!("the header {whole:?}");
+                let help = format!("begin the file with the line {header}");
+                faults.add("", start..start + whole.len().max(1), found, &header, &help);
+                break;
+            }
+            continue;
+        }
+        let [time, value] = fields.as_slice() else {
+            let found = format!("{} fields", fields.len());
+            faults.add("", start..start + whole.len().max(1), found, "two fields", "write time and value");
+            continue;
+        };
+        let at_value = start + time.len() + 1;
+        let spans = [start..start + time.len().max(1), at_value..at_value + value.len().max(1)];
+        let [time_at, value_at] = spans;
+        let t = time.parse::<f64>().ok().filter(|t| (0.0..=1e9).contains(t));
+        let lowest = if kind == HistoryKind::Torque { -kind.most() } else { 0.0 };
+        let v = value.parse::<f64>().ok().filter(|v| (lowest..=kind.most()).contains(v));
+        if t.is_none() {
+            faults.add(
+                "time_s",
+                time_at.clone(),
+                quoted(time),
+                "a finite time of at least 0 s",
+                "mend the time",
+            );
+        }
+        if v.is_none() {
+            faults.add(kind.column(), value_at, quoted(value), &kind.allowed(), "mend the value");
+        }
+        let (Some(t), Some(v)) = (t, v) else { continue };
+        let v = if kind == HistoryKind::Speed { rad_s(v) } else { v };
+        if let Some(&[before, _]) = rows.last() {
+            let jumps = rows.iter().rev().take_while(|r| r[0] == t).count() > 1;
+            if kind == HistoryKind::Speed && t <= before {
+                let allowed = format!("later than the row before, {before} s");
+                faults.add("time_s", time_at, quoted(time), &allowed, "a speed cannot jump; sort the rows");
+            } else if t < before || jumps {
+                let allowed =
+                    format!("not before the row before, {before} s, and at most two rows at one time");
+                faults.add(
+                    "time_s",
+                    time_at,
+                    quoted(time),
+                    &allowed,
+                    "sort the rows; two at one time are a jump",
+                );
+            }
+        }
+        rows.push([t, v]);
+        if rows.len() > MOST_ROWS {
+            faults.add(
+                "",
+                start..start + 1,
+                "one row more".to_owned(),
+                "100 000 rows",
+                "thin the history out",
+            );
+        }
+        if faults.problems.len() >= MOST_PROBLEMS {
+            break;
+        }
+    }
+    if rows.len() < 2 && faults.problems.is_empty() {
+        let found = format!("{} rows of numbers", rows.len());
+        let help = format!("write {header} and one row per point below it");
+        faults.add("", 0..1, found, "at least two", &help);
+    }
+    if faults.problems.is_empty() { Ok(rows) } else { Err(faults.problems) }
+}
+
+fn quoted(field: &str) -> String {
+    format!("{:?}", field.chars().take(40).collect::<String>())
+}
+
+struct Faults<'a> {
+    text: &'a str,
+    problems: Vec<Problem>,
+}
+
+impl Faults<'_> {
+    fn add(&mut self, key: &str, span: std::ops::Range<usize>, found: String, allowed: &str, help: &str) {
+        self.problems.push(Problem {
+            key: key.to_owned(),
+            place: Some(Place::of(self.text, span)),
+            found,
+            allowed: allowed.to_owned(),
+            help: help.to_owned(),
+            also: Vec::new(),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_read_in_si_and_a_torque_may_jump() {
+        let text = "# ramp\ntime_s,torque_nm\n0, 0\n0.1,16.8 \n# jump\n0.1,-2\n0.2,-2\n";
+        let read = rows(text, HistoryKind::Torque).unwrap();
+        assert_eq!(read, [[0.0, 0.0], [0.1, 16.8], [0.1, -2.0], [0.2, -2.0]]);
+        let read = rows("time_s,speed_rpm\n0,0\n1,30\n", HistoryKind::Speed).unwrap();
+        assert!((read[1][1] - std::f64::consts::PI).abs() < 1e-15);
+    }
+
+    #[test]
+    fn each_fault_is_told_with_line_column_found_and_allowed() {
+        let torque = HistoryKind::Torque;
+        for (text, kind, line, column, words) in [
+            ("t,torque_nm\n0,1\n", torque, 1, 1, "time_s,torque_nm"),
+            ("time_s,torque_nm\n0,1\n0.5,abc\n", torque, 3, 5, "\"abc\""),
+            ("# c\ntime_s,torque_nm\n0,1\n0.5,nan\n", torque, 4, 5, "finite"),
+            ("time_s,torque_nm\n0,1\n-1,2\n", torque, 3, 1, "at least 0"),
+            ("time_s,torque_nm\n0.5,1\n0.25,2\n", torque, 3, 1, "0.5 s"),
+            ("time_s,torque_nm\n0,1\n0,2\n0,3\n", torque, 4, 1, "two rows at one time"),
+            ("time_s,torque_nm\n0,1,2\n1,1\n", torque, 2, 1, "3 fields"),
+            ("time_s,torque_nm\n0,1e9\n1,1\n", torque, 2, 3, "1e6"),
+            ("time_s,torque_nm\n0,1\n", torque, 1, 1, "at least two"),
+            ("", torque, 1, 1, "0 rows"),
+            ("time_s,speed_rpm\n0,1\n0,2\n", HistoryKind::Speed, 3, 1, "cannot jump"),
+            ("time_s,speed_rpm\n0,1\n1,-2\n", HistoryKind::Speed, 3, 3, "from 0"),
+        ] {
+            let problems = rows(text, kind).unwrap_err();
+            let place = problems[0].place.as_ref().unwrap();
+            assert_eq!((place.line, place.column), (line, column), "{text:?}: {problems:?}");
+            assert!(problems[0].to_string().contains(words), "{text:?}: {}", problems[0]);
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! What happens at a change of mode: where A goes, which contacts slip, how the velocities jump.
+
+use super::choose::{Known, choose};
+use super::crossing::cross;
+use super::driver::Driver;
+use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER};
+use super::model::{Grip, Mode, Place, State};
+use super::run::Stop;
+
+impl Driver<'_> {
+    /// Change of mode at event `which`.
+    pub(super) fn change(&mut self, which: usize, t: f64, mut y: State) -> bool {
+        let model = self.model;
+        let mode = self.run.mode;
+        let f = model.forces(&mode, t, &y);
+        let known = |grip: Grip, here: bool, tangential: f64, outward: f64| match grip {
+            Grip::Stick if here => Known::Released(outward * tangential.signum()),
+            Grip::Stick | Grip::Slip(_) if here => Known::Still,
+            Grip::Stick => Known::Still,
+            Grip::Slip(s) => Known::Slips(s),
+        };
+        // T_bi = -sgn(v_A) mu N, T_be = +sgn(v_B) mu N.
+        let inner = known(mode.inner, which == INNER, f.t_bi, -1.0);
+        let outer = known(mode.outer, which == OUTER, f.t_be, 1.0);
+        let place = match which {
+            LOWER => match mode.place {
+                Place::Arc(0) if self.settings.rolling => Place::Tension,
+                Place::Arc(0) => Place::Open,
+                Place::Arc(k) => Place::Arc(k - 1),
+                Place::Open | Place::Tension => {
+                    self.stop(Stop::FellAway);
+                    return false;
+                }
+            },
+            UPPER => match mode.place {
+                Place::Arc(k) if k + 1 < model.curve.arc_count() => Place::Arc(k + 1),
+                Place::Arc(_) => {
+                    self.stop(Stop::CurveEnd);
+                    return false;
+                }
+                Place::Open | Place::Tension => Place::Arc(0),
+            },
+            _ => mode.place,
+        };
+        let next = if which == LOWER || which == UPPER {
+            self.pass(&mode, place, t, &mut y, inner, outer)
+        } else {
+            choose(model, t, &y, place, inner, outer)
+        };
+        self.run.state = y;
+        self.enter(next);
+        true
+    }
+
+    /// Pass into another place; a closed contact that touches begins in slip unless v = 0.
+    fn pass(&mut self, mode: &Mode, place: Place, t: f64, y: &mut State, inner: Known, outer: Known) -> Mode {
+        let model = self.model;
+        let (p, q) = (model.point(mode.place, y[0]), model.point(place, y[0]));
+        let rates = model.rates(mode, &p, y);
+        let touching = mode.place == Place::Open;
+        let held =
+            Mode { place, inner: if touching { Grip::Slip(1.0) } else { mode.inner }, outer: mode.outer };
+        let after = cross(model, &held, &p, &q, rates);
+        y[4..8].copy_from_slice(&after);
+        if self.settings.rolling {
+            return Mode { place, ..*mode };
+        }
+        let (v_a, v_b) = model.slip_velocities(&q, &after);
+        let inner = match inner {
+            _ if touching => moving(v_a),
+            Known::Slips(_) => moving(v_a),
+            other => other,
+        };
+        let outer = if matches!(outer, Known::Slips(_)) { moving(v_b) } else { outer };
+        choose(model, t, y, place, inner, outer)
+    }
+
+    /// An event function is negative right after a change although the choice was consistent to rounding:
+    /// settle it by choosing again with every still contact free.
+    pub(super) fn give_way(&mut self, now: &[f64; EVENTS]) -> bool {
+        if !self.count_event() {
+            return false;
+        }
+        let mode = self.run.mode;
+        let (t, y) = (self.run.t_s, self.run.state);
+        let again = |grip: Grip, negative: bool| match grip {
+            Grip::Slip(s) if !negative => Known::Slips(s),
+            _ => Known::Still,
+        };
+        let next = if now[LOWER] < 0.0 || now[UPPER] < 0.0 {
+            let which = if now[LOWER] < 0.0 { LOWER } else { UPPER };
+            return self.change(which, t, y);
+        } else {
+            choose(
+                self.model,
+                t,
+                &y,
+                mode.place,
+                again(mode.inner, now[INNER] < 0.0),
+                again(mode.outer, now[OUTER] < 0.0),
+            )
+        };
+        if next == mode {
+            // Nothing better: go on in this mode for a step that rounding cannot undo.
+            self.run.t_s = t + 1e-12;
+            let rhs = |t: f64, y: &State| self.model.slope(&mode, t, y).ok_or(());
+            let Ok(slope) = rhs(t, &y) else {
+                self.stop(Stop::NotFinite);
+                return false;
+            };
+            for (y, rate) in self.run.state.iter_mut().zip(slope) {
+                *y += 1e-12 * rate;
+            }
+        }
+        self.enter(next);
+        true
+    }
+
+    pub(super) fn enter(&mut self, mode: Mode) {
+        let (t, y) = (self.run.t_s, &mut self.run.state);
+        let p = self.model.point(mode.place, y[0]);
+        let rates = self.model.rates(&mode, &p, y);
+        y[4..8].copy_from_slice(&rates);
+        let both = mode.inner == Grip::Stick && mode.outer == Grip::Stick;
+        let closed = matches!(mode.place, Place::Arc(_));
+        self.phase = (both && closed).then(|| y[2] - y[3] + self.model.curve.windup_rad(y[0]));
+        match (mode.place == Place::Open, self.open_since) {
+            (true, None) => self.open_since = Some(t),
+            (false, Some(since)) => {
+                self.run.open_s += t - since;
+                self.run.longest_open_s = self.run.longest_open_s.max(t - since);
+                self.open_since = None;
+            }
+            _ => {}
+        }
+        self.renew(mode);
+        self.run.mode = mode;
+        self.run.note_engagement();
+        if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {
+            self.run.modes.push((t, mode));
+        }
+    }
+}
+
+fn moving(v: f64) -> Known {
+    if v == 0.0 { Known::Still } else { Known::Slips(v.signum()) }
+}

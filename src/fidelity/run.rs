@@ -1,0 +1,69 @@
+//! A scene run by its plan, or in full.
+
+use super::plan::{Plan, Term, plan};
+use crate::design::{ContactLaw, Scenario};
+use crate::dynamics::Stop;
+use crate::scenario::{NoScenario, Prepared, Settings, Simulation, prepare, simulate_prepared};
+
+/// A simulation with what it left out.
+#[derive(Debug, Clone)]
+pub struct Planned {
+    /// Model and start that were run.
+    pub prepared: Prepared,
+    /// What happened.
+    pub simulation: Simulation,
+    /// Terms left out.
+    pub left_out: Vec<Term>,
+    /// Terms that were looked at and kept.
+    pub kept: Vec<Term>,
+}
+
+/// Simulate `scenario`, with everything if `full`, else without what it cannot feel.
+///
+/// # Errors
+/// [`NoScenario`] where the scenario has no start.
+pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<Planned, NoScenario> {
+    let whole = |settings: &Settings| {
+        let prepared = prepare(scenario)?;
+        let simulation = simulate_prepared(&prepared, settings, false);
+        Ok(Planned { prepared, simulation, left_out: Vec::new(), kept: Vec::new() })
+    };
+    if full {
+        return whole(settings);
+    }
+    // What a shortened curve does not carry, the whole one may.
+    let Ok((Plan { reduction, mut left_out, mut kept }, prepared)) = plan(scenario, settings) else {
+        return whole(settings);
+    };
+    let simulation = simulate_prepared(&prepared, settings, true);
+    if simulation.rolled {
+        left_out.push(friction_law(&simulation, &prepared));
+    }
+    if reduction.reach_nm.is_some() && reached_the_end(&simulation) {
+        // The shortened curve was too short after all.
+        let all = Planned { kept, ..whole(settings)? };
+        return Ok(all);
+    }
+    if matches!(scenario.clutch.contact, ContactLaw::Slice { .. }) && settings.samples == 0 {
+        left_out.push(Term::free(
+            "slices over time",
+            "no history was asked for, so no pressure along the length is",
+        ));
+    }
+    kept.retain(|k| left_out.iter().all(|l| l.term != k.term));
+    Ok(Planned { prepared, simulation, left_out, kept })
+}
+
+/// Whether the run, or the rolling run beside it, ended where the curve does.
+fn reached_the_end(s: &Simulation) -> bool {
+    s.stop == Stop::CurveEnd || s.demand.is_some_and(|d| !d.finished)
+}
+
+fn friction_law(s: &Simulation, prepared: &Prepared) -> Term {
+    let needs = s.demand.and_then(|d| d.required_friction).unwrap_or(0.0);
+    let why = format!(
+        "stick needs {needs:.4} of the static friction of {:.4}: the run is the pure-rolling run, not integrated twice",
+        prepared.model.friction.static_
+    );
+    Term { cost: "none: the same equations".to_owned(), ..Term::free("friction law (12) in slip", &why) }
+}

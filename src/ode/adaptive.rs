@@ -1,0 +1,161 @@
+//! Explicit steps, implicit ones where they go further for the same work.
+//!
+//! DOP853 is the rule. Where many steps in a row are far shorter than asked for, the Jacobian tells whether
+//! stability is what holds them (h |lambda| beyond 2); if so a Radau step four times as long is tried, and if its
+//! error lets it pass, implicit steps go on until they are no longer than twice an explicit step at its limit of
+//! stability, for they cost about twice as much. An oscillation that is really excited fails the trial: its error
+//! is above the tolerance, so it is followed.
+
+use super::step::{Counters, Step, Tolerance};
+use super::{dop853, radau5::Radau};
+use nalgebra::{Const, DimMin};
+
+/// Shortest step that is still taken, s.
+const SHORTEST_STEP: f64 = 1e-15;
+/// h |lambda| at which DOP853 ceases to be stable on the negative real axis.
+const STABLE: f64 = 6.1;
+/// Short steps before the Jacobian is asked; doubles with each answer that keeps explicit steps.
+const PATIENCE: u32 = 20;
+const MOST_PATIENCE: u32 = 5_000;
+/// Steps shorter than this part of the longest count as short.
+const SHORT: f64 = 0.2;
+/// How much longer an implicit step must be to be tried.
+const WORTH: f64 = 4.0;
+
+/// Step-size and method control of one integration.
+#[derive(Debug, Clone)]
+pub struct Adaptive<const N: usize>
+where
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
+{
+    /// Length to try next.
+    pub h: f64,
+    tolerance: Tolerance<N>,
+    floor: f64,
+    implicit: bool,
+    short: u32,
+    patience: u32,
+    radau: Radau<N>,
+}
+
+impl<const N: usize> Adaptive<N>
+where
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
+{
+    /// Begin with explicit steps of length `h`. `floor`: size below which a component counts as this large when
+    /// its increment for a Jacobian is chosen.
+    pub fn new(tolerance: Tolerance<N>, h: f64, floor: f64) -> Self {
+        let radau = Radau::new();
+        Self { h, tolerance, floor, implicit: false, short: 0, patience: PATIENCE, radau }
+    }
+
+    /// The right-hand side has changed: nothing known of the old one holds.
+    pub fn forget(&mut self) {
+        self.radau.forget();
+    }
+
+    /// An accepted step of at most `longest`, shortened to `rest`; `None` where steps become too short.
+    pub fn step<X>(
+        &mut self,
+        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        t: f64,
+        y: &[f64; N],
+        slope: &[f64; N],
+        longest: f64,
+        rest: f64,
+        counters: &mut Counters,
+    ) -> Option<Step<N>> {
+        let mut h = self.h.min(longest).min(rest);
+        let mut rejected = false;
+        let step = loop {
+            if h < SHORTEST_STEP && h < rest {
+                return None;
+            }
+            if self.implicit {
+                match self.radau.step(rhs, t, y, slope, h, &self.tolerance, self.floor, counters) {
+                    Some(s) if s.error <= 1.0 => break Step::Implicit(s),
+                    Some(s) => h = s.next_h().min(0.9 * h),
+                    None => h *= 0.25,
+                }
+            } else {
+                match dop853::step(rhs, t, y, slope, h, &self.tolerance, counters) {
+                    Ok(s) if s.error <= 1.0 => break Step::Explicit(s),
+                    Ok(s) => h = s.next_h().min(0.9 * h),
+                    Err(_) => h *= 0.25,
+                }
+            }
+            counters.rejections += 1;
+            rejected = true;
+        };
+        let tried = h;
+        let next = match step {
+            Step::Explicit(s) => self.maybe_implicit(rhs, slope, longest, rest, s, counters),
+            Step::Part(_) => step,
+            Step::Implicit(s) => {
+                self.h = s.next_h();
+                let explicit = self.radau.fastest().map_or(f64::INFINITY, |rate| STABLE / rate);
+                if self.h.min(longest) < 0.5 * WORTH * explicit {
+                    (self.implicit, self.h, self.patience) = (false, self.h.min(explicit), PATIENCE);
+                }
+                counters.implicit_steps += 1;
+                Step::Implicit(s)
+            }
+        };
+        // No longer at once after a rejection: a step held by stability would be rejected every other time.
+        if rejected && matches!(next, Step::Explicit(_)) {
+            self.h = self.h.min(tried);
+        }
+        Some(next)
+    }
+
+    fn maybe_implicit<X>(
+        &mut self,
+        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        slope: &[f64; N],
+        longest: f64,
+        rest: f64,
+        step: dop853::Step<N>,
+        counters: &mut Counters,
+    ) -> Step<N> {
+        self.h = step.next_h();
+        if step.h >= SHORT * longest.min(rest) {
+            self.short = 0;
+            return Step::Explicit(step);
+        }
+        self.short += 1;
+        if self.short < self.patience {
+            return Step::Explicit(step);
+        }
+        self.short = 0;
+        self.patience = (2 * self.patience).min(MOST_PATIENCE);
+        let (t, y) = (step.t, &step.y0);
+        if self.radau.differentiate(rhs, t, y, slope, self.floor, counters).is_err()
+            || self.radau.fastest().is_none_or(|rate| step.h * rate < 2.0)
+        {
+            return Step::Explicit(step);
+        }
+        let h = (WORTH * step.h).min(longest).min(rest);
+        match self.radau.step(rhs, t, y, slope, h, &self.tolerance, self.floor, counters) {
+            Some(s) if s.error <= 1.0 => {
+                (self.implicit, self.h) = (true, s.next_h());
+                counters.implicit_steps += 1;
+                Step::Implicit(s)
+            }
+            _ => Step::Explicit(step),
+        }
+    }
+
+    /// Fastest rate of the right-hand side at (t, y), 1/s.
+    pub fn fastest<X>(
+        &mut self,
+        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        t: f64,
+        y: &[f64; N],
+        counters: &mut Counters,
+    ) -> Option<f64> {
+        let slope = rhs(t, y).ok()?;
+        counters.rhs_evaluations += 1;
+        self.radau.differentiate(rhs, t, y, &slope, self.floor, counters).ok()?;
+        self.radau.fastest()
+    }
+}

@@ -1,0 +1,148 @@
+//! What explicit and implicit steps have in common: tolerances, work done, the step taken and what lies inside it.
+
+use super::{dop853, radau5};
+
+/// Work done.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Accepted steps, of both kinds.
+    pub steps: u64,
+    /// Accepted steps that were implicit.
+    pub implicit_steps: u64,
+    /// Rejected steps.
+    pub rejections: u64,
+    /// Evaluations of the right-hand side, those for Jacobians included.
+    pub rhs_evaluations: u64,
+    /// Jacobians by differences.
+    pub jacobians: u64,
+    /// Factorisations of the pair of Newton matrices.
+    pub factorisations: u64,
+}
+
+/// Tolerances per component: |error_i| <= absolute_i + relative |y_i|.
+#[derive(Debug, Clone, Copy)]
+pub struct Tolerance<const N: usize> {
+    /// Relative part, pure number.
+    pub relative: f64,
+    /// Absolute part, in the unit of each component.
+    pub absolute: [f64; N],
+    /// Implicit steps only: what a component may be wrong by, times h, in the unit of its integral. For rates, the
+    /// tolerance of the angle: an oscillation far faster than the step is felt through the angle alone.
+    pub integrated: [f64; N],
+}
+
+impl<const N: usize> Tolerance<N> {
+    /// Size of the error that component `i` may have.
+    pub(super) fn scale(&self, i: usize, a: f64, b: f64) -> f64 {
+        self.absolute[i] + self.relative * a.abs().max(b.abs())
+    }
+}
+
+/// An accepted step.
+#[derive(Debug, Clone)]
+pub enum Step<const N: usize> {
+    /// DOP853.
+    Explicit(dop853::Step<N>),
+    /// Radau IIA.
+    Implicit(radau5::Step<N>),
+    /// The beginning of either, up to an event, read off its dense output.
+    Part(Part<N>),
+}
+
+/// The first `h` of a longer step.
+#[derive(Debug, Clone)]
+pub struct Part<const N: usize> {
+    h: f64,
+    y0: [f64; N],
+    y1: [f64; N],
+    t: f64,
+    dense: Dense<N>,
+}
+
+/// Dense output of a step.
+#[derive(Debug, Clone)]
+pub enum Dense<const N: usize> {
+    /// Order 7.
+    Explicit(dop853::Dense<N>),
+    /// The collocation polynomial, order 3.
+    Implicit(radau5::Step<N>),
+}
+
+impl<const N: usize> Step<N> {
+    /// Start time.
+    pub fn t(&self) -> f64 {
+        match self {
+            Self::Explicit(s) => s.t,
+            Self::Implicit(s) => s.t,
+            Self::Part(s) => s.t,
+        }
+    }
+
+    /// Length.
+    pub fn h(&self) -> f64 {
+        match self {
+            Self::Explicit(s) => s.h,
+            Self::Implicit(s) => s.h,
+            Self::Part(s) => s.h,
+        }
+    }
+
+    /// State at the start.
+    pub fn y0(&self) -> &[f64; N] {
+        match self {
+            Self::Explicit(s) => &s.y0,
+            Self::Implicit(s) => &s.y0,
+            Self::Part(s) => &s.y0,
+        }
+    }
+
+    /// State at the end.
+    pub fn y1(&self) -> &[f64; N] {
+        match self {
+            Self::Explicit(s) => &s.y1,
+            Self::Implicit(s) => &s.y1,
+            Self::Part(s) => &s.y1,
+        }
+    }
+
+    /// State at t + theta h without extra evaluations, for a first look only.
+    pub fn glance(&self, theta: f64) -> [f64; N] {
+        match self {
+            Self::Explicit(s) => s.glance(theta),
+            Self::Implicit(s) => s.at(s.t + theta * s.h),
+            Self::Part(s) => s.dense.at(s.t + theta * s.h),
+        }
+    }
+
+    /// Its first `h`, known by its dense output.
+    pub fn until(&self, h: f64, dense: Dense<N>) -> Self {
+        let (t, y0) = (self.t(), *self.y0());
+        Self::Part(Part { h, y0, y1: dense.at(t + h), t, dense })
+    }
+
+    /// Dense output.
+    ///
+    /// # Errors
+    /// Those of the right-hand side.
+    pub fn dense<X>(
+        &self,
+        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        counters: &mut Counters,
+    ) -> Result<Dense<N>, X> {
+        Ok(match self {
+            Self::Explicit(s) => Dense::Explicit(s.dense(rhs, counters)?),
+            Self::Implicit(s) => Dense::Implicit(s.clone()),
+            Self::Part(s) => s.dense.clone(),
+        })
+    }
+}
+
+impl<const N: usize> Dense<N> {
+    /// State at time `t` inside the step.
+    pub fn at(&self, t: f64) -> [f64; N] {
+        match self {
+            Self::Explicit(d) => d.at(t),
+            Self::Implicit(d) => d.at(t),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! What a scene demands of friction and contact if it is to roll throughout, and how runs are set up.
+
+use super::error::ErrorEstimate;
+use super::prepare::Prepared;
+use super::simulate::{Settings, Verdict, verdict};
+use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, run};
+use crate::friction::Stribeck;
+
+/// What pure rolling would demand: the basis of slip margin and contact margin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demand {
+    /// mu_req; `None`: no friction up to 1 suffices, contact would open.
+    pub required_friction: Option<f64>,
+    /// Whether mu_req was found by bisection, because the contact of the rolling run would open.
+    pub by_bisection: bool,
+    /// mu_s/mu_req - 1; -1 where no friction suffices.
+    pub slip_margin: f64,
+    /// N_min/N_static of the rolling run, below zero by the tension that rolling would need.
+    pub contact_margin: f64,
+    /// Largest N_bi and N_be of the rolling run, N.
+    pub normal_max_n: [f64; 2],
+    /// Whether the rolling run reached its end; if not, it left the profile or rolled over.
+    pub finished: bool,
+    /// Whether it was interrupted from outside; then nothing of it holds.
+    pub interrupted: bool,
+    /// Right-hand sides it took.
+    pub rhs_evaluations: u64,
+}
+
+/// Steps per period: four looks in each see every half wave.
+pub(super) const STEPS_PER_PERIOD: f64 = 8.0;
+/// The same where peaks of a single run must be good to a hundredth of the tolerance.
+const STEPS_PER_PERIOD_OF_DEMAND: f64 = 20.0;
+
+pub(super) fn run_settings(
+    prepared: &Prepared,
+    settings: &Settings,
+    tolerance: f64,
+    samples: usize,
+    per_period: f64,
+) -> RunSettings {
+    let chosen = || prepared.period_s.map_or(prepared.duration_s / 200.0, |p| p / per_period);
+    let longest_step_s = settings.longest_step_s.unwrap_or_else(chosen);
+    RunSettings {
+        tolerance,
+        duration_s: prepared.duration_s,
+        longest_step_s,
+        most_events: settings.most_events,
+        most_steps: settings.most_steps,
+        samples,
+        rolling: false,
+        interrupt: settings.interrupt,
+    }
+}
+
+/// Pure-rolling demand of a prepared scenario; static kinds read it off the curve. An engagement is rolled from
+/// the moment at which it has ceased to overrun. Where rolling would need tension, no peak of |T|/N says what
+/// friction suffices: then the smallest static friction with the verdict "sticks" is bisected.
+pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
+    demand_at(prepared, settings, 0.01 * settings.tolerance)
+}
+
+/// The same at steps of relative tolerance `tolerance`.
+pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, tolerance: f64) -> Demand {
+    let mu = prepared.model.friction.static_;
+    if prepared.duration_s == 0.0 {
+        let f = prepared.model.curve.at_normal(prepared.static_normal_n);
+        let required = f.map(|f| f.tan_omega.max(f.tan_nu));
+        return Demand {
+            required_friction: required,
+            by_bisection: false,
+            slip_margin: required.map_or(-1.0, |r| mu / r - 1.0),
+            contact_margin: 1.0,
+            normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
+            finished: true,
+            interrupted: false,
+            rhs_evaluations: 0,
+        };
+    }
+    roll(prepared, settings, tolerance, 0, STEPS_PER_PERIOD_OF_DEMAND).1
+}
+
+/// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.
+const MOST_FRICTION: f64 = 1.0;
+/// Smallest coefficient that is tried.
+const LEAST_FRICTION: f64 = 1e-3;
+/// Relative width at which the bisection ends.
+const BISECTED: f64 = 1e-4;
+
+/// The pure-rolling run of a prepared scenario that is integrated, and its demand.
+pub(super) fn roll(
+    prepared: &Prepared,
+    settings: &Settings,
+    tolerance: f64,
+    samples: usize,
+    per_period: f64,
+) -> (Run, Demand) {
+    let mut s = run_settings(prepared, settings, tolerance, samples, per_period);
+    let (mut state, mut place) = (prepared.state, prepared.mode.place);
+    let mut before = 0;
+    let mut model = std::borrow::Cow::Borrowed(&prepared.model);
+    if prepared.overrun.is_some() {
+        let free = run(&prepared.model, prepared.state, prepared.mode, &s);
+        before = free.counters.rhs_evaluations;
+        if let Some(start) = free.engaged {
+            (state, place) = (start.state, start.place);
+            s.duration_s -= start.t_s;
+            model.to_mut().drive = prepared.model.drive.from(start.t_s);
+        }
+    }
+    let r: Rolling = rolling(&model, state, place, &s);
+    let finished = r.stop == Stop::Finished;
+    let mut required = r.required_friction.filter(|_| finished);
+    let mut interrupted = r.stop == Stop::Interrupted;
+    let by_bisection = finished && required.is_none();
+    if by_bisection {
+        let (found, work, stopped) = bisected(prepared, settings, tolerance);
+        required = found;
+        before += work;
+        interrupted |= stopped;
+    }
+    let demand = Demand {
+        required_friction: required,
+        by_bisection,
+        slip_margin: required.map_or(-1.0, |q| prepared.model.friction.static_ / q - 1.0),
+        contact_margin: r.normal_min_n / prepared.static_normal_n.max(f64::MIN_POSITIVE),
+        normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
+        finished,
+        interrupted,
+        rhs_evaluations: before + r.run.counters.rhs_evaluations,
+    };
+    (r.run, demand)
+}
+
+/// Smallest static friction with which the scene has the verdict "sticks", the kinetic one lowered with it;
+/// right-hand sides; whether it was interrupted. `None` where even the largest does not do.
+fn bisected(prepared: &Prepared, settings: &Settings, tolerance: f64) -> (Option<f64>, u64, bool) {
+    let s = run_settings(prepared, settings, tolerance, 0, STEPS_PER_PERIOD_OF_DEMAND);
+    let law = prepared.model.friction;
+    let mut model = prepared.model.clone();
+    let (mut work, mut interrupted) = (0, false);
+    let mut sticks = |mu: f64| {
+        model.friction = Stribeck { static_: mu, kinetic: law.kinetic.min(mu), ..law };
+        let r = run(&model, prepared.state, prepared.mode, &s);
+        work += r.counters.rhs_evaluations;
+        interrupted |= r.stop == Stop::Interrupted;
+        verdict(&r, &ErrorEstimate::default()) == Some(Verdict::Sticks)
+    };
+    let (mut low, mut high) = (LEAST_FRICTION, MOST_FRICTION);
+    if !sticks(high) {
+        return (None, work, interrupted);
+    }
+    while high > low * (1.0 + BISECTED) {
+        let middle = (low * high).sqrt();
+        if sticks(middle) { high = middle } else { low = middle }
+    }
+    (Some(high), work, interrupted)
+}

@@ -1,0 +1,77 @@
+//! Scenarios with histories from CSV files: how they are read, named in the hash, refused.
+
+use std::path::Path;
+
+use sprag_design::design::{Design, DesignError, Scenario, ScenarioKind};
+
+const DESIGN: &str = include_str!("../designs/huang2017-multi-arc.toml");
+
+fn parse(text: &str) -> Design {
+    Design::parse(text, "x.toml").unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn refusal(text: &str) -> DesignError {
+    match Design::parse(text, "x.toml") {
+        Ok(_) => panic!("accepted"),
+        Err(error) => error,
+    }
+}
+
+#[test]
+fn the_bench_is_the_same_clutch_with_its_histories() {
+    let bench = Design::read(Path::new("designs/huang2017-bench.toml")).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(bench.clutch, parse(DESIGN).clutch);
+    let find = |name: &str| -> &Scenario { bench.scenario(name).unwrap_or_else(|| panic!("{name}")) };
+    let rows = find("in-and-out").torque_history.as_ref().expect("history");
+    assert_eq!((rows[1], rows.len()), ([0.02, 16.8], 5));
+    let ramp = find("speed-ramp");
+    let first = ramp.speed_history.as_ref().expect("history")[0][1];
+    assert!((first / (100.0 * std::f64::consts::PI) - 1.0).abs() < 1e-15);
+    assert!(matches!(ramp.kind, ScenarioKind::Transient { overrun_rad_s, .. } if overrun_rad_s > 10.0));
+    assert!(find("engagement-vernay").clutch.friction.outer_holds);
+    assert_eq!(find("high-10-damped").clutch.hunt_crossley_s_per_m, 0.2);
+    assert_eq!(find("high-10-damped").clutch.contact, bench.clutch.contact);
+    // The hash names what is computed: a history belongs to it.
+    let folder = std::env::temp_dir().join(format!("sprag-histories-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("folder");
+    for file in ["engaging-in-and-out.csv", "speed-ramp.csv", "overrunning-torque.csv"] {
+        std::fs::copy(Path::new("designs").join(file), folder.join(file)).expect("copy");
+    }
+    let read = || Design::parse_in(&folder, &bench.source, "x.toml").unwrap_or_else(|e| panic!("{e}")).hash;
+    assert_eq!(read(), bench.hash);
+    std::fs::write(folder.join("speed-ramp.csv"), "time_s,speed_rpm\n0,3000\n1,3001\n").expect("write");
+    assert_ne!(read(), bench.hash);
+    std::fs::write(folder.join("speed-ramp.csv"), "time_s,speed_rpm\n0,3000\n1,fast\n").expect("write");
+    let error = Design::parse_in(&folder, &bench.source, "x.toml").map(|_| ()).expect_err("accepted");
+    let said = error.to_string();
+    assert!(said.contains("speed-ramp.csv:3:3: speed_rpm: found \"fast\""), "{said}");
+    std::fs::remove_dir_all(&folder).expect("remove");
+}
+
+/// A transient says what changes, and says it once; its files must be there.
+#[test]
+fn transients() {
+    let of = |keys: &str| {
+        let table = format!(
+            "\n[[scenarios]]\nname = \"t\"\nkind = \"transient\"\nabutment_stiffness_nm_per_rad = 1e3\nduration_s = 0.1\n{keys}"
+        );
+        refusal(&[DESIGN, &table].concat()).to_string()
+    };
+    for (keys, words) in [
+        ("preload_nm = 3\n", ["kind", "one of torque_step_nm, torque_history_csv"]),
+        (
+            "torque_history_csv = \"a.csv\"\npreload_nm = 3\n",
+            ["preload_nm", "no preload_nm beside torque_history_csv"],
+        ),
+        (
+            "speed_history_csv = \"a.csv\"\nspeed_rpm = 3\n",
+            ["speed_rpm", "no speed_rpm beside speed_history_csv"],
+        ),
+        ("overrun_rpm = 5\nstep_time_s = 0.1\n", ["step_time_s", "only with torque_step_nm"]),
+        ("torque_history_csv = \"not-there.csv\"\n", ["torque_history_csv", "not-there.csv: No such file"]),
+        ("torque_step_nm = 1\nfrequency_hz = 3\n", ["frequency_hz", "for kind transient"]),
+    ] {
+        let said = of(keys);
+        assert!(words.iter().all(|w| said.contains(w)), "{keys:?}: {said}");
+    }
+}
