@@ -2,8 +2,17 @@
 //!
 //! With v = 0 the contact either sticks (|T| <= mu_s N) or begins to slip in the sense in which it is
 //! accelerated (T = -sgn(v') mu_s N): a two-contact Coulomb complementarity problem. The friction at v = 0 is
-//! mu_s on both sides, so it has one solution but on its boundaries; at most nine candidates are tried and the
-//! one that violates least is taken, sticking first.
+//! mu_s on both sides; at most nine candidates are tried and the one that violates least is taken, sticking first.
+//!
+//! It is a mixed complementarity problem in x = (T_bi, T_be): v' = b + G x, with G = J M^-1 J^T diag(n OA, -n OB) for
+//! the rows J_A = (rho_i, -1, 1, 0), J_B = (-rho_e, -1, 0, 1) of the two slip velocities. J M^-1 J^T is positive
+//! definite (M is, and the rows are independent through the races), so with fixed limits mu N the problem is that of
+//! minimising a strictly convex quadratic over a box: one solution, no Painleve paradox. N_bi is fixed by alpha. N_be
+//! is not: the radial equation makes it affine in T_bi and T_be, so the box moves with x. Its own share stays
+//! solvable while cos gamma + s mu sin gamma > 0 (gamma is some -0.7 degrees); a moving box keeps the solution unique
+//! while mu tan(beta + gamma) is small against the ratio of G's entries, which is not proved for every design.
+//! Where no candidate is consistent the least violation is still a mode; the run then goes on by `give_way`,
+//! bounded by the limit of events.
 
 use super::model::{Forces, Grip, Mode, Model, Place, State};
 
