@@ -15,6 +15,7 @@ mod patch;
 mod stiffness;
 mod table;
 
+pub use crate::contact::{Edge, Peak, SliceSolution};
 pub use axial::{Side, along, asks_for_slices, knows_shape};
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};

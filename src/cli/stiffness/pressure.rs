@@ -2,9 +2,8 @@
 
 use super::LawCurve;
 use crate::cli::exit::Failure;
-use crate::contact::{Edge, Peak, SliceSolution};
 use crate::report::{Column, Plot, Table, Unit};
-use crate::wedge::{Side, along};
+use crate::wedge::{Edge, Peak, Side, SliceSolution, along};
 use serde::Serialize;
 
 /// Torques of the map.
