@@ -21,6 +21,7 @@ use clap::Args;
 use fem::Fem;
 pub use laws::ContactName;
 use pressure::PressureMap;
+pub use pressure::PressureName;
 use rayon::prelude::*;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -63,9 +64,9 @@ pub struct StiffnessArgs {
     /// Rows of --fem whose column `model` holds one of these texts, separated by | [default: all]
     #[arg(long, value_name = "TEXT|...", requires = "fem")]
     pub fem_model: Option<String>,
-    /// Pressure along the length of the contacts, by slices; on by itself with an end profile or a tilt
-    #[arg(long)]
-    pub pressure: bool,
+    /// Pressure along the length of the contacts; on by itself, by slices, with an end profile or a tilt
+    #[arg(long, value_name = "HOW", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "slices")]
+    pub pressure: Option<PressureName>,
 }
 
 /// One law's curve and the rows asked for.
@@ -133,8 +134,11 @@ fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<Study, Fai
         place_profile(&design.clutch).map_err(|e| Failure::malformed(format!("no profile: {e:?}")))?;
     let started = Instant::now();
     let laws = compute(args, &design, &profile, context)?;
-    let wanted = args.pressure || !design.clutch.axial.is_straight();
-    let pressure = laws.first().filter(|_| wanted).map(PressureMap::of).transpose()?;
+    let shaped = (!design.clutch.axial.is_straight()).then_some(PressureName::Slices);
+    let pressure = match (laws.first(), args.pressure.or(shaped)) {
+        (Some(law), Some(how)) => Some(PressureMap::of(law, how)?),
+        _ => None,
+    };
     Ok(Study { design, profile, laws, fem, pressure, run_time_s: started.elapsed().as_secs_f64() })
 }
 

@@ -5,7 +5,7 @@ use crate::design::Clutch;
 use crate::dynamics::{Grip, Mode, Place, Sample};
 use crate::report::{Cell, Column, Table, Unit};
 use crate::scenario::Prepared;
-use crate::wedge::{Elastic, Side, along, asks_for_slices};
+use crate::wedge::{Elastic, Lengthwise, Side, along, asks_for_slices};
 
 /// One sample with what follows from it, SI.
 pub(super) struct Row {
@@ -63,7 +63,11 @@ impl<'p> SlicePeaks<'p> {
             let most = most_n[usize::from(arc.is_none())].max(1.0);
             let at = |i: usize| {
                 let n = most * 10f64.powf(-(i as f64) / 3.0);
-                let peak = along(clutch, contact, side, n).ok()?.pressure_pa.into_iter().fold(0.0, f64::max);
+                let peak = along(clutch, contact, side, n, Lengthwise::Slices)
+                    .ok()?
+                    .pressure_pa
+                    .into_iter()
+                    .fold(0.0, f64::max);
                 Some([n.ln(), peak / contact.peak_pressure_pa(n)])
             };
             (0..SLICE_LOADS).rev().map(at).collect::<Option<Vec<_>>>()

@@ -10,7 +10,7 @@ use crate::dynamics::Mode;
 use crate::report::plot::Dash;
 use crate::report::{Curve, Page, Plot, Span, Strip, Unit};
 use crate::scenario::{Prepared, Simulation, place_profile};
-use crate::wedge::{Side, along};
+use crate::wedge::{Lengthwise, Side, along};
 
 const TIME: &str = "Time, ms";
 
@@ -210,7 +210,8 @@ fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
     let clutch = &scene.own.clutch;
     let over_length = |n: f64| -> Option<Vec<[f64; 2]>> {
         let arc = curve.first_arc() + curve.arc_at(curve.alpha_at_normal(n)?);
-        let found = along(clutch, elastic.inner_contact.get(arc)?, Side::Inner, n).ok()?;
+        let found =
+            along(clutch, elastic.inner_contact.get(arc)?, Side::Inner, n, Lengthwise::Slices).ok()?;
         Some(found.y_m.iter().zip(&found.pressure_pa).map(|(y, p)| [y * 1e3, p / 1e6]).collect())
     };
     let loads = [

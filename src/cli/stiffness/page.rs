@@ -96,7 +96,7 @@ fn section(page: &mut Page, study: &Study) {
     if let Some(map) = &study.pressure {
         page.heading("Pressure along the length");
         page.figures(&map.figures());
-        page.table("By slices; a sharp end has no pressure of its own.", &map.table());
+        page.table("A sharp end has no pressure of its own.", &map.table());
     }
     draw(page, design, profile, laws, up_to);
     page.heading("Tables");
@@ -119,6 +119,8 @@ fn junctions(page: &mut Page, laws: &[LawCurve]) {
         Column::number("k_after", "after", Unit::NewtonMetrePerRadian, 5),
         Column::number("jump", "Jump", Unit::Percent, 3),
         Column::number("shift_rad", "Shift of α", Unit::Radian, 2),
+        Column::number("p0_jump", "p₀ jumps", Unit::Percent, 2),
+        Column::number("p0_pointwise_jump", "with the radius at one point", Unit::Percent, 2),
         Column::text("patch", "Patch at A lies on both arcs"),
     ]);
     let mut any = false;
@@ -149,6 +151,8 @@ fn junctions(page: &mut Page, laws: &[LawCurve]) {
                 b.into(),
                 (b / a - 1.0).into(),
                 (curve.shift_rad(k + 1) - curve.shift_rad(k)).into(),
+                (after.hertz_inner_pa / before.hertz_inner_pa - 1.0).into(),
+                (after.hertz_inner_pointwise_pa / before.hertz_inner_pointwise_pa - 1.0).into(),
                 patch.as_str().into(),
             ]);
         }

@@ -3,8 +3,30 @@
 use super::LawCurve;
 use crate::cli::exit::Failure;
 use crate::report::{Column, Plot, Table, Unit};
-use crate::wedge::{Edge, Peak, Side, SliceSolution, along};
+use crate::wedge::{Along, Edge, Lengthwise, Peak, Side, along};
+use clap::ValueEnum;
 use serde::Serialize;
+
+/// How the pressure along the length is found, as flags have it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PressureName {
+    /// Slices: (1)-(4) with the slice law, slices on half-spaces with the others
+    Slices,
+    /// Half-spaces solved on a grid over the patch, two rows a slice; seconds
+    Reference,
+    /// The same with free faces where a body ends (quarter-space correction)
+    FreeEnds,
+}
+
+impl PressureName {
+    fn how(self) -> Lengthwise {
+        match self {
+            Self::Slices => Lengthwise::Slices,
+            Self::Reference => Lengthwise::Reference,
+            Self::FreeEnds => Lengthwise::FreeEnds,
+        }
+    }
+}
 
 /// Torques of the map.
 const TORQUES: usize = 6;
@@ -19,8 +41,8 @@ pub(super) struct PressureMap {
 #[derive(Debug, Clone)]
 pub(super) struct PressureRow {
     pub(super) torque_nm: f64,
-    pub(super) inner: SliceSolution,
-    pub(super) outer: SliceSolution,
+    pub(super) inner: Along,
+    pub(super) outer: Along,
 }
 
 /// The map in JSON, per contact; lengths from the middle of the contact.
@@ -50,24 +72,29 @@ struct PeakJson {
 
 impl PressureMap {
     /// Of `law` at torques spread over its rows.
-    pub(super) fn of(law: &LawCurve) -> Result<Self, Failure> {
+    pub(super) fn of(law: &LawCurve, name: PressureName) -> Result<Self, Failure> {
+        let how = name.how();
         let carried: Vec<f64> = law.rows.iter().filter(|r| r.1.is_some()).map(|r| r.0).collect();
         let last = carried.len().saturating_sub(1);
         let mut picked: Vec<usize> = (1..=TORQUES).map(|i| last * i / TORQUES).collect();
         picked.dedup();
         let elastic = &law.curve.statics().elastic;
-        let none = |e| Failure::malformed(format!("no pressure along the length: {e}"));
+        let none = |e| {
+            Failure::malformed(format!(
+                "no pressure along the length: {e}; take fewer slices or --pressure slices"
+            ))
+        };
         let mut rows = Vec::new();
         for torque_nm in picked.into_iter().filter_map(|i| carried.get(i).copied()) {
             let Some(p) = law.curve.at_torque(torque_nm) else { continue };
-            let inner = along(&law.clutch, &elastic.inner_contact[p.arc], Side::Inner, p.normal_inner_n);
-            let outer = along(&law.clutch, &elastic.outer_contact, Side::Outer, p.normal_outer_n);
+            let inner = along(&law.clutch, &elastic.inner_contact[p.arc], Side::Inner, p.normal_inner_n, how);
+            let outer = along(&law.clutch, &elastic.outer_contact, Side::Outer, p.normal_outer_n, how);
             rows.push(PressureRow { torque_nm, inner: inner.map_err(none)?, outer: outer.map_err(none)? });
         }
         Ok(Self { rows })
     }
 
-    fn plot(&self, title: &str, of: impl Fn(&PressureRow) -> &SliceSolution) -> String {
+    fn plot(&self, title: &str, of: impl Fn(&PressureRow) -> &Along) -> String {
         let mut plot = Plot::new("Along the contact, mm", title);
         for row in &self.rows {
             let found = of(row);
@@ -81,8 +108,8 @@ impl PressureMap {
     /// Pressure over the length, a curve per torque, at A and B.
     pub(super) fn figures(&self) -> [(String, &'static str); 2] {
         [
-            (self.plot("Peak pressure of each slice at A, MPa", |r| &r.inner), "Inner contact."),
-            (self.plot("Peak pressure of each slice at B, MPa", |r| &r.outer), "Outer contact."),
+            (self.plot("Peak pressure along A, MPa", |r| &r.inner), "Inner contact."),
+            (self.plot("Peak pressure along B, MPa", |r| &r.outer), "Outer contact."),
         ]
     }
 
@@ -120,7 +147,7 @@ impl PressureMap {
     }
 
     pub(super) fn to_json(&self) -> PressureJson {
-        let contact = |of: &dyn Fn(&PressureRow) -> &SliceSolution| ContactJson {
+        let contact = |of: &dyn Fn(&PressureRow) -> &Along| ContactJson {
             y_mm: self
                 .rows
                 .first()
@@ -155,7 +182,7 @@ impl PressureMap {
 const SINGULAR: &str = "singular-at-the-end";
 const FLUSH: &str = "flush-ends";
 
-fn slice_width(found: &SliceSolution) -> f64 {
+fn slice_width(found: &Along) -> f64 {
     match found.y_m.as_slice() {
         [a, b, ..] => b - a,
         _ => 0.0,
@@ -163,7 +190,7 @@ fn slice_width(found: &SliceSolution) -> f64 {
 }
 
 /// Largest pressure, Pa, its place, m, and kind.
-fn peak(found: &SliceSolution) -> (f64, f64, &'static str) {
+fn peak(found: &Along) -> (f64, f64, &'static str) {
     match found.peak {
         Peak::None => (0.0, 0.0, "unloaded"),
         Peak::Bounded { pressure_pa, y_m } => (pressure_pa, y_m, "bounded"),

@@ -156,7 +156,7 @@ pub(super) fn text(study: &Study) -> String {
         ));
     }
     if let Some(map) = &study.pressure {
-        out.push_str(&format!("\nPressure along the length, by slices\n{}\n", map.table().to_text(false)));
+        out.push_str(&format!("\nPressure along the length\n{}\n", map.table().to_text(false)));
     }
     if laws.len() > 1 {
         if laws.iter().flat_map(|l| &l.rows).any(|(_, p)| p.is_none()) {
