@@ -8,7 +8,7 @@ mod pressure;
 mod tables;
 
 use super::exit::{Exit, Failure};
-use super::left_out::left_out;
+use super::left_out::{LeftOut, at_rest, left_out};
 use super::parts::{self, Answer};
 use super::{Context, positive};
 use crate::design::{Clutch, Design};
@@ -143,13 +143,14 @@ fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<Study, Fai
 }
 
 fn answer(study: &Study) -> Answer<'_, Body> {
-    let mut terms = left_out(&study.design.clutch);
     // A term that one of the laws compared does hold is left out by the others all the same.
+    let mut terms: Vec<LeftOut> = Vec::new();
     for term in study.laws.iter().flat_map(|l| left_out(&l.clutch)) {
         if terms.iter().all(|t| t.term != term.term) {
             terms.push(term);
         }
     }
+    terms.push(at_rest());
     let truncation = study.laws.iter().map(|l| l.curve.truncation()).fold(0.0, f64::max);
     Answer {
         design: &study.design,
