@@ -130,7 +130,7 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
 
 fn settings_of(args: &SimulateArgs, context: &Context) -> Settings {
     let interrupt = Some(context.interrupt.flag());
-    let chosen = Settings { samples: SAMPLES, interrupt, ..Settings::default() };
+    let chosen = Settings { samples: SAMPLES, energy: true, interrupt, ..Settings::default() };
     // The published scheme has a step of its own.
     let longest_step_s = args.step.filter(|_| args.method == Method::Event);
     Settings { tolerance: args.tolerance.unwrap_or(chosen.tolerance), longest_step_s, ..chosen }

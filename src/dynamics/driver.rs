@@ -1,5 +1,6 @@
 //! Event-driven integration: smooth inside a mode, every change of mode located.
 
+use super::energy::Audit;
 use super::events::{EVENTS, Look, look};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{Run, RunSettings, Stop};
@@ -23,6 +24,8 @@ pub(super) struct Driver<'a> {
     /// Windup reference of stick: theta_bi - theta_be + W(alpha) is kept while both stick.
     pub(super) phase: Option<f64>,
     pub(super) next_sample: usize,
+    /// Works so far, where they are counted.
+    pub(super) audit: Option<Audit>,
     stepper: Adaptive<N_STATE>,
     /// Slope and look at the present state where the last step has left them.
     slope: Option<State>,
@@ -58,6 +61,7 @@ impl<'a> Driver<'a> {
             open_since: (mode.place == Place::Open).then_some(0.0),
             phase: None,
             next_sample: 0,
+            audit: None,
             stepper: Adaptive::new(tolerance, settings.longest_step_s * 0.01, SMALL),
             slope: None,
             seen: None,
@@ -65,6 +69,9 @@ impl<'a> Driver<'a> {
         };
         driver.enter(mode);
         driver.look(state, 0.0);
+        if settings.energy {
+            driver.audit();
+        }
         driver
     }
 
@@ -167,7 +174,10 @@ impl<'a> Driver<'a> {
         let figures = looks.map(|l| l.figures);
         match self.crest(step, &looks, dense, rhs) {
             Ok(Some((theta, which, d))) => return self.land(step, theta, which, d, rhs),
-            Ok(None) if self.watch(step, &figures, rhs).is_ok() => self.accept(step),
+            Ok(None) if self.watch(step, &figures, rhs).is_ok() => {
+                self.audit_step(step, rhs);
+                self.accept(step);
+            }
             _ => {
                 self.stop(Stop::NotFinite);
                 return false;
@@ -297,6 +307,7 @@ impl<'a> Driver<'a> {
                 self.stop(Stop::NotFinite);
                 return false;
             }
+            self.audit_step(&part, rhs);
             self.accept(&part);
         }
         let (t, y) = (step.t() + h, self.run.state);
@@ -359,6 +370,7 @@ impl<'a> Driver<'a> {
     }
 
     fn finish(mut self) -> Run {
+        self.run.energy = self.balance();
         if let Some(since) = self.open_since {
             let stretch = self.run.t_s - since;
             self.run.open_s += stretch;

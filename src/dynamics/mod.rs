@@ -12,6 +12,7 @@ mod change;
 mod choose;
 mod crossing;
 mod driver;
+mod energy;
 mod events;
 mod model;
 mod published;
@@ -20,6 +21,7 @@ mod run;
 mod start;
 mod watch;
 
+pub use energy::EnergyBalance;
 pub use model::{Drive, Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
 pub use published::{PublishedSettings, published};
 pub use rolling::{Rolling, rolling};

@@ -1,6 +1,7 @@
 //! A run: what it is asked for and what comes out.
 
 use super::driver::Driver;
+use super::energy::EnergyBalance;
 use super::model::{Forces, Grip, Mode, Model, Place, State};
 use crate::ode::step::Counters;
 use std::sync::atomic::AtomicBool;
@@ -22,6 +23,8 @@ pub struct RunSettings {
     pub samples: usize,
     /// Pure rolling: no friction limit, contact held by tension below first contact.
     pub rolling: bool,
+    /// Whether works are counted for the energy balance; costs some fifteen evaluations a step.
+    pub energy: bool,
     /// Set from outside to end the run at the next step.
     pub interrupt: Option<&'static AtomicBool>,
 }
@@ -156,6 +159,8 @@ pub struct Run {
     pub counters: Counters,
     /// Where the run ended at its limit of steps: the fastest rate in the motion then, rad/s.
     pub fastest_rad_s: Option<f64>,
+    /// Where the energy went, where that was asked.
+    pub energy: Option<EnergyBalance>,
     /// Equidistant samples.
     pub samples: Vec<Sample>,
     /// When the clutch began to be one; `None`: it overran or was open to the end.
@@ -180,6 +185,7 @@ impl Run {
             events: 0,
             counters: Counters::default(),
             fastest_rad_s: None,
+            energy: None,
             samples: Vec::with_capacity(samples),
             engaged: None,
             modes: Vec::new(),

@@ -7,7 +7,7 @@ use super::error::{ErrorEstimate, Figures, Scales};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
 use crate::dynamics::{
-    Engaged, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Run, Sample, SlipRecord, Stop, published,
+    EnergyBalance, Engaged, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Run, Sample, SlipRecord, Stop, published,
     run,
 };
 
@@ -28,6 +28,8 @@ pub struct Settings {
     pub most_events: u64,
     /// Steps, rejected ones included, before a run ends with a name. Default 200 000: some 3 s.
     pub most_steps: u64,
+    /// Whether the energy balance of the run is made up. Default no.
+    pub energy: bool,
     /// Set from outside to end the runs at the next step.
     pub interrupt: Option<&'static AtomicBool>,
 }
@@ -40,6 +42,7 @@ impl Default for Settings {
             samples: 0,
             most_events: 100_000,
             most_steps: 200_000,
+            energy: false,
             interrupt: None,
         }
     }
@@ -124,6 +127,8 @@ pub struct Simulation {
     pub spread_rad: [f64; 2],
     /// Where the run gave up at its limit of steps: the fastest rate in the motion then, rad/s.
     pub fastest_rad_s: Option<f64>,
+    /// Where the energy went, where that was asked.
+    pub energy: Option<EnergyBalance>,
     /// History.
     pub samples: Vec<Sample>,
     /// When A first carried load without overrunning; `None`: never, or an equilibrium.
@@ -306,6 +311,7 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: &Try, other: &Try) -
         tolerance_reached,
         spread_rad: [fine.state[2]; 2],
         fastest_rad_s: fine.fastest_rad_s,
+        energy: fine.energy,
         samples: fine.samples.clone(),
         engaged: fine.engaged,
         modes: fine.modes.clone(),
@@ -412,6 +418,7 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         tolerance_reached: true,
         spread_rad: [prepared.state[2]; 2],
         fastest_rad_s: None,
+        energy: None,
         samples: Vec::new(),
         engaged: None,
         modes: Vec::new(),
