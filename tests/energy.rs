@@ -26,7 +26,10 @@ fn every_scene_of_the_designs_balances_to_the_tolerance() {
 }
 
 /// Balance of the multi-arc clutch in high-10, changed.
-fn changed(tolerance: f64, change: impl Fn(&mut sprag_design::design::Scenario)) -> (EnergyBalance, f64, f64) {
+fn changed(
+    tolerance: f64,
+    change: impl Fn(&mut sprag_design::design::Scenario),
+) -> (EnergyBalance, f64, f64) {
     let design = Design::read(Path::new("designs/huang2017-multi-arc.toml")).unwrap();
     let mut scene = design.scenario("high-10").unwrap().clone();
     change(&mut scene);
@@ -59,7 +62,10 @@ fn slip_loss_of_contact_and_mean_speed_balance_far_below_the_tolerance() {
     };
     for (speed, mu) in [(0.0, 0.12), (0.0, 0.09), (400.0, 0.12), (400.0, 0.09), (900.0, 0.12)] {
         let (e, open_s, slipped_m) = at_speed(speed, mu);
-        println!("{speed} rad/s, mu {mu}: open {open_s:.2e} s, {slipped_m:.2e} m, {:.1e}, {e:?}", e.relative());
+        println!(
+            "{speed} rad/s, mu {mu}: open {open_s:.2e} s, {slipped_m:.2e} m, {:.1e}, {e:?}",
+            e.relative()
+        );
         assert!(e.friction_inner_j < 0.0 && e.friction_outer_j <= 0.0 && e.race_damping_j < 0.0);
         // What friction took is known to a thousandth of itself, the smallest of all works.
         assert!(e.residual_j().abs() < 1e-3 * e.friction_inner_j.abs(), "{speed}, {mu}: {e:?}");

@@ -3,8 +3,9 @@
 use super::energy::Audit;
 use super::events::{EVENTS, Look, look};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
-use super::run::{Run, RunSettings, Stop};
+use super::run::{FastMotion, Run, RunSettings, Stop};
 use super::watch::highest;
+use super::zeno::Zeno;
 use crate::numeric::root;
 use crate::ode::adaptive::Adaptive;
 use crate::ode::step::{Dense, Step, Tolerance};
@@ -26,6 +27,7 @@ pub(super) struct Driver<'a> {
     pub(super) next_sample: usize,
     /// Works so far, where they are counted.
     pub(super) audit: Option<Audit>,
+    pub(super) zeno: Zeno,
     stepper: Adaptive<N_STATE>,
     /// Slope and look at the present state where the last step has left them.
     slope: Option<State>,
@@ -62,6 +64,7 @@ impl<'a> Driver<'a> {
             phase: None,
             next_sample: 0,
             audit: None,
+            zeno: Zeno::new(),
             stepper: Adaptive::new(tolerance, settings.longest_step_s * 0.01, SMALL),
             slope: None,
             seen: None,
@@ -117,10 +120,7 @@ impl<'a> Driver<'a> {
                         return;
                     }
                 }
-                None => {
-                    self.run.fastest_rad_s = self.stepper.fastest(&mut rhs, t, &y, &mut self.run.counters);
-                    return self.stop(Stop::StepLimit);
-                }
+                None => return self.stop(Stop::StepLimit),
             }
         }
     }
@@ -311,7 +311,16 @@ impl<'a> Driver<'a> {
             self.accept(&part);
         }
         let (t, y) = (step.t() + h, self.run.state);
-        self.count_event() && self.change(which, t, y)
+        if !self.count_event() {
+            return false;
+        }
+        match self.zeno.note(t, std::array::from_fn(|i| i == which), self.resolution_s()) {
+            Some(limit) => {
+                self.close(&limit, t, y);
+                true
+            }
+            None => self.change(which, t, y),
+        }
     }
 
     /// False where there have been too many.
@@ -371,6 +380,12 @@ impl<'a> Driver<'a> {
 
     fn finish(mut self) -> Run {
         self.run.energy = self.balance();
+        if matches!(self.run.stop, Stop::StepLimit | Stop::EventLimit) {
+            let mut rhs = slope_in(self.model, self.run.mode);
+            let (t, y) = (self.run.t_s, self.run.state);
+            let fast = self.stepper.fastest(&mut rhs, t, &y, &mut self.run.counters);
+            self.run.fast_motion = fast.map(|(rate, part)| FastMotion::of(rate, &part));
+        }
         if let Some(since) = self.open_since {
             let stretch = self.run.t_s - since;
             self.run.open_s += stretch;

@@ -20,10 +20,11 @@ mod rolling;
 mod run;
 mod start;
 mod watch;
+mod zeno;
 
 pub use energy::EnergyBalance;
 pub use model::{Drive, Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
 pub use published::{PublishedSettings, published};
 pub use rolling::{Rolling, rolling};
-pub use run::{Engaged, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run};
+pub use run::{Engaged, FastMotion, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run};
 pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled};

@@ -60,6 +60,14 @@ struct Energy {
     relative: f64,
 }
 
+/// The fastest motion.
+#[derive(Debug, Serialize)]
+struct Fast {
+    rate_rad_s: f64,
+    amplitude_rad: f64,
+    of: &'static str,
+}
+
 /// Keys of `simulate`; null where a figure does not exist for the scenario.
 #[derive(Debug, Default, Serialize)]
 pub(super) struct Body {
@@ -87,6 +95,11 @@ pub(super) struct Body {
     hertz_least_mpa: Option<f64>,
     hertz_rated_mpa: Option<f64>,
     events: Option<u64>,
+    zeno_closures: Option<u64>,
+    inconsistent_choices: Option<u64>,
+    /// What was fastest where the run gave up.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fast_motion: Option<Fast>,
     steps: Option<u64>,
     rhs_evaluations: Option<u64>,
     error_estimates: Option<Errors>,
@@ -204,6 +217,13 @@ impl Body {
             hertz_least_mpa: Some(s.hertz_least_pa / 1e6),
             hertz_rated_mpa: super::facts::rated_pa(scene).map(|p| p / 1e6),
             events: Some(s.events),
+            zeno_closures: Some(s.zeno_closures),
+            inconsistent_choices: Some(s.inconsistent_choices),
+            fast_motion: s.fast_motion.map(|f| Fast {
+                rate_rad_s: f.rate_rad_s,
+                amplitude_rad: f.amplitude_rad,
+                of: f.of,
+            }),
             steps: Some(s.steps),
             rhs_evaluations: Some(s.rhs_evaluations),
             error_estimates: s.error.as_ref().filter(|_| s.stop != Stop::Interrupted).map(Errors::of),
