@@ -122,8 +122,7 @@ pub struct Simulation {
     pub error: Option<ErrorEstimate>,
     /// Whether every error is below the tolerance asked for.
     pub tolerance_reached: bool,
-    /// Smallest and largest theta_bi at the end over all runs made, rad: where the tolerance is not reached, what
-    /// can be said in place of a digit.
+    /// Smallest and largest theta_bi at the end over all runs made, rad: what is left where no digit is sure.
     pub spread_rad: [f64; 2],
     /// Sequences of mode changes that accumulated and were closed at their limit.
     pub zeno_closures: u64,
