@@ -51,6 +51,7 @@ fn beside_the_published_scheme() {
         most_steps: 100_000,
         samples: 0,
         rolling: false,
+        energy: false,
         interrupt: None,
     };
     let scheme = PublishedSettings { duration_s: p.duration_s, step_s: 1e-5, band_m_s: 1e-4, samples: 0 };

@@ -6,7 +6,6 @@ use sprag_design::dynamics::{
     preloaded, published, run,
 };
 use sprag_design::margin::{lift_off_rad_s, load_state};
-use sprag_design::numeric::quadrature::integral;
 use sprag_design::scenario::{Prepared, Settings, place_profile, prepare, simulate};
 use sprag_design::wedge::{InnerCurvature, WedgeCurve};
 use std::path::Path;
@@ -31,6 +30,7 @@ fn settings(tolerance: f64, duration_s: f64, samples: usize) -> RunSettings {
         most_steps: 10_000_000,
         samples,
         rolling: false,
+        energy: false,
         interrupt: None,
     }
 }
@@ -190,27 +190,6 @@ fn swinging(clutch: &Clutch, rule: InnerCurvature, held_nm: f64, load_nm: f64) -
     (model, state, place)
 }
 
-/// Energy stored in the contacts between two angles, J: n_s int U' dalpha, U' = T OA (rho_i + rho_e), arc by arc.
-fn wedge_energy(model: &Model, count: f64, from: f64, to: f64) -> f64 {
-    let curve = &model.curve;
-    let (low, high) = (from.min(to), from.max(to));
-    let mut sum = 0.0;
-    for k in curve.arc_at(low)..=curve.arc_at(high) {
-        let begin = if k == 0 { low } else { curve.arc_end_rad(k - 1).max(low) };
-        let end = curve.arc_end_rad(k).min(high);
-        // In pieces: an edge of the patch may pass a junction on the way.
-        let pieces = 20;
-        for i in 0..pieces {
-            let at = |i: usize| begin + (end - begin) * i as f64 / pieces as f64;
-            sum += integral(at(i), at(i + 1), |alpha| {
-                let p = curve.in_arc(k, alpha);
-                p.t_static * p.oa * (p.rho_i + p.rho_e)
-            });
-        }
-    }
-    count * sum * (to - from).signum()
-}
-
 #[test]
 fn sticking_without_damping_keeps_the_energy_over_100_periods() {
     // The last three swing across the junction between the first two arcs; the elastic law feels it on the way. With
@@ -226,7 +205,6 @@ fn sticking_without_damping_keeps_the_energy_over_100_periods() {
     ] {
         let mut clutch = design(path).clutch;
         clutch.contact = law.unwrap_or(clutch.contact);
-        let count = clutch.sprags.count as f64;
         let (model, state, place) = swinging(&clutch, rule, held_nm, load_nm);
         let mode = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
         let r = run(&model, state, mode, &settings(1e-11, 1.5, 3001));
@@ -240,7 +218,7 @@ fn sticking_without_damping_keeps_the_energy_over_100_periods() {
                 let rates = model.rates(&s.mode, &p, &s.state);
                 let moving = model.energy_without_wedge(&p, &rates, &s.state);
                 let still = model.energy_without_wedge(&p, &[0.0; 4], &s.state);
-                let stored = wedge_energy(&model, count, state[0], s.state[0]);
+                let stored = model.wedge_energy_j(state[0], s.state[0]);
                 (moving + stored - model.loads.inner_nm * s.state[2], moving - still)
             })
             .collect();

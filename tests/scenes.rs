@@ -24,6 +24,7 @@ fn run_at(p: &Prepared, tolerance: f64, samples: usize) -> Run {
         most_steps: 10_000_000,
         samples,
         rolling: false,
+        energy: false,
         interrupt: None,
     };
     run(&p.model, p.state, p.mode, &settings)

@@ -130,7 +130,7 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
 
 fn settings_of(args: &SimulateArgs, context: &Context) -> Settings {
     let interrupt = Some(context.interrupt.flag());
-    let chosen = Settings { samples: SAMPLES, interrupt, ..Settings::default() };
+    let chosen = Settings { samples: SAMPLES, energy: true, interrupt, ..Settings::default() };
     // The published scheme has a step of its own.
     let longest_step_s = args.step.filter(|_| args.method == Method::Event);
     Settings { tolerance: args.tolerance.unwrap_or(chosen.tolerance), longest_step_s, ..chosen }
@@ -205,10 +205,21 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
     }
     notes.extend(scene.damping.as_ref().and_then(damping::Effect::note));
     if let Some(s) = simulation
-        && s.stop == Stop::StepLimit
-        && let Some(rate) = s.fastest_rad_s
+        && let Some(fast) = s.fast_motion
     {
-        notes.push(format!("the fastest motion where the run gave up: {rate:.2e} rad/s"));
+        notes.push(format!(
+            "the fastest motion where the run gave up: the {} at {:.2e} rad/s with an amplitude of {:.1e} rad",
+            fast.of, fast.rate_rad_s, fast.amplitude_rad
+        ));
+    }
+    if let Some(s) = simulation.filter(|s| s.zeno_closures > 0) {
+        notes.push(format!("accumulating changes of mode were closed at their limit: {}", s.zeno_closures));
+    }
+    if let Some(s) = simulation.filter(|s| s.inconsistent_choices > 0) {
+        notes.push(format!(
+            "no choice of stick and slip was consistent at {} changes of mode; the nearest was taken",
+            s.inconsistent_choices
+        ));
     }
     if let Some(s) =
         simulation.filter(|s| scene.method == "event" && s.error.is_some() && !s.tolerance_reached)

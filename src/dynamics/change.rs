@@ -45,7 +45,7 @@ impl Driver<'_> {
         let next = if which == LOWER || which == UPPER {
             self.pass(&mode, place, t, &mut y, inner, outer)
         } else {
-            choose(model, t, &y, place, inner, outer)
+            self.chosen(t, &y, place, inner, outer)
         };
         self.run.state = y;
         self.enter(next);
@@ -72,7 +72,14 @@ impl Driver<'_> {
             other => other,
         };
         let outer = if matches!(outer, Known::Slips(_)) { moving(v_b) } else { outer };
-        choose(model, t, y, place, inner, outer)
+        self.chosen(t, y, place, inner, outer)
+    }
+
+    /// The next mode; one that contradicts itself is counted.
+    pub(super) fn chosen(&mut self, t: f64, y: &State, place: Place, inner: Known, outer: Known) -> Mode {
+        let choice = choose(self.model, t, y, place, inner, outer);
+        self.run.inconsistent_choices += u64::from(!choice.consistent);
+        choice.mode
     }
 
     /// An event function is negative right after a change although the choice was consistent to rounding:
@@ -83,6 +90,10 @@ impl Driver<'_> {
         }
         let mode = self.run.mode;
         let (t, y) = (self.run.t_s, self.run.state);
+        if let Some(limit) = self.zeno.note(t, now.map(|e| e < 0.0), self.resolution_s()) {
+            self.close(&limit, t, y);
+            return true;
+        }
         let again = |grip: Grip, negative: bool| match grip {
             Grip::Slip(s) if !negative => Known::Slips(s),
             _ => Known::Still,
@@ -91,8 +102,7 @@ impl Driver<'_> {
             let which = if now[LOWER] < 0.0 { LOWER } else { UPPER };
             return self.change(which, t, y);
         } else {
-            choose(
-                self.model,
+            self.chosen(
                 t,
                 &y,
                 mode.place,

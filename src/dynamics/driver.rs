@@ -1,9 +1,11 @@
 //! Event-driven integration: smooth inside a mode, every change of mode located.
 
+use super::energy::Audit;
 use super::events::{EVENTS, Look, look};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
-use super::run::{Run, RunSettings, Stop};
+use super::run::{FastMotion, Run, RunSettings, Stop};
 use super::watch::highest;
+use super::zeno::Zeno;
 use crate::numeric::root;
 use crate::ode::adaptive::Adaptive;
 use crate::ode::step::{Dense, Step, Tolerance};
@@ -23,6 +25,9 @@ pub(super) struct Driver<'a> {
     /// Windup reference of stick: theta_bi - theta_be + W(alpha) is kept while both stick.
     pub(super) phase: Option<f64>,
     pub(super) next_sample: usize,
+    /// Works so far, where they are counted.
+    pub(super) audit: Option<Audit>,
+    pub(super) zeno: Zeno,
     stepper: Adaptive<N_STATE>,
     /// Slope and look at the present state where the last step has left them.
     slope: Option<State>,
@@ -58,6 +63,8 @@ impl<'a> Driver<'a> {
             open_since: (mode.place == Place::Open).then_some(0.0),
             phase: None,
             next_sample: 0,
+            audit: None,
+            zeno: Zeno::new(),
             stepper: Adaptive::new(tolerance, settings.longest_step_s * 0.01, SMALL),
             slope: None,
             seen: None,
@@ -65,6 +72,9 @@ impl<'a> Driver<'a> {
         };
         driver.enter(mode);
         driver.look(state, 0.0);
+        if settings.energy {
+            driver.audit();
+        }
         driver
     }
 
@@ -110,10 +120,7 @@ impl<'a> Driver<'a> {
                         return;
                     }
                 }
-                None => {
-                    self.run.fastest_rad_s = self.stepper.fastest(&mut rhs, t, &y, &mut self.run.counters);
-                    return self.stop(Stop::StepLimit);
-                }
+                None => return self.stop(Stop::StepLimit),
             }
         }
     }
@@ -167,7 +174,10 @@ impl<'a> Driver<'a> {
         let figures = looks.map(|l| l.figures);
         match self.crest(step, &looks, dense, rhs) {
             Ok(Some((theta, which, d))) => return self.land(step, theta, which, d, rhs),
-            Ok(None) if self.watch(step, &figures, rhs).is_ok() => self.accept(step),
+            Ok(None) if self.watch(step, &figures, rhs).is_ok() => {
+                self.audit_step(step, rhs);
+                self.accept(step);
+            }
             _ => {
                 self.stop(Stop::NotFinite);
                 return false;
@@ -297,10 +307,20 @@ impl<'a> Driver<'a> {
                 self.stop(Stop::NotFinite);
                 return false;
             }
+            self.audit_step(&part, rhs);
             self.accept(&part);
         }
         let (t, y) = (step.t() + h, self.run.state);
-        self.count_event() && self.change(which, t, y)
+        if !self.count_event() {
+            return false;
+        }
+        match self.zeno.note(t, std::array::from_fn(|i| i == which), self.resolution_s()) {
+            Some(limit) => {
+                self.close(&limit, t, y);
+                true
+            }
+            None => self.change(which, t, y),
+        }
     }
 
     /// False where there have been too many.
@@ -359,6 +379,13 @@ impl<'a> Driver<'a> {
     }
 
     fn finish(mut self) -> Run {
+        self.run.energy = self.balance();
+        if matches!(self.run.stop, Stop::StepLimit | Stop::EventLimit) {
+            let mut rhs = slope_in(self.model, self.run.mode);
+            let (t, y) = (self.run.t_s, self.run.state);
+            let fast = self.stepper.fastest(&mut rhs, t, &y, &mut self.run.counters);
+            self.run.fast_motion = fast.map(|(rate, part)| FastMotion::of(rate, &part));
+        }
         if let Some(since) = self.open_since {
             let stretch = self.run.t_s - since;
             self.run.open_s += stretch;

@@ -359,7 +359,7 @@ impl Model {
     ///
     /// Normal forces act through O, so they do work on alpha alone: Q = -c alpha' (N_bi delta_i'^2 + N_be delta_e'^2),
     /// slopes by alpha, which takes power at every alpha'. N_be here is that of static equilibrium at N_bi.
-    fn damped(&self, p: &WedgePoint, speed: f64, alpha_rate: f64) -> (f64, f64) {
+    pub(super) fn damped(&self, p: &WedgePoint, speed: f64, alpha_rate: f64) -> (f64, f64) {
         let c = self.hunt_crossley_s_per_m;
         if c == 0.0 || p.n_bi <= 0.0 {
             return (p.n_bi, 0.0);

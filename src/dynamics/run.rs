@@ -1,6 +1,7 @@
 //! A run: what it is asked for and what comes out.
 
 use super::driver::Driver;
+use super::energy::EnergyBalance;
 use super::model::{Forces, Grip, Mode, Model, Place, State};
 use crate::ode::step::Counters;
 use std::sync::atomic::AtomicBool;
@@ -22,6 +23,8 @@ pub struct RunSettings {
     pub samples: usize,
     /// Pure rolling: no friction limit, contact held by tension below first contact.
     pub rolling: bool,
+    /// Whether works are counted for the energy balance; costs some fifteen evaluations a step.
+    pub energy: bool,
     /// Set from outside to end the run at the next step.
     pub interrupt: Option<&'static AtomicBool>,
 }
@@ -129,6 +132,32 @@ pub struct Engaged {
     pub outer: SlipRecord,
 }
 
+/// The fastest motion where a run gave up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FastMotion {
+    /// Its rate, rad/s: |lambda| of the Jacobian's largest eigenvalue.
+    pub rate_rad_s: f64,
+    /// Its amplitude in the angle that moves most, rad.
+    pub amplitude_rad: f64,
+    /// What moves most: `sprag` (alpha, phi), `inner race` or `outer race`.
+    pub of: &'static str,
+}
+
+impl FastMotion {
+    /// From the part of the state's slope that is as fast as `rate` (rad/s): for a swing a_i cos the angle's rate and
+    /// its acceleration give a_i = hypot(rate_i/lambda, acceleration_i/lambda^2).
+    pub(super) fn of(rate: f64, part: &State) -> Self {
+        let amplitude = |i: usize| (part[i] / rate).hypot(part[4 + i] / (rate * rate));
+        let each = [
+            (amplitude(0).max(amplitude(1)), "sprag"),
+            (amplitude(2), "inner race"),
+            (amplitude(3), "outer race"),
+        ];
+        let most = each.iter().fold(each[0], |m, e| if e.0 > m.0 { *e } else { m });
+        Self { rate_rad_s: rate, amplitude_rad: most.0, of: most.1 }
+    }
+}
+
 /// A finished run.
 #[derive(Debug, Clone)]
 pub struct Run {
@@ -154,8 +183,14 @@ pub struct Run {
     pub events: u64,
     /// Work of the integrator.
     pub counters: Counters,
-    /// Where the run ended at its limit of steps: the fastest rate in the motion then, rad/s.
-    pub fastest_rad_s: Option<f64>,
+    /// Sequences of changes that accumulated and were closed at their limit.
+    pub zeno_closures: u64,
+    /// Changes of mode at which no candidate was consistent, the least inconsistent one was taken.
+    pub inconsistent_choices: u64,
+    /// Where the run ended at its limit of steps or events: what was fastest then.
+    pub fast_motion: Option<FastMotion>,
+    /// Where the energy went, where that was asked.
+    pub energy: Option<EnergyBalance>,
     /// Equidistant samples.
     pub samples: Vec<Sample>,
     /// When the clutch began to be one; `None`: it overran or was open to the end.
@@ -179,7 +214,10 @@ impl Run {
             peaks: Peaks::NONE,
             events: 0,
             counters: Counters::default(),
-            fastest_rad_s: None,
+            zeno_closures: 0,
+            inconsistent_choices: 0,
+            fast_motion: None,
+            energy: None,
             samples: Vec::with_capacity(samples),
             engaged: None,
             modes: Vec::new(),

@@ -16,6 +16,19 @@ pub fn integral(a: f64, b: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     half * HALF.iter().map(|&(x, w)| w * (f(middle - half * x) + f(middle + half * x))).sum::<f64>()
 }
 
+/// The same for several functions at once.
+pub fn integrals<const M: usize>(a: f64, b: f64, mut f: impl FnMut(f64) -> [f64; M]) -> [f64; M] {
+    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+    let mut sum = [0.0; M];
+    for (x, w) in HALF {
+        let (left, right) = (f(middle - half * x), f(middle + half * x));
+        for i in 0..M {
+            sum[i] += half * w * (left[i] + right[i]);
+        }
+    }
+    sum
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -65,6 +65,7 @@ where
         rest: f64,
         counters: &mut Counters,
     ) -> Option<Step<N>> {
+        let before = self.h;
         let mut h = self.h.min(longest).min(rest);
         let mut rejected = false;
         let step = loop {
@@ -104,6 +105,10 @@ where
         // No longer at once after a rejection: a step held by stability would be rejected every other time.
         if rejected && matches!(next, Step::Explicit(_)) {
             self.h = self.h.min(tried);
+        }
+        // What was cut short from outside says nothing against the length before.
+        if !rejected && tried == rest {
+            self.h = self.h.max(before);
         }
         Some(next)
     }
@@ -145,17 +150,17 @@ where
         }
     }
 
-    /// Fastest rate of the right-hand side at (t, y), 1/s.
+    /// Fastest rate of the right-hand side at (t, y), 1/s, and the part of the slope there that is as fast.
     pub fn fastest<X>(
         &mut self,
         rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
         t: f64,
         y: &[f64; N],
         counters: &mut Counters,
-    ) -> Option<f64> {
+    ) -> Option<(f64, [f64; N])> {
         let slope = rhs(t, y).ok()?;
         counters.rhs_evaluations += 1;
         self.radau.differentiate(rhs, t, y, &slope, self.floor, counters).ok()?;
-        self.radau.fastest()
+        self.radau.fast_part(&slope)
     }
 }

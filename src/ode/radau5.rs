@@ -153,6 +153,23 @@ where
         bound.is_finite().then_some(bound)
     }
 
+    /// |lambda| of the fastest eigenvalue that `slope` excites (1/s) and the part of `slope` in its directions: powers
+    /// of J^2, whose eigenvalue is real (-omega^2 of an oscillation), leave that part alone. `None` where nothing moves.
+    pub fn fast_part(&self, slope: &[f64; N]) -> Option<(f64, [f64; N])> {
+        const POWERS: i32 = 12;
+        let bound = self.fastest().filter(|b| *b > 0.0)?;
+        let squared = (self.jacobian / bound) * (self.jacobian / bound);
+        let mut part = SVector::<f64, N>::from_column_slice(slope);
+        for _ in 0..POWERS {
+            part = squared * part;
+        }
+        let ratio = (squared * part).dot(&part) / part.norm_squared();
+        let scaled = part / ratio.powi(POWERS);
+        let rate = bound * ratio.abs().sqrt();
+        let finite = rate > 0.0 && rate.is_finite() && scaled.iter().all(|v| v.is_finite());
+        finite.then(|| (rate, std::array::from_fn(|i| scaled[i])))
+    }
+
     /// One trial step; `None` where Newton's iteration does not converge or leaves the domain: shorten the step.
     pub fn step<X>(
         &mut self,
@@ -386,5 +403,13 @@ mod tests {
         radau.differentiate(&mut f, 0.0, &y, &slope, 1e-3, &mut counters).unwrap();
         let fastest = radau.fastest().unwrap();
         assert!((0.9e8..1.2e8).contains(&fastest), "{fastest:e}");
+        // Off its slow manifold by 1e-5, the third component alone moves at that rate.
+        let y = [0.0, 1.0, 1.0 + 1e-5];
+        let slope = f(0.0, &y).unwrap();
+        let (rate, part) = radau.fast_part(&slope).unwrap();
+        assert!(
+            (rate / 1e8 - 1.0).abs() < 1e-3 && (part[2].abs() / rate / 1e-5 - 1.0).abs() < 1e-2,
+            "{part:?}"
+        );
     }
 }

@@ -49,6 +49,7 @@ pub(super) fn run_settings(
         most_steps: settings.most_steps,
         samples,
         rolling: false,
+        energy: settings.energy,
         interrupt: settings.interrupt,
     }
 }

@@ -7,8 +7,8 @@ use super::error::{ErrorEstimate, Figures, Scales};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
 use crate::dynamics::{
-    Engaged, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Run, Sample, SlipRecord, Stop, published,
-    run,
+    EnergyBalance, Engaged, FastMotion, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Run, Sample,
+    SlipRecord, Stop, published, run,
 };
 
 /// Settings of a simulation.
@@ -28,6 +28,8 @@ pub struct Settings {
     pub most_events: u64,
     /// Steps, rejected ones included, before a run ends with a name. Default 200 000: some 3 s.
     pub most_steps: u64,
+    /// Whether the energy balance of the run is made up. Default no.
+    pub energy: bool,
     /// Set from outside to end the runs at the next step.
     pub interrupt: Option<&'static AtomicBool>,
 }
@@ -40,6 +42,7 @@ impl Default for Settings {
             samples: 0,
             most_events: 100_000,
             most_steps: 200_000,
+            energy: false,
             interrupt: None,
         }
     }
@@ -119,11 +122,18 @@ pub struct Simulation {
     pub error: Option<ErrorEstimate>,
     /// Whether every error is below the tolerance asked for.
     pub tolerance_reached: bool,
-    /// Smallest and largest theta_bi at the end over all runs made, rad: where the tolerance is not reached, what
-    /// can be said in place of a digit.
+    /// Smallest and largest theta_bi at the end over all runs made, rad: what is left where no digit is sure.
     pub spread_rad: [f64; 2],
-    /// Where the run gave up at its limit of steps: the fastest rate in the motion then, rad/s.
+    /// Sequences of mode changes that accumulated and were closed at their limit.
+    pub zeno_closures: u64,
+    /// Mode changes at which no candidate was consistent.
+    pub inconsistent_choices: u64,
+    /// Where the run gave up at its limit of steps or events: what was fastest then.
+    pub fast_motion: Option<FastMotion>,
+    /// Its rate, rad/s.
     pub fastest_rad_s: Option<f64>,
+    /// Where the energy went, where that was asked.
+    pub energy: Option<EnergyBalance>,
     /// History.
     pub samples: Vec<Sample>,
     /// When A first carried load without overrunning; `None`: never, or an equilibrium.
@@ -305,7 +315,11 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: &Try, other: &Try) -
         error,
         tolerance_reached,
         spread_rad: [fine.state[2]; 2],
-        fastest_rad_s: fine.fastest_rad_s,
+        zeno_closures: fine.zeno_closures,
+        inconsistent_choices: fine.inconsistent_choices,
+        fast_motion: fine.fast_motion,
+        fastest_rad_s: fine.fast_motion.map(|f| f.rate_rad_s),
+        energy: fine.energy,
         samples: fine.samples.clone(),
         engaged: fine.engaged,
         modes: fine.modes.clone(),
@@ -411,7 +425,11 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         error: None,
         tolerance_reached: true,
         spread_rad: [prepared.state[2]; 2],
+        zeno_closures: 0,
+        inconsistent_choices: 0,
+        fast_motion: None,
         fastest_rad_s: None,
+        energy: None,
         samples: Vec::new(),
         engaged: None,
         modes: Vec::new(),

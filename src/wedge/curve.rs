@@ -3,7 +3,7 @@
 use super::build::arc_end;
 use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::elastic::NoElastic;
-use super::table::{ArcTable, SLOPE_HELD_RAD, point};
+use super::table::{ArcTable, HELD_RAD, point};
 use crate::numeric::root;
 
 /// Why the curve ends.
@@ -154,17 +154,17 @@ impl WedgeCurve {
         }
         // s = (alpha - alpha_0)^(1/q); N = (s * z/s)^10.
         let x = alpha - self.alpha0;
-        let s = x.max(1e-24).powf(1.0 / self.exponent);
-        let v = arc.lanes.at(s);
-        // rho' is singular (integrably, as x^(1/q - 1)) at first contact; below x = 1e-9 rad rho itself
-        // changes by less than 1e-6 and its slope is held.
-        let (x, s) = if x > SLOPE_HELD_RAD {
-            (x, s)
-        } else {
-            (SLOPE_HELD_RAD, SLOPE_HELD_RAD.powf(1.0 / self.exponent))
-        };
-        let slopes = arc.rho_slopes.at(s).map(|d| d * s / (self.exponent * x));
-        point(&v, if alpha > self.alpha0 { (s * v[8]).powi(10) } else { 0.0 }, slopes)
+        let s = x.max(0.0).powf(1.0 / self.exponent);
+        if x > HELD_RAD {
+            let v = arc.lanes.at(s);
+            let slopes = arc.rho_slopes.at(s).map(|d| d * s / (self.exponent * x));
+            return point(&v, (s * v[8]).powi(10), slopes);
+        }
+        // rho' is singular (integrably, as x^(1/q - 1)) at first contact: within 1e-9 rad rho moves by some 1e-4. It is
+        // held there with slope 0, so that velocities and their constraints agree; the jump at first contact is
+        // taken as every jump of rho is.
+        let v = arc.lanes.at(HELD_RAD.powf(1.0 / self.exponent));
+        point(&v, (s * v[8]).powi(10), [0.0; 2])
     }
 
     /// The curve continued below first contact by the tension that a bilateral contact would carry:

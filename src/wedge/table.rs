@@ -14,8 +14,8 @@ use crate::numeric::{
 
 pub(super) const LANES: usize = 11;
 
-/// Distance from first contact below which the slope of the rolling ratios is held, rad.
-pub(super) const SLOPE_HELD_RAD: f64 = 1e-9;
+/// Distance from first contact below which the geometry is held, rad.
+pub(super) const HELD_RAD: f64 = 1e-9;
 
 /// Panels of the first arc in s, as fractions of its end. The lowest two hold N below 1e-10 of the end's and
 /// matter only for continuity.

@@ -103,6 +103,7 @@ fn eq_13_a_lossless_run_keeps_its_energy() {
         most_steps: 100_000,
         samples: 501,
         rolling: true,
+        energy: false,
         interrupt: None,
     };
     let mode = Mode { place, inner: Grip::Stick, outer: Grip::Stick };

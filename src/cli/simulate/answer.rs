@@ -3,7 +3,7 @@
 use super::Scene;
 use crate::cli::left_out::LeftOut;
 use crate::design::ScenarioKind;
-use crate::dynamics::{SlipRecord, Stop};
+use crate::dynamics::{EnergyBalance, SlipRecord, Stop};
 use crate::scenario::ErrorEstimate;
 use serde::Serialize;
 
@@ -42,6 +42,32 @@ struct Errors {
     contact_margin: f64,
 }
 
+/// Where the energy went, J: works (positive: brought in), changes, what the balance leaves over.
+#[derive(Debug, Serialize)]
+struct Energy {
+    friction_inner_j: f64,
+    friction_outer_j: f64,
+    race_damping_j: f64,
+    contact_damping_j: f64,
+    torque_inner_j: f64,
+    torque_outer_j: f64,
+    frame_j: f64,
+    kinetic_change_j: f64,
+    stored_change_j: f64,
+    through_j: f64,
+    residual_j: f64,
+    /// Residual by the energy that went through.
+    relative: f64,
+}
+
+/// The fastest motion.
+#[derive(Debug, Serialize)]
+struct Fast {
+    rate_rad_s: f64,
+    amplitude_rad: f64,
+    of: &'static str,
+}
+
 /// Keys of `simulate`; null where a figure does not exist for the scenario.
 #[derive(Debug, Default, Serialize)]
 pub(super) struct Body {
@@ -69,9 +95,16 @@ pub(super) struct Body {
     hertz_least_mpa: Option<f64>,
     hertz_rated_mpa: Option<f64>,
     events: Option<u64>,
+    zeno_closures: Option<u64>,
+    inconsistent_choices: Option<u64>,
+    /// What was fastest where the run gave up.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fast_motion: Option<Fast>,
     steps: Option<u64>,
     rhs_evaluations: Option<u64>,
     error_estimates: Option<Errors>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy_balance: Option<Energy>,
     /// Inputs of an engagement that the paper does not publish for its Figure 8.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     assumptions: Vec<&'static str>,
@@ -97,6 +130,25 @@ impl Slip {
             time_s: Some(record.time_s),
             distance_mm: Some(record.distance_m * 1e3),
             net_mm: Some(record.net_m * 1e3),
+        }
+    }
+}
+
+impl Energy {
+    fn of(e: &EnergyBalance) -> Self {
+        Self {
+            friction_inner_j: e.friction_inner_j,
+            friction_outer_j: e.friction_outer_j,
+            race_damping_j: e.race_damping_j,
+            contact_damping_j: e.contact_damping_j,
+            torque_inner_j: e.torque_inner_j,
+            torque_outer_j: e.torque_outer_j,
+            frame_j: e.frame_j,
+            kinetic_change_j: e.kinetic_j,
+            stored_change_j: e.stored_j,
+            through_j: e.through_j,
+            residual_j: e.residual_j(),
+            relative: e.relative(),
         }
     }
 }
@@ -165,9 +217,17 @@ impl Body {
             hertz_least_mpa: Some(s.hertz_least_pa / 1e6),
             hertz_rated_mpa: super::facts::rated_pa(scene).map(|p| p / 1e6),
             events: Some(s.events),
+            zeno_closures: Some(s.zeno_closures),
+            inconsistent_choices: Some(s.inconsistent_choices),
+            fast_motion: s.fast_motion.map(|f| Fast {
+                rate_rad_s: f.rate_rad_s,
+                amplitude_rad: f.amplitude_rad,
+                of: f.of,
+            }),
             steps: Some(s.steps),
             rhs_evaluations: Some(s.rhs_evaluations),
             error_estimates: s.error.as_ref().filter(|_| s.stop != Stop::Interrupted).map(Errors::of),
+            energy_balance: s.energy.as_ref().map(Energy::of),
             assumptions: match scene.scenario.kind {
                 ScenarioKind::Engagement { .. } => {
                     vec!["free_run_rpm", "reversing_torque_nm", "stop_stiffness_nm_per_rad"]

@@ -167,6 +167,15 @@ fn motion(f: &mut Facts, scene: &Scene, s: &Simulation) {
         f.add("Hertz pressure, nominal torque", rated, Unit::Megapascal, None);
     }
     demand(f, s);
+    if let Some(b) = s.energy {
+        let balance = format!(
+            "{:.4} J through, {:.4} J lost in friction, {:.1e} left over",
+            b.through_j,
+            -b.friction_inner_j - b.friction_outer_j,
+            b.relative().abs()
+        );
+        f.word("energy balance", &balance);
+    }
     f.count("changes of mode", s.events);
     f.count("steps, all runs", s.steps);
     f.count("right-hand sides, all runs", s.rhs_evaluations);

@@ -1,0 +1,204 @@
+//! Where the energy of a run went: works from outside and losses against what is in motion and stored.
+//!
+//! In the frame that turns with the mean speed. With x' = (alpha', phi', theta_bi', theta_be') the equations of
+//! [`Model::forces`] times x' give, the gyroscopic terms cancelling,
+//!
+//!   d(E_kin + V)/dt = n_s (T_bi v_A - T_be v_B) - C_rl (theta_bi' - theta_be')^2 + n_s Q alpha'
+//!                     + C_bi theta_bi' + C_be theta_be' + P_frame
+//!
+//! V: races' abutment, springs, and the wedge: n_s int U' dalpha at the curve's speed, the centrifugal potential
+//! -n_s m_g OC_g^2 Omega^2/2 while open. P_frame: the inertia forces of d Omega/dt, and the centrifugal force as far as it
+//! differs from that of the curve's speed. What the balance leaves over is what integration, changes of mode and
+//! the projections at them have done wrong.
+
+use super::driver::Driver;
+use super::model::{Grip, Model, N_STATE, Place, State};
+use crate::numeric::quadrature;
+use crate::ode::step::{Counters, Step};
+
+/// Works over a run, J, positive where they bring energy in; friction and damping take it out.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EnergyBalance {
+    /// Friction at A.
+    pub friction_inner_j: f64,
+    /// Friction at B.
+    pub friction_outer_j: f64,
+    /// Viscous damping between the races.
+    pub race_damping_j: f64,
+    /// Hunt-Crossley damping of the contacts.
+    pub contact_damping_j: f64,
+    /// Torque on the inner race: preload, step or history.
+    pub torque_inner_j: f64,
+    /// Excitation of the outer race.
+    pub torque_outer_j: f64,
+    /// Change of the mean speed.
+    pub frame_j: f64,
+    /// Change of kinetic energy.
+    pub kinetic_j: f64,
+    /// Change of stored energy: wedge, springs, abutment.
+    pub stored_j: f64,
+    /// Energy that went through: the time integral of the sum of the magnitudes of all powers, and what was in motion at
+    /// the start.
+    pub through_j: f64,
+}
+
+impl EnergyBalance {
+    /// Works less change of energy, J: 0 but for errors.
+    pub fn residual_j(&self) -> f64 {
+        self.friction_inner_j
+            + self.friction_outer_j
+            + self.race_damping_j
+            + self.contact_damping_j
+            + self.torque_inner_j
+            + self.torque_outer_j
+            + self.frame_j
+            - self.kinetic_j
+            - self.stored_j
+    }
+
+    /// The residual by the energy that went through; 0 where none did.
+    pub fn relative(&self) -> f64 {
+        if self.through_j > 0.0 { self.residual_j() / self.through_j } else { 0.0 }
+    }
+}
+
+const WORKS: usize = 7;
+
+impl Model {
+    /// Powers in the order of the fields of [`EnergyBalance`], W.
+    fn powers(&self, mode: &super::Mode, t: f64, y: &State) -> [f64; WORKS] {
+        let p = self.point(mode.place, y[0]);
+        let rates = self.rates(mode, &p, y);
+        let f = self.forces_at(mode, t, y, &p, &rates);
+        let [da, dp, di, de] = rates;
+        let n = self.count;
+        let (speed, spin) = self.mean_speed(t);
+        let in_curve = self.curve.speed_rad_s();
+        let open = mode.place == Place::Open;
+        let slips = |grip: Grip| f64::from(u8::from(matches!(grip, Grip::Slip(_))));
+        let frame = if open {
+            self.mass_kg * p.oc_g * p.oc_g_slope * (speed * speed - in_curve * in_curve)
+        } else {
+            -(self.static_tangential_n(&p, speed) - p.t_static) * p.oa * (p.rho_i + p.rho_e)
+        };
+        let orbit = self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g;
+        let slowed = n * (self.inertia_kg_m2 * da + orbit * dp)
+            + self.inner_inertia_kg_m2 * di
+            + self.outer_inertia_kg_m2 * de;
+        [
+            n * f.t_bi * f.v_a * slips(mode.inner),
+            -n * f.t_be * f.v_b * slips(mode.outer),
+            -self.damping_nm_s_per_rad * (di - de).powi(2),
+            n * self.damped(&p, speed, da).1 * da,
+            (self.loads.inner_nm - self.drive.torque_at(t)) * di,
+            self.loads.amplitude_nm * (self.loads.omega_rad_s * t).sin() * de,
+            n * frame * da - spin * slowed,
+        ]
+    }
+
+    /// Energy stored in the contacts of all sprags between two angles, J: n_s int U' dalpha with U' = T OA (rho_i +
+    /// rho_e), arc by arc and in pieces, because an edge of the patch may pass a junction on the way; the centrifugal
+    /// potential below first contact.
+    pub fn wedge_energy_j(&self, from: f64, to: f64) -> f64 {
+        const PIECES: u32 = 20;
+        let curve = &self.curve;
+        let (low, high) = (from.min(to), from.max(to));
+        let touch = curve.first_contact_rad();
+        let speed = curve.speed_rad_s();
+        let mut sum = 0.0;
+        if low < touch && speed != 0.0 {
+            sum += quadrature::integral(low, high.min(touch), |alpha| {
+                let p = curve.open(alpha);
+                -self.mass_kg * p.oc_g * p.oc_g_slope * speed * speed
+            });
+        }
+        if high > touch {
+            let low = low.max(touch);
+            for k in curve.arc_at(low)..=curve.arc_at(high) {
+                let begin = if k == 0 { low } else { curve.arc_end_rad(k - 1).max(low) };
+                let piece = (curve.arc_end_rad(k).min(high) - begin) / f64::from(PIECES);
+                for i in 0..PIECES {
+                    let at = begin + piece * f64::from(i);
+                    sum += quadrature::integral(at, at + piece, |alpha| {
+                        let p = curve.in_arc(k, alpha);
+                        p.t_static * p.oa * (p.rho_i + p.rho_e)
+                    });
+                }
+            }
+        }
+        self.count * sum * (to - from).signum()
+    }
+}
+
+/// What a run keeps to close its balance at the end.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Audit {
+    works: [f64; WORKS],
+    through_j: f64,
+    /// Kinetic energy, that of springs and abutment (J), and alpha at the start.
+    start: [f64; 3],
+}
+
+impl Driver<'_> {
+    /// Kinetic energy and that of springs and abutment now, J, and alpha.
+    fn energies(&self) -> [f64; 3] {
+        let (model, y) = (self.model, &self.run.state);
+        let p = model.point(self.run.mode.place, y[0]);
+        let rates = model.rates(&self.run.mode, &p, y);
+        let still = model.energy_without_wedge(&p, &[0.0; 4], y);
+        [model.energy_without_wedge(&p, &rates, y) - still, still, y[0]]
+    }
+
+    /// Begin to count.
+    pub(super) fn audit(&mut self) {
+        let start = self.energies();
+        self.audit = Some(Audit { works: [0.0; WORKS], through_j: start[0], start });
+    }
+
+    /// Count the works of an accepted step, by quadrature over its dense output, whose evaluations are none of the run's.
+    pub(super) fn audit_step(
+        &mut self,
+        step: &Step<N_STATE>,
+        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
+    ) {
+        let (model, mode) = (self.model, self.run.mode);
+        let Some(audit) = &mut self.audit else { return };
+        let Ok(dense) = step.dense(rhs, &mut Counters::default()) else { return };
+        let (from, until) = (step.t(), step.t() + step.h());
+        audit.through_j += quadrature::integrals(from, until, |t| {
+            let powers = model.powers(&mode, t, &dense.at(t));
+            let all = powers.iter().map(|p| p.abs()).sum::<f64>();
+            let [a, b, c, d, e, f, g] = powers;
+            [a, b, c, d, e, f, g, all]
+        })
+        .into_iter()
+        .enumerate()
+        .fold(0.0, |all, (i, work)| match audit.works.get_mut(i) {
+            Some(sum) => {
+                *sum += work;
+                all
+            }
+            None => work,
+        });
+    }
+
+    /// The balance at the end.
+    pub(super) fn balance(&self) -> Option<EnergyBalance> {
+        let Audit { works, through_j, start } = self.audit?;
+        let now = self.energies();
+        let [friction_inner_j, friction_outer_j, race_damping_j, contact_damping_j, inner, outer, frame_j] =
+            works;
+        Some(EnergyBalance {
+            friction_inner_j,
+            friction_outer_j,
+            race_damping_j,
+            contact_damping_j,
+            torque_inner_j: inner,
+            torque_outer_j: outer,
+            frame_j,
+            kinetic_j: now[0] - start[0],
+            stored_j: now[1] - start[1] + self.model.wedge_energy_j(start[2], now[2]),
+            through_j,
+        })
+    }
+}
