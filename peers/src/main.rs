@@ -1,0 +1,1 @@
+fn main() { println!("{}", sprag_design::Stop::Finished.name()); }
