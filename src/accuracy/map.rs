@@ -24,9 +24,9 @@ pub struct WorkLimit {
 }
 
 impl Default for WorkLimit {
-    /// A tenth of the command's own limit of steps: most cases need a hundredth of it.
+    /// A fortieth of the command's own limit of steps: most cases need a thousandth of it.
     fn default() -> Self {
-        Self { tolerance: 1e-6, most_steps: 20_000, most_events: 5_000, interrupt: None }
+        Self { tolerance: 1e-6, most_steps: 5_000, most_events: 1_000, interrupt: None }
     }
 }
 

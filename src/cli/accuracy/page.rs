@@ -119,7 +119,7 @@ fn plot(scene: &Precision, x_title: &str, x: impl Fn(&Point) -> f64) -> Plot {
 fn stability(page: &mut Page, study: &Study) {
     page.heading("Stability map").paragraph(&map::summary(study));
     page.table("The box: each value at either end or evenly in its logarithm between; every fourth case is a corner of the \
-                whole box. Ten periods, at most one second.", &axes());
+                whole box. Ten periods, at most 0.1 s.", &axes());
     page.figure(
         &map::bars(study).to_svg(),
         "Cases by outcome; not carried: the preload exceeds what the clutch holds.",
