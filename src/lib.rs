@@ -24,6 +24,7 @@
 //! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |
 //! | 4 | [`scenario`] | a named scene in, history and verdict out |
 //! | 4 | [`fidelity`] | what a scene can leave out, and what that costs |
+//! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP |
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
@@ -70,6 +71,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod accuracy;
 pub mod cli;
 pub mod contact;
 pub mod design;

@@ -23,6 +23,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // A scenario may be given another friction law, so it names that law.
     ("scenario", &["numeric", "design", "profile", "friction", "wedge", "dynamics"]),
     ("fidelity", &["numeric", "design", "profile", "contact", "wedge", "dynamics", "scenario"]),
+    ("accuracy", &["design", "dynamics", "scenario", "fidelity"]),
     ("margin", &["numeric", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"]),
     // Never a contact, a wedge or a path: a vector and its margins.
     ("optimise", &["numeric", "design", "scenario", "margin"]),
@@ -33,8 +34,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
-            "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity", "margin",
-            "optimise", "report", "export",
+            "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity", "accuracy",
+            "margin", "optimise", "report", "export",
         ],
     ),
 ];

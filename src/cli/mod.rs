@@ -4,6 +4,7 @@
 //! Absent: physics, units (`report` changes them), allowables (`margin` has them).
 //! Equations: none.
 
+pub mod accuracy;
 pub mod check;
 pub mod exit;
 pub mod export;
@@ -34,6 +35,7 @@ Examples:
   sprag-design stiffness designs/huang2017-multi-arc.toml --max-torque 50 --csv curve.csv
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --report high-10.html
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml
+  sprag-design accuracy designs/huang2017-multi-arc.toml --report accuracy.html
 
 Exit codes:
   0 done, all margins held     1 a margin is not held, or no feasible design found
@@ -65,6 +67,8 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     /// Search for a better design within the limits
     Optimize(optimize::OptimizeArgs),
+    /// Error against run time of every method and fidelity, and the stability map
+    Accuracy(accuracy::AccuracyArgs),
     /// Write the design for another program (a CalculiX deck), or read its result
     Export(export::ExportArgs),
     /// Print the JSON Schema of the design file
@@ -165,6 +169,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
+        Command::Accuracy(args) => accuracy::run(&args, &context),
         Command::Export(args) => export::run(&args, &context),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {

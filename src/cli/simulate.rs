@@ -272,7 +272,8 @@ fn refused(flag: &str, found: f64, allowed: &str) -> Failure {
     Failure::malformed(format!("{flag} {found:e}: allowed: {allowed}"))
 }
 
-fn unknown(name: &str, design: &Design) -> Failure {
+/// The refusal of a scenario that the design does not have.
+pub(super) fn unknown(name: &str, design: &Design) -> Failure {
     let names: Vec<&str> = design.scenarios.iter().map(|s| s.name.as_str()).collect();
     let likeness = |candidate: &str| strsim::jaro_winkler(candidate, name);
     match names.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b))) {

@@ -15,7 +15,8 @@ pub struct Demand {
     pub by_bisection: bool,
     /// mu_s/mu_req - 1; -1 where no friction suffices.
     pub slip_margin: f64,
-    /// N_min/N_static of the rolling run, below zero by the tension that rolling would need.
+    /// N_min/N_static of the rolling run, below zero by the tension that rolling would need; without a static load
+    /// N_min/N_max.
     pub contact_margin: f64,
     /// Largest N_bi and N_be of the rolling run, N.
     pub normal_max_n: [f64; 2],
@@ -124,13 +125,20 @@ pub(super) fn roll(
         required_friction: required,
         by_bisection,
         slip_margin: required.map_or(-1.0, |q| prepared.model.friction.static_ / q - 1.0),
-        contact_margin: r.normal_min_n / prepared.static_normal_n.max(f64::MIN_POSITIVE),
+        contact_margin: contact_margin(prepared.static_normal_n, &r),
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished,
         interrupted,
         rhs_evaluations: before + r.run.counters.rhs_evaluations,
     };
     (r.run, demand)
+}
+
+/// N_min over the static load, or over the largest where there is none; 0 where nothing ever presses or pulls.
+fn contact_margin(static_n: f64, rolling: &Rolling) -> f64 {
+    let scale = if static_n > 0.0 { static_n } else { rolling.run.peaks.normal_max_n };
+    let margin = rolling.normal_min_n / scale;
+    if margin.is_finite() { margin } else { 0.0 }
 }
 
 /// Smallest static friction with which the scene has the verdict "sticks", the kinetic one lowered with it;

@@ -108,7 +108,8 @@ impl Scales {
             time_s: prepared.duration_s,
             force_n,
             pressure_pa: or_one(hertz_peak(prepared, p.normal_max_n, p.normal_outer_max_n)),
-            contact: force_n / or_one(prepared.static_normal_n),
+            // Without a static load the contact margin is one of the largest already.
+            contact: if prepared.static_normal_n > 0.0 { force_n / prepared.static_normal_n } else { 1.0 },
         }
     }
 

@@ -1,0 +1,187 @@
+//! One case of the stability map: run, run again at half the tolerance, compared.
+
+use std::sync::atomic::AtomicBool;
+
+use rayon::prelude::*;
+
+use super::cases::Case;
+use crate::design::Clutch;
+use crate::dynamics::Stop;
+use crate::fidelity;
+use crate::scenario::{NoScenario, Settings, Simulation, Verdict};
+
+/// What one case may cost.
+#[derive(Debug, Clone, Copy)]
+pub struct WorkLimit {
+    /// As [`Settings::tolerance`].
+    pub tolerance: f64,
+    /// Steps of one run, rejected ones included.
+    pub most_steps: u64,
+    /// Changes of mode of one run.
+    pub most_events: u64,
+    /// Set from outside to end the runs.
+    pub interrupt: Option<&'static AtomicBool>,
+}
+
+impl Default for WorkLimit {
+    /// A fortieth of the command's own limit of steps: most cases need a thousandth of it.
+    fn default() -> Self {
+        Self { tolerance: 1e-6, most_steps: 5_000, most_events: 1_000, interrupt: None }
+    }
+}
+
+/// How a case ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// A verdict.
+    Verdict(Verdict),
+    /// None, for this reason.
+    Stopped(Stop),
+    /// The preload exceeds what the curve carries.
+    NotCarried,
+    /// No curve at this speed.
+    NoCurve,
+}
+
+impl Outcome {
+    /// Name in reports and JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Verdict(v) => v.name(),
+            // Both runs finished, yet with different figures for what decides: no verdict common to both.
+            Self::Stopped(Stop::Finished) => "undecided",
+            Self::Stopped(s) => s.name(),
+            Self::NotCarried => "not-carried",
+            Self::NoCurve => "no-curve",
+        }
+    }
+
+    /// Whether the case met its limit of work.
+    pub fn met_a_limit(self) -> bool {
+        matches!(self, Self::Stopped(Stop::StepLimit | Stop::EventLimit))
+    }
+}
+
+/// A case with what became of it.
+#[derive(Debug, Clone)]
+pub struct Judged {
+    /// The case.
+    pub case: Case,
+    /// Outcome at the tolerance, and at half of it.
+    pub outcomes: [Outcome; 2],
+    /// Whether half the tolerance changes the verdict, neither being `at-threshold`.
+    pub verdict_changes: bool,
+    /// First figure of the answers that is not finite.
+    pub not_finite: Option<&'static str>,
+    /// Whether the tolerance was reached, in both.
+    pub converged: bool,
+    /// theta_bi at the end in both, rad.
+    pub theta_inner_rad: [f64; 2],
+    /// Time reached, s.
+    pub t_s: f64,
+    /// Changes of mode of the answering run.
+    pub events: u64,
+    /// Steps of both answers, those of all their runs.
+    pub steps: u64,
+    /// Right-hand sides of both answers.
+    pub rhs_evaluations: u64,
+    /// Fastest rate in the motion where the limit of steps was met, rad/s.
+    pub fastest_rad_s: Option<f64>,
+}
+
+/// All `cases` on `clutch`, in parallel; the results are in their order, the same for any number of threads.
+/// `done` is called after each.
+pub fn map(clutch: &Clutch, cases: &[Case], limit: &WorkLimit, done: &(dyn Fn() + Sync)) -> Vec<Judged> {
+    let one = |case: &Case| {
+        let judged = judge(clutch, case, limit);
+        done();
+        judged
+    };
+    cases.par_iter().with_max_len(1).map(one).collect()
+}
+
+/// One case.
+pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
+    let scenario = case.scenario(clutch);
+    let go = |tolerance: f64| {
+        let settings = Settings {
+            tolerance,
+            most_steps: limit.most_steps,
+            most_events: limit.most_events,
+            interrupt: limit.interrupt,
+            ..Settings::default()
+        };
+        fidelity::simulate(&scenario, &settings, false).map(|p| p.simulation)
+    };
+    let answers = [go(limit.tolerance), go(0.5 * limit.tolerance)];
+    let outcomes = [outcome(&answers[0]), outcome(&answers[1])];
+    let verdicts = outcomes.map(|o| match o {
+        Outcome::Verdict(v) => Some(v),
+        _ => None,
+    });
+    let verdict_changes = match verdicts {
+        [Some(a), Some(b)] => a != b && a != Verdict::AtThreshold && b != Verdict::AtThreshold,
+        _ => false,
+    };
+    let [a, b] = &answers;
+    let found = || a.iter().chain(b);
+    let first = a.as_ref().ok();
+    Judged {
+        case: *case,
+        outcomes,
+        verdict_changes,
+        not_finite: found().find_map(not_finite),
+        converged: found().all(|s| s.tolerance_reached),
+        theta_inner_rad: [a, b].map(|s| s.as_ref().map_or(0.0, |s| s.theta_inner_rad)),
+        t_s: first.map_or(0.0, |s| s.t_s),
+        events: first.map_or(0, |s| s.events),
+        steps: found().map(|s| s.steps).sum(),
+        rhs_evaluations: found().map(|s| s.rhs_evaluations).sum(),
+        fastest_rad_s: first.and_then(|s| s.fastest_rad_s),
+    }
+}
+
+fn outcome(answer: &Result<Simulation, NoScenario>) -> Outcome {
+    match answer {
+        Ok(s) => s.verdict.map_or(Outcome::Stopped(s.stop), Outcome::Verdict),
+        Err(NoScenario::NotCarried { .. }) => Outcome::NotCarried,
+        Err(_) => Outcome::NoCurve,
+    }
+}
+
+/// Name of the first figure that is no finite number.
+fn not_finite(s: &Simulation) -> Option<&'static str> {
+    let p = s.peaks;
+    let d = s.demand;
+    let demand = |f: fn(&crate::scenario::Demand) -> f64| d.as_ref().map_or(0.0, f);
+    let slips = [s.inner, s.outer].map(|r| r.time_s + r.distance_m + r.net_m);
+    let e = s.error.unwrap_or_default();
+    [
+        ("theta_inner_rad", s.theta_inner_rad),
+        ("theta_outer_rad", s.theta_outer_rad),
+        ("offset_rad", s.offset_rad),
+        ("inner", slips[0]),
+        ("outer", slips[1]),
+        ("contact_lost_s", s.contact_lost_s),
+        ("peaks.tan", p.tan_inner + p.tan_outer),
+        ("peaks.normal_min_n", p.normal_min_n),
+        ("peaks.normal_max_n", p.normal_max_n + p.normal_outer_max_n),
+        ("hertz", s.hertz_peak_pa + s.hertz_static_pa + s.hertz_least_pa),
+        ("static_normal_n", s.static_normal_n),
+        ("demand.required_friction", demand(|d| d.required_friction.unwrap_or(0.0))),
+        ("demand.slip_margin", demand(|d| d.slip_margin)),
+        ("demand.contact_margin", demand(|d| d.contact_margin)),
+        ("demand.normal_max_n", demand(|d| d.normal_max_n[0] + d.normal_max_n[1])),
+        ("error.angles", e.theta_inner_rad + e.theta_outer_rad + e.offset_rad),
+        ("error.slip", e.net_slip_m + e.net_slip_outer_m + e.slip_distance_m[0] + e.slip_distance_m[1]),
+        ("error.times", e.slip_time_s[0] + e.slip_time_s[1] + e.contact_lost_s),
+        ("error.normal", e.normal_min_n + e.normal_max_n + e.hertz_peak_pa),
+        ("error.demand", e.tan_demand[0] + e.tan_demand[1] + e.required_friction),
+        ("error.margins", e.slip_margin + e.contact_margin),
+        ("spread_rad", s.spread_rad[1] - s.spread_rad[0]),
+        ("fastest_rad_s", s.fastest_rad_s.unwrap_or(0.0)),
+    ]
+    .into_iter()
+    .find(|(_, value)| !value.is_finite())
+    .map(|(name, _)| name)
+}

@@ -1,0 +1,12 @@
+//! How far the figures can be trusted: error against work of every method, and the map of where runs come to an end.
+//!
+//! In: a scenario or a clutch, settings. Out: [`Precision`] (work-precision), [`Judged`] (one case of the map).
+//! Absent: peers (a crate of their own), verdicts on the methods, printing. Equations: none.
+
+mod cases;
+mod map;
+mod precision;
+
+pub use cases::{Case, PARAMETERS, Parameter, cases};
+pub use map::{Judged, Outcome, WorkLimit, judge, map};
+pub use precision::{Method, Point, Precision, PrecisionSettings, precision};

@@ -1,0 +1,118 @@
+//! Which setting of each method is the cheapest below a wanted error.
+
+use crate::accuracy::{Method, Point, Precision};
+use crate::report::significant;
+
+/// Error of theta_bi that is wanted, rad: the tool's default tolerance.
+pub(super) const WANTED_RAD: f64 = 1e-6;
+/// The published scheme as it was published: step, s.
+const PUBLISHED_STEP_S: f64 = 1e-5;
+
+/// Fastest point of `method` at and beyond which every finer setting stays below [`WANTED_RAD`] too: one that is right
+/// by chance does not count.
+pub(super) fn cheapest(points: &[Point]) -> Option<&Point> {
+    let good = |p: &Point| p.theta_error_rad.is_some_and(|e| e <= WANTED_RAD);
+    let from = points.iter().rposition(|p| !good(p)).map_or(0, |i| i + 1);
+    points.get(from..)?.iter().min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+}
+
+/// Cheapest point of each method; the published scheme by its best band.
+pub(super) fn winners(scene: &Precision) -> Vec<(Method, Option<&Point>)> {
+    let mut list: Vec<(Method, Option<&Point>)> = Vec::new();
+    for (method, points) in &scene.methods {
+        let found = cheapest(points);
+        match list.iter_mut().find(|(m, _)| m.key() == method.key()) {
+            Some(entry) => {
+                let better = match (entry.1, found) {
+                    (Some(a), Some(b)) => b.seconds < a.seconds,
+                    (None, Some(_)) => true,
+                    _ => false,
+                };
+                if better {
+                    *entry = (*method, found);
+                }
+            }
+            None => list.push((*method, found)),
+        }
+    }
+    list
+}
+
+/// Setting in words.
+pub(super) fn setting(method: Method, point: &Point) -> String {
+    match method {
+        Method::Published(band) => format!("step {:.0e} s, band {band:.0e} m/s", point.setting),
+        _ => format!("tolerance {:.0e}", point.setting),
+    }
+}
+
+/// Name for people.
+pub(super) fn name(method: Method) -> String {
+    match method {
+        Method::OneRun => "event, one run".to_owned(),
+        Method::Full => "event, whole answer, full model".to_owned(),
+        Method::Reduced => "event, whole answer, planned".to_owned(),
+        Method::Published(band) => format!("published, band {band:.0e} m/s"),
+    }
+}
+
+/// Time of the published scheme at its own step over that of one run of the event method at its cheapest.
+pub(super) fn gain_over_published(scene: &Precision) -> Option<f64> {
+    let ours = winners(scene).into_iter().find(|w| w.0 == Method::OneRun)?.1?.seconds;
+    let at_its_step = |(m, points): &(Method, Vec<Point>)| {
+        let point = points.iter().find(|p| (p.setting / PUBLISHED_STEP_S - 1.0).abs() < 1e-9);
+        point.filter(|p| m.band_m_s().is_some() && p.theta_error_rad.is_some()).map(|p| p.seconds)
+    };
+    let theirs = scene.methods.iter().filter_map(at_its_step).fold(f64::INFINITY, f64::min);
+    theirs.is_finite().then_some(theirs / ours)
+}
+
+/// The verdict on one scene in one or two sentences.
+pub(super) fn sentence(scene: &Precision) -> String {
+    let mut parts = Vec::new();
+    let list = winners(scene);
+    let ours = list.iter().find(|w| w.0 == Method::OneRun).and_then(|w| w.1).map(|p| p.seconds);
+    for (method, point) in &list {
+        let bare = if method.band_m_s().is_some() { "published".to_owned() } else { name(*method) };
+        parts.push(match point {
+            Some(p) => {
+                let ratio = match ours {
+                    Some(t) if method.band_m_s().is_some() => {
+                        format!(", {} times as long as one run", significant(p.seconds / t, 2))
+                    }
+                    _ => String::new(),
+                };
+                format!("{bare} {} ms ({}{ratio})", significant(1e3 * p.seconds, 3), setting(*method, p))
+            }
+            None => format!("{bare} never: best error {}", best(scene, *method)),
+        });
+    }
+    let gain = gain_over_published(scene).map_or(String::new(), |g| {
+        format!(
+            " One run at that setting takes 1/{} of the time of the published scheme at its own step of 1e-5 s, \
+             whose error is {}.",
+            significant(g, 3),
+            at_its_step(scene)
+        )
+    });
+    format!("{}: below {WANTED_RAD:.0e} rad: {}.{gain}", scene.scene, parts.join("; "))
+}
+
+fn best(scene: &Precision, method: Method) -> String {
+    let errors = scene.methods.iter().filter(|(m, _)| m.key() == method.key());
+    let least = errors.flat_map(|(_, p)| p).filter_map(|p| p.theta_error_rad).fold(f64::INFINITY, f64::min);
+    format!("{least:.1e} rad")
+}
+
+fn at_its_step(scene: &Precision) -> String {
+    let errors: Vec<f64> = scene
+        .methods
+        .iter()
+        .filter(|(m, _)| m.band_m_s().is_some())
+        .flat_map(|(_, p)| p)
+        .filter(|p| (p.setting / PUBLISHED_STEP_S - 1.0).abs() < 1e-9)
+        .filter_map(|p| p.theta_error_rad)
+        .collect();
+    let (low, high) = errors.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), &e| (l.min(e), h.max(e)));
+    if low == high { format!("{low:.1e} rad") } else { format!("{low:.1e} to {high:.1e} rad by the band") }
+}
