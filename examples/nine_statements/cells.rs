@@ -41,9 +41,7 @@ pub fn run_all(design: &Design) -> Result<Vec<Ran>, Box<dyn Error + Send + Sync>
             let history = run
                 .samples
                 .iter()
-                .map(|s| {
-                    [1e3 * s.t, 1e3 * s.state[2], 1e3 * (phase(&s.state) - start), s.forces.n_bi]
-                })
+                .map(|s| [1e3 * s.t, 1e3 * s.state[2], 1e3 * (phase(&s.state) - start), s.forces.n_bi])
                 .collect();
             let (mu_static, inner_radius_m) =
                 (scene.clutch.friction.static_, scene.clutch.races.inner_radius_m);
@@ -54,6 +52,8 @@ pub fn run_all(design: &Design) -> Result<Vec<Ran>, Box<dyn Error + Send + Sync>
 
 /// Value and error, e.g. "−0.0072355 ± 1.8e-8".
 fn with_error(value: f64, error: f64) -> Cell {
+    // Rounding of sums of angles, 1e-12 mrad.
+    let value = if value.abs() < 1e-9 { 0.0 } else { value };
     format!("{} ± {}", significant(value, 6), significant(error, 1)).into()
 }
 
@@ -89,15 +89,19 @@ fn figures(ran: &[Ran]) -> Table {
         ("verdict", |r| r.run.verdict.map_or(r.run.stop.name(), |v| v.name()).into()),
         ("inner race at the end, rad", |r| with_error(r.run.theta_inner_rad, e(r).theta_inner_rad)),
         ("offset (+ overrunning), mrad", |r| with_error(1e3 * r.run.offset_rad, 1e3 * e(r).offset_rad)),
-        ("offset at the inner race, um", |r| {
+        ("offset at the inner race, µm", |r| {
             let um = 1e6 * r.inner_radius_m;
             with_error(um * r.run.offset_rad, um * e(r).offset_rad)
         }),
         ("direction of the offset", |r| direction(r.run.offset_rad).into()),
-        ("net slip inside, um", |r| with_error(1e6 * r.run.inner.net_m, 1e6 * e(r).net_slip_m)),
-        ("net slip outside, um", |r| with_error(1e6 * r.run.outer.net_m, 1e6 * e(r).net_slip_outer_m)),
-        ("slip path inside, um", |r| with_error(1e6 * r.run.inner.distance_m, 1e6 * e(r).slip_distance_m[0])),
-        ("slip path outside, um", |r| with_error(1e6 * r.run.outer.distance_m, 1e6 * e(r).slip_distance_m[1])),
+        ("net slip inside, µm", |r| with_error(1e6 * r.run.inner.net_m, 1e6 * e(r).net_slip_m)),
+        ("net slip outside, µm", |r| with_error(1e6 * r.run.outer.net_m, 1e6 * e(r).net_slip_outer_m)),
+        ("slip path inside, µm", |r| {
+            with_error(1e6 * r.run.inner.distance_m, 1e6 * e(r).slip_distance_m[0])
+        }),
+        ("slip path outside, µm", |r| {
+            with_error(1e6 * r.run.outer.distance_m, 1e6 * e(r).slip_distance_m[1])
+        }),
         ("time in slip inside, ms", |r| with_error(1e3 * r.run.inner.time_s, 1e3 * e(r).slip_time_s[0])),
         ("slips inside between, ms", |r| slip_ms(&r.run).into()),
         ("smallest N, N", |r| with_error(r.run.peaks.normal_min_n, e(r).normal_min_n)),
@@ -159,7 +163,7 @@ pub fn write(page: &mut Page, ran: &[Ran]) {
         page.table(row, &figures(three));
     }
     page.paragraph(
-        "± is the difference to a run at ten times the tolerance. Slip counts from 1 um net at the inner contact. Where the \
+        "± is the difference to a run at ten times the tolerance. Slip counts from 1 µm net at the inner contact. Where the \
          contact opens, no friction would make it roll; the smallest N of a run that slips is that of the slipping run.",
     );
     page.heading("Histories");
@@ -169,7 +173,10 @@ pub fn write(page: &mut Page, ran: &[Ran]) {
     }
     let half = [520.0, 300.0];
     page.figures(&[
-        (plot(&ran[..3], 2, "offset, mrad", half, 300.0), "Offset theta_bi - theta_be + windup, 3.34 Nm: + overrunning."),
+        (
+            plot(&ran[..3], 2, "offset, mrad", half, 300.0),
+            "Offset theta_bi - theta_be + windup, 3.34 Nm: + overrunning.",
+        ),
         (plot(&ran[6..], 2, "offset, mrad", half, 300.0), "The same, 16.8 Nm at 0.082: - engaging."),
     ]);
     page.figure(

@@ -23,10 +23,7 @@ pub struct Unknown {
 
 fn excitation(s: &mut Scenario, change: impl Fn(&mut f64, &mut f64, &mut f64)) {
     if let ScenarioKind::TorsionalExcitation {
-        frequency_hz,
-        abutment_stiffness_nm_per_rad,
-        duration_s,
-        ..
+        frequency_hz, abutment_stiffness_nm_per_rad, duration_s, ..
     } = &mut s.kind
     {
         change(frequency_hz, abutment_stiffness_nm_per_rad, duration_s);
@@ -117,7 +114,7 @@ pub const UNKNOWNS: [Unknown; 13] = [
         name: "centre distance",
         symbol: "e_1",
         value: 620.0,
-        unit: "um",
+        unit: "µm",
         bound: 2.0,
         cells: 0..9,
         scale: |s, f| s.clutch.sprags.centre_distance_m *= f,
@@ -126,7 +123,7 @@ pub const UNKNOWNS: [Unknown; 13] = [
         name: "outer arc radius",
         symbol: "r_e",
         value: 4680.0,
-        unit: "um",
+        unit: "µm",
         bound: 1.06,
         cells: 0..9,
         scale: |s, f| s.clutch.sprags.outer_radius_m *= f,
@@ -190,13 +187,16 @@ pub struct Flip {
     pub becomes: String,
 }
 
+/// A scene that changes its mode more often than this, 170 times as often as any of the nine, has no verdict.
+const MOST_EVENTS: u64 = 20_000;
+
 /// What the scene does with the unknown at `factor` times its value, where that contradicts the statement.
 fn contradicts(design: &Design, statement: &Statement, unknown: &Unknown, factor: f64) -> Option<String> {
     let Some(scene) = design.scenario(statement.scene) else { return Some("no such scene".to_owned()) };
     let mut scene = scene.clone();
     (unknown.scale)(&mut scene, factor);
-    // Verdicts differ by a um of slip; 1e-5 rad is a tenth of that at the inner race.
-    match simulate(&scene, &Settings { tolerance: 1e-5, ..Settings::default() }) {
+    // Verdicts differ by a µm of slip; 1e-5 rad is a tenth of that at the inner race.
+    match simulate(&scene, &Settings { tolerance: 1e-5, most_events: MOST_EVENTS, ..Settings::default() }) {
         Ok(s) if statement.agrees(s.verdict) => None,
         Ok(s) => Some(s.verdict.map_or(s.stop.name(), |v| v.name()).to_owned()),
         Err(e) => Some(e.to_string()),
@@ -238,14 +238,14 @@ pub fn flip(design: &Design, statement: &Statement, unknown: &Unknown, up: bool)
 pub type Flips = Vec<[Vec<Option<Option<Flip>>>; 2]>;
 
 /// Every unknown, every side, every cell; the same for any number of threads.
-pub fn all(design: &Design, unknowns: &[&Unknown]) -> Flips {
+pub fn all(design: &Design, unknowns: &[Unknown]) -> Flips {
     let tasks: Vec<(usize, bool, usize)> = (0..unknowns.len())
         .flat_map(|u| [false, true].into_iter().flat_map(move |up| (0..9).map(move |c| (u, up, c))))
         .collect();
     let found: Vec<_> = tasks
         .par_iter()
         .map(|&(u, up, c)| {
-            let unknown = unknowns[u];
+            let unknown = &unknowns[u];
             unknown.cells.contains(&c).then(|| flip(design, &STATEMENTS[c], unknown, up))
         })
         .collect();
