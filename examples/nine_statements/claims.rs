@@ -211,6 +211,7 @@ fn inner_above_outer(page: &mut Page, multi: &Design) -> Anyhow<()> {
         let scene = scene(multi, name)?;
         let p = prepare(scene)?;
         let settings = RunSettings {
+            energy: false,
             tolerance: 1e-9,
             duration_s: p.duration_s,
             longest_step_s: 5e-4,

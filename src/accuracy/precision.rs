@@ -187,6 +187,7 @@ impl Bench<'_> {
     fn run(&self, tolerance: f64, per_period: f64) -> Run {
         let p = &self.full;
         let s = RunSettings {
+            energy: false,
             tolerance,
             duration_s: p.duration_s,
             longest_step_s: self.longest_step_s(per_period),
