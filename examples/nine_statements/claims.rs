@@ -115,7 +115,7 @@ fn initial_slip(page: &mut Page, bench: &Design) -> Anyhow<()> {
         "The scene: free run of 300 rpm, reversal, elastic stop (values assumed, designs/huang2017-bench.toml). The instant \
          at which the race ceases to run ahead of the sprags is the reversal. From there on the sprags must keep up \
          with a race that is accelerated by C/(I_bi + I_1), and all that presses them on at first is the spring: N there \
-         is some C_f/(n_s R_i mu). So it is the ratio of reversing to drag torque that decides (second figure); and the \
+         is some C_f/(n_s R_i mu). So slip grows with the ratio of reversing to drag torque, but the ratio alone does not decide (second figure): the sprags swing in the free run, N at the reversal depends on the phase, and the \
          lighter the spring, the less the sprags follow the outer race in the free run, so that both contacts slip when \
          the race reverses. Initial slip lasts to the first stick; where A sticks for an instant and slips again, only \
          all slip has it.",
@@ -188,8 +188,8 @@ fn inner_above_outer(page: &mut Page, multi: &Design) -> Anyhow<()> {
         table.row(vec![
             name.into(),
             run.into(),
-            if least > 0.0 { inner.into() } else { Cell::from("unbounded") },
-            if least > 0.0 { outer.into() } else { Cell::from("unbounded") },
+            if least >= 0.0 { inner.into() } else { Cell::from("unbounded") },
+            if least >= 0.0 { outer.into() } else { Cell::from("unbounded") },
             least.into(),
             m.share.into(),
             some(m.normal_n),
@@ -228,7 +228,7 @@ fn inner_above_outer(page: &mut Page, multi: &Design) -> Anyhow<()> {
         if s.inner.time_s > 0.0 {
             let both = |x: &Sample| x.mode.inner == Grip::Stick && x.mode.outer == Grip::Stick;
             // Of friction at its limit both peaks are mu_s; below 0 the contact would pull.
-            let p = [s.peaks.tan_inner, s.peaks.tan_outer, s.peaks.normal_min_n.max(f64::MIN_POSITIVE)];
+            let p = [s.peaks.tan_inner, s.peaks.tan_outer, s.peaks.normal_min_n];
             row(name, "real, both stick", p, &more_outside(&s.samples, both));
             row(name, "real, one slips", p, &more_outside(&s.samples, |x| !both(x)));
         }

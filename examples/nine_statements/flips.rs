@@ -174,8 +174,7 @@ pub fn write(page: &mut Page, design: &Design, unknowns: &[Unknown]) -> Anyhow<(
          1 µm, so the cell at its threshold flips before its friction exceeds what sticking takes.",
     );
     page.paragraph(
-        "mu_c and gamma_b decide nothing where mu_s is 0.12: slip at 3.34 Nm happens near N = 0, towards overrunning, and ends \
-         because the torque returns. Slip under load is another matter (mu_s = 0.082): with mu_c below tan omega, \
+        "mu_c and gamma_b decide nothing where mu_s is 0.12: slip at 3.34 Nm happens near N = 0, towards overrunning, and ends because the spring and the returning torque load the contact again. Slip under load is another matter (mu_s = 0.082): with mu_c below tan omega, \
          0.0809 at 16.8 Nm, it runs away.",
     );
     page.table("", &first);

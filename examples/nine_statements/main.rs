@@ -1,6 +1,6 @@
 //! The paper's nine statements on slip, how far what it does not give can move before one flips, and its other claims.
 //!
-//! `cargo run --release --example nine_statements` writes reports/nine-statements.html (some 4 min on two cores).
+//! `cargo run --release --example nine_statements` writes reports/nine-statements.html (2 min on two idle cores).
 
 mod cells;
 mod claims;
