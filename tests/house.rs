@@ -23,7 +23,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // A scenario may be given another friction law, so it names that law.
     ("scenario", &["numeric", "design", "profile", "friction", "wedge", "dynamics"]),
     ("fidelity", &["numeric", "design", "profile", "contact", "wedge", "dynamics", "scenario"]),
-    ("margin", &["numeric", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"]),
+    ("margin", &["numeric", "contact", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"]),
     // Never a contact, a wedge or a path: a vector and its margins.
     ("optimise", &["numeric", "design", "scenario", "margin"]),
     // Units and drawings: a profile to draw, no physics.
