@@ -2,7 +2,7 @@
 //!
 //! In: radii, length, materials, normal force. Out: peak pressure, half width, approach and its exact
 //! derivative, slice loads. Absent: deformation of the bodies as a whole, friction, and what the bodies
-//! are. Equations: (1)-(4), the roller law, Hertz's line contact.
+//! are. Equations: (1)-(4), the roller law, Hertz's line contact and the shear below it.
 
 mod approach;
 mod axial;
@@ -14,6 +14,7 @@ mod line;
 mod shaped;
 mod slice;
 mod slice_ratio;
+mod subsurface;
 
 pub use approach::{
     Approach, CurvedApproach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, LayerBody, RollerLaw, SliceLaw,
@@ -27,3 +28,4 @@ pub use line::{ContactError, LineContact};
 pub use shaped::ShapedLaw;
 pub use slice::{SliceCompliance, SliceContact, SliceSolution, SliceStatus};
 pub use slice_ratio::SliceRatio;
+pub use subsurface::{depth_of_largest_shear_m, largest_shear_below, shear_at_depth_pa};

@@ -217,6 +217,10 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         hoop_outer_pa: file.hoop_outer_mpa.map(pa).or(base.hoop_outer_pa),
         hoop_inner_bending_pa: file.hoop_inner_bending_mpa.map(pa).or(base.hoop_inner_bending_pa),
         hoop_outer_bending_pa: file.hoop_outer_bending_mpa.map(pa).or(base.hoop_outer_bending_pa),
+        case_depth_m: file.case_depth_mm.map(m).or(base.case_depth_m),
+        case_shear_pa: file.case_shear_mpa.map(pa).or(base.case_shear_pa),
+        core_shear_pa: file.core_shear_mpa.map(pa).or(base.core_shear_pa),
+        axial_load_n: file.axial_load_n.or(base.axial_load_n),
         slip_margin: file.slip_margin.or(base.slip_margin),
         keep_contact_to_rad_s: file.keep_contact_to_rpm.map(rad_s).or(base.keep_contact_to_rad_s),
     };
@@ -237,6 +241,9 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
             "peak_torque_nm",
             limits.peak_torque_nm,
         ),
+        ("limits.case_shear_mpa", limits.case_shear_pa, "peak_torque_nm", limits.peak_torque_nm),
+        ("limits.core_shear_mpa", limits.core_shear_pa, "peak_torque_nm", limits.peak_torque_nm),
+        ("limits.axial_load_n", limits.axial_load_n, "peak_torque_nm", limits.peak_torque_nm),
     ];
     for (key, limit, torque_key, torque) in needs {
         if limit.is_some() && torque.is_none() {
@@ -248,6 +255,13 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
                 ),
             );
         }
+    }
+    if limits.core_shear_pa.is_some() && limits.case_depth_m.is_none() {
+        out.refuse(
+            &["limits.core_shear_mpa"],
+            "only together with limits.case_depth_mm, which is missing".to_owned(),
+            "add case_depth_mm = ..., the depth at which the core begins, or remove the limit".to_owned(),
+        );
     }
     if let (Some(nominal), Some(peak)) = (limits.nominal_torque_nm, limits.peak_torque_nm)
         && peak < nominal

@@ -250,6 +250,18 @@ pub(super) struct LimitsFile {
     /// Allowed hoop stress of the outer race with ring bending at peak torque, MPa.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub hoop_outer_bending_mpa: Option<f64>,
+    /// Depth of the hardened case of sprag and races, mm.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub case_depth_mm: Option<f64>,
+    /// Allowed largest shear below a contact at peak torque, MPa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub case_shear_mpa: Option<f64>,
+    /// Allowed shear below a contact at case_depth_mm and deeper at peak torque, MPa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub core_shear_mpa: Option<f64>,
+    /// Axial load from race to race through all sprags while they are engaged, N; lowers the friction reserve.
+    #[schemars(extend("minimum" = 0))]
+    pub axial_load_n: Option<f64>,
     /// Smallest slip margin wanted, static friction over required friction minus 1.
     #[schemars(extend("minimum" = 0))]
     pub slip_margin: Option<f64>,

@@ -290,6 +290,14 @@ pub struct Limits {
     pub hoop_inner_bending_pa: Option<f64>,
     /// Allowed hoop stress of the outer race with ring bending at peak torque, Pa.
     pub hoop_outer_bending_pa: Option<f64>,
+    /// Depth of the hardened case, m.
+    pub case_depth_m: Option<f64>,
+    /// Allowed largest shear below a contact at peak torque, Pa.
+    pub case_shear_pa: Option<f64>,
+    /// Allowed shear at the depth of the case and below at peak torque, Pa.
+    pub core_shear_pa: Option<f64>,
+    /// Axial load from race to race through all sprags, N.
+    pub axial_load_n: Option<f64>,
     /// Smallest slip margin wanted, pure number.
     pub slip_margin: Option<f64>,
     /// Overrun speed up to which the sprags must keep contact, rad/s.

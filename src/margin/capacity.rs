@@ -2,7 +2,8 @@
 
 use super::Margin;
 use super::hoop::HOOPS;
-use super::load::{LoadState, profile_capacity};
+use super::load::{LoadState, grip, profile_capacity};
+use super::subsurface::SUBSURFACE;
 use crate::design::{Design, Limits};
 use crate::numeric::root;
 use crate::wedge::StaticPoint;
@@ -19,11 +20,17 @@ pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state:
             row.torque_capacity_nm = allowed.map(|a| torque_where(state, a, &value));
             continue;
         }
+        if let Some(below) = SUBSURFACE.iter().find(|b| b.code == row.code) {
+            row.torque_capacity_nm = (below.allowed)(limits).map(|(allowed, from_m)| {
+                torque_where(state, allowed, &|p| below.demand(design, from_m, p).0)
+            });
+            continue;
+        }
         let value: Box<dyn Fn(&StaticPoint) -> f64> = match row.code.as_str() {
             "hertz-nominal-inner" | "hertz-peak-inner" => Box::new(|p| p.hertz_inner_pa),
             "hertz-nominal-outer" | "hertz-peak-outer" => Box::new(|p| p.hertz_outer_pa),
-            "grip-inner" => Box::new(|p| p.tan_omega),
-            "grip-outer" => Box::new(|p| p.tan_nu),
+            "grip-inner" => Box::new(|p| grip(design, limits, p)[0]),
+            "grip-outer" => Box::new(|p| grip(design, limits, p)[1]),
             "end-of-profile" => {
                 row.torque_capacity_nm = Some(profile_capacity(state));
                 continue;
@@ -43,8 +50,9 @@ pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state:
     }
 }
 
-/// Smallest normal force at which the quantity reaches `allowed`, as a torque; the end of the curve if it never
-/// does. Stresses grow with the normal force; tan omega too, on a profile that steepens.
+/// Smallest normal force at which the quantity rises to `allowed`, as a torque; the end of the curve if it never
+/// does. Stresses grow with the normal force; tan omega too, on a profile that steepens. The friction for an axial
+/// load falls from infinity first: what counts is where it rises again, and where it was never low enough, 0.
 fn torque_where(state: &LoadState, allowed: f64, value: &dyn Fn(&StaticPoint) -> f64) -> f64 {
     let curve = &state.curve;
     let last = curve.arc_end_n(curve.arc_count() - 1);
@@ -52,16 +60,13 @@ fn torque_where(state: &LoadState, allowed: f64, value: &dyn Fn(&StaticPoint) ->
     let torque = |n: f64| curve.at_normal(n).map_or(0.0, |p| p.torque_nm);
     const LOOKS: usize = 64;
     let (mut a, mut fa) = (1e-6 * last, miss(1e-6 * last));
-    if fa >= 0.0 {
-        return torque(a);
-    }
     for i in 1..=LOOKS {
         let b = last * i as f64 / LOOKS as f64;
         let fb = miss(b);
-        if fb >= 0.0 {
+        if fa < 0.0 && fb >= 0.0 {
             return root::bracketed(a, b, fa, fb, 1e-10 * last, miss).map_or(torque(b), torque);
         }
         (a, fa) = (b, fb);
     }
-    torque(last)
+    if fa < 0.0 { torque(last) } else { 0.0 }
 }

@@ -1,6 +1,7 @@
 //! Limits that follow from the static load state, first contact and overrun.
 
 use super::hoop::HOOPS;
+use super::subsurface::SUBSURFACE;
 use super::{Margin, NoMargins, curve_at_rest, ratio};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
@@ -96,6 +97,13 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
                 shown_only.push(hoop.code);
             }
         }
+        for below in &SUBSURFACE {
+            let Some((allowed, from_m)) = (below.allowed)(limits) else { continue };
+            let (value, depth_m) = below.demand(design, from_m, &p);
+            let name = format!("{}, {:.3} mm deep", below.name, depth_m * 1e3);
+            let margin = beyond(ratio(value, allowed), torque, end);
+            push(below.code, &name, value * MPA, allowed * MPA, "MPa", margin);
+        }
         // Turn left on the profile; a curve that ends below the peak torque has none.
         let turn = state.profile.end_turn_rad();
         let margin = if end >= torque { ratio(p.contact_turn_rad, turn) } else { end / torque - 1.0 };
@@ -110,22 +118,18 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         let over = curve.roll_over_torque_nm();
         push("roll-over", "peak torque against roll-over torque", torque, over, "Nm", over / torque - 1.0);
         let mu = design.clutch.friction.static_;
-        push(
-            "grip-inner",
-            "static tan omega at peak torque against mu_s",
-            p.tan_omega,
-            mu,
-            "1",
-            ratio(p.tan_omega, mu),
-        );
-        push(
-            "grip-outer",
-            "static tan nu at peak torque against mu_s",
-            p.tan_nu,
-            mu,
-            "1",
-            ratio(p.tan_nu, mu),
-        );
+        let grip = grip(design, limits, &p);
+        let names = match limits.axial_load_n {
+            None => {
+                ["static tan omega at peak torque against mu_s", "static tan nu at peak torque against mu_s"]
+            }
+            Some(_) => [
+                "friction for torque and axial load at A, peak torque, against mu_s",
+                "friction for torque and axial load at B, peak torque, against mu_s",
+            ],
+        };
+        push("grip-inner", names[0], grip[0], mu, "1", ratio(grip[0], mu));
+        push("grip-outer", names[1], grip[1], mu, "1", ratio(grip[1], mu));
         if let Some(outline) = &state.outline {
             let rotation = curve.closure_at_normal(p.normal_inner_n).map_or(0.0, |(_, c)| c.rotation.v);
             let oc_e = state.profile.outer_centre_distance_m;
@@ -167,6 +171,18 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         row.required = !shown_only.contains(&row.code.as_str());
     }
     rows
+}
+
+/// Friction that A and B need: sqrt(F_t^2 + F_a^2)/F_n. The axial load goes from race to sprag to race, so each
+/// sprag hands F_a = load/n_s through both of its contacts.
+pub(super) fn grip(design: &Design, limits: &Limits, p: &StaticPoint) -> [f64; 2] {
+    let axial_n = limits.axial_load_n.unwrap_or(0.0) / design.clutch.sprags.count as f64;
+    let need = |tangential: f64, normal_n: f64| match axial_n > 0.0 {
+        true if normal_n > 0.0 => tangential.hypot(axial_n / normal_n),
+        true => f64::MAX,
+        false => tangential,
+    };
+    [need(p.tan_omega, p.normal_inner_n), need(p.tan_nu, p.normal_outer_n)]
 }
 
 /// Beyond the curve's end the stress rows continue as the torque shortfall, so that a search sees a slope.

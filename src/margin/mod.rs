@@ -7,6 +7,7 @@ mod capacity;
 mod hoop;
 mod load;
 mod scenes;
+mod subsurface;
 
 pub use load::{LoadState, lift_off_rad_s, load_state};
 pub use scenes::{SceneDemand, scene_demand};

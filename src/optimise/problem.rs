@@ -128,6 +128,10 @@ pub fn finished_file(problem: &ClutchProblem, x: &[f64], sharper: &Limits) -> Re
         ("hoop_outer_mpa", sharper.hoop_outer_pa.map(|v| v * 1e-6)),
         ("hoop_inner_bending_mpa", sharper.hoop_inner_bending_pa.map(|v| v * 1e-6)),
         ("hoop_outer_bending_mpa", sharper.hoop_outer_bending_pa.map(|v| v * 1e-6)),
+        ("case_depth_mm", sharper.case_depth_m.map(|v| v * 1e3)),
+        ("case_shear_mpa", sharper.case_shear_pa.map(|v| v * 1e-6)),
+        ("core_shear_mpa", sharper.core_shear_pa.map(|v| v * 1e-6)),
+        ("axial_load_n", sharper.axial_load_n),
         ("slip_margin", sharper.slip_margin),
         // rad/s back to the file's rpm, without the last digit's rounding.
         ("keep_contact_to_rpm", sharper.keep_contact_to_rad_s.map(|v| (v * rpm * 1e9).round() / 1e9)),
