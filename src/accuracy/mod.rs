@@ -1,7 +1,7 @@
 //! How far the figures can be trusted: error against work of every method, and the map of where runs come to an end.
 //!
 //! In: a scenario or a clutch, settings. Out: [`Precision`] (work-precision), [`Judged`] (one case of the map).
-//! Absent: peers (a crate of their own), verdicts on the methods, printing. Equations: none.
+//! Absent: integrators of others, verdicts on the methods, printing. Equations: none.
 
 mod cases;
 mod map;
