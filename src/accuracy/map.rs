@@ -137,7 +137,7 @@ pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
         events: first.map_or(0, |s| s.events),
         steps: found().map(|s| s.steps).sum(),
         rhs_evaluations: found().map(|s| s.rhs_evaluations).sum(),
-        fastest_rad_s: first.and_then(|s| s.fastest_rad_s),
+        fastest_rad_s: first.and_then(|s| s.fast_motion).map(|f| f.rate_rad_s),
     }
 }
 
@@ -179,7 +179,7 @@ fn not_finite(s: &Simulation) -> Option<&'static str> {
         ("error.demand", e.tan_demand[0] + e.tan_demand[1] + e.required_friction),
         ("error.margins", e.slip_margin + e.contact_margin),
         ("spread_rad", s.spread_rad[1] - s.spread_rad[0]),
-        ("fastest_rad_s", s.fastest_rad_s.unwrap_or(0.0)),
+        ("fastest_rad_s", s.fast_motion.map_or(0.0, |f| f.rate_rad_s)),
     ]
     .into_iter()
     .find(|(_, value)| !value.is_finite())

@@ -5,8 +5,9 @@
 //! at first contact is asked of `profile`.
 
 use super::contact_file::{ContactFile, LawFile, StateFile};
-use super::file::{BodyFile, DesignFile, FrictionModelFile, LimitsFile, MaterialFile, RacesFile};
+use super::file::{BodyFile, DesignFile, FrictionModelFile, MaterialFile, RacesFile};
 use super::findings::Findings;
+use super::limits_file::LimitsFile;
 use super::{Clutch, ContactLaw, Friction, Limits, Materials, Races, Spring, StressState};
 use super::{axial, geometry};
 use crate::material::Material;

@@ -6,9 +6,10 @@
 use toml::{Table, Value};
 
 use super::check::{self, BODIES, MATERIAL_KEYS, rad_s};
-use super::file::{DesignFile, KindFile, ScenarioFile};
+use super::file::DesignFile;
 use super::findings::Findings;
 use super::history::HistoryKind;
+use super::scenario_file::{KindFile, ScenarioFile};
 use super::{Clutch, Scenario, ScenarioKind, shape};
 
 /// Kind, its name, the keys it must have, those it may have.

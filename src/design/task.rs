@@ -3,8 +3,10 @@
 //! In: `[check]` and `[optimize]`, the names of the scenarios. Out: names that exist, [`Optimize`]. Absent:
 //! margins and searches. Equations: none.
 
-use super::file::{DesignFile, KindFile, ObjectiveFile, OptimizeFile};
+use super::file::DesignFile;
 use super::findings::Findings;
+use super::limits_file::{ObjectiveFile, OptimizeFile, VariableFile};
+use super::scenario_file::KindFile;
 use super::variables::{variable_names, variable_path};
 use super::{Limits, Optimize, OptimizeVariable, check, shape};
 
@@ -55,7 +57,7 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
 }
 
 /// The value in the file from which the search starts; 0 where something was refused.
-fn check_variable(v: &super::file::VariableFile, path: &str, file: &DesignFile, out: &mut Findings) -> f64 {
+fn check_variable(v: &VariableFile, path: &str, file: &DesignFile, out: &mut Findings) -> f64 {
     let (name_key, min_key, max_key) = (format!("{path}.name"), format!("{path}.min"), format!("{path}.max"));
     let arcs = file.sprags.inner_arcs.len();
     let Some(target) = variable_path(&v.name, arcs) else {

@@ -1,9 +1,10 @@
 //! A scene run by its plan, or in full.
 
 use super::plan::{Plan, Term, plan};
-use crate::design::{ContactLaw, Scenario};
+use crate::design::Scenario;
 use crate::dynamics::Stop;
 use crate::scenario::{NoScenario, Prepared, Settings, Simulation, prepare, simulate_prepared};
+use crate::wedge::asks_for_slices;
 
 /// A simulation with what it left out.
 #[derive(Debug, Clone)]
@@ -44,7 +45,7 @@ pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<
         let all = Planned { kept, ..whole(settings)? };
         return Ok(all);
     }
-    if matches!(scenario.clutch.contact, ContactLaw::Slice { .. }) && settings.samples == 0 {
+    if asks_for_slices(&scenario.clutch) && settings.samples == 0 {
         left_out.push(Term::free(
             "slices over time",
             "no history was asked for, so no pressure along the length is",

@@ -1,8 +1,9 @@
 //! What a scene demands of friction and contact if it is to roll throughout, and how runs are set up.
 
+use super::answer::Verdict;
 use super::error::ErrorEstimate;
 use super::prepare::Prepared;
-use super::simulate::{Settings, Verdict, verdict};
+use super::simulate::{Settings, verdict};
 use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, run};
 use crate::friction::Stribeck;
 

@@ -3,14 +3,14 @@
 //! In: a `Scenario` of the design. Out: [`Simulation`]. Absent: allowables (margin), files.
 //! Equations: none of its own; definitions of offset, slip margin, contact margin and verdict.
 
+mod answer;
 mod demand;
 mod error;
 mod prepare;
 mod simulate;
 
+pub use answer::{Simulation, Verdict};
 pub use demand::{Demand, demand};
 pub use error::ErrorEstimate;
 pub use prepare::{NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced};
-pub use simulate::{
-    Settings, Simulation, Verdict, published_steps, simulate, simulate_prepared, simulate_published,
-};
+pub use simulate::{Settings, published_steps, simulate, simulate_prepared, simulate_published};

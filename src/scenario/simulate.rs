@@ -2,14 +2,12 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::answer::{Simulation, Verdict};
 use super::demand::{Demand, STEPS_PER_PERIOD, demand, demand_at, roll, run_settings};
 use super::error::{ErrorEstimate, Figures, Scales};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
-use crate::dynamics::{
-    EnergyBalance, Engaged, FastMotion, Grip, Mode, Overrun, Peaks, Place, PublishedSettings, Run, Sample,
-    SlipRecord, Stop, published, run,
-};
+use crate::dynamics::{Grip, Mode, Peaks, Place, PublishedSettings, Run, SlipRecord, Stop, published, run};
 
 /// Settings of a simulation.
 #[derive(Debug, Clone, Copy)]
@@ -46,102 +44,6 @@ impl Default for Settings {
             interrupt: None,
         }
     }
-}
-
-/// What the clutch did.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// No net slip beyond 1 um at the inner contact.
-    Sticks,
-    /// Net slip towards overrunning.
-    SlipsOverrunning,
-    /// Net slip towards engaging.
-    SlipsEngaging,
-    /// Contact open at the end, or for more than 1 ms at a stretch, or the run left the curve.
-    Disengages,
-    /// Closer to another verdict than the error estimate.
-    AtThreshold,
-}
-
-impl Verdict {
-    /// Name in reports and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sticks => "sticks",
-            Self::SlipsOverrunning => "slips-overrunning",
-            Self::SlipsEngaging => "slips-engaging",
-            Self::Disengages => "disengages",
-            Self::AtThreshold => "at-threshold",
-        }
-    }
-}
-
-/// Result of a simulation.
-#[derive(Debug, Clone)]
-pub struct Simulation {
-    /// Verdict; `None` where the run was interrupted or gave up before one was reached.
-    pub verdict: Option<Verdict>,
-    /// Why the run ended.
-    pub stop: Stop,
-    /// Time reached, s.
-    pub t_s: f64,
-    /// theta_bi at the end, rad.
-    pub theta_inner_rad: f64,
-    /// theta_be at the end, rad.
-    pub theta_outer_rad: f64,
-    /// Change of (theta_bi - theta_be) + W(alpha) over the run, rad; + towards overrunning. In an engagement since
-    /// A ceased to overrun, as all slip.
-    pub offset_rad: f64,
-    /// Slip at A.
-    pub inner: SlipRecord,
-    /// Slip at B.
-    pub outer: SlipRecord,
-    /// Time without contact, s.
-    pub contact_lost_s: f64,
-    /// Extremes.
-    pub peaks: Peaks,
-    /// Largest Hertz pressure, Pa.
-    pub hertz_peak_pa: f64,
-    /// Hertz pressure of the static load that the scene is about (preload, reversing or largest torque), Pa.
-    pub hertz_static_pa: f64,
-    /// Hertz pressure at A at the smallest N_bi, Pa.
-    pub hertz_least_pa: f64,
-    /// N_bi at the start, N.
-    pub static_normal_n: f64,
-    /// Rolling demand; `None` where the run was interrupted, and in overrun, where nothing is to stick.
-    pub demand: Option<Demand>,
-    /// Whether the friction law was left out: the pure-rolling run is the run.
-    pub rolled: bool,
-    /// Mode changes.
-    pub events: u64,
-    /// Steps of both runs.
-    pub steps: u64,
-    /// Right-hand sides of all runs.
-    pub rhs_evaluations: u64,
-    /// Error estimate; `None` for static kinds, which are exact to 1e-12, and where the run was interrupted.
-    pub error: Option<ErrorEstimate>,
-    /// Whether every error is below the tolerance asked for.
-    pub tolerance_reached: bool,
-    /// Smallest and largest theta_bi at the end over all runs made, rad: what is left where no digit is sure.
-    pub spread_rad: [f64; 2],
-    /// Sequences of mode changes that accumulated and were closed at their limit.
-    pub zeno_closures: u64,
-    /// Mode changes at which no candidate was consistent.
-    pub inconsistent_choices: u64,
-    /// Where the run gave up at its limit of steps or events: what was fastest then.
-    pub fast_motion: Option<FastMotion>,
-    /// Its rate, rad/s.
-    pub fastest_rad_s: Option<f64>,
-    /// Where the energy went, where that was asked.
-    pub energy: Option<EnergyBalance>,
-    /// History.
-    pub samples: Vec<Sample>,
-    /// When A first carried load without overrunning; `None`: never, or an equilibrium.
-    pub engaged: Option<Engaged>,
-    /// Modes with the times at which they began, s; empty without samples.
-    pub modes: Vec<(f64, Mode)>,
-    /// Steady overrun: the whole of that scenario, the start of an engagement.
-    pub overrun: Option<Overrun>,
 }
 
 /// Loosest and tightest relative tolerance of a step.
@@ -318,7 +220,6 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: &Try, other: &Try) -
         zeno_closures: fine.zeno_closures,
         inconsistent_choices: fine.inconsistent_choices,
         fast_motion: fine.fast_motion,
-        fastest_rad_s: fine.fast_motion.map(|f| f.rate_rad_s),
         energy: fine.energy,
         samples: fine.samples.clone(),
         engaged: fine.engaged,
@@ -428,7 +329,6 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         zeno_closures: 0,
         inconsistent_choices: 0,
         fast_motion: None,
-        fastest_rad_s: None,
         energy: None,
         samples: Vec::new(),
         engaged: None,

@@ -6,6 +6,7 @@ use crate::contact::{
     SliceCompliance, SliceContact, SliceRatio, SliceStatus,
 };
 use crate::design::{self, Clutch, ContactLaw};
+use crate::material::PlaneState;
 
 /// Which contact of a sprag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,7 +92,7 @@ pub fn along(
 pub fn even_load_error(clutch: &Clutch) -> Option<f64> {
     const PRESSURE_PA: f64 = 2e9;
     let m = &clutch.materials;
-    let modulus = 1.0 / (m.sprag.plane_strain_compliance() + m.inner_race.plane_strain_compliance());
+    let modulus = PlaneState::Strain.contact_modulus_pa(&m.sprag, &m.inner_race);
     let radius = clutch.sprags.inner_arcs.first()?.radius_m;
     let race = clutch.races.inner_radius_m;
     let contact = LineContact::external(radius, race, clutch.contact_length_m(), modulus).ok()?;

@@ -1,0 +1,249 @@
+//! The nouns of a clutch: sprags, races, spring, materials, friction, contact, how they lie along the axis.
+//!
+//! In: nothing. Out: [`Clutch`] and its parts, SI. Absent: limits and questions. Equations: none.
+
+use crate::material::Material;
+
+/// Where the sprag's mass, inertia and centroid come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MassSource {
+    /// Printed in the design file.
+    Given,
+    /// Boundary integrals of the outline (`profile`).
+    FromProfile,
+}
+
+/// One inner arc of the sprag.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InnerArc {
+    /// Radius r_ik, m.
+    pub radius_m: f64,
+    /// Contact direction turned from first contact at rest at which the arc ends, rad, positive in engagement.
+    pub until_rad: f64,
+}
+
+/// Shape and number of the sprags. Body frame: origin C_e, y radially outward along OC_e at first
+/// contact at rest, x towards positive azimuth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sprags {
+    /// Number n_s.
+    pub count: usize,
+    /// Length l along the axis, m.
+    pub length_m: f64,
+    /// Outer arc radius r_e, m.
+    pub outer_radius_m: f64,
+    /// Centre distance e_1 = C_1 C_e, m.
+    pub centre_distance_m: f64,
+    /// Width b of (6), m; 0: no body compression.
+    pub width_m: f64,
+    /// Mass m_g of one sprag, kg.
+    pub mass_kg: f64,
+    /// Inertia I_g of one sprag about its centroid, kg m^2.
+    pub inertia_kg_m2: f64,
+    /// Centroid G in the body frame, m.
+    pub centroid_m: [f64; 2],
+    /// Whether the three above were given or computed.
+    pub mass_source: MassSource,
+    /// Inner arcs in order of engagement, at least one.
+    pub inner_arcs: Vec<InnerArc>,
+    /// Flanks that close the outline: those of the file, or both at half of `width_m`; absent without either.
+    pub flanks: Option<Flanks>,
+}
+
+/// Straight flanks that close the outline between the inner and the outer arc.
+///
+/// # Conventions
+/// Both are parallel to the strut line, which runs from the inner contact A to the outer contact B at first
+/// contact at rest, and half widths are measured from it. Rear lies towards negative x, front towards positive x.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flanks {
+    /// Distance of the rear flank from the strut line, m.
+    pub rear_m: f64,
+    /// Distance of the front flank from the strut line, m.
+    pub front_m: f64,
+}
+
+/// The two races.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Races {
+    /// Inner race bore R_id, m; 0: solid shaft.
+    pub inner_bore_radius_m: f64,
+    /// Inner race track R_i, m.
+    pub inner_radius_m: f64,
+    /// Outer race track R_e, m.
+    pub outer_radius_m: f64,
+    /// Outer race outside radius R_ed, m.
+    pub outer_outside_radius_m: f64,
+    /// Axial width of both races (l of (5)), m.
+    pub width_m: f64,
+    /// I_bi, kg m^2.
+    pub inner_inertia_kg_m2: f64,
+    /// I_be, kg m^2.
+    pub outer_inertia_kg_m2: f64,
+    /// Viscous damping C_rl between the races, N m s/rad.
+    pub viscous_damping_nm_s_per_rad: f64,
+}
+
+/// Energizing spring, per sprag.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spring {
+    /// K_r, N m/rad per sprag.
+    pub stiffness_nm_per_rad: f64,
+    /// Drag torque C_f of the whole clutch in slow overrun, N m; fixes alpha_max.
+    pub drag_torque_nm: f64,
+}
+
+/// Materials of the three bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Materials {
+    /// Sprag.
+    pub sprag: Material,
+    /// Inner race.
+    pub inner_race: Material,
+    /// Outer race.
+    pub outer_race: Material,
+}
+
+/// Coefficients of the friction law (12).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// mu_s.
+    pub static_: f64,
+    /// mu_c, at most mu_s.
+    pub kinetic: f64,
+    /// gamma_b, s/m.
+    pub decay_s_per_m: f64,
+    /// Whether B never slips (model "vernay": Coulomb friction inside, no slip outside).
+    pub outer_holds: bool,
+}
+
+/// Stress state along the axis for the elastic law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StressState {
+    /// As a body of finite length is: plane strain near the contact, plane stress farther away and in the rings.
+    Layer,
+    /// Plane strain throughout, rings too (very long clutches; two-dimensional finite elements).
+    PlaneStrain,
+    /// Plane stress throughout (thin discs; two-dimensional finite elements).
+    PlaneStress,
+}
+
+/// Named local contact law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ContactLaw {
+    /// delta_H = K N^0.9 / l^0.8 with the coefficient K in (mm, N).
+    Roller {
+        /// K, mm and N.
+        coefficient: f64,
+    },
+    /// The roller law with DIN 26281's K = 3.97e-5.
+    Din26281,
+    /// Logarithmic line-contact approach; knows the radius, averaged over the patch where it straddles a junction.
+    Hertz,
+    /// Plane elasticity of rings, sprag and layer: nothing fitted, nothing counted twice; knows the radius as above.
+    Elastic {
+        /// Stress state of bodies and rings.
+        state: StressState,
+    },
+    /// Slice method (1)-(4); compliance from the roller law, so it feels the radius only through the half width in the
+    /// influence of slice on slice: a few 1e-5 of the approach at a junction. Number of slices from [`Axial`].
+    Slice {
+        /// K of the roller law, mm and N.
+        coefficient: f64,
+    },
+}
+
+/// What the contacts are like along the axis; alike at A and B.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axial {
+    /// Slices along a contact where slices are asked for.
+    pub slices: usize,
+    /// Shape of the sprag along its length.
+    pub end_profile: EndProfile,
+    /// Tilt of the sprag against the races in the plane of axis and normal, rad; positive opens A towards +y and B
+    /// towards -y.
+    pub tilt_rad: f64,
+    /// Middle of the sprag from the middle of the races, m.
+    pub offset_m: f64,
+}
+
+impl Axial {
+    /// Straight, parallel and in the middle, 60 slices.
+    pub const STRAIGHT: Self =
+        Self { slices: 60, end_profile: EndProfile::Square, tilt_rad: 0.0, offset_m: 0.0 };
+
+    /// Whether the load spreads evenly but for the ends: no profile, no tilt.
+    pub fn is_straight(&self) -> bool {
+        self.end_profile == EndProfile::Square && self.tilt_rad == 0.0
+    }
+}
+
+/// Drop of a sprag's surface along its length.
+#[derive(Debug, Clone, PartialEq)]
+pub enum EndProfile {
+    /// Straight to a sharp end.
+    Square,
+    /// Lundberg's logarithm.
+    Lundberg {
+        /// Normal force of one sprag for which it is made, N.
+        design_load_n: f64,
+    },
+    /// Arc of a circle over the whole length.
+    Crown {
+        /// Radius, m.
+        radius_m: f64,
+    },
+    /// Arcs over the last part of each end.
+    EndRelief {
+        /// Length of that part, m.
+        length_m: f64,
+        /// Radius, m.
+        radius_m: f64,
+    },
+    /// Logarithm with three parameters (Fujiwara and Kawase).
+    FujiwaraKawase {
+        /// Design load, N.
+        design_load_n: f64,
+        /// K_1.
+        load_factor: f64,
+        /// K_2.
+        crowned_ratio: f64,
+        /// z_m, m.
+        end_drop_m: f64,
+    },
+    /// Measured: (y from the middle, drop), m, y rising.
+    Table {
+        /// Points.
+        points_m: Vec<[f64; 2]>,
+    },
+}
+
+/// Everything that acts in one run: the clutch without limits and questions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clutch {
+    /// Sprags.
+    pub sprags: Sprags,
+    /// Races.
+    pub races: Races,
+    /// Spring.
+    pub spring: Spring,
+    /// Materials.
+    pub materials: Materials,
+    /// Friction.
+    pub friction: Friction,
+    /// Local contact law.
+    pub contact: ContactLaw,
+    /// How sprag and race lie along the axis.
+    pub axial: Axial,
+    /// Hunt and Crossley's damping of both contacts: N is raised by this times the rate of approach, s/m; 0: none.
+    pub hunt_crossley_s_per_m: f64,
+}
+
+impl Clutch {
+    /// Length over which sprag and race overlap along the axis, m.
+    pub fn contact_length_m(&self) -> f64 {
+        let (sprag, race) = (0.5 * self.sprags.length_m, 0.5 * self.races.width_m);
+        let offset = self.axial.offset_m;
+        (offset + sprag).min(race) - (offset - sprag).max(-race)
+    }
+}

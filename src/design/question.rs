@@ -1,0 +1,145 @@
+//! What is asked of a clutch: limits, scenarios, the optimiser's task.
+//!
+//! In: nothing. Out: [`Limits`], [`Scenario`], [`Optimize`], SI. Absent: how they are answered. Equations: none.
+
+use super::clutch::Clutch;
+
+/// Allowables of the designer margin check; absent ones are not checked.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Limits {
+    /// Torque at which Hertz nominal is held, N m.
+    pub nominal_torque_nm: Option<f64>,
+    /// Torque at which Hertz peak, hoop, end of profile and roll-over are held, N m.
+    pub peak_torque_nm: Option<f64>,
+    /// Allowed p_0 at nominal torque, Pa.
+    pub hertz_nominal_pa: Option<f64>,
+    /// Allowed p_0 at peak torque, Pa.
+    pub hertz_peak_pa: Option<f64>,
+    /// Allowed magnitude of the inner race's mean hoop stress at peak torque, Pa.
+    pub hoop_inner_pa: Option<f64>,
+    /// Allowed mean hoop stress of the outer race at peak torque, Pa.
+    pub hoop_outer_pa: Option<f64>,
+    /// Allowed magnitude of the inner race's hoop stress with ring bending at peak torque, Pa.
+    pub hoop_inner_bending_pa: Option<f64>,
+    /// Allowed hoop stress of the outer race with ring bending at peak torque, Pa.
+    pub hoop_outer_bending_pa: Option<f64>,
+    /// Depth of the hardened case, m.
+    pub case_depth_m: Option<f64>,
+    /// Allowed largest shear below a contact at peak torque, Pa.
+    pub case_shear_pa: Option<f64>,
+    /// Allowed shear at the depth of the case and below at peak torque, Pa.
+    pub core_shear_pa: Option<f64>,
+    /// Axial load from race to race through all sprags, N.
+    pub axial_load_n: Option<f64>,
+    /// Smallest slip margin wanted, pure number.
+    pub slip_margin: Option<f64>,
+    /// Overrun speed up to which the sprags must keep contact, rad/s.
+    pub keep_contact_to_rad_s: Option<f64>,
+}
+
+/// What happens to the clutch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ScenarioKind {
+    /// Torque held at rest.
+    Static {
+        /// Torque, N m.
+        torque_nm: f64,
+    },
+    /// Preload on the inner race (C_bi = -preload), C_be = amplitude sin(2 pi f t) on the outer, outer race tied to an abutment.
+    TorsionalExcitation {
+        /// Preload C_e1, N m.
+        preload_nm: f64,
+        /// Amplitude, N m.
+        amplitude_nm: f64,
+        /// Frequency, Hz.
+        frequency_hz: f64,
+        /// Abutment stiffness k_ab, N m/rad.
+        abutment_stiffness_nm_per_rad: f64,
+        /// Duration, s.
+        duration_s: f64,
+        /// Mean speed Omega of the whole clutch, rad/s.
+        speed_rad_s: f64,
+    },
+    /// Free run of the inner race, then reversal onto an elastic stop (the paper's section 3).
+    Engagement {
+        /// Initial overrunning speed of the inner race, rad/s.
+        free_run_rad_s: f64,
+        /// Torque that reverses the inner race, N m, magnitude.
+        reversing_torque_nm: f64,
+        /// Stiffness of the stop that holds the outer race, N m/rad.
+        stop_stiffness_nm_per_rad: f64,
+        /// Inertia of the bench on the inner race (I_1 of Table 1), kg m^2.
+        bench_inertia_kg_m2: f64,
+        /// Duration, s.
+        duration_s: f64,
+    },
+    /// A torque on the inner race over time, engaging positive, the outer race tied to what turns at the mean speed.
+    Transient {
+        /// Torque at the start, N m; 0 where a history gives it.
+        preload_nm: f64,
+        /// Jump of the torque, N m; 0: none.
+        torque_step_nm: f64,
+        /// When it jumps, s.
+        step_time_s: f64,
+        /// Stiffness that ties the outer race to the mean speed, N m/rad.
+        abutment_stiffness_nm_per_rad: f64,
+        /// Duration, s.
+        duration_s: f64,
+        /// Mean speed, rad/s; that of a speed history at its start.
+        speed_rad_s: f64,
+        /// Inner race faster than outer at the start, rad/s; 0: at rest against it.
+        overrun_rad_s: f64,
+    },
+    /// Steady overrun.
+    Overrun {
+        /// Speed of the outer race, rad/s.
+        speed_rad_s: f64,
+        /// Inner race faster than outer by this, rad/s, positive.
+        overrun_rad_s: f64,
+    },
+}
+
+/// One named scenario with the clutch it acts on (per-scenario overrides applied).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario {
+    /// Name, unique in the design.
+    pub name: String,
+    /// Kind and its data.
+    pub kind: ScenarioKind,
+    /// The clutch with this scenario's overrides.
+    pub clutch: Clutch,
+    /// Dotted names of the tables that the scenario overrides, for the reports.
+    pub overrides: Vec<String>,
+    /// Torque on the inner race over time, (s, N m), engaging positive; two points at one time are a jump.
+    pub torque_history: Option<Vec<[f64; 2]>>,
+    /// Mean speed over time, (s, rad/s).
+    pub speed_history: Option<Vec<[f64; 2]>>,
+}
+
+/// One variable of the optimiser, in the unit of its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OptimizeVariable {
+    /// Name as in the file, e.g. `r_i2_mm`.
+    pub name: String,
+    /// Lower bound in the name's unit.
+    pub min: f64,
+    /// Upper bound in the name's unit.
+    pub max: f64,
+    /// Value in the file, in the name's unit.
+    pub start: f64,
+}
+
+/// What `optimize` shall do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Optimize {
+    /// Objective, now always `slip-margin`.
+    pub objective: String,
+    /// Scenarios whose smallest slip margin is maximised.
+    pub scenarios: Vec<String>,
+    /// Design variables.
+    pub variables: Vec<OptimizeVariable>,
+    /// `[limits]` with the sharper ones of `[optimize]` put in.
+    pub limits: Limits,
+    /// Seed of everything random.
+    pub seed: u64,
+}
