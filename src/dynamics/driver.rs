@@ -1,7 +1,8 @@
 //! Event-driven integration: smooth inside a mode, every change of mode located.
 
 use super::energy::Audit;
-use super::events::{EVENTS, Look, look};
+use super::events::{EVENTS, Look, event, look};
+use super::looks::{Looks, Trail};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{FastMotion, Run, RunSettings, Stop};
 use super::watch::highest;
@@ -11,8 +12,6 @@ use crate::ode::adaptive::Adaptive;
 use crate::ode::step::{Dense, Step, Tolerance};
 use std::sync::atomic::Ordering;
 
-/// Where a step is looked at, as fractions of its length.
-pub(super) const LOOKS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
 const SMALL: f64 = 1e-3;
 
@@ -33,8 +32,15 @@ pub(super) struct Driver<'a> {
     slope: Option<State>,
     seen: Option<Look>,
     /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
-    lengths: [f64; 8],
+    lengths: [f64; KINDS],
+    /// What the first step after a change from one kind to another left as the next length, and the change that the
+    /// next step follows: a contact that has just touched wants shorter steps than one that slips on.
+    begins: [[f64; KINDS]; KINDS],
+    changed: Option<(usize, usize)>,
 }
+
+/// Kinds of mode.
+const KINDS: usize = 8;
 
 /// Which contacts hold, for the memory of step lengths.
 fn kind(mode: &Mode) -> usize {
@@ -68,7 +74,9 @@ impl<'a> Driver<'a> {
             stepper: Adaptive::new(tolerance, settings.longest_step_s * 0.01, SMALL),
             slope: None,
             seen: None,
-            lengths: [f64::INFINITY; 8],
+            lengths: [f64::INFINITY; KINDS],
+            begins: [[f64::INFINITY; KINDS]; KINDS],
+            changed: None,
         };
         driver.enter(mode);
         driver.look(state, 0.0);
@@ -85,6 +93,7 @@ impl<'a> Driver<'a> {
     }
 
     fn integrate(&mut self) {
+        let trail = Trail::new();
         while self.run.t_s < self.settings.duration_s {
             if self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                 return self.stop(Stop::Interrupted);
@@ -97,13 +106,13 @@ impl<'a> Driver<'a> {
             }
             let work = self.run.counters.steps + self.run.counters.rejections;
             let (t, y) = (self.run.t_s, self.run.state);
-            let mut rhs = slope_in(self.model, self.run.mode);
-            let slope = match self.slope.take() {
-                Some(slope) => slope,
+            let mut rhs = trail.slope_in(self.model, self.run.mode, !self.settings.rolling);
+            let (slope, first) = match self.slope.take().zip(self.seen.take()) {
+                Some(known) => known,
                 None => {
                     self.run.counters.rhs_evaluations += 1;
                     match rhs(t, &y) {
-                        Ok(slope) => slope,
+                        Ok(slope) => (slope, trail.newest()),
                         Err(()) => return self.stop(Stop::NotFinite),
                     }
                 }
@@ -114,9 +123,14 @@ impl<'a> Driver<'a> {
             );
             let counters = &mut self.run.counters;
             let step = self.stepper.step(&mut rhs, t, &y, &slope, longest, rest, counters);
+            if let Some((old, new)) = self.changed.take() {
+                self.begins[old][new] = self.stepper.h;
+            }
             match step.filter(|_| work < self.settings.most_steps) {
                 Some(step) => {
-                    if !self.advance(&step, &slope, &mut rhs) {
+                    let mode = self.run.mode;
+                    let looks = Looks::of(self.model, &mode, !self.settings.rolling, &step, first, &trail);
+                    if !self.advance(&step, &slope, &looks, &mut rhs) {
                         return;
                     }
                 }
@@ -130,17 +144,12 @@ impl<'a> Driver<'a> {
         &mut self,
         step: &Step<N_STATE>,
         slope: &State,
+        looks: &Looks,
         rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
     ) -> bool {
-        let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
-        let first = self.seen.take().unwrap_or_else(|| look(model, &mode, step.t(), step.y0(), grips));
-        let mut looks = [first; LOOKS.len()];
         let mut dense: Option<Dense<N_STATE>> = None;
-        for i in 1..LOOKS.len() {
-            let theta = LOOKS[i];
-            let y = if theta == 1.0 { *step.y1() } else { step.glance(theta) };
-            looks[i] = look(model, &mode, step.t() + theta * step.h(), &y, grips);
-            if looks[i].events.iter().any(|&e| e < 0.0) {
+        for i in 1..looks.count() {
+            if looks.seen(i).events.iter().any(|&e| e < 0.0) {
                 let d = match &dense {
                     Some(d) => d,
                     None => match step.dense(rhs, &mut self.run.counters) {
@@ -151,68 +160,62 @@ impl<'a> Driver<'a> {
                         }
                     },
                 };
-                match self.first_event(d, step, LOOKS[i - 1], theta, &looks[i - 1].events) {
+                let theta = looks.at(i);
+                match self.first_event(d, step, looks.at(i - 1), theta, &looks.seen(i - 1).events) {
                     Found::Nothing => {}
                     Found::At(theta, which) => {
                         let d = d.clone();
-                        return self.land(step, theta, which, d, rhs);
+                        return self.land(step, looks, theta, which, d, rhs);
                     }
                     Found::TooCoarse => {
                         // The event function is negative from the start: look closer, then give way.
                         let h = step.h() * 0.125 * theta;
                         if h > 1e-13 {
                             self.stepper.h = h;
-                            self.slope = Some(*slope);
+                            (self.slope, self.seen) = (Some(*slope), Some(*looks.seen(0)));
                             return true;
                         }
-                        return self.give_way(&looks[i].events);
+                        return self.give_way(&looks.seen(i).events);
                     }
                 }
             }
         }
-        let seen = looks[LOOKS.len() - 1];
-        let figures = looks.map(|l| l.figures);
-        match self.crest(step, &looks, dense, rhs) {
-            Ok(Some((theta, which, d))) => return self.land(step, theta, which, d, rhs),
-            Ok(None) if self.watch(step, &figures, rhs).is_ok() => {
+        match self.crest(step, looks, dense, rhs) {
+            Ok(Some((theta, which, d))) => return self.land(step, looks, theta, which, d, rhs),
+            Ok(None) if self.watch(step, looks, rhs).is_ok() => {
                 self.audit_step(step, rhs);
-                self.accept(step);
+                self.accept(step, looks.end());
             }
             _ => {
                 self.stop(Stop::NotFinite);
                 return false;
             }
         }
-        self.seen = Some(seen);
         // The end of an explicit step is the first stage of the next; the correction of the windup in between is
         // of the size of the step's error.
-        self.slope = match step {
-            Step::Explicit(s) => Some(*s.slope1()),
-            Step::Implicit(_) | Step::Part(_) => None,
-        };
+        if let Step::Explicit(s) = step {
+            (self.slope, self.seen) = (Some(*s.slope1()), Some(*looks.end()));
+        }
         true
     }
 
     /// The first event of a function that dips below zero and rises again between two looks: where its lowest look
-    /// is nearer to zero than a parabola through three looks can reach (twice an eighth of their second difference).
+    /// is nearer to zero than it can fall between looks.
     fn crest(
         &mut self,
         step: &Step<N_STATE>,
-        looks: &[Look; LOOKS.len()],
+        looks: &Looks,
         mut dense: Option<Dense<N_STATE>>,
         rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
     ) -> Result<Option<(f64, usize, Dense<N_STATE>)>, ()> {
         let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
-        let last = LOOKS.len() - 1;
         for i in 0..EVENTS {
-            for j in 0..=last {
-                let (left, right) = (j.saturating_sub(1), (j + 1).min(last));
-                let e = |j: usize| looks[j].events[i];
-                let m = j.clamp(1, last - 1);
-                let bend = (e(m - 1) - 2.0 * e(m) + e(m + 1)).abs();
-                // A contact just released starts at zero and rises: that is no dip.
-                let bottom = e(j) <= e(left) && e(j) <= e(right) && j > 0;
-                if !bottom || e(j) > 0.25 * bend {
+            let e = |j: usize| looks.seen(j).events[i];
+            // A contact just released starts at zero and rises: that is no dip.
+            for j in 1..looks.count() {
+                let (left, right) = looks.beside(j);
+                let bottom = e(j) <= e(left) && e(j) <= e(right);
+                if !bottom || e(j) >= looks.overshoot(j, e) {
                     continue;
                 }
                 let d = match dense.take() {
@@ -220,19 +223,14 @@ impl<'a> Driver<'a> {
                     None => step.dense(rhs, &mut self.run.counters)?,
                 };
                 let value = |theta: f64| {
-                    -look(
-                        model,
-                        &mode,
-                        step.t() + theta * step.h(),
-                        &d.at(step.t() + theta * step.h()),
-                        grips,
-                    )
-                    .events[i]
+                    let t = step.t() + theta * step.h();
+                    -event(model, &mode, t, &d.at(t), grips, i)
                 };
-                let (theta, depth) = highest(LOOKS[left], LOOKS[right], value);
+                let (from, until) = (looks.at(left), looks.at(right));
+                let (theta, depth) = highest(from, looks.extreme(j, e), until, value);
                 if depth > 0.0
                     && let Found::At(theta, which) =
-                        self.first_event(&d, step, LOOKS[left], theta, &looks[left].events)
+                        self.first_event(&d, step, from, theta, &looks.seen(left).events)
                 {
                     return Ok(Some((theta, which, d)));
                 }
@@ -254,19 +252,19 @@ impl<'a> Driver<'a> {
         let (mode, grips) = (self.run.mode, !self.settings.rolling);
         let mut first = Found::Nothing;
         let mut earliest = f64::INFINITY;
-        let all = |theta: f64| {
+        let value = |theta: f64, i: usize| {
             let t = step.t() + theta * step.h();
-            look(self.model, &mode, t, &dense.at(t), grips).events
+            event(self.model, &mode, t, &dense.at(t), grips, i)
         };
-        let value = |theta: f64, i: usize| all(theta)[i];
-        let (begin, end) = (all(from), all(to));
+        let until = step.t() + to * step.h();
+        let ends = look(self.model, &mode, until, &dense.at(until), grips).events;
         for (i, &known) in before.iter().enumerate() {
-            let end = end[i];
+            let end = ends[i];
             if end >= 0.0 {
                 continue;
             }
             let mut start = from;
-            let mut at_start = if from == 0.0 { known } else { begin[i] };
+            let mut at_start = if from == 0.0 { known } else { value(from, i) };
             if at_start <= 0.0 {
                 // Starts at zero (a contact just released): find where it has become positive.
                 let inside = [0.02, 0.1, 0.25, 0.5, 0.75].map(|f| from + f * (to - from));
@@ -289,6 +287,7 @@ impl<'a> Driver<'a> {
     fn land(
         &mut self,
         step: &Step<N_STATE>,
+        looks: &Looks,
         theta: f64,
         which: usize,
         dense: Dense<N_STATE>,
@@ -296,19 +295,20 @@ impl<'a> Driver<'a> {
     ) -> bool {
         let h = theta * step.h();
         if h > 0.0 {
+            let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
+            let sight = |theta: f64| {
+                let t = step.t() + theta * step.h();
+                look(model, &mode, t, &dense.at(t), grips)
+            };
+            let looks = looks.until(theta, sight, sight(theta));
             let part = step.until(h, dense);
             self.stepper.h = step.h();
-            let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
-            let figures = LOOKS.map(|theta| {
-                let t = part.t() + theta * part.h();
-                look(model, &mode, t, &part.glance(theta), grips).figures
-            });
-            if self.watch(&part, &figures, rhs).is_err() {
+            if self.watch(&part, &looks, rhs).is_err() {
                 self.stop(Stop::NotFinite);
                 return false;
             }
             self.audit_step(&part, rhs);
-            self.accept(&part);
+            self.accept(&part, looks.end());
         }
         let (t, y) = (step.t() + h, self.run.state);
         if !self.count_event() {
@@ -343,20 +343,21 @@ impl<'a> Driver<'a> {
                 self.stepper.h = self.lengths[new];
             }
         }
+        self.stepper.h = self.stepper.h.min(self.begins[old][new]);
+        self.changed = Some((old, new));
         self.stepper.forget();
         (self.slope, self.seen) = (None, None);
     }
 
-    /// Take over an accepted step: constraint, slip records.
-    fn accept(&mut self, step: &Step<N_STATE>) {
+    /// Take over an accepted step, at whose end `end` is seen: constraint, slip records.
+    fn accept(&mut self, step: &Step<N_STATE>, end: &Look) {
         let mode = self.run.mode;
         let (t, mut y) = (step.t() + step.h(), *step.y1());
         self.run.counters.steps += 1;
         if let Some(phase) = self.phase {
             // Rolling keeps theta_bi - theta_be = -W(alpha): one Newton step removes the drift of the step.
-            let p = self.model.point(mode.place, y[0]);
             let miss = y[2] - y[3] + self.model.curve.windup_rad(y[0]) - phase;
-            y[0] -= miss / (p.rho_i + p.rho_e);
+            y[0] -= miss / end.rho;
         }
         let before = self.run.state;
         if mode.place != Place::Open {

@@ -1,6 +1,7 @@
 //! Functions whose falling through zero ends a mode.
 
-use super::model::{Grip, Mode, Model, Place, State};
+use super::model::{Forces, Grip, Mode, Model, Place, State};
+use crate::wedge::WedgePoint;
 
 /// Number of event functions.
 pub(super) const EVENTS: usize = 4;
@@ -27,21 +28,34 @@ pub(super) struct Look {
     pub(super) events: [f64; EVENTS],
     /// What a run keeps the largest of: |T_bi|/N_bi, |T_be|/N_be (0 without contact), -N_bi, N_bi, N_be.
     pub(super) figures: [f64; 5],
+    /// rho_i + rho_e.
+    pub(super) rho: f64,
 }
 
-/// `grips`: whether the friction limits count (the pure-rolling run ignores them).
-pub(super) fn look(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool) -> Look {
-    let alpha = y[0];
+impl Look {
+    /// Before anything is seen.
+    pub(super) const NOTHING: Self = Self { events: [f64::NAN; EVENTS], figures: [f64::NAN; 5], rho: f64::NAN };
+}
+
+/// How far alpha (rad) lies from the ends of its place.
+#[inline]
+fn within(model: &Model, place: Place, alpha: f64) -> (f64, f64) {
     let touch = model.curve.first_contact_rad();
-    let (lower, upper) = match mode.place {
+    match place {
         Place::Open => (alpha - touch + OPEN_REACH_RAD, touch - alpha),
         Place::Tension => (1.0, touch - alpha),
         Place::Arc(k) => {
             let from = if k == 0 { touch - LEAVE_RAD } else { model.curve.arc_end_rad(k - 1) };
             (alpha - from, model.curve.arc_end_rad(k) - alpha)
         }
-    };
-    let f = model.forces(mode, t, y);
+    }
+}
+
+/// What is seen where the forces are `f`. `grips`: whether the friction limits count (the pure-rolling run ignores
+/// them).
+#[inline]
+pub(super) fn seen(model: &Model, mode: &Mode, y: &State, p: &WedgePoint, f: &Forces, grips: bool) -> Look {
+    let (lower, upper) = within(model, mode.place, y[0]);
     let mu = model.friction.static_;
     let inner = match mode.inner {
         _ if mode.place == Place::Open || !grips => 1.0,
@@ -59,5 +73,29 @@ pub(super) fn look(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool) -
     Look {
         events: [lower, upper, inner, outer],
         figures: [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be],
+        rho: p.rho_i + p.rho_e,
+    }
+}
+
+/// What is seen at (t, y) in `mode`.
+pub(super) fn look(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool) -> Look {
+    let p = model.point(mode.place, y[0]);
+    let f = model.forces_at(mode, t, y, &p, &model.rates(mode, &p, y));
+    seen(model, mode, y, &p, &f, grips)
+}
+
+/// Event function `i` of [`Look::events`] alone: the ends of a place need no forces, a slip velocity no friction.
+pub(super) fn event(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool, i: usize) -> f64 {
+    let slips = |grip: Grip| if let Grip::Slip(s) = grip { Some(s) } else { None };
+    let velocities = || {
+        let p = model.point(mode.place, y[0]);
+        model.slip_velocities(&p, &model.rates(mode, &p, y))
+    };
+    match (i, slips(mode.inner), slips(mode.outer)) {
+        (LOWER, ..) => within(model, mode.place, y[0]).0,
+        (UPPER, ..) => within(model, mode.place, y[0]).1,
+        (INNER, Some(s), _) if grips && mode.place != Place::Open => s * velocities().0,
+        (OUTER, _, Some(s)) if grips => s * velocities().1,
+        _ => look(model, mode, t, y, grips).events[i],
     }
 }

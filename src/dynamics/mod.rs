@@ -14,6 +14,7 @@ mod crossing;
 mod driver;
 mod energy;
 mod events;
+mod looks;
 mod model;
 mod published;
 mod rolling;

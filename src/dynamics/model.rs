@@ -165,6 +165,7 @@ impl Model {
     }
 
     /// Geometry and normal force at `alpha` with the functions of `place`.
+    #[inline]
     pub fn point(&self, place: Place, alpha: f64) -> WedgePoint {
         match place {
             Place::Arc(k) => self.curve.in_arc(k, alpha),
@@ -176,6 +177,7 @@ impl Model {
     /// Rates with the rolling constraints of `mode` put in exactly: (alpha', phi', theta_bi', theta_be').
     /// The light sprag follows the heavy races: both stick, alpha' = (theta_be' - theta_bi')/(rho_i + rho_e),
     /// phi' = theta_bi' + rho_i alpha'; one sticks, phi' follows that race.
+    #[inline]
     pub fn rates(&self, mode: &Mode, p: &WedgePoint, y: &State) -> [f64; 4] {
         let [mut da, mut dp, di, de] = [y[4], y[5], y[6], y[7]];
         let inner_sticks = mode.inner == Grip::Stick && mode.place != Place::Open;
@@ -192,6 +194,7 @@ impl Model {
     }
 
     /// Slip velocities (v_A, v_B), m/s.
+    #[inline]
     pub fn slip_velocities(&self, p: &WedgePoint, rates: &[f64; 4]) -> (f64, f64) {
         use crate::kinematics::{slip_velocity_inner, slip_velocity_outer};
         (
@@ -202,6 +205,7 @@ impl Model {
 
     /// Inverse of the sprags' 2x2 mass matrix in (alpha, phi), 1/(kg m^2):
     /// n_s [[I_g, I_g], [I_g, I_g + m_g OC_g^2]].
+    #[inline]
     fn sprag_inverse(&self, oc_g: f64) -> Matrix2<f64> {
         let orbit = self.mass_kg * oc_g * oc_g;
         let i = self.inertia_kg_m2;
@@ -209,12 +213,14 @@ impl Model {
     }
 
     /// Mean speed Omega at `t`, rad/s, and its rate, rad/s^2.
+    #[inline]
     pub fn mean_speed(&self, t: f64) -> (f64, f64) {
         self.drive.speed_rad_s.as_ref().map_or((self.curve.speed_rad_s(), 0.0), |c| c.at(t))
     }
 
     /// T_bi that static equilibrium demands at mean speed `speed`, N: that of the curve, its centrifugal force
     /// exchanged for the present one, T_bi = [N_bi OB sin beta - F_c OB sin gamma]/(OB cos beta - OA).
+    #[inline]
     pub(super) fn static_tangential_n(&self, p: &WedgePoint, speed: f64) -> f64 {
         let in_curve = self.curve.speed_rad_s();
         if speed == in_curve {
@@ -359,6 +365,7 @@ impl Model {
     ///
     /// Normal forces act through O, so they do work on alpha alone: Q = -c alpha' (N_bi delta_i'^2 + N_be delta_e'^2),
     /// slopes by alpha, which takes power at every alpha'. N_be here is that of static equilibrium at N_bi.
+    #[inline]
     pub(super) fn damped(&self, p: &WedgePoint, speed: f64, alpha_rate: f64) -> (f64, f64) {
         let c = self.hunt_crossley_s_per_m;
         if c == 0.0 || p.n_bi <= 0.0 {
@@ -379,6 +386,17 @@ impl Model {
 
     /// Right-hand side of the first-order system; `None` where it is not finite.
     pub fn slope(&self, mode: &Mode, t: f64, y: &State) -> Option<State> {
+        self.slope_and_forces(mode, t, y).map(|s| s.0)
+    }
+
+    /// The same with the point of the curve and the forces that it comes from.
+    #[inline]
+    pub(super) fn slope_and_forces(
+        &self,
+        mode: &Mode,
+        t: f64,
+        y: &State,
+    ) -> Option<(State, WedgePoint, Forces)> {
         let p = self.point(mode.place, y[0]);
         let rates = self.rates(mode, &p, y);
         let f = self.forces_at(mode, t, y, &p, &rates);
@@ -397,7 +415,7 @@ impl Model {
             if slips_a { f.v_a } else { 0.0 },
             if slips_b { f.v_b } else { 0.0 },
         ];
-        out.iter().all(|v| v.is_finite()).then_some(out)
+        out.iter().all(|v| v.is_finite()).then_some((out, p, f))
     }
 
     /// Kinetic and stored energy apart from the wedge (J): races, sprags, spring, abutment.

@@ -88,7 +88,7 @@ pub fn published(
     let mut open_s = 0.0;
     for i in 0..=steps {
         let t = i as f64 * h;
-        let Some((_, mode, forces)) = published_slope(model, t, &run.state, band) else {
+        let Some((slope, mode, forces)) = published_slope(model, t, &run.state, band) else {
             run.stop = Stop::NotFinite;
             break;
         };
@@ -113,12 +113,12 @@ pub fn published(
             break;
         }
         let mut rhs = |t: f64, y: &[f64; N_STATE]| published_slope(model, t, y, band).map(|s| s.0).ok_or(());
-        let Ok(next) = rk4::step(&mut rhs, t, &run.state, h) else {
+        let Ok(next) = rk4::step(&mut rhs, t, &run.state, &slope, h) else {
             run.stop = Stop::NotFinite;
             break;
         };
         run.counters.steps += 1;
-        run.counters.rhs_evaluations += 4;
+        run.counters.rhs_evaluations += 3;
         run.inner.distance_m += (next[8] - run.state[8]).abs();
         run.outer.distance_m += (next[9] - run.state[9]).abs();
         run.inner.net_m = next[8];

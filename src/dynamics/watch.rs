@@ -1,20 +1,21 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
-use super::driver::{Driver, LOOKS};
+use super::driver::Driver;
 use super::events::look;
+use super::looks::Looks;
 use super::model::{N_STATE, State};
 use super::run::{Peaks, Sample};
 use crate::ode::step::Step;
 
 impl Driver<'_> {
-    /// Extremes and samples inside the step, of which `values` are the figures at [`LOOKS`].
+    /// Extremes and samples inside the step.
     pub(super) fn watch(
         &mut self,
         step: &Step<N_STATE>,
-        values: &[[f64; 5]; LOOKS.len()],
+        looks: &Looks,
         rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
     ) -> Result<(), ()> {
-        let (mode, model, thetas) = (self.run.mode, self.model, LOOKS);
+        let (mode, model) = (self.run.mode, self.model);
         let (start, length) = (step.t(), step.h());
         let t_end = start + length;
         let p = &mut self.run.peaks;
@@ -25,29 +26,25 @@ impl Driver<'_> {
             samples > 0 && self.next_sample < samples && self.sample_time(self.next_sample) <= t_end;
         let mut dense = None;
         for i in 0..best.len() {
-            for (j, theta) in [(0, 0.0), (4, 1.0)] {
-                if values[j][i] > best[i] {
-                    (best[i], at_s[i]) = (values[j][i], start + theta * length);
+            let value = |j: usize| looks.seen(j).figures[i];
+            for (j, t) in [(0, start), (looks.count() - 1, t_end)] {
+                if value(j) > best[i] {
+                    (best[i], at_s[i]) = (value(j), t);
                 }
             }
-            for j in 0..thetas.len() {
-                let (left, right) = (j.saturating_sub(1), (j + 1).min(thetas.len() - 1));
-                let peak = values[j][i];
-                let top = peak >= values[left][i] && peak >= values[right][i];
-                // The true peak of a parabola lies above the highest of three points by at most an eighth of
-                // their second difference; twice that is allowed for before a look is thought idle.
-                let m = j.clamp(1, thetas.len() - 2);
-                let bend = (values[m - 1][i] - 2.0 * values[m][i] + values[m + 1][i]).abs();
-                if top && peak + 0.25 * bend > best[i] {
+            for j in 0..looks.count() {
+                let (left, right) = looks.beside(j);
+                let top = value(j) >= value(left) && value(j) >= value(right);
+                if top && value(j) + looks.overshoot(j, value) > best[i] {
                     let d = match &dense {
                         Some(d) => d,
                         None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
                     };
-                    let value = |theta: f64| {
+                    let inside = |theta: f64| {
                         let t = start + theta * length;
                         look(model, &mode, t, &d.at(t), false).figures[i]
                     };
-                    let (theta, found) = highest(thetas[left], thetas[right], value);
+                    let (theta, found) = highest(looks.at(left), looks.extreme(j, value), looks.at(right), inside);
                     if found > best[i] {
                         (best[i], at_s[i]) = (found, start + theta * length);
                     }
@@ -90,14 +87,31 @@ impl Driver<'_> {
     }
 }
 
-/// Place and value of the largest value of a smooth function with one hump on [a, b]: parabolas through the last three
-/// points, golden sections where those leave the bracket; to 1e-5 of the bracket, so 1e-10 in the value.
-pub(super) fn highest(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
+/// Place and value of the largest value of a smooth function with one hump on [a, b], looked for about `guess` first:
+/// parabolas through the last three points, golden sections where those leave the bracket; to 1e-5 of [a, b], so 1e-10
+/// in the value.
+pub(super) fn highest(mut a: f64, guess: f64, mut b: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
     let enough = 1e-5 * (b - a);
-    let (mut fa, mut fb) = (f(a), f(b));
-    let mut m = 0.5 * (a + b);
+    let mut m = guess;
     let mut fm = f(m);
+    let near = 0.1 * (b - a);
+    let (from, until) = ((m - near).max(a), (m + near).min(b));
+    let (mut fa, mut fb) = (f(from), f(until));
+    if fm >= fa && fm >= fb && from < m && m < until {
+        (a, b) = (from, until);
+    } else {
+        if from > a {
+            fa = f(a);
+        }
+        if until < b {
+            fb = f(b);
+        }
+        if m == a || m == b {
+            m = 0.5 * (a + b);
+            fm = f(m);
+        }
+    }
     for i in 0..20 {
         let (p, q) = ((m - a) * (fm - fb), (m - b) * (fm - fa));
         let mut x = m - 0.5 * ((m - a) * p - (m - b) * q) / (p - q);
@@ -137,11 +151,13 @@ mod tests {
     #[test]
     fn the_top_of_a_hump_is_found_inside_and_at_an_end() {
         for top in [0.05, 0.3, 0.5, 0.77, 1.0] {
-            let (x, value) = highest(0.0, 1.0, |x: f64| (1.3 * (x - top)).cos());
-            assert!((x - top).abs() < 1e-4 && (value - 1.0).abs() < 1e-9, "{top}: {x} {value}");
+            for guess in [0.0, top - 0.05, top, 0.5, 1.0] {
+                let (x, value) = highest(0.0, guess, 1.0, |x: f64| (1.3 * (x - top)).cos());
+                assert!((x - top).abs() < 1e-4 && (value - 1.0).abs() < 1e-9, "{top} {guess}: {x} {value}");
+            }
         }
-        assert_eq!(highest(0.0, 1.0, |x| x).0, 1.0);
+        assert_eq!(highest(0.0, 1.0, 1.0, |x| x).0, 1.0);
         // A kink.
-        assert!((highest(0.0, 1.0, |x: f64| -(x - 0.3).abs()).1).abs() < 1e-3);
+        assert!((highest(0.0, 0.4, 1.0, |x: f64| -(x - 0.3).abs()).1).abs() < 1e-3);
     }
 }

@@ -8,6 +8,7 @@ pub mod chebyshev;
 pub mod course;
 pub mod dual;
 pub mod panels;
+pub mod pieces;
 pub mod quadrature;
 pub mod root;
 pub mod toeplitz;

@@ -181,6 +181,16 @@ impl<const M: usize> Panels<M> {
         worst
     }
 
+    /// Ends and grade of each panel.
+    pub(super) fn spans(&self) -> impl Iterator<Item = (f64, f64, Grade)> {
+        self.panels.iter().map(|p| (p.from, p.until, p.grade))
+    }
+
+    /// All lanes of panel `i` at its own variable `t` in [-1, 1].
+    pub(super) fn in_panel(&self, i: usize, t: f64) -> [f64; M] {
+        self.panels[i].sum(t)
+    }
+
     fn panel(&self, x: f64) -> &Panel<M> {
         let last = self.panels.len() - 1;
         &self.panels[self.panels[..last].partition_point(|p| p.until < x)]

@@ -22,6 +22,10 @@ pub struct Step<const N: usize> {
     slope1: [f64; N],
 }
 
+/// Where, as fractions of a step, its start, end and the stages between lie at which it is looked at. From the sixth stage
+/// on states are good to order 5, sum_j a_ij c_j^(q-1) = c_i^q/q for q up to 5; the fourth, near the start, to order 3.
+pub const LOOKS: [f64; 7] = [0.0, C[3], C[6], C[5], C[9], C[10], 1.0];
+
 /// Dense output of one step, order 7.
 #[derive(Debug, Clone)]
 pub struct Dense<const N: usize> {
@@ -189,6 +193,16 @@ mod tests {
         // third component: integral of cos(2t) cos(t).
         let third = |t: f64| 0.5 * t.sin() + (3.0 * t).sin() / 6.0;
         ((y[0] - t.sin()).abs().max((y[2] - third(t)).abs()), dense_error)
+    }
+
+    #[test]
+    fn the_stages_that_are_looked_at_have_their_order() {
+        for (stage, order) in [(3, 3), (6, 5), (5, 5), (9, 5), (10, 5)] {
+            for q in 1..=order {
+                let sum: f64 = A[stage - 1].iter().zip(C).map(|(a, c)| a * c.powi(q - 1)).sum();
+                assert!((sum - C[stage].powi(q) / f64::from(q)).abs() < 2e-14, "stage {stage}, q {q}");
+            }
+        }
     }
 
     #[test]

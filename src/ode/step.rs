@@ -105,6 +105,16 @@ impl<const N: usize> Step<N> {
         }
     }
 
+    /// Whether it is a whole explicit step.
+    pub fn is_explicit(&self) -> bool {
+        matches!(self, Self::Explicit(_))
+    }
+
+    /// Where to look at it, as fractions of its length: an explicit step's right-hand side has been there.
+    pub fn looks(&self) -> &'static [f64] {
+        if self.is_explicit() { &dop853::LOOKS } else { &[0.0, 0.25, 0.5, 0.75, 1.0] }
+    }
+
     /// State at t + theta h without extra evaluations, for a first look only.
     pub fn glance(&self, theta: f64) -> [f64; N] {
         match self {

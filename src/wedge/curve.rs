@@ -145,26 +145,25 @@ impl WedgeCurve {
 
     /// Everything at `alpha`, with the functions of arc `k`, which are continued smoothly a little past its
     /// ends so that a trial step sees no kink. Below first contact N stays 0.
+    #[inline]
     pub fn in_arc(&self, k: usize, alpha: f64) -> WedgePoint {
         let arc = &self.arcs[k];
         if k > 0 {
-            let v = arc.lanes.at(alpha);
-            let slopes = arc.rho_slopes.at(alpha);
-            return point(&v, v[8], slopes);
+            let v = arc.table.at(alpha);
+            return point(&v, v[8], 1.0);
         }
         // s = (alpha - alpha_0)^(1/q); N = (s * z/s)^10.
         let x = alpha - self.alpha0;
         let s = x.max(0.0).powf(1.0 / self.exponent);
         if x > HELD_RAD {
-            let v = arc.lanes.at(s);
-            let slopes = arc.rho_slopes.at(s).map(|d| d * s / (self.exponent * x));
-            return point(&v, (s * v[8]).powi(10), slopes);
+            let v = arc.table.at(s);
+            return point(&v, (s * v[8]).powi(10), s / (self.exponent * x));
         }
         // rho' is singular (integrably, as x^(1/q - 1)) at first contact: within 1e-9 rad rho moves by some 1e-4. It is
         // held there with slope 0, so that velocities and their constraints agree; the jump at first contact is
         // taken as every jump of rho is.
-        let v = arc.lanes.at(HELD_RAD.powf(1.0 / self.exponent));
-        point(&v, (s * v[8]).powi(10), [0.0; 2])
+        let v = arc.table.at(HELD_RAD.powf(1.0 / self.exponent));
+        point(&v, (s * v[8]).powi(10), 0.0)
     }
 
     /// The curve continued below first contact by the tension that a bilateral contact would carry:

@@ -9,10 +9,13 @@ use super::closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 use super::curve::WedgePoint;
 use crate::numeric::{
     panels::{Grade, Panels},
+    pieces::Pieces,
     quadrature,
 };
 
-pub(super) const LANES: usize = 11;
+const LANES: usize = 11;
+/// Lanes of the table that is read: those of the panels, the slopes of rho_i and rho_e, one empty to make them even.
+pub(super) const READ: usize = LANES + 3;
 
 /// Distance from first contact below which the geometry is held, rad.
 pub(super) const HELD_RAD: f64 = 1e-9;
@@ -36,7 +39,8 @@ pub(super) struct ArcTable {
     pub(super) n_until: f64,
     pub(super) shift: f64,
     pub(super) lanes: Panels<LANES>,
-    pub(super) rho_slopes: Panels<2>,
+    /// The lanes and the slopes of rho_i and rho_e by the variable of the table.
+    pub(super) table: Pieces<READ>,
     /// W/s^q on the first arc, W on the later ones.
     windup: Panels<1>,
 }
@@ -54,7 +58,9 @@ impl ArcTable {
     }
 }
 
-pub(super) fn point(v: &[f64; LANES], n_bi: f64, slopes: [f64; 2]) -> WedgePoint {
+/// `slope`: d(variable of the table)/d alpha.
+#[inline]
+pub(super) fn point(v: &[f64; READ], n_bi: f64, slope: f64) -> WedgePoint {
     WedgePoint {
         oa: v[0],
         ob: v[1],
@@ -66,8 +72,8 @@ pub(super) fn point(v: &[f64; LANES], n_bi: f64, slopes: [f64; 2]) -> WedgePoint
         gamma: v[7],
         n_bi,
         t_static: n_bi * v[9] + v[10],
-        rho_i_slope: slopes[0],
-        rho_e_slope: slopes[1],
+        rho_i_slope: v[LANES] * slope,
+        rho_e_slope: v[LANES + 1] * slope,
     }
 }
 
@@ -193,9 +199,8 @@ impl ArcBuilder<'_> {
             let windup = later_windup(&lanes, &layout, windup_from);
             (lanes, windup)
         };
-        let rho_slopes = lanes.derivative([2, 3]);
-        let shift = self.shift;
-        Ok(ArcTable { alpha_until, n_from, n_until, shift, lanes, rho_slopes, windup })
+        let table = Pieces::of(&lanes, &lanes.derivative([2, 3]));
+        Ok(ArcTable { alpha_until, n_from, n_until, shift: self.shift, lanes, table, windup })
     }
 
     /// Arc 1, lanes over s. alpha - alpha_0 = 10 int_0^z (z alpha_N) z^8 dz with N = z^10 keeps relative
