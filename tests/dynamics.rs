@@ -149,6 +149,42 @@ fn the_error_stays_below_the_tolerance_asked_for() {
     }
 }
 
+/// The same for other kinds of scene and for a friction that falls within 0.1 mm/s.
+#[test]
+fn the_tolerance_holds_in_an_engagement_a_transient_and_with_steep_friction() {
+    let bench = |name: &str| design("designs/huang2017-bench.toml").scenario(name).unwrap().clone();
+    let mut steep = scene("high-10");
+    steep.clutch.friction.decay_s_per_m = 1e4;
+    for s in [bench("engagement-weak-spring"), bench("step-up"), steep] {
+        let p = prepare(&s).unwrap();
+        let exact = run_at(&p, 1e-12);
+        for tolerance in [1e-4, 1e-6, 1e-8] {
+            let a = simulate(&s, &Settings { tolerance, ..Settings::default() }).unwrap();
+            assert!(a.tolerance_reached, "{}, {tolerance:e}: {:?}", s.name, a.error);
+            let off = (a.theta_inner_rad - exact.state[2]).abs();
+            assert!(off <= tolerance, "{}, {tolerance:e}: theta_bi off by {off:e}", s.name);
+            let off = (a.peaks.normal_max_n - exact.peaks.normal_max_n).abs() / exact.peaks.normal_max_n;
+            assert!(off <= tolerance, "{}, {tolerance:e}: N_max off by {off:e}", s.name);
+        }
+    }
+}
+
+/// Leaving stick with the sprag's integrated rates, which drift off the constraint by the tolerance, sent a contact
+/// into slip the wrong way: these met any limit of changes of mode.
+#[test]
+fn a_contact_leaves_stick_with_the_rates_of_stick() {
+    let mut soft = scene("high-10");
+    if let ScenarioKind::TorsionalExcitation { abutment_stiffness_nm_per_rad, .. } = &mut soft.kind {
+        *abutment_stiffness_nm_per_rad *= 0.126;
+    }
+    let p = prepare(&soft).unwrap();
+    for tolerance in [1e-5, 1e-6] {
+        let r = run_at(&p, tolerance);
+        assert_eq!(r.stop, Stop::Finished);
+        assert!(r.events < 3_000, "{} changes of mode", r.events);
+    }
+}
+
 /// A race of 1e-6 kg m^2 on an abutment of 1e9 Nm/rad: 3e7 rad/s, ten million periods in 0.3 s.
 #[test]
 fn a_stiff_race_does_not_hold_the_steps() {

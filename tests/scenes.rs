@@ -149,6 +149,8 @@ fn without_the_spring_the_sprags_do_not_come_back() {
     assert!(without.contact_lost_s > 0.2, "{}", without.contact_lost_s);
     let engagement = simulate(&scene("engagement-without-spring"), &Settings::default()).unwrap();
     assert!(engagement.theta_inner_rad < -1.0 && engagement.peaks.normal_max_n == 0.0);
+    // It touches, but without a force.
+    assert_eq!(engagement.verdict, Some(Verdict::Disengages));
     let with = simulate(&scene("engagement"), &Settings::default()).unwrap();
     assert_eq!(with.verdict, Some(Verdict::Sticks));
 }

@@ -1,6 +1,6 @@
 //! One case of the stability map: run, run again at half the tolerance, compared.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
@@ -24,9 +24,9 @@ pub struct WorkLimit {
 }
 
 impl Default for WorkLimit {
-    /// A fortieth of the command's own limit of steps: most cases need a thousandth of it.
+    /// A tenth of the command's own limit of steps: most cases need a thousandth of it.
     fn default() -> Self {
-        Self { tolerance: 1e-6, most_steps: 5_000, most_events: 1_000, interrupt: None }
+        Self { tolerance: 1e-6, most_steps: 20_000, most_events: 5_000, interrupt: None }
     }
 }
 
@@ -90,14 +90,17 @@ pub struct Judged {
 }
 
 /// All `cases` on `clutch`, in parallel; the results are in their order, the same for any number of threads.
-/// `done` is called after each.
+/// `done` is called after each. Once interrupted, those that were finished.
 pub fn map(clutch: &Clutch, cases: &[Case], limit: &WorkLimit, done: &(dyn Fn() + Sync)) -> Vec<Judged> {
     let one = |case: &Case| {
+        if limit.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            return None;
+        }
         let judged = judge(clutch, case, limit);
         done();
-        judged
+        (!judged.outcomes.contains(&Outcome::Stopped(Stop::Interrupted))).then_some(judged)
     };
-    cases.par_iter().with_max_len(1).map(one).collect()
+    cases.par_iter().with_max_len(1).filter_map(one).collect()
 }
 
 /// One case.

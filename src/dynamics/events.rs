@@ -34,7 +34,8 @@ pub(super) struct Look {
 
 impl Look {
     /// Before anything is seen.
-    pub(super) const NOTHING: Self = Self { events: [f64::NAN; EVENTS], figures: [f64::NAN; 5], rho: f64::NAN };
+    pub(super) const NOTHING: Self =
+        Self { events: [f64::NAN; EVENTS], figures: [f64::NAN; 5], rho: f64::NAN };
 }
 
 /// How far alpha (rad) lies from the ends of its place.

@@ -44,7 +44,8 @@ impl Driver<'_> {
                         let t = start + theta * length;
                         look(model, &mode, t, &d.at(t), false).figures[i]
                     };
-                    let (theta, found) = highest(looks.at(left), looks.extreme(j, value), looks.at(right), inside);
+                    let (theta, found) =
+                        highest(looks.at(left), looks.extreme(j, value), looks.at(right), inside);
                     if found > best[i] {
                         (best[i], at_s[i]) = (found, start + theta * length);
                     }

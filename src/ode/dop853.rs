@@ -51,8 +51,9 @@ pub fn step<const N: usize, X>(
         let mut z = *y;
         for (j, &a) in row.iter().enumerate() {
             if a != 0.0 {
+                let ha = h * a;
                 for i in 0..N {
-                    z[i] += h * a * k[j][i];
+                    z[i] += ha * k[j][i];
                 }
             }
         }
@@ -60,12 +61,15 @@ pub fn step<const N: usize, X>(
     }
     let mut y1 = *y;
     let (mut err5, mut err3) = (0.0, 0.0);
-    for i in 0..N {
-        let (mut increment, mut e5) = (0.0, 0.0);
-        for j in 0..12 {
-            increment += B[j] * k[j][i];
-            e5 += E[j] * k[j][i];
+    let (mut increments, mut fifths) = ([0.0; N], [0.0; N]);
+    for j in 0..12 {
+        for i in 0..N {
+            increments[i] += B[j] * k[j][i];
+            fifths[i] += E[j] * k[j][i];
         }
+    }
+    for i in 0..N {
+        let (increment, e5) = (increments[i], fifths[i]);
         y1[i] += h * increment;
         let e3 = increment - B_HAT[0] * k[0][i] - B_HAT[1] * k[8][i] - B_HAT[2] * k[11][i];
         let scale = tolerance.scale(i, y[i], y1[i]);
@@ -140,8 +144,13 @@ impl<const N: usize> Step<N> {
             c[1][i] = difference;
             c[2][i] = bulge;
             c[3][i] = difference - self.h * k[12][i] - bulge;
-            for (row, d) in D.iter().enumerate() {
-                c[4 + row][i] = self.h * d.iter().zip(&k).map(|(d, k)| d * k[i]).sum::<f64>();
+        }
+        for (row, d) in D.iter().enumerate() {
+            for (weight, k) in d.iter().zip(&k) {
+                let weight = self.h * weight;
+                for i in 0..N {
+                    c[4 + row][i] += weight * k[i];
+                }
             }
         }
         Ok(Dense { t: self.t, h: self.h, coefficients: c })

@@ -26,7 +26,8 @@ mod tests {
             for i in 0..n {
                 let mut f = |t: f64, y: &[f64; 1]| Ok::<_, ()>([y[0] * t.cos()]);
                 let t = i as f64 * h;
-                y = step(&mut f, t, &y, &f(t, &y).unwrap(), h).unwrap();
+                let k1 = f(t, &y).unwrap();
+                y = step(&mut f, t, &y, &k1, h).unwrap();
             }
             (y[0] - 1f64.sin().exp()).abs()
         };

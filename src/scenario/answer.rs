@@ -13,7 +13,7 @@ pub enum Verdict {
     SlipsOverrunning,
     /// Net slip towards engaging.
     SlipsEngaging,
-    /// Contact open at the end, or for more than 1 ms at a stretch, or the run left the curve.
+    /// Contact open or without force at the end, open for more than 1 ms at a stretch, or the run left the curve.
     Disengages,
     /// Closer to another verdict than the error estimate.
     AtThreshold,

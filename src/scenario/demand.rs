@@ -154,7 +154,7 @@ fn bisected(prepared: &Prepared, settings: &Settings, tolerance: f64) -> (Option
         let r = run(&model, prepared.state, prepared.mode, &s);
         work += r.counters.rhs_evaluations;
         interrupted |= r.stop == Stop::Interrupted;
-        verdict(&r, &ErrorEstimate::default()) == Some(Verdict::Sticks)
+        verdict(prepared, &r, &ErrorEstimate::default()) == Some(Verdict::Sticks)
     };
     let (mut low, mut high) = (LEAST_FRICTION, MOST_FRICTION);
     if !sticks(high) {

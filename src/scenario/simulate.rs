@@ -184,7 +184,7 @@ fn conclude(prepared: &Prepared, settings: &Settings, fine: &Try, other: &Try) -
     let figures = |t: &Try| Figures::of(prepared, &t.run, t.demand);
     let error = whole.then(|| figures(fine).difference(&figures(other)));
     let agreed = error.and_then(|error| {
-        let (a, b) = (verdict(&fine.run, &error)?, verdict(&other.run, &error)?);
+        let (a, b) = (verdict(prepared, &fine.run, &error)?, verdict(prepared, &other.run, &error)?);
         Some(if a == b { a } else { Verdict::AtThreshold })
     });
     let scales = Scales::of(prepared, &fine.run);
@@ -257,8 +257,8 @@ const SLIPPED_M: f64 = 1e-6;
 /// Stretch without contact beyond which a scene counts as disengaged, s (INTERFACE: 1 ms).
 const LOST_S: f64 = 1e-3;
 
-/// `None` where the run ended before it could be told.
-pub(super) fn verdict(run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
+/// `None` where the run ended before it could be told. A sprag that touches without a force is open.
+pub(super) fn verdict(prepared: &Prepared, run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
     let left = matches!(run.stop, Stop::CurveEnd | Stop::FellAway);
     if left || run.longest_open_s > LOST_S {
         return Some(Verdict::Disengages);
@@ -267,7 +267,7 @@ pub(super) fn verdict(run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
         return None;
     }
     let net = slips(run)[0].net_m;
-    Some(if run.mode.place == Place::Open {
+    Some(if prepared.model.point(run.mode.place, run.state[0]).n_bi <= 0.0 {
         Verdict::Disengages
     } else if (net.abs() - SLIPPED_M).abs() <= error.net_slip_m {
         Verdict::AtThreshold
@@ -339,12 +339,18 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
 
 impl Simulation {
     /// How long A slips after an overrun has been reversed, s: from the instant at which v_A has fallen to 0 under
-    /// load to the first stick (the paper: about 0.5 ms). `None` without an overrun, samples or a stick.
+    /// load to the beginning of the stick that holds when N_bi reaches its largest value, or of the first after it. What
+    /// holds for a moment and slips on while the load builds up has not ended the slip. The paper: about 0.5 ms.
+    /// `None` without an overrun, samples or such a stick.
     pub fn initial_slip_s(&self) -> Option<f64> {
         self.overrun?;
         let from = self.engaged?.t_s;
         let sticks = |m: &Mode| matches!(m.place, Place::Arc(_)) && m.inner == Grip::Stick;
-        let until = self.modes.iter().find(|(t, m)| *t >= from && sticks(m))?.0;
-        Some(until - from)
+        let largest = self.peaks.at_s[3].max(from);
+        let then = self.modes.iter().rposition(|(t, _)| *t <= largest)?;
+        let holds = then + self.modes[then..].iter().position(|(_, m)| sticks(m))?;
+        let slips = self.modes[..holds].iter().rposition(|(_, m)| !sticks(m));
+        let since = self.modes[slips.map_or(0, |i| i + 1)].0;
+        Some((since - from).max(0.0))
     }
 }
