@@ -33,10 +33,6 @@ pub(super) struct Driver<'a> {
     seen: Option<Look>,
     /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
     lengths: [f64; KINDS],
-    /// What the first step after a change from one kind to another left as the next length, and the change that the
-    /// next step follows: a contact that has just touched wants shorter steps than one that slips on.
-    begins: [[f64; KINDS]; KINDS],
-    changed: Option<(usize, usize)>,
 }
 
 /// Kinds of mode.
@@ -75,8 +71,6 @@ impl<'a> Driver<'a> {
             slope: None,
             seen: None,
             lengths: [f64::INFINITY; KINDS],
-            begins: [[f64::INFINITY; KINDS]; KINDS],
-            changed: None,
         };
         driver.enter(mode);
         driver.look(state, 0.0);
@@ -123,9 +117,6 @@ impl<'a> Driver<'a> {
             );
             let counters = &mut self.run.counters;
             let step = self.stepper.step(&mut rhs, t, &y, &slope, longest, rest, counters);
-            if let Some((old, new)) = self.changed.take() {
-                self.begins[old][new] = self.stepper.h;
-            }
             match step.filter(|_| work < self.settings.most_steps) {
                 Some(step) => {
                     let mode = self.run.mode;
@@ -343,8 +334,6 @@ impl<'a> Driver<'a> {
                 self.stepper.h = self.lengths[new];
             }
         }
-        self.stepper.h = self.stepper.h.min(self.begins[old][new]);
-        self.changed = Some((old, new));
         self.stepper.forget();
         (self.slope, self.seen) = (None, None);
     }

@@ -19,8 +19,6 @@ const PATIENCE: u32 = 20;
 const MOST_PATIENCE: u32 = 5_000;
 /// Steps shorter than this part of the longest count as short.
 const SHORT: f64 = 0.2;
-/// Order of the error below which it is taken as it was seen, not as it should be.
-const LOW_ORDER: f64 = 6.0;
 /// How much longer an implicit step must be to be tried.
 const WORTH: f64 = 4.0;
 
@@ -70,8 +68,6 @@ where
         let before = self.h;
         let mut h = self.h.min(longest).min(rest);
         let mut rejected = false;
-        // Length and error of the explicit trial before.
-        let mut before_it: Option<(f64, f64)> = None;
         let step = loop {
             if h < SHORTEST_STEP && h < rest {
                 return None;
@@ -85,18 +81,7 @@ where
             } else {
                 match dop853::step(rhs, t, y, slope, h, &self.tolerance, counters) {
                     Ok(s) if s.error <= 1.0 => break Step::Explicit(s),
-                    Ok(s) => {
-                        let shorter = s.next_h().min(0.9 * h);
-                        // Next to a singular point the error falls more slowly than its order says: as it did last.
-                        let seen = before_it.map(|(h0, e0)| (e0 / s.error).ln() / (h0 / h).ln());
-                        before_it = Some((h, s.error));
-                        h = match seen.filter(|order| order.is_finite() && *order < LOW_ORDER) {
-                            Some(order) => {
-                                shorter.min(h * (0.9 * s.error.powf(-1.0 / order.max(1.0))).max(0.02))
-                            }
-                            None => shorter,
-                        };
-                    }
+                    Ok(s) => h = s.next_h().min(0.9 * h),
                     Err(_) => h *= 0.25,
                 }
             }
