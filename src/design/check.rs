@@ -207,6 +207,18 @@ fn contact(file: &ContactFile, out: &mut Findings) -> Option<ContactLaw> {
     }
 }
 
+/// The body's limit needs a section to hold it against.
+pub(super) fn body_yield(file: &DesignFile, out: &mut Findings) {
+    if file.limits.body_yield_mpa.is_some() && file.sprags.flanks.is_none() && file.sprags.width_mm <= 0.0 {
+        out.refuse(
+            &["limits.body_yield_mpa", "sprags.flanks", "sprags.width_mm"],
+            "only together with flanks, or a width_mm above 0: without them the body has no narrowest section"
+                .to_owned(),
+            "add flanks = { rear_mm = ..., front_mm = ... } to [sprags], or remove the limit".to_owned(),
+        );
+    }
+}
+
 /// The limits of a table, the absent ones from `base`.
 pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Limits {
     let limits = Limits {
@@ -221,6 +233,7 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         case_depth_m: file.case_depth_mm.map(m).or(base.case_depth_m),
         case_shear_pa: file.case_shear_mpa.map(pa).or(base.case_shear_pa),
         core_shear_pa: file.core_shear_mpa.map(pa).or(base.core_shear_pa),
+        body_yield_pa: file.body_yield_mpa.map(pa).or(base.body_yield_pa),
         axial_load_n: file.axial_load_n.or(base.axial_load_n),
         slip_margin: file.slip_margin.or(base.slip_margin),
         keep_contact_to_rad_s: file.keep_contact_to_rpm.map(rad_s).or(base.keep_contact_to_rad_s),
@@ -244,6 +257,7 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         ),
         ("limits.case_shear_mpa", limits.case_shear_pa, "peak_torque_nm", limits.peak_torque_nm),
         ("limits.core_shear_mpa", limits.core_shear_pa, "peak_torque_nm", limits.peak_torque_nm),
+        ("limits.body_yield_mpa", limits.body_yield_pa, "peak_torque_nm", limits.peak_torque_nm),
         ("limits.axial_load_n", limits.axial_load_n, "peak_torque_nm", limits.peak_torque_nm),
     ];
     for (key, limit, torque_key, torque) in needs {

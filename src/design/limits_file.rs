@@ -43,6 +43,10 @@ pub(super) struct LimitsFile {
     /// Allowed shear below a contact at case_depth_mm and deeper at peak torque, MPa.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub core_shear_mpa: Option<f64>,
+    /// Allowed compression of the sprag's body, half way between its contacts, at peak torque, MPa; needs flanks or
+    /// a width_mm.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub body_yield_mpa: Option<f64>,
     /// Axial load from race to race through all sprags while they are engaged, N; lowers the friction reserve.
     #[schemars(extend("minimum" = 0))]
     pub axial_load_n: Option<f64>,

@@ -29,6 +29,8 @@ pub struct Limits {
     pub case_shear_pa: Option<f64>,
     /// Allowed shear at the depth of the case and below at peak torque, Pa.
     pub core_shear_pa: Option<f64>,
+    /// Allowed compression of the sprag's body at peak torque, Pa.
+    pub body_yield_pa: Option<f64>,
     /// Axial load from race to race through all sprags, N.
     pub axial_load_n: Option<f64>,
     /// Smallest slip margin wanted, pure number.

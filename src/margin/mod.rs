@@ -3,13 +3,17 @@
 //! In: a `Design`. Out: [`Margin`] rows, torque capacities. Absent: how forces come about.
 //! Equations: none; margin = allowable/demand - 1 unless a row says otherwise, 0 or more is held.
 
+mod body;
 mod capacity;
 mod hoop;
 mod load;
+mod overrun;
 mod scenes;
 mod subsurface;
 
-pub use load::{LoadState, lift_off_rad_s, load_state};
+pub use capacity::{Course, courses};
+pub use load::{LoadState, load_state};
+pub use overrun::{OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
 pub use scenes::{SceneDemand, scene_demand};
 
 use crate::design::{Design, Limits, Scenario};
