@@ -13,12 +13,12 @@
 //! |---|---|---|
 //! | 0 | [`numeric`] | duals, bracketed roots, quadrature, Chebyshev panels; never heard of a clutch |
 //! | 0 | [`ode`] | Runge-Kutta steps with dense output and work counters |
-//! | 1 | [`material`] | elastic constants, density |
+//! | 1 | [`material`] | elastic constants, density, a library of steels |
 //! | 1 | [`profile`] | tangent arcs, outline, mass properties, crowding of neighbours |
+//! | 1 | [`race`] | growth and hoop stress of rings, press fits, body compression |
 //! | 1 | [`design`] | the design file, checked; the only way in for mm, degrees, GPa |
 //! | 2 | [`kinematics`] | lengths, angles, levers, rolling ratios |
 //! | 2 | [`contact`] | local line contact: roller law, Hertz, slices |
-//! | 2 | [`race`] | growth and hoop stress of rings, body compression |
 //! | 2 | [`friction`] | coefficient over speed |
 //! | 3 | [`wedge`] | the only static iteration: the curve N(alpha) of one design at one speed |
 //! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |

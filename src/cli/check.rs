@@ -4,6 +4,7 @@ mod body;
 mod charts;
 mod overrun;
 mod page;
+mod running;
 
 use super::exit::{Exit, Failure};
 use super::left_out::left_out;
@@ -75,6 +76,7 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         lift_off_rad_s: check.lift_off_rad_s,
         searched_to_rad_s: LIFT_OFF_TO_RAD_S,
         overrun: overrun::Section::new(&check.overrun),
+        running: running::Section::new(&design, &check.state),
     };
     let body = Body::new(&check.rows, source);
     let held = body.pass;

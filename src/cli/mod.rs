@@ -11,6 +11,7 @@ pub mod export;
 pub mod interrupt;
 pub mod journal;
 pub mod left_out;
+pub mod materials;
 pub mod optimize;
 pub mod optimize_answer;
 pub mod output;
@@ -71,6 +72,8 @@ enum Command {
     Accuracy(accuracy::AccuracyArgs),
     /// Write the design for another program (a CalculiX deck), or read its result
     Export(export::ExportArgs),
+    /// List the steels that a design may name, with their constants, allowed stresses and sources
+    Materials,
     /// Print the JSON Schema of the design file
     Schema,
     /// Print a completion script for a shell
@@ -171,6 +174,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
         Command::Export(args) => export::run(&args, &context),
+        Command::Materials => materials::run(&context),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

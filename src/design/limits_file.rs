@@ -10,6 +10,9 @@ use serde::Deserialize;
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LimitsFile {
+    /// true: Hertz pressures and mean hoop stresses that are absent here are those which the library allows the
+    /// materials that [material] names, with the torques at which they are held.
+    pub from_material: Option<bool>,
     /// Torque at which hertz_nominal_mpa is held, N m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub nominal_torque_nm: Option<f64>,
@@ -56,6 +59,9 @@ pub(super) struct LimitsFile {
     /// Overrun speed up to which the sprags must not lift off, rev/min.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub keep_contact_to_rpm: Option<f64>,
+    /// Overrun speed of the outer race by which the sprags must have lifted off the inner race, rev/min.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub lift_off_by_rpm: Option<f64>,
 }
 
 /// What `check` holds the design to.

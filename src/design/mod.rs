@@ -18,15 +18,17 @@ mod limits_file;
 mod outline;
 mod question;
 mod read;
+mod running;
 mod scenario_file;
 mod scenarios;
 mod shape;
+mod steels;
 mod task;
 mod variables;
 
 pub use clutch::{
     Axial, Clutch, ContactLaw, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials, Races, Sprags,
-    Spring, StressState,
+    Running, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem};
 pub use edit::{EditError, with_limits, with_values};

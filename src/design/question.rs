@@ -37,6 +37,8 @@ pub struct Limits {
     pub slip_margin: Option<f64>,
     /// Overrun speed up to which the sprags must keep contact, rad/s.
     pub keep_contact_to_rad_s: Option<f64>,
+    /// Overrun speed of the outer race by which the sprags must have lifted off the inner one, rad/s.
+    pub lift_off_by_rad_s: Option<f64>,
 }
 
 /// What happens to the clutch.

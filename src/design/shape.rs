@@ -23,7 +23,7 @@ use super::file::DesignFile;
 const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e15;
 
 /// Keys that a later version will read.
-const RESERVED: &[&str] = &["press_fit", "thermal", "tolerances"];
+const RESERVED: &[&str] = &["tolerances"];
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
@@ -177,6 +177,7 @@ impl<'a> Walk<'_, 'a> {
                     && constant.is_none_or(|c| c == s.as_ref())
                     && s.trim().chars().count() as f64 >= bound(schema, "minLength").unwrap_or(0.0)
             }
+            (Some("boolean"), DeValue::Boolean(_)) => true,
             (Some("number"), v @ (DeValue::Float(_) | DeValue::Integer(_))) => {
                 number_of(v).is_some_and(|x| in_range(schema, x))
             }
@@ -209,11 +210,17 @@ fn help_for_unknown(name: &str, known: &[&str]) -> String {
     if RESERVED.contains(&name) {
         return format!("remove {name}: the name is reserved, this version does not read it");
     }
-    let nearest = known.iter().map(|k| (strsim::jaro_winkler(name, k), k)).max_by(|a, b| a.0.total_cmp(&b.0));
-    match nearest {
-        Some((likeness, key)) if likeness > 0.8 => format!("did you mean {key}? Otherwise remove {name}"),
-        _ => format!("remove {name} or move it to the table where it belongs"),
+    match nearest(name, known) {
+        Some(key) => format!("did you mean {key}? Otherwise remove {name}"),
+        None => format!("remove {name} or move it to the table where it belongs"),
     }
+}
+
+/// The known name that is much like `name`.
+pub(super) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
+    let likeness = |k: &&'k str| (strsim::jaro_winkler(&name.to_lowercase(), &k.to_lowercase()), *k);
+    let best = known.iter().map(likeness).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 > 0.8).then_some(best.1)
 }
 
 fn bound(schema: &Value, name: &str) -> Option<f64> {
@@ -245,6 +252,7 @@ fn allowed(schema: &Value) -> String {
         Some("string") if bound(schema, "minLength").is_some() => "a text that is not empty",
         Some("string") => "a text in quotes",
         Some("integer") => "a whole number",
+        Some("boolean") => "true or false",
         _ => "a finite number",
     };
     let bounds = [

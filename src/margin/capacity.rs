@@ -24,8 +24,8 @@ fn bounded<'a>(
 ) -> Option<Bounded<'a>> {
     if let Some(hoop) = HOOPS.iter().find(|h| h.code == code) {
         let (allowed, _) = (hoop.allowed)(limits)?;
-        let (count, elastic) = (design.clutch.sprags.count, &state.curve.statics().elastic);
-        return Some(Bounded { allowed, demand: Box::new(move |p| (hoop.demand)(elastic, count, p)) });
+        let (clutch, elastic) = (&design.clutch, &state.curve.statics().elastic);
+        return Some(Bounded { allowed, demand: Box::new(move |p| hoop.demand_pa(clutch, elastic, p)) });
     }
     if let Some(below) = SUBSURFACE.iter().find(|b| b.code == code) {
         let (allowed, from_m) = (below.allowed)(limits)?;

@@ -59,7 +59,6 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         });
     };
     let curve = &state.curve;
-    let count = design.clutch.sprags.count;
     let end = curve.end_torque_nm();
     let mut shown_only = Vec::new();
     if let (Some(torque), Some(allowed)) = (limits.nominal_torque_nm, limits.hertz_nominal_pa) {
@@ -91,7 +90,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         let elastic = &curve.statics().elastic;
         for hoop in &HOOPS {
             let Some((allowed, required)) = (hoop.allowed)(limits) else { continue };
-            let value = (hoop.demand)(elastic, count, &p);
+            let value = hoop.demand_pa(&design.clutch, elastic, &p);
             let margin = beyond(ratio(value, allowed), torque, end);
             push(hoop.code, hoop.name, value * MPA, allowed * MPA, "MPa", margin);
             if !required {
@@ -183,6 +182,17 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             closing * 1e3,
             "mNm",
             if closing > 0.0 { 1.0 - opening / closing } else { -1.0 },
+        );
+    }
+    if let Some(speed) = limits.lift_off_by_rad_s {
+        let (opening, closing) = overrun_moments(design, state, speed);
+        push(
+            "lift-off",
+            "spring moment against centrifugal opening moment at the speed by which the sprags must be off",
+            closing * 1e3,
+            opening * 1e3,
+            "mNm",
+            if closing > 0.0 { opening / closing - 1.0 } else { 1.0 },
         );
     }
     for row in &mut rows {

@@ -114,7 +114,7 @@ impl Race {
     }
 
     /// (R_o^2 + R_b^2)/(R_o^2 - R_b^2) of Lame's ring with bore R_b and outside R_o; 1 for a solid shaft.
-    fn lame_factor(&self) -> f64 {
+    pub(super) fn lame_factor(&self) -> f64 {
         let (o, b) = (self.outside_m.powi(2), self.bore_m.powi(2));
         (o + b) / (o - b)
     }

@@ -38,14 +38,14 @@ fn grip_is_torque_over_radius_and_normal_force() {
 #[test]
 fn grip_is_held_on_the_way_to_the_peak() {
     let d = design(&[
-        ("radius_mm = 4.15, until_rad", "radius_mm = 6.5, until_rad"),
-        ("width_mm = 5.05", "width_mm = 5.3"),
-        ("max = 5.2", "max = 7.0"),
+        ("radius_mm = 4.15, until_rad", "radius_mm = 2.5, until_rad"),
+        ("peak_torque_nm = 110.0", "peak_torque_nm = 90.0"),
+        ("name = \"r_i3_mm\", min = 3.6", "name = \"r_i3_mm\", min = 2.0"),
     ]);
     let (state, rows) = rows(&d);
-    let at_peak = state.curve.at_torque(110.0).unwrap().tan_omega;
+    let at_peak = state.curve.at_torque(90.0).unwrap().tan_omega;
     let on_the_way = (1..2000)
-        .filter_map(|i| state.curve.at_torque(0.055 * f64::from(i)))
+        .filter_map(|i| state.curve.at_torque(0.045 * f64::from(i)))
         .map(|p| p.tan_omega)
         .fold(0.0, f64::max);
     println!("tan omega {at_peak} at the peak, {on_the_way} on the way");

@@ -1,6 +1,7 @@
 //! The margins as table and as JSON.
 
 use super::overrun::Section;
+use super::running;
 use crate::margin::Margin;
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::wedge::EndReason;
@@ -63,6 +64,8 @@ pub(super) struct Source {
     pub(super) searched_to_rad_s: f64,
     /// Overrun against speed.
     pub(super) overrun: Section,
+    /// Radii as made and as run, where they differ.
+    pub(super) running: Option<running::Section>,
 }
 
 /// Keys of `check`.
@@ -84,6 +87,8 @@ pub(super) struct Body {
     pub(super) lift_off_rpm: Option<f64>,
     lift_off_searched_to_rpm: f64,
     pub(super) overrun: Section,
+    /// Null: the races run as made.
+    pub(super) running: Option<running::Section>,
 }
 
 impl Body {
@@ -120,6 +125,7 @@ impl Body {
             lift_off_rpm: source.lift_off_rad_s.map(rpm),
             lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
             overrun: source.overrun,
+            running: source.running,
         }
     }
 
@@ -167,12 +173,13 @@ impl Body {
                 Unit::NewtonMetre.show_plain(self.asked_nm, 4)
             )
         });
+        let running = self.running.iter().flat_map(running::Section::remarks);
         let searched = format!("{:.0}", self.lift_off_searched_to_rpm);
         let lift_off = match self.lift_off_rpm {
             Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
             None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
         };
-        capacity.chain(early).chain([lift_off, self.overrun.remark()]).collect()
+        capacity.chain(early).chain([lift_off, self.overrun.remark()]).chain(running).collect()
     }
 }
 
@@ -298,6 +305,7 @@ mod tests {
             lift_off_rad_s,
             searched_to_rad_s: 100.0,
             overrun: Section::new(&OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 }),
+            running: None,
         }
     }
 

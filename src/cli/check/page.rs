@@ -45,6 +45,15 @@ pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, co
     page.figures(&[
         (parts::half(rise), "Cam rise: the undeformed sprag's height from A to B over its rotation, and the gap AB that remains under load. What lies between them is pressed in at both contacts and in the body."),
     ]);
+    if let Some(running) = &answer.body.running {
+        page.heading("Radii as made and as run");
+        page.paragraph(
+            "Every other figure of this page is of the radii as run: fitted, and at the temperatures of [thermal], without \
+             load. A race that is joined with shaft or housing counts as one piece with it. To make: the radii with which \
+             the clutch runs as drawn, enlarged as the sprags are, so that the gap is right at every torque.",
+        );
+        page.table("", &running.table());
+    }
     let wanted = design.limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
     answer.body.overrun.draw(&mut page, answer.body.lift_off_rpm, wanted);
     parts::draw(
