@@ -59,11 +59,15 @@ fn answered(name: &str, text: &str) -> Design {
     let rows = load_margins(&design, &design.limits, true, &state);
     assert!(rows.len() >= 14, "{name}: {} rows", rows.len());
     for row in &rows {
-        assert!(row.demand.is_finite() && row.allowable.is_finite() && row.margin.is_finite(), "{name}: {row:?}");
+        assert!(
+            row.demand.is_finite() && row.allowable.is_finite() && row.margin.is_finite(),
+            "{name}: {row:?}"
+        );
         assert!(row.torque_capacity_nm.is_none_or(|t| t.is_finite() && t >= 0.0), "{name}: {row:?}");
     }
     let off = lift_off_rad_s(&design, &state, 6000.0);
-    let curve = overrun_curve(&design, &state, off.unwrap_or(1000.0)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let curve =
+        overrun_curve(&design, &state, off.unwrap_or(1000.0)).unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(curve.inner_race.len(), 25, "{name}");
     for p in curve.inner_race.iter().chain(&curve.outer_race) {
         let all = [p.state.drag_torque_nm, p.state.normal_inner_n, p.state.normal_outer_n, p.growth_m];
@@ -109,7 +113,8 @@ fn paper_thin_races() {
     // A twentieth of a millimetre of steel: the track runs away from the sprags, which roll over or leave their profile.
     let outer =
         answered("thin outer race", &replaced(&[("outside_radius_mm = 26.23", "outside_radius_mm = 19.49")]));
-    let inner = answered("thin inner race", &replaced(&[("bore_radius_mm = 7.21", "bore_radius_mm = 11.06")]));
+    let inner =
+        answered("thin inner race", &replaced(&[("bore_radius_mm = 7.21", "bore_radius_mm = 11.06")]));
     for d in [outer, inner] {
         let end = load_state(&d).unwrap().curve.end_torque_nm();
         assert!(end < 20.0, "{end} Nm");

@@ -25,7 +25,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("scenario", &["numeric", "design", "profile", "friction", "wedge", "dynamics"]),
     ("fidelity", &["numeric", "design", "profile", "contact", "wedge", "dynamics", "scenario"]),
     ("accuracy", &["design", "dynamics", "scenario", "fidelity"]),
-    ("margin", &["numeric", "contact", "race", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"]),
+    (
+        "margin",
+        &["numeric", "contact", "race", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"],
+    ),
     // Never a contact, a wedge or a path: a vector and its margins.
     ("optimise", &["numeric", "design", "scenario", "margin"]),
     // Units and drawings: a profile to draw, no physics.

@@ -37,7 +37,11 @@ fn a_name_gives_what_the_library_holds_and_keys_win_over_it() {
 #[test]
 fn a_scenario_that_names_a_steel_inherits_no_key_of_another() {
     let more = "[[scenarios]]\nname = \"hold\"\nkind = \"static\"\ntorque_nm = 10\nmaterial = { name = \"100Cr6\" }\n";
-    let d = parse("[material]\nyoungs_modulus_gpa = 300.0\npoisson_ratio = 0.2\ndensity_kg_m3 = 3200.0\n", "", more);
+    let d = parse(
+        "[material]\nyoungs_modulus_gpa = 300.0\npoisson_ratio = 0.2\ndensity_kg_m3 = 3200.0\n",
+        "",
+        more,
+    );
     assert_eq!(d.clutch.materials.sprag.youngs_modulus_pa, 300e9);
     assert_eq!(d.scenario("hold").unwrap().clutch.materials.inner_race, steel("100Cr6").unwrap().material);
 }
@@ -56,7 +60,10 @@ fn limits_come_from_the_material_where_asked_and_keys_win() {
     assert_eq!((l.hoop_inner_pa, l.hoop_outer_pa), (Some(400e6), Some(600e6)));
     assert_eq!((l.hertz_nominal_pa, l.hertz_peak_pa), (Some(4200e6), Some(4600e6)));
     let stress = |name: &str| steel(name).unwrap().race_stress_pa;
-    assert_eq!((stress("34CrMo4V"), stress("16MnCr5"), stress("20MnCr5"), stress("100Cr6")), (400e6, 400e6, 600e6, 750e6));
+    assert_eq!(
+        (stress("34CrMo4V"), stress("16MnCr5"), stress("20MnCr5"), stress("100Cr6")),
+        (400e6, 400e6, 600e6, 750e6)
+    );
 }
 
 #[test]

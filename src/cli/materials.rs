@@ -54,12 +54,16 @@ pub fn run(context: &Context) -> Result<Exit, Failure> {
                 })
             })
             .collect();
-        output::print_json(&json!({ "tool": output::TOOL, "version": output::VERSION, "materials": steels }))?;
+        output::print_json(
+            &json!({ "tool": output::TOOL, "version": output::VERSION, "materials": steels }),
+        )?;
         return Ok(Exit::Held);
     }
     let mut text = table.to_text(context.colour);
     text.push_str("\nNamed in a design as material = { name = \"100Cr6\" } or [material.sprag] name = \"100Cr6\"; keys\n");
-    text.push_str("beside the name win over it. [limits] from_material = true takes the stresses as limits.\n\n");
+    text.push_str(
+        "beside the name win over it. [limits] from_material = true takes the stresses as limits.\n\n",
+    );
     for s in &STEELS {
         text.push_str(&format!("{}: {}\n", s.name, s.source));
     }

@@ -197,7 +197,8 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         out.refuse(
             &["limits.lift_off_by_rpm", "limits.keep_contact_to_rpm"],
             "more than keep_contact_to_rpm".to_owned(),
-            "sprags keep contact up to one speed and are off from a higher one on; remove one of the keys".to_owned(),
+            "sprags keep contact up to one speed and are off from a higher one on; remove one of the keys"
+                .to_owned(),
         );
     }
     let needs = [

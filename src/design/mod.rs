@@ -27,8 +27,8 @@ mod task;
 mod variables;
 
 pub use clutch::{
-    Axial, Clutch, ContactLaw, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials, Races, Sprags,
-    Running, Spring, StressState, TrackRun,
+    Axial, Clutch, ContactLaw, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials, Races, Running,
+    Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem};
 pub use edit::{EditError, with_limits, with_values};

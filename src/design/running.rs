@@ -84,10 +84,9 @@ fn joints(file: &DesignFile, made: &Races, out: &mut Findings) -> Option<(Option
     let before = out.problems.len();
     let key = |name: &str| format!("races.press_fit.{name}");
     let radial = |um: f64| 0.5e-6 * um;
-    let inner = fit.inner_interference_um.map(|um| Joint {
-        radial_m: radial(um),
-        far_rim_m: m(fit.shaft_bore_radius_mm),
-    });
+    let inner = fit
+        .inner_interference_um
+        .map(|um| Joint { radial_m: radial(um), far_rim_m: m(fit.shaft_bore_radius_mm) });
     if let Some(joint) = inner {
         if made.inner_bore_radius_m <= 0.0 {
             out.refuse(

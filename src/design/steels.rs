@@ -33,9 +33,14 @@ fn bodies<'f>(file: &'f MaterialFile, out: &mut Findings) -> Option<[Body<'f>; 3
         expansion_um_per_m_k: file.expansion_um_per_m_k,
     };
     let any_common = common.name.is_some()
-        || [common.youngs_modulus_gpa, common.poisson_ratio, common.density_kg_m3, common.expansion_um_per_m_k]
-            .iter()
-            .any(Option::is_some);
+        || [
+            common.youngs_modulus_gpa,
+            common.poisson_ratio,
+            common.density_kg_m3,
+            common.expansion_um_per_m_k,
+        ]
+        .iter()
+        .any(Option::is_some);
     let given = [&file.sprag, &file.inner_race, &file.outer_race];
     if given.iter().all(|b| b.is_none()) {
         let body = || Body { path: "material".to_owned(), keys: common.clone(), named: file.name.as_deref() };
@@ -77,7 +82,8 @@ fn named(body: &Body<'_>, out: &mut Findings) -> Result<Option<&'static Steel>, 
         return Ok(Some(found));
     }
     let names: Vec<&str> = STEELS.iter().map(|s| s.name).collect();
-    let all: Vec<&str> = STEELS.iter().flat_map(|s| std::iter::once(s.name).chain(s.also.iter().copied())).collect();
+    let all: Vec<&str> =
+        STEELS.iter().flat_map(|s| std::iter::once(s.name).chain(s.also.iter().copied())).collect();
     let help = match nearest(name, &all) {
         Some(like) => format!("did you mean {like}? `sprag-design materials` lists them"),
         None => "give youngs_modulus_gpa, poisson_ratio and density_kg_m3 instead; `sprag-design materials` lists the \
@@ -156,11 +162,13 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         out.refuse(
             &["limits.from_material", "material"],
             "true only where [material], or each of its bodies, has a name".to_owned(),
-            "add name = \"100Cr6\" or another of `sprag-design materials`, or give the limits by key".to_owned(),
+            "add name = \"100Cr6\" or another of `sprag-design materials`, or give the limits by key"
+                .to_owned(),
         );
         return base;
     };
-    let least = |value: fn(&Steel) -> f64| [sprag, inner, outer].map(value).into_iter().fold(f64::INFINITY, f64::min);
+    let least =
+        |value: fn(&Steel) -> f64| [sprag, inner, outer].map(value).into_iter().fold(f64::INFINITY, f64::min);
     let nominal = file.nominal_torque_nm.or(base.nominal_torque_nm).is_some();
     let peak = file.peak_torque_nm.or(base.peak_torque_nm).is_some();
     Limits {

@@ -60,7 +60,8 @@ mod tests {
     use crate::material::Material;
 
     const STEEL: Material = Material { youngs_modulus_pa: 206e9, poisson_ratio: 0.3, density_kg_m3: 7850.0 };
-    const BRONZE: Material = Material { youngs_modulus_pa: 110e9, poisson_ratio: 0.34, density_kg_m3: 8800.0 };
+    const BRONZE: Material =
+        Material { youngs_modulus_pa: 110e9, poisson_ratio: 0.34, density_kg_m3: 8800.0 };
 
     fn close(a: f64, b: f64) {
         assert!((a - b).abs() <= 1e-8 * b.abs(), "{a} against {b}");

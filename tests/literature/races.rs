@@ -44,7 +44,13 @@ fn fits_move_the_tracks_and_stress_the_races() {
     close(run.outer.joint_pressure_pa, p_outer, 1e-12);
     let shrinks = 2.0 * p_outer * a * joint * joint / (e * (joint * joint - a * a));
     close(run.outer.by_fit_m, -shrinks, 1e-12);
-    println!("{:.1} and {:.1} MPa; tracks move {:.2} and {:.2} um", p_inner / 1e6, p_outer / 1e6, run.inner.by_fit_m * 1e6, -shrinks * 1e6);
+    println!(
+        "{:.1} and {:.1} MPa; tracks move {:.2} and {:.2} um",
+        p_inner / 1e6,
+        p_outer / 1e6,
+        run.inner.by_fit_m * 1e6,
+        -shrinks * 1e6
+    );
 
     // Hoop at peak torque: the race and its partner are one piece, so the load's share is Lame's of the whole; at a solid
     // shaft -P everywhere. The fit's share at the joint is p (b^2+R^2)/(b^2-R^2), at the track 2 p R^2/(b^2-R^2).
@@ -54,7 +60,8 @@ fn fits_move_the_tracks_and_stress_the_races() {
     let load = 12.0 * at.normal_inner_n / (2.0 * PI * b * 6e-3);
     let b0 = 11.11e-3_f64;
     let wall = b0 * b0 - joint * joint;
-    let (at_joint, at_track) = (p_inner * (b0 * b0 + joint * joint) / wall, 2.0 * p_inner * joint * joint / wall);
+    let (at_joint, at_track) =
+        (p_inner * (b0 * b0 + joint * joint) / wall, 2.0 * p_inner * joint * joint / wall);
     let worst = [at_joint, at_track, load - at_joint, load - at_track].into_iter().fold(0.0, f64::max);
     close(row(&rows, "hoop-inner").demand, worst * 1e-6, 1e-9);
     let (a, c) = (d.clutch.races.outer_radius_m, 35e-3_f64);
@@ -63,7 +70,8 @@ fn fits_move_the_tracks_and_stress_the_races() {
     let hoop = |r: f64| load * a * a * (1.0 + c * c / (r * r)) / (c * c - a * a);
     let a0 = 19.44e-3_f64;
     let wall = joint * joint - a0 * a0;
-    let (fit_track, fit_joint) = (-2.0 * p_outer * joint * joint / wall, -p_outer * (joint * joint + a0 * a0) / wall);
+    let (fit_track, fit_joint) =
+        (-2.0 * p_outer * joint * joint / wall, -p_outer * (joint * joint + a0 * a0) / wall);
     let worst = [fit_track.abs(), fit_joint.abs(), hoop(a) + fit_track, hoop(joint) + fit_joint];
     close(row(&rows, "hoop-outer").demand, worst.into_iter().fold(0.0, f64::max) * 1e-6, 1e-9);
     // A stiffer clutch, and less stress in the inner race, than without shaft and housing.
@@ -76,7 +84,9 @@ fn warm(inner: f64, outer: f64, sprags: f64) -> Vec<(&'static str, String)> {
         ("density_kg_m3 = 7850.0 ", "expansion_um_per_m_k = 12.0\ndensity_kg_m3 = 7850.0 ".to_owned()),
         (
             "[friction]",
-            format!("[thermal]\ninner_race_c = {inner}\nouter_race_c = {outer}\nsprags_c = {sprags}\n[friction]"),
+            format!(
+                "[thermal]\ninner_race_c = {inner}\nouter_race_c = {outer}\nsprags_c = {sprags}\n[friction]"
+            ),
         ),
     ]
 }

@@ -66,7 +66,11 @@ impl Section {
             first_contact_turn_rad: run.first_turn_rad,
             gap_as_made_mm: Unit::Millimetre.from_si(run.outer.made_m - run.inner.made_m),
             gap_as_run_mm: Unit::Millimetre.from_si(gap_m),
-            gap_nominal_mm: design.limits.nominal_torque_nm.and_then(opened).map(|g| Unit::Millimetre.from_si(g)),
+            gap_nominal_mm: design
+                .limits
+                .nominal_torque_nm
+                .and_then(opened)
+                .map(|g| Unit::Millimetre.from_si(g)),
             gap_to_make_mm: Unit::Millimetre.from_si(run.outer.to_make_m - run.inner.to_make_m),
         })
     }
