@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use cpu_time::ThreadTime;
 use sprag_design::design::Scenario;
 use sprag_design::dynamics::{PublishedSettings, RunSettings, Stop, published, run};
 use sprag_design::scenario::{NoScenario, Prepared, prepare};
@@ -14,16 +15,25 @@ use crate::diffsol_peer::{self, Kind};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
     Ours,
+    /// Ours without a longest step.
+    OursLong,
     Dop853,
+    /// Event functions looked at as often as by ours.
+    Dop853Looks,
+    /// The crate's own root finder.
+    Dop853Own,
     Radau5,
     Diffsol(Kind),
     Published,
 }
 
 /// All, ours first.
-pub const METHODS: [Method; 8] = [
+pub const METHODS: [Method; 11] = [
     Method::Ours,
+    Method::OursLong,
     Method::Dop853,
+    Method::Dop853Looks,
+    Method::Dop853Own,
     Method::Diffsol(Kind::Tsit45),
     Method::Radau5,
     Method::Diffsol(Kind::Bdf),
@@ -37,7 +47,10 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::Ours => "ours, one run",
+            Self::OursLong => "ours, steps of any length",
             Self::Dop853 => "differential-equations dop853",
+            Self::Dop853Looks => "differential-equations dop853, four looks a step",
+            Self::Dop853Own => "differential-equations dop853, its own root finder",
             Self::Radau5 => "differential-equations radau5",
             Self::Diffsol(Kind::Bdf) => "diffsol BDF",
             Self::Diffsol(Kind::TrBdf2) => "diffsol TR-BDF2",
@@ -49,12 +62,12 @@ impl Method {
 
     /// Whether it is an integrator of others.
     pub fn is_peer(self) -> bool {
-        !matches!(self, Self::Ours | Self::Published)
+        !matches!(self, Self::Ours | Self::OursLong | Self::Published)
     }
 
     fn settings(self) -> Vec<f64> {
         match self {
-            Self::Published => vec![1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7],
+            Self::Published => vec![1e-4, 3e-5, 1e-5, 3e-6, 1e-6],
             _ => (3..=11).map(|i| 10f64.powi(-i)).collect(),
         }
     }
@@ -69,9 +82,9 @@ pub struct Point {
     pub found: Result<Answer, String>,
     /// |theta_bi - reference| at the end, rad.
     pub error_rad: Option<f64>,
-    /// Median, and least, wall time, s.
+    /// Median time of the thread, s, and median wall time, s.
     pub seconds: f64,
-    pub least_s: f64,
+    pub wall_s: f64,
     pub runs: usize,
 }
 
@@ -92,8 +105,8 @@ const REFERENCE_STEPS: f64 = 40.0;
 const STEPS: f64 = 8.0;
 const BAND_M_S: f64 = 1e-4;
 /// Time for all runs of one setting, s, and their number.
-const TIME_S: f64 = 0.4;
-const RUNS: std::ops::RangeInclusive<usize> = 3..=25;
+const TIME_S: f64 = 0.1;
+const RUNS: std::ops::RangeInclusive<usize> = 3..=15;
 
 fn longest_s(p: &Prepared, per_period: f64) -> f64 {
     p.period_s.unwrap_or(p.duration_s / 25.0) / per_period
@@ -124,7 +137,10 @@ fn go(p: &Prepared, method: Method, setting: f64) -> Result<Answer, String> {
     let longest = longest_s(p, STEPS);
     match method {
         Method::Ours => ours(p, setting, STEPS),
-        Method::Dop853 => differential::dop853(p, setting, longest),
+        Method::OursLong => ours(p, setting, p.period_s.unwrap_or(p.duration_s / 25.0) / p.duration_s),
+        Method::Dop853Looks => differential::dop853(p, setting, longest, true),
+        Method::Dop853Own => differential::dop853_own_events(p, setting, longest),
+        Method::Dop853 => differential::dop853(p, setting, longest, false),
         Method::Radau5 => differential::radau5(p, setting, longest),
         Method::Diffsol(kind) => diffsol_peer::run(p, kind, setting),
         Method::Published => {
@@ -150,19 +166,20 @@ pub fn scene(scenario: &Scenario, what: &'static str) -> Result<Scene, Box<dyn s
     let p = prepare(scenario).map_err(|e: NoScenario| e.to_string())?;
     let fine = ours(&p, TIGHTEST, REFERENCE_STEPS)?;
     let coarse = ours(&p, 10.0 * TIGHTEST, 0.5 * REFERENCE_STEPS)?;
-    let mut times: Vec<Vec<f64>> = Vec::new();
+    let mut times: Vec<Vec<[f64; 2]>> = Vec::new();
     let mut points = Vec::new();
     let timed = |method: Method, setting: f64| {
-        let start = Instant::now();
+        let (wall, own) = (Instant::now(), ThreadTime::now());
         let found = std::hint::black_box(go(&p, method, setting));
-        (found, start.elapsed().as_secs_f64())
+        (found, [own.elapsed().as_secs_f64(), wall.elapsed().as_secs_f64()])
     };
     for method in METHODS {
         for setting in method.settings() {
             let (found, seconds) = timed(method, setting);
             let error_rad = found.as_ref().ok().map(|a| (a.theta_rad - fine.theta_rad).abs());
             times.push(vec![seconds]);
-            points.push(Point { method, setting, found, error_rad, seconds, least_s: seconds, runs: 1 });
+            let [seconds, wall_s] = seconds;
+            points.push(Point { method, setting, found, error_rad, seconds, wall_s, runs: 1 });
         }
     }
     let wanted: Vec<usize> = points
@@ -179,9 +196,13 @@ pub fn scene(scenario: &Scenario, what: &'static str) -> Result<Scene, Box<dyn s
             }
         }
     }
-    for (point, mut times) in points.iter_mut().zip(times) {
-        times.sort_by(f64::total_cmp);
-        (point.seconds, point.least_s, point.runs) = (times[times.len() / 2], times[0], times.len());
+    let median = |times: &[[f64; 2]], which: usize| {
+        let mut each: Vec<f64> = times.iter().map(|t| t[which]).collect();
+        each.sort_by(f64::total_cmp);
+        each[each.len() / 2]
+    };
+    for (point, times) in points.iter_mut().zip(&times) {
+        (point.seconds, point.wall_s, point.runs) = (median(times, 0), median(times, 1), times.len());
     }
     Ok(Scene {
         name: scenario.name.clone(),
@@ -197,7 +218,6 @@ pub fn scene(scenario: &Scenario, what: &'static str) -> Result<Scene, Box<dyn s
 #[derive(Debug, Clone, Copy)]
 pub struct AtError {
     pub seconds: f64,
-    pub least_s: f64,
     pub rhs: f64,
     /// Whether its coarsest setting is better than asked for: it is not run coarser.
     pub better: bool,
@@ -217,8 +237,7 @@ impl Scene {
         let from = points.iter().rposition(|p| !good(p)).map_or(0, |i| i + 1);
         let fine = points.get(from)?;
         let rhs = |p: &Point| p.found.as_ref().map_or(f64::NAN, |a| a.rhs as f64);
-        let plain =
-            AtError { seconds: fine.seconds, least_s: fine.least_s, rhs: rhs(fine), better: from == 0 };
+        let plain = AtError { seconds: fine.seconds, rhs: rhs(fine), better: from == 0 };
         let Some(coarse) = from.checked_sub(1).and_then(|i| points[i].error_rad.map(|e| (points[i], e)))
         else {
             return Some(plain);
@@ -228,7 +247,6 @@ impl Scene {
         let between = |a: f64, b: f64| (a.ln() + share * (b.ln() - a.ln())).exp();
         Some(AtError {
             seconds: between(coarse.0.seconds, fine.seconds),
-            least_s: between(coarse.0.least_s, fine.least_s),
             rhs: between(rhs(coarse.0), rhs(fine)),
             better: false,
         })
