@@ -13,6 +13,7 @@ pub mod journal;
 pub mod left_out;
 pub mod optimize;
 pub mod optimize_answer;
+pub mod optimize_story;
 pub mod output;
 pub mod parts;
 pub mod progress;
