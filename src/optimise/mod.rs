@@ -26,6 +26,7 @@ mod relief;
 mod robust;
 mod search;
 mod settings;
+mod smooth;
 mod space;
 mod sqp;
 mod starts;

@@ -3,9 +3,10 @@
 use super::corner::{Corner, perturbed};
 use super::evaluate::{Evaluate, Evaluation, Failure};
 use super::goal::{Goal, Measure, measures};
+use super::smooth;
 use crate::design::{Design, EditError, Limits, Objective, Optimize, with_limits, with_values};
 use crate::fidelity;
-use crate::margin::{Margin, SceneDemand, load_margins, load_state, scene_margins, scene_rows};
+use crate::margin::{Margin, SceneDemand, load_state, scene_margins, scene_rows};
 use crate::scenario::{Settings, demand};
 
 /// Prefix of the rows that hold slip margins.
@@ -183,8 +184,11 @@ impl ClutchProblem {
     pub fn look(&self, design: &Design) -> Result<Looked, Failure> {
         let state = load_state(design).map_err(|e| Failure::Refused(e.to_string()))?;
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
-        let mut rows = load_margins(design, &self.limits, capacities, &state);
+        let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
         rows.retain(|m| m.required);
+        if self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks.")) {
+            rows.extend(smooth::flank_rows(design, &state));
+        }
         for scenario in design.scenarios.iter().filter(|s| self.scenarios.contains(&s.name)) {
             rows.extend(self.scene(scenario));
         }

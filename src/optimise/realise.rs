@@ -10,6 +10,7 @@ use super::journal::Run;
 use super::problem::Looked;
 use super::search::{NoSearch, Search, search_problem};
 use super::settings::Settings;
+use super::smooth::ROOM as ROOM_LEFT;
 use super::starts::Method;
 use crate::design::{Design, Flanks, Optimize, OptimizeVariable, with_flanks};
 use crate::margin::load_state;
@@ -106,6 +107,8 @@ impl Evaluate for FlankProblem {
         } else {
             (vec![-(dx * dx + dy * dy)], Vec::new())
         };
+        let room = Outline::room(&self.profile, &flanks_of(x)).map_err(|e| Failure::Refused(e.to_string()))?;
+        limits.extend(room.into_iter().flatten().map(|left| left - ROOM_LEFT));
         limits.extend(clear);
         Ok(Evaluation { objectives, limits, tie_break: 0.0 })
     }
@@ -199,7 +202,7 @@ fn nearest(optimum: &Design) -> Result<(Nearest, [(f64, f64); 4]), String> {
         let e = problem.evaluate(x).ok()?;
         let (_, mass) = problem.weigh(x).ok()?;
         let [dx, dy] = problem.miss_mm(&mass);
-        (e.limits[e.limits.len() - 2..].iter().all(|c| *c >= -1e-8)).then(|| dx.hypot(dy))
+        (e.limits[e.limits.len() - 6..].iter().all(|c| *c >= -1e-8)).then(|| dx.hypot(dy))
     };
     let mut best: Option<(f64, Vec<f64>)> = None;
     for (_, _, from) in looks.iter().take(CLIMBS) {

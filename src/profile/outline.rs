@@ -184,6 +184,30 @@ impl Outline {
         Ok(Self { segments })
     }
 
+    /// What is left until flanks no longer close the profile, each over the half width given, positive where they do:
+    /// at the rear and in front, [inside, outside] - inside until one cuts a contact or the working profile, outside
+    /// until it misses an arc.
+    ///
+    /// # Errors
+    /// [`OutlineError`] where a half width or a lean is out of range or leaves a contact outside.
+    pub fn room(profile: &Profile, flanks: &Flanks) -> Result<[[f64; 2]; 2], OutlineError> {
+        let (Some(first), Some(last)) = (profile.arcs.first(), profile.arcs.last()) else {
+            return Err(OutlineError::NoArcs);
+        };
+        let strut = Strut::new(profile, first);
+        let outer_end =
+            profile.outer_radius_m * along(outer_contact_azimuth(profile, profile.end_turn_rad()));
+        let side = |side: Side, end: Vector2<f64>, arc: &ProfileArc| -> Result<[f64; 2], OutlineError> {
+            let flank = Flank::new(&strut, side, flanks)?;
+            let given = flank.given_m();
+            let need = flank.need(end).max(flank.need(strut.a)).max(flank.need(strut.b));
+            let reach = flank.reach(arc.centre_m, arc.radius_m);
+            let reach = reach.min(flank.reach(Vector2::zeros(), profile.outer_radius_m));
+            Ok([(given - need) / given, (reach - given) / given])
+        };
+        Ok([side(Side::Rear, outer_end, first)?, side(Side::Front, inner_end(profile, last), last)?])
+    }
+
     /// The narrowest sprag: parallel flanks that keep the working profile and 5 % of half width (a choice) beyond it,
     /// or half of what the arcs leave where that is less. For drawings of a design that names no flanks.
     ///
