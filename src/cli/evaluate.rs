@@ -64,7 +64,9 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
         }
         let count = problem.variables().len();
         let read: Result<Vec<f64>, String> = serde_json::from_str(&text).map_err(|e| e.to_string());
-        match read.and_then(|x| if x.len() == count { Ok(x) } else { Err(format!("{} numbers, not {count}", x.len())) }) {
+        match read.and_then(|x| {
+            if x.len() == count { Ok(x) } else { Err(format!("{} numbers, not {count}", x.len())) }
+        }) {
             Ok(x) => line(&answer(&problem, &x))?,
             Err(why) => {
                 malformed = true;

@@ -16,7 +16,17 @@ use std::path::{Path, PathBuf};
 
 /// Names of the columns.
 const COLUMNS: [&str; 12] = [
-    "model", "design", "problem", "hash", "variables", "x", "outcome", "objectives", "limits", "tie_break", "error",
+    "model",
+    "design",
+    "problem",
+    "hash",
+    "variables",
+    "x",
+    "outcome",
+    "objectives",
+    "limits",
+    "tie_break",
+    "error",
     "detail",
 ];
 
@@ -206,7 +216,9 @@ fn entry_of(row: &csv::StringRecord) -> Option<(String, Entry)> {
         "refused" => Err(NoMargins::Refused(cell(11)?.to_owned())),
         "not-finite" => {
             let (part, index) = cell(11)?.split_once(';')?;
-            let part = [Part::Objective, Part::Limit, Part::TieBreak].into_iter().find(|p| format!("{p:?}") == part)?;
+            let part = [Part::Objective, Part::Limit, Part::TieBreak]
+                .into_iter()
+                .find(|p| format!("{p:?}") == part)?;
             Err(NoMargins::NotFinite { part, index: index.parse().ok()? })
         }
         "shape" => {
@@ -244,7 +256,8 @@ mod tests {
         std::fs::create_dir_all(&folder).unwrap();
         let path = folder.join("a.toml.journal");
         let mut file = JournalFile::begin(&path, "t 1", "d").unwrap();
-        let good = Evaluation { objectives: vec![0.1 + 0.2, -1e-300], limits: vec![1.0 / 3.0], tie_break: 4.2 };
+        let good =
+            Evaluation { objectives: vec![0.1 + 0.2, -1e-300], limits: vec![1.0 / 3.0], tie_break: 4.2 };
         let entries = [
             entry(0.1, Ok(good)),
             entry(0.2, Err(NoMargins::Refused("a, \"b\";\nc".into()))),

@@ -14,6 +14,7 @@ pub mod journal;
 pub mod left_out;
 pub mod optimize;
 pub mod optimize_answer;
+pub mod optimize_json;
 pub mod optimize_story;
 pub mod output;
 pub mod parts;

@@ -9,8 +9,8 @@ use super::progress::Progress;
 use super::{optimize_answer as answer, parts};
 use crate::design::{Design, Objective, Optimize};
 use crate::optimise::{
-    Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, front, realise,
-    relief, robust, search, spread,
+    Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, front,
+    realise, relief, robust, search, spread,
 };
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -88,7 +88,9 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     let design = parts::read_design(&args.file, context)?;
     let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
     let Some(task) = design.optimize.clone() else {
-        return Err(at("the design has no [optimize] table; add one with objective, scenarios and variables".into()));
+        return Err(at(
+            "the design has no [optimize] table; add one with objective, scenarios and variables".into(),
+        ));
     };
     let aims = aims(args)?;
     if args.robust && design.tolerances.is_none() {
@@ -154,7 +156,8 @@ fn tell(
     desk: &Desk,
 ) -> Result<Story, NoSearch> {
     let found = search(design, method, fidelity, desk)?;
-    let mut story = Story { found, realised: None, relief: None, front: None, made: None, robust: None, why: Vec::new() };
+    let mut story =
+        Story { found, realised: None, relief: None, front: None, made: None, robust: None, why: Vec::new() };
     if matches!(story.found.outcome.status, Status::Infeasible { .. }) {
         let (problem, outcome) = (&story.found.problem, &story.found.outcome);
         story.relief = Some(relief(design, problem, outcome, desk));
@@ -284,6 +287,7 @@ impl Record for Keeper {
             0 => "every limit held".to_owned(),
             n => format!("{n} limits violated, the worst by {:.1e}", it.violation),
         };
-        self.progress.describe(&format!("{}: {:.5}, {violated}, best feasible {best}", self.part, it.least_margin));
+        self.progress
+            .describe(&format!("{}: {:.5}, {violated}, best feasible {best}", self.part, it.least_margin));
     }
 }

@@ -162,11 +162,8 @@ impl Told<'_> {
         }
         let mut table = Table::new(columns);
         let names = &self.found.names;
-        let rows = names
-            .objectives
-            .iter()
-            .map(|n| format!("{n} (objective)"))
-            .zip(&self.found.influence.objectives);
+        let rows =
+            names.objectives.iter().map(|n| format!("{n} (objective)")).zip(&self.found.influence.objectives);
         let limits = names.limits.iter().cloned().zip(&self.found.influence.limits);
         for (name, slopes) in rows.chain(limits) {
             let mut row: Vec<Cell> = vec![name.into()];
@@ -219,10 +216,11 @@ impl Told<'_> {
     /// What the optimum gained or lost when it was looked at with everything.
     fn in_full(&self) -> String {
         let changes = self.found.best.iter().zip(&self.found.as_searched);
-        let most = changes.map(|(a, b)| ((a.margin - b.margin).abs(), &a.code)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let most =
+            changes.map(|(a, b)| ((a.margin - b.margin).abs(), &a.code)).max_by(|a, b| a.0.total_cmp(&b.0));
         match most {
             Some((change, code)) => format!(
-                "Looked at in full, at a tenth of the tolerance: no margin moves by more than {change:.0e} ({code})."
+                "Looked at in full, at a true error of 1e-7 or less: no margin moves by more than {change:.0e} ({code})."
             ),
             None => String::new(),
         }

@@ -1,12 +1,10 @@
 //! What `optimize` found beside the optimum: sentences, tables and JSON of its parts.
 
 use crate::design::Objective;
-use crate::margin::Margin;
 use crate::optimise::{
     Branch, Freed, Front, Price, PriceKind, Realised, Relief, Robust, RobustSearch, Search, Start, Status,
 };
 use crate::report::{Cell, Column, Plot, Table, Unit, significant};
-use serde_json::{Value, json};
 
 /// Everything that was asked of one search.
 pub struct Story {
@@ -52,7 +50,9 @@ fn gain(aim: Objective, gain: f64) -> String {
         Objective::TorqueCapacity => format!("{} Nm of torque capacity", significant(gain, 2)),
         Objective::PeakPressure => format!("{} MPa less pressure", significant(gain, 2)),
         Objective::Windup => format!("{} deg less windup", significant(gain, 2)),
-        Objective::StiffnessCurve => format!("{} % less departure from the target", significant(100.0 * gain, 2)),
+        Objective::StiffnessCurve => {
+            format!("{} % less departure from the target", significant(100.0 * gain, 2))
+        }
     }
 }
 
@@ -60,9 +60,9 @@ fn gain(aim: Objective, gain: f64) -> String {
 fn round_step(value: f64) -> f64 {
     let wanted = 0.01 * value.abs().max(1e-9);
     let power = 10_f64.powf(wanted.log10().floor());
-    let digit = [1.0, 2.0, 5.0, 10.0].into_iter().min_by(|a, b| {
-        (a * power - wanted).abs().total_cmp(&(b * power - wanted).abs())
-    });
+    let digit = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .min_by(|a, b| (a * power - wanted).abs().total_cmp(&(b * power - wanted).abs()));
     digit.unwrap_or(1.0) * power
 }
 
@@ -74,19 +74,22 @@ pub fn sentence(aim: Objective, price: &Price) -> String {
     let by = format!("{} {unit}", significant(step, 1)).trim_end().to_owned();
     match price.kind {
         PriceKind::Limit => format!("raising the allowable of {} by {by} would buy {bought}", price.of),
+        PriceKind::Margin => format!("asking {by} less of {} would buy {bought}", price.of),
         PriceKind::Lower => format!("lowering the lower bound of {} by {by} would buy {bought}", price.of),
         PriceKind::Upper => format!("raising the upper bound of {} by {by} would buy {bought}", price.of),
     }
 }
 
 /// "preload of high-10: 3.34 Nm must become at least 5.2 Nm".
-fn freed_sentence(f: &Freed) -> String {
+pub fn freed_sentence(f: &Freed) -> String {
     let value = |v: f64| format!("{} {}", significant(v, 4), f.unit);
     match f.needed {
         Some(v) if v >= f.given => {
             format!("{} in {}: at least {} instead of {}", f.what, f.scenario, value(v), value(f.given))
         }
-        Some(v) => format!("{} in {}: at most {} instead of {}", f.what, f.scenario, value(v), value(f.given)),
+        Some(v) => {
+            format!("{} in {}: at most {} instead of {}", f.what, f.scenario, value(v), value(f.given))
+        }
         None => format!("{} in {}: no value up to {} frees it alone", f.what, f.scenario, value(f.tried_to)),
     }
 }
@@ -207,7 +210,8 @@ impl Story {
             parts.push(Part { heading: "Starts", tables, ..Part::default() });
         }
         if found.branches.len() > 1 {
-            let tables = vec![("Each whole number with a continuous search inside", branch_table(&found.branches))];
+            let tables =
+                vec![("Each whole number with a continuous search inside", branch_table(&found.branches))];
             parts.push(Part { heading: "Whole numbers", tables, ..Part::default() });
         }
         if !found.prices.is_empty() {
@@ -219,7 +223,11 @@ impl Story {
             if !relief.other_limits.is_empty() {
                 lines.push(format!("limits that no scenario frees: {}", relief.other_limits.join(", ")));
             }
-            parts.push(Part { heading: "What would free it (profile of least violation, one change alone)", lines, ..Part::default() });
+            parts.push(Part {
+                heading: "What would free it (profile of least violation, one change alone)",
+                lines,
+                ..Part::default()
+            });
         }
         if let Some(realised) = &self.realised {
             parts.push(Part { heading: "Centroid", lines: realised_lines(aim, realised), ..Part::default() });
@@ -277,91 +285,28 @@ impl Story {
         if let Some(realised) = &self.realised {
             let best = realised.search.as_ref().filter(|s| s.feasible());
             let text = best.map_or(&realised.file, |s| &s.file);
-            let what = if best.is_some() { "flanks searched in place of the centroid" } else { "flanks nearest to the wanted centroid" };
+            let what = if best.is_some() {
+                "flanks searched in place of the centroid"
+            } else {
+                "flanks nearest to the wanted centroid"
+            };
             files.push(("realised", format!("{written_by}: {what}\n{text}")));
         }
         if let Some(robust) = &self.robust {
-            files.push(("robust", format!("{written_by}: held at every corner of [tolerances]\n{}", robust.file)));
+            files.push((
+                "robust",
+                format!("{written_by}: held at every corner of [tolerances]\n{}", robust.file),
+            ));
         }
         files
-    }
-
-    /// Keys of the answer for programs, beside those of the optimum itself.
-    pub fn json(&self) -> serde_json::Map<String, Value> {
-        let found = &self.found;
-        let mut map = serde_json::Map::new();
-        let ended = |e: &Result<Status, String>| match e {
-            Ok(status) => json!(word(status)),
-            Err(why) => json!(why),
-        };
-        let or_null = |v: f64| if v.is_finite() { json!(v) } else { Value::Null };
-        let start = |s: &Start| {
-            json!({ "from": s.from, "ended": ended(&s.ended), "least_scaled_objective": or_null(s.least_margin),
-                    "violation": or_null(s.violation), "evaluations": s.evaluations })
-        };
-        map.insert("starts".into(), found.starts.iter().map(start).collect());
-        let branch = |b: &Branch| {
-            let values: serde_json::Map<_, _> = b.values.iter().map(|(n, v)| (n.clone(), json!(v))).collect();
-            json!({ "values": values, "ended": ended(&b.ended), "least_scaled_objective": or_null(b.least_margin),
-                    "violation": or_null(b.violation), "evaluations": b.evaluations })
-        };
-        let whole: Vec<Value> = found.branches.iter().filter(|b| !b.values.is_empty()).map(branch).collect();
-        map.insert("whole_numbers".into(), json!(whole));
-        let price = |p: &Price| {
-            let kind = match p.kind {
-                PriceKind::Limit => "limit",
-                PriceKind::Lower => "lower-bound",
-                PriceKind::Upper => "upper-bound",
-            };
-            json!({ "of": p.of, "kind": kind, "value": p.value, "unit": p.unit, "gain_per_unit": p.gain_per_unit,
-                    "sentence": sentence(found.aim, p) })
-        };
-        map.insert("prices".into(), found.prices.iter().map(price).collect());
-        let sensitivities = found.sensitivity.as_ref().map(|s| {
-            json!({ "variables": found.searched, "objectives": found.names.objectives, "limits": found.names.limits,
-                    "d_objectives_per_range": s.objectives, "d_limits_per_range": s.limits })
-        });
-        map.insert("sensitivities".into(), json!(sensitivities));
-        let change = |(full, searched): (&Margin, &Margin)| json!({ "code": full.code, "change": full.margin - searched.margin });
-        map.insert("change_in_full".into(), found.best.iter().zip(&found.as_searched).map(change).collect());
-        map.insert("relief".into(), json!(self.relief.as_ref().map(relief_json)));
-        map.insert("realised".into(), json!(self.realised.as_ref().map(realised_json)));
-        map.insert("tolerances".into(), json!(self.made.as_ref().map(robust_json)));
-        let robust = self.robust.as_ref().map(|r| {
-            let variables: serde_json::Map<_, _> =
-                found.searched.iter().cloned().zip(r.x.iter().map(|x| json!(x))).collect();
-            json!({ "variables": variables, "ended": word(&r.status), "held_at": r.held_at, "rounds": r.rounds,
-                    "evaluations": r.evaluations, "made": robust_json(&r.made) })
-        });
-        map.insert("robust".into(), json!(robust));
-        map.insert("not_done".into(), json!(self.why));
-        map
-    }
-
-    /// The front, or the optimum as the only point of one.
-    pub fn pareto(&self) -> Value {
-        let point = |front: &Front, x: &[f64], values: &[f64]| {
-            let named = |names: Vec<String>, values: &[f64]| -> serde_json::Map<String, Value> {
-                names.into_iter().zip(values.iter().map(|v| json!(v))).collect()
-            };
-            json!({ "variables": named(front.variables.clone(), x),
-                    "objectives": named(front.aims.iter().map(|a| a.name().to_owned()).collect(), values) })
-        };
-        match &self.front {
-            Some(front) => front.points.iter().map(|p| point(front, &p.x, &p.values)).collect(),
-            None => {
-                let variables: serde_json::Map<_, _> =
-                    self.found.variables.iter().map(|v| (v.name.clone(), json!(v.best))).collect();
-                json!([{ "variables": variables, "objective": self.found.objective.1 }])
-            }
-        }
     }
 }
 
 /// Captions of a front's plots.
 const TWO: &str = "Front: no design within the limits is better in both.";
 /// See [`TWO`].
-const THREE: &str = "Points of the front seen along the third objective, joined in the order of the first axis.";
+const THREE: &str =
+    "Points of the front seen along the third objective, joined in the order of the first axis.";
 
 fn front_part(front: &Front) -> Part {
     let label = |a: &Objective| {
@@ -392,7 +337,11 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
     let mm = |m: f64| significant(m * 1e3, 5);
     let at = |p: [f64; 2]| format!("({}, {}) mm", mm(p[0]), mm(p[1]));
     let held = r.looked.rows.iter().filter(|m| !m.held()).map(|m| m.code.as_str()).collect::<Vec<_>>();
-    let limits = if held.is_empty() { "every limit held".to_owned() } else { format!("not held: {}", held.join(", ")) };
+    let limits = if held.is_empty() {
+        "every limit held".to_owned()
+    } else {
+        format!("not held: {}", held.join(", "))
+    };
     let flanks = format!(
         "flanks {} mm at the rear, {} mm in front, leaning {} and {} rad",
         mm(f.rear_m),
@@ -407,7 +356,10 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
         significant(n.mass.inertia_kg_m2, 4),
         significant(n.given.1, 4)
     );
-    let mut lines = vec![format!("the optimum above is not yet realised: its centroid {} was free, its mass given", at(n.wanted_m))];
+    let mut lines = vec![format!(
+        "the optimum above is not yet realised: its centroid {} was free, its mass given",
+        at(n.wanted_m)
+    )];
     lines.push(if n.reached() {
         format!("realised by {flanks}; the sprag weighs {weight}; {} there {}, {limits}", aim.words(), shown(aim, r.objective))
     } else {
@@ -422,7 +374,8 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
     });
     if let Some(s) = &r.search {
         let ended = word(&s.outcome.status);
-        let values: Vec<String> = s.variables.iter().map(|v| format!("{} {}", v.name, significant(v.best, 5))).collect();
+        let values: Vec<String> =
+            s.variables.iter().map(|v| format!("{} {}", v.name, significant(v.best, 5))).collect();
         let verdict = if s.feasible() { "every limit held" } else { "not every limit held" };
         lines.push(format!(
             "searched on with the flanks in place of the centroid: {} {}, {verdict}, {ended} after {} evaluations: {}",
@@ -433,56 +386,6 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
         ));
     }
     lines
-}
-
-fn realised_json(r: &Realised) -> Value {
-    let n = &r.nearest;
-    let f = &n.flanks;
-    let rows = |rows: &[Margin]| -> Value {
-        rows.iter().map(|m| json!({ "code": m.code, "margin": m.margin })).collect()
-    };
-    let search = r.search.as_ref().map(|s| {
-        let variables: serde_json::Map<_, _> = s.variables.iter().map(|v| (v.name.clone(), json!(v.best))).collect();
-        json!({ "variables": variables, "objective": s.objective.1, "feasible": s.feasible(),
-                "status": word(&s.outcome.status), "evaluations": s.evaluations, "margins": rows(&s.best) })
-    });
-    json!({
-        "reached": n.reached(),
-        "distance_mm": n.distance_m * 1e3,
-        "wanted_mm": n.wanted_m.map(|v| v * 1e3),
-        "centroid_mm": n.mass.centroid_m.map(|v| v * 1e3),
-        "flanks": { "rear_mm": f.rear_m * 1e3, "front_mm": f.front_m * 1e3,
-                    "rear_tilt_rad": f.rear_tilt_rad, "front_tilt_rad": f.front_tilt_rad },
-        "mass_kg": n.mass.mass_kg, "inertia_kg_m2": n.mass.inertia_kg_m2,
-        "objective": r.objective, "margins": rows(&r.looked.rows),
-        "searched_on": search,
-    })
-}
-
-fn relief_json(r: &Relief) -> Value {
-    let freed = |f: &Freed| {
-        json!({ "scenario": f.scenario, "key": f.key, "what": f.what, "unit": f.unit, "given": f.given,
-                "needed": f.needed, "tried_to": f.tried_to, "sentence": freed_sentence(f) })
-    };
-    json!({ "freed": r.freed.iter().map(freed).collect::<Vec<_>>(), "other_limits": r.other_limits,
-            "evaluations": r.evaluations })
-}
-
-fn robust_json(r: &Robust) -> Value {
-    let rows: Vec<Value> = r
-        .spreads
-        .iter()
-        .map(|s| {
-            json!({ "code": s.code, "nominal": s.nominal, "worst": s.worst, "worst_at": s.worst_at,
-                    "p01": s.percentiles[0], "p05": s.percentiles[1], "p50": s.percentiles[2] })
-        })
-        .collect();
-    let (nominal, worst, [p01, p05, p50]) = r.objective;
-    json!({
-        "objective": { "nominal": nominal, "worst": worst, "p01": p01, "p05": p05, "p50": p50 },
-        "margins": rows, "corners": r.corners, "draws": r.draws.0, "impossible_draws": r.draws.1,
-        "impossible_corners": r.impossible, "seed": r.seed, "yield": r.yield_share, "held": r.held(),
-    })
 }
 
 #[cfg(test)]

@@ -7,8 +7,8 @@ use std::fmt;
 
 use toml_edit::{DocumentMut, Item, Table, Value};
 
-use super::{Flanks, shape};
 use super::variables::{variable_names, variable_path};
+use super::{Flanks, shape};
 
 /// Why a value cannot be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -123,7 +123,9 @@ pub fn without_variables(source: &str, drop: &dyn Fn(&str) -> bool) -> Result<St
     match document.get_mut("optimize").and_then(|o| o.get_mut("variables")) {
         Some(Item::Value(Value::Array(rows))) => {
             let name = |row: &Value| {
-                row.as_inline_table().and_then(|t| t.get("name")?.as_str().map(str::to_owned)).unwrap_or_default()
+                row.as_inline_table()
+                    .and_then(|t| t.get("name")?.as_str().map(str::to_owned))
+                    .unwrap_or_default()
             };
             rows.retain(|row| !drop(&name(row)));
         }

@@ -77,7 +77,10 @@ impl std::str::FromStr for Objective {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let names = || Self::ALL.map(Self::name).join(", ");
-        Self::ALL.into_iter().find(|o| o.name() == text).ok_or_else(|| format!("one of {} is needed", names()))
+        Self::ALL
+            .into_iter()
+            .find(|o| o.name() == text)
+            .ok_or_else(|| format!("one of {} is needed", names()))
     }
 }
 

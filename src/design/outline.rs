@@ -18,9 +18,7 @@ pub(super) fn flanks(file: &SpragsFile) -> Option<Flanks> {
             front_tilt_rad: f.front_tilt_rad,
             ..Flanks::parallel(m(f.rear_mm), m(f.front_mm))
         }),
-        None if file.width_mm > 0.0 => {
-            Some(Flanks::parallel(m(file.width_mm / 2.0), m(file.width_mm / 2.0)))
-        }
+        None if file.width_mm > 0.0 => Some(Flanks::parallel(m(file.width_mm / 2.0), m(file.width_mm / 2.0))),
         None => None,
     }
 }

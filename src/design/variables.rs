@@ -86,11 +86,19 @@ mod tests {
 
     #[test]
     fn any_number_of_the_clutch_has_a_dotted_name() {
-        for name in ["races.outer_outside_radius_mm", "spring.stiffness_nm_per_rad", "sprags.inner_arcs[1].until_rad"] {
+        for name in
+            ["races.outer_outside_radius_mm", "spring.stiffness_nm_per_rad", "sprags.inner_arcs[1].until_rad"]
+        {
             assert_eq!(variable_path(name, 3).as_deref(), Some(name));
         }
-        for none in ["races.nothing", "races", "limits.hoop_inner_mpa", "scenarios[0].preload_nm", "sprags.flanks", "schema"]
-        {
+        for none in [
+            "races.nothing",
+            "races",
+            "limits.hoop_inner_mpa",
+            "scenarios[0].preload_nm",
+            "sprags.flanks",
+            "schema",
+        ] {
             assert_eq!(variable_path(none, 3), None, "{none}");
         }
     }

@@ -42,14 +42,16 @@ impl Branch {
 pub(super) fn branches(problem: &ClutchProblem, whole: &[OptimizeVariable]) -> Vec<(Branch, ClutchProblem)> {
     let mut combos: Vec<Vec<(String, f64)>> = vec![Vec::new()];
     for v in whole {
-        let mut values: Vec<f64> =
-            (0..=(v.max - v.min) as usize).map(|i| v.min + i as f64).collect();
+        let mut values: Vec<f64> = (0..=(v.max - v.min) as usize).map(|i| v.min + i as f64).collect();
         // The given value first, then its neighbours: each starts from the best of those before.
         values.sort_by(|a, b| (a - v.start).abs().total_cmp(&(b - v.start).abs()).then(a.total_cmp(b)));
         combos = combos
             .into_iter()
             .flat_map(|c| {
-                values.iter().map(move |x| c.iter().cloned().chain([(v.name.clone(), *x)]).collect()).collect::<Vec<_>>()
+                values
+                    .iter()
+                    .map(move |x| c.iter().cloned().chain([(v.name.clone(), *x)]).collect())
+                    .collect::<Vec<_>>()
             })
             .collect();
     }
@@ -59,7 +61,8 @@ pub(super) fn branches(problem: &ClutchProblem, whole: &[OptimizeVariable]) -> V
         .map(|values| {
             let named: Vec<(&str, f64)> = values.iter().map(|(n, x)| (n.as_str(), *x)).collect();
             // The names were checked with the file.
-            let source = with_values(problem.source(), &named).unwrap_or_else(|_| problem.source().to_owned());
+            let source =
+                with_values(problem.source(), &named).unwrap_or_else(|_| problem.source().to_owned());
             let branch = Branch {
                 values,
                 ended: Err("not begun".to_owned()),

@@ -91,10 +91,7 @@ pub(super) fn measures(
             .flat_map(|&[torque, wanted]| {
                 let (point, beyond) = at(state, torque);
                 let off = point.2 * beyond / wanted - 1.0;
-                [
-                    measure(format!("softer:{torque}"), -off),
-                    measure(format!("stiffer:{torque}"), off),
-                ]
+                [measure(format!("softer:{torque}"), -off), measure(format!("stiffer:{torque}"), off)]
             })
             .collect(),
     }

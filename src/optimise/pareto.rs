@@ -98,7 +98,11 @@ pub fn front(
                 .iter()
                 .zip(&scales)
                 .zip(&w)
-                .map(|((&objective, &(worst, range)), w)| Goal { objective, from: worst + w * range, span: range })
+                .map(|((&objective, &(worst, range)), w)| Goal {
+                    objective,
+                    from: worst + w * range,
+                    span: range,
+                })
                 .collect();
             let distance = |v: &Vec<f64>| v.iter().zip(&w).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
             let near = solved.iter().min_by(|a, b| distance(&a.0).total_cmp(&distance(&b.0)));

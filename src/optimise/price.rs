@@ -25,8 +25,10 @@ pub struct Price {
 /// What a price is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PriceKind {
-    /// A margin: its allowable raised.
+    /// A ratio of allowable and demand: its allowable raised.
     Limit,
+    /// A margin that is no such ratio (clearance, contact, room): less of it asked for.
+    Margin,
     /// A variable's lower bound: lowered.
     Lower,
     /// A variable's upper bound: raised.
@@ -50,17 +52,15 @@ pub(super) fn prices(
     let (lambda, mu) = (&outcome.objective_multipliers, &outcome.limit_multipliers);
     let mut found = Vec::new();
     for (row, mu) in rows.iter().zip(mu) {
-        // Rows that are no ratio (clearance, contact) have a margin that is the allowable itself, in its own measure.
-        let per_unit = if row.demand.abs() > 0.0 && row.demand < 1e300 { 1.0 / row.demand } else { 0.0 };
-        let gain = mu * per_unit * span;
-        if gain > 0.0 {
-            found.push(Price {
-                of: row.code.clone(),
-                kind: PriceKind::Limit,
-                unit: row.unit.to_owned(),
-                gain_per_unit: gain,
-                value: row.allowable,
-            });
+        let is_ratio =
+            (row.allowable / row.demand - 1.0 - row.margin).abs() <= 1e-6 * (1.0 + row.margin.abs());
+        let (kind, unit, per_unit, value) = match is_ratio {
+            true => (PriceKind::Limit, row.unit, 1.0 / row.demand, row.allowable),
+            false => (PriceKind::Margin, "1", 1.0, 1.0),
+        };
+        let gain_per_unit = mu * per_unit * span;
+        if gain_per_unit > 0.0 {
+            found.push(Price { of: row.code.clone(), kind, unit: unit.to_owned(), gain_per_unit, value });
         }
     }
     for (i, name) in problem.variables().iter().enumerate() {

@@ -28,9 +28,11 @@ impl Default for Fidelity {
 }
 
 impl Fidelity {
-    /// Everything runs, at a tenth of the tolerance: what an optimum is looked at with once more.
+    /// Everything runs, at a tenth of the tolerance or of the usual one, whichever is less: what an optimum is looked at
+    /// with once more.
     pub fn sharper(&self) -> Self {
-        let settings = Settings { tolerance: 0.1 * self.settings.tolerance, ..self.settings };
+        let tolerance = 0.1 * self.settings.tolerance.min(Settings::default().tolerance);
+        let settings = Settings { tolerance, ..self.settings };
         Self { settings, reduced: false }
     }
 }

@@ -107,7 +107,8 @@ impl Evaluate for FlankProblem {
         } else {
             (vec![-(dx * dx + dy * dy)], Vec::new())
         };
-        let room = Outline::room(&self.profile, &flanks_of(x)).map_err(|e| Failure::Refused(e.to_string()))?;
+        let room =
+            Outline::room(&self.profile, &flanks_of(x)).map_err(|e| Failure::Refused(e.to_string()))?;
         limits.extend(room.into_iter().flatten().map(|left| left - ROOM_LEFT));
         limits.extend(clear);
         Ok(Evaluation { objectives, limits, tie_break: 0.0 })
@@ -134,8 +135,7 @@ pub fn realise(
     let (nearest, ranges) = nearest(&optimum).map_err(fail)?;
     let text = with_flanks(&found.file, &nearest.flanks).map_err(|e| fail(e.to_string()))?;
     let text = without_centroid(&text, task);
-    let others: Vec<String> =
-        found.searched.iter().filter(|n| !is_centroid(n)).cloned().collect();
+    let others: Vec<String> = found.searched.iter().filter(|n| !is_centroid(n)).cloned().collect();
     let x: Vec<f64> = found
         .searched
         .iter()
@@ -149,7 +149,12 @@ pub fn realise(
     let objective = full.value(&looked, 0);
     let joint = joint_task(task, found, &nearest.flanks, &ranges);
     desk.begins("search with flanks in place of the centroid");
-    let search = search_problem(&problem.over(joint.variables.iter().map(|v| v.name.clone()).collect()), &joint, method, desk);
+    let search = search_problem(
+        &problem.over(joint.variables.iter().map(|v| v.name.clone()).collect()),
+        &joint,
+        method,
+        desk,
+    );
     let search = search.ok().map(Box::new);
     Ok(Some(Realised { nearest, looked, objective, file: text, search }))
 }
@@ -164,7 +169,8 @@ fn nearest(optimum: &Design) -> Result<(Nearest, [(f64, f64); 4]), String> {
     let sprags = &clutch.sprags;
     let state = load_state(optimum).map_err(|e| e.to_string())?;
     let peak = optimum.limits.peak_torque_nm.and_then(|t| state.curve.at_torque(t));
-    let loaded = peak.and_then(|p| state.curve.closure_at_normal(p.normal_inner_n)).map_or(0.0, |(_, c)| c.rotation.v);
+    let loaded =
+        peak.and_then(|p| state.curve.closure_at_normal(p.normal_inner_n)).map_or(0.0, |(_, c)| c.rotation.v);
     let mut problem = FlankProblem {
         profile: state.profile.clone(),
         count: sprags.count,
@@ -176,7 +182,12 @@ fn nearest(optimum: &Design) -> Result<(Nearest, [(f64, f64); 4]), String> {
         exact: false,
     };
     let widest = sprags.outer_radius_m * 1e3;
-    let ranges = [(0.05 * widest, widest), (0.05 * widest, widest), (-STEEPEST_RAD, STEEPEST_RAD), (-STEEPEST_RAD, STEEPEST_RAD)];
+    let ranges = [
+        (0.05 * widest, widest),
+        (0.05 * widest, widest),
+        (-STEEPEST_RAD, STEEPEST_RAD),
+        (-STEEPEST_RAD, STEEPEST_RAD),
+    ];
     let (lo, hi): (Vec<f64>, Vec<f64>) = ranges.iter().copied().unzip();
     let seed = 1;
     let point = |i: u32| -> Vec<f64> {
@@ -252,7 +263,13 @@ fn joint_task(task: &Optimize, found: &Search, flanks: &Flanks, ranges: &[(f64, 
     let names = ["flank_rear_mm", "flank_front_mm", "flank_rear_tilt_rad", "flank_front_tilt_rad"];
     for (i, (name, start)) in names.into_iter().zip(starts).enumerate() {
         let (least, most) = if i < 2 { (start * (1.0 - ROOM), start * (1.0 + ROOM)) } else { ranges[i] };
-        variables.push(OptimizeVariable { name: name.to_owned(), min: least, max: most, start, whole: false });
+        variables.push(OptimizeVariable {
+            name: name.to_owned(),
+            min: least,
+            max: most,
+            start,
+            whole: false,
+        });
     }
     Optimize { variables, ..task.clone() }
 }

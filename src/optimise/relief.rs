@@ -48,7 +48,9 @@ pub struct Relief {
 /// Looks for the least preload, abutment stiffness and damping with which the scenarios that fail at `outcome.x` hold.
 pub fn relief(design: &Design, problem: &ClutchProblem, outcome: &Outcome, desk: &Desk) -> Relief {
     let mut told = Relief::default();
-    let (Ok(text), Ok(looked)) = (problem.file_at(&outcome.x), problem.look_at(&outcome.x)) else { return told };
+    let (Ok(text), Ok(looked)) = (problem.file_at(&outcome.x), problem.look_at(&outcome.x)) else {
+        return told;
+    };
     desk.begins("what would free it");
     let failing = |m: &&Margin| !m.held();
     let of_scene = |m: &Margin, name: &str| {
@@ -56,8 +58,10 @@ pub fn relief(design: &Design, problem: &ClutchProblem, outcome: &Outcome, desk:
         code.split_once(':').is_some_and(|(_, scene)| scene == name)
     };
     let rows = || looked.rows.iter().filter(failing);
-    told.other_limits =
-        rows().filter(|m| !design.scenarios.iter().any(|s| of_scene(m, &s.name))).map(|m| m.code.clone()).collect();
+    told.other_limits = rows()
+        .filter(|m| !design.scenarios.iter().any(|s| of_scene(m, &s.name)))
+        .map(|m| m.code.clone())
+        .collect();
     for (i, scene) in design.scenarios.iter().enumerate() {
         if !rows().any(|m| of_scene(m, &scene.name)) {
             continue;
@@ -70,7 +74,8 @@ pub fn relief(design: &Design, problem: &ClutchProblem, outcome: &Outcome, desk:
             Some(found.rows.iter().filter(|m| of_scene(m, &scene.name)).all(Margin::held))
         };
         let mut turn = |key: String, what, unit, given: f64, ways: &[f64]| {
-            let mut best = Freed { scenario: scene.name.clone(), key, what, unit, given, needed: None, tried_to: given };
+            let mut best =
+                Freed { scenario: scene.name.clone(), key, what, unit, given, needed: None, tried_to: given };
             for &way in ways {
                 let (mut before, mut value) = (given, if given == 0.0 { FIRST } else { given * way });
                 for _ in 0..LOOKS {

@@ -63,7 +63,8 @@ pub struct Robust {
 impl Robust {
     /// Whether every margin holds at every corner.
     pub fn held(&self) -> bool {
-        self.impossible.is_empty() && self.spreads.iter().all(|s| s.objective || s.worst >= -crate::margin::RESOLUTION)
+        self.impossible.is_empty()
+            && self.spreads.iter().all(|s| s.objective || s.worst >= -crate::margin::RESOLUTION)
     }
 }
 
@@ -145,9 +146,13 @@ pub fn spread(
     let alike = |e: &Evaluation| e.objectives.len() == count && e.limits.len() == nominal.limits.len();
     let spreads = (0..count + nominal.limits.len())
         .map(|j| {
-            let known = ends.iter().zip(&at_ends).filter_map(|(c, e)| Some((c, e.as_ref().ok().filter(|e| alike(e))?)));
+            let known = ends
+                .iter()
+                .zip(&at_ends)
+                .filter_map(|(c, e)| Some((c, e.as_ref().ok().filter(|e| alike(e))?)));
             let here = (row(&nominal, j), "nominal".to_owned());
-            let worst = known.map(|(c, e)| (row(e, j), c.name())).fold(here, |a, b| if b.0 < a.0 { b } else { a });
+            let worst =
+                known.map(|(c, e)| (row(e, j), c.name())).fold(here, |a, b| if b.0 < a.0 { b } else { a });
             let mut values: Vec<f64> = good.iter().filter(|e| alike(e)).map(|e| row(e, j)).collect();
             values.sort_by(f64::total_cmp);
             Spread {
@@ -250,7 +255,9 @@ fn worse_than_set(
     let Some(width) = known.first().map(|row| row.len() - 1) else { return Vec::new() };
     let mut fresh: Vec<Corner> = Vec::new();
     // A corner at which there is no clutch joins by itself: its climb is turned away from.
-    fresh.extend(ends.iter().zip(at_ends).filter(|(c, e)| e.is_err() && !set.contains(c)).map(|(c, _)| *c).take(1));
+    fresh.extend(
+        ends.iter().zip(at_ends).filter(|(c, e)| e.is_err() && !set.contains(c)).map(|(c, _)| *c).take(1),
+    );
     for j in 0..width {
         let floor = known.iter().map(|row| row[j]).fold(f64::INFINITY, f64::min);
         let worst = ends

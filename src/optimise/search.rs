@@ -90,7 +90,9 @@ impl Search {
 
     /// Whether the centroid was a free variable, so that no flanks are known that give it.
     pub fn wants_centroid(&self) -> bool {
-        self.variables.iter().any(|v| v.name.starts_with("centroid_") || v.name.starts_with("sprags.centroid."))
+        self.variables
+            .iter()
+            .any(|v| v.name.starts_with("centroid_") || v.name.starts_with("sprags.centroid."))
     }
 
     /// Bounds of the variables of `outcome`.
@@ -253,9 +255,8 @@ pub fn search_problem(
         Some(table) => prices(&problem, &best, &outcome, table, (&lo, &hi)),
         None => Vec::new(),
     };
-    let file = problem
-        .finished_file(&outcome.x)
-        .map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
+    let file =
+        problem.finished_file(&outcome.x).map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
     let value = |looked: &Looked| problem.value(looked, 0);
     Ok(Search {
         aim: problem.goals()[0].objective,

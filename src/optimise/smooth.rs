@@ -15,7 +15,12 @@ const BACK: f64 = 1e-3;
 /// torque that is short, so that all of them jump at once as the end passes the torque; here stresses stay as at the
 /// end, and the end of the profile alone carries the shortfall, with the slope that it had before: the turn grows as
 /// torque^p near the end, so its margin turn_end/turn - 1 goes on as (T_end/T)^p - 1.
-pub(super) fn load_rows(design: &Design, limits: &Limits, capacities: bool, state: &LoadState) -> Vec<Margin> {
+pub(super) fn load_rows(
+    design: &Design,
+    limits: &Limits,
+    capacities: bool,
+    state: &LoadState,
+) -> Vec<Margin> {
     let mut rows = load_margins(design, limits, capacities, state);
     let curve = &state.curve;
     let end = curve.end_torque_nm();

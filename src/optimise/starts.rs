@@ -80,8 +80,9 @@ pub(super) fn climb_all(
     if let Some(evaluations) = method.swarm {
         desk.begins("particle swarm");
         let settings = &method.climb;
-        let found = desk
-            .run(problem, |problem, run| swarm(problem, (x0, lo, hi), settings, (evaluations, method.seed), run));
+        let found = desk.run(problem, |problem, run| {
+            swarm(problem, (x0, lo, hi), settings, (evaluations, method.seed), run)
+        });
         if let Some(found) = found {
             spent_on_points += found.evaluations;
             named.push(("swarm".to_owned(), found.x));
@@ -106,8 +107,9 @@ pub(super) fn climb_all(
                     violation: o.evaluation.violation(),
                     evaluations: o.evaluations,
                 });
-                let better =
-                    best.as_ref().is_none_or(|b| rank(&o.evaluation, tolerance) < rank(&b.evaluation, tolerance));
+                let better = best
+                    .as_ref()
+                    .is_none_or(|b| rank(&o.evaluation, tolerance) < rank(&b.evaluation, tolerance));
                 if better {
                     best = Some(o);
                 }

@@ -90,8 +90,7 @@ pub fn swarm<'a>(
         halted: Cell::new(None),
     };
     let generator = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let solver =
-        ParticleSwarm::new((vec![0.0; n], vec![1.0; n]), PARTICLES).with_rng_generator(generator);
+    let solver = ParticleSwarm::new((vec![0.0; n], vec![1.0; n]), PARTICLES).with_rng_generator(generator);
     let rounds = (evaluations / PARTICLES).max(2) as u64 - 1;
     // What was found is in the memo, whether the swarm ended or was stopped.
     drop(Executor::new(flock, solver).configure(|s| s.max_iters(rounds)).timer(false).run());

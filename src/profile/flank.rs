@@ -107,7 +107,11 @@ impl Flank {
             cos_tilt: cos,
         };
         let needed_m = flank.need(strut.a).max(flank.need(strut.b));
-        if needed_m >= given_m { Err(OutlineError::CutsContact { side, given_m, needed_m }) } else { Ok(flank) }
+        if needed_m >= given_m {
+            Err(OutlineError::CutsContact { side, given_m, needed_m })
+        } else {
+            Ok(flank)
+        }
     }
 
     /// Half width at which the flank would pass through a point, m.

@@ -243,8 +243,12 @@ mod tests {
             let inner = circle(&way, profile.arcs[k].centre_m, profile.arcs[k].radius_m);
             let outer = circle(&way, Vector2::zeros(), profile.outer_radius_m);
             let curve = if way.dot(&up) > 0.0 { outer } else { inner };
-            let sides = flank(&way, 1.0, flanks.front_m, flanks.front_tilt_rad)
-                .min(flank(&way, -1.0, flanks.rear_m, flanks.rear_tilt_rad));
+            let sides = flank(&way, 1.0, flanks.front_m, flanks.front_tilt_rad).min(flank(
+                &way,
+                -1.0,
+                flanks.rear_m,
+                flanks.rear_tilt_rad,
+            ));
             middle + curve.min(sides) * way
         };
         shoelace(&(0..count).map(at).collect::<Vec<_>>())
@@ -267,7 +271,9 @@ mod tests {
     #[test]
     fn leaning_flanks_weigh_what_rays_find() {
         let arcs = [(4.02e-3, 0.06), (4.08e-3, 0.12), (4.15e-3, 0.45)];
-        for (rear_tilt_rad, front_tilt_rad) in [(0.0, 0.0), (0.2, 0.1), (-0.2, 0.15), (-0.15, -0.1), (0.1, -0.12)] {
+        for (rear_tilt_rad, front_tilt_rad) in
+            [(0.0, 0.0), (0.2, 0.1), (-0.2, 0.15), (-0.15, -0.1), (0.1, -0.12)]
+        {
             let flanks = Flanks { rear_tilt_rad, front_tilt_rad, ..Flanks::parallel(2.5e-3, 2.6e-3) };
             let exact = Outline::closed(&table_1(&arcs), &flanks).unwrap().mass_properties(1.0, 1.0);
             let exact = [exact.area_m2, exact.centroid_m[0], exact.centroid_m[1], exact.inertia_kg_m2];

@@ -121,14 +121,21 @@ impl Outline {
             let (side, given_m) = (flank.side, flank.given_m());
             let reach_m = flank.reach(arc.centre_m, arc.radius_m);
             let bite = flank.bite(arc.centre_m, arc.radius_m);
-            bite.map(|b| down_turn + flank.sign * b).ok_or(OutlineError::MissesInner { side, given_m, reach_m })
+            bite.map(|b| down_turn + flank.sign * b).ok_or(OutlineError::MissesInner {
+                side,
+                given_m,
+                reach_m,
+            })
         };
         let outer_azimuth = |flank: &Flank| {
             let (side, given_m) = (flank.side, flank.given_m());
             let reach_m = flank.reach(Vector2::zeros(), r_e);
             let bite = flank.bite(Vector2::zeros(), r_e);
-            bite.map(|b| flank.up.x.atan2(flank.up.y) + flank.sign * b)
-                .ok_or(OutlineError::MissesOuter { side, given_m, reach_m })
+            bite.map(|b| flank.up.x.atan2(flank.up.y) + flank.sign * b).ok_or(OutlineError::MissesOuter {
+                side,
+                given_m,
+                reach_m,
+            })
         };
 
         let from_turn = inner_turn(&rear, first)?;
@@ -220,8 +227,7 @@ impl Outline {
         let strut = Strut::new(profile, first);
         // Any half width shows the needs of a parallel flank.
         let any = Flanks::parallel(profile.outer_radius_m, profile.outer_radius_m);
-        let (rear, front) =
-            (Flank::new(&strut, Side::Rear, &any)?, Flank::new(&strut, Side::Front, &any)?);
+        let (rear, front) = (Flank::new(&strut, Side::Rear, &any)?, Flank::new(&strut, Side::Front, &any)?);
         let half_width = |flank: &Flank, end: Vector2<f64>, arc: &ProfileArc| {
             let need = flank.need(end);
             let inner = flank.reach(arc.centre_m, arc.radius_m);

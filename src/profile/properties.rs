@@ -43,8 +43,10 @@ pub(super) fn random_outline(random: &mut Random) -> Option<(Profile, Outline)> 
     let front_m = outer_radius * random.between(0.3, 0.75);
     // One in three stands parallel to the strut.
     let lean = if random.between(0.0, 1.0) < 1.0 / 3.0 { 0.0 } else { 0.5 };
-    let (rear_tilt_rad, front_tilt_rad) = (lean * random.between(-1.0, 1.0), lean * random.between(-1.0, 1.0));
-    let outline = Outline::closed(&profile, &Flanks { rear_m, front_m, rear_tilt_rad, front_tilt_rad }).ok()?;
+    let (rear_tilt_rad, front_tilt_rad) =
+        (lean * random.between(-1.0, 1.0), lean * random.between(-1.0, 1.0));
+    let outline =
+        Outline::closed(&profile, &Flanks { rear_m, front_m, rear_tilt_rad, front_tilt_rad }).ok()?;
     Some((profile, outline))
 }
 

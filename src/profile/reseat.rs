@@ -49,7 +49,11 @@ impl Profile {
             }
             let unit = c / e;
             let axis = towards * unit + across.sqrt() * Vector2::new(unit.y, -unit.x);
-            let axis = if ahead(axis, c) { axis } else { towards * unit - across.sqrt() * Vector2::new(unit.y, -unit.x) };
+            let axis = if ahead(axis, c) {
+                axis
+            } else {
+                towards * unit - across.sqrt() * Vector2::new(unit.y, -unit.x)
+            };
             let seen = axis - c;
             // Contact direction: azimuth beta_0 + pi - turn.
             let turn = wrapped(self.beta0_rad + PI - seen.x.atan2(seen.y));
@@ -61,7 +65,14 @@ impl Profile {
             let frame_rad = (-axis.x).atan2(-axis.y);
             let contact = c + r * seen.normalize();
             let strut = [contact, r_e * along(frame_rad)];
-            return Ok(Reseated { outer_radius_m: r_e, centre_distance_m: e, arcs, turn_rad: turn, frame_rad, strut });
+            return Ok(Reseated {
+                outer_radius_m: r_e,
+                centre_distance_m: e,
+                arcs,
+                turn_rad: turn,
+                frame_rad,
+                strut,
+            });
         }
         let first = self.arcs.first().map_or(0.0, |a| a.radius_m + inner_m);
         let e = self.arcs.first().map_or(0.0, |a| a.centre_m.norm());
@@ -143,7 +154,8 @@ mod tests {
     #[test]
     fn another_gap_sees_the_same_body() {
         let p = table_1(&ARCS);
-        let flanks = Flanks { rear_tilt_rad: 0.08, front_tilt_rad: -0.05, ..Flanks::parallel(2.5e-3, 2.7e-3) };
+        let flanks =
+            Flanks { rear_tilt_rad: 0.08, front_tilt_rad: -0.05, ..Flanks::parallel(2.5e-3, 2.7e-3) };
         let before = Outline::closed(&p, &flanks).unwrap().mass_properties(6e-3, 7850.0);
         for wider in [-20e-6, -5e-6, 5e-6, 15e-6, 60e-6] {
             let (inner, outer) = (11.11e-3 - 0.3 * wider, 19.44e-3 + 0.7 * wider);
@@ -158,7 +170,8 @@ mod tests {
                 let moved = r.point_m([old.centre_m.x, old.centre_m.y]);
                 assert!((arc.centre_m - Vector2::from(moved)).norm() < 1e-15, "{wider} {i}");
             }
-            let after = Outline::closed(&q, &r.flanks(&p, &flanks).unwrap()).unwrap().mass_properties(6e-3, 7850.0);
+            let after =
+                Outline::closed(&q, &r.flanks(&p, &flanks).unwrap()).unwrap().mass_properties(6e-3, 7850.0);
             let g = r.point_m(before.centroid_m);
             if dropped == 0 {
                 assert!((after.mass_kg / before.mass_kg - 1.0).abs() < 1e-12, "{wider}");

@@ -1,6 +1,7 @@
 //! Refusals: every way in which a design file is turned away, with the key, the line and the words.
 
 mod axial;
+mod optimize;
 
 use sprag_design::design::{Design, DesignError};
 
