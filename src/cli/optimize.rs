@@ -121,7 +121,6 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     let started = Instant::now();
     let desk = Desk::new(Some(context.interrupt.flag()), &mut keeper);
     let story = tell(&design, &task, &aims, args, (&method, fidelity), &desk);
-    drop(desk);
     let run_time_s = started.elapsed().as_secs_f64();
     let Keeper { progress, file, .. } = keeper;
     drop(progress);

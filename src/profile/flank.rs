@@ -87,7 +87,7 @@ impl Flank {
         if !(given_m > 0.0 && given_m.is_finite()) {
             return Err(OutlineError::NotPositive { side, given_m });
         }
-        if !(tilt_rad.abs() <= STEEPEST_RAD) {
+        if tilt_rad.is_nan() || tilt_rad.abs() > STEEPEST_RAD {
             return Err(OutlineError::TooSteep { side, tilt_rad });
         }
         let sign = match side {
