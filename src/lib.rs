@@ -26,7 +26,7 @@
 //! | 4 | [`fidelity`] | what a scene can leave out, and what that costs |
 //! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
-//! | 4 | [`optimise`] | a vector and its margins, by SQP |
+//! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
 //! | 5 | [`export`] | a clutch as a finite-element deck, and the solver's result read back |
 //! | 5 | [`cli`] | paths, printing, exit codes |

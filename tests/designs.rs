@@ -57,7 +57,7 @@ fn holds_table_1(design: &Design) {
         same(value, expected);
     }
     assert_eq!(c.sprags.mass_source, MassSource::Given);
-    assert_eq!(c.sprags.flanks, Some(Flanks { rear_m: 2.525e-3, front_m: 2.525e-3 }));
+    assert_eq!(c.sprags.flanks, Some(Flanks::parallel(2.525e-3, 2.525e-3)));
     assert_eq!(c.contact, ContactLaw::Roller { coefficient: 3.944e-5 });
     let l = &design.limits;
     assert_eq!((l.nominal_torque_nm, l.peak_torque_nm), (Some(90.0), Some(110.0)));
@@ -201,7 +201,7 @@ fn materials_by_body_and_flanks_apart_from_the_width() {
     let design = parse(&text);
     assert_eq!(design.clutch.materials.inner_race.youngs_modulus_pa, 200e9);
     assert_eq!(design.clutch.sprags.width_m, 0.0, "omitted: no body compression");
-    let expected = Flanks { rear_m: 2.2e-3, front_m: 3e-3 };
+    let expected = Flanks::parallel(2.2e-3, 3e-3);
     assert_eq!(design.clutch.sprags.flanks, Some(expected));
 }
 
@@ -263,7 +263,7 @@ fn mass_inertia_and_centroid_left_out_come_from_the_outline() {
     let Some(wider) = design.scenario("low-6-mu082") else { panic!("no low-6-mu082") };
     assert_eq!(wider.clutch.contact, ContactLaw::Hertz);
     assert_eq!(wider.overrides, ["sprags", "contact"]);
-    assert_eq!(wider.clutch.sprags.flanks, Some(Flanks { rear_m: 2.6e-3, front_m: 2.6e-3 }));
+    assert_eq!(wider.clutch.sprags.flanks, Some(Flanks::parallel(2.6e-3, 2.6e-3)));
     assert!(wider.clutch.sprags.mass_kg > 1.01 * s.mass_kg, "an override is weighed anew");
     let Some(other) = design.scenario("low-8-mu082") else { panic!("no low-8-mu082") };
     assert_eq!(other.clutch.sprags, *s);

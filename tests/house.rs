@@ -29,8 +29,9 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "margin",
         &["numeric", "contact", "race", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"],
     ),
-    // Never a contact, a wedge or a path: a vector and its margins.
-    ("optimise", &["numeric", "design", "scenario", "margin"]),
+    // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
+    // real, and a tolerance felt, on the profile itself.
+    ("optimise", &["numeric", "profile", "design", "scenario", "fidelity", "margin"]),
     // Units and drawings: a profile to draw, no physics.
     ("report", &["profile"]),
     // A finite-element deck is a whole clutch, and its own curve says how far to turn it.

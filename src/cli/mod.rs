@@ -6,6 +6,7 @@
 
 pub mod accuracy;
 pub mod check;
+pub mod evaluate;
 pub mod exit;
 pub mod export;
 pub mod interrupt;
@@ -14,6 +15,8 @@ pub mod left_out;
 pub mod materials;
 pub mod optimize;
 pub mod optimize_answer;
+pub mod optimize_json;
+pub mod optimize_story;
 pub mod output;
 pub mod parts;
 pub mod progress;
@@ -68,6 +71,8 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     /// Search for a better design within the limits
     Optimize(optimize::OptimizeArgs),
+    /// Margins of one vector of variables per line, for other optimisers
+    Evaluate(evaluate::EvaluateArgs),
     /// Error against run time of every method and fidelity, and the stability map
     Accuracy(accuracy::AccuracyArgs),
     /// Write the design for another program (a CalculiX deck), or read its result
@@ -172,6 +177,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
+        Command::Evaluate(args) => evaluate::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
         Command::Export(args) => export::run(&args, &context),
         Command::Materials => materials::run(&context),

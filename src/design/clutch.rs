@@ -3,6 +3,7 @@
 //! In: nothing. Out: [`Clutch`] and its parts, SI. Absent: limits and questions. Equations: none.
 
 use crate::material::Material;
+pub use crate::profile::Flanks;
 
 /// Where the sprag's mass, inertia and centroid come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,19 +49,6 @@ pub struct Sprags {
     pub inner_arcs: Vec<InnerArc>,
     /// Flanks that close the outline: those of the file, or both at half of `width_m`; absent without either.
     pub flanks: Option<Flanks>,
-}
-
-/// Straight flanks that close the outline between the inner and the outer arc.
-///
-/// # Conventions
-/// Both are parallel to the strut line, which runs from the inner contact A to the outer contact B at first
-/// contact at rest, and half widths are measured from it. Rear lies towards negative x, front towards positive x.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flanks {
-    /// Distance of the rear flank from the strut line, m.
-    pub rear_m: f64,
-    /// Distance of the front flank from the strut line, m.
-    pub front_m: f64,
 }
 
 /// The two races as they run: fitted, and at their temperatures. [`Running`] has what was made.

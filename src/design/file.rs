@@ -7,6 +7,7 @@
 use super::contact_file::ContactFile;
 use super::limits_file::{CheckFile, LimitsFile, OptimizeFile};
 use super::scenario_file::ScenarioFile;
+use super::tolerances_file::TolerancesFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -47,6 +48,8 @@ pub(super) struct DesignFile {
     pub scenarios: Vec<ScenarioFile>,
     /// Task of the optimiser; absent: `optimize` has nothing to do.
     pub optimize: Option<OptimizeFile>,
+    /// What the clutch is made to; absent: nothing varies.
+    pub tolerances: Option<TolerancesFile>,
 }
 
 /// Shape and number of the sprags. Body frame: origin C_e, y radially outward along OC_e at first contact
@@ -107,8 +110,9 @@ pub(super) struct InnerArcFile {
     pub until_rad: f64,
 }
 
-/// Distances of the two straight flanks from the strut line, to which they are parallel, mm: the line from the
-/// inner contact A to the outer contact B at first contact at rest.
+/// The two straight flanks. The strut line runs from the inner contact A to the outer contact B at first contact at
+/// rest; distances are measured from its middle, mm, and leans against it, rad, positive where the sprag grows wider
+/// outwards.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FlanksFile {
@@ -118,6 +122,14 @@ pub(super) struct FlanksFile {
     /// Flank on the side of positive x, mm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub front_mm: f64,
+    /// Lean of the rear flank, rad.
+    #[serde(default)]
+    #[schemars(extend("minimum" = -crate::profile::STEEPEST_RAD, "maximum" = crate::profile::STEEPEST_RAD))]
+    pub rear_tilt_rad: f64,
+    /// Lean of the front flank, rad.
+    #[serde(default)]
+    #[schemars(extend("minimum" = -crate::profile::STEEPEST_RAD, "maximum" = crate::profile::STEEPEST_RAD))]
+    pub front_tilt_rad: f64,
 }
 
 /// The two races.

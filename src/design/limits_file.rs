@@ -3,6 +3,7 @@
 //! In: TOML text. Out: these structs, in the file's units; see [`super::file`]. Absent: rules that join several keys.
 //! Equations: none. The doc comments are the schema's descriptions.
 
+use super::objective::ObjectiveFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -76,11 +77,15 @@ pub(super) struct CheckFile {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OptimizeFile {
-    /// What is maximised; slip-margin: the smallest over the scenarios.
+    /// What is made better: slip-margin (the smallest over the scenarios), torque-capacity, peak-pressure, windup (at
+    /// nominal torque) or stiffness-curve (windups as in target).
     pub objective: ObjectiveFile,
-    /// Names of the scenarios whose smallest slip margin is maximised.
+    /// Names of the scenarios whose smallest slip margin is maximised, or which are limits of another objective.
     #[schemars(length(min = 1))]
     pub scenarios: Vec<String>,
+    /// Wanted windups of stiffness-curve: pairs of torque, N m, and windup, deg.
+    #[serde(default)]
+    pub target: Vec<[f64; 2]>,
     /// Design variables.
     #[schemars(length(min = 1))]
     pub variables: Vec<VariableFile>,
@@ -89,12 +94,6 @@ pub(super) struct OptimizeFile {
     pub limits: LimitsFile,
     /// Seed of everything random.
     pub seed: u64,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum ObjectiveFile {
-    SlipMargin,
 }
 
 /// One design variable with its bounds, in the unit of its name.

@@ -15,6 +15,7 @@ mod findings;
 mod geometry;
 mod history;
 mod limits_file;
+mod objective;
 mod outline;
 mod question;
 mod read;
@@ -24,6 +25,7 @@ mod scenarios;
 mod shape;
 mod steels;
 mod task;
+mod tolerances_file;
 mod variables;
 
 pub use clutch::{
@@ -31,10 +33,12 @@ pub use clutch::{
     Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem};
-pub use edit::{EditError, with_limits, with_values};
+pub use edit::{EditError, with_flanks, with_keys, with_limits, with_values, without_variables};
+pub use objective::Objective;
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
 pub use shape::schema;
-pub use variables::{VARIABLES, variable_names, variable_path};
+pub use tolerances_file::Tolerances;
+pub use variables::{VARIABLES, is_whole, variable_names, variable_path};
 
 /// A checked clutch design. Built only by reading a file; never changed afterwards.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,6 +55,8 @@ pub struct Design {
     pub scenarios: Vec<Scenario>,
     /// The optimiser's task, if any.
     pub optimize: Option<Optimize>,
+    /// What the clutch is made to, if the file says.
+    pub tolerances: Option<Tolerances>,
     /// SHA-256 (hex) of the file's text and of the histories that it names.
     pub hash: String,
     /// The file's text, kept for reports and for `optimize` to edit.

@@ -3,6 +3,7 @@
 //! In: nothing. Out: [`Limits`], [`Scenario`], [`Optimize`], SI. Absent: how they are answered. Equations: none.
 
 use super::clutch::Clutch;
+use super::objective::Objective;
 
 /// Allowables of the designer margin check; absent ones are not checked.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -131,14 +132,18 @@ pub struct OptimizeVariable {
     pub max: f64,
     /// Value in the file, in the name's unit.
     pub start: f64,
+    /// Whether it takes whole numbers only.
+    pub whole: bool,
 }
 
 /// What `optimize` shall do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Optimize {
-    /// Objective, now always `slip-margin`.
-    pub objective: String,
-    /// Scenarios whose smallest slip margin is maximised.
+    /// What is made better.
+    pub objective: Objective,
+    /// Wanted windups of [`Objective::StiffnessCurve`]: (torque, N m; windup, rad).
+    pub target: Vec<[f64; 2]>,
+    /// Scenarios whose smallest slip margin is maximised, or which are limits of another objective.
     pub scenarios: Vec<String>,
     /// Design variables.
     pub variables: Vec<OptimizeVariable>,

@@ -13,6 +13,7 @@ use super::document::Document;
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::history;
+use super::tolerances_file::TolerancesFile;
 use super::{Design, Limits, check, scenarios, shape, task};
 
 const WHAT: &str = "a text file (UTF-8, TOML) that holds a clutch design";
@@ -114,6 +115,7 @@ impl Design {
                 check_scenarios,
                 scenarios,
                 optimize,
+                tolerances: file.tolerances.as_ref().map(TolerancesFile::si),
                 hash: hash(source, texts.values()),
                 source: source.to_owned(),
                 folder: folder.to_owned(),

@@ -23,7 +23,7 @@ use super::file::DesignFile;
 const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e15;
 
 /// Keys that a later version will read.
-const RESERVED: &[&str] = &["tolerances"];
+const RESERVED: &[&str] = &[];
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
@@ -74,6 +74,12 @@ fn schema_of(path: &str) -> Option<&'static Value> {
         let rows = step.matches('[').count();
         (0..rows).try_fold(schema.get("properties")?.get(name)?, |s, _| s.get("items"))
     })
+}
+
+/// "number" or "integer" where the key at a dotted path holds one.
+pub(super) fn kind_of(path: &str) -> Option<&'static str> {
+    let kind = schema_of(path)?.get("type").and_then(Value::as_str)?;
+    ["number", "integer"].contains(&kind).then_some(kind)
 }
 
 /// Names of the keys of the table at a dotted path.

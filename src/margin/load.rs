@@ -33,10 +33,7 @@ pub struct LoadState {
 pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
     let (profile, curve) = curve_at_rest(design)?;
     let flanks = design.clutch.sprags.flanks;
-    let outline = flanks
-        .map(|f| Outline::new(&profile, f.rear_m, f.front_m))
-        .transpose()
-        .map_err(NoMargins::Outline)?;
+    let outline = flanks.map(|f| Outline::closed(&profile, &f)).transpose().map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;
     let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
     Ok(LoadState { profile, outline, curve, alpha_max_rad, first_tan_omega })

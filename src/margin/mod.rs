@@ -117,7 +117,12 @@ pub fn scene_margins(
     required: bool,
     settings: &Settings,
 ) -> Vec<Margin> {
-    scenes::rows(&scenario.name, &scene_demand(scenario, settings), limits, required)
+    scene_rows(scenario, &scene_demand(scenario, settings), limits, required)
+}
+
+/// The same two margins from a demand that is known.
+pub fn scene_rows(scenario: &Scenario, found: &SceneDemand, limits: &Limits, required: bool) -> Vec<Margin> {
+    scenes::rows(&scenario.name, found, limits, required)
 }
 
 /// The curve of a design at rest.

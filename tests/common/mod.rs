@@ -22,7 +22,7 @@ pub fn clutch(arcs: &[(f64, f64)]) -> (Clutch, Profile) {
             centroid_m: [0.1935e-3, 0.5288e-3],
             mass_source: MassSource::Given,
             inner_arcs: arcs.iter().map(|&(radius_m, until_rad)| InnerArc { radius_m, until_rad }).collect(),
-            flanks: Some(Flanks { rear_m: 2.525e-3, front_m: 2.525e-3 }),
+            flanks: Some(Flanks::parallel(2.525e-3, 2.525e-3)),
         },
         races: Races {
             inner_bore_radius_m: 7.21e-3,

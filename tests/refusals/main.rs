@@ -2,6 +2,7 @@
 
 mod axial;
 mod margins;
+mod optimize;
 
 use sprag_design::design::{Design, DesignError};
 
