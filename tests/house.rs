@@ -27,6 +27,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("margin", &["numeric", "contact", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"]),
     // Never a contact, a wedge or a path: a vector and its margins.
     ("optimise", &["numeric", "design", "scenario", "margin"]),
+    // Asks for margins and static points as they are; knows no law.
+    ("identify", &["numeric", "design", "wedge", "margin"]),
     // Units and drawings: a profile to draw, no physics.
     ("report", &["profile"]),
     // A finite-element deck is a whole clutch, and its own curve says how far to turn it.
@@ -35,7 +37,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity", "accuracy",
-            "margin", "optimise", "report", "export",
+            "margin", "optimise", "identify", "report", "export",
         ],
     ),
 ];

@@ -68,6 +68,39 @@ pub fn with_values(source: &str, values: &[(&str, f64)]) -> Result<String, EditE
     Ok(document.to_string())
 }
 
+/// The text with the numbers at dotted paths set, such as `races.inner_radius_mm` or `sprags.count`, in the units of
+/// their keys; keys of `[limits]` as [`with_limits`]. What stands there as a whole number stays one.
+///
+/// # Errors
+/// [`EditError`]; nothing is written where one value cannot be.
+pub fn with_keys(source: &str, values: &[(&str, f64)]) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    let mut limits = Vec::new();
+    for &(path, value) in values {
+        if let Some(name) = path.strip_prefix("limits.") {
+            limits.push((name, value));
+            continue;
+        }
+        let missing = || EditError::MissingKey { key: path.to_owned() };
+        let number = finite(path, value)?;
+        let item = item_at(&mut document, path).ok_or_else(missing)?;
+        let number = match item.as_value() {
+            Some(Value::Integer(_)) if value.fract() == 0.0 => Value::from(value as i64),
+            Some(Value::Integer(_) | Value::Float(_)) => number,
+            _ => return Err(missing()),
+        };
+        replace(item, number);
+    }
+    with_limits(&document.to_string(), &limits)
+}
+
+/// The number at a dotted path.
+pub fn value_at(source: &str, path: &str) -> Option<f64> {
+    let mut document = parse(source).ok()?;
+    let item = item_at(&mut document, path)?;
+    item.as_float().or_else(|| item.as_integer().map(|i| i as f64))
+}
+
 /// The text with keys of `[limits]` set, in the units of their names; keys that are new are added at the
 /// table's end, the table at the file's end.
 ///

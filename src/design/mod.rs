@@ -29,7 +29,7 @@ pub use clutch::{
     Spring, StressState,
 };
 pub use diagnostic::{DesignError, Place, Problem};
-pub use edit::{EditError, with_limits, with_values};
+pub use edit::{EditError, value_at, with_keys, with_limits, with_values};
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
 pub use shape::schema;
 pub use variables::{VARIABLES, variable_names, variable_path};

@@ -1,6 +1,7 @@
 //! Torque at which each static limit would be reached.
 
 use super::Margin;
+use super::gap::YIELDS;
 use super::hoop::HOOPS;
 use super::load::{LoadState, grip, profile_capacity};
 use super::subsurface::SUBSURFACE;
@@ -18,6 +19,12 @@ pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state:
             let allowed = (hoop.allowed)(limits).map(|(allowed, _)| allowed);
             let value = |p: &StaticPoint| (hoop.demand)(elastic, count, p);
             row.torque_capacity_nm = allowed.map(|a| torque_where(state, a, &value));
+            continue;
+        }
+        if let Some(y) = YIELDS.iter().find(|y| y.code == row.code) {
+            let value = |p: &StaticPoint| (y.demand)(elastic, count, p);
+            row.torque_capacity_nm =
+                (y.allowed)(limits, design).map(|allowed| torque_where(state, allowed, &value));
             continue;
         }
         if let Some(below) = SUBSURFACE.iter().find(|b| b.code == row.code) {
@@ -69,4 +76,36 @@ fn torque_where(state: &LoadState, allowed: f64, value: &dyn Fn(&StaticPoint) ->
         (a, fa) = (b, fb);
     }
     if fa < 0.0 { torque(last) } else { 0.0 }
+}
+
+/// Smallest torque (N m) at which a limit on nominal torque, the grip at either contact or the curve's end is reached,
+/// and the code of what decides; `None` where `limits` holds none of them.
+pub fn nominal_capacity(design: &Design, limits: &Limits, state: &LoadState) -> Option<(f64, &'static str)> {
+    let count = design.clutch.sprags.count;
+    let elastic = &state.curve.statics().elastic;
+    let mu = design.clutch.friction.static_;
+    let mut least = (state.curve.end_torque_nm(), "end-of-curve");
+    let mut any = false;
+    let mut take = |code, allowed: f64, value: &dyn Fn(&StaticPoint) -> f64| {
+        let torque = torque_where(state, allowed, value);
+        if torque < least.0 {
+            least = (torque, code);
+        }
+    };
+    if let Some(allowed) = limits.hertz_nominal_pa {
+        any = true;
+        take("hertz-nominal-inner", allowed, &|p| p.hertz_inner_pa);
+        take("hertz-nominal-outer", allowed, &|p| p.hertz_outer_pa);
+    }
+    // Those that are held at the nominal torque itself.
+    let nominal = Limits { nominal_torque_nm: Some(1.0), peak_torque_nm: None, ..*limits };
+    for y in YIELDS.iter().filter(|y| (y.torque_nm)(&nominal).is_some()) {
+        if let Some(allowed) = (y.allowed)(limits, design) {
+            any = true;
+            take(y.code, allowed, &|p| (y.demand)(elastic, count, p));
+        }
+    }
+    take("grip-inner", mu, &|p| grip(design, limits, p)[0]);
+    take("grip-outer", mu, &|p| grip(design, limits, p)[1]);
+    any.then_some(least)
 }

@@ -1,5 +1,6 @@
 //! Limits that follow from the static load state, first contact and overrun.
 
+use super::gap::YIELDS;
 use super::hoop::HOOPS;
 use super::subsurface::SUBSURFACE;
 use super::{Margin, NoMargins, curve_at_rest, ratio};
@@ -69,6 +70,21 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         ] {
             push(code, name, value * MPA, allowed * MPA, "MPa", beyond(ratio(value, allowed), torque, end));
         }
+    }
+    for y in &YIELDS {
+        let (Some(torque), Some(allowed)) = ((y.torque_nm)(limits), (y.allowed)(limits, design)) else {
+            continue;
+        };
+        let value = (y.demand)(&curve.statics().elastic, count, &at(curve, torque));
+        let (unit, per_si) = y.unit;
+        push(
+            y.code,
+            y.name,
+            value * per_si,
+            allowed * per_si,
+            unit,
+            beyond(ratio(value, allowed), torque, end),
+        );
     }
     if let Some(torque) = limits.peak_torque_nm {
         let p = at(curve, torque);

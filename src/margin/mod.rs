@@ -4,11 +4,13 @@
 //! Equations: none; margin = allowable/demand - 1 unless a row says otherwise, 0 or more is held.
 
 mod capacity;
+mod gap;
 mod hoop;
 mod load;
 mod scenes;
 mod subsurface;
 
+pub use capacity::nominal_capacity;
 pub use load::{LoadState, lift_off_rad_s, load_state};
 pub use scenes::{SceneDemand, scene_demand};
 
