@@ -8,6 +8,7 @@ pub mod accuracy;
 pub mod check;
 pub mod exit;
 pub mod export;
+pub mod identify;
 pub mod interrupt;
 pub mod journal;
 pub mod left_out;
@@ -69,6 +70,8 @@ enum Command {
     Optimize(optimize::OptimizeArgs),
     /// Error against run time of every method and fidelity, and the stability map
     Accuracy(accuracy::AccuracyArgs),
+    /// Find unknown parameters from measured or published numbers, and what these cannot tell apart
+    Identify(identify::IdentifyArgs),
     /// Write the design for another program (a CalculiX deck), or read its result
     Export(export::ExportArgs),
     /// Print the JSON Schema of the design file
@@ -170,6 +173,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
+        Command::Identify(args) => identify::run(&args, &context),
         Command::Export(args) => export::run(&args, &context),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {

@@ -84,6 +84,10 @@ pub fn nominal_capacity(design: &Design, limits: &Limits, state: &LoadState) -> 
     let count = design.clutch.sprags.count;
     let elastic = &state.curve.statics().elastic;
     let mu = design.clutch.friction.static_;
+    // What does not grip at first contact never gets as far as the torque at which it would.
+    if state.first_tan_omega >= mu {
+        return Some((0.0, "grip-inner"));
+    }
     let mut least = (state.curve.end_torque_nm(), "end-of-curve");
     let mut any = false;
     let mut take = |code, allowed: f64, value: &dyn Fn(&StaticPoint) -> f64| {
