@@ -5,7 +5,8 @@ mod program;
 
 use program::*;
 
-const DATA: &str = "label,use,torque_nm,windup_deg\na,,10,1.2345\nb,fit,16.8,1.94\nc,,50,5.1\nd,check,90,8.5\n";
+const DATA: &str =
+    "label,use,torque_nm,windup_deg\na,,10,1.2345\nb,fit,16.8,1.94\nc,,50,5.1\nd,check,90,8.5\n";
 
 fn data(folder: &Folder, text: &str) -> String {
     let path = folder.path("data.csv");
@@ -19,8 +20,22 @@ fn an_answer_in_every_form() {
     let (data, new, csv, page) =
         (data(&folder, DATA), folder.path("new.toml"), folder.path("out.csv"), folder.path("out.html"));
     let args = [
-        "identify", MULTI, "--data", &data, "--unknown", "r_i3_mm:3.6:4.8", "-o", &new, "--json", "--quiet", "--starts",
-        "2", "--csv", &csv, "--report", &page,
+        "identify",
+        MULTI,
+        "--data",
+        &data,
+        "--unknown",
+        "r_i3_mm:3.6:4.8",
+        "-o",
+        &new,
+        "--json",
+        "--quiet",
+        "--starts",
+        "2",
+        "--csv",
+        &csv,
+        "--report",
+        &page,
     ];
     let output = run(&args);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
@@ -36,7 +51,10 @@ fn an_answer_in_every_form() {
     assert_eq!(value["degrees_of_freedom"], 2);
     assert!(value["remarks"].as_array().unwrap().iter().any(|r| r.as_str().unwrap().contains("held back")));
     let text = std::fs::read_to_string(&new).unwrap();
-    assert!(text.starts_with("# Written by sprag-design identify") && text.contains(&format!("{found}")), "{text}");
+    assert!(
+        text.starts_with("# Written by sprag-design identify") && text.contains(&format!("{found}")),
+        "{text}"
+    );
     assert_eq!(run(&["check", &new, "--json", "--quiet"]).stderr.len(), 0);
     assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 5);
     assert!(is_self_contained(page).contains("Correlation"));
@@ -46,7 +64,16 @@ fn an_answer_in_every_form() {
 fn what_is_not_determined_is_exit_code_1_and_a_plain_word() {
     let folder = Folder::new();
     let data = data(&folder, DATA);
-    let output = run(&["identify", MULTI, "--data", &data, "--unknown", "r_i3_mm:3.6:4.8,centroid_y_mm:0.3:0.8", "--starts", "1"]);
+    let output = run(&[
+        "identify",
+        MULTI,
+        "--data",
+        &data,
+        "--unknown",
+        "r_i3_mm:3.6:4.8,centroid_y_mm:0.3:0.8",
+        "--starts",
+        "1",
+    ]);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     assert!(stdout(&output).contains("the data say nothing of centroid_y_mm"), "{}", stdout(&output));
 }
@@ -67,6 +94,10 @@ fn nonsense_is_exit_code_2_with_file_line_and_column() {
         ("r_i3_mm:a:3", &bad),
         ("r_i3_mm:3:4", "/nowhere.csv"),
     ] {
-        assert_eq!(run(&["identify", MULTI, "--data", data, "--unknown", unknown]).status.code(), Some(2), "{unknown}");
+        assert_eq!(
+            run(&["identify", MULTI, "--data", data, "--unknown", unknown]).status.code(),
+            Some(2),
+            "{unknown}"
+        );
     }
 }

@@ -29,6 +29,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("optimise", &["numeric", "design", "scenario", "margin"]),
     // Asks for margins and static points as they are; knows no law.
     ("identify", &["numeric", "design", "wedge", "margin"]),
+    // A first design: proportions, then whatever the margins say.
+    ("size", &["design", "profile", "scenario", "margin"]),
     // Units and drawings: a profile to draw, no physics.
     ("report", &["profile"]),
     // A finite-element deck is a whole clutch, and its own curve says how far to turn it.
@@ -37,7 +39,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity", "accuracy",
-            "margin", "optimise", "identify", "report", "export",
+            "margin", "optimise", "identify", "size", "report", "export",
         ],
     ),
 ];

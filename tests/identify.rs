@@ -7,7 +7,8 @@ use sprag_design::identify::{Identified, NoFit, Settings, Tied, Unknown, Use, id
 use sprag_design::{WedgeCurve, place_profile};
 
 const MULTI: &str = include_str!("../designs/huang2017-multi-arc.toml");
-const TORQUES: [f64; 14] = [5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 105.0, 110.0];
+const TORQUES: [f64; 14] =
+    [5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 105.0, 110.0];
 
 fn design(values: &[(&str, f64)]) -> Design {
     Design::parse(&with_values(MULTI, values).unwrap(), "multi.toml").unwrap()
@@ -16,8 +17,10 @@ fn design(values: &[(&str, f64)]) -> Design {
 /// Windups of the clutch with the values planted, each off by `noise` (relative) of a fixed normal sample.
 fn bench(planted: &[(&str, f64)], noise: f64) -> String {
     // Standard normal deviates: Abramowitz & Stegun style sample, mean -0.03, variance 1.05.
-    const SAMPLE: [f64; 14] =
-        [0.464, 0.137, 2.455, -0.323, -0.068, 0.296, -0.288, 1.298, 0.241, -0.957, 0.525, -1.865, -0.354, -0.634];
+    const SAMPLE: [f64; 14] = [
+        0.464, 0.137, 2.455, -0.323, -0.068, 0.296, -0.288, 1.298, 0.241, -0.957, 0.525, -1.865, -0.354,
+        -0.634,
+    ];
     let clutch = design(planted).clutch;
     let curve = WedgeCurve::build(&clutch, &place_profile(&clutch).unwrap(), 0.0).unwrap();
     let mut csv = "torque_nm,windup_deg\n".to_owned();
@@ -83,14 +86,19 @@ fn what_a_windup_cannot_know_is_said_to_be_unknown() {
 fn width_and_modulus_are_one_number_to_a_windup() {
     // Every compliance of the roller law but (6) and (5) is fixed: (5) knows the races' width and the modulus as their
     // product, so the two cannot be told apart once (6) is left out and the roller law does not know the modulus.
-    let text = MULTI.replacen("width_mm = 5.05 ", "width_mm = 0.0 ", 1);
+    let text = MULTI.replacen("width_mm = 5.05 ", "width_mm = 0.0 ", 1).replacen(
+        "width_mm = 6.0 ",
+        "width_mm = 7.0 ",
+        1,
+    );
     let design = Design::parse(&text, "x.toml").unwrap();
     let curve = WedgeCurve::build(&design.clutch, &place_profile(&design.clutch).unwrap(), 0.0).unwrap();
     let mut csv = "torque_nm,windup_deg\n".to_owned();
     for torque in TORQUES {
         writeln!(csv, "{torque},{}", curve.at_torque(torque).unwrap().windup_rad.to_degrees()).unwrap();
     }
-    let unknowns = [unknown("races.width_mm", 6.0, 9.0), unknown("material.youngs_modulus_gpa", 150.0, 250.0)];
+    let unknowns =
+        [unknown("races.width_mm", 6.0, 9.0), unknown("material.youngs_modulus_gpa", 150.0, 250.0)];
     let settings = Settings { starts: 1, seed: 1, evaluations: 60 };
     let k = identify(&design, &observations(&csv).unwrap(), &unknowns, &settings, None).unwrap().knowledge;
     let Some(Tied::Blind { direction }) = k.tied.first() else { panic!("{k:?}") };
@@ -107,7 +115,12 @@ fn rows_may_change_the_clutch_and_rows_held_back_take_no_part() {
         let text = text.replacen("count = 12 ", &format!("count = {count} "), 1);
         let clutch = Design::parse(&text, "x.toml").unwrap().clutch;
         let curve = WedgeCurve::build(&clutch, &place_profile(&clutch).unwrap(), 0.0).unwrap();
-        writeln!(csv, "{count} sprags,{purpose},{count},20,{}", curve.at_torque(20.0).unwrap().normal_inner_n).unwrap();
+        writeln!(
+            csv,
+            "{count} sprags,{purpose},{count},20,{}",
+            curve.at_torque(20.0).unwrap().normal_inner_n
+        )
+        .unwrap();
     }
     let found = found(&csv, &[unknown("centre_distance_mm", 0.5, 0.75)], 2).unwrap();
     assert!((found.knowledge.estimates[0].value - 0.6).abs() < 1e-6, "{:?}", found.knowledge);
@@ -134,7 +147,11 @@ fn questions_that_make_no_sense_are_refused() {
     let csv = "torque_nm,windup_deg\n10,1.2\n";
     let with = |u: &[Unknown]| found(csv, u, 1).unwrap_err().to_string();
     assert!(with(&[]).contains("at least one unknown"));
-    assert!(with(&[unknown("r_i9_mm", 1.0, 2.0)]).contains("there are r_i1_mm"), "{}", with(&[unknown("r_i9_mm", 1.0, 2.0)]));
+    assert!(
+        with(&[unknown("r_i9_mm", 1.0, 2.0)]).contains("there are r_i1_mm"),
+        "{}",
+        with(&[unknown("r_i9_mm", 1.0, 2.0)])
+    );
     assert!(with(&[unknown("races.colour", 1.0, 2.0)]).contains("holds no number races.colour"));
     assert!(with(&[unknown("r_i1_mm", 2.0, 1.0)]).contains("the smaller first"));
     assert!(with(&[unknown("r_i1_mm", 3.0, 5.0), unknown("r_i1_mm", 3.0, 5.0)]).contains("twice"));

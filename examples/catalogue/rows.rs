@@ -5,28 +5,28 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 /// Race space of the series at rest, mm.
-pub const GAP_MM: f64 = 8.33;
+pub(crate) const GAP_MM: f64 = 8.33;
 /// Pitch of the sprags at mid-gap, mm; from the weights, see the report.
-pub const PITCH_MM: f64 = 8.0;
+pub(crate) const PITCH_MM: f64 = 8.0;
 
 /// One row.
 #[derive(Debug, Clone)]
-pub struct Row {
-    pub name: String,
+pub(crate) struct Row {
+    pub(crate) name: String,
     /// Inner track diameter.
-    pub inner_mm: f64,
+    pub(crate) inner_mm: f64,
     /// Outer track diameter.
-    pub outer_mm: f64,
+    pub(crate) outer_mm: f64,
     /// W.
-    pub width_mm: f64,
+    pub(crate) width_mm: f64,
     /// Sprag width.
-    pub length_mm: f64,
-    pub torque_nm: f64,
-    pub weight_kg: f64,
+    pub(crate) length_mm: f64,
+    pub(crate) torque_nm: f64,
+    pub(crate) weight_kg: f64,
 }
 
 /// Rows that are not used, and why.
-pub const LEFT_OUT: [(&str, &str); 2] = [
+pub(crate) const LEFT_OUT: [(&str, &str); 2] = [
     (
         "FE 8050 Z 25",
         "the designation says a width of 25 mm, the columns 19 mm with sprags of 16 mm; torque and weight are those of a \
@@ -40,22 +40,22 @@ pub const LEFT_OUT: [(&str, &str); 2] = [
 ];
 
 impl Row {
-    pub fn left_out(&self) -> Option<&'static str> {
+    pub(crate) fn left_out(&self) -> Option<&'static str> {
         LEFT_OUT.iter().find(|(name, _)| *name == self.name).map(|(_, why)| *why)
     }
 
     /// Sprags at [`PITCH_MM`].
-    pub fn count(&self) -> f64 {
+    pub(crate) fn count(&self) -> f64 {
         (PI * (self.inner_mm + GAP_MM) / PITCH_MM).round()
     }
 
     /// Weight per sprag and mm of W, g.
-    pub fn weight_each_g(&self) -> f64 {
+    pub(crate) fn weight_each_g(&self) -> f64 {
         1e3 * self.weight_kg / (self.count() * self.width_mm)
     }
 
     /// Keys of the design that this row sets: races as the maker calculates (solid shaft, D/D_L = 1.4, W + 3 mm).
-    pub fn keys(&self) -> [(&'static str, f64); 7] {
+    pub(crate) fn keys(&self) -> [(&'static str, f64); 7] {
         let inner = 0.5 * self.inner_mm;
         let outer = inner + GAP_MM;
         [
@@ -71,11 +71,12 @@ impl Row {
 }
 
 /// Rows of the catalogue's CSV.
-pub fn read(text: &str) -> Result<Vec<Row>, Box<dyn Error>> {
+pub(crate) fn read(text: &str) -> Result<Vec<Row>, Box<dyn Error>> {
     let mut rows = Vec::new();
     for line in text.lines().filter(|l| !l.starts_with('#')).skip(1) {
         let cells: Vec<&str> = line.split(',').collect();
-        let number = |k: usize| cells.get(k).ok_or("a short row")?.parse::<f64>().map_err(Box::<dyn Error>::from);
+        let number =
+            |k: usize| cells.get(k).ok_or("a short row")?.parse::<f64>().map_err(Box::<dyn Error>::from);
         rows.push(Row {
             name: cells[0].to_owned(),
             inner_mm: number(1)?,
@@ -89,14 +90,13 @@ pub fn read(text: &str) -> Result<Vec<Row>, Box<dyn Error>> {
     Ok(rows)
 }
 
-/// Every third of the rows in use goes into the fit, the first of them the second row: a third, chosen without a look at
-/// any torque.
-pub fn observations(rows: &[Row]) -> String {
+/// One in `every` of the rows in use goes into the fit, the second row first, chosen without a look at any torque.
+pub(crate) fn observations(rows: &[Row], every: usize) -> String {
     let Some(first) = rows.first() else { return String::new() };
     let keys: Vec<&str> = first.keys().iter().map(|(key, _)| *key).collect();
     let mut csv = format!("label,use,{},nominal_torque_nm\n", keys.join(","));
     for (i, row) in rows.iter().filter(|r| r.left_out().is_none()).enumerate() {
-        let purpose = if i % 3 == 1 { "fit" } else { "check" };
+        let purpose = if i % every == 1 % every { "fit" } else { "check" };
         let values: Vec<String> = row.keys().iter().map(|(_, v)| v.to_string()).collect();
         let _ = writeln!(csv, "{},{purpose},{},{}", row.name, values.join(","), row.torque_nm);
     }

@@ -10,18 +10,18 @@ use sprag_design::wedge::StaticPoint;
 use crate::rows::Row;
 
 /// A size.
-pub struct Size {
-    pub row: Row,
-    pub design: Design,
-    pub state: LoadState,
+pub(crate) struct Size {
+    pub(crate) row: Row,
+    pub(crate) design: Design,
+    pub(crate) state: LoadState,
     /// At the catalogue's torque.
-    pub point: StaticPoint,
-    pub opening_mm: f64,
-    pub equivalent_outer_mpa: f64,
+    pub(crate) point: StaticPoint,
+    pub(crate) opening_mm: f64,
+    pub(crate) equivalent_outer_mpa: f64,
 }
 
 impl Size {
-    pub fn new(found: &str, row: &Row) -> Result<Self, Box<dyn Error>> {
+    pub(crate) fn new(found: &str, row: &Row) -> Result<Self, Box<dyn Error>> {
         let design = Design::parse(&with_keys(found, &row.keys())?, &row.name)?;
         let state = load_state(&design)?;
         let point = state
@@ -36,22 +36,24 @@ impl Size {
     }
 
     /// Torque at which the limit of that code would be reached, N m.
-    pub fn capacity(&self, codes: &[&str]) -> f64 {
+    pub(crate) fn capacity(&self, codes: &[&str]) -> f64 {
         let rows = load_margins(&self.design, &self.design.limits, true, &self.state);
-        let each = rows.iter().filter(|r| codes.contains(&r.code.as_str())).filter_map(|r| r.torque_capacity_nm);
+        let each =
+            rows.iter().filter(|r| codes.contains(&r.code.as_str())).filter_map(|r| r.torque_capacity_nm);
         each.fold(f64::INFINITY, f64::min)
     }
 
     /// Least clearance (mm) between neighbouring sprags of the narrowest outline that works up to `torque_nm`, at rest and
     /// there, and its width; `None` where no outline closes.
-    pub fn clearance(&self, torque_nm: f64) -> Option<(f64, f64)> {
+    pub(crate) fn clearance(&self, torque_nm: f64) -> Option<(f64, f64)> {
         let point = self.state.curve.at_torque(torque_nm)?;
         let (_, closure) = self.state.curve.closure_at_torque(torque_nm)?;
         let s = &self.design.clutch.sprags;
         let r = &self.design.clutch.races;
         let arcs = [(s.inner_arcs[0].radius_m, 1.02 * point.contact_turn_rad)];
         let profile =
-            Profile::new(s.outer_radius_m, s.centre_distance_m, &arcs, r.inner_radius_m, r.outer_radius_m).ok()?;
+            Profile::new(s.outer_radius_m, s.centre_distance_m, &arcs, r.inner_radius_m, r.outer_radius_m)
+                .ok()?;
         let outline = Outline::narrowest(&profile).ok()?;
         let at = |rotation: f64| clearance_m(&outline, profile.outer_centre_distance_m, rotation, s.count);
         let xs: Vec<f64> = outline.polyline(1e-6).iter().map(|p| p[0]).collect();
@@ -61,7 +63,7 @@ impl Size {
 }
 
 /// Exponents of d and l and the scatter (rms of the logarithm) of torque = c d^a l^b.
-pub fn power_law(points: &[(f64, f64, f64)]) -> (f64, f64, f64) {
+pub(crate) fn power_law(points: &[(f64, f64, f64)]) -> (f64, f64, f64) {
     let n = points.len() as f64;
     let logs: Vec<[f64; 3]> = points.iter().map(|(d, l, t)| [d.ln(), l.ln(), t.ln()]).collect();
     let mean: Vec<f64> = (0..3).map(|k| logs.iter().map(|p| p[k]).sum::<f64>() / n).collect();

@@ -19,6 +19,7 @@ pub mod parts;
 pub mod progress;
 pub mod schema;
 pub mod simulate;
+pub mod size;
 pub mod stiffness;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
@@ -70,6 +71,8 @@ enum Command {
     Optimize(optimize::OptimizeArgs),
     /// Error against run time of every method and fidelity, and the stability map
     Accuracy(accuracy::AccuracyArgs),
+    /// A first design file from bore, torque, speed, safety and friction
+    Size(size::SizeArgs),
     /// Find unknown parameters from measured or published numbers, and what these cannot tell apart
     Identify(identify::IdentifyArgs),
     /// Write the design for another program (a CalculiX deck), or read its result
@@ -173,6 +176,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
+        Command::Size(args) => size::run(&args, &context),
         Command::Identify(args) => identify::run(&args, &context),
         Command::Export(args) => export::run(&args, &context),
         Command::Schema => schema::run(),

@@ -252,9 +252,24 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         ("limits.axial_load_n", limits.axial_load_n, "peak_torque_nm", limits.peak_torque_nm),
         ("limits.gap_nominal_mm", limits.gap_nominal_m, "nominal_torque_nm", limits.nominal_torque_nm),
         ("limits.gap_peak_mm", limits.gap_peak_m, "peak_torque_nm", limits.peak_torque_nm),
-        ("limits.windup_nominal_deg", limits.windup_nominal_rad, "nominal_torque_nm", limits.nominal_torque_nm),
-        ("limits.equivalent_inner_mpa", limits.equivalent_inner_pa, "nominal_torque_nm", limits.nominal_torque_nm),
-        ("limits.equivalent_outer_mpa", limits.equivalent_outer_pa, "nominal_torque_nm", limits.nominal_torque_nm),
+        (
+            "limits.windup_nominal_deg",
+            limits.windup_nominal_rad,
+            "nominal_torque_nm",
+            limits.nominal_torque_nm,
+        ),
+        (
+            "limits.equivalent_inner_mpa",
+            limits.equivalent_inner_pa,
+            "nominal_torque_nm",
+            limits.nominal_torque_nm,
+        ),
+        (
+            "limits.equivalent_outer_mpa",
+            limits.equivalent_outer_pa,
+            "nominal_torque_nm",
+            limits.nominal_torque_nm,
+        ),
     ];
     for (key, limit, torque_key, torque) in needs {
         if limit.is_some() && torque.is_none() {

@@ -9,6 +9,7 @@ mod clutch;
 mod contact_file;
 mod diagnostic;
 mod document;
+mod draft;
 mod edit;
 mod file;
 mod findings;
@@ -29,6 +30,7 @@ pub use clutch::{
     Spring, StressState,
 };
 pub use diagnostic::{DesignError, Place, Problem};
+pub use draft::{Draft, KINETIC_SHARE};
 pub use edit::{EditError, value_at, with_keys, with_limits, with_values};
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
 pub use shape::schema;

@@ -187,7 +187,8 @@ impl Problem<'_> {
 
     /// Derivatives by the shares, by central differences inside the bounds.
     fn jacobian(&self, t: &[f64]) -> Result<DMatrix<f64>, String> {
-        const STEP: f64 = 1e-4;
+        // Curves are interpolated to some 1e-9: noise of 1e-6, and as much of truncation.
+        const STEP: f64 = 1e-3;
         let mut columns = Vec::with_capacity(t.len());
         for j in 0..t.len() {
             let side = |to: f64| {
@@ -252,7 +253,8 @@ pub fn identify(
     if problem.groups.is_empty() {
         return Err(NoFit::NothingToFit);
     }
-    let starts = starts(&problem, unknowns, &before, settings).map_err(|e| if stopped() { NoFit::Stopped } else { e })?;
+    let starts = starts(&problem, unknowns, &before, settings)
+        .map_err(|e| if stopped() { NoFit::Stopped } else { e })?;
     let mut sums = Vec::new();
     let mut best: Option<(Vec<f64>, f64, bool)> = None;
     for start in starts {
@@ -294,12 +296,17 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
     for u in unknowns {
         let refuse = |why: String| NoFit::Unknown { name: u.name.clone(), why };
         if !(u.min.is_finite() && u.max.is_finite() && u.min < u.max) {
-            return Err(refuse(format!("bounds {}:{}; allowed: two finite numbers, the smaller first", u.min, u.max)));
+            return Err(refuse(format!(
+                "bounds {}:{}; allowed: two finite numbers, the smaller first",
+                u.min, u.max
+            )));
         }
         let path = variable_path(&u.name, arcs).or_else(|| u.name.contains('.').then(|| u.name.clone()));
         let known = variable_names(arcs).join(", ");
         let path = path.ok_or_else(|| {
-            refuse(format!("no such variable; there are {known}, and the dotted path of any number in the file"))
+            refuse(format!(
+                "no such variable; there are {known}, and the dotted path of any number in the file"
+            ))
         })?;
         let value = value_at(&design.source, &path)
             .ok_or_else(|| refuse(format!("the design file holds no number {path}; write it there first")))?;

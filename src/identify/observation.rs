@@ -184,7 +184,10 @@ fn check_header(header: &[String]) -> Result<(), Fault> {
         if !known {
             return Err(fault(
                 "an unknown column".to_owned(),
-                format!("label, use, torque_nm, {}, each of these with _sigma, or a dotted key of the design file", kinds()),
+                format!(
+                    "label, use, torque_nm, {}, each of these with _sigma, or a dotted key of the design file",
+                    kinds()
+                ),
             ));
         }
         if header.iter().take(i).any(|other| other == name) {

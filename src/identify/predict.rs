@@ -45,7 +45,9 @@ impl fmt::Display for NoPrediction {
             Self::Edit(why) => write!(f, "{why}"),
             Self::Refused(why) => write!(f, "the design is refused: {why}"),
             Self::NoState(why) => f.write_str(why),
-            Self::BeyondTheCurve { end_nm } => write!(f, "the curve ends at {end_nm:.4} N m, below that torque"),
+            Self::BeyondTheCurve { end_nm } => {
+                write!(f, "the curve ends at {end_nm:.4} N m, below that torque")
+            }
             Self::NoLiftOff => f.write_str("no lift-off up to 60 000 rpm"),
             Self::NoLimit => f.write_str("the design has no limit at nominal torque"),
         }
@@ -91,10 +93,9 @@ fn one(design: &Design, state: &LoadState, o: &Observation) -> Result<Prediction
     let plain = |value: f64| Ok(Prediction { value, decided_by: None });
     let at = |read: fn(&StaticPoint) -> f64| {
         let point = o.torque_nm.and_then(|t| state.curve.at_torque(t));
-        point.map_or(
-            Err(NoPrediction::BeyondTheCurve { end_nm: state.curve.end_torque_nm() }),
-            |p| plain(read(&p)),
-        )
+        point.map_or(Err(NoPrediction::BeyondTheCurve { end_nm: state.curve.end_torque_nm() }), |p| {
+            plain(read(&p))
+        })
     };
     match o.kind {
         Kind::Windup => at(|p| p.windup_rad.to_degrees()),

@@ -11,6 +11,10 @@ pub const STRONG: f64 = 0.95;
 /// direction: derivatives by differences are good to 1e-6 or so.
 const BLIND: f64 = 1e-5;
 
+/// Length of a column over the longest below which an unknown counts as without influence: what differences of
+/// interpolated curves see of nothing.
+const NOTHING: f64 = 1e-5;
+
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
 
@@ -78,7 +82,7 @@ pub(super) fn knowledge(
     let mut scaled = jacobian.clone();
     for (mut column, length) in scaled.column_iter_mut().zip(&lengths) {
         // A column without length would hide behind its own scale.
-        let by = if *length > 1e-9 * largest { *length } else { f64::INFINITY };
+        let by = if *length > NOTHING * largest { *length } else { f64::INFINITY };
         column /= by;
     }
     // Rows of zeros make the factorisation square where there are fewer observations than unknowns.
@@ -109,9 +113,10 @@ pub(super) fn knowledge(
     });
     let estimates = (0..p)
         .map(|j| {
-            let sigma = covariance.as_ref().zip(residual_sigma).map(|(c, r)| {
-                r * c[(j, j)].max(0.0).sqrt() / lengths[j] * ranges[j]
-            });
+            let sigma = covariance
+                .as_ref()
+                .zip(residual_sigma)
+                .map(|(c, r)| r * c[(j, j)].max(0.0).sqrt() / lengths[j] * ranges[j]);
             Estimate { value: values[j], sigma, half_width: sigma.zip(t).map(|(s, t)| s * t) }
         })
         .collect();
@@ -133,7 +138,7 @@ pub(super) fn knowledge(
 
 /// A component of a direction in units of ranges: columns were divided by their lengths.
 fn unscaled(component: f64, length: f64, largest: f64) -> f64 {
-    if length > 1e-9 * largest { component / length } else { component / (1e-9 * largest).max(f64::MIN_POSITIVE) }
+    component / if length > NOTHING * largest { length } else { (NOTHING * largest).max(f64::MIN_POSITIVE) }
 }
 
 #[cfg(test)]
@@ -176,8 +181,11 @@ mod tests {
         let k = knowledge(&jacobian, &DVector::from_element(6, 0.1), &[1.0; 4], &[1.0; 4]);
         assert_eq!(k.correlation, None);
         assert!(k.estimates.iter().all(|e| e.sigma.is_none()));
-        let directions: Vec<&Vec<f64>> =
-            k.tied.iter().map(|t| if let Tied::Blind { direction } = t { direction } else { panic!() }).collect();
+        let directions: Vec<&Vec<f64>> = k
+            .tied
+            .iter()
+            .map(|t| if let Tied::Blind { direction } = t { direction } else { panic!() })
+            .collect();
         assert_eq!(directions.len(), 2, "{directions:?}");
         for d in &directions {
             assert!((d[0] + 2.0 * d[1]).abs() < 1e-6 && d[2].abs() < 1e-9, "{d:?}");

@@ -35,7 +35,9 @@ mod tests {
     #[test]
     fn quantiles_are_those_of_the_tables() {
         // Abramowitz & Stegun, table 26.10; the last is the normal distribution's to 1e-4.
-        for (freedom, want) in [(1, 12.706), (2, 4.303), (5, 2.571), (10, 2.228), (30, 2.042), (100_000, 1.960)] {
+        for (freedom, want) in
+            [(1, 12.706), (2, 4.303), (5, 2.571), (10, 2.228), (30, 2.042), (100_000, 1.960)]
+        {
             let t = two_sided(0.95, freedom).unwrap();
             assert!((t - want).abs() < 6e-4, "{freedom}: {t}");
         }

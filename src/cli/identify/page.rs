@@ -15,7 +15,11 @@ pub(super) fn page(
     context: &Context,
 ) -> Page {
     let mut page = parts::page("Identification", design, context);
-    let words = if answer.body.determined { "every unknown is determined" } else { "not every unknown is determined" };
+    let words = if answer.body.determined {
+        "every unknown is determined"
+    } else {
+        "not every unknown is determined"
+    };
     page.verdict(answer.body.determined, words).list(sentences(found));
     page.heading("Unknowns").table("Each in the unit of its name.", &estimates(found));
     if let Some(table) = correlation(found) {
