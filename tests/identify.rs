@@ -80,6 +80,8 @@ fn what_a_windup_cannot_know_is_said_to_be_unknown() {
     assert!(k.estimates.iter().all(|e| e.sigma.is_none()) && k.correlation.is_none(), "{k:?}");
     let Some(Tied::Blind { direction }) = k.tied.first() else { panic!("{k:?}") };
     assert!(direction[1].abs() == 1.0 && direction[0].abs() < 1e-3, "{direction:?}");
+    // It stays as the file has it.
+    assert_eq!(k.estimates[1].value, 0.5288);
 }
 
 #[test]

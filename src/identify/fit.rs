@@ -272,8 +272,14 @@ pub fn identify(
     let (t, sum, converged) = best.ok_or_else(|| nowhere("no start".to_owned()))?;
     let residuals = problem.residuals(&t).map_err(nowhere)?;
     let jacobian = problem.jacobian(&t).map_err(nowhere)?;
-    let knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &problem.range);
-    let named = problem.named(&t);
+    let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &problem.range);
+    let mut named = problem.named(&t);
+    // What the data say nothing of stays as it was.
+    for j in knowledge.without_influence() {
+        if (unknowns[j].min..=unknowns[j].max).contains(&before[j]) {
+            (knowledge.estimates[j].value, named[j].1) = (before[j], before[j]);
+        }
+    }
     let source = design_with(design, &[], &named).map_err(|e| nowhere(e.to_string()))?.source;
     Ok(Identified {
         unknowns: unknowns.to_vec(),

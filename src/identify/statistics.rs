@@ -66,6 +66,18 @@ pub struct Knowledge {
     pub singular_ratio: f64,
 }
 
+impl Knowledge {
+    /// Unknowns that alone make up a blind direction.
+    pub fn without_influence(&self) -> Vec<usize> {
+        let alone = |tied: &Tied| {
+            let Tied::Blind { direction } = tied else { return None };
+            let mut moved = (0..direction.len()).filter(|&j| direction[j].abs() > 0.01);
+            moved.next().filter(|_| moved.next().is_none())
+        };
+        self.tied.iter().filter_map(alone).collect()
+    }
+}
+
 /// From the Jacobian of the scaled residuals by the unknowns over their ranges, and the residuals at the solution.
 pub(super) fn knowledge(
     jacobian: &DMatrix<f64>,
