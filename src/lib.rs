@@ -27,6 +27,8 @@
 //! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
+//! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |
+//! | 4 | [`size`] | a first design from bore, torque, speed, safety, friction |
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
 //! | 5 | [`export`] | a clutch as a finite-element deck, and the solver's result read back |
 //! | 5 | [`cli`] | paths, printing, exit codes |
@@ -79,6 +81,7 @@ pub mod dynamics;
 pub mod export;
 pub mod fidelity;
 pub mod friction;
+pub mod identify;
 pub mod kinematics;
 pub mod margin;
 pub mod material;
@@ -89,6 +92,7 @@ pub mod profile;
 pub mod race;
 pub mod report;
 pub mod scenario;
+pub mod size;
 pub mod wedge;
 
 pub use design::{Clutch, ContactLaw, Design, DesignError, Limits, Scenario, ScenarioKind};

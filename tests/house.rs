@@ -32,6 +32,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
     // real, and a tolerance felt, on the profile itself.
     ("optimise", &["numeric", "profile", "design", "scenario", "fidelity", "margin"]),
+    // Asks for margins and static points as they are; knows no law.
+    ("identify", &["numeric", "design", "wedge", "margin"]),
+    // A first design: proportions, then whatever the margins say.
+    ("size", &["design", "profile", "scenario", "margin"]),
     // Units and drawings: a profile to draw, no physics.
     ("report", &["profile"]),
     // A finite-element deck is a whole clutch, and its own curve says how far to turn it.
@@ -40,7 +44,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity", "accuracy",
-            "margin", "optimise", "report", "export",
+            "margin", "optimise", "identify", "size", "report", "export",
         ],
     ),
 ];

@@ -9,6 +9,7 @@ pub mod check;
 pub mod evaluate;
 pub mod exit;
 pub mod export;
+pub mod identify;
 pub mod interrupt;
 pub mod journal;
 pub mod left_out;
@@ -22,6 +23,7 @@ pub mod parts;
 pub mod progress;
 pub mod schema;
 pub mod simulate;
+pub mod size;
 pub mod stiffness;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
@@ -75,6 +77,10 @@ enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Error against run time of every method and fidelity, and the stability map
     Accuracy(accuracy::AccuracyArgs),
+    /// A first design file from bore, torque, speed, safety and friction
+    Size(size::SizeArgs),
+    /// Find unknown parameters from measured or published numbers, and what these cannot tell apart
+    Identify(identify::IdentifyArgs),
     /// Write the design for another program (a CalculiX deck), or read its result
     Export(export::ExportArgs),
     /// List the steels that a design may name, with their constants, allowed stresses and sources
@@ -179,6 +185,8 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Evaluate(args) => evaluate::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
+        Command::Size(args) => size::run(&args, &context),
+        Command::Identify(args) => identify::run(&args, &context),
         Command::Export(args) => export::run(&args, &context),
         Command::Materials => materials::run(&context),
         Command::Schema => schema::run(),

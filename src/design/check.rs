@@ -187,6 +187,11 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         core_shear_pa: file.core_shear_mpa.map(pa).or(base.core_shear_pa),
         body_yield_pa: file.body_yield_mpa.map(pa).or(base.body_yield_pa),
         axial_load_n: file.axial_load_n.or(base.axial_load_n),
+        gap_nominal_m: file.gap_nominal_mm.map(m).or(base.gap_nominal_m),
+        gap_peak_m: file.gap_peak_mm.map(m).or(base.gap_peak_m),
+        windup_nominal_rad: file.windup_nominal_deg.map(f64::to_radians).or(base.windup_nominal_rad),
+        equivalent_inner_pa: file.equivalent_inner_mpa.map(pa).or(base.equivalent_inner_pa),
+        equivalent_outer_pa: file.equivalent_outer_mpa.map(pa).or(base.equivalent_outer_pa),
         slip_margin: file.slip_margin.or(base.slip_margin),
         keep_contact_to_rad_s: file.keep_contact_to_rpm.map(rad_s).or(base.keep_contact_to_rad_s),
         lift_off_by_rad_s: file.lift_off_by_rpm.map(rad_s).or(base.lift_off_by_rad_s),
@@ -222,6 +227,26 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         ("limits.core_shear_mpa", limits.core_shear_pa, "peak_torque_nm", limits.peak_torque_nm),
         ("limits.body_yield_mpa", limits.body_yield_pa, "peak_torque_nm", limits.peak_torque_nm),
         ("limits.axial_load_n", limits.axial_load_n, "peak_torque_nm", limits.peak_torque_nm),
+        ("limits.gap_nominal_mm", limits.gap_nominal_m, "nominal_torque_nm", limits.nominal_torque_nm),
+        ("limits.gap_peak_mm", limits.gap_peak_m, "peak_torque_nm", limits.peak_torque_nm),
+        (
+            "limits.windup_nominal_deg",
+            limits.windup_nominal_rad,
+            "nominal_torque_nm",
+            limits.nominal_torque_nm,
+        ),
+        (
+            "limits.equivalent_inner_mpa",
+            limits.equivalent_inner_pa,
+            "nominal_torque_nm",
+            limits.nominal_torque_nm,
+        ),
+        (
+            "limits.equivalent_outer_mpa",
+            limits.equivalent_outer_pa,
+            "nominal_torque_nm",
+            limits.nominal_torque_nm,
+        ),
     ];
     for (key, limit, torque_key, torque) in needs {
         if limit.is_some() && torque.is_none() {
@@ -251,4 +276,21 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         );
     }
     limits
+}
+
+/// An allowed gap is the whole gap under load: one that the races have at rest already is a slip of the pen for an
+/// opening.
+pub(super) fn gaps(limits: &LimitsFile, races: &RacesFile, out: &mut Findings) {
+    let rest = races.outer_radius_mm - races.inner_radius_mm;
+    for (key, gap) in
+        [("limits.gap_nominal_mm", limits.gap_nominal_mm), ("limits.gap_peak_mm", limits.gap_peak_mm)]
+    {
+        if gap.is_some_and(|gap| gap <= rest) {
+            out.refuse(
+                &[key, "races.outer_radius_mm", "races.inner_radius_mm"],
+                format!("more than the gap at rest, {} mm", geometry::mm(m(rest))),
+                "give the whole gap under load, not its opening".to_owned(),
+            );
+        }
+    }
 }

@@ -66,26 +66,14 @@ pub fn with_values(source: &str, values: &[(&str, f64)]) -> Result<String, EditE
     Ok(document.to_string())
 }
 
-/// The text with keys set by their dotted paths, such as `scenarios[2].preload_nm`, each in the unit of its key.
-///
-/// # Errors
-/// [`EditError`]; nothing is written where one value cannot be.
-pub fn with_keys(source: &str, values: &[(String, f64)]) -> Result<String, EditError> {
-    let mut document = parse(source)?;
-    for (path, value) in values {
-        put(&mut document, path, path, *value)?;
-    }
-    Ok(document.to_string())
-}
-
 /// Sets one key; a whole number where the schema wants one.
 fn put(document: &mut DocumentMut, name: &str, path: &str, value: f64) -> Result<(), EditError> {
     let number = match shape::kind_of(path) {
         Some("integer") if value == value.round() && value.abs() < 9e15 => Value::from(value as i64),
         _ => finite(name, value)?,
     };
-    let item = item_at(document, path).ok_or_else(|| EditError::MissingKey { key: path.to_owned() })?;
-    replace(item, number);
+    let item = item_at(document, path).filter(|item| item.is_integer() || item.is_float());
+    replace(item.ok_or_else(|| EditError::MissingKey { key: path.to_owned() })?, number);
     Ok(())
 }
 
@@ -138,6 +126,31 @@ pub fn without_variables(source: &str, drop: &dyn Fn(&str) -> bool) -> Result<St
         _ => {}
     }
     Ok(document.to_string())
+}
+
+/// The text with the numbers at dotted paths set, such as `races.inner_radius_mm` or `sprags.count`, in the units of
+/// their keys; keys of `[limits]` as [`with_limits`]. A key that is a whole number stays one.
+///
+/// # Errors
+/// [`EditError`]; nothing is written where one value cannot be.
+pub fn with_keys(source: &str, values: &[(&str, f64)]) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    let mut limits = Vec::new();
+    for &(path, value) in values {
+        if let Some(name) = path.strip_prefix("limits.") {
+            limits.push((name, value));
+            continue;
+        }
+        put(&mut document, path, path, value)?;
+    }
+    with_limits(&document.to_string(), &limits)
+}
+
+/// The number at a dotted path.
+pub fn value_at(source: &str, path: &str) -> Option<f64> {
+    let mut document = parse(source).ok()?;
+    let item = item_at(&mut document, path)?;
+    item.as_float().or_else(|| item.as_integer().map(|i| i as f64))
 }
 
 /// The text with keys of `[limits]` set, in the units of their names; keys that are new are added at the

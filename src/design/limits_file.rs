@@ -54,6 +54,21 @@ pub(super) struct LimitsFile {
     /// Axial load from race to race through all sprags while they are engaged, N; lowers the friction reserve.
     #[schemars(extend("minimum" = 0))]
     pub axial_load_n: Option<f64>,
+    /// Allowed race gap at nominal torque, mm: outer minus inner track radius at rest and the growth of both races.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub gap_nominal_mm: Option<f64>,
+    /// Allowed race gap at peak torque, mm.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub gap_peak_mm: Option<f64>,
+    /// Allowed windup at nominal torque, deg.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub windup_nominal_deg: Option<f64>,
+    /// Allowed equivalent stress (von Mises) of the inner race under the mean track pressure at nominal torque, MPa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub equivalent_inner_mpa: Option<f64>,
+    /// Allowed equivalent stress (von Mises) of the outer race under the mean track pressure at nominal torque, MPa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub equivalent_outer_mpa: Option<f64>,
     /// Smallest slip margin wanted, static friction over required friction minus 1.
     #[schemars(extend("minimum" = 0))]
     pub slip_margin: Option<f64>,

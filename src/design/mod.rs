@@ -9,6 +9,7 @@ mod clutch;
 mod contact_file;
 mod diagnostic;
 mod document;
+mod draft;
 mod edit;
 mod file;
 mod findings;
@@ -33,7 +34,10 @@ pub use clutch::{
     Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem};
-pub use edit::{EditError, with_flanks, with_keys, with_limits, with_values, without_variables};
+pub use draft::{Draft, KINETIC_SHARE};
+pub use edit::{
+    EditError, value_at, with_flanks, with_keys, with_limits, with_values, without_variables,
+};
 pub use objective::Objective;
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
 pub use shape::schema;

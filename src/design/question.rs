@@ -34,6 +34,16 @@ pub struct Limits {
     pub body_yield_pa: Option<f64>,
     /// Axial load from race to race through all sprags, N.
     pub axial_load_n: Option<f64>,
+    /// Allowed race gap at nominal torque, m.
+    pub gap_nominal_m: Option<f64>,
+    /// Allowed race gap at peak torque, m.
+    pub gap_peak_m: Option<f64>,
+    /// Allowed windup at nominal torque, rad.
+    pub windup_nominal_rad: Option<f64>,
+    /// Allowed equivalent stress of the inner race at nominal torque, Pa.
+    pub equivalent_inner_pa: Option<f64>,
+    /// Allowed equivalent stress of the outer race at nominal torque, Pa.
+    pub equivalent_outer_pa: Option<f64>,
     /// Smallest slip margin wanted, pure number.
     pub slip_margin: Option<f64>,
     /// Overrun speed up to which the sprags must keep contact, rad/s.

@@ -2,6 +2,7 @@
 
 use super::Margin;
 use super::body::body_stress_pa;
+use super::gap::YIELDS;
 use super::hoop::HOOPS;
 use super::load::{LoadState, clearance_at_m, grip, profile_capacity};
 use super::subsurface::SUBSURFACE;
@@ -26,6 +27,11 @@ fn bounded<'a>(
         let (allowed, _) = (hoop.allowed)(limits)?;
         let (clutch, elastic) = (&design.clutch, &state.curve.statics().elastic);
         return Some(Bounded { allowed, demand: Box::new(move |p| hoop.demand_pa(clutch, elastic, p)) });
+    }
+    if let Some(y) = YIELDS.iter().find(|y| y.code == code) {
+        let (count, elastic) = (design.clutch.sprags.count, &state.curve.statics().elastic);
+        let allowed = (y.allowed)(limits, design)?;
+        return Some(Bounded { allowed, demand: Box::new(move |p| (y.demand)(elastic, count, p)) });
     }
     if let Some(below) = SUBSURFACE.iter().find(|b| b.code == code) {
         let (allowed, from_m) = (below.allowed)(limits)?;
@@ -146,4 +152,40 @@ pub(super) fn axial_from_nm(
         (b, fb) = (a, fa);
     }
     Some(0.0)
+}
+
+/// Smallest torque (N m) at which a limit on nominal torque, the grip at either contact or the curve's end is reached,
+/// and the code of what decides; `None` where `limits` holds none of them.
+pub fn nominal_capacity(design: &Design, limits: &Limits, state: &LoadState) -> Option<(f64, &'static str)> {
+    let count = design.clutch.sprags.count;
+    let elastic = &state.curve.statics().elastic;
+    let mu = design.clutch.friction.static_;
+    // What does not grip at first contact never gets as far as the torque at which it would.
+    if state.first_tan_omega >= mu {
+        return Some((0.0, "grip-inner"));
+    }
+    let mut least = (state.curve.end_torque_nm(), "end-of-curve");
+    let mut any = false;
+    let mut take = |code, allowed: f64, value: &dyn Fn(&StaticPoint) -> f64| {
+        let torque = torque_where(state, allowed, value);
+        if torque < least.0 {
+            least = (torque, code);
+        }
+    };
+    if let Some(allowed) = limits.hertz_nominal_pa {
+        any = true;
+        take("hertz-nominal-inner", allowed, &|p| p.hertz_inner_pa);
+        take("hertz-nominal-outer", allowed, &|p| p.hertz_outer_pa);
+    }
+    // Those that are held at the nominal torque itself.
+    let nominal = Limits { nominal_torque_nm: Some(1.0), peak_torque_nm: None, ..*limits };
+    for y in YIELDS.iter().filter(|y| (y.torque_nm)(&nominal).is_some()) {
+        if let Some(allowed) = (y.allowed)(limits, design) {
+            any = true;
+            take(y.code, allowed, &|p| (y.demand)(elastic, count, p));
+        }
+    }
+    take("grip-inner", mu, &|p| grip(design, limits, p)[0]);
+    take("grip-outer", mu, &|p| grip(design, limits, p)[1]);
+    any.then_some(least)
 }

@@ -2,6 +2,7 @@
 
 use super::body::body_stress_pa;
 use super::capacity::axial_from_nm;
+use super::gap::YIELDS;
 use super::hoop::HOOPS;
 use super::overrun::overrun_moments;
 use super::subsurface::SUBSURFACE;
@@ -66,6 +67,21 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         ] {
             push(code, name, value * MPA, allowed * MPA, "MPa", beyond(ratio(value, allowed), torque, end));
         }
+    }
+    for y in &YIELDS {
+        let (Some(torque), Some(allowed)) = ((y.torque_nm)(limits), (y.allowed)(limits, design)) else {
+            continue;
+        };
+        let value = (y.demand)(&curve.statics().elastic, count, &at(curve, torque));
+        let (unit, per_si) = y.unit;
+        push(
+            y.code,
+            y.name,
+            value * per_si,
+            allowed * per_si,
+            unit,
+            beyond(ratio(value, allowed), torque, end),
+        );
     }
     if let Some(torque) = limits.peak_torque_nm {
         let p = at(curve, torque);

@@ -5,13 +5,14 @@
 
 mod body;
 mod capacity;
+mod gap;
 mod hoop;
 mod load;
 mod overrun;
 mod scenes;
 mod subsurface;
 
-pub use capacity::{Course, courses};
+pub use capacity::{Course, courses, nominal_capacity};
 pub use load::{LoadState, load_state};
 pub use overrun::{OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
 pub use scenes::{SceneDemand, scene_demand};

@@ -318,6 +318,11 @@ fn with_all_limits(text: &str, sharper: &Limits) -> Result<String, EditError> {
         ("case_shear_mpa", sharper.case_shear_pa.map(|v| v * 1e-6)),
         ("core_shear_mpa", sharper.core_shear_pa.map(|v| v * 1e-6)),
         ("axial_load_n", sharper.axial_load_n),
+        ("gap_nominal_mm", sharper.gap_nominal_m.map(|v| v * 1e3)),
+        ("gap_peak_mm", sharper.gap_peak_m.map(|v| v * 1e3)),
+        ("windup_nominal_deg", sharper.windup_nominal_rad.map(f64::to_degrees)),
+        ("equivalent_inner_mpa", sharper.equivalent_inner_pa.map(|v| v * 1e-6)),
+        ("equivalent_outer_mpa", sharper.equivalent_outer_pa.map(|v| v * 1e-6)),
         ("slip_margin", sharper.slip_margin),
         // rad/s back to the file's rpm, without the last digit's rounding.
         ("keep_contact_to_rpm", sharper.keep_contact_to_rad_s.map(|v| (v * rpm * 1e9).round() / 1e9)),

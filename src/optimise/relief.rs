@@ -69,7 +69,7 @@ pub fn relief(design: &Design, problem: &ClutchProblem, outcome: &Outcome, desk:
         let alone = problem.for_scenario(&scene.name);
         let mut holds = |key: &str, value: f64| {
             told.evaluations += 1;
-            let changed = with_keys(&text, &[(key.to_owned(), value)]).ok()?;
+            let changed = with_keys(&text, &[(key, value)]).ok()?;
             let found = alone.look(&alone.parsed(&changed).ok()?).ok()?;
             Some(found.rows.iter().filter(|m| of_scene(m, &scene.name)).all(Margin::held))
         };

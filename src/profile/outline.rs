@@ -221,6 +221,15 @@ impl Outline {
     /// # Errors
     /// [`OutlineError`] where no flanks close the profile.
     pub fn narrowest(profile: &Profile) -> Result<Self, OutlineError> {
+        let (rear_m, front_m) = Self::narrowest_flanks(profile)?;
+        Self::new(profile, rear_m, front_m)
+    }
+
+    /// Distances of the flanks of [`Outline::narrowest`] from the strut, rear and front, m.
+    ///
+    /// # Errors
+    /// [`OutlineError::NoArcs`]; whether the flanks close the profile is seen when they do.
+    pub fn narrowest_flanks(profile: &Profile) -> Result<(f64, f64), OutlineError> {
         let (Some(first), Some(last)) = (profile.arcs.first(), profile.arcs.last()) else {
             return Err(OutlineError::NoArcs);
         };
@@ -238,7 +247,7 @@ impl Outline {
             profile.outer_radius_m * along(outer_contact_azimuth(profile, profile.end_turn_rad()));
         let rear_m = half_width(&rear, outer_end, first);
         let front_m = half_width(&front, inner_end(profile, last), last);
-        Self::new(profile, rear_m, front_m)
+        Ok((rear_m, front_m))
     }
 
     /// Segments in order, each beginning where the one before ends.

@@ -166,6 +166,20 @@ impl Race {
         }
     }
 
+    /// Largest von Mises stress under the mean track pressure p, plane stress, Pa >= 0 (Lame; Timoshenko, *Strength of
+    /// Materials* II, art. 41): sqrt(p^2 + p h + h^2) at the outer race's track with its hoop stress h; for an inner race
+    /// 2 p R_i^2/(R_i^2 - R_id^2) at the free bore, above that at its track; p throughout a solid shaft.
+    pub fn equivalent_pa(&self, contacts: usize, normal_n: f64) -> f64 {
+        match self.side {
+            Side::Inner => self.hoop_at_bore_pa(contacts, normal_n).abs(),
+            Side::Outer => {
+                let (p, h) =
+                    (self.track_pressure_pa(contacts, normal_n), self.hoop_at_track_pa(contacts, normal_n));
+                (p * p + p * h + h * h).sqrt()
+            }
+        }
+    }
+
     /// Hoop stress at the bore of the ring rotating at `speed_rad_s`, unloaded, Pa, tension positive:
     /// rho omega^2/4 [(3+nu) R_o^2 + (1-nu) R_b^2] (Timoshenko, *Theory of Elasticity*, art. 32);
     /// a solid shaft has (3+nu)/8 rho omega^2 R_o^2 at its centre.
