@@ -72,7 +72,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         let (Some(torque), Some(allowed)) = ((y.torque_nm)(limits), (y.allowed)(limits, design)) else {
             continue;
         };
-        let value = (y.demand)(&curve.statics().elastic, count, &at(curve, torque));
+        let value = (y.demand)(&curve.statics().elastic, design.clutch.sprags.count, &at(curve, torque));
         let (unit, per_si) = y.unit;
         push(
             y.code,
