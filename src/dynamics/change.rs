@@ -12,6 +12,7 @@ impl Driver<'_> {
     pub(super) fn change(&mut self, which: usize, t: f64, mut y: State) -> bool {
         let model = self.model;
         let mode = self.run.mode;
+        self.hold(&mut y);
         let f = model.forces(&mode, t, &y);
         let known = |grip: Grip, here: bool, tangential: f64, outward: f64| match grip {
             Grip::Stick if here => Known::Released(outward * tangential.signum()),
@@ -52,6 +53,14 @@ impl Driver<'_> {
         true
     }
 
+    /// Put the rolling constraints of the present mode into the rates of `y`. The integrated rates of the sprag drift off
+    /// them by the tolerance; a contact that leaves stick with that as its slip velocity would slip the wrong way.
+    fn hold(&self, y: &mut State) {
+        let mode = &self.run.mode;
+        let rates = self.model.rates(mode, &self.model.point(mode.place, y[0]), y);
+        y[4..8].copy_from_slice(&rates);
+    }
+
     /// Pass into another place; a closed contact that touches begins in slip unless v = 0.
     fn pass(&mut self, mode: &Mode, place: Place, t: f64, y: &mut State, inner: Known, outer: Known) -> Mode {
         let model = self.model;
@@ -89,7 +98,9 @@ impl Driver<'_> {
             return false;
         }
         let mode = self.run.mode;
-        let (t, y) = (self.run.t_s, self.run.state);
+        let (t, mut y) = (self.run.t_s, self.run.state);
+        self.hold(&mut y);
+        self.run.state = y;
         if let Some(limit) = self.zeno.note(t, now.map(|e| e < 0.0), self.resolution_s()) {
             self.close(&limit, t, y);
             return true;
