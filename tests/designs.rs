@@ -308,8 +308,8 @@ fn the_scenarios_that_the_examples_check_hold() {
 /// Numbers that no decimal of a few digits hits: what is written must read back as the same double.
 #[test]
 fn edited_values_read_back_exactly_and_comments_stay() {
-    let text =
-        MULTI.replacen("width_mm = 5.05", "flanks = { rear_mm = 2.5, front_mm = 2.5 }\nwidth_mm = 5.05", 1);
+    let flanks = "flanks = { rear_mm = 2.5, front_mm = 2.5, rear_tilt_rad = 0.0, front_tilt_rad = 0.0 }";
+    let text = MULTI.replacen("width_mm = 5.05", &format!("{flanks}\nwidth_mm = 5.05"), 1);
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     for _ in 0..50 {
         let values: Vec<(String, f64)> = variable_names(3)

@@ -15,8 +15,6 @@ pub(crate) struct Row {
     pub(crate) name: String,
     /// Inner track diameter.
     pub(crate) inner_mm: f64,
-    /// Outer track diameter.
-    pub(crate) outer_mm: f64,
     /// W.
     pub(crate) width_mm: f64,
     /// Sprag width.
@@ -80,7 +78,6 @@ pub(crate) fn read(text: &str) -> Result<Vec<Row>, Box<dyn Error>> {
         rows.push(Row {
             name: cells[0].to_owned(),
             inner_mm: number(1)?,
-            outer_mm: number(2)?,
             width_mm: number(3)?,
             length_mm: number(4)?,
             torque_nm: number(5)?,

@@ -22,9 +22,6 @@ use super::file::DesignFile;
 /// No quantity of a clutch lies outside; keeps conversions to SI from overflow and underflow.
 const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e15;
 
-/// Keys that a later version will read.
-const RESERVED: &[&str] = &[];
-
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
     let mut schema = settings.into_generator().into_root_schema_for::<DesignFile>();
@@ -213,9 +210,6 @@ impl<'a> Walk<'_, 'a> {
 }
 
 fn help_for_unknown(name: &str, known: &[&str]) -> String {
-    if RESERVED.contains(&name) {
-        return format!("remove {name}: the name is reserved, this version does not read it");
-    }
     match nearest(name, known) {
         Some(key) => format!("did you mean {key}? Otherwise remove {name}"),
         None => format!("remove {name} or move it to the table where it belongs"),

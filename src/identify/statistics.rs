@@ -137,10 +137,10 @@ pub(super) fn knowledge(
         (0..p).map(|i| (0..p).map(|j| of(i, j)).collect::<Vec<f64>>()).collect::<Vec<_>>()
     });
     if let Some(c) = &correlation {
-        for i in 0..p {
-            for j in i + 1..p {
-                if c[i][j].abs() > STRONG {
-                    tied.push(Tied::Strongly { first: i, second: j, correlation: c[i][j] });
+        for (first, row) in c.iter().enumerate() {
+            for (second, &correlation) in row.iter().enumerate().skip(first + 1) {
+                if correlation.abs() > STRONG {
+                    tied.push(Tied::Strongly { first, second, correlation });
                 }
             }
         }

@@ -10,10 +10,13 @@ use crate::design::{Design, Limits};
 use crate::numeric::root;
 use crate::wedge::StaticPoint;
 
+/// A demand as a function of the static state.
+type Demand<'a> = Box<dyn Fn(&StaticPoint) -> f64 + 'a>;
+
 /// What one limit bounds, as a function of the static state; demand and allowable in the same unit.
 struct Bounded<'a> {
     allowed: f64,
-    demand: Box<dyn Fn(&StaticPoint) -> f64 + 'a>,
+    demand: Demand<'a>,
 }
 
 /// What the limit `code` bounds; `None` where it does not depend on torque, or has no allowable.
@@ -38,7 +41,7 @@ fn bounded<'a>(
         return Some(Bounded { allowed, demand: Box::new(move |p| below.demand(design, from_m, p).0) });
     }
     let mu = design.clutch.friction.static_;
-    let (allowed, demand): (f64, Box<dyn Fn(&StaticPoint) -> f64 + 'a>) = match code {
+    let (allowed, demand): (f64, Demand<'a>) = match code {
         "hertz-nominal-inner" => (limits.hertz_nominal_pa?, Box::new(|p| p.hertz_inner_pa)),
         "hertz-nominal-outer" => (limits.hertz_nominal_pa?, Box::new(|p| p.hertz_outer_pa)),
         "hertz-peak-inner" => (limits.hertz_peak_pa?, Box::new(|p| p.hertz_inner_pa)),

@@ -45,7 +45,7 @@ pub(super) fn draft(ask: &Ask, space_m: f64) -> Draft {
     let (r_e, r_i) = (ARCS.0 * space_m, ARCS.1 * space_m);
     let count = (std::f64::consts::PI * (track + outer) / (PITCH * space_m)).floor() as usize;
     let mut draft = Draft {
-        name: String::new(),
+        name: "sizing".to_owned(),
         why: Vec::new(),
         count,
         length_m: LENGTHS.1 * space_m,
