@@ -24,10 +24,11 @@ impl Size {
     pub(crate) fn new(found: &str, row: &Row) -> Result<Self, Box<dyn Error>> {
         let design = Design::parse(&with_keys(found, &row.keys())?, &row.name)?;
         let state = load_state(&design)?;
-        let point = state
-            .curve
-            .at_torque(row.torque_nm)
-            .ok_or_else(|| format!("{}: the curve ends at {} N m", row.name, state.curve.end_torque_nm()))?;
+        // Where the curve ends below the catalogue's torque, its end stands in for it.
+        let curve = &state.curve;
+        let end = || curve.at_normal(curve.arc_end_n(curve.arc_count() - 1));
+        let point =
+            curve.at_torque(row.torque_nm).or_else(end).ok_or_else(|| format!("{}: no curve", row.name))?;
         let elastic = &state.curve.statics().elastic;
         let opening_mm = 1e3 * elastic.gap_opening_m(point.normal_inner_n, point.normal_outer_n);
         let equivalent_outer_mpa =

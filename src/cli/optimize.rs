@@ -60,7 +60,7 @@ pub struct OptimizeArgs {
     /// Steps of the front between any two of its ends
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(2..=64))]
     pub points: u32,
-    /// Margins within [tolerances] at every corner and in seeded draws, and a design that holds them at every corner
+    /// Margins within the file's tolerances at every corner and in seeded draws, and a design that holds them at every corner
     #[arg(long)]
     pub robust: bool,
     /// Draws within the tolerances
