@@ -13,12 +13,12 @@
 //! |---|---|---|
 //! | 0 | [`numeric`] | duals, bracketed roots, quadrature, Chebyshev panels; never heard of a clutch |
 //! | 0 | [`ode`] | Runge-Kutta steps with dense output and work counters |
-//! | 1 | [`material`] | elastic constants, density |
+//! | 1 | [`material`] | elastic constants, density, a library of steels |
 //! | 1 | [`profile`] | tangent arcs, outline, mass properties, crowding of neighbours |
+//! | 1 | [`race`] | growth and hoop stress of rings, press fits, body compression |
 //! | 1 | [`design`] | the design file, checked; the only way in for mm, degrees, GPa |
 //! | 2 | [`kinematics`] | lengths, angles, levers, rolling ratios |
 //! | 2 | [`contact`] | local line contact: roller law, Hertz, slices |
-//! | 2 | [`race`] | growth and hoop stress of rings, body compression |
 //! | 2 | [`friction`] | coefficient over speed |
 //! | 3 | [`wedge`] | the only static iteration: the curve N(alpha) of one design at one speed |
 //! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |
@@ -26,7 +26,9 @@
 //! | 4 | [`fidelity`] | what a scene can leave out, and what that costs |
 //! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
-//! | 4 | [`optimise`] | a vector and its margins, by SQP |
+//! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
+//! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |
+//! | 4 | [`size`] | a first design from bore, torque, speed, safety, friction |
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
 //! | 5 | [`export`] | a clutch as a finite-element deck, and the solver's result read back |
 //! | 5 | [`cli`] | paths, printing, exit codes |
@@ -79,6 +81,7 @@ pub mod dynamics;
 pub mod export;
 pub mod fidelity;
 pub mod friction;
+pub mod identify;
 pub mod kinematics;
 pub mod margin;
 pub mod material;
@@ -89,6 +92,7 @@ pub mod profile;
 pub mod race;
 pub mod report;
 pub mod scenario;
+pub mod size;
 pub mod wedge;
 
 pub use design::{Clutch, ContactLaw, Design, DesignError, Limits, Scenario, ScenarioKind};

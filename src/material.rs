@@ -1,6 +1,7 @@
 //! Linear elastic, isotropic material.
 //!
-//! In: nothing. Out: [`Material`], SI. Absent: strength and case depth (limits belong to `margin`).
+//! In: nothing, or a name. Out: [`Material`], SI, and [`STEELS`] with what their makers allow. Absent: what a stress is
+//! held against (limits belong to `margin`; a design says whether it takes them from here).
 //! Equations: the contact modulus E* used by (1)-(4) and by Hertz.
 
 /// Elastic constants and density, SI.
@@ -19,6 +20,84 @@ impl Material {
     pub fn plane_strain_compliance(&self) -> f64 {
         (1.0 - self.poisson_ratio * self.poisson_ratio) / self.youngs_modulus_pa
     }
+}
+
+/// A named steel: elastic constants, thermal expansion and the stresses that a maker of clutches allows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steel {
+    /// Name, as in the standard.
+    pub name: &'static str,
+    /// Further names under which it is found.
+    pub also: &'static [&'static str],
+    /// Elastic constants, density.
+    pub material: Material,
+    /// Linear thermal expansion between 20 and 100 C, 1/K.
+    pub expansion_per_k: f64,
+    /// Allowed equivalent stress of a race, Pa.
+    pub race_stress_pa: f64,
+    /// Allowed Hertz pressure at nominal torque, hardened, Pa.
+    pub hertz_nominal_pa: f64,
+    /// The same at the maximum torque.
+    pub hertz_peak_pa: f64,
+    /// Where the figures come from.
+    pub source: &'static str,
+}
+
+/// Ordinary steel: E, nu and expansion by EN 1993-1-1, 3.2.6; density by EN 1991-1-1, table A.4 (77 to 78.5 kN/m^3).
+const STEEL: Material = Material { youngs_modulus_pa: 210e9, poisson_ratio: 0.3, density_kg_m3: 7850.0 };
+
+/// The library. Hertz pressures and race stresses are those of GMN 9050 (sprag clutches), which allows all hardened
+/// steels the same pressure.
+pub const STEELS: [Steel; 4] = [
+    Steel {
+        name: "100Cr6",
+        also: &["1.3505", "AISI 52100", "52100", "SUJ2"],
+        material: STEEL,
+        expansion_per_k: 11.4e-6,
+        race_stress_pa: 750e6,
+        hertz_nominal_pa: 4200e6,
+        hertz_peak_pa: 4600e6,
+        source: "grade EN ISO 683-17; E, nu, expansion 20-100 C: Lucefin technical card 100Cr6; density EN 1991-1-1; stresses GMN 9050",
+    },
+    Steel {
+        name: "16MnCr5",
+        also: &["1.7131", "AISI 5115"],
+        material: STEEL,
+        expansion_per_k: 12e-6,
+        race_stress_pa: 400e6,
+        hertz_nominal_pa: 4200e6,
+        hertz_peak_pa: 4600e6,
+        source: "grade EN ISO 683-3; E, nu, expansion of steel EN 1993-1-1; density EN 1991-1-1; stresses GMN 9050",
+    },
+    Steel {
+        name: "20MnCr5",
+        also: &["1.7147", "AISI 5120"],
+        material: STEEL,
+        expansion_per_k: 12e-6,
+        race_stress_pa: 600e6,
+        hertz_nominal_pa: 4200e6,
+        hertz_peak_pa: 4600e6,
+        source: "grade EN ISO 683-3; E, nu, expansion of steel EN 1993-1-1; density EN 1991-1-1; stresses GMN 9050",
+    },
+    Steel {
+        name: "34CrMo4V",
+        also: &["34CrMo4", "34CrMo4+QT", "1.7220", "AISI 4135"],
+        material: STEEL,
+        expansion_per_k: 12e-6,
+        race_stress_pa: 400e6,
+        hertz_nominal_pa: 4200e6,
+        hertz_peak_pa: 4600e6,
+        source: "grade EN ISO 683-2 (DIN EN 10083-3), quenched and tempered; E, nu, expansion of steel EN 1993-1-1; density EN 1991-1-1; stresses GMN 9050, tracks hardened",
+    },
+];
+
+/// The steel of that name or number; letter case, blanks and hyphens do not matter.
+pub fn steel(name: &str) -> Option<&'static Steel> {
+    let plain = |text: &str| {
+        text.chars().filter(|c| !c.is_whitespace() && *c != '-').collect::<String>().to_lowercase()
+    };
+    let wanted = plain(name);
+    STEELS.iter().find(|s| std::iter::once(&s.name).chain(s.also).any(|n| plain(n) == wanted))
 }
 
 /// Plane strain (no extension along the axis) or plane stress (no axial stress).
@@ -71,6 +150,20 @@ impl PlaneState {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_steel_answers_to_all_its_names_and_no_two_share_one() {
+        for found in ["100Cr6", "100 CR-6", "aisi 52100", "1.3505"].map(steel) {
+            assert_eq!(found.map(|s| s.name), Some("100Cr6"));
+        }
+        assert_eq!(steel("100Cr7"), None);
+        for (i, s) in STEELS.iter().enumerate() {
+            for name in std::iter::once(&s.name).chain(s.also) {
+                assert_eq!(steel(name), Some(&STEELS[i]), "{name}");
+            }
+            assert!(s.hertz_nominal_pa < s.hertz_peak_pa && s.source.contains("EN "), "{s:?}");
+        }
+    }
 
     #[test]
     fn equal_bodies_have_half_the_modulus_of_one() {

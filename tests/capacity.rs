@@ -90,3 +90,81 @@ fn an_axial_load_takes_its_share_of_the_friction() {
     assert!(row(&over, "grip-inner").margin < 0.0);
     assert_eq!(row(&over, "grip-inner").torque_capacity_nm, Some(0.0));
 }
+
+/// Eccentric compression by hand: A and B of the loaded sprag from their azimuths and radii about O, brought back
+/// into the body; sigma = F/(b l) (1 + 6 e/b) with F from the forces at A.
+#[test]
+fn the_body_is_a_prism_under_an_eccentric_strut() {
+    let (design, rows) = rows("body_yield_mpa = 1500.0");
+    let state = load_state(&design).unwrap();
+    let p = state.curve.at_torque(110.0).unwrap();
+    let (_, c) = state.curve.closure_at_torque(110.0).unwrap();
+    let force_n = p.normal_inner_n.hypot(p.normal_inner_n * p.tan_omega);
+    // Undeformed points of the loaded sprag about O, y along OC_e: both contacts lie on the line from O through their
+    // arc's centre, C_i at azimuth beta.
+    let arc = &state.profile.arcs[p.arc];
+    let (sin_b, cos_b) = c.beta.v.sin_cos();
+    let oc_e = c.lengths.oc_e.v;
+    let a = [(c.lengths.oc_i.v - arc.radius_m) * sin_b, (c.lengths.oc_i.v - arc.radius_m) * cos_b - oc_e];
+    let b = [0.0, 4.68e-3];
+    // The body has turned by c.rotation towards positive azimuth: turn back.
+    let back = |[x, y]: [f64; 2]| {
+        let (s, k) = c.rotation.v.sin_cos();
+        [x * k - y * s, x * s + y * k]
+    };
+    let (a, b) = (back(a), back(b));
+    // The strut at first contact, by (9).
+    let (oc_i, oc_e0) = (11.11e-3 + 4.02e-3, 19.44e-3 - 4.68e-3);
+    let beta0 = ((oc_i * oc_i + oc_e0 * oc_e0 - 0.62e-3_f64.powi(2)) / (2.0 * oc_i * oc_e0)).acos();
+    let a0 = [11.11e-3 * beta0.sin(), 11.11e-3 * beta0.cos() - oc_e0];
+    let (dx, dy) = (-a0[0], 4.68e-3 - a0[1]);
+    let (mx, my) = (0.5 * (a[0] + b[0]) - a0[0], 0.5 * (a[1] + b[1]) - a0[1]);
+    let e = (mx * dy - my * dx).abs() / dx.hypot(dy);
+    let (width, length) = (5.05e-3, 6e-3);
+    let want = force_n / (width * length) * (1.0 + 6.0 * e / width);
+    let got = row(&rows, "body-yield");
+    println!("F {force_n} N, e {} mm, {} MPa", e * 1e3, got.demand);
+    assert!((got.demand * 1e6 / want - 1.0).abs() < 2e-4, "{got:?} against {want}");
+    assert!(got.torque_capacity_nm.unwrap() > 110.0);
+}
+
+/// n_s N sqrt(mu_s^2 - tan^2) is the axial force that a contact has left; from the torque named on it suffices.
+#[test]
+fn the_torque_from_which_an_axial_load_is_carried_leaves_no_friction() {
+    let (design, rows) = rows("axial_load_n = 1500.0");
+    let from = row(&rows, "axial-from").demand;
+    let p = load_state(&design).unwrap().curve.at_torque(from).unwrap();
+    let left = |normal_n: f64, tangent: f64| 12.0 * normal_n * (0.12f64 * 0.12 - tangent * tangent).sqrt();
+    let least = left(p.normal_inner_n, p.tan_omega).min(left(p.normal_outer_n, p.tan_nu));
+    println!("axial load carried from {from} Nm");
+    assert!((least / 1500.0 - 1.0).abs() < 1e-6, "{least} N at {from} N m");
+    assert!(!row(&rows, "axial-from").required);
+    assert!(row(&self::rows("").1, "grip-inner").demand > 0.0);
+}
+
+/// Sprags turn until they touch: clearance by the outline at the torque named, with none left.
+#[test]
+fn crowding_has_a_torque() {
+    // The most sprags of the greatest width that fit at first contact, on a strut so steep that a light load already
+    // turns them far: past 0.25 rad their corners come nearer again.
+    let text = MULTI
+        .replacen("count = 12 ", "count = 15 ", 1)
+        .replacen("width_mm = 5.05", "width_mm = 5.12", 1)
+        .replacen("centre_distance_mm = 0.62", "centre_distance_mm = 0.39", 1)
+        .replacen("peak_torque_nm = 110.0", "peak_torque_nm = 30.0", 1)
+        .replacen("nominal_torque_nm = 90.0", "nominal_torque_nm = 20.0", 1);
+    let design = Design::parse(&text, "crowded.toml").unwrap();
+    let state = load_state(&design).unwrap();
+    let rows = load_margins(&design, &design.limits, true, &state);
+    let capacity = row(&rows, "neighbours").torque_capacity_nm.unwrap();
+    println!("crowding at {capacity} Nm; the curve ends at {}", state.curve.end_torque_nm());
+    assert!(capacity < state.curve.end_torque_nm(), "neighbours never touch");
+    let (_, c) = state.curve.closure_at_torque(capacity).unwrap();
+    let gap = sprag_design::profile::clearance_m(
+        state.outline.as_ref().unwrap(),
+        c.lengths.oc_e.v,
+        c.rotation.v,
+        15,
+    );
+    assert!(gap.abs() < 1e-9, "{gap}");
+}

@@ -170,3 +170,61 @@ fn senseless_questions_exit_with_2_and_write_nothing() {
     }
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// A kept journal reads as CSV, names every evaluation, and answers a second search without computing anything anew.
+#[test]
+fn a_kept_journal_is_csv_and_spares_a_second_search_the_work() {
+    let folder = folder("kept");
+    let (new, record) = (folder.join("new.toml"), folder.join("record.csv"));
+    let args =
+        ["optimize", DESIGN, "-o", new.to_str().unwrap(), "--journal", record.to_str().unwrap(), "--json"];
+    let first = tool(&args);
+    assert_eq!(first.status.code(), Some(0), "{}", String::from_utf8_lossy(&first.stderr));
+    let text = std::fs::read_to_string(&record).unwrap();
+    let mut rows = csv::Reader::from_reader(text.as_bytes());
+    assert_eq!(
+        rows.headers().unwrap().iter().take(4).collect::<Vec<_>>(),
+        ["model", "design", "problem", "hash"]
+    );
+    let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
+    assert!(rows.len() > 60 && rows.iter().all(|r| r.len() == 12), "{}", rows.len());
+    let refused = rows.iter().filter(|r| &r[6] != "ok").count();
+    println!("{} rows, {refused} without margins", rows.len());
+    let second = tool(&args);
+    assert_eq!(std::fs::read_to_string(&record).unwrap(), text, "nothing new");
+    let (first, second) = (json(&first), json(&second));
+    assert_eq!(first["best"], second["best"]);
+    assert_eq!(first["realised"], second["realised"]);
+    assert!(first["realised"]["reached"] == true && folder.join("new.realised.toml").exists());
+    assert!(first["prices"].as_array().unwrap().iter().any(|p| p["of"] == "hoop-inner"));
+    assert_eq!(
+        first["change_in_full"].as_array().unwrap().len(),
+        first["best"]["margins"].as_array().unwrap().len()
+    );
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// Other optimisers see the same numbers: a vector per line in, margins per line out.
+#[test]
+fn evaluate_answers_line_by_line() {
+    use std::io::Write;
+    let mut child = Command::new(env!("CARGO_BIN_EXE_sprag-design"))
+        .args(["evaluate", DESIGN, "--describe"])
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let lines = "[4.08, 4.15, 0.1935, 0.5288]\n\n[4.08, 4.15]\n[4.08, 4.15, 0.1935, 50.0]\nnothing\n";
+    child.stdin.take().unwrap().write_all(lines.as_bytes()).unwrap();
+    let out = child.wait_with_output().unwrap();
+    assert_eq!(out.status.code(), Some(2), "two lines are no vectors");
+    let told: Vec<Value> =
+        String::from_utf8(out.stdout).unwrap().lines().map(|l| serde_json::from_str(l).unwrap()).collect();
+    assert_eq!(told.len(), 5);
+    assert_eq!(told[0]["variables"][0]["name"], "r_i2_mm");
+    assert_eq!(told[0]["limits"].as_array().unwrap().len(), told[1]["limits"].as_array().unwrap().len());
+    assert!((told[1]["least"].as_f64().unwrap() - 0.34318).abs() < 1e-5 && told[1]["feasible"] == false);
+    assert!(told[2]["malformed"].as_str().unwrap().starts_with("line 3"));
+    assert!(told[3]["refused"].as_str().unwrap().contains("centroid"));
+    assert!(told[4]["malformed"].is_string());
+}

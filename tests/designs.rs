@@ -57,7 +57,7 @@ fn holds_table_1(design: &Design) {
         same(value, expected);
     }
     assert_eq!(c.sprags.mass_source, MassSource::Given);
-    assert_eq!(c.sprags.flanks, Some(Flanks { rear_m: 2.525e-3, front_m: 2.525e-3 }));
+    assert_eq!(c.sprags.flanks, Some(Flanks::parallel(2.525e-3, 2.525e-3)));
     assert_eq!(c.contact, ContactLaw::Roller { coefficient: 3.944e-5 });
     let l = &design.limits;
     assert_eq!((l.nominal_torque_nm, l.peak_torque_nm), (Some(90.0), Some(110.0)));
@@ -201,7 +201,7 @@ fn materials_by_body_and_flanks_apart_from_the_width() {
     let design = parse(&text);
     assert_eq!(design.clutch.materials.inner_race.youngs_modulus_pa, 200e9);
     assert_eq!(design.clutch.sprags.width_m, 0.0, "omitted: no body compression");
-    let expected = Flanks { rear_m: 2.2e-3, front_m: 3e-3 };
+    let expected = Flanks::parallel(2.2e-3, 3e-3);
     assert_eq!(design.clutch.sprags.flanks, Some(expected));
 }
 
@@ -263,7 +263,7 @@ fn mass_inertia_and_centroid_left_out_come_from_the_outline() {
     let Some(wider) = design.scenario("low-6-mu082") else { panic!("no low-6-mu082") };
     assert_eq!(wider.clutch.contact, ContactLaw::Hertz);
     assert_eq!(wider.overrides, ["sprags", "contact"]);
-    assert_eq!(wider.clutch.sprags.flanks, Some(Flanks { rear_m: 2.6e-3, front_m: 2.6e-3 }));
+    assert_eq!(wider.clutch.sprags.flanks, Some(Flanks::parallel(2.6e-3, 2.6e-3)));
     assert!(wider.clutch.sprags.mass_kg > 1.01 * s.mass_kg, "an override is weighed anew");
     let Some(other) = design.scenario("low-8-mu082") else { panic!("no low-8-mu082") };
     assert_eq!(other.clutch.sprags, *s);
@@ -308,8 +308,10 @@ fn the_scenarios_that_the_examples_check_hold() {
 /// Numbers that no decimal of a few digits hits: what is written must read back as the same double.
 #[test]
 fn edited_values_read_back_exactly_and_comments_stay() {
-    let text =
-        MULTI.replacen("width_mm = 5.05", "flanks = { rear_mm = 2.5, front_mm = 2.5 }\nwidth_mm = 5.05", 1);
+    let flanks = "flanks = { rear_mm = 2.5, front_mm = 2.5, rear_tilt_rad = 0.0, front_tilt_rad = 0.0 }";
+    let crown = "[contact]\nend_profile = { kind = \"crown\", radius_mm = 1000.0 }";
+    let text = MULTI.replacen("width_mm = 5.05", &format!("{flanks}\nwidth_mm = 5.05"), 1);
+    let text = text.replacen("[contact]", crown, 1);
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     for _ in 0..50 {
         let values: Vec<(String, f64)> = variable_names(3)

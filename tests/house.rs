@@ -11,12 +11,13 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("ode", &[]),
     ("material", &[]),
     ("profile", &["material", "numeric"]),
-    // The narrowest working sprag is drawn where a design names no flanks; mass properties follow from it.
-    ("design", &["material", "profile"]),
+    ("race", &["material", "numeric"]),
+    // The narrowest working sprag is drawn where a design names no flanks; mass properties follow from it. Radii as run
+    // follow from those as made by a press fit.
+    ("design", &["material", "profile", "race"]),
     // Strangers to one another: no law of row 2 knows another law, a design or a sprag's profile.
     ("kinematics", &["numeric"]),
     ("contact", &["material", "numeric"]),
-    ("race", &["material", "numeric"]),
     ("friction", &["numeric"]),
     ("wedge", &["numeric", "material", "profile", "design", "kinematics", "contact", "race"]),
     ("dynamics", &["numeric", "ode", "design", "kinematics", "friction", "wedge"]),
@@ -24,9 +25,17 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("scenario", &["numeric", "design", "profile", "friction", "wedge", "dynamics"]),
     ("fidelity", &["numeric", "design", "profile", "contact", "wedge", "dynamics", "scenario"]),
     ("accuracy", &["design", "dynamics", "scenario", "fidelity"]),
-    ("margin", &["numeric", "contact", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"]),
-    // Never a contact, a wedge or a path: a vector and its margins.
-    ("optimise", &["numeric", "design", "scenario", "margin"]),
+    (
+        "margin",
+        &["numeric", "contact", "race", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"],
+    ),
+    // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
+    // real, and a tolerance felt, on the profile itself.
+    ("optimise", &["numeric", "profile", "design", "scenario", "fidelity", "margin"]),
+    // Asks for margins and static points as they are; knows no law.
+    ("identify", &["numeric", "design", "wedge", "margin"]),
+    // A first design: proportions, then whatever the margins say.
+    ("size", &["design", "profile", "scenario", "margin"]),
     // Units and drawings: a profile to draw, no physics.
     ("report", &["profile"]),
     // A finite-element deck is a whole clutch, and its own curve says how far to turn it.
@@ -35,7 +44,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity", "accuracy",
-            "margin", "optimise", "report", "export",
+            "margin", "optimise", "identify", "size", "report", "export",
         ],
     ),
 ];

@@ -1,21 +1,28 @@
 //! `check`: the designer margin check.
 
 mod body;
+mod charts;
+mod overrun;
 mod page;
+mod running;
 
 use super::exit::{Exit, Failure};
 use super::left_out::left_out;
+use super::output;
 use super::parts::{self, Answer};
 use super::{Context, interrupt::Interrupt, progress::Progress};
 use crate::design::{Design, Scenario};
-use crate::margin::{LoadState, Margin, NoMargins, lift_off_rad_s, load_margins, load_state, scene_margins};
+use crate::margin::{
+    LoadState, Margin, NoMargins, OverrunCurve, lift_off_rad_s, load_margins, load_state, overrun_curve,
+    scene_margins,
+};
 use crate::report::Unit;
 use crate::scenario::Settings;
 use body::{Body, NONE_SUFFICES, Source, csv_table, people_table};
 use clap::Args;
 use rayon::prelude::*;
 use std::f64::consts::PI;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -34,6 +41,9 @@ pub struct CheckArgs {
     /// Design file (TOML)
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
+    /// Write drag torque, contact forces and growth of the outer race against speed as CSV
+    #[arg(long, value_name = "PATH")]
+    pub overrun_csv: Option<PathBuf>,
 }
 
 /// Margins of a design and what they were read from.
@@ -43,6 +53,7 @@ struct Check {
     /// Largest change of a finite scenario margin when the tolerance is ten times finer.
     scene_error: Option<f64>,
     lift_off_rad_s: Option<f64>,
+    overrun: OverrunCurve,
 }
 
 /// Run the command.
@@ -50,7 +61,8 @@ struct Check {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
-    context.outputs.check(&args.file, &[])?;
+    let others: Vec<&Path> = args.overrun_csv.iter().map(PathBuf::as_path).collect();
+    context.outputs.check(&args.file, &others)?;
     let design = parts::read_design(&args.file, context)?;
     let started = Instant::now();
     let check = compute(&design, context)?;
@@ -63,6 +75,8 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
         lift_off_rad_s: check.lift_off_rad_s,
         searched_to_rad_s: LIFT_OFF_TO_RAD_S,
+        overrun: overrun::Section::new(&check.overrun),
+        running: running::Section::new(&design, &check.state),
     };
     let body = Body::new(&check.rows, source);
     let held = body.pass;
@@ -77,6 +91,9 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         body,
     };
     context.outputs.write_csv(&csv_table(&check.rows))?;
+    if let Some(path) = &args.overrun_csv {
+        output::write_table(path, &answer.body.overrun.table())?;
+    }
     context.outputs.write_report(|| page::page(&design, &check, &answer, context))?;
     context.answer(&text(&design, &check, &answer.body, context.colour))?;
     answer.print(context)?;
@@ -100,7 +117,11 @@ fn compute(design: &Design, context: &Context) -> Result<Check, Failure> {
         scene_error = Some(error.max(scene_error.unwrap_or(0.0)));
     }
     let lift_off_rad_s = lift_off_rad_s(design, &state, LIFT_OFF_TO_RAD_S);
-    Ok(Check { state, rows, scene_error, lift_off_rad_s })
+    let track_m = design.clutch.races.outer_radius_m;
+    let up_to = overrun::up_to_rad_s(&design.limits, lift_off_rad_s, track_m);
+    let overrun = overrun_curve(design, &state, up_to)
+        .map_err(|e| Failure::malformed(format!("no wedge curve: {e}")))?;
+    Ok(Check { state, rows, scene_error, lift_off_rad_s, overrun })
 }
 
 /// Margins of one scenario and their error; nothing once the user asked to stop.

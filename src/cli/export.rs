@@ -128,7 +128,7 @@ fn text(design: &Design, args: &ExportArgs) -> Result<String, Failure> {
     let profile = place_profile(clutch)
         .map_err(|e| Failure::malformed(format!("the profile cannot be placed: {e:?}")))?;
     let outline = match clutch.sprags.flanks {
-        Some(flanks) => Outline::new(&profile, flanks.rear_m, flanks.front_m),
+        Some(flanks) => Outline::closed(&profile, &flanks),
         None => Outline::narrowest(&profile),
     }
     .map_err(|e| Failure::malformed(format!("the outline does not close: {e:?}")))?;

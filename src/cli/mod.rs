@@ -6,18 +6,24 @@
 
 pub mod accuracy;
 pub mod check;
+pub mod evaluate;
 pub mod exit;
 pub mod export;
+pub mod identify;
 pub mod interrupt;
 pub mod journal;
 pub mod left_out;
+pub mod materials;
 pub mod optimize;
 pub mod optimize_answer;
+pub mod optimize_json;
+pub mod optimize_story;
 pub mod output;
 pub mod parts;
 pub mod progress;
 pub mod schema;
 pub mod simulate;
+pub mod size;
 pub mod stiffness;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
@@ -67,10 +73,18 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     /// Search for a better design within the limits
     Optimize(optimize::OptimizeArgs),
+    /// Margins of one vector of variables per line, for other optimisers
+    Evaluate(evaluate::EvaluateArgs),
     /// Error against run time of every method and fidelity, and the stability map
     Accuracy(accuracy::AccuracyArgs),
+    /// A first design file from bore, torque, speed, safety and friction
+    Size(size::SizeArgs),
+    /// Find unknown parameters from measured or published numbers, and what these cannot tell apart
+    Identify(identify::IdentifyArgs),
     /// Write the design for another program (a CalculiX deck), or read its result
     Export(export::ExportArgs),
+    /// List the steels that a design may name, with their constants, allowed stresses and sources
+    Materials,
     /// Print the JSON Schema of the design file
     Schema,
     /// Print a completion script for a shell
@@ -169,8 +183,12 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
+        Command::Evaluate(args) => evaluate::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
+        Command::Size(args) => size::run(&args, &context),
+        Command::Identify(args) => identify::run(&args, &context),
         Command::Export(args) => export::run(&args, &context),
+        Command::Materials => materials::run(&context),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -2,12 +2,16 @@
 
 use super::Context;
 use super::exit::{Exit, Failure};
-use super::journal::{self, Header, JournalFile};
+use super::journal::{self, JournalFile};
+use super::optimize_story::Story;
 use super::output::{TOOL, VERSION, write_whole};
 use super::progress::Progress;
 use super::{optimize_answer as answer, parts};
-use crate::design::Design;
-use crate::optimise::{Entry, Iteration, Journal, NoSearch, Search, Settings, Status, Watch, search};
+use crate::design::{Design, Objective, Optimize};
+use crate::optimise::{
+    Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, front,
+    realise, relief, robust, search, spread,
+};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -17,10 +21,12 @@ Examples:
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --report better.html
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --resume
   sprag-design optimize designs/huang2017-multi-arc.toml --json --quiet > best.json
+  sprag-design optimize designs/huang2017-multi-arc.toml --starts 8 --global 2000 --journal search.csv
+  sprag-design optimize designs/huang2017-multi-arc.toml --pareto slip-margin,torque-capacity --report front.html
 
-The objective is the smallest slip margin mu_s/mu_req - 1 over the scenarios of [optimize]; every other margin of
-`check` is a limit. Each evaluation goes into NEW.toml.journal at once: Ctrl-C stops the search and writes the best
-design found so far, --resume goes on from the journal and ends where an uninterrupted search ends.";
+Every margin of `check` is a limit. Each evaluation goes into a journal at once: Ctrl-C stops the search and writes the
+best design found so far, --resume goes on from NEW.toml.journal and ends where an uninterrupted search ends; --journal
+keeps the record for later searches too, as a CSV file that only grows.";
 
 /// Arguments of `optimize`.
 #[derive(Debug, Clone, Args)]
@@ -35,9 +41,37 @@ pub struct OptimizeArgs {
     /// Go on from the journal of an interrupted search; the result is the same as without the break
     #[arg(long)]
     pub resume: bool,
-    /// Most evaluations of the clutch
+    /// Record of every evaluation (CSV): appended to, kept, and used by later searches of the same problem
+    #[arg(long, value_name = "PATH")]
+    pub journal: Option<PathBuf>,
+    /// Most evaluations of the clutch in each climb
     #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub evaluations: u32,
+    /// Climbs side by side: the first from the design, the others from scrambled Sobol points of the box
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub starts: u32,
+    /// Global search first: a particle swarm of about N evaluations, then a climb from its best point
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "2000",
+          value_parser = clap::value_parser!(u32).range(80..=1_000_000))]
+    pub global: Option<u32>,
+    /// Front between two or three objectives, such as slip-margin,torque-capacity
+    #[arg(long, value_name = "OBJECTIVES", value_delimiter = ',', num_args = 1)]
+    pub pareto: Vec<Objective>,
+    /// Steps of the front between any two of its ends
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(2..=64))]
+    pub points: u32,
+    /// Margins within the file's tolerances at every corner and in seeded draws, and a design that holds them at every corner
+    #[arg(long)]
+    pub robust: bool,
+    /// Draws within the tolerances
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(10..=100_000))]
+    pub draws: u32,
+    /// Run everything in the search too, and leave nothing out that a scene cannot feel
+    #[arg(long)]
+    pub full: bool,
+    /// True error allowed of an evaluation in the search; the optimum is looked at once more at a tenth of 1e-6
+    #[arg(long, value_name = "X", default_value_t = 1e-6, value_parser = super::positive)]
+    pub tolerance: f64,
 }
 
 /// First line of every design file that this command writes.
@@ -49,73 +83,142 @@ const WRITTEN_BY: &str = "# Written by sprag-design optimize";
 /// [`Failure`].
 pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     let new = output_path(args)?;
-    let record = journal::path_for(&new);
+    let record = args.journal.clone().unwrap_or_else(|| journal::path_for(&new));
     context.outputs.check(&args.file, &[&new, &record])?;
     let design = parts::read_design(&args.file, context)?;
-    let Some(task) = design.optimize.as_ref() else {
-        return Err(Failure::malformed(format!(
-            "{}: the design has no [optimize] table; add one with objective, scenarios and variables",
-            args.file.display()
-        )));
+    let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
+    let Some(task) = design.optimize.clone() else {
+        return Err(at(
+            "the design has no [optimize] table; add one with objective, scenarios and variables".into(),
+        ));
     };
-    let header = Header {
-        tool: format!("{TOOL} {VERSION}"),
-        design_hash: design.hash.clone(),
-        variables: task.variables.iter().map(|v| v.name.clone()).collect(),
+    let aims = aims(args)?;
+    if args.robust && design.tolerances.is_none() {
+        return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
+    }
+    let model = format!("{TOOL} {VERSION}");
+    let file = match (args.resume, args.journal.is_some()) {
+        (true, _) => JournalFile::resume(&record, &model, &design.hash)?,
+        (false, true) => JournalFile::open(&record, &model, &design.hash)?,
+        (false, false) => JournalFile::begin(&record, &model, &design.hash)?,
     };
-    let (known, file) = if args.resume {
-        journal::resume(&record, &header)?
-    } else {
-        (Journal::default(), journal::begin(&record, &header)?)
-    };
-    let resumed = known.entries().len();
+    let known = file.entries();
+    let drawn = args.starts > 1 || args.global.is_some() || args.robust;
     context.message(&format!(
-        "{} variables, {} scenarios, seed {} (this search draws nothing at random){}",
+        "{} variables, {} scenarios, seed {}{}{}",
         task.variables.len(),
         task.scenarios.len(),
         task.seed,
-        if resumed > 0 { format!("; {resumed} evaluations from the journal") } else { String::new() }
+        if drawn { "" } else { " (this search draws nothing at random)" },
+        if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
     ));
-    let settings = Settings { max_evaluations: args.evaluations as usize, ..Settings::default() };
-    let mut watch = Watcher { progress: context.progress("search", "evaluations", None), file, best: None };
+    let climb = Settings { max_evaluations: args.evaluations as usize, ..Settings::default() };
+    let swarm = args.global.map(|n| n as usize);
+    let method = Method { climb, starts: args.starts as usize, swarm, seed: task.seed };
+    let settings = crate::scenario::Settings { tolerance: args.tolerance, ..Default::default() };
+    let fidelity = Fidelity { settings, reduced: !args.full };
+    let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
     let started = Instant::now();
-    let found = search(&design, &settings, known, Some(context.interrupt.flag()), Some(&mut watch));
+    let desk = Desk::new(Some(context.interrupt.flag()), &mut keeper);
+    let story = tell(&design, &task, &aims, args, (&method, fidelity), &desk);
     let run_time_s = started.elapsed().as_secs_f64();
-    let Watcher { progress, file, .. } = watch;
+    let Keeper { progress, file, .. } = keeper;
     drop(progress);
     if let Some(why) = &file.failed {
         context.message(&format!("warning: {}: {why}; --resume will not work", file.path().display()));
     }
-    let found = match found {
-        Ok(found) => found,
+    let story = match story {
+        Ok(story) => story,
         Err(NoSearch::Stopped) => return Err(Failure::Interrupted),
-        Err(why) => return Err(Failure::malformed(format!("{}: {why}", args.file.display()))),
+        Err(why) => return Err(at(why.to_string())),
     };
-    finish(&design, &found, &new, file, run_time_s, context)
+    finish(&design, &story, &new, (file, args.journal.is_some()), run_time_s, context)
 }
 
-/// Write the design and tell the story.
+/// Objectives of `--pareto`, two or three different ones, or none.
+fn aims(args: &OptimizeArgs) -> Result<Vec<Objective>, Failure> {
+    let aims = args.pareto.clone();
+    let twice = aims.iter().enumerate().any(|(i, a)| aims[..i].contains(a));
+    if !aims.is_empty() && (twice || !(2..=3).contains(&aims.len())) {
+        return Err(Failure::malformed("--pareto: two or three different objectives are needed".to_owned()));
+    }
+    Ok(aims)
+}
+
+/// Everything that was asked, in order; what a stop cuts off is left out.
+fn tell(
+    design: &Design,
+    task: &Optimize,
+    aims: &[Objective],
+    args: &OptimizeArgs,
+    (method, fidelity): (&Method, Fidelity),
+    desk: &Desk,
+) -> Result<Story, NoSearch> {
+    let found = search(design, method, fidelity, desk)?;
+    let mut story =
+        Story { found, realised: None, relief: None, front: None, made: None, robust: None, why: Vec::new() };
+    if matches!(story.found.outcome.status, Status::Infeasible { .. }) {
+        let (problem, outcome) = (&story.found.problem, &story.found.outcome);
+        story.relief = Some(relief(design, problem, outcome, desk));
+    }
+    if !story.found.feasible() {
+        return Ok(story);
+    }
+    if story.found.wants_centroid() && !desk.stopped() {
+        match realise(&story.found, task, method, desk) {
+            Ok(realised) => story.realised = realised,
+            Err(why) => story.why.push(format!("the centroid cannot be realised: {why}")),
+        }
+    }
+    if !aims.is_empty() && !desk.stopped() {
+        match front(&story.found, task, aims, args.points as usize, method, desk) {
+            Ok(front) => story.front = Some(front),
+            Err(why) => story.why.push(format!("no front: {why}")),
+        }
+    }
+    if let (true, Some(of), false) = (args.robust, &design.tolerances, desk.stopped()) {
+        let (problem, x) = (&story.found.problem, &story.found.outcome.x);
+        let draws = (args.draws as usize, method.seed);
+        story.made = spread(problem, x, of, draws, desk).map_err(|why| story.why.push(why.to_string())).ok();
+        let (lo, hi) = story.found.bounds();
+        match robust(problem, x, (&lo, &hi), of, draws, method, desk) {
+            Ok(robust) => story.robust = Some(robust),
+            Err(why) => story.why.push(format!("no robust design: {why}")),
+        }
+    }
+    Ok(story)
+}
+
+/// Write the designs and tell the story.
 fn finish(
     design: &Design,
-    found: &Search,
+    story: &Story,
     new: &Path,
-    file: JournalFile,
+    (file, keep): (JournalFile, bool),
     run_time_s: f64,
     context: &Context,
 ) -> Result<Exit, Failure> {
-    let interrupted = found.outcome.status == Status::Interrupted;
+    let found = &story.found;
+    let interrupted = found.outcome.status == Status::Interrupted || context.interrupt.requested();
     let feasible = found.feasible();
-    let improved = feasible && (found.objective.1 > found.objective.0 || !found.start_feasible());
-    let written = (feasible && (improved || !interrupted)).then_some(new);
+    let better = feasible && (found.improved() || !found.start_feasible());
+    let written = (feasible && (better || !interrupted)).then_some(new);
+    let mut beside = Vec::new();
     if let Some(path) = written {
         write_whole(path, answer::file_text(design, found, WRITTEN_BY, context).as_bytes())?;
+        for (ending, text) in story.other_files(&format!("{WRITTEN_BY} {VERSION}")) {
+            let path = path.with_extension(format!("{ending}.toml"));
+            write_whole(&path, text.as_bytes())?;
+            beside.push(path);
+        }
     }
-    let answer = answer::Told { design, found, written, run_time_s, interrupted };
+    let journal = keep.then(|| file.path().to_path_buf());
+    let answer = answer::Told { design, story, found, written, beside, journal, run_time_s, interrupted };
     context.outputs.write_csv(&answer.margin_table())?;
     context.outputs.write_report(|| answer.page(context))?;
     answer.json().print(context)?;
     context.answer(&answer.text(context))?;
-    if !interrupted && file.failed.is_none() {
+    if !interrupted && !keep && file.failed.is_none() {
         // The search is over: nothing is left to resume.
         let _ = std::fs::remove_file(file.path());
     }
@@ -145,16 +248,33 @@ fn output_path(args: &OptimizeArgs) -> Result<PathBuf, Failure> {
 }
 
 /// Progress and journal.
-struct Watcher {
+struct Keeper {
     progress: Progress,
     file: JournalFile,
+    part: String,
     best: Option<f64>,
 }
 
-impl Watch for Watcher {
-    fn evaluated(&mut self, entry: &Entry) {
-        self.file.line(entry);
+impl Keeper {
+    fn new(progress: Progress, file: JournalFile) -> Self {
+        Self { progress, file, part: "search".to_owned(), best: None }
+    }
+}
+
+impl Record for Keeper {
+    fn known(&mut self, problem: &ProblemId) -> Journal {
+        self.file.known(problem)
+    }
+
+    fn evaluated(&mut self, problem: &ProblemId, entry: &Entry) {
+        self.file.append(problem, entry);
         self.progress.advance(1);
+    }
+
+    fn begins(&mut self, part: &str) {
+        self.part = part.to_owned();
+        self.best = None;
+        self.progress.describe(part);
     }
 
     fn iterated(&mut self, it: &Iteration) {
@@ -162,9 +282,11 @@ impl Watch for Watcher {
             self.best = Some(self.best.map_or(it.least_margin, |b| b.max(it.least_margin)));
         }
         let best = self.best.map_or("none yet".to_owned(), |b| format!("{b:.5}"));
-        self.progress.describe(&format!(
-            "least slip margin {:.5}, worst violation {:.1e}, best feasible {best}",
-            it.least_margin, it.violation
-        ));
+        let violated = match it.violated {
+            0 => "every limit held".to_owned(),
+            n => format!("{n} limits violated, the worst by {:.1e}", it.violation),
+        };
+        self.progress
+            .describe(&format!("{}: {:.5}, {violated}, best feasible {best}", self.part, it.least_margin));
     }
 }

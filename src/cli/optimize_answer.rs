@@ -2,6 +2,7 @@
 
 use super::Context;
 use super::left_out::left_out;
+use super::optimize_story::{Story, shown, word};
 use super::output::{TOOL, VERSION};
 use super::parts::{self, Answer};
 use crate::design::Design;
@@ -10,16 +11,22 @@ use crate::optimise::{Search, Status};
 use crate::report::{Cell, Column, Page, Plot, Table, Unit};
 use crate::scenario::place_profile;
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A search and where its design went.
 pub struct Told<'a> {
     /// The design searched from.
     pub design: &'a Design,
+    /// Everything found.
+    pub story: &'a Story,
     /// The search.
     pub found: &'a Search,
     /// Where the new design was written, if it was.
     pub written: Option<&'a Path>,
+    /// Further designs written beside it.
+    pub beside: Vec<PathBuf>,
+    /// The journal, where it was kept.
+    pub journal: Option<PathBuf>,
     /// Wall time of the search, s.
     pub run_time_s: f64,
     /// Stopped by Ctrl-C.
@@ -34,9 +41,20 @@ pub fn file_text(design: &Design, found: &Search, written_by: &str, context: &Co
         .filter(|v| v.best != v.start)
         .map(|v| format!("#   {}: {} -> {}\n", v.name, v.start, v.best))
         .collect();
+    let not_real = match found.wants_centroid() {
+        true => "# The centroid was free and the mass given: not yet realised by flanks.\n",
+        false => "",
+    };
     format!(
-        "{written_by} {VERSION} from {:?} (sha256 {})\n# by: {}\n# least slip margin {:.6} -> {:.6}\n{changes}#\n{}",
-        design.name, design.hash, context.command_line, found.objective.0, found.objective.1, found.file
+        "{written_by} {VERSION} from {:?} (sha256 {})\n# by: {}\n# {} {:.6} -> {:.6} {}\n{not_real}{changes}#\n{}",
+        design.name,
+        design.hash,
+        context.command_line,
+        found.aim.words(),
+        found.objective.0,
+        found.objective.1,
+        found.aim.unit(),
+        found.file
     )
 }
 
@@ -64,9 +82,13 @@ impl Told<'_> {
         };
         if self.found.feasible() {
             format!(
-                "least slip margin {before:.4} -> {after:.4} (+- {:.0e}), every limit held; {why} after {} evaluations",
+                "{} {} -> {} (+- {:.0e}), every limit held; {why} after {} evaluations{}",
+                self.found.aim.words(),
+                shown(self.found.aim, before),
+                shown(self.found.aim, after),
                 self.found.objective_error.max(1e-16),
-                self.found.evaluations
+                self.found.evaluations,
+                if self.found.wants_centroid() { "; its centroid is not yet realised" } else { "" }
             )
         } else {
             format!("no feasible design found: {why} after {} evaluations", self.found.evaluations)
@@ -135,16 +157,13 @@ impl Told<'_> {
     /// Change of each margin over the whole range of each variable, at the start.
     fn influence_table(&self) -> Table {
         let mut columns = vec![Column::text("margin", "Margin")];
-        for v in &self.found.variables {
-            columns.push(Column::number(&v.name, &v.name, Unit::One, 3));
+        for v in &self.found.continuous {
+            columns.push(Column::number(v, v, Unit::One, 3));
         }
         let mut table = Table::new(columns);
         let names = &self.found.names;
-        let rows = names
-            .objectives
-            .iter()
-            .map(|n| format!("slip:{n} (objective)"))
-            .zip(&self.found.influence.objectives);
+        let rows =
+            names.objectives.iter().map(|n| format!("{n} (objective)")).zip(&self.found.influence.objectives);
         let limits = names.limits.iter().cloned().zip(&self.found.influence.limits);
         for (name, slopes) in rows.chain(limits) {
             let mut row: Vec<Cell> = vec![name.into()];
@@ -160,10 +179,8 @@ impl Told<'_> {
     fn active(&self) -> Vec<String> {
         let a = &self.found.outcome.active;
         let n = &self.found.names;
-        let free: Vec<&str> =
-            self.found.variables.iter().filter(|v| !v.dropped).map(|v| v.name.as_str()).collect();
-        let objectives =
-            a.objectives.iter().filter_map(|&i| n.objectives.get(i)).map(|s| format!("slip:{s}"));
+        let free = &self.found.searched;
+        let objectives = a.objectives.iter().filter_map(|&i| n.objectives.get(i)).cloned();
         let limits = a.limits.iter().filter_map(|&i| n.limits.get(i)).cloned();
         let lower = a.lower.iter().filter_map(|&i| free.get(i)).map(|s| format!("{s} at its lower bound"));
         let upper = a.upper.iter().filter_map(|&i| free.get(i)).map(|s| format!("{s} at its upper bound"));
@@ -180,11 +197,33 @@ impl Told<'_> {
             self.influence_table().to_text(context.colour)
         );
         out += &format!("\nActive: {}\n", self.active().join(", "));
+        for part in self.story.parts() {
+            out += &format!("\n{}\n", part.heading);
+            out += &part.lines.iter().map(|l| format!("- {l}\n")).collect::<String>();
+            for (caption, table) in &part.tables {
+                out += &format!("{caption}\n{}", table.to_text(context.colour));
+            }
+        }
+        out += &format!("{}\n", self.in_full());
         out += &match self.written {
             Some(path) => format!("Written: {}\n", path.display()),
             None => "No design written.\n".to_owned(),
         };
+        out += &self.beside.iter().map(|p| format!("Written: {}\n", p.display())).collect::<String>();
         out
+    }
+
+    /// What the optimum gained or lost when it was looked at with everything.
+    fn in_full(&self) -> String {
+        let changes = self.found.best.iter().zip(&self.found.as_searched);
+        let most =
+            changes.map(|(a, b)| ((a.margin - b.margin).abs(), &a.code)).max_by(|a, b| a.0.total_cmp(&b.0));
+        match most {
+            Some((change, code)) => format!(
+                "Looked at in full, at a true error of 1e-7 or less: no margin moves by more than {change:.0e} ({code})."
+            ),
+            None => String::new(),
+        }
     }
 
     /// The answer for programs.
@@ -202,21 +241,16 @@ impl Told<'_> {
         let rows = |list: &[Margin]| list.iter().map(row).collect::<Vec<_>>();
         let dropped: Vec<&str> =
             found.variables.iter().filter(|v| v.dropped).map(|v| v.name.as_str()).collect();
-        let status = match &found.outcome.status {
-            Status::Converged => "converged",
-            Status::Infeasible { .. } => "infeasible",
-            Status::EvaluationLimit => "evaluation-limit",
-            Status::Interrupted => "interrupted",
-            Status::Stalled(_) => "stalled",
-        };
+        let status = word(&found.outcome.status);
         let fighting: Vec<&String> = match &found.outcome.status {
             Status::Infeasible { fighting, .. } => {
                 fighting.iter().filter_map(|&i| found.names.limits.get(i)).collect()
             }
             _ => Vec::new(),
         };
-        let body = json!({
+        let mut body = json!({
             "status": status,
+            "aim": found.aim.name(),
             "feasible": found.feasible(),
             "best": { "variables": values(|v| v.best), "objective": found.objective.1, "margins": rows(&found.best) },
             "start": { "variables": values(|v| v.start), "objective": found.objective.0, "margins": rows(&found.start) },
@@ -229,11 +263,15 @@ impl Told<'_> {
                 "objectives": found.names.objectives, "limits": found.names.limits,
                 "d_objectives_per_range": found.influence.objectives, "d_limits_per_range": found.influence.limits,
             },
-            // One objective: the front is the single best point.
-            "pareto": [{ "variables": values(|v| v.best), "objective": found.objective.1 }],
+            "pareto": self.story.pareto(),
             "seed": self.design.optimize.as_ref().map(|o| o.seed),
             "written_to": self.written.map(|p| p.display().to_string()),
+            "written_beside": self.beside.iter().map(|p| p.display().to_string()).collect::<Vec<_>>(),
+            "journal": self.journal.as_ref().map(|p| p.display().to_string()),
         });
+        if let Some(map) = body.as_object_mut() {
+            map.extend(self.story.json());
+        }
         Answer {
             design: self.design,
             run_time_s: self.run_time_s,
@@ -258,13 +296,26 @@ impl Told<'_> {
             &self.margin_table(),
         );
         page.paragraph(&format!("Active at the optimum: {}.", self.active().join(", ")));
+        page.paragraph(&self.in_full());
+        for part in self.story.parts() {
+            page.heading(part.heading);
+            for line in &part.lines {
+                page.paragraph(line);
+            }
+            for (svg, caption) in &part.plots {
+                page.figure(svg, caption);
+            }
+            for (caption, table) in &part.tables {
+                page.table(caption, table);
+            }
+        }
         page.heading("How it was found");
         let history = &self.found.outcome.history;
         let path = |pick: fn(&crate::optimise::Iteration) -> f64| -> Vec<[f64; 2]> {
             history.iter().map(|it| [it.evaluations as f64, pick(it)]).collect()
         };
         let plot = Plot::new("evaluations of the clutch", "margin")
-            .curve("least slip margin", path(|it| it.least_margin))
+            .curve("least scaled objective", path(|it| it.least_margin))
             .curve("worst violation of a limit", path(|it| it.violation));
         page.figure(&plot.to_svg(), "Path of the search; a violated limit is paid first.");
         page.table(

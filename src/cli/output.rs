@@ -117,9 +117,7 @@ impl Outputs {
     /// # Errors
     /// [`Failure::Failed`] naming the path.
     pub fn write_csv(&self, table: &Table) -> Result<(), Failure> {
-        let Some(path) = &self.csv else { return Ok(()) };
-        let bytes = table.to_csv().map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
-        write_whole(path, &bytes)
+        self.csv.as_deref().map_or(Ok(()), |path| write_table(path, table))
     }
 
     /// Write the page if `--report` was given; it is only made then.
@@ -130,6 +128,15 @@ impl Outputs {
         let Some(path) = &self.report else { return Ok(()) };
         write_whole(path, page().to_html().as_bytes())
     }
+}
+
+/// Write a table as CSV.
+///
+/// # Errors
+/// [`Failure::Failed`] naming the path.
+pub fn write_table(path: &Path, table: &Table) -> Result<(), Failure> {
+    let bytes = table.to_csv().map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
+    write_whole(path, &bytes)
 }
 
 fn refused(path: &Path, why: &str) -> Failure {

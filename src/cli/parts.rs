@@ -103,7 +103,7 @@ pub fn pose_at_rest(label: &str, design: &Design, profile: &Profile) -> SpragPos
     let sprags = &design.clutch.sprags;
     // A profile that no flanks close is drawn by its arcs, contacts and centres alone.
     let outline = match sprags.flanks {
-        Some(flanks) => Outline::new(profile, flanks.rear_m, flanks.front_m),
+        Some(flanks) => Outline::closed(profile, &flanks),
         None => Outline::narrowest(profile),
     };
     let outline = outline.map(|o| o.polyline(OUTLINE_M)).unwrap_or_default();

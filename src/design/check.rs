@@ -5,12 +5,11 @@
 //! at first contact is asked of `profile`.
 
 use super::contact_file::{ContactFile, LawFile, StateFile};
-use super::file::{BodyFile, DesignFile, FrictionModelFile, MaterialFile, RacesFile};
+use super::file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
 use super::limits_file::LimitsFile;
-use super::{Clutch, ContactLaw, Friction, Limits, Materials, Races, Spring, StressState};
-use super::{axial, geometry};
-use crate::material::Material;
+use super::{Clutch, ContactLaw, Friction, Limits, Races, Spring, StressState};
+use super::{axial, geometry, running, steels};
 
 /// mm to m. Division, because 1e-3 is no binary fraction: 4.68 mm becomes the double nearest to 4.68e-3 m
 /// oftener than by a product.
@@ -31,7 +30,7 @@ fn pa(mpa: f64) -> f64 {
 pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
     let races = races(&file.races, out);
     let friction = friction(file, out);
-    let materials = materials(&file.material, out);
+    let materials = steels::materials(&file.material, out);
     let contact = contact(&file.contact, out);
     let hunt_crossley_s_per_m = file.contact.hunt_crossley_s_per_m;
     let spring = Spring {
@@ -39,11 +38,14 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
         drag_torque_nm: file.spring.drag_torque_nm,
     };
     let axial = axial::axial(file, out);
-    // The sprag is looked at between races that are in order.
-    let sprags = geometry::sprags(&file.sprags, &races?, materials.as_ref(), out);
+    // The sprag is looked at between races that are in order, first as they are made.
+    let made = races?;
+    let sprags = geometry::sprags(&file.sprags, &made, materials.as_ref(), out);
+    let (races, sprags, running) = running::running(file, made, sprags?, materials.as_ref()?, out)?;
     Some(Clutch {
-        sprags: sprags?,
-        races: races?,
+        sprags,
+        races,
+        running,
         spring,
         materials: materials?,
         friction: friction?,
@@ -109,57 +111,6 @@ fn friction(file: &DesignFile, out: &mut Findings) -> Option<Friction> {
     })
 }
 
-/// The three keys that a material has, and the three bodies.
-pub(super) const MATERIAL_KEYS: [&str; 3] = ["youngs_modulus_gpa", "poisson_ratio", "density_kg_m3"];
-/// See [`MATERIAL_KEYS`].
-pub(super) const BODIES: [&str; 3] = ["sprag", "inner_race", "outer_race"];
-
-fn materials(file: &MaterialFile, out: &mut Findings) -> Option<Materials> {
-    let flat = [file.youngs_modulus_gpa, file.poisson_ratio, file.density_kg_m3];
-    let bodies = [&file.sprag, &file.inner_race, &file.outer_race];
-    let any_body = bodies.iter().any(|b| b.is_some());
-    if any_body && flat.iter().any(Option::is_some) {
-        refuse_mixed_material(out);
-        return None;
-    }
-    let absent: Vec<&str> = if any_body {
-        BODIES.into_iter().zip(bodies).filter(|(_, b)| b.is_none()).map(|(n, _)| n).collect()
-    } else {
-        MATERIAL_KEYS.into_iter().zip(flat).filter(|(_, v)| v.is_none()).map(|(n, _)| n).collect()
-    };
-    for name in &absent {
-        let path = format!("material.{name}");
-        let what =
-            if any_body { format!("the table [{path}]") } else { format!("{name} = ... in [material]") };
-        out.refuse(&[&path], super::shape::meaning_of(&path), format!("add {what}"));
-    }
-    let common = match flat {
-        [Some(youngs_modulus_gpa), Some(poisson_ratio), Some(density_kg_m3)] => {
-            Some(BodyFile { youngs_modulus_gpa, poisson_ratio, density_kg_m3 })
-        }
-        _ => None,
-    };
-    let [sprag, inner_race, outer_race] = bodies.map(|body| {
-        body.as_ref().or(common.as_ref()).map(|b| Material {
-            youngs_modulus_pa: b.youngs_modulus_gpa * 1e9,
-            poisson_ratio: b.poisson_ratio,
-            density_kg_m3: b.density_kg_m3,
-        })
-    });
-    Some(Materials { sprag: sprag?, inner_race: inner_race?, outer_race: outer_race? })
-}
-
-/// One table holds either the keys or the bodies, so that no key is written and then without effect.
-pub(super) fn refuse_mixed_material(out: &mut Findings) {
-    let keys: Vec<String> = MATERIAL_KEYS.iter().chain(&BODIES).map(|k| format!("material.{k}")).collect();
-    let scoped: Vec<&str> = keys.iter().map(String::as_str).collect();
-    out.refuse(
-        &scoped,
-        "either the three keys for all bodies, or the tables sprag, inner_race and outer_race".to_owned(),
-        "move the keys of [material] into the tables of the bodies".to_owned(),
-    );
-}
-
 /// Whether a law reads a key of [contact]; all read those of the axial arrangement.
 pub(super) fn reads(law: LawFile, key: &str) -> bool {
     match key {
@@ -207,8 +158,21 @@ fn contact(file: &ContactFile, out: &mut Findings) -> Option<ContactLaw> {
     }
 }
 
+/// The body's limit needs a section to hold it against.
+pub(super) fn body_yield(file: &DesignFile, out: &mut Findings) {
+    if file.limits.body_yield_mpa.is_some() && file.sprags.flanks.is_none() && file.sprags.width_mm <= 0.0 {
+        out.refuse(
+            &["limits.body_yield_mpa", "sprags.flanks", "sprags.width_mm"],
+            "only together with flanks, or a width_mm above 0: without them the body has no narrowest section"
+                .to_owned(),
+            "add flanks = { rear_mm = ..., front_mm = ... } to [sprags], or remove the limit".to_owned(),
+        );
+    }
+}
+
 /// The limits of a table, the absent ones from `base`.
 pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Limits {
+    let base = if file.from_material == Some(true) { steels::limits(file, base, out) } else { base };
     let limits = Limits {
         nominal_torque_nm: file.nominal_torque_nm.or(base.nominal_torque_nm),
         peak_torque_nm: file.peak_torque_nm.or(base.peak_torque_nm),
@@ -221,10 +185,27 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         case_depth_m: file.case_depth_mm.map(m).or(base.case_depth_m),
         case_shear_pa: file.case_shear_mpa.map(pa).or(base.case_shear_pa),
         core_shear_pa: file.core_shear_mpa.map(pa).or(base.core_shear_pa),
+        body_yield_pa: file.body_yield_mpa.map(pa).or(base.body_yield_pa),
         axial_load_n: file.axial_load_n.or(base.axial_load_n),
+        gap_nominal_m: file.gap_nominal_mm.map(m).or(base.gap_nominal_m),
+        gap_peak_m: file.gap_peak_mm.map(m).or(base.gap_peak_m),
+        windup_nominal_rad: file.windup_nominal_deg.map(f64::to_radians).or(base.windup_nominal_rad),
+        equivalent_inner_pa: file.equivalent_inner_mpa.map(pa).or(base.equivalent_inner_pa),
+        equivalent_outer_pa: file.equivalent_outer_mpa.map(pa).or(base.equivalent_outer_pa),
         slip_margin: file.slip_margin.or(base.slip_margin),
         keep_contact_to_rad_s: file.keep_contact_to_rpm.map(rad_s).or(base.keep_contact_to_rad_s),
+        lift_off_by_rad_s: file.lift_off_by_rpm.map(rad_s).or(base.lift_off_by_rad_s),
     };
+    if let (Some(keep), Some(lift)) = (limits.keep_contact_to_rad_s, limits.lift_off_by_rad_s)
+        && lift <= keep
+    {
+        out.refuse(
+            &["limits.lift_off_by_rpm", "limits.keep_contact_to_rpm"],
+            "more than keep_contact_to_rpm".to_owned(),
+            "sprags keep contact up to one speed and are off from a higher one on; remove one of the keys"
+                .to_owned(),
+        );
+    }
     let needs = [
         ("limits.hertz_nominal_mpa", limits.hertz_nominal_pa, "nominal_torque_nm", limits.nominal_torque_nm),
         ("limits.hertz_peak_mpa", limits.hertz_peak_pa, "peak_torque_nm", limits.peak_torque_nm),
@@ -244,7 +225,28 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         ),
         ("limits.case_shear_mpa", limits.case_shear_pa, "peak_torque_nm", limits.peak_torque_nm),
         ("limits.core_shear_mpa", limits.core_shear_pa, "peak_torque_nm", limits.peak_torque_nm),
+        ("limits.body_yield_mpa", limits.body_yield_pa, "peak_torque_nm", limits.peak_torque_nm),
         ("limits.axial_load_n", limits.axial_load_n, "peak_torque_nm", limits.peak_torque_nm),
+        ("limits.gap_nominal_mm", limits.gap_nominal_m, "nominal_torque_nm", limits.nominal_torque_nm),
+        ("limits.gap_peak_mm", limits.gap_peak_m, "peak_torque_nm", limits.peak_torque_nm),
+        (
+            "limits.windup_nominal_deg",
+            limits.windup_nominal_rad,
+            "nominal_torque_nm",
+            limits.nominal_torque_nm,
+        ),
+        (
+            "limits.equivalent_inner_mpa",
+            limits.equivalent_inner_pa,
+            "nominal_torque_nm",
+            limits.nominal_torque_nm,
+        ),
+        (
+            "limits.equivalent_outer_mpa",
+            limits.equivalent_outer_pa,
+            "nominal_torque_nm",
+            limits.nominal_torque_nm,
+        ),
     ];
     for (key, limit, torque_key, torque) in needs {
         if limit.is_some() && torque.is_none() {
@@ -274,4 +276,21 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
         );
     }
     limits
+}
+
+/// An allowed gap is the whole gap under load: one that the races have at rest already is a slip of the pen for an
+/// opening.
+pub(super) fn gaps(limits: &LimitsFile, races: &RacesFile, out: &mut Findings) {
+    let rest = races.outer_radius_mm - races.inner_radius_mm;
+    for (key, gap) in
+        [("limits.gap_nominal_mm", limits.gap_nominal_mm), ("limits.gap_peak_mm", limits.gap_peak_mm)]
+    {
+        if gap.is_some_and(|gap| gap <= rest) {
+            out.refuse(
+                &[key, "races.outer_radius_mm", "races.inner_radius_mm"],
+                format!("more than the gap at rest, {} mm", geometry::mm(m(rest))),
+                "give the whole gap under load, not its opening".to_owned(),
+            );
+        }
+    }
 }

@@ -3,6 +3,7 @@
 //! In: nothing. Out: [`Clutch`] and its parts, SI. Absent: limits and questions. Equations: none.
 
 use crate::material::Material;
+pub use crate::profile::Flanks;
 
 /// Where the sprag's mass, inertia and centroid come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,20 +51,7 @@ pub struct Sprags {
     pub flanks: Option<Flanks>,
 }
 
-/// Straight flanks that close the outline between the inner and the outer arc.
-///
-/// # Conventions
-/// Both are parallel to the strut line, which runs from the inner contact A to the outer contact B at first
-/// contact at rest, and half widths are measured from it. Rear lies towards negative x, front towards positive x.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flanks {
-    /// Distance of the rear flank from the strut line, m.
-    pub rear_m: f64,
-    /// Distance of the front flank from the strut line, m.
-    pub front_m: f64,
-}
-
-/// The two races.
+/// The two races as they run: fitted, and at their temperatures. [`Running`] has what was made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Races {
     /// Inner race bore R_id, m; 0: solid shaft.
@@ -82,6 +70,41 @@ pub struct Races {
     pub outer_inertia_kg_m2: f64,
     /// Viscous damping C_rl between the races, N m s/rad.
     pub viscous_damping_nm_s_per_rad: f64,
+}
+
+/// How one track came from its radius as made to that as run, without load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrackRun {
+    /// Radius as made, at the reference temperature, m.
+    pub made_m: f64,
+    /// What the fit adds, m, outward positive.
+    pub by_fit_m: f64,
+    /// What the temperature adds, m.
+    pub by_temperature_m: f64,
+    /// Radius that would have to be made for the gap, in terms of the warm sprag, to be what [`Self::made_m`] draws, m.
+    pub to_make_m: f64,
+    /// Pressure at the joint with shaft or housing, Pa; 0 without one.
+    pub joint_pressure_pa: f64,
+    /// Radius of that joint as run, the race's other rim, m.
+    pub joint_m: f64,
+    /// Hoop stress of the race at its track by the fit alone, Pa, tension positive.
+    pub hoop_at_track_pa: f64,
+    /// The same at the joint.
+    pub hoop_at_joint_pa: f64,
+}
+
+/// Fits and temperatures. Races and sprags of the clutch are those as run: a race joined with shaft or housing counts as
+/// one piece with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Running {
+    /// Inner track.
+    pub inner: TrackRun,
+    /// Outer track.
+    pub outer: TrackRun,
+    /// Sizes of the sprags as run over those as made, pure number.
+    pub sprag_scale: f64,
+    /// Turn of the contact on the sprag at first contact as run, since that as made, rad; positive in engagement.
+    pub first_turn_rad: f64,
 }
 
 /// Energizing spring, per sprag.
@@ -223,8 +246,10 @@ pub enum EndProfile {
 pub struct Clutch {
     /// Sprags.
     pub sprags: Sprags,
-    /// Races.
+    /// Races, as run.
     pub races: Races,
+    /// How they came to run so; `None` where they run as made.
+    pub running: Option<Running>,
     /// Spring.
     pub spring: Spring,
     /// Materials.

@@ -7,8 +7,8 @@ use std::fmt;
 
 use toml_edit::{DocumentMut, Item, Table, Value};
 
-use super::shape;
 use super::variables::{variable_names, variable_path};
+use super::{Flanks, shape};
 
 /// Why a value cannot be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,11 +61,96 @@ pub fn with_values(source: &str, values: &[(&str, f64)]) -> Result<String, EditE
     for &(name, value) in values {
         let path = variable_path(name, arcs)
             .ok_or_else(|| EditError::UnknownName { name: name.to_owned(), known: variable_names(arcs) })?;
-        let number = finite(name, value)?;
-        let item = item_at(&mut document, &path).ok_or(EditError::MissingKey { key: path })?;
-        replace(item, number);
+        put(&mut document, name, &path, value)?;
     }
     Ok(document.to_string())
+}
+
+/// Sets one key; a whole number where the schema wants one.
+fn put(document: &mut DocumentMut, name: &str, path: &str, value: f64) -> Result<(), EditError> {
+    let number = match shape::kind_of(path) {
+        Some("integer") if value == value.round() && value.abs() < 9e15 => Value::from(value as i64),
+        _ => finite(name, value)?,
+    };
+    let item = item_at(document, path).filter(|item| item.is_integer() || item.is_float());
+    replace(item.ok_or_else(|| EditError::MissingKey { key: path.to_owned() })?, number);
+    Ok(())
+}
+
+/// The text with flanks set, and without mass, inertia and centroid: these then follow from the outline.
+///
+/// # Errors
+/// [`EditError`].
+pub fn with_flanks(source: &str, flanks: &Flanks) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    let missing = || EditError::MissingKey { key: "sprags".to_owned() };
+    let sprags = document.get_mut("sprags").and_then(Item::as_table_like_mut).ok_or_else(missing)?;
+    for key in ["mass_kg", "inertia_kg_m2", "centroid", "flanks"] {
+        sprags.remove(key);
+    }
+    let mut table = toml_edit::InlineTable::new();
+    let mm = |m: f64| m * 1e3;
+    for (key, value) in [
+        ("rear_mm", mm(flanks.rear_m)),
+        ("front_mm", mm(flanks.front_m)),
+        ("rear_tilt_rad", flanks.rear_tilt_rad),
+        ("front_tilt_rad", flanks.front_tilt_rad),
+    ] {
+        table.insert(key, finite(key, value)?);
+    }
+    sprags.insert("flanks", Item::Value(Value::InlineTable(table)));
+    Ok(document.to_string())
+}
+
+/// The text without those variables of `[optimize]` whose name `drop` picks.
+///
+/// # Errors
+/// [`EditError`].
+pub fn without_variables(source: &str, drop: &dyn Fn(&str) -> bool) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    match document.get_mut("optimize").and_then(|o| o.get_mut("variables")) {
+        Some(Item::Value(Value::Array(rows))) => {
+            let name = |row: &Value| {
+                row.as_inline_table()
+                    .and_then(|t| t.get("name")?.as_str().map(str::to_owned))
+                    .unwrap_or_default()
+            };
+            rows.retain(|row| !drop(&name(row)));
+        }
+        Some(Item::ArrayOfTables(rows)) => {
+            rows.retain(|row| {
+                let name = row.get("name").and_then(Item::as_str);
+                !name.is_some_and(drop)
+            });
+        }
+        _ => {}
+    }
+    Ok(document.to_string())
+}
+
+/// The text with the numbers at dotted paths set, such as `races.inner_radius_mm` or `sprags.count`, in the units of
+/// their keys; keys of `[limits]` as [`with_limits`]. A key that is a whole number stays one.
+///
+/// # Errors
+/// [`EditError`]; nothing is written where one value cannot be.
+pub fn with_keys(source: &str, values: &[(&str, f64)]) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    let mut limits = Vec::new();
+    for &(path, value) in values {
+        if let Some(name) = path.strip_prefix("limits.") {
+            limits.push((name, value));
+            continue;
+        }
+        put(&mut document, path, path, value)?;
+    }
+    with_limits(&document.to_string(), &limits)
+}
+
+/// The number at a dotted path.
+pub fn value_at(source: &str, path: &str) -> Option<f64> {
+    let mut document = parse(source).ok()?;
+    let item = item_at(&mut document, path)?;
+    item.as_float().or_else(|| item.as_integer().map(|i| i as f64))
 }
 
 /// The text with keys of `[limits]` set, in the units of their names; keys that are new are added at the

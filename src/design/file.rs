@@ -7,6 +7,7 @@
 use super::contact_file::ContactFile;
 use super::limits_file::{CheckFile, LimitsFile, OptimizeFile};
 use super::scenario_file::ScenarioFile;
+use super::tolerances_file::TolerancesFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -31,6 +32,8 @@ pub(super) struct DesignFile {
     pub material: MaterialFile,
     /// Friction law (12).
     pub friction: FrictionFile,
+    /// Temperatures of the bodies in service; absent: all at the reference temperature.
+    pub thermal: Option<ThermalFile>,
     /// Local contact law; absent: elastic, square ends.
     #[serde(default)]
     pub contact: ContactFile,
@@ -45,11 +48,13 @@ pub(super) struct DesignFile {
     pub scenarios: Vec<ScenarioFile>,
     /// Task of the optimiser; absent: `optimize` has nothing to do.
     pub optimize: Option<OptimizeFile>,
+    /// What the clutch is made to; absent: nothing varies.
+    pub tolerances: Option<TolerancesFile>,
 }
 
 /// Shape and number of the sprags. Body frame: origin C_e, y radially outward along OC_e at first contact
 /// at rest, x towards positive azimuth.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SpragsFile {
     /// Number of sprags n_s.
@@ -84,7 +89,7 @@ pub(super) struct SpragsFile {
 }
 
 /// Centroid of a sprag in its body frame, mm.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CentroidFile {
     /// x, towards positive azimuth, mm.
@@ -94,7 +99,7 @@ pub(super) struct CentroidFile {
 }
 
 /// One inner arc.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct InnerArcFile {
     /// Radius of the arc, mm.
@@ -105,9 +110,10 @@ pub(super) struct InnerArcFile {
     pub until_rad: f64,
 }
 
-/// Distances of the two straight flanks from the strut line, to which they are parallel, mm: the line from the
-/// inner contact A to the outer contact B at first contact at rest.
-#[derive(Debug, Deserialize, JsonSchema)]
+/// The two straight flanks. The strut line runs from the inner contact A to the outer contact B at first contact at
+/// rest; distances are measured from its middle, mm, and leans against it, rad, positive where the sprag grows wider
+/// outwards.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FlanksFile {
     /// Flank on the side of negative x, mm.
@@ -116,6 +122,14 @@ pub(super) struct FlanksFile {
     /// Flank on the side of positive x, mm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub front_mm: f64,
+    /// Lean of the rear flank, rad.
+    #[serde(default)]
+    #[schemars(extend("minimum" = -crate::profile::STEEPEST_RAD, "maximum" = crate::profile::STEEPEST_RAD))]
+    pub rear_tilt_rad: f64,
+    /// Lean of the front flank, rad.
+    #[serde(default)]
+    #[schemars(extend("minimum" = -crate::profile::STEEPEST_RAD, "maximum" = crate::profile::STEEPEST_RAD))]
+    pub front_tilt_rad: f64,
 }
 
 /// The two races.
@@ -146,6 +160,46 @@ pub(super) struct RacesFile {
     /// Viscous damping C_rl between the races, N m s/rad.
     #[schemars(extend("minimum" = 0))]
     pub viscous_damping_nm_s_per_rad: f64,
+    /// Interference fits of the races with shaft and housing; absent: loose. The radii above are then as made.
+    pub press_fit: Option<PressFitFile>,
+}
+
+/// Interference fits at the reference temperature. Shaft and housing are of the material, the width and the temperature
+/// of the race that they are joined with.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PressFitFile {
+    /// Interference of the shaft in the bore of the inner race, on diameter, um.
+    #[schemars(extend("minimum" = 0))]
+    pub inner_interference_um: Option<f64>,
+    /// Bore radius of the shaft, mm; absent or 0: solid.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0))]
+    pub shaft_bore_radius_mm: f64,
+    /// Interference of the housing on the outside of the outer race, on diameter, um.
+    #[schemars(extend("minimum" = 0))]
+    pub outer_interference_um: Option<f64>,
+    /// Outside radius of the housing, mm.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub housing_outside_radius_mm: Option<f64>,
+}
+
+/// Temperatures in service, degrees Celsius; each even throughout its body. Expansion comes from the materials.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ThermalFile {
+    /// Temperature at which the dimensions of this file are measured, C; absent: 20.
+    #[schemars(extend("minimum" = -273.15, "maximum" = 1500.0))]
+    pub reference_c: Option<f64>,
+    /// Temperature of the inner race, C.
+    #[schemars(extend("minimum" = -273.15, "maximum" = 1500.0))]
+    pub inner_race_c: f64,
+    /// Temperature of the outer race, C.
+    #[schemars(extend("minimum" = -273.15, "maximum" = 1500.0))]
+    pub outer_race_c: f64,
+    /// Temperature of the sprags, C.
+    #[schemars(extend("minimum" = -273.15, "maximum" = 1500.0))]
+    pub sprags_c: f64,
 }
 
 /// Energizing spring.
@@ -160,10 +214,13 @@ pub(super) struct SpringFile {
     pub drag_torque_nm: f64,
 }
 
-/// Material: the three keys for all bodies alike, or the tables sprag, inner_race and outer_race.
+/// Material: keys for all bodies alike, or the tables sprag, inner_race and outer_race.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MaterialFile {
+    /// Name of a steel that `sprag-design materials` lists; its values stand where the other keys are absent.
+    #[schemars(length(min = 1))]
+    pub name: Option<String>,
     /// Young's modulus of all bodies, GPa.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub youngs_modulus_gpa: Option<f64>,
@@ -173,6 +230,9 @@ pub(super) struct MaterialFile {
     /// Density of all bodies, kg/m^3.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density_kg_m3: Option<f64>,
+    /// Linear thermal expansion of all bodies, um/(m K); read with [thermal].
+    #[schemars(extend("minimum" = 0))]
+    pub expansion_um_per_m_k: Option<f64>,
     /// Material of the sprags.
     pub sprag: Option<BodyFile>,
     /// Material of the inner race.
@@ -185,15 +245,21 @@ pub(super) struct MaterialFile {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BodyFile {
+    /// Name of a steel that `sprag-design materials` lists; its values stand where the other keys are absent.
+    #[schemars(length(min = 1))]
+    pub name: Option<String>,
     /// Young's modulus, GPa.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub youngs_modulus_gpa: f64,
+    pub youngs_modulus_gpa: Option<f64>,
     /// Poisson's ratio.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 0.5))]
-    pub poisson_ratio: f64,
+    pub poisson_ratio: Option<f64>,
     /// Density, kg/m^3.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub density_kg_m3: f64,
+    pub density_kg_m3: Option<f64>,
+    /// Linear thermal expansion, um/(m K); read with [thermal].
+    #[schemars(extend("minimum" = 0))]
+    pub expansion_um_per_m_k: Option<f64>,
 }
 
 /// Friction law (12): mu = kinetic + (static - kinetic) exp(-decay |v|).

@@ -9,30 +9,38 @@ mod clutch;
 mod contact_file;
 mod diagnostic;
 mod document;
+mod draft;
 mod edit;
 mod file;
 mod findings;
 mod geometry;
 mod history;
 mod limits_file;
+mod objective;
 mod outline;
 mod question;
 mod read;
+mod running;
 mod scenario_file;
 mod scenarios;
 mod shape;
+mod steels;
 mod task;
+mod tolerances_file;
 mod variables;
 
 pub use clutch::{
-    Axial, Clutch, ContactLaw, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials, Races, Sprags,
-    Spring, StressState,
+    Axial, Clutch, ContactLaw, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials, Races, Running,
+    Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem};
-pub use edit::{EditError, with_limits, with_values};
+pub use draft::{Draft, KINETIC_SHARE};
+pub use edit::{EditError, value_at, with_flanks, with_keys, with_limits, with_values, without_variables};
+pub use objective::Objective;
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
 pub use shape::schema;
-pub use variables::{VARIABLES, variable_names, variable_path};
+pub use tolerances_file::Tolerances;
+pub use variables::{VARIABLES, is_whole, variable_names, variable_path};
 
 /// A checked clutch design. Built only by reading a file; never changed afterwards.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +57,8 @@ pub struct Design {
     pub scenarios: Vec<Scenario>,
     /// The optimiser's task, if any.
     pub optimize: Option<Optimize>,
+    /// What the clutch is made to, if the file says.
+    pub tolerances: Option<Tolerances>,
     /// SHA-256 (hex) of the file's text and of the histories that it names.
     pub hash: String,
     /// The file's text, kept for reports and for `optimize` to edit.

@@ -8,15 +8,17 @@ use super::check::m;
 use super::file::SpragsFile;
 use super::findings::Findings;
 use super::geometry::{arc_key, mm};
-use crate::profile::{Outline, OutlineError, Profile, Side, clearance_m};
+use crate::profile::{Outline, OutlineError, Profile, STEEPEST_RAD, Side, clearance_m};
 
 /// The flanks that a file names, or both at half of its width; none where it has neither.
 pub(super) fn flanks(file: &SpragsFile) -> Option<Flanks> {
     match &file.flanks {
-        Some(f) => Some(Flanks { rear_m: m(f.rear_mm), front_m: m(f.front_mm) }),
-        None if file.width_mm > 0.0 => {
-            Some(Flanks { rear_m: m(file.width_mm / 2.0), front_m: m(file.width_mm / 2.0) })
-        }
+        Some(f) => Some(Flanks {
+            rear_tilt_rad: f.rear_tilt_rad,
+            front_tilt_rad: f.front_tilt_rad,
+            ..Flanks::parallel(m(f.rear_mm), m(f.front_mm))
+        }),
+        None if file.width_mm > 0.0 => Some(Flanks::parallel(m(file.width_mm / 2.0), m(file.width_mm / 2.0))),
         None => None,
     }
 }
@@ -28,7 +30,7 @@ pub(super) fn outline(
     flanks: Flanks,
     out: &mut Findings,
 ) -> Option<Outline> {
-    let why = match Outline::new(profile, flanks.rear_m, flanks.front_m) {
+    let why = match Outline::closed(profile, &flanks) {
         Ok(outline) => return Some(outline),
         Err(why) => why,
     };
@@ -36,6 +38,10 @@ pub(super) fn outline(
         // The shape of the file rules both out.
         OutlineError::NoArcs => (Side::Front, "at least one inner arc".to_owned()),
         OutlineError::NotPositive { side, .. } => (side, "more than 0 mm".to_owned()),
+        OutlineError::TooSteep { side, .. } => (side, format!("a lean of at most {STEEPEST_RAD} rad")),
+        OutlineError::CutsContact { side, needed_m, .. } => {
+            (side, format!("more than {} mm", of_key(file, needed_m, f64::ceil)))
+        }
         OutlineError::MissesInner { side, reach_m, .. } | OutlineError::MissesOuter { side, reach_m, .. } => {
             (side, format!("less than {} mm", of_key(file, reach_m, f64::floor)))
         }

@@ -3,6 +3,7 @@
 //! In: nothing. Out: [`Limits`], [`Scenario`], [`Optimize`], SI. Absent: how they are answered. Equations: none.
 
 use super::clutch::Clutch;
+use super::objective::Objective;
 
 /// Allowables of the designer margin check; absent ones are not checked.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -29,12 +30,26 @@ pub struct Limits {
     pub case_shear_pa: Option<f64>,
     /// Allowed shear at the depth of the case and below at peak torque, Pa.
     pub core_shear_pa: Option<f64>,
+    /// Allowed compression of the sprag's body at peak torque, Pa.
+    pub body_yield_pa: Option<f64>,
     /// Axial load from race to race through all sprags, N.
     pub axial_load_n: Option<f64>,
+    /// Allowed race gap at nominal torque, m.
+    pub gap_nominal_m: Option<f64>,
+    /// Allowed race gap at peak torque, m.
+    pub gap_peak_m: Option<f64>,
+    /// Allowed windup at nominal torque, rad.
+    pub windup_nominal_rad: Option<f64>,
+    /// Allowed equivalent stress of the inner race at nominal torque, Pa.
+    pub equivalent_inner_pa: Option<f64>,
+    /// Allowed equivalent stress of the outer race at nominal torque, Pa.
+    pub equivalent_outer_pa: Option<f64>,
     /// Smallest slip margin wanted, pure number.
     pub slip_margin: Option<f64>,
     /// Overrun speed up to which the sprags must keep contact, rad/s.
     pub keep_contact_to_rad_s: Option<f64>,
+    /// Overrun speed of the outer race by which the sprags must have lifted off the inner one, rad/s.
+    pub lift_off_by_rad_s: Option<f64>,
 }
 
 /// What happens to the clutch.
@@ -127,14 +142,18 @@ pub struct OptimizeVariable {
     pub max: f64,
     /// Value in the file, in the name's unit.
     pub start: f64,
+    /// Whether it takes whole numbers only.
+    pub whole: bool,
 }
 
 /// What `optimize` shall do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Optimize {
-    /// Objective, now always `slip-margin`.
-    pub objective: String,
-    /// Scenarios whose smallest slip margin is maximised.
+    /// What is made better.
+    pub objective: Objective,
+    /// Wanted windups of [`Objective::StiffnessCurve`]: (torque, N m; windup, rad).
+    pub target: Vec<[f64; 2]>,
+    /// Scenarios whose smallest slip margin is maximised, or which are limits of another objective.
     pub scenarios: Vec<String>,
     /// Design variables.
     pub variables: Vec<OptimizeVariable>,

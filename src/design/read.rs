@@ -13,6 +13,7 @@ use super::document::Document;
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::history;
+use super::tolerances_file::TolerancesFile;
 use super::{Design, Limits, check, scenarios, shape, task};
 
 const WHAT: &str = "a text file (UTF-8, TOML) that holds a clutch design";
@@ -86,6 +87,8 @@ impl Design {
         let mut out = Findings::new(&doc);
         let clutch = check::clutch(&file, &mut out);
         let limits = check::limits(&file.limits, Limits::default(), &mut out);
+        check::body_yield(&file, &mut out);
+        check::gaps(&file.limits, &file.races, &mut out);
         let mut texts: BTreeMap<PathBuf, String> = BTreeMap::new();
         let mut refused = None;
         let mut load = |name: &str, kind| {
@@ -113,6 +116,7 @@ impl Design {
                 check_scenarios,
                 scenarios,
                 optimize,
+                tolerances: file.tolerances.as_ref().map(TolerancesFile::si),
                 hash: hash(source, texts.values()),
                 source: source.to_owned(),
                 folder: folder.to_owned(),

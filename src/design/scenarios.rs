@@ -5,11 +5,12 @@
 
 use toml::{Table, Value};
 
-use super::check::{self, BODIES, MATERIAL_KEYS, rad_s};
+use super::check::{self, rad_s};
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::history::HistoryKind;
 use super::scenario_file::{KindFile, ScenarioFile};
+use super::steels::{self, BODIES, MATERIAL_KEYS};
 use super::{Clutch, Scenario, ScenarioKind, shape};
 
 /// Kind, its name, the keys it must have, those it may have.
@@ -243,13 +244,14 @@ fn overridden(document: &Table, overrides: &[(&str, &Table)], out: &mut Findings
             "material" => {
                 let holds = |keys: &[&str]| keys.iter().any(|k| over.contains_key(*k));
                 if holds(&MATERIAL_KEYS) && holds(&BODIES) {
-                    check::refuse_mixed_material(out);
+                    steels::refuse_mixed_material(out);
                     return None;
                 }
                 if holds(&BODIES) || BODIES.iter().any(|b| base.contains_key(*b)) {
                     spread_over_bodies(base);
                     spread_over_bodies(&mut over);
                 }
+                forget_keys_of_the_other_steel(base, &over);
             }
             "contact" => forget_keys_of_the_other_law(base, &over),
             _ => {}
@@ -274,6 +276,18 @@ fn spread_over_bodies(material: &mut Table) {
     if !common.is_empty() {
         for body in BODIES {
             material.insert(body.to_owned(), Value::Table(common.clone()));
+        }
+    }
+}
+
+/// A scenario that names another steel does not inherit values of the one before.
+fn forget_keys_of_the_other_steel(base: &mut Table, over: &Table) {
+    if over.contains_key("name") {
+        base.retain(|key, _| !MATERIAL_KEYS.contains(&key));
+    }
+    for body in BODIES {
+        if let (Some(Value::Table(base)), Some(Value::Table(over))) = (base.get_mut(body), over.get(body)) {
+            forget_keys_of_the_other_steel(base, over);
         }
     }
 }

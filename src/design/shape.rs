@@ -22,9 +22,6 @@ use super::file::DesignFile;
 /// No quantity of a clutch lies outside; keeps conversions to SI from overflow and underflow.
 const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e15;
 
-/// Keys that a later version will read.
-const RESERVED: &[&str] = &["press_fit", "thermal", "tolerances"];
-
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
     let mut schema = settings.into_generator().into_root_schema_for::<DesignFile>();
@@ -74,6 +71,12 @@ fn schema_of(path: &str) -> Option<&'static Value> {
         let rows = step.matches('[').count();
         (0..rows).try_fold(schema.get("properties")?.get(name)?, |s, _| s.get("items"))
     })
+}
+
+/// "number" or "integer" where the key at a dotted path holds one.
+pub(super) fn kind_of(path: &str) -> Option<&'static str> {
+    let kind = schema_of(path)?.get("type").and_then(Value::as_str)?;
+    ["number", "integer"].contains(&kind).then_some(kind)
 }
 
 /// Names of the keys of the table at a dotted path.
@@ -177,6 +180,7 @@ impl<'a> Walk<'_, 'a> {
                     && constant.is_none_or(|c| c == s.as_ref())
                     && s.trim().chars().count() as f64 >= bound(schema, "minLength").unwrap_or(0.0)
             }
+            (Some("boolean"), DeValue::Boolean(_)) => true,
             (Some("number"), v @ (DeValue::Float(_) | DeValue::Integer(_))) => {
                 number_of(v).is_some_and(|x| in_range(schema, x))
             }
@@ -206,14 +210,17 @@ impl<'a> Walk<'_, 'a> {
 }
 
 fn help_for_unknown(name: &str, known: &[&str]) -> String {
-    if RESERVED.contains(&name) {
-        return format!("remove {name}: the name is reserved, this version does not read it");
+    match nearest(name, known) {
+        Some(key) => format!("did you mean {key}? Otherwise remove {name}"),
+        None => format!("remove {name} or move it to the table where it belongs"),
     }
-    let nearest = known.iter().map(|k| (strsim::jaro_winkler(name, k), k)).max_by(|a, b| a.0.total_cmp(&b.0));
-    match nearest {
-        Some((likeness, key)) if likeness > 0.8 => format!("did you mean {key}? Otherwise remove {name}"),
-        _ => format!("remove {name} or move it to the table where it belongs"),
-    }
+}
+
+/// The known name that is much like `name`.
+pub(super) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
+    let likeness = |k: &&'k str| (strsim::jaro_winkler(&name.to_lowercase(), &k.to_lowercase()), *k);
+    let best = known.iter().map(likeness).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 > 0.8).then_some(best.1)
 }
 
 fn bound(schema: &Value, name: &str) -> Option<f64> {
@@ -245,6 +252,7 @@ fn allowed(schema: &Value) -> String {
         Some("string") if bound(schema, "minLength").is_some() => "a text that is not empty",
         Some("string") => "a text in quotes",
         Some("integer") => "a whole number",
+        Some("boolean") => "true or false",
         _ => "a finite number",
     };
     let bounds = [

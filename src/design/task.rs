@@ -5,10 +5,14 @@
 
 use super::file::DesignFile;
 use super::findings::Findings;
-use super::limits_file::{ObjectiveFile, OptimizeFile, VariableFile};
+use super::limits_file::{OptimizeFile, VariableFile};
+use super::objective::Objective;
 use super::scenario_file::KindFile;
-use super::variables::{variable_names, variable_path};
+use super::variables::{is_whole, variable_names, variable_path};
 use super::{Limits, Optimize, OptimizeVariable, check, shape};
+
+/// Widest range of a variable that takes whole numbers: a choice, one continuous search for each of them.
+const MOST_WHOLE: f64 = 40.0;
 
 /// `[check]` scenarios, each existing and named once.
 pub(super) fn check_scenarios(file: &DesignFile, out: &mut Findings) -> Vec<String> {
@@ -40,19 +44,65 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
         starts.push(check_variable(variable, &path, file, out));
     }
     let limits = out.within("optimize", |out| check::limits(&task.limits, base, out));
+    objective(task, &limits, out);
     Optimize {
-        objective: match task.objective {
-            ObjectiveFile::SlipMargin => "slip-margin".to_owned(),
-        },
+        objective: task.objective.into(),
+        target: task.target.iter().map(|[torque, windup]| [*torque, windup.to_radians()]).collect(),
         scenarios: task.scenarios.clone(),
         variables: task
             .variables
             .iter()
             .zip(starts)
-            .map(|(v, start)| OptimizeVariable { name: v.name.clone(), min: v.min, max: v.max, start })
+            .map(|(v, start)| OptimizeVariable {
+                name: v.name.clone(),
+                min: v.min,
+                max: v.max,
+                start,
+                whole: is_whole(&v.name, file.sprags.inner_arcs.len()),
+            })
             .collect(),
         limits,
         seed: task.seed,
+    }
+}
+
+/// What an objective needs beside the scenarios.
+fn objective(task: &OptimizeFile, limits: &Limits, out: &mut Findings) {
+    let key = "optimize.objective";
+    let wanted = Objective::from(task.objective);
+    match wanted {
+        Objective::TorqueCapacity | Objective::PeakPressure if limits.peak_torque_nm.is_none() => out.refuse(
+            &[key],
+            format!("{wanted} with a peak torque, at which the limits are held"),
+            "add peak_torque_nm to [limits]".to_owned(),
+        ),
+        Objective::Windup if limits.nominal_torque_nm.is_none() => out.refuse(
+            &[key],
+            "windup with a nominal torque, at which it is taken".to_owned(),
+            "add nominal_torque_nm to [limits]".to_owned(),
+        ),
+        Objective::StiffnessCurve if task.target.is_empty() => out.refuse(
+            &[key],
+            "stiffness-curve with a target".to_owned(),
+            "add target = [[torque in N m, windup in deg], ...] to [optimize]".to_owned(),
+        ),
+        Objective::StiffnessCurve => {
+            for (i, row) in task.target.iter().enumerate() {
+                if !row.iter().all(|v| (1e-6..1e6).contains(v)) {
+                    out.refuse(
+                        &[&format!("optimize.target[{i}]")],
+                        "a torque and a windup, both above 0".to_owned(),
+                        "give [torque in N m, windup in deg]".to_owned(),
+                    );
+                }
+            }
+        }
+        _ if !task.target.is_empty() => out.refuse(
+            &["optimize.target"],
+            "a target for objective = \"stiffness-curve\" only".to_owned(),
+            "remove target, or name that objective".to_owned(),
+        ),
+        _ => {}
     }
 }
 
@@ -72,6 +122,15 @@ fn check_variable(v: &VariableFile, path: &str, file: &DesignFile, out: &mut Fin
         if let Some(allowed) = shape::out_of_range(&target, bound) {
             out.refuse(&[key], allowed, format!("give a bound that {target} may take"));
         }
+    }
+    let whole = is_whole(&v.name, arcs);
+    if whole && (v.min != v.min.round() || v.max != v.max.round() || v.max - v.min > MOST_WHOLE) {
+        out.refuse(
+            &[&min_key, &max_key],
+            format!("whole numbers at most {MOST_WHOLE} apart: each is searched by itself"),
+            "give whole numbers".to_owned(),
+        );
+        return 0.0;
     }
     if v.min >= v.max {
         out.refuse(&[&min_key, &max_key], "less than max".to_owned(), "give min < max".to_owned());

@@ -1,7 +1,13 @@
 //! The design variables that `[optimize]` may name.
 //!
 //! In: a variable's name and the number of inner arcs. Out: the dotted path of the key that it stands for.
-//! Absent: bounds and values. Equations: none.
+//! Absent: bounds and values. Equations: none. Beside the short names any number of the clutch's own tables may be
+//! named by its dotted path, such as `races.outer_outside_radius_mm`.
+
+use super::shape;
+
+/// Tables whose numbers may be variables: what the clutch is, not what is asked of it.
+const OWN_TABLES: &[&str] = &["sprags", "races", "spring", "material", "friction", "contact"];
 
 /// Every variable: pattern of the name, pattern of the path of the key it sets, meaning. `{k}` counts inner
 /// arcs from 1 in a name and from 0 in a path; `{last}` is the last arc.
@@ -15,13 +21,21 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
     ("width_mm", "sprags.width_mm", "body width b of (6)"),
     ("flank_rear_mm", "sprags.flanks.rear_mm", "flank on the side of negative x"),
     ("flank_front_mm", "sprags.flanks.front_mm", "flank on the side of positive x"),
+    ("flank_rear_tilt_rad", "sprags.flanks.rear_tilt_rad", "lean of the flank on the side of negative x"),
+    ("flank_front_tilt_rad", "sprags.flanks.front_tilt_rad", "lean of the flank on the side of positive x"),
+    ("count", "sprags.count", "number of sprags, a whole number"),
+    ("crown_radius_mm", "contact.end_profile.radius_mm", "radius of the crown or of the end relief"),
     ("centroid_x_mm", "sprags.centroid.x_mm", "centroid, towards positive azimuth"),
     ("centroid_y_mm", "sprags.centroid.y_mm", "centroid, radially outward from C_e"),
 ];
 
 /// Dotted path of the key that variable `name` sets in a design of `arcs` inner arcs, or `None` where no
-/// such variable exists: `r_i2_mm` gives `sprags.inner_arcs[1].radius_mm`.
+/// such variable exists: `r_i2_mm` gives `sprags.inner_arcs[1].radius_mm`, a dotted path itself.
 pub fn variable_path(name: &str, arcs: usize) -> Option<String> {
+    if let Some((table, _)) = name.split_once('.') {
+        let known = OWN_TABLES.contains(&table) && shape::kind_of(name).is_some();
+        return known.then(|| name.to_owned());
+    }
     VARIABLES.iter().find_map(|(pattern, path, _)| match pattern.split_once("{k}") {
         None if *pattern == name => Some(path.replace("{last}", &arcs.saturating_sub(1).to_string())),
         None => None,
@@ -36,7 +50,12 @@ pub fn variable_path(name: &str, arcs: usize) -> Option<String> {
     })
 }
 
-/// The names that a design of `arcs` inner arcs has.
+/// Whether variable `name` takes whole numbers only.
+pub fn is_whole(name: &str, arcs: usize) -> bool {
+    variable_path(name, arcs).is_some_and(|path| shape::kind_of(&path) == Some("integer"))
+}
+
+/// The short names that a design of `arcs` inner arcs has.
 pub fn variable_names(arcs: usize) -> Vec<String> {
     let all = VARIABLES.iter().flat_map(|(pattern, ..)| {
         let count = if pattern.contains("{k}") { arcs } else { 1 };
@@ -61,6 +80,26 @@ mod tests {
         {
             assert_eq!(path(none), None, "{none}");
         }
-        assert_eq!(variable_names(1).len(), 10);
+        assert_eq!(variable_names(1).len(), 14);
+        assert!(is_whole("count", 3) && is_whole("sprags.count", 3) && !is_whole("r_i1_mm", 3));
+    }
+
+    #[test]
+    fn any_number_of_the_clutch_has_a_dotted_name() {
+        for name in
+            ["races.outer_outside_radius_mm", "spring.stiffness_nm_per_rad", "sprags.inner_arcs[1].until_rad"]
+        {
+            assert_eq!(variable_path(name, 3).as_deref(), Some(name));
+        }
+        for none in [
+            "races.nothing",
+            "races",
+            "limits.hoop_inner_mpa",
+            "scenarios[0].preload_nm",
+            "sprags.flanks",
+            "schema",
+        ] {
+            assert_eq!(variable_path(none, 3), None, "{none}");
+        }
     }
 }

@@ -16,6 +16,7 @@ mod energy;
 mod events;
 mod looks;
 mod model;
+mod outside;
 mod published;
 mod rolling;
 mod run;
@@ -25,6 +26,7 @@ mod zeno;
 
 pub use energy::EnergyBalance;
 pub use model::{Drive, Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
+pub use outside::{events, next_mode};
 pub use published::{PublishedSettings, published};
 pub use rolling::{Rolling, rolling};
 pub use run::{Engaged, FastMotion, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run};

@@ -1,53 +1,102 @@
-//! Torque at which each static limit would be reached.
+//! How each static limit's demand runs with torque, and the torque at which it would be reached.
 
 use super::Margin;
+use super::body::body_stress_pa;
+use super::gap::YIELDS;
 use super::hoop::HOOPS;
-use super::load::{LoadState, grip, profile_capacity};
+use super::load::{LoadState, clearance_at_m, grip, profile_capacity};
 use super::subsurface::SUBSURFACE;
 use crate::design::{Design, Limits};
 use crate::numeric::root;
 use crate::wedge::StaticPoint;
 
+/// A demand as a function of the static state.
+type Demand<'a> = Box<dyn Fn(&StaticPoint) -> f64 + 'a>;
+
+/// What one limit bounds, as a function of the static state; demand and allowable in the same unit.
+struct Bounded<'a> {
+    allowed: f64,
+    demand: Demand<'a>,
+}
+
+/// What the limit `code` bounds; `None` where it does not depend on torque, or has no allowable.
+fn bounded<'a>(
+    code: &str,
+    design: &'a Design,
+    limits: &'a Limits,
+    state: &'a LoadState,
+) -> Option<Bounded<'a>> {
+    if let Some(hoop) = HOOPS.iter().find(|h| h.code == code) {
+        let (allowed, _) = (hoop.allowed)(limits)?;
+        let (clutch, elastic) = (&design.clutch, &state.curve.statics().elastic);
+        return Some(Bounded { allowed, demand: Box::new(move |p| hoop.demand_pa(clutch, elastic, p)) });
+    }
+    if let Some(y) = YIELDS.iter().find(|y| y.code == code) {
+        let (count, elastic) = (design.clutch.sprags.count, &state.curve.statics().elastic);
+        let allowed = (y.allowed)(limits, design)?;
+        return Some(Bounded { allowed, demand: Box::new(move |p| (y.demand)(elastic, count, p)) });
+    }
+    if let Some(below) = SUBSURFACE.iter().find(|b| b.code == code) {
+        let (allowed, from_m) = (below.allowed)(limits)?;
+        return Some(Bounded { allowed, demand: Box::new(move |p| below.demand(design, from_m, p).0) });
+    }
+    let mu = design.clutch.friction.static_;
+    let (allowed, demand): (f64, Demand<'a>) = match code {
+        "hertz-nominal-inner" => (limits.hertz_nominal_pa?, Box::new(|p| p.hertz_inner_pa)),
+        "hertz-nominal-outer" => (limits.hertz_nominal_pa?, Box::new(|p| p.hertz_outer_pa)),
+        "hertz-peak-inner" => (limits.hertz_peak_pa?, Box::new(|p| p.hertz_inner_pa)),
+        "hertz-peak-outer" => (limits.hertz_peak_pa?, Box::new(|p| p.hertz_outer_pa)),
+        "grip-inner" => (mu, Box::new(move |p| grip(design, limits, p)[0])),
+        "grip-outer" => (mu, Box::new(move |p| grip(design, limits, p)[1])),
+        "body-yield" => (limits.body_yield_pa?, Box::new(move |p| body_stress_pa(design, state, p))),
+        // Clearance used up, so that it rises to 1 where neighbours touch.
+        "neighbours" => {
+            let free = clearance_at_m(design, state, &StaticPoint::UNLOADED)?;
+            (1.0, Box::new(move |p| 1.0 - clearance_at_m(design, state, p).unwrap_or(free) / free))
+        }
+        "end-of-profile" => (state.profile.end_turn_rad(), Box::new(|p| p.contact_turn_rad)),
+        "roll-over" => (state.curve.roll_over_torque_nm(), Box::new(|p| p.torque_nm)),
+        _ => return None,
+    };
+    Some(Bounded { allowed, demand })
+}
+
 /// Fill `torque_capacity_nm` of the rows that depend on torque.
 pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state: &LoadState) {
-    let count = design.clutch.sprags.count;
-    let elastic = &state.curve.statics().elastic;
-    let mu = design.clutch.friction.static_;
     for row in rows {
-        if let Some(hoop) = HOOPS.iter().find(|h| h.code == row.code) {
-            let allowed = (hoop.allowed)(limits).map(|(allowed, _)| allowed);
-            let value = |p: &StaticPoint| (hoop.demand)(elastic, count, p);
-            row.torque_capacity_nm = allowed.map(|a| torque_where(state, a, &value));
-            continue;
-        }
-        if let Some(below) = SUBSURFACE.iter().find(|b| b.code == row.code) {
-            row.torque_capacity_nm = (below.allowed)(limits).map(|(allowed, from_m)| {
-                torque_where(state, allowed, &|p| below.demand(design, from_m, p).0)
-            });
-            continue;
-        }
-        let value: Box<dyn Fn(&StaticPoint) -> f64> = match row.code.as_str() {
-            "hertz-nominal-inner" | "hertz-peak-inner" => Box::new(|p| p.hertz_inner_pa),
-            "hertz-nominal-outer" | "hertz-peak-outer" => Box::new(|p| p.hertz_outer_pa),
-            "grip-inner" => Box::new(|p| grip(design, limits, p)[0]),
-            "grip-outer" => Box::new(|p| grip(design, limits, p)[1]),
-            "end-of-profile" => {
-                row.torque_capacity_nm = Some(profile_capacity(state));
-                continue;
-            }
-            "roll-over" => {
-                row.torque_capacity_nm = Some(row.allowable);
-                continue;
-            }
-            _ => continue,
+        row.torque_capacity_nm = match row.code.as_str() {
+            "end-of-profile" => Some(profile_capacity(state)),
+            "roll-over" => Some(row.allowable),
+            code => bounded(code, design, limits, state).map(|b| torque_where(state, b.allowed, &*b.demand)),
         };
-        let allowed = match row.code.as_str() {
-            "hertz-nominal-inner" | "hertz-nominal-outer" => limits.hertz_nominal_pa,
-            "hertz-peak-inner" | "hertz-peak-outer" => limits.hertz_peak_pa,
-            _ => Some(mu),
-        };
-        row.torque_capacity_nm = allowed.map(|a| torque_where(state, a, &value));
     }
+}
+
+/// Demand over allowable of one limit along the curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Course {
+    /// Code of its row.
+    pub code: String,
+    /// Whether it counts for the verdict.
+    pub required: bool,
+    /// (torque N m, demand/allowable, pure number), in the order of the points asked for; the limit is reached at 1.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// The courses of all limits in `rows` that depend on torque, at the static states `points`.
+pub fn courses(
+    rows: &[Margin],
+    design: &Design,
+    limits: &Limits,
+    state: &LoadState,
+    points: &[StaticPoint],
+) -> Vec<Course> {
+    let course = |row: &Margin| {
+        let b = bounded(&row.code, design, limits, state)?;
+        let points = points.iter().map(|p| [p.torque_nm, (b.demand)(p) / b.allowed]).collect();
+        Some(Course { code: row.code.clone(), required: row.required, points })
+    };
+    rows.iter().filter_map(course).collect()
 }
 
 /// Smallest normal force at which the quantity rises to `allowed`, as a torque; the end of the curve if it never
@@ -69,4 +118,77 @@ fn torque_where(state: &LoadState, allowed: f64, value: &dyn Fn(&StaticPoint) ->
         (a, fa) = (b, fb);
     }
     if fa < 0.0 { torque(last) } else { 0.0 }
+}
+
+/// Torque from which on, up to `up_to_nm`, friction of both contacts carries the axial load as well, N m: the last
+/// state below it at which a contact would need more than `mu`. 0 where that never happens, `None` where it happens
+/// at `up_to_nm` itself (or at the curve's end, if that comes first).
+pub(super) fn axial_from_nm(
+    design: &Design,
+    limits: &Limits,
+    state: &LoadState,
+    up_to_nm: f64,
+) -> Option<f64> {
+    let curve = &state.curve;
+    let mu = design.clutch.friction.static_;
+    let end = curve.arc_end_n(curve.arc_count() - 1);
+    let last = curve.at_torque(up_to_nm).map_or(end, |p| p.normal_inner_n);
+    let over = |n: f64| {
+        curve.at_normal(n).map_or(f64::NAN, |p| {
+            let [inner, outer] = grip(design, limits, &p);
+            // Bounded, so that the bracketing is not led astray by the infinite demand at no load.
+            (inner.max(outer) / mu - 1.0).min(1.0)
+        })
+    };
+    if over(last) > 0.0 {
+        return None;
+    }
+    // Down from the top in octaves: the demand rises as 1/N below.
+    let (mut b, mut fb) = (last, over(last));
+    for _ in 0..60 {
+        let a = 0.7 * b;
+        let fa = over(a);
+        if fa > 0.0 {
+            let n = root::bracketed(a, b, fa, fb, 1e-12 * last, over)?;
+            return curve.at_normal(n).map(|p| p.torque_nm);
+        }
+        (b, fb) = (a, fa);
+    }
+    Some(0.0)
+}
+
+/// Smallest torque (N m) at which a limit on nominal torque, the grip at either contact or the curve's end is reached,
+/// and the code of what decides; `None` where `limits` holds none of them.
+pub fn nominal_capacity(design: &Design, limits: &Limits, state: &LoadState) -> Option<(f64, &'static str)> {
+    let count = design.clutch.sprags.count;
+    let elastic = &state.curve.statics().elastic;
+    let mu = design.clutch.friction.static_;
+    // What does not grip at first contact never gets as far as the torque at which it would.
+    if state.first_tan_omega >= mu {
+        return Some((0.0, "grip-inner"));
+    }
+    let mut least = (state.curve.end_torque_nm(), "end-of-curve");
+    let mut any = false;
+    let mut take = |code, allowed: f64, value: &dyn Fn(&StaticPoint) -> f64| {
+        let torque = torque_where(state, allowed, value);
+        if torque < least.0 {
+            least = (torque, code);
+        }
+    };
+    if let Some(allowed) = limits.hertz_nominal_pa {
+        any = true;
+        take("hertz-nominal-inner", allowed, &|p| p.hertz_inner_pa);
+        take("hertz-nominal-outer", allowed, &|p| p.hertz_outer_pa);
+    }
+    // Those that are held at the nominal torque itself.
+    let nominal = Limits { nominal_torque_nm: Some(1.0), peak_torque_nm: None, ..*limits };
+    for y in YIELDS.iter().filter(|y| (y.torque_nm)(&nominal).is_some()) {
+        if let Some(allowed) = (y.allowed)(limits, design) {
+            any = true;
+            take(y.code, allowed, &|p| (y.demand)(elastic, count, p));
+        }
+    }
+    take("grip-inner", mu, &|p| grip(design, limits, p)[0]);
+    take("grip-outer", mu, &|p| grip(design, limits, p)[1]);
+    any.then_some(least)
 }

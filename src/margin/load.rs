@@ -1,12 +1,14 @@
 //! Limits that follow from the static load state, first contact and overrun.
 
+use super::body::body_stress_pa;
+use super::capacity::axial_from_nm;
+use super::gap::YIELDS;
 use super::hoop::HOOPS;
+use super::overrun::overrun_moments;
 use super::subsurface::SUBSURFACE;
 use super::{Margin, NoMargins, curve_at_rest, ratio};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
-use crate::kinematics::levers;
-use crate::numeric::root;
 use crate::profile::{Outline, Profile, clearance_m};
 use crate::wedge::{EndReason, StaticPoint, WedgeCurve};
 
@@ -32,10 +34,7 @@ pub struct LoadState {
 pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
     let (profile, curve) = curve_at_rest(design)?;
     let flanks = design.clutch.sprags.flanks;
-    let outline = flanks
-        .map(|f| Outline::new(&profile, f.rear_m, f.front_m))
-        .transpose()
-        .map_err(NoMargins::Outline)?;
+    let outline = flanks.map(|f| Outline::closed(&profile, &f)).transpose().map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;
     let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
     Ok(LoadState { profile, outline, curve, alpha_max_rad, first_tan_omega })
@@ -58,7 +57,6 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         });
     };
     let curve = &state.curve;
-    let count = design.clutch.sprags.count;
     let end = curve.end_torque_nm();
     let mut shown_only = Vec::new();
     if let (Some(torque), Some(allowed)) = (limits.nominal_torque_nm, limits.hertz_nominal_pa) {
@@ -69,6 +67,21 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         ] {
             push(code, name, value * MPA, allowed * MPA, "MPa", beyond(ratio(value, allowed), torque, end));
         }
+    }
+    for y in &YIELDS {
+        let (Some(torque), Some(allowed)) = ((y.torque_nm)(limits), (y.allowed)(limits, design)) else {
+            continue;
+        };
+        let value = (y.demand)(&curve.statics().elastic, design.clutch.sprags.count, &at(curve, torque));
+        let (unit, per_si) = y.unit;
+        push(
+            y.code,
+            y.name,
+            value * per_si,
+            allowed * per_si,
+            unit,
+            beyond(ratio(value, allowed), torque, end),
+        );
     }
     if let Some(torque) = limits.peak_torque_nm {
         let p = at(curve, torque);
@@ -90,7 +103,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         let elastic = &curve.statics().elastic;
         for hoop in &HOOPS {
             let Some((allowed, required)) = (hoop.allowed)(limits) else { continue };
-            let value = (hoop.demand)(elastic, count, &p);
+            let value = hoop.demand_pa(&design.clutch, elastic, &p);
             let margin = beyond(ratio(value, allowed), torque, end);
             push(hoop.code, hoop.name, value * MPA, allowed * MPA, "MPa", margin);
             if !required {
@@ -117,23 +130,40 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         );
         let over = curve.roll_over_torque_nm();
         push("roll-over", "peak torque against roll-over torque", torque, over, "Nm", over / torque - 1.0);
+        if let Some(allowed) = limits.body_yield_pa {
+            let value = body_stress_pa(design, state, &p);
+            let name = "compression of the sprag's body half way between the contacts, peak torque";
+            let margin = beyond(ratio(value, allowed), torque, end);
+            push("body-yield", name, value * MPA, allowed * MPA, "MPa", margin);
+        }
         let mu = design.clutch.friction.static_;
-        let grip = grip(design, limits, &p);
+        let grip = largest_grip(design, limits, state, &p);
         let names = match limits.axial_load_n {
-            None => {
-                ["static tan omega at peak torque against mu_s", "static tan nu at peak torque against mu_s"]
-            }
+            None => [
+                "largest static tan omega up to peak torque against mu_s",
+                "largest static tan nu up to peak torque against mu_s",
+            ],
             Some(_) => [
-                "friction for torque and axial load at A, peak torque, against mu_s",
-                "friction for torque and axial load at B, peak torque, against mu_s",
+                "friction for torque and axial load at A, peak torque, or tan omega below it, against mu_s",
+                "friction for torque and axial load at B, peak torque, or tan nu below it, against mu_s",
             ],
         };
         push("grip-inner", names[0], grip[0], mu, "1", ratio(grip[0], mu));
         push("grip-outer", names[1], grip[1], mu, "1", ratio(grip[1], mu));
-        if let Some(outline) = &state.outline {
-            let rotation = curve.closure_at_normal(p.normal_inner_n).map_or(0.0, |(_, c)| c.rotation.v);
-            let oc_e = state.profile.outer_centre_distance_m;
-            let gap = clearance_m(outline, oc_e, rotation, count).min(clearance_m(outline, oc_e, 0.0, count));
+        if limits.axial_load_n.is_some_and(|n| n > 0.0) {
+            let wanted = limits.nominal_torque_nm.unwrap_or(torque);
+            let from = axial_from_nm(design, limits, state, torque);
+            push(
+                "axial-from",
+                "torque from which on friction carries the axial load, against nominal torque",
+                from.unwrap_or(torque.min(end)),
+                wanted,
+                "Nm",
+                from.map_or(-1.0, |from| ratio(from, wanted)),
+            );
+            shown_only.push("axial-from");
+        }
+        if let Some(gap) = clearance_up_to_m(design, state, &p) {
             // Clearance itself, relative to the sprag's height: smooth through contact.
             let height = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
             push(
@@ -167,6 +197,17 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             if closing > 0.0 { 1.0 - opening / closing } else { -1.0 },
         );
     }
+    if let Some(speed) = limits.lift_off_by_rad_s {
+        let (opening, closing) = overrun_moments(design, state, speed);
+        push(
+            "lift-off",
+            "spring moment against centrifugal opening moment at the speed by which the sprags must be off",
+            closing * 1e3,
+            opening * 1e3,
+            "mNm",
+            if closing > 0.0 { opening / closing - 1.0 } else { 1.0 },
+        );
+    }
     for row in &mut rows {
         row.required = !shown_only.contains(&row.code.as_str());
     }
@@ -185,6 +226,40 @@ pub(super) fn grip(design: &Design, limits: &Limits, p: &StaticPoint) -> [f64; 2
     [need(p.tan_omega, p.normal_inner_n), need(p.tan_nu, p.normal_outer_n)]
 }
 
+/// States looked at between no load and the peak, beside the peak itself: a choice; demands are smooth but at
+/// junctions, which divide the curve into a few pieces.
+const LOOKS: usize = 24;
+
+/// The largest demand on friction up to `peak`: that of the torque alone on the way, with the axial load at `peak`
+/// (it grows without bound as the load goes to 0; `axial-from` says from where on it is carried).
+fn largest_grip(design: &Design, limits: &Limits, state: &LoadState, peak: &StaticPoint) -> [f64; 2] {
+    let on_the_way = below(state, peak).map(|p| [p.tan_omega, p.tan_nu]);
+    on_the_way.fold(grip(design, limits, peak), |m, d| [m[0].max(d[0]), m[1].max(d[1])])
+}
+
+/// States below `peak`, rising.
+fn below<'a>(state: &'a LoadState, peak: &StaticPoint) -> impl Iterator<Item = StaticPoint> + 'a {
+    let last_n = peak.normal_inner_n;
+    (1..LOOKS).filter_map(move |i| state.curve.at_normal(last_n * i as f64 / LOOKS as f64))
+}
+
+/// Clearance between neighbouring sprags in a static state, m; `None` without flanks.
+pub(super) fn clearance_at_m(design: &Design, state: &LoadState, p: &StaticPoint) -> Option<f64> {
+    let outline = state.outline.as_ref()?;
+    let (oc_e, rotation) = match state.curve.closure_at_normal(p.normal_inner_n) {
+        Some((_, c)) if p.normal_inner_n > 0.0 => (c.lengths.oc_e.v, c.rotation.v),
+        _ => (state.profile.outer_centre_distance_m, 0.0),
+    };
+    Some(clearance_m(outline, oc_e, rotation, design.clutch.sprags.count))
+}
+
+/// The smallest from no load to `peak`.
+fn clearance_up_to_m(design: &Design, state: &LoadState, peak: &StaticPoint) -> Option<f64> {
+    let ends = [StaticPoint::UNLOADED, *peak];
+    let all = ends.into_iter().chain(below(state, peak));
+    all.map(|p| clearance_at_m(design, state, &p)).reduce(|a, b| Some(a?.min(b?)))?
+}
+
 /// Beyond the curve's end the stress rows continue as the torque shortfall, so that a search sees a slope.
 fn beyond(margin: f64, torque: f64, end: f64) -> f64 {
     if end >= torque { margin } else { margin.min(end / torque - 1.0) }
@@ -194,38 +269,6 @@ fn beyond(margin: f64, torque: f64, end: f64) -> f64 {
 fn at(curve: &WedgeCurve, torque: f64) -> StaticPoint {
     let last = curve.arc_end_n(curve.arc_count() - 1);
     curve.at_torque(torque).or_else(|| curve.at_normal(last)).unwrap_or(StaticPoint::UNLOADED)
-}
-
-/// (opening moment of the centrifugal force, closing moment of the spring) on one sprag about G at first contact
-/// at overrun speed `speed_rad_s`, N m. Contact is kept while the first is smaller. Zero load at A:
-/// h_e N_be = h_e m_g OC_g Omega^2/cos gamma, which closes for gamma > 0 and opens for gamma < 0.
-pub(super) fn overrun_moments(design: &Design, state: &LoadState, speed_rad_s: f64) -> (f64, f64) {
-    let spring = design.clutch.spring.stiffness_nm_per_rad;
-    // First contact at speed: only the touch of the curve is needed, a closure at N -> 0.
-    let statics = state.curve.statics();
-    match statics.closure(0, crate::wedge::FIRST_CONTACT_N, speed_rad_s, 0.0) {
-        Ok(c) => {
-            let l = levers(c.lengths.oa.v, c.lengths.ob.v, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v);
-            (-l.h_e * c.n_be.v, spring * (state.alpha_max_rad - c.alpha.v))
-        }
-        Err(_) => (1.0, 0.0),
-    }
-}
-
-/// Lift-off speed of the outer race, rad/s: opening = closing moment; `None` where contact is kept to `up_to`.
-pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Option<f64> {
-    let left = |speed: f64| {
-        let (opening, closing) = overrun_moments(design, state, speed);
-        closing - opening
-    };
-    let (a, b) = (left(0.0), left(up_to_rad_s));
-    if a <= 0.0 {
-        return Some(0.0);
-    }
-    if b > 0.0 {
-        return None;
-    }
-    root::bracketed(0.0, up_to_rad_s, a, b, 1e-9 * up_to_rad_s, left)
 }
 
 /// Whether and where the curve ends below roll-over: for the capacity of the profile itself.

@@ -3,13 +3,18 @@
 //! In: a `Design`. Out: [`Margin`] rows, torque capacities. Absent: how forces come about.
 //! Equations: none; margin = allowable/demand - 1 unless a row says otherwise, 0 or more is held.
 
+mod body;
 mod capacity;
+mod gap;
 mod hoop;
 mod load;
+mod overrun;
 mod scenes;
 mod subsurface;
 
-pub use load::{LoadState, lift_off_rad_s, load_state};
+pub use capacity::{Course, courses, nominal_capacity};
+pub use load::{LoadState, load_state};
+pub use overrun::{OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
 pub use scenes::{SceneDemand, scene_demand};
 
 use crate::design::{Design, Limits, Scenario};
@@ -113,7 +118,12 @@ pub fn scene_margins(
     required: bool,
     settings: &Settings,
 ) -> Vec<Margin> {
-    scenes::rows(&scenario.name, &scene_demand(scenario, settings), limits, required)
+    scene_rows(scenario, &scene_demand(scenario, settings), limits, required)
+}
+
+/// The same two margins from a demand that is known.
+pub fn scene_rows(scenario: &Scenario, found: &SceneDemand, limits: &Limits, required: bool) -> Vec<Margin> {
+    scenes::rows(&scenario.name, found, limits, required)
 }
 
 /// The curve of a design at rest.

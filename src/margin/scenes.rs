@@ -2,7 +2,7 @@
 
 use super::Margin;
 use crate::design::{Limits, Scenario};
-use crate::scenario::{Demand, NoScenario, Settings, demand, prepare};
+use crate::scenario::{Demand, NoScenario, Prepared, Settings, demand, prepare};
 
 /// Rolling demand of one scenario, with the Hertz pressure that comes with it.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +16,13 @@ pub struct SceneDemand {
 }
 
 impl SceneDemand {
+    /// The demand found for a scenario as it was prepared.
+    pub fn of(scenario: &Scenario, prepared: &Prepared, found: Demand) -> Self {
+        let peak = prepared.model.curve.at_normal(found.normal_max_n[0]);
+        let static_friction = scenario.clutch.friction.static_;
+        Self { demand: Ok(found), static_friction, hertz_peak_pa: peak.map_or(0.0, |r| r.hertz_inner_pa) }
+    }
+
     /// Slip margin; -1 where there is none.
     pub fn slip_margin(&self) -> f64 {
         self.demand.as_ref().map_or(-1.0, |d| if d.finished { d.slip_margin } else { -1.0 })
@@ -30,11 +37,7 @@ impl SceneDemand {
 pub fn scene_demand(scenario: &Scenario, settings: &Settings) -> SceneDemand {
     let static_friction = scenario.clutch.friction.static_;
     match prepare(scenario) {
-        Ok(p) => {
-            let d = demand(&p, settings);
-            let hertz = p.model.curve.at_normal(d.normal_max_n[0]).map_or(0.0, |r| r.hertz_inner_pa);
-            SceneDemand { demand: Ok(d), static_friction, hertz_peak_pa: hertz }
-        }
+        Ok(p) => SceneDemand::of(scenario, &p, demand(&p, settings)),
         Err(e) => SceneDemand { demand: Err(e), static_friction, hertz_peak_pa: 0.0 },
     }
 }

@@ -1,5 +1,5 @@
 //! Numerical tools that never heard of a machine part: duals, bracketed roots, quadrature, Chebyshev curves,
-//! Toeplitz systems, courses over time.
+//! Toeplitz systems, courses over time, quantiles.
 //!
 //! In: functions of one variable, rows of matrices. Out: roots, integrals, approximations with a stated error.
 //! Absent: physics, units. Equations: none of the paper's.
@@ -11,4 +11,5 @@ pub mod panels;
 pub mod pieces;
 pub mod quadrature;
 pub mod root;
+pub mod student;
 pub mod toeplitz;

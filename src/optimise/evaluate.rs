@@ -35,6 +35,11 @@ impl Evaluation {
         self.limits.iter().fold(0.0, |worst, c| worst.max(-c))
     }
 
+    /// Limits violated by more than `tolerance`.
+    pub fn violated(&self, tolerance: f64) -> usize {
+        self.limits.iter().filter(|c| **c < -tolerance).count()
+    }
+
     /// All numbers in one row: objectives, limits, tie break.
     pub(super) fn outputs(&self) -> Vec<f64> {
         let mut row = self.objectives.clone();

@@ -12,7 +12,7 @@ use super::space::Space;
 pub const NO_INFLUENCE: f64 = 1e-9;
 
 /// Derivatives d(margin)/d(x scaled to its range) at one point.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Influence {
     /// `objectives[i][variable]`, unit of the objective per range.
     pub objectives: Vec<Vec<f64>>,

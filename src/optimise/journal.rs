@@ -79,7 +79,7 @@ pub struct Run<'a> {
     /// Set to true by the caller to stop; evaluations under way finish and are kept.
     pub stop: Option<&'a AtomicBool>,
     /// Called as the run goes on.
-    pub watch: Option<&'a mut dyn Watch>,
+    pub watch: Option<&'a mut (dyn Watch + Send)>,
 }
 
 /// The memoising, counting evaluator.

@@ -1,33 +1,56 @@
-//! Maximising the least of several margins under limits and bounds, by SQP.
+//! A clutch as a vector: made better under limits and bounds, by SQP, from several starts, at corners, on fronts.
 //!
-//! In: a problem as [`Evaluate`] (margins at x, or a failure), a start and a box. Out: [`Outcome`], with a status,
-//! multipliers, history and journal; [`Influence`], the derivative table. Absent: clutches, files, several starts.
-//! Equations: those of the method, named in `sqp`; none of the paper.
+//! In: a problem as [`Evaluate`] (margins at x, or a failure), a start and a box; or a `Design` with its task.
+//! Out: [`Outcome`] of a climb; [`Search`], [`Front`], [`Robust`], [`Realised`], [`Relief`] of a design. Absent: files.
+//! Equations: those of the methods, named in `sqp`, `swarm`, `pareto`, `robust`; none of the paper.
 
+mod branch;
+mod corner;
+mod desk;
 mod difference;
 mod driver;
 mod evaluate;
+mod goal;
 mod hessian;
 mod influence;
 mod journal;
 mod noise;
 mod outcome;
+mod pareto;
 mod poll;
+mod price;
 mod problem;
 mod qp;
+mod realise;
+mod relief;
+mod robust;
 mod search;
 mod settings;
+mod smooth;
 mod space;
 mod sqp;
+mod starts;
 mod step;
+mod swarm;
 mod view;
 
+pub use branch::Branch;
+pub use corner::{Corner, TOLERANCES, corners, half_ranges, perturbed};
+pub use desk::{Desk, Forgetful, ProblemId, Record};
 pub use driver::maximise_least_margin;
 pub use evaluate::{Evaluate, Evaluation, Failure, Part};
+pub use goal::{Goal, Measure};
 pub use influence::{Influence, NO_INFLUENCE, influence};
 pub use journal::{Entry, Journal, Run, Watch};
 pub use outcome::{Active, Cause, Iteration, Outcome, Refusal, Residuals, Status, Tried};
-pub use problem::{ClutchProblem, Names, finished_file};
-pub use search::{NoSearch, Search, Variable, search};
+pub use pareto::{Front, FrontPoint, front};
+pub use price::{Price, PriceKind};
+pub use problem::{ClutchProblem, Fidelity, Looked, Names};
+pub use realise::{Nearest, Realised, realise};
+pub use relief::{Freed, Relief, relief};
+pub use robust::{Robust, RobustSearch, Spread, robust, spread};
+pub use search::{NoSearch, Search, Variable, search, search_problem};
 pub use settings::{BadSetting, Noise, Settings};
+pub use starts::{Method, Start};
+pub use swarm::{Swarmed, swarm};
 pub use view::Phase;

@@ -87,6 +87,8 @@ pub struct Iteration {
     pub least_margin: f64,
     /// Largest violation of the limits.
     pub violation: f64,
+    /// Limits violated by more than the tolerance.
+    pub violated: usize,
     /// Residuals of the phase.
     pub residuals: Residuals,
     /// Trust radius after the step, fraction of range.

@@ -1,29 +1,69 @@
 //! The clutch as a vector and its margins.
 
+use super::corner::{Corner, perturbed};
 use super::evaluate::{Evaluate, Evaluation, Failure};
-use crate::design::{Design, EditError, Limits, Optimize, with_limits, with_values};
-use crate::margin::{Margin, margins};
-use crate::scenario::Settings;
+use super::goal::{Goal, Measure, measures};
+use super::smooth;
+use crate::design::{Design, EditError, Limits, Objective, Optimize, with_limits, with_values};
+use crate::fidelity;
+use crate::margin::{Margin, SceneDemand, load_state, scene_margins, scene_rows};
+use crate::scenario::{Settings, demand};
 
-/// Prefix of the rows whose scenario margins are the objectives.
+/// Prefix of the rows that hold slip margins.
 const SLIP: &str = "slip:";
 
-/// A design file with some of its numbers free: maximise the smallest slip margin over the scenarios, subject to
-/// every other margin.
+/// How an evaluation is computed.
+#[derive(Debug, Clone, Copy)]
+pub struct Fidelity {
+    /// Of the scenarios' runs.
+    pub settings: Settings,
+    /// Whether scenes run without the terms that they cannot feel, as `fidelity` plans them.
+    pub reduced: bool,
+}
+
+impl Default for Fidelity {
+    fn default() -> Self {
+        Self { settings: Settings::default(), reduced: true }
+    }
+}
+
+impl Fidelity {
+    /// Everything runs, at a tenth of the tolerance or of the usual one, whichever is less: what an optimum is looked at
+    /// with once more.
+    pub fn sharper(&self) -> Self {
+        let tolerance = 0.1 * self.settings.tolerance.min(Settings::default().tolerance);
+        let settings = Settings { tolerance, ..self.settings };
+        Self { settings, reduced: false }
+    }
+}
+
+/// A design file with some of its numbers free: make the least of its objectives better, subject to every margin.
 #[derive(Debug, Clone)]
 pub struct ClutchProblem {
     source: String,
     folder: std::path::PathBuf,
     variables: Vec<String>,
     limits: Limits,
+    target: Vec<[f64; 2]>,
     scenarios: Vec<String>,
-    settings: Settings,
+    goals: Vec<Goal>,
+    corners: Vec<Corner>,
+    fidelity: Fidelity,
+}
+
+/// Everything known of one clutch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Looked {
+    /// All required margins.
+    pub rows: Vec<Margin>,
+    /// What the goals raise, goal by goal.
+    pub measures: Vec<Measure>,
 }
 
 /// What the optimiser's numbers stand for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Names {
-    /// Scenario of each objective.
+    /// Code of each objective.
     pub objectives: Vec<String>,
     /// Margin code of each limit.
     pub limits: Vec<String>,
@@ -31,15 +71,81 @@ pub struct Names {
 
 impl ClutchProblem {
     /// The task of `design`'s `[optimize]` table with `variables` free (all others stay).
-    pub fn new(design: &Design, task: &Optimize, variables: Vec<String>, settings: Settings) -> Self {
+    pub fn new(design: &Design, task: &Optimize, variables: Vec<String>, fidelity: Fidelity) -> Self {
         Self {
             source: design.source.clone(),
             folder: design.folder.clone(),
             variables,
             limits: task.limits,
+            target: task.target.clone(),
             scenarios: task.scenarios.clone(),
-            settings,
+            goals: vec![Goal::plain(task.objective, &task.limits)],
+            corners: vec![Corner::NOMINAL],
+            fidelity,
         }
+    }
+
+    /// The same problem with other goals.
+    pub fn with_goals(&self, goals: Vec<Goal>) -> Self {
+        Self { goals, ..self.clone() }
+    }
+
+    /// The same problem held at several corners of the tolerances at once: the least over all of them counts.
+    pub fn at_corners(&self, corners: Vec<Corner>) -> Self {
+        Self { corners, ..self.clone() }
+    }
+
+    /// The same problem on another design file.
+    pub fn on(&self, source: String) -> Self {
+        Self { source, ..self.clone() }
+    }
+
+    /// The same problem with one of its scenarios alone.
+    pub fn for_scenario(&self, name: &str) -> Self {
+        Self { scenarios: vec![name.to_owned()], ..self.clone() }
+    }
+
+    /// The same problem at another fidelity.
+    pub fn at_fidelity(&self, fidelity: Fidelity) -> Self {
+        Self { fidelity, ..self.clone() }
+    }
+
+    /// The same problem with other variables.
+    pub fn over(&self, variables: Vec<String>) -> Self {
+        Self { variables, ..self.clone() }
+    }
+
+    /// Text of the design file.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// Names of the variables.
+    pub fn variables(&self) -> &[String] {
+        &self.variables
+    }
+
+    /// Goals.
+    pub fn goals(&self) -> &[Goal] {
+        &self.goals
+    }
+
+    /// How evaluations are computed.
+    pub fn fidelity(&self) -> Fidelity {
+        self.fidelity
+    }
+
+    /// Everything that an evaluation depends on but x, as text: what a journal's entries belong to. Values of the
+    /// variables are struck out, so that a file with other starts is the same problem.
+    pub fn identity(&self) -> String {
+        let zeros: Vec<(&str, f64)> = self.variables.iter().map(|v| (v.as_str(), 0.0)).collect();
+        let source = with_values(&self.source, &zeros).unwrap_or_else(|_| self.source.clone());
+        // The task's own bounds, seed and comments do not enter a margin; what of it does follows.
+        let source = source.split("\n[optimize]").next().unwrap_or_default().to_owned();
+        format!(
+            "{source}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}",
+            self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners, self.fidelity
+        )
     }
 
     /// The design file at `x`, in the units of the variables' names.
@@ -58,66 +164,146 @@ impl ClutchProblem {
     /// [`Failure::Refused`] with the first reason where the geometry at `x` is impossible.
     pub fn design_at(&self, x: &[f64]) -> Result<Design, Failure> {
         let text = self.file_at(x).map_err(|e| Failure::Refused(e.to_string()))?;
-        Design::parse_in(&self.folder, &text, "candidate").map_err(|e| {
+        self.parsed(&text)
+    }
+
+    /// A changed file as a design.
+    ///
+    /// # Errors
+    /// As [`Self::design_at`].
+    pub fn parsed(&self, text: &str) -> Result<Design, Failure> {
+        Design::parse_in(&self.folder, text, "candidate").map_err(|e| {
             let first = e.problems().first().map_or(String::new(), |p| format!("{}: {}", p.key, p.allowed));
             Failure::Refused(first)
         })
     }
 
-    /// All required margins at `x`: those of the static limits, and slip and contact of each scenario.
+    /// All required margins of `design` (those of the static limits, and slip and contact of each scenario) and what
+    /// the goals raise.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`] where there is no clutch to speak of.
+    pub fn look(&self, design: &Design) -> Result<Looked, Failure> {
+        let state = load_state(design).map_err(|e| Failure::Refused(e.to_string()))?;
+        let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
+        let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
+        rows.retain(|m| m.required);
+        if self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks.")) {
+            rows.extend(smooth::flank_rows(design, &state));
+        }
+        for scenario in design.scenarios.iter().filter(|s| self.scenarios.contains(&s.name)) {
+            rows.extend(self.scene(scenario));
+        }
+        let mut measures_of_goals = Vec::new();
+        for (k, goal) in self.goals.iter().enumerate() {
+            let found = measures(goal.objective, &self.limits, &self.target, &state, &rows);
+            measures_of_goals.extend(found.into_iter().map(|m| Measure { goal: k, ..m }));
+        }
+        Ok(Looked { rows, measures: measures_of_goals })
+    }
+
+    fn scene(&self, scenario: &crate::design::Scenario) -> Vec<Margin> {
+        let Fidelity { settings, reduced } = self.fidelity;
+        if !reduced {
+            return scene_margins(scenario, &self.limits, true, &settings);
+        }
+        let whole = || scene_margins(scenario, &self.limits, true, &settings);
+        let Ok((plan, prepared)) = fidelity::plan(scenario, &settings) else { return whole() };
+        // Taking a slow speed for rest costs up to the tolerance, and whether it does may change with x: a jump.
+        if plan.reduction.at_rest {
+            return whole();
+        }
+        let found = demand(&prepared, &settings);
+        // A run that needs more of the curve than was built is repeated with all of it.
+        if !found.finished && plan.reduction.reach_nm.is_some() {
+            return whole();
+        }
+        scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true)
+    }
+
+    /// All required margins at `x`, at every corner.
     ///
     /// # Errors
     /// [`Failure::Refused`] where there is no clutch at `x`.
-    pub fn margins_at(&self, x: &[f64], settings: &Settings) -> Result<Vec<Margin>, Failure> {
+    pub fn look_at(&self, x: &[f64]) -> Result<Looked, Failure> {
         let design = self.design_at(x)?;
-        let mut rows = margins(&design, &self.limits, &self.scenarios, false, false, settings)
-            .map_err(|e| Failure::Refused(e.to_string()))?;
-        rows.retain(|m| m.required);
-        Ok(rows)
+        let mut all = Looked { rows: Vec::new(), measures: Vec::new() };
+        for corner in &self.corners {
+            let mut found = if corner.is_nominal() {
+                self.look(&design)?
+            } else {
+                self.look(&perturbed(&design, corner).map_err(|e| Failure::Refused(e.to_string()))?)?
+            };
+            if !corner.is_nominal() {
+                let name = corner.name();
+                found.rows.iter_mut().for_each(|r| r.code = format!("{} @ {name}", r.code));
+                found.measures.iter_mut().for_each(|m| m.code = format!("{} @ {name}", m.code));
+            }
+            all.rows.extend(found.rows);
+            all.measures.extend(found.measures);
+        }
+        Ok(all)
     }
 
-    /// Objectives and limits in the order of [`Evaluation`].
-    pub fn names(rows: &[Margin]) -> Names {
-        let code = |m: &Margin| m.code.strip_prefix(SLIP).map(str::to_owned);
+    /// Whether slip rows are limits too: unless slip is all that is raised.
+    fn slip_is_limit(&self) -> bool {
+        self.goals.iter().any(|g| g.objective != Objective::SlipMargin)
+    }
+
+    fn is_limit(&self, m: &Margin) -> bool {
+        self.slip_is_limit() || !m.code.starts_with(SLIP)
+    }
+
+    /// Names in the order of [`Evaluation`].
+    pub fn names(&self, looked: &Looked) -> Names {
         Names {
-            objectives: rows.iter().filter_map(code).collect(),
-            limits: rows.iter().filter(|m| code(m).is_none()).map(|m| m.code.clone()).collect(),
+            objectives: looked.measures.iter().map(|m| m.code.clone()).collect(),
+            limits: looked.rows.iter().filter(|m| self.is_limit(m)).map(|m| m.code.clone()).collect(),
         }
     }
 
-    /// Slip margins mu_s/mu_req - 1, limits, and the largest Hertz pressure in GPa as the tie break.
-    pub fn evaluation(&self, rows: &[Margin]) -> Evaluation {
-        let wanted = self.limits.slip_margin.unwrap_or(0.0);
-        let is_slip = |m: &&Margin| m.code.starts_with(SLIP);
+    /// The rows that are limits, in the order of [`Evaluation`].
+    pub fn limit_rows<'r>(&self, rows: &'r [Margin]) -> Vec<&'r Margin> {
+        rows.iter().filter(|m| self.is_limit(m)).collect()
+    }
+
+    /// Objectives, each (measure - from)/span of its goal; limits; and the largest Hertz pressure in GPa as the tie
+    /// break.
+    pub fn evaluation(&self, looked: &Looked) -> Evaluation {
+        let pressure = looked.rows.iter().filter(|m| m.code.starts_with("hertz-"));
+        let pressed = self.goals.iter().any(|g| g.objective == Objective::PeakPressure);
         Evaluation {
-            // The row's margin is allowable/demand - 1 with allowable = mu_s/(1 + wanted).
-            objectives: rows
-                .iter()
-                .filter(is_slip)
-                .map(|m| (1.0 + m.margin) * if m.margin > -1.0 { 1.0 + wanted } else { 1.0 } - 1.0)
-                .collect(),
-            limits: rows.iter().filter(|m| !is_slip(m)).map(|m| m.margin).collect(),
-            tie_break: rows
-                .iter()
-                .filter(|m| m.code.starts_with("hertz-"))
-                .map(|m| m.demand * 1e-3)
-                .fold(0.0, f64::max),
+            objectives: looked.measures.iter().map(|m| self.goals[m.goal].scaled(m.value)).collect(),
+            limits: self.limit_rows(&looked.rows).iter().map(|m| m.margin).collect(),
+            tie_break: if pressed { 0.0 } else { pressure.map(|m| m.demand * 1e-3).fold(0.0, f64::max) },
         }
+    }
+
+    /// The least measure of goal `k`, in its objective's own unit ([`Objective::unit`]).
+    pub fn value(&self, looked: &Looked, k: usize) -> f64 {
+        let least =
+            looked.measures.iter().filter(|m| m.goal == k).map(|m| m.value).fold(f64::INFINITY, f64::min);
+        self.goals[k].objective.sense() * least
+    }
+
+    /// The file of a design found: values and the sharper limits put in, so that `check` holds it to what was searched
+    /// for.
+    ///
+    /// # Errors
+    /// [`EditError`].
+    pub fn finished_file(&self, x: &[f64]) -> Result<String, EditError> {
+        with_all_limits(&self.file_at(x)?, &self.limits)
     }
 }
 
 impl Evaluate for ClutchProblem {
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
-        self.margins_at(x, &self.settings).map(|rows| self.evaluation(&rows))
+        self.look_at(x).map(|looked| self.evaluation(&looked))
     }
 }
 
-/// The file of the optimum: values and the sharper limits put in, so that `check` holds it to what was searched for.
-///
-/// # Errors
-/// [`EditError`].
-pub fn finished_file(problem: &ClutchProblem, x: &[f64], sharper: &Limits) -> Result<String, EditError> {
-    let text = problem.file_at(x)?;
+/// `text` with every limit of `sharper` written into `[limits]`.
+fn with_all_limits(text: &str, sharper: &Limits) -> Result<String, EditError> {
     let rpm = 30.0 / std::f64::consts::PI;
     let entries = [
         ("nominal_torque_nm", sharper.nominal_torque_nm),
@@ -132,10 +318,15 @@ pub fn finished_file(problem: &ClutchProblem, x: &[f64], sharper: &Limits) -> Re
         ("case_shear_mpa", sharper.case_shear_pa.map(|v| v * 1e-6)),
         ("core_shear_mpa", sharper.core_shear_pa.map(|v| v * 1e-6)),
         ("axial_load_n", sharper.axial_load_n),
+        ("gap_nominal_mm", sharper.gap_nominal_m.map(|v| v * 1e3)),
+        ("gap_peak_mm", sharper.gap_peak_m.map(|v| v * 1e3)),
+        ("windup_nominal_deg", sharper.windup_nominal_rad.map(f64::to_degrees)),
+        ("equivalent_inner_mpa", sharper.equivalent_inner_pa.map(|v| v * 1e-6)),
+        ("equivalent_outer_mpa", sharper.equivalent_outer_pa.map(|v| v * 1e-6)),
         ("slip_margin", sharper.slip_margin),
         // rad/s back to the file's rpm, without the last digit's rounding.
         ("keep_contact_to_rpm", sharper.keep_contact_to_rad_s.map(|v| (v * rpm * 1e9).round() / 1e9)),
     ];
     let values: Vec<(&str, f64)> = entries.iter().filter_map(|(k, v)| v.map(|v| (*k, v))).collect();
-    with_limits(&text, &values)
+    with_limits(text, &values)
 }

@@ -1,17 +1,16 @@
-//! The whole search on a design: influence, dropped variables, SQP, the optimum looked at again more sharply.
+//! The whole search on a design: influence, dropped variables, whole numbers one by one, climbs, the optimum looked at
+//! again with everything that was left out on the way.
 
-use std::sync::atomic::AtomicBool;
-
+use super::branch::{Branch, branches};
+use super::desk::Desk;
 use super::evaluate::Failure;
 use super::influence::{Influence, influence};
-use super::journal::{Journal, Run, Watch};
-use super::maximise_least_margin;
-use super::outcome::{Outcome, Refusal};
-use super::problem::{ClutchProblem, Names};
-use super::settings::Settings;
-use crate::design::{Design, Optimize};
+use super::outcome::{Outcome, Refusal, Status};
+use super::price::{Price, prices};
+use super::problem::{ClutchProblem, Fidelity, Looked, Names};
+use super::starts::{Method, Start, climb_all, rank, rescued};
+use crate::design::{Design, Objective, Optimize};
 use crate::margin::Margin;
-use crate::scenario;
 
 /// One design variable before and after.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,24 +32,42 @@ pub struct Variable {
 /// Result of a search.
 #[derive(Debug, Clone)]
 pub struct Search {
+    /// What was made better.
+    pub aim: Objective,
     /// Variables in the order of the file.
     pub variables: Vec<Variable>,
     /// Names of objectives and limits.
     pub names: Names,
     /// Margins of the given design.
     pub start: Vec<Margin>,
-    /// Margins of the design found, at a tenth of the search's tolerance.
+    /// Margins of the design found, in full and at a tenth of the search's tolerance.
     pub best: Vec<Margin>,
-    /// Least slip margin before and after.
+    /// The same margins as the search had them.
+    pub as_searched: Vec<Margin>,
+    /// The objective before and after, in its own unit.
     pub objective: (f64, f64),
-    /// Change of the least slip margin when the optimum is evaluated at a tenth of the tolerance.
+    /// Change of the objective when the optimum is evaluated in full at a tenth of the tolerance.
     pub objective_error: f64,
-    /// Influence of every variable at the start, margins per range.
+    /// Influence of every continuous variable at the start, margins per range.
     pub influence: Influence,
-    /// The optimiser's own account; its vectors hold the variables that were not dropped.
+    /// Names of the variables of `influence`.
+    pub continuous: Vec<String>,
+    /// The same at the optimum; `None` where that was not reached.
+    pub sensitivity: Option<Influence>,
+    /// What a limit or bound costs at the optimum.
+    pub prices: Vec<Price>,
+    /// The best climb's own account; its vectors hold the variables that were not dropped and are no whole numbers.
     pub outcome: Outcome,
+    /// Names of the variables of `outcome`.
+    pub searched: Vec<String>,
+    /// All climbs of the best branch.
+    pub starts: Vec<Start>,
+    /// Whole numbers tried, if any.
+    pub branches: Vec<Branch>,
     /// Design file of the optimum.
     pub file: String,
+    /// The problem of the best branch, for what comes after.
+    pub problem: ClutchProblem,
     /// Evaluations of the clutch in all.
     pub evaluations: usize,
 }
@@ -65,6 +82,23 @@ impl Search {
     pub fn start_feasible(&self) -> bool {
         self.start.iter().all(Margin::held)
     }
+
+    /// Whether the objective is better than that of the given design.
+    pub fn improved(&self) -> bool {
+        (self.objective.1 - self.objective.0) * self.aim.sense() > 0.0
+    }
+
+    /// Whether the centroid was a free variable, so that no flanks are known that give it.
+    pub fn wants_centroid(&self) -> bool {
+        self.variables
+            .iter()
+            .any(|v| v.name.starts_with("centroid_") || v.name.starts_with("sprags.centroid."))
+    }
+
+    /// Bounds of the variables of `outcome`.
+    pub fn bounds(&self) -> (Vec<f64>, Vec<f64>) {
+        bounds(&self.variables, &self.searched)
+    }
 }
 
 /// Why a search did not begin.
@@ -76,6 +110,8 @@ pub enum NoSearch {
     Start(Failure),
     /// The question was refused.
     Refused(Refusal),
+    /// No variable is left that moves a margin.
+    NothingMoves(Vec<String>),
     /// Stopped before anything was known.
     Stopped,
 }
@@ -86,6 +122,9 @@ impl std::fmt::Display for NoSearch {
             Self::NoTask => write!(f, "the design has no [optimize] table"),
             Self::Start(e) => write!(f, "the given design cannot be evaluated: {e}"),
             Self::Refused(e) => write!(f, "{e}"),
+            Self::NothingMoves(names) => {
+                write!(f, "no variable moves any margin, so there is nothing to search: {}", names.join(", "))
+            }
             Self::Stopped => write!(f, "stopped before the given design was evaluated"),
         }
     }
@@ -93,78 +132,160 @@ impl std::fmt::Display for NoSearch {
 
 impl std::error::Error for NoSearch {}
 
+pub(super) fn refused(e: Refusal) -> NoSearch {
+    match e {
+        Refusal::StoppedAtStart => NoSearch::Stopped,
+        other => NoSearch::Refused(other),
+    }
+}
+
 /// Search from `design` as its `[optimize]` table says.
 ///
 /// # Errors
 /// [`NoSearch`]; not finding a feasible design is a status of the outcome.
-pub fn search(
-    design: &Design,
-    settings: &Settings,
-    journal: Journal,
-    stop: Option<&AtomicBool>,
-    watch: Option<&mut dyn Watch>,
-) -> Result<Search, NoSearch> {
+pub fn search(design: &Design, method: &Method, fidelity: Fidelity, desk: &Desk) -> Result<Search, NoSearch> {
     let task = design.optimize.as_ref().ok_or(NoSearch::NoTask)?;
-    let simulation = scenario::Settings::default();
     let all: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
-    let whole = ClutchProblem::new(design, task, all.clone(), simulation);
-    let x0: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
-    let start = whole.margins_at(&x0, &simulation).map_err(NoSearch::Start)?;
-    let names = ClutchProblem::names(&start);
-    let (lo, hi) = bounds(task, &all);
-    let refused = |e: Refusal| match e {
-        Refusal::StoppedAtStart => NoSearch::Stopped,
-        other => NoSearch::Refused(other),
-    };
-    let here = Run { journal: Journal::default(), stop, watch: None };
-    let influence = influence(&whole, &x0, &lo, &hi, settings, here).map_err(refused)?;
-    let dropped = influence.without();
-    let kept: Vec<usize> = (0..all.len()).filter(|i| !dropped.contains(i)).collect();
-    let free: Vec<String> = kept.iter().map(|&i| all[i].clone()).collect();
-    let problem = ClutchProblem::new(design, task, free.clone(), simulation);
-    let (lo, hi) = bounds(task, &free);
-    let x_free: Vec<f64> = kept.iter().map(|&i| x0[i]).collect();
-    // Coerced one by one so that the observer's borrow may shrink to the problem's.
-    let run = Run { journal, stop, watch: watch.map(|w| w as &mut dyn Watch) };
-    let outcome = maximise_least_margin(&problem, &x_free, &lo, &hi, settings, run).map_err(refused)?;
-    let sharper = scenario::Settings { tolerance: 0.1 * simulation.tolerance, ..simulation };
-    let best = problem.margins_at(&outcome.x, &sharper).map_err(NoSearch::Start)?;
-    let file = super::problem::finished_file(&problem, &outcome.x, &task.limits)
-        .map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
-    let least = problem.evaluation(&best).least_margin();
-    let variables = all
+    let problem = ClutchProblem::new(design, task, all, fidelity);
+    search_problem(&problem, task, method, desk)
+}
+
+/// Search over `task`'s variables on a problem that stands already: other goals, corners, or a changed file.
+///
+/// # Errors
+/// As [`search`].
+pub fn search_problem(
+    whole: &ClutchProblem,
+    task: &Optimize,
+    method: &Method,
+    desk: &Desk,
+) -> Result<Search, NoSearch> {
+    let mut variables: Vec<Variable> = task
+        .variables
         .iter()
-        .enumerate()
-        .map(|(i, name)| {
-            let place = kept.iter().position(|&k| k == i);
-            Variable {
-                name: name.clone(),
-                min: task.variables[i].min,
-                max: task.variables[i].max,
-                start: x0[i],
-                best: place.map_or(x0[i], |k| outcome.x[k]),
-                dropped: place.is_none(),
-            }
+        .map(|v| Variable {
+            name: v.name.clone(),
+            min: v.min,
+            max: v.max,
+            start: v.start,
+            best: v.start,
+            dropped: false,
         })
         .collect();
+    let x0: Vec<f64> = variables.iter().map(|v| v.start).collect();
+    let start = whole.look_at(&x0).map_err(NoSearch::Start)?;
+    let mut evaluations = 1;
+    let continuous: Vec<String> =
+        task.variables.iter().filter(|v| !v.whole).map(|v| v.name.clone()).collect();
+    let inner = whole.over(continuous.clone());
+    desk.begins("influence of the variables");
+    let table = if continuous.is_empty() {
+        Influence::default()
+    } else {
+        let (lo, hi) = bounds(&variables, &continuous);
+        let x = starts(&variables, &continuous);
+        desk.run(&inner, |inner, run| influence(inner, &x, &lo, &hi, &method.climb, run)).map_err(refused)?
+    };
+    evaluations += table.evaluations;
+    let idle: Vec<String> = table.without().into_iter().map(|i| continuous[i].clone()).collect();
+    variables.iter_mut().for_each(|v| v.dropped = idle.contains(&v.name));
+    let searched: Vec<String> = continuous.iter().filter(|n| !idle.contains(n)).cloned().collect();
+    let whole_numbers: Vec<_> = task.variables.iter().filter(|v| v.whole).cloned().collect();
+    if searched.is_empty() && whole_numbers.is_empty() {
+        return Err(NoSearch::NothingMoves(continuous));
+    }
+
+    let combos = branches(whole, &whole_numbers);
+    let tolerance = method.climb.violation_tolerance;
+    let mut best: Option<(Outcome, Vec<Start>, ClutchProblem, usize)> = None;
+    let mut told = Vec::new();
+    let mut x = starts(&variables, &searched);
+    let (lo, hi) = bounds(&variables, &searched);
+    let mut first_refusal = None;
+    for (mut branch, problem) in combos {
+        let problem = problem.over(searched.clone());
+        let begun = rescued(desk, &problem, &x, (&lo, &hi), method);
+        let from = begun.unwrap_or_else(|| x.clone());
+        match climb_all(desk, &problem, &from, (&lo, &hi), method) {
+            Ok(climbed) => {
+                evaluations += climbed.evaluations;
+                branch.tell(&climbed.best, climbed.evaluations);
+                let mine = rank(&climbed.best.evaluation, tolerance);
+                let better = best.as_ref().is_none_or(|b| mine < rank(&b.0.evaluation, tolerance));
+                // The next whole number starts where the best so far stood.
+                if better {
+                    x.clone_from(&climbed.best.x);
+                    best = Some((climbed.best, climbed.starts, problem, told.len()));
+                }
+            }
+            Err(why) => {
+                branch.refused(&why);
+                first_refusal.get_or_insert(why);
+            }
+        }
+        told.push(branch);
+        if desk.stopped() {
+            break;
+        }
+    }
+    let Some((outcome, climbs, problem, chosen)) = best else {
+        return Err(first_refusal.map_or(NoSearch::Stopped, refused));
+    };
+    for v in &mut variables {
+        if let Some(i) = searched.iter().position(|n| *n == v.name) {
+            v.best = outcome.x[i];
+        }
+        if let Some((_, value)) = told[chosen].values.iter().find(|(n, _)| *n == v.name) {
+            v.best = *value;
+        }
+    }
+    let as_searched = problem.look_at(&outcome.x).map_err(NoSearch::Start)?;
+    let full = problem.at_fidelity(problem.fidelity().sharper());
+    let best = full.look_at(&outcome.x).map_err(NoSearch::Start)?;
+    evaluations += 2;
+    let settled = matches!(outcome.status, Status::Converged | Status::Stalled(_)) && !searched.is_empty();
+    let sensitivity = if settled {
+        desk.begins("sensitivities");
+        desk.run(&problem, |problem, run| influence(problem, &outcome.x, &lo, &hi, &method.climb, run)).ok()
+    } else {
+        None
+    };
+    evaluations += sensitivity.as_ref().map_or(0, |s| s.evaluations);
+    let prices = match &sensitivity {
+        Some(table) => prices(&problem, &best, &outcome, table, (&lo, &hi)),
+        None => Vec::new(),
+    };
+    let file =
+        problem.finished_file(&outcome.x).map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
+    let value = |looked: &Looked| problem.value(looked, 0);
     Ok(Search {
-        variables,
-        names,
-        objective: (whole.evaluation(&start).least_margin(), least),
-        objective_error: (least - outcome.evaluation.least_margin()).abs(),
-        start,
-        best,
-        evaluations: influence.evaluations + outcome.evaluations + 2,
-        influence,
+        aim: problem.goals()[0].objective,
+        names: problem.names(&as_searched),
+        objective: (value(&start), value(&best)),
+        objective_error: (value(&best) - value(&as_searched)).abs(),
+        start: start.rows,
+        best: best.rows,
+        as_searched: as_searched.rows,
+        influence: table,
+        continuous,
+        sensitivity,
+        prices,
         outcome,
+        searched,
+        starts: climbs,
+        branches: told,
         file,
+        problem,
+        evaluations,
+        variables,
     })
 }
 
-fn bounds(task: &Optimize, names: &[String]) -> (Vec<f64>, Vec<f64>) {
-    let of = |name: &String| task.variables.iter().find(|v| &v.name == name);
-    (
-        names.iter().map(|n| of(n).map_or(0.0, |v| v.min)).collect(),
-        names.iter().map(|n| of(n).map_or(0.0, |v| v.max)).collect(),
-    )
+fn starts(variables: &[Variable], names: &[String]) -> Vec<f64> {
+    names.iter().filter_map(|n| variables.iter().find(|v| v.name == *n)).map(|v| v.start).collect()
+}
+
+fn bounds(variables: &[Variable], names: &[String]) -> (Vec<f64>, Vec<f64>) {
+    let of = names.iter().filter_map(|n| variables.iter().find(|v| v.name == *n));
+    of.map(|v| (v.min, v.max)).unzip()
 }

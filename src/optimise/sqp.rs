@@ -271,6 +271,7 @@ impl Climb<'_, '_> {
             failures: self.memo.failures,
             least_margin: self.evaluation.least_margin(),
             violation: self.evaluation.violation(),
+            violated: self.evaluation.violated(self.settings.violation_tolerance),
             residuals: self.residuals,
             radius: self.radius,
             weight: self.weight,

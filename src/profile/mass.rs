@@ -101,6 +101,7 @@ fn moments(segment: &Segment, origin: Vector2<f64>) -> Moments {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::profile::Flanks;
     use crate::profile::properties::{moved, table_1};
     use std::f64::consts::{PI, TAU};
 
@@ -186,16 +187,7 @@ mod tests {
         let mut polygon: Vec<Vector2<f64>> = (0..=count).map(|i| low(at(i))).collect();
         polygon
             .extend((0..=count).rev().map(|i| circle(Vector2::zeros(), profile.outer_radius_m, at(i), 1.0)));
-        let (mut area, mut first, mut polar) = (0.0, Vector2::zeros(), 0.0);
-        for (i, p) in polygon.iter().enumerate() {
-            let q = polygon[(i + 1) % polygon.len()];
-            let cross = p.x * q.y - p.y * q.x;
-            area += cross / 2.0;
-            first += (p + q) * cross / 6.0;
-            polar += cross * (p.norm_squared() + p.dot(&q) + q.norm_squared()) / 12.0;
-        }
-        let centroid: Vector2<f64> = first / area;
-        [area, centroid.x, centroid.y, polar - area * centroid.norm_squared()]
+        shoelace(&polygon)
     }
 
     #[test]
@@ -213,6 +205,85 @@ mod tests {
                 println!("quantity {i}: errors {:.2e} {:.2e}, order {order:.3}", coarse[i], fine[i]);
                 assert!((order - 2.0).abs() < 0.05, "quantity {i}: {order}");
                 assert!(fine[i] < 2e-6, "quantity {i}: {}", fine[i]);
+            }
+        }
+    }
+
+    /// Shoelace over rays from the middle of the strut line, each cut short by the first of flanks, outer circle and
+    /// inner arc that it meets; straight from profile and flanks, never from segments. [`strips`]'s four figures.
+    fn rays(arcs: &[(f64, f64)], flanks: &Flanks, count: usize) -> [f64; 4] {
+        let profile = table_1(arcs);
+        let contact = |k: usize, turn: f64| {
+            profile.arcs[k].centre_m + profile.arcs[k].radius_m * profile.contact_direction(turn)
+        };
+        let (a, b) = (contact(0, 0.0), Vector2::new(0.0, profile.outer_radius_m));
+        let middle = 0.5 * (a + b);
+        let up = (b - a).normalize();
+        let front = Vector2::new(up.y, -up.x);
+        let flank = |way: &Vector2<f64>, sign: f64, width: f64, tilt: f64| {
+            let along_way = sign * way.dot(&front) - tilt.tan() * way.dot(&up);
+            if along_way > 0.0 { width / along_way } else { f64::INFINITY }
+        };
+        let circle = |way: &Vector2<f64>, centre: Vector2<f64>, r: f64| {
+            let to = centre - middle;
+            let along_way = to.dot(way);
+            along_way + (r * r - to.norm_squared() + along_way * along_way).sqrt()
+        };
+        let last = profile.arcs.len() - 1;
+        let at = |i: usize| {
+            let turn = TAU * i as f64 / count as f64;
+            let way = turn.cos() * front + turn.sin() * up;
+            let k = (0..last)
+                .find(|&k| {
+                    // Still before the junction k|k+1, seen from the middle: to its rear.
+                    let junction = contact(k, profile.arcs[k].until_rad) - middle;
+                    way.perp(&junction) > 0.0
+                })
+                .unwrap_or(last);
+            let inner = circle(&way, profile.arcs[k].centre_m, profile.arcs[k].radius_m);
+            let outer = circle(&way, Vector2::zeros(), profile.outer_radius_m);
+            let curve = if way.dot(&up) > 0.0 { outer } else { inner };
+            let sides = flank(&way, 1.0, flanks.front_m, flanks.front_tilt_rad).min(flank(
+                &way,
+                -1.0,
+                flanks.rear_m,
+                flanks.rear_tilt_rad,
+            ));
+            middle + curve.min(sides) * way
+        };
+        shoelace(&(0..count).map(at).collect::<Vec<_>>())
+    }
+
+    /// Area, centroid and polar second moment about it of a counterclockwise polygon.
+    fn shoelace(polygon: &[Vector2<f64>]) -> [f64; 4] {
+        let (mut area, mut first, mut polar) = (0.0, Vector2::zeros(), 0.0);
+        for (i, p) in polygon.iter().enumerate() {
+            let q = polygon[(i + 1) % polygon.len()];
+            let cross = p.x * q.y - p.y * q.x;
+            area += cross / 2.0;
+            first += (p + q) * cross / 6.0;
+            polar += cross * (p.norm_squared() + p.dot(&q) + q.norm_squared()) / 12.0;
+        }
+        let centroid: Vector2<f64> = first / area;
+        [area, centroid.x, centroid.y, polar - area * centroid.norm_squared()]
+    }
+
+    #[test]
+    fn leaning_flanks_weigh_what_rays_find() {
+        let arcs = [(4.02e-3, 0.06), (4.08e-3, 0.12), (4.15e-3, 0.45)];
+        for (rear_tilt_rad, front_tilt_rad) in
+            [(0.0, 0.0), (0.2, 0.1), (-0.2, 0.15), (-0.15, -0.1), (0.1, -0.12)]
+        {
+            let flanks = Flanks { rear_tilt_rad, front_tilt_rad, ..Flanks::parallel(2.9e-3, 2.9e-3) };
+            let exact = Outline::closed(&table_1(&arcs), &flanks).unwrap().mass_properties(1.0, 1.0);
+            let exact = [exact.area_m2, exact.centroid_m[0], exact.centroid_m[1], exact.inertia_kg_m2];
+            // The corners lie between rays, so the error falls with the square of their spacing, unevenly.
+            let got = rays(&arcs, &flanks, 40_000);
+            let size = [exact[0], 1e-3, 1e-3, exact[3]];
+            for i in 0..4 {
+                let error = (got[i] - exact[i]).abs() / size[i];
+                println!("{rear_tilt_rad} {front_tilt_rad}, {i}: {:.6e}, {error:.1e} off", exact[i]);
+                assert!(error < 2e-7, "{rear_tilt_rad} {front_tilt_rad}, {i}: {} {}", got[i], exact[i]);
             }
         }
     }

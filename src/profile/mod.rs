@@ -13,16 +13,20 @@
 
 mod crowding;
 mod curvature;
+mod flank;
 mod mass;
 mod outline;
 #[cfg(test)]
 mod properties;
+mod reseat;
 mod unclosed;
 
 pub use crowding::{clearance_m, touch_rotation_rad};
 pub use curvature::PatchCurvature;
+pub use flank::{Flanks, STEEPEST_RAD};
 pub use mass::MassProperties;
 pub use outline::{Outline, Segment};
+pub use reseat::Reseated;
 pub use unclosed::{OutlineError, Side};
 
 use nalgebra::Vector2;

@@ -1,5 +1,6 @@
 //! The closed outline of a sprag: inner arcs, front flank, outer arc, rear flank.
 
+use super::flank::{Flank, Flanks, Strut};
 use super::{OutlineError, Profile, ProfileArc, Side};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
@@ -79,111 +80,84 @@ pub(super) fn along(azimuth_rad: f64) -> Vector2<f64> {
 
 /// Closed outline of a sprag in the body frame, counterclockwise from the rear corner of the first inner arc.
 ///
-/// The flanks are parallel to the strut line AB at first contact, on either side of it. Every arc bulges
-/// outwards and meets a flank before its widest point, so the outline is convex; clearances rely on that.
+/// The flanks stand on either side of the strut line AB at first contact, parallel to it or leaning. Every arc bulges
+/// outwards and crosses a flank, never touches it, and both contacts lie inside, so the outline is convex; clearances
+/// rely on that.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
     segments: Vec<Segment>,
 }
 
-/// The strut line AB at first contact.
-struct Strut {
-    /// A.
-    foot: Vector2<f64>,
-    /// Unit vector from A to B.
-    up: Vector2<f64>,
-    /// Unit normal towards +x.
-    front: Vector2<f64>,
-}
-
-impl Strut {
-    fn new(profile: &Profile, first: &ProfileArc) -> Self {
-        let foot = first.centre_m + first.radius_m * profile.contact_direction(0.0);
-        let up = (Vector2::new(0.0, profile.outer_radius_m) - foot).normalize();
-        Self { foot, up, front: Vector2::new(up.y, -up.x) }
-    }
-
-    /// Signed distance of a point from the strut line, m, positive in front.
-    fn offset(&self, point: Vector2<f64>) -> f64 {
-        self.front.dot(&(point - self.foot))
-    }
-
-    /// Half width at which a flank would only touch a circle, m.
-    fn reach(&self, side: Side, centre: Vector2<f64>, radius: f64) -> f64 {
-        radius + signed(side, self.offset(centre))
-    }
-
-    /// Front half width up to which the working profile reaches, m: offset of the last arc's end, because the
-    /// offset grows with the turn.
-    fn inner_need(&self, profile: &Profile, last: &ProfileArc) -> f64 {
-        let end = profile.contact_direction(profile.end_turn_rad());
-        self.offset(last.centre_m + last.radius_m * end)
-    }
-
-    /// Rear half width up to which the contacts on the outer arc reach, m.
-    fn outer_need(&self, profile: &Profile, end_azimuth: f64) -> f64 {
-        -self.offset(profile.outer_radius_m * along(end_azimuth))
-    }
-}
-
 impl Outline {
     /// Close `profile` by two flanks parallel to the strut at first contact: `rear_m` from it towards
-    /// negative x, `front_m` towards positive x. The first inner arc is continued to the rear flank and
-    /// the last to the front flank.
+    /// negative x, `front_m` towards positive x.
+    ///
+    /// # Errors
+    /// As [`Outline::closed`].
+    pub fn new(profile: &Profile, rear_m: f64, front_m: f64) -> Result<Self, OutlineError> {
+        Self::closed(profile, &Flanks::parallel(rear_m, front_m))
+    }
+
+    /// Close `profile` by `flanks`. The first inner arc is continued to the rear flank and the last to the front
+    /// flank.
     ///
     /// # Errors
     /// [`OutlineError`] where a flank misses an arc or cuts away part of the working profile: turns from
     /// 0 to the end of the last arc inside, and outside the contacts that go with them between rigid races.
     /// (Races under load move that end by some 1e-5 rad, and the contact has a width: leave room.)
-    pub fn new(profile: &Profile, rear_m: f64, front_m: f64) -> Result<Self, OutlineError> {
-        for (side, given_m) in [(Side::Rear, rear_m), (Side::Front, front_m)] {
-            if !(given_m > 0.0 && given_m.is_finite()) {
-                return Err(OutlineError::NotPositive { side, given_m });
-            }
-        }
+    pub fn closed(profile: &Profile, flanks: &Flanks) -> Result<Self, OutlineError> {
         let (Some(first), Some(last)) = (profile.arcs.first(), profile.arcs.last()) else {
             return Err(OutlineError::NoArcs);
         };
         let r_e = profile.outer_radius_m;
         let strut = Strut::new(profile, first);
-        let up = strut.up;
-        // Turn at which the contact direction runs down the strut: omega of first contact.
-        let d_0 = profile.contact_direction(0.0);
-        let down_turn = d_0.perp(&-up).atan2(d_0.dot(&-up));
+        let rear = Flank::new(&strut, Side::Rear, flanks)?;
+        let front = Flank::new(&strut, Side::Front, flanks)?;
 
-        let inner_turn = |centre: Vector2<f64>, radius: f64, side: Side, given_m: f64| {
-            let x = signed(side, given_m) - strut.offset(centre);
-            let reach_m = strut.reach(side, centre, radius);
-            let miss = OutlineError::MissesInner { side, given_m, reach_m };
-            if x.abs() < radius { Ok(down_turn + (x / radius).asin()) } else { Err(miss) }
+        // Turn at which the contact direction runs down the flank, and from there to where the flank cuts the arc.
+        let inner_turn = |flank: &Flank, arc: &ProfileArc| {
+            let d_0 = profile.contact_direction(0.0);
+            let down_turn = d_0.perp(&-flank.up).atan2(d_0.dot(&-flank.up));
+            let (side, given_m) = (flank.side, flank.given_m());
+            let reach_m = flank.reach(arc.centre_m, arc.radius_m);
+            let bite = flank.bite(arc.centre_m, arc.radius_m);
+            bite.map(|b| down_turn + flank.sign * b).ok_or(OutlineError::MissesInner {
+                side,
+                given_m,
+                reach_m,
+            })
         };
-        let outer_azimuth = |side: Side, given_m: f64| {
-            let x = signed(side, given_m) - strut.offset(Vector2::zeros());
-            let reach_m = strut.reach(side, Vector2::zeros(), r_e);
-            let miss = OutlineError::MissesOuter { side, given_m, reach_m };
-            if x.abs() < r_e { Ok(up.x.atan2(up.y) + (x / r_e).asin()) } else { Err(miss) }
+        let outer_azimuth = |flank: &Flank| {
+            let (side, given_m) = (flank.side, flank.given_m());
+            let reach_m = flank.reach(Vector2::zeros(), r_e);
+            let bite = flank.bite(Vector2::zeros(), r_e);
+            bite.map(|b| flank.up.x.atan2(flank.up.y) + flank.sign * b).ok_or(OutlineError::MissesOuter {
+                side,
+                given_m,
+                reach_m,
+            })
         };
 
-        let from_turn = inner_turn(first.centre_m, first.radius_m, Side::Rear, rear_m)?;
+        let from_turn = inner_turn(&rear, first)?;
         // Distance from the strut grows with the turn, so the first arc that meets the flank before its end is cut.
         for arc in &profile.arcs {
-            if let Ok(turn) = inner_turn(arc.centre_m, arc.radius_m, Side::Front, front_m)
+            if let Ok(turn) = inner_turn(&front, arc)
                 && turn < arc.until_rad
             {
-                let end = profile.end_turn_rad();
-                let needed_m = strut.inner_need(profile, last);
-                return Err(OutlineError::CutsInner { lost_rad: end - turn, given_m: front_m, needed_m });
+                let lost_rad = profile.end_turn_rad() - turn;
+                let needed_m = front.need(inner_end(profile, last));
+                return Err(OutlineError::CutsInner { lost_rad, given_m: front.given_m(), needed_m });
             }
         }
-        let until_turn = inner_turn(last.centre_m, last.radius_m, Side::Front, front_m)?;
+        let until_turn = inner_turn(&front, last)?;
 
-        let front_azimuth = outer_azimuth(Side::Front, front_m)?;
-        let rear_azimuth = outer_azimuth(Side::Rear, rear_m)?;
+        let front_azimuth = outer_azimuth(&front)?;
+        let rear_azimuth = outer_azimuth(&rear)?;
         let end_azimuth = outer_contact_azimuth(profile, profile.end_turn_rad());
         if end_azimuth < rear_azimuth {
-            let needed_m = strut.outer_need(profile, end_azimuth);
+            let needed_m = rear.need(r_e * along(end_azimuth));
             let lost_rad = rear_azimuth - end_azimuth;
-            return Err(OutlineError::CutsOuter { lost_rad, given_m: rear_m, needed_m });
+            return Err(OutlineError::CutsOuter { lost_rad, given_m: rear.given_m(), needed_m });
         }
 
         let mut segments = Vec::with_capacity(profile.arcs.len() + 3);
@@ -205,12 +179,10 @@ impl Outline {
         };
         let rear_foot = first.centre_m + first.radius_m * profile.contact_direction(from_turn);
         let front_foot = last.centre_m + last.radius_m * profile.contact_direction(until_turn);
-        for (side, low, high) in
-            [(Side::Front, front_foot, outer.start_m()), (Side::Rear, rear_foot, outer.end_m())]
-        {
-            let height_m = up.dot(&(high - low));
+        for (flank, low, high) in [(&front, front_foot, outer.start_m()), (&rear, rear_foot, outer.end_m())] {
+            let height_m = flank.up.dot(&(high - low));
             if height_m <= 0.0 {
-                return Err(OutlineError::NoFlank { side, height_m });
+                return Err(OutlineError::NoFlank { side: flank.side, height_m });
             }
         }
         segments.push(Segment::Line { from_m: front_foot, to_m: outer.start_m() });
@@ -219,25 +191,63 @@ impl Outline {
         Ok(Self { segments })
     }
 
-    /// The narrowest sprag: flanks that keep the working profile and 5 % of half width (a choice) beyond it, or
-    /// half of what the arcs leave where that is less. For drawings of a design that names no flanks.
+    /// What is left until flanks no longer close the profile, each over the half width given, positive where they do:
+    /// at the rear and in front, [inside, outside] - inside until one cuts a contact or the working profile, outside
+    /// until it misses an arc.
     ///
     /// # Errors
-    /// [`OutlineError`] where no flanks close the profile.
-    pub fn narrowest(profile: &Profile) -> Result<Self, OutlineError> {
+    /// [`OutlineError`] where a half width or a lean is out of range or leaves a contact outside.
+    pub fn room(profile: &Profile, flanks: &Flanks) -> Result<[[f64; 2]; 2], OutlineError> {
         let (Some(first), Some(last)) = (profile.arcs.first(), profile.arcs.last()) else {
             return Err(OutlineError::NoArcs);
         };
         let strut = Strut::new(profile, first);
-        let half_width = |side: Side, need: f64, arc: &ProfileArc| {
-            let inner = strut.reach(side, arc.centre_m, arc.radius_m);
-            let reach = inner.min(strut.reach(side, Vector2::zeros(), profile.outer_radius_m));
+        let outer_end =
+            profile.outer_radius_m * along(outer_contact_azimuth(profile, profile.end_turn_rad()));
+        let side = |side: Side, end: Vector2<f64>, arc: &ProfileArc| -> Result<[f64; 2], OutlineError> {
+            let flank = Flank::new(&strut, side, flanks)?;
+            let given = flank.given_m();
+            let need = flank.need(end).max(flank.need(strut.a)).max(flank.need(strut.b));
+            let reach = flank.reach(arc.centre_m, arc.radius_m);
+            let reach = reach.min(flank.reach(Vector2::zeros(), profile.outer_radius_m));
+            Ok([(given - need) / given, (reach - given) / given])
+        };
+        Ok([side(Side::Rear, outer_end, first)?, side(Side::Front, inner_end(profile, last), last)?])
+    }
+
+    /// The narrowest sprag: parallel flanks that keep the working profile and 5 % of half width (a choice) beyond it,
+    /// or half of what the arcs leave where that is less. For drawings of a design that names no flanks.
+    ///
+    /// # Errors
+    /// [`OutlineError`] where no flanks close the profile.
+    pub fn narrowest(profile: &Profile) -> Result<Self, OutlineError> {
+        let (rear_m, front_m) = Self::narrowest_flanks(profile)?;
+        Self::new(profile, rear_m, front_m)
+    }
+
+    /// Distances of the flanks of [`Outline::narrowest`] from the strut, rear and front, m.
+    ///
+    /// # Errors
+    /// [`OutlineError::NoArcs`]; whether the flanks close the profile is seen when they do.
+    pub fn narrowest_flanks(profile: &Profile) -> Result<(f64, f64), OutlineError> {
+        let (Some(first), Some(last)) = (profile.arcs.first(), profile.arcs.last()) else {
+            return Err(OutlineError::NoArcs);
+        };
+        let strut = Strut::new(profile, first);
+        // Any half width shows the needs of a parallel flank.
+        let any = Flanks::parallel(profile.outer_radius_m, profile.outer_radius_m);
+        let (rear, front) = (Flank::new(&strut, Side::Rear, &any)?, Flank::new(&strut, Side::Front, &any)?);
+        let half_width = |flank: &Flank, end: Vector2<f64>, arc: &ProfileArc| {
+            let need = flank.need(end);
+            let inner = flank.reach(arc.centre_m, arc.radius_m);
+            let reach = inner.min(flank.reach(Vector2::zeros(), profile.outer_radius_m));
             (BEYOND * need).min(0.5 * (need + reach))
         };
-        let end_azimuth = outer_contact_azimuth(profile, profile.end_turn_rad());
-        let rear_m = half_width(Side::Rear, strut.outer_need(profile, end_azimuth), first);
-        let front_m = half_width(Side::Front, strut.inner_need(profile, last), last);
-        Self::new(profile, rear_m, front_m)
+        let outer_end =
+            profile.outer_radius_m * along(outer_contact_azimuth(profile, profile.end_turn_rad()));
+        let rear_m = half_width(&rear, outer_end, first);
+        let front_m = half_width(&front, inner_end(profile, last), last);
+        Ok((rear_m, front_m))
     }
 
     /// Segments in order, each beginning where the one before ends.
@@ -273,12 +283,9 @@ impl Outline {
     }
 }
 
-/// Offset from the strut line of a flank `half_width` from it.
-fn signed(side: Side, half_width: f64) -> f64 {
-    match side {
-        Side::Rear => -half_width,
-        Side::Front => half_width,
-    }
+/// Where the working profile ends on the last inner arc, m.
+fn inner_end(profile: &Profile, last: &ProfileArc) -> Vector2<f64> {
+    last.centre_m + last.radius_m * profile.contact_direction(profile.end_turn_rad())
 }
 
 /// Azimuth of the outer contact in the body when the inner contact has turned by `turn` between rigid

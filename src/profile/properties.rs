@@ -1,6 +1,6 @@
 //! What every outline must satisfy, over random profiles; and the samples the room's tests share.
 
-use super::{Outline, Profile, Segment};
+use super::{Flanks, Outline, Profile, Segment};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
@@ -39,9 +39,14 @@ pub(super) fn random_outline(random: &mut Random) -> Option<(Profile, Outline)> 
         radius *= random.between(0.93, 1.08);
     }
     let profile = Profile::new(outer_radius, centre_distance, &arcs, inner_race, outer_race).ok()?;
-    let rear = outer_radius * random.between(0.3, 0.75);
-    let front = outer_radius * random.between(0.3, 0.75);
-    let outline = Outline::new(&profile, rear, front).ok()?;
+    let rear_m = outer_radius * random.between(0.3, 0.75);
+    let front_m = outer_radius * random.between(0.3, 0.75);
+    // One in three stands parallel to the strut.
+    let lean = if random.between(0.0, 1.0) < 1.0 / 3.0 { 0.0 } else { 0.5 };
+    let (rear_tilt_rad, front_tilt_rad) =
+        (lean * random.between(-1.0, 1.0), lean * random.between(-1.0, 1.0));
+    let outline =
+        Outline::closed(&profile, &Flanks { rear_m, front_m, rear_tilt_rad, front_tilt_rad }).ok()?;
     Some((profile, outline))
 }
 

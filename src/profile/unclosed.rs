@@ -11,7 +11,7 @@ pub enum Side {
     Front,
 }
 
-/// Why flanks do not close a profile. Every half width is a distance from the strut line.
+/// Why flanks do not close a profile. Every half width is a distance from the middle of the strut line.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OutlineError {
     /// The profile has no inner arc.
@@ -22,6 +22,22 @@ pub enum OutlineError {
         side: Side,
         /// Half width given, m.
         given_m: f64,
+    },
+    /// A flank leans by more than [`STEEPEST_RAD`](super::STEEPEST_RAD).
+    TooSteep {
+        /// The flank.
+        side: Side,
+        /// Lean given, rad.
+        tilt_rad: f64,
+    },
+    /// The flank leaves the inner or the outer contact of first contact outside.
+    CutsContact {
+        /// The flank.
+        side: Side,
+        /// Half width given, m.
+        given_m: f64,
+        /// Half width above which both contacts lie inside, m.
+        needed_m: f64,
     },
     /// The flank passes the inner arc, however far that is extended.
     MissesInner {
@@ -85,6 +101,17 @@ impl fmt::Display for OutlineError {
             Self::NotPositive { side, given_m } => {
                 write!(f, "the {side} flank is {} mm from the strut line, not above 0", mm(given_m))
             }
+            Self::TooSteep { side, tilt_rad } => write!(
+                f,
+                "the {side} flank leans by {tilt_rad} rad, more than {} rad either way",
+                super::STEEPEST_RAD
+            ),
+            Self::CutsContact { side, given_m, needed_m } => write!(
+                f,
+                "the {side} flank, {:.4} mm from the strut line, leaves a contact outside; both need {:.4} mm",
+                mm(given_m),
+                mm(needed_m)
+            ),
             Self::MissesInner { side, given_m, reach_m } => write!(
                 f,
                 "the {side} flank, {:.4} mm from the strut line, passes the inner arc, which reaches {:.4} mm",

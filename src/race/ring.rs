@@ -114,7 +114,7 @@ impl Race {
     }
 
     /// (R_o^2 + R_b^2)/(R_o^2 - R_b^2) of Lame's ring with bore R_b and outside R_o; 1 for a solid shaft.
-    fn lame_factor(&self) -> f64 {
+    pub(super) fn lame_factor(&self) -> f64 {
         let (o, b) = (self.outside_m.powi(2), self.bore_m.powi(2));
         (o + b) / (o - b)
     }
@@ -162,6 +162,20 @@ impl Race {
                 }
                 let (o, b) = (self.outside_m.powi(2), self.bore_m.powi(2));
                 -2.0 * p * o / (o - b)
+            }
+        }
+    }
+
+    /// Largest von Mises stress under the mean track pressure p, plane stress, Pa >= 0 (Lame; Timoshenko, *Strength of
+    /// Materials* II, art. 41): sqrt(p^2 + p h + h^2) at the outer race's track with its hoop stress h; for an inner race
+    /// 2 p R_i^2/(R_i^2 - R_id^2) at the free bore, above that at its track; p throughout a solid shaft.
+    pub fn equivalent_pa(&self, contacts: usize, normal_n: f64) -> f64 {
+        match self.side {
+            Side::Inner => self.hoop_at_bore_pa(contacts, normal_n).abs(),
+            Side::Outer => {
+                let (p, h) =
+                    (self.track_pressure_pa(contacts, normal_n), self.hoop_at_track_pa(contacts, normal_n));
+                (p * p + p * h + h * h).sqrt()
             }
         }
     }

@@ -17,7 +17,7 @@ pub use bars::{Bar, Bars, Tone};
 pub use drawing::{Drawing, DrawnArc, SpragPose};
 pub use number::{Unit, significant};
 pub use page::{Page, PageHead};
-pub use plot::{Curve, Marker, Plot};
+pub use plot::{Curve, Dash, Marker, Plot};
 pub use strip::{Span, Strip};
 pub use table::{Cell, Column, Table};
 #[cfg(test)]

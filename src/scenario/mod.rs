@@ -12,5 +12,7 @@ mod simulate;
 pub use answer::{Simulation, Verdict};
 pub use demand::{Demand, demand};
 pub use error::ErrorEstimate;
-pub use prepare::{NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced};
+pub use prepare::{
+    NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced, sliding_friction,
+};
 pub use simulate::{Settings, published_steps, simulate, simulate_prepared, simulate_published};

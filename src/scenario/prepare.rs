@@ -227,7 +227,7 @@ pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Pre
 }
 
 /// mu at A, where the inner race runs ahead of the sprags by `overrun_rad_s`.
-fn sliding_friction(clutch: &Clutch, overrun_rad_s: f64) -> f64 {
+pub fn sliding_friction(clutch: &Clutch, overrun_rad_s: f64) -> f64 {
     let Friction { static_, kinetic, decay_s_per_m, .. } = clutch.friction;
     Stribeck { static_, kinetic, decay_s_per_m }.coefficient(overrun_rad_s * clutch.races.inner_radius_m)
 }

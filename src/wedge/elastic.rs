@@ -158,6 +158,12 @@ impl Elastic {
         law(&self.inner[arc], n_bi)
     }
 
+    /// By how much the races part under the normal forces `n_bi` and `n_be` of each sprag, N: growth of both tracks in
+    /// the mean, m, positive where the gap opens.
+    pub fn gap_opening_m(&self, n_bi: f64, n_be: f64) -> f64 {
+        self.race_inner_m_per_n * n_bi + self.race_outer_m_per_n * n_be
+    }
+
     /// Without growth of the rings and compression of the body.
     pub(super) fn local_only(self) -> Self {
         Self { race_inner_m_per_n: 0.0, race_outer_m_per_n: 0.0, body_m_per_n: 0.0, ..self }

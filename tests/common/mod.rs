@@ -22,7 +22,7 @@ pub fn clutch(arcs: &[(f64, f64)]) -> (Clutch, Profile) {
             centroid_m: [0.1935e-3, 0.5288e-3],
             mass_source: MassSource::Given,
             inner_arcs: arcs.iter().map(|&(radius_m, until_rad)| InnerArc { radius_m, until_rad }).collect(),
-            flanks: Some(Flanks { rear_m: 2.525e-3, front_m: 2.525e-3 }),
+            flanks: Some(Flanks::parallel(2.525e-3, 2.525e-3)),
         },
         races: Races {
             inner_bore_radius_m: 7.21e-3,
@@ -34,6 +34,7 @@ pub fn clutch(arcs: &[(f64, f64)]) -> (Clutch, Profile) {
             outer_inertia_kg_m2: 1.41e-3,
             viscous_damping_nm_s_per_rad: 0.1,
         },
+        running: None,
         spring: Spring { stiffness_nm_per_rad: 0.01, drag_torque_nm: 0.0166 },
         materials: Materials { sprag: steel, inner_race: steel, outer_race: steel },
         friction: Friction { static_: 0.12, kinetic: 0.09, decay_s_per_m: 5.0, outer_holds: false },

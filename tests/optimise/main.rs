@@ -1,6 +1,9 @@
 //! The optimiser on problems with known optima: one table of problems, one harness, and the ways a run can end.
 
+mod clutch;
 mod ends;
+mod goals;
+mod made;
 mod problems;
 
 use sprag_design::optimise::{Outcome, Run, Settings, Status, maximise_least_margin};

@@ -1,6 +1,8 @@
 //! Refusals: every way in which a design file is turned away, with the key, the line and the words.
 
 mod axial;
+mod margins;
+mod optimize;
 
 use sprag_design::design::{Design, DesignError};
 
@@ -65,7 +67,6 @@ fn unknown_missing_and_mistyped_keys() {
         Case(&[("count = 12", "cuont = 12")], "sprags.count", "[sprags]", &["no such key", "add count"]),
         Case(&[("[spring]", "[sprig]")], "sprig", "[sprig]", &["did you mean spring?"]),
         Case(&[("[spring]", "[sprig]")], "spring", "# Why", &["add the table [spring]"]),
-        Case(&[("[spring]", "[races.press_fit]\n[spring]")], "races.press_fit", "press_fit", &["reserved"]),
         Case(&[("y_mm = 0.5288 ", "z_mm = 0.5288 ")], "sprags.centroid.z_mm", "centroid =", &["x_mm, y_mm"]),
         Case(&[("y_mm = 0.5288 ", "z_mm = 0.5288 ")], "sprags.centroid.y_mm", "centroid =", &["add y_mm"]),
         Case(&[("until_rad = 0.12 ", "till_rad = 0.12 ")], "sprags.inner_arcs[1].until_rad", "till", &["add"]),

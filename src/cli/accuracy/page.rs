@@ -37,7 +37,7 @@ pub(super) fn page(study: &Study, answer: &Answer<'_, Body>, context: &Context) 
 }
 
 const OMISSIONS: [&str; 8] = [
-    "Integrators of others on the same right-hand side are not compared yet.",
+    "Integrators of others are not compared here but in reports/accuracy-peers.html, on the same right-hand sides and events.",
     "One quantity decides: theta_bi at the end, beside it the slip margin. Slip distances, peaks and times of contact loss \
      have error estimates of their own in simulate, which --tolerance holds below its value; they are not plotted.",
     "Errors are differences to the event method itself at steps of 1e-13. That the equations are those meant is shown \

@@ -1,5 +1,7 @@
 //! The margins as table and as JSON.
 
+use super::overrun::Section;
+use super::running;
 use crate::margin::Margin;
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::wedge::EndReason;
@@ -48,7 +50,7 @@ struct End {
 }
 
 /// What the margins were read from.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Source {
     /// Why the static curve ends.
     pub(super) end: EndReason,
@@ -60,6 +62,10 @@ pub(super) struct Source {
     pub(super) lift_off_rad_s: Option<f64>,
     /// How far a lift-off was looked for, rad/s.
     pub(super) searched_to_rad_s: f64,
+    /// Overrun against speed.
+    pub(super) overrun: Section,
+    /// Radii as made and as run, where they differ.
+    pub(super) running: Option<running::Section>,
 }
 
 /// Keys of `check`.
@@ -78,8 +84,11 @@ pub(super) struct Body {
     #[serde(skip)]
     asked_nm: f64,
     /// Null: contact is kept up to `lift_off_searched_to_rpm`.
-    lift_off_rpm: Option<f64>,
+    pub(super) lift_off_rpm: Option<f64>,
     lift_off_searched_to_rpm: f64,
+    pub(super) overrun: Section,
+    /// Null: the races run as made.
+    pub(super) running: Option<running::Section>,
 }
 
 impl Body {
@@ -115,7 +124,15 @@ impl Body {
             asked_nm: source.asked_nm,
             lift_off_rpm: source.lift_off_rad_s.map(rpm),
             lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
+            overrun: source.overrun,
+            running: source.running,
         }
+    }
+
+    /// Code and torque, N m, of the limits that set the nominal and the peak capacity.
+    pub(super) fn capacities(&self) -> Vec<(String, f64)> {
+        let both = [&self.nominal_torque_capacity, &self.peak_torque_capacity].into_iter().flatten();
+        both.map(|c| (c.code.clone(), c.torque_capacity_nm)).collect()
     }
 
     /// The answer in one line.
@@ -156,12 +173,13 @@ impl Body {
                 Unit::NewtonMetre.show_plain(self.asked_nm, 4)
             )
         });
+        let running = self.running.iter().flat_map(running::Section::remarks);
         let searched = format!("{:.0}", self.lift_off_searched_to_rpm);
         let lift_off = match self.lift_off_rpm {
             Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
             None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
         };
-        capacity.chain(early).chain([lift_off]).collect()
+        capacity.chain(early).chain([lift_off, self.overrun.remark()]).chain(running).collect()
     }
 }
 
@@ -264,6 +282,7 @@ pub(super) fn csv_table(rows: &[Margin]) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::margin::OverrunCurve;
 
     fn margin(code: &str, demand: f64, margin: f64, capacity: Option<f64>, required: bool) -> Margin {
         Margin {
@@ -285,6 +304,8 @@ mod tests {
             asked_nm: 110.0,
             lift_off_rad_s,
             searched_to_rad_s: 100.0,
+            overrun: Section::new(&OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 }),
+            running: None,
         }
     }
 

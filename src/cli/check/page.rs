@@ -1,12 +1,12 @@
 //! The margin check as a page.
 
 use super::body::{Body, NO_DEMAND, is_beyond, people_table};
-use super::{Check, margin_text};
+use super::{Check, charts, margin_text};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
 use crate::design::Design;
 use crate::margin::Margin;
-use crate::report::{Bar, Bars, Column, Page, Plot, Table, Tone, Unit};
+use crate::report::{Bar, Bars, Column, Page, Table, Tone, Unit};
 
 pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, context: &Context) -> Page {
     let mut page = parts::page("Margin check", design, context);
@@ -29,12 +29,33 @@ pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, co
             "Torque at which each limit would be reached; “>”: not before the curve ends.",
         );
     }
+    page.heading("Limits against torque");
+    page.figure(
+        &charts::limits(design, check, &answer.body).to_svg(),
+        "Demand over allowable of every limit that depends on torque; a limit is reached at 1. Full lines: the limits that \
+         set the torque capacities, named at their torque; dashed: other required limits; dotted: shown only. Cut off \
+         above 1.5.",
+    );
     page.heading("Gripping");
-    let [angles, rise] = curves(design, check);
+    let [tangents, angles, rise] = charts::gripping(design, check);
     page.figures(&[
-        (parts::half(angles), "Static demand on friction at both contacts; grip is lost where it reaches μs."),
+        (parts::half(tangents), "Static demand on friction at both contacts; grip is lost where it reaches μs."),
+        (parts::half(angles), "The same as angles: ω and ν lie between the strut AB and OA, OB; friction holds up to arctan μs."),
+    ]);
+    page.figures(&[
         (parts::half(rise), "Cam rise: the undeformed sprag's height from A to B over its rotation, and the gap AB that remains under load. What lies between them is pressed in at both contacts and in the body."),
     ]);
+    if let Some(running) = &answer.body.running {
+        page.heading("Radii as made and as run");
+        page.paragraph(
+            "Every other figure of this page is of the radii as run: fitted, and at the temperatures of [thermal], without \
+             load. A race that is joined with shaft or housing counts as one piece with it. To make: the radii with which \
+             the clutch runs as drawn, enlarged as the sprags are, so that the gap is right at every torque.",
+        );
+        page.table("", &running.table());
+    }
+    let wanted = design.limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
+    answer.body.overrun.draw(&mut page, answer.body.lift_off_rpm, wanted);
     parts::draw(
         &mut page,
         &parts::drawing(
@@ -103,53 +124,4 @@ fn capacity_bars(design: &Design, rows: &[Margin], end_nm: f64) -> Bars {
     let longest = bars.iter().map(|b| b.value).fold(0.0, f64::max);
     let end = if asked > 0.0 { longest.min(2.5 * asked) } else { longest };
     Bars { title: "Torque capacities in Nm".into(), bars, marks, range: (0.0, end.max(asked)) }
-}
-
-/// Friction demand over torque; cam rise over rotation.
-fn curves(design: &Design, check: &Check) -> [Plot; 2] {
-    let curve = &check.state.curve;
-    let samples = parts::samples(curve, f64::INFINITY);
-    let over = |value: &dyn Fn(&crate::wedge::StaticPoint) -> f64| {
-        samples.iter().map(|(p, _)| [p.torque_nm, value(p)]).collect::<Vec<_>>()
-    };
-    let friction = &design.clutch.friction;
-    let mut angles = Plot::new("Torque, Nm", "Tangential over normal force")
-        .curve("inner contact, tan ω", over(&|p| p.tan_omega))
-        .curve("outer contact, tan ν", over(&|p| p.tan_nu))
-        .level(friction.static_, "μs");
-    if friction.kinetic < friction.static_ {
-        angles = angles.level(friction.kinetic, "μc");
-    }
-    for junction in parts::junctions(curve) {
-        angles = angles.marker(junction.torque_nm, &junction.label());
-    }
-    let profile = &check.state.profile;
-    let rotation = |c: &crate::wedge::Closure| Unit::Degree.from_si(c.rotation.v);
-    let mut free = Vec::new();
-    let mut loaded = Vec::new();
-    for (point, c) in &samples {
-        if let Some(arc) = profile.arcs.get(point.arc) {
-            // A in the body; B lies straight outward of C_e, at azimuth -Omega in the body.
-            let a = arc.centre_m + arc.radius_m * profile.contact_direction(point.contact_turn_rad);
-            let (s, cos) = c.rotation.v.sin_cos();
-            let b = [-profile.outer_radius_m * s, profile.outer_radius_m * cos];
-            free.push([rotation(c), (a.x - b[0]).hypot(a.y - b[1])]);
-        }
-        // AB^2 = OA^2 + OB^2 - 2 OA OB cos(beta).
-        let (oa, ob) = (c.lengths.oa.v, c.lengths.ob.v);
-        loaded.push([rotation(c), (oa * oa + ob * ob - 2.0 * oa * ob * c.beta.v.cos()).sqrt()]);
-    }
-    let height = free.first().map_or(0.0, |p| p[1]);
-    let rise = |points: Vec<[f64; 2]>| {
-        points.into_iter().map(|[x, y]| [x, Unit::Micrometre.from_si(y - height)]).collect::<Vec<_>>()
-    };
-    let mut cam = Plot::new("Rotation of the sprag, deg", "Height above first contact, µm")
-        .curve("undeformed sprag", rise(free))
-        .curve("gap AB under load", rise(loaded));
-    for k in 1..profile.arcs.len() {
-        if let Some((_, c)) = samples.iter().find(|(p, _)| p.arc == k) {
-            cam = cam.marker(rotation(c), &format!("{}|{}", k, k + 1));
-        }
-    }
-    [angles, cam]
 }

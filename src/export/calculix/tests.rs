@@ -6,7 +6,7 @@ fn design(text: &str) -> (Design, Profile, Outline) {
     let design = Design::parse(text, "design").unwrap();
     let profile = place_profile(&design.clutch).unwrap();
     let flanks = design.clutch.sprags.flanks.unwrap();
-    let outline = Outline::new(&profile, flanks.rear_m, flanks.front_m).unwrap();
+    let outline = Outline::closed(&profile, &flanks).unwrap();
     (design, profile, outline)
 }
 

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""reports/optimiser-peers.html from reports/optimiser-peers.csv and its courses; part of reports/optimiser_peers.sh.
+
+usage: optimiser_peers_page.py TOOL OUT COMMAND DESIGN...
+"""
+import csv
+import html
+import io
+import json
+import os
+import subprocess
+import sys
+from importlib.metadata import version
+
+import matplotlib
+
+matplotlib.use("svg")
+matplotlib.rcParams.update({"svg.hashsalt": "sprag-design", "font.size": 9, "svg.fonttype": "none"})
+import matplotlib.pyplot as plt  # noqa: E402
+
+TOOL, OUT, COMMAND, *DESIGNS = sys.argv[1:]
+OURS = "sprag-design optimize"
+GLOBAL = "scipy differential evolution"
+STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
+table{border-collapse:collapse;margin:1rem 0}td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:right}
+td:first-child,th:first-child{text-align:left}tr.ours{background:#eef5ff}svg{max-width:100%;height:auto}
+.small{color:#666;font-size:.85em}"""
+
+
+def about(design):
+    """Variables, rows and hash of a problem."""
+    done = subprocess.run([TOOL, "evaluate", design, "--describe", "--quiet"], input="", capture_output=True, text=True,
+                          check=True)
+    return json.loads(done.stdout.splitlines()[0])
+
+
+def gap(best, value):
+    return (best - value) / abs(best)
+
+
+def table(rows, best):
+    out = ["<table><tr><th>method</th><th>evaluations</th><th>of them until within 0.1 % of the best</th>"
+           "<th>slip margin found</th><th>below the best, %</th><th>time, s</th></tr>"]
+    for r in rows:
+        found = r["objective"]
+        cells = ([f"{float(found):.7f}", f"{100 * gap(best, float(found)):.2g}"] if found else ["none feasible", "–"])
+        near = next((n for n, v in r["course"] if gap(best, v) <= 1e-3), None)
+        out.append(f"<tr{' class=ours' if r['method'] == OURS else ''}><td>{html.escape(r['method'])}</td>"
+                   f"<td>{r['evaluations']}</td><td>{near if near else ('–' if r['course'] else '')}</td>"
+                   f"<td>{cells[0]}</td><td>{cells[1]}</td><td>{float(r['time_s']):.0f}</td></tr>")
+    return "".join(out) + "</table>"
+
+
+def picture(rows, best):
+    figure, axes = plt.subplots(figsize=(8, 3.4))
+    for r in rows:
+        if not r["course"]:
+            if r["objective"]:
+                axes.plot(int(r["evaluations"]), max(100 * gap(best, float(r["objective"])), 1e-6), "k*", ms=11,
+                          label=r["method"], zorder=9)
+            continue
+        x = [n for n, _ in r["course"]] + [int(r["evaluations"])]
+        y = [max(100 * gap(best, v), 1e-6) for _, v in r["course"]]
+        axes.step(x, y + y[-1:], where="post", label=r["method"])
+    axes.axhline(0.1, color="grey", lw=0.7, ls="--")
+    axes.set(xscale="log", yscale="log", xlabel="design evaluations", ylabel="below the best found by any, %",
+             ylim=(5e-7, 200))
+    axes.legend(fontsize=7, loc="lower left")
+    out = io.StringIO()
+    figure.savefig(out, format="svg", metadata={"Date": None})
+    plt.close(figure)
+    return out.getvalue()[out.getvalue().index("<svg"):]
+
+
+def main():
+    with open(OUT + ".csv", newline="") as f:
+        found = list(csv.DictReader(f))
+    courses = {}
+    with open(OUT + "-courses.jsonl") as f:
+        for text in f:
+            if not text.startswith("["):
+                continue  # a method's own complaint
+            name, method, course = json.loads(text)
+            courses[name, method] = course
+    parts, verdicts, hashes = [], [], []
+    for design in DESIGNS:
+        name = os.path.splitext(os.path.basename(design))[0]
+        problem = about(design)
+        hashes.append(f"{name} {problem['design_hash'][:12]}")
+        rows = [dict(r, course=courses.get((name, r["method"]), [])) for r in found if r["problem"] == name]
+        best = max(float(r["objective"]) for r in rows if r["objective"])
+        ours = next(r for r in rows if r["method"] == OURS)
+        other = next(r for r in rows if r["method"] == GLOBAL)
+        off = 100 * gap(float(other["objective"]), float(ours["objective"])) if other["objective"] else float("-inf")
+        verdicts.append(f"<li>{html.escape(problem['design'])}: ours {float(ours['objective']):.6f} in "
+                        f"{ours['evaluations']} evaluations; {GLOBAL} {float(other['objective']):.6f} in "
+                        f"{other['evaluations']}: ours is {abs(off):.2g} % {'below' if off > 0 else 'above'} it.</li>")
+        v = ", ".join(f"{x['name']} {x['min']:g} to {x['max']:g}" for x in problem["variables"])
+        parts.append(f"<h2>{html.escape(problem['design'])}</h2><p>Free: {html.escape(v)}. Objectives (the least is "
+                     f"maximised): {html.escape(', '.join(problem['objectives']))}. Limits: {len(problem['limits'])}."
+                     f"</p>{table(rows, best)}{picture(rows, best)}")
+    first = f"sprag-design {problem['version']}; designs {', '.join(hashes)}; {COMMAND}"
+    page = f"""<!-- {html.escape(first)} -->
+<!doctype html><html lang="en"><meta charset="utf-8"><title>Optimisers on one evaluator</title><style>{STYLE}</style>
+<h1>Optimisers on one evaluator</h1>
+<p>Three problems, the same evaluator for all (<code>sprag-design evaluate</code>: every scenario's slip margin and
+every limit at one vector). Bounds are mapped to a unit box. A point asked for twice counts once. The value counts only
+where no limit is violated.</p><ul>{''.join(verdicts)}</ul>{''.join(parts)}
+<h2>How each was run</h2><ul>
+<li>{OURS}: as a user runs it; its evaluations are those of all starts, differences, the finish and the influence
+table together.</li>
+<li>{GLOBAL}: scipy {version('scipy')}, Sobol start, seed 1, feasibility first, then the objective; stopped at the
+number of evaluations given.</li>
+<li>pymoo genetic algorithm: pymoo {version('pymoo')}, population 60, seed 1, constraints as its own rule treats them,
+a quarter of that number.</li>
+<li>COBYLA and SLSQP of scipy, COBYLA and SLSQP of basin 3.2, COBYLA of cobyla 1.0: epigraph form (maximise t, every
+objective at least t, every limit at least 0), from the file's start and four spread points, at most 3000 evaluations
+for all five; differences of SLSQP 1e-5 of the range, simplex 0.1 to 1e-6 of the range.</li></ul>
+<h2>Omissions</h2><ul>
+<li>No method was tuned; each has the settings above on all three problems.</li>
+<li>Time is wall time on a machine that did other work, through a pipe for all but ours: compare evaluations.</li>
+<li>The best value is the best that any of these found, not proved to be the greatest there is.</li>
+<li>Ours is the only one that may end early because it knows that it is done; the stochastic ones use up their
+budget.</li></ul>
+<p class="small">{html.escape(first)}</p></html>
+"""
+    with open(OUT + ".html.new", "w") as f:
+        f.write(page)
+    os.replace(OUT + ".html.new", OUT + ".html")
+
+
+main()

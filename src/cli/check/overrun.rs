@@ -1,0 +1,155 @@
+//! Overrun in the margin check: words, JSON, table, plots.
+
+use crate::cli::parts;
+use crate::design::Limits;
+use crate::margin::{OverrunCurve, OverrunPoint};
+use crate::report::{Column, Page, Plot, Table, Unit};
+use serde::Serialize;
+
+/// Speed of the tracks beyond which nobody runs such a clutch, m/s: a choice that ends the plots where the sprags
+/// never lift off.
+const FASTEST_M_S: f64 = 50.0;
+
+/// How far the curve goes, rad/s: beyond lift-off and the speed up to which contact is wanted.
+pub(super) fn up_to_rad_s(limits: &Limits, lift_off_rad_s: Option<f64>, track_m: f64) -> f64 {
+    let wanted = limits.keep_contact_to_rad_s.unwrap_or(0.0);
+    let beyond = 1.25 * lift_off_rad_s.unwrap_or(0.0).max(wanted);
+    if lift_off_rad_s.is_some() && beyond > 0.0 { beyond } else { beyond.max(FASTEST_M_S / track_m) }
+}
+
+/// One speed of the JSON.
+#[derive(Debug, Clone, Serialize)]
+struct Row {
+    race: &'static str,
+    speed_rpm: f64,
+    drag_torque_nm: f64,
+    normal_inner_n: f64,
+    normal_outer_n: f64,
+    friction: f64,
+    lifted_off: bool,
+    outer_race_growth_um: f64,
+    rotation_hoop_outer_mpa: f64,
+}
+
+/// `overrun` of the JSON.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Section {
+    /// engaging, disengaging or neutral: what the centrifugal force does to the sprags.
+    centrifugal: &'static str,
+    /// Azimuth of C_e ahead of the centroid at first contact at rest.
+    gamma_deg: f64,
+    /// Drag torque with either race at rest.
+    drag_torque_slow_nm: f64,
+    points: Vec<Row>,
+}
+
+impl Section {
+    pub(super) fn new(curve: &OverrunCurve) -> Self {
+        let row = |race: &'static str, p: &OverrunPoint| Row {
+            race,
+            speed_rpm: Unit::Rpm.from_si(p.speed_rad_s),
+            drag_torque_nm: p.state.drag_torque_nm,
+            normal_inner_n: p.state.normal_inner_n,
+            normal_outer_n: p.state.normal_outer_n,
+            friction: p.friction,
+            lifted_off: p.state.normal_inner_n <= 0.0,
+            outer_race_growth_um: Unit::Micrometre.from_si(p.growth_m),
+            rotation_hoop_outer_mpa: Unit::Megapascal.from_si(p.rotation_hoop_pa),
+        };
+        let outer = curve.outer_race.iter().map(|p| row("outer", p));
+        Self {
+            centrifugal: match curve.gamma_rad {
+                g if g > 0.0 => "engaging",
+                g if g < 0.0 => "disengaging",
+                _ => "neutral",
+            },
+            gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
+            drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
+            points: outer.chain(curve.inner_race.iter().map(|p| row("inner", p))).collect(),
+        }
+    }
+
+    /// Drag in one line; lift-off has its own.
+    pub(super) fn remark(&self) -> String {
+        let last = |race: &str| self.points.iter().rev().find(|p| p.race == race);
+        let slow = Unit::NewtonMetre.show(self.drag_torque_slow_nm, 3);
+        let at = |race: &str| {
+            last(race).map_or(String::new(), |p| {
+                let drag = match p.lifted_off {
+                    true => "none, lifted off".to_owned(),
+                    false => Unit::NewtonMetre.show(p.drag_torque_nm, 3),
+                };
+                format!("{drag} at {:.0} rpm of the {race} race", p.speed_rpm)
+            })
+        };
+        format!(
+            "Overrun: drag {slow} when slow, {}, {}; centrifugal force is {} (gamma {:.3} deg)",
+            at("outer"),
+            at("inner"),
+            self.centrifugal,
+            self.gamma_deg
+        )
+    }
+
+    /// All speeds, for `--overrun-csv` and the page.
+    pub(super) fn table(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::text("race", "Race that runs"),
+            Column::number("speed_rpm", "Speed, rpm", Unit::One, 5),
+            Column::number("drag_torque_nm", "Drag torque", Unit::NewtonMetre, 4),
+            Column::number("normal_inner_n", "Normal force at A", Unit::Newton, 4),
+            Column::number("normal_outer_n", "Normal force at B", Unit::Newton, 4),
+            Column::number("friction", "Friction at A", Unit::One, 4),
+            Column::number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4),
+            Column::number("rotation_hoop_outer_mpa", "Hoop by rotation, outer race, MPa", Unit::One, 4),
+        ]);
+        for p in &self.points {
+            table.row(vec![
+                p.race.into(),
+                p.speed_rpm.into(),
+                p.drag_torque_nm.into(),
+                p.normal_inner_n.into(),
+                p.normal_outer_n.into(),
+                p.friction.into(),
+                p.outer_race_growth_um.into(),
+                p.rotation_hoop_outer_mpa.into(),
+            ]);
+        }
+        table
+    }
+
+    /// Section of the page.
+    pub(super) fn draw(&self, page: &mut Page, lift_off_rpm: Option<f64>, wanted_rpm: Option<f64>) {
+        let of = |race: &'static str, value: fn(&Row) -> f64| {
+            let rows = self.points.iter().filter(|p| p.race == race);
+            rows.map(|p| [p.speed_rpm, value(p)]).collect::<Vec<_>>()
+        };
+        let marked = |mut plot: Plot| {
+            for (at, label) in [(lift_off_rpm, "lift-off"), (wanted_rpm, "wanted")] {
+                if let Some(at) = at {
+                    plot = plot.marker(at, label);
+                }
+            }
+            parts::half(plot)
+        };
+        let drag = Plot::new("Speed of the race that runs, rpm", "Drag torque, mNm")
+            .curve("outer race runs", of("outer", |p| 1e3 * p.drag_torque_nm))
+            .curve("inner race runs", of("inner", |p| 1e3 * p.drag_torque_nm));
+        let forces = Plot::new("Speed of the outer race, rpm", "Normal force of one sprag, N")
+            .curve("at A", of("outer", |p| p.normal_inner_n))
+            .curve("at B", of("outer", |p| p.normal_outer_n));
+        let growth = Plot::new("Speed of the outer race, rpm", "Growth of the outer track, µm")
+            .curve("growth, (7)", of("outer", |p| p.outer_race_growth_um));
+        page.heading("Overrun").paragraph(&format!("{}.", self.remark()));
+        page.paragraph(
+            "The sprags ride with the outer race. Where it stands and the inner race runs they are at rest; where it runs, \
+             the centrifugal force presses them in (engaging) or lifts them off the inner race (disengaging).",
+        );
+        page.figures(&[
+            (marked(drag), "Drag torque of the whole clutch: friction at the inner contacts."),
+            (marked(forces), "Contact forces of one sprag; 0 at A: lifted off, carried by the outer race."),
+        ]);
+        page.figures(&[(marked(growth), "What the outer track grows by rotation alone; it opens the gap.")]);
+        page.table("", &self.table());
+    }
+}

@@ -1,0 +1,168 @@
+//! `identify`: unknown parameters of a design from measured or published numbers.
+
+mod body;
+mod page;
+
+use super::Context;
+use super::exit::{Exit, Failure};
+use super::left_out::left_out;
+use super::output::{VERSION, write_whole};
+use super::parts::{self, Answer};
+use crate::design::Design;
+use crate::identify::{Identified, NoFit, Settings, Unknown, identify, observations};
+use body::{Body, estimates, residuals, sentences};
+use clap::Args;
+use std::path::PathBuf;
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  sprag-design identify clutch.toml --data windup.csv --unknown r_i2_mm:3.9:4.4,r_i3_mm:3.9:4.6 -o found.toml
+  sprag-design identify clutch.toml --data bench.csv --unknown friction.static:0.05:0.2 --report found.html
+
+The data are a CSV table, one row per test. Columns, in any order: torque_nm with any of windup_deg, normal_inner_n,
+normal_outer_n, tan_omega, hertz_inner_mpa, hertz_outer_mpa, k_secant_nm_per_rad, k_tangent_nm_per_rad; the thresholds
+nominal_torque_nm (where the first limit on nominal torque is reached), end_torque_nm, lift_off_rpm; each of these with
+its standard error as <column>_sigma, without which all count in proportion; dotted keys that a row changes in the
+design, such as races.inner_radius_mm; label; use = fit, check (compared only) or skip.
+
+Exit codes: 0 found; 1 the data leave a direction of the unknowns undetermined, or no design fits between the bounds.";
+
+/// Arguments of `identify`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct IdentifyArgs {
+    /// Design file (TOML)
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// What was measured (CSV)
+    #[arg(long, value_name = "DATA.csv")]
+    pub data: PathBuf,
+    /// Unknowns with their bounds: a variable of optimize or the dotted path of a number in the file
+    #[arg(long, value_name = "NAME:MIN:MAX,..", required = true, value_delimiter = ',', value_parser = unknown)]
+    pub unknown: Vec<Unknown>,
+    /// Where to write the design file with the values found
+    #[arg(long, short, value_name = "NEW.toml")]
+    pub output: Option<PathBuf>,
+    /// Starts of the search: the file's own values, the others at random between the bounds
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub starts: u16,
+    /// Seed of the random starts
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Most evaluations of the simplex search of one start
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub evaluations: u32,
+}
+
+/// `NAME:MIN:MAX`.
+fn unknown(text: &str) -> Result<Unknown, String> {
+    let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+    let [name, min, max] = parts.as_slice() else {
+        return Err("NAME:MIN:MAX is needed, such as r_i1_mm:3.5:4.5".to_owned());
+    };
+    let bound = |text: &str| match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(format!("{text:?} is no finite number")),
+    };
+    let (min, max) = (bound(min)?, bound(max)?);
+    if min >= max {
+        return Err(format!("the lower bound {min} is not below the upper bound {max}"));
+    }
+    Ok(Unknown { name: (*name).to_owned(), min, max })
+}
+
+/// First line of every design file that this command writes.
+const WRITTEN_BY: &str = "# Written by sprag-design identify";
+
+/// Run the command.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
+    let mut others: Vec<&std::path::Path> = Vec::new();
+    others.extend(args.output.as_deref());
+    context.outputs.check(&args.file, &others)?;
+    context.outputs.check(&args.data, &others)?;
+    let design = parts::read_design(&args.file, context)?;
+    let named = |why: String| Failure::malformed(format!("{}: {why}", args.data.display()));
+    let text = std::fs::read_to_string(&args.data).map_err(|e| named(e.to_string()))?;
+    let data = observations(&text).map_err(|fault| named(fault.to_string()))?;
+    let settings = Settings {
+        starts: usize::from(args.starts),
+        seed: args.seed,
+        evaluations: args.evaluations as usize,
+    };
+    context.message(&format!(
+        "{} observations, {} unknowns, {} starts, seed {}",
+        data.len(),
+        args.unknown.len(),
+        settings.starts,
+        settings.seed
+    ));
+    let started = Instant::now();
+    let found = identify(&design, &data, &args.unknown, &settings, Some(context.interrupt.flag()));
+    let run_time_s = started.elapsed().as_secs_f64();
+    let found = match found {
+        Ok(found) => found,
+        Err(NoFit::Stopped) => return Err(Failure::Interrupted),
+        Err(why @ NoFit::Nowhere { .. }) => {
+            context.answer(&format!("{why}\n"))?;
+            if context.json {
+                super::output::print_json(&serde_json::json!({ "error": why.to_string() }))?;
+            }
+            return Ok(Exit::NotHeld);
+        }
+        Err(why) => return Err(Failure::malformed(format!("{}: {why}", args.file.display()))),
+    };
+    if let Some(path) = &args.output {
+        write_whole(path, new_file(&design, &found, context).as_bytes())?;
+    }
+    let body = Body::new(&found, args.output.as_deref());
+    let determined = body.determined;
+    let answer = Answer {
+        design: &design,
+        run_time_s,
+        left_out: left_out(&design.clutch),
+        error_estimate: Some(serde_json::json!({ "residual_sigma": found.knowledge.residual_sigma })),
+        body,
+    };
+    context.outputs.write_csv(&residuals(&found))?;
+    context.outputs.write_report(|| page::page(&design, &found, &answer, context))?;
+    context.answer(&text_of(&design, &found, context.colour))?;
+    answer.print(context)?;
+    Ok(if determined { Exit::Held } else { Exit::NotHeld })
+}
+
+/// The old file with its comments, the values found, and who found them.
+fn new_file(design: &Design, found: &Identified, context: &Context) -> String {
+    let changes: String = found
+        .unknowns
+        .iter()
+        .zip(&found.before)
+        .zip(&found.knowledge.estimates)
+        .map(|((u, before), e)| {
+            let width = e.half_width.map_or("undetermined".to_owned(), |w| format!("+- {w:.3e} (95 %)"));
+            format!("#   {}: {} -> {} {width}\n", u.name, before, e.value)
+        })
+        .collect();
+    format!(
+        "{WRITTEN_BY} {VERSION} from {:?} (sha256 {})\n# by: {}\n{changes}#\n{}",
+        design.name, design.hash, context.command_line, found.source
+    )
+}
+
+fn text_of(design: &Design, found: &Identified, colour: bool) -> String {
+    let mut out = format!(
+        "{}  {}\n\n{}\n{}\n",
+        design.name,
+        design.hash.get(..12).unwrap_or(&design.hash),
+        estimates(found).to_text(colour),
+        residuals(found).to_text(colour)
+    );
+    for line in sentences(found) {
+        out.push_str(&line);
+        out.push('\n');
+    }
+    out
+}

@@ -1,0 +1,216 @@
+//! What `identify` says: JSON, tables, sentences.
+
+use crate::identify::{Identified, Point, Tied, Use};
+use crate::report::{Cell, Column, Table, Unit, significant};
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// The command's own keys.
+#[derive(Debug, Serialize)]
+pub(super) struct Body {
+    unknowns: Vec<Value>,
+    correlation: Option<Vec<Vec<f64>>>,
+    observations: Vec<Value>,
+    residual_sigma: Option<f64>,
+    degrees_of_freedom: usize,
+    singular_ratio: f64,
+    sums_of_squares: Vec<f64>,
+    evaluations: usize,
+    converged: bool,
+    pub(super) determined: bool,
+    remarks: Vec<String>,
+    written: Option<String>,
+}
+
+impl Body {
+    pub(super) fn new(found: &Identified, written: Option<&Path>) -> Self {
+        let k = &found.knowledge;
+        let unknowns = found.unknowns.iter().zip(&found.before).zip(&k.estimates);
+        Self {
+            unknowns: unknowns
+                .map(|((u, before), e)| {
+                    json!({
+                        "name": u.name, "min": u.min, "max": u.max, "before": before, "value": e.value,
+                        "sigma": e.sigma, "half_width_95": e.half_width,
+                    })
+                })
+                .collect(),
+            correlation: k.correlation.clone(),
+            observations: found
+                .points
+                .iter()
+                .map(|p| {
+                    let o = &p.observation;
+                    let said = p.predicted.as_ref();
+                    json!({
+                        "line": o.line, "label": o.label, "quantity": o.kind.column(), "torque_nm": o.torque_nm,
+                        "observed": o.value, "predicted": said.ok().map(|s| s.value), "relative": p.relative(),
+                        "use": use_name(o.purpose), "decided_by": said.ok().and_then(|s| s.decided_by.clone()),
+                        "why_not": said.err().map(ToString::to_string),
+                    })
+                })
+                .collect(),
+            residual_sigma: k.residual_sigma,
+            degrees_of_freedom: k.freedom,
+            singular_ratio: k.singular_ratio,
+            sums_of_squares: found.sums.0.clone(),
+            evaluations: found.evaluations,
+            converged: found.converged,
+            determined: k.correlation.is_some() && k.freedom > 0,
+            remarks: sentences(found),
+            written: written.map(|p| p.display().to_string()),
+        }
+    }
+}
+
+fn use_name(purpose: Use) -> &'static str {
+    match purpose {
+        Use::Fit => "fit",
+        Use::Check => "check",
+    }
+}
+
+/// The unknowns as found; each in the unit of its name.
+pub(super) fn estimates(found: &Identified) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("unknown", "Unknown"),
+        Column::number("min", "From", Unit::One, 6),
+        Column::number("max", "To", Unit::One, 6),
+        Column::number("before", "Before", Unit::One, 6),
+        Column::number("value", "Found", Unit::One, 7),
+        Column::number("half_width_95", "+- (95 %)", Unit::One, 3),
+        Column::text("note", "Note"),
+    ]);
+    for ((u, before), e) in found.unknowns.iter().zip(&found.before).zip(&found.knowledge.estimates) {
+        let range = u.max - u.min;
+        let note = if e.value - u.min < 1e-6 * range {
+            "at its lower bound"
+        } else if u.max - e.value < 1e-6 * range {
+            "at its upper bound"
+        } else if e.half_width.is_none() {
+            "not determined"
+        } else {
+            ""
+        };
+        table.row(vec![
+            u.name.as_str().into(),
+            u.min.into(),
+            u.max.into(),
+            (*before).into(),
+            e.value.into(),
+            e.half_width.into(),
+            note.into(),
+        ]);
+    }
+    table
+}
+
+/// Every observation beside what the model says.
+pub(super) fn residuals(found: &Identified) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("label", "Row"),
+        Column::text("use", "Use"),
+        Column::text("quantity", "Quantity"),
+        Column::number("torque_nm", "At torque", Unit::NewtonMetre, 5),
+        Column::number("observed", "Observed", Unit::One, 6),
+        Column::number("predicted", "Model", Unit::One, 6),
+        Column::number("relative_percent", "Off", Unit::Percent, 3),
+        Column::text("decided_by", "Decided by"),
+    ]);
+    for p in &found.points {
+        let o = &p.observation;
+        let (value, note) = match &p.predicted {
+            Ok(said) => (Cell::Si(said.value), said.decided_by.clone().unwrap_or_default()),
+            Err(why) => (Cell::Empty, why.to_string()),
+        };
+        table.row(vec![
+            o.label.as_str().into(),
+            use_name(o.purpose).into(),
+            o.kind.column().into(),
+            o.torque_nm.into(),
+            o.value.into(),
+            value,
+            p.relative().into(),
+            note.into(),
+        ]);
+    }
+    table
+}
+
+/// Correlation of the unknowns.
+pub(super) fn correlation(found: &Identified) -> Option<Table> {
+    let matrix = found.knowledge.correlation.as_ref()?;
+    let mut columns = vec![Column::text("unknown", "")];
+    columns.extend(found.unknowns.iter().map(|u| Column::number(&u.name, &u.name, Unit::One, 4)));
+    let mut table = Table::new(columns);
+    for (u, row) in found.unknowns.iter().zip(matrix) {
+        let mut cells = vec![u.name.as_str().into()];
+        cells.extend(row.iter().map(|c| Cell::Si(*c)));
+        table.row(cells);
+    }
+    Some(table)
+}
+
+/// How good it is and what cannot be told apart.
+pub(super) fn sentences(found: &Identified) -> Vec<String> {
+    let k = &found.knowledge;
+    let mut out = Vec::new();
+    for (purpose, words) in [(Use::Fit, "fitted"), (Use::Check, "held back")] {
+        let offs: Vec<f64> = found
+            .points
+            .iter()
+            .filter(|p| p.observation.purpose == purpose)
+            .filter_map(Point::relative)
+            .collect();
+        if offs.is_empty() {
+            continue;
+        }
+        let rms = (offs.iter().map(|o| o * o).sum::<f64>() / offs.len() as f64).sqrt();
+        let worst = offs.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        out.push(format!(
+            "{} observations {words}: rms {}, worst {}",
+            offs.len(),
+            Unit::Percent.show(rms, 3),
+            Unit::Percent.show(worst, 3)
+        ));
+    }
+    out.push(format!(
+        "{}; {} evaluations, sums of squares of the starts {}",
+        if found.converged { "converged" } else { "NOT converged: more --evaluations" },
+        found.evaluations,
+        found.sums.0.iter().map(|s| significant(*s, 5)).collect::<Vec<_>>().join(", ")
+    ));
+    if k.freedom == 0 {
+        out.push(format!(
+            "as many unknowns as observations, or more: no confidence can be stated ({} unknowns)",
+            found.unknowns.len()
+        ));
+    }
+    let name = |i: usize| found.unknowns[i].name.as_str();
+    for tied in &k.tied {
+        out.push(match tied {
+            Tied::Strongly { first, second, correlation } => format!(
+                "the data hardly tell {} and {} apart: correlation {correlation:.4}; only a combination of them is well known",
+                name(*first),
+                name(*second)
+            ),
+            Tied::Blind { direction } => {
+                let moved: Vec<String> = direction
+                    .iter()
+                    .zip(&found.unknowns)
+                    .filter(|(d, _)| d.abs() > 0.01)
+                    .map(|(d, u)| format!("{} by {}", u.name, significant(d * (u.max - u.min), 3)))
+                    .collect();
+                match moved.as_slice() {
+                    [one] => format!("the data say nothing of {}", one.split(" by ").next().unwrap_or(one)),
+                    _ => format!(
+                        "the data cannot tell these apart: moving {} together changes no observation",
+                        moved.join(", ")
+                    ),
+                }
+            }
+        });
+    }
+    out
+}

@@ -1,0 +1,47 @@
+//! The page of `identify`.
+
+use super::super::Context;
+use super::super::parts::{self, Answer};
+use super::body::{Body, correlation, estimates, residuals, sentences};
+use crate::design::Design;
+use crate::identify::{Identified, Use};
+use crate::report::plot::Dash;
+use crate::report::{Curve, Page, Plot};
+
+pub(super) fn page(
+    design: &Design,
+    found: &Identified,
+    answer: &Answer<'_, Body>,
+    context: &Context,
+) -> Page {
+    let mut page = parts::page("Identification", design, context);
+    let words = if answer.body.determined {
+        "every unknown is determined"
+    } else {
+        "not every unknown is determined"
+    };
+    page.verdict(answer.body.determined, words).list(sentences(found));
+    page.heading("Unknowns").table("Each in the unit of its name.", &estimates(found));
+    if let Some(table) = correlation(found) {
+        page.table("Correlation of what was found.", &table);
+    }
+    page.heading("Observations").figure(&deviations(found), "Model over observation, less one, row by row.");
+    page.table("", &residuals(found));
+    answer.close(&mut page);
+    page
+}
+
+fn deviations(found: &Identified) -> String {
+    let of = |purpose: Use| -> Vec<[f64; 2]> {
+        let each = found.points.iter().enumerate().filter(|(_, p)| p.observation.purpose == purpose);
+        each.filter_map(|(i, p)| Some([i as f64 + 1.0, 100.0 * p.relative()?])).collect()
+    };
+    let mut plot = Plot::new("Row", "Off, %");
+    for (purpose, name) in [(Use::Fit, "fitted"), (Use::Check, "held back")] {
+        let points = of(purpose);
+        if !points.is_empty() {
+            plot.curves.push(Curve { dots: true, dash: Dash::Dotted, ..Curve::new(name, points) });
+        }
+    }
+    plot.level(0.0, "0").to_svg()
+}

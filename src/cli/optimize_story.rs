@@ -1,0 +1,407 @@
+//! What `optimize` found beside the optimum: sentences, tables and JSON of its parts.
+
+use crate::design::Objective;
+use crate::optimise::{
+    Branch, Freed, Front, Price, PriceKind, Realised, Relief, Robust, RobustSearch, Search, Start, Status,
+};
+use crate::report::{Cell, Column, Plot, Table, Unit, significant};
+
+/// Everything that was asked of one search.
+pub struct Story {
+    /// The search.
+    pub found: Search,
+    /// Flanks for a centroid that was free.
+    pub realised: Option<Realised>,
+    /// What would free an infeasible problem.
+    pub relief: Option<Relief>,
+    /// Front.
+    pub front: Option<Front>,
+    /// The optimum as it may be made.
+    pub made: Option<Robust>,
+    /// The optimum that holds at every corner.
+    pub robust: Option<RobustSearch>,
+    /// What was asked and could not be done.
+    pub why: Vec<String>,
+}
+
+/// A status in one word.
+pub fn word(status: &Status) -> &'static str {
+    match status {
+        Status::Converged => "converged",
+        Status::Infeasible { .. } => "infeasible",
+        Status::EvaluationLimit => "evaluation-limit",
+        Status::Interrupted => "interrupted",
+        Status::Stalled(_) => "stalled",
+    }
+}
+
+/// A value of an objective with its unit.
+pub fn shown(aim: Objective, value: f64) -> String {
+    match aim.unit() {
+        "" => significant(value, 5),
+        unit => format!("{} {unit}", significant(value, 5)),
+    }
+}
+
+/// A gain of an objective, more being better, as it is spoken of.
+fn gain(aim: Objective, gain: f64) -> String {
+    match aim {
+        Objective::SlipMargin => format!("{} % slip margin", significant(100.0 * gain, 2)),
+        Objective::TorqueCapacity => format!("{} Nm of torque capacity", significant(gain, 2)),
+        Objective::PeakPressure => format!("{} MPa less pressure", significant(gain, 2)),
+        Objective::Windup => format!("{} deg less windup", significant(gain, 2)),
+        Objective::StiffnessCurve => {
+            format!("{} % less departure from the target", significant(100.0 * gain, 2))
+        }
+    }
+}
+
+/// About one percent of a value, as 1, 2 or 5 times a power of ten.
+fn round_step(value: f64) -> f64 {
+    let wanted = 0.01 * value.abs().max(1e-9);
+    let power = 10_f64.powf(wanted.log10().floor());
+    let digit = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .min_by(|a, b| (a * power - wanted).abs().total_cmp(&(b * power - wanted).abs()));
+    digit.unwrap_or(1.0) * power
+}
+
+/// "raising the allowable of hoop-inner by 10 MPa would buy 0.8 % slip margin".
+pub fn sentence(aim: Objective, price: &Price) -> String {
+    let step = round_step(price.value);
+    let bought = gain(aim, price.gain_per_unit * step);
+    let unit = if price.unit == "1" { "" } else { &price.unit };
+    let by = format!("{} {unit}", significant(step, 1)).trim_end().to_owned();
+    match price.kind {
+        PriceKind::Limit => format!("raising the allowable of {} by {by} would buy {bought}", price.of),
+        PriceKind::Margin => format!("asking {by} less of {} would buy {bought}", price.of),
+        PriceKind::Lower => format!("lowering the lower bound of {} by {by} would buy {bought}", price.of),
+        PriceKind::Upper => format!("raising the upper bound of {} by {by} would buy {bought}", price.of),
+    }
+}
+
+/// "preload of high-10: 3.34 Nm must become at least 5.2 Nm".
+pub fn freed_sentence(f: &Freed) -> String {
+    let value = |v: f64| format!("{} {}", significant(v, 4), f.unit);
+    match f.needed {
+        Some(v) if v >= f.given => {
+            format!("{} in {}: at least {} instead of {}", f.what, f.scenario, value(v), value(f.given))
+        }
+        Some(v) => {
+            format!("{} in {}: at most {} instead of {}", f.what, f.scenario, value(v), value(f.given))
+        }
+        None => format!("{} in {}: no value up to {} frees it alone", f.what, f.scenario, value(f.tried_to)),
+    }
+}
+
+fn start_table(starts: &[Start]) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("start", "Start"),
+        Column::text("ended", "Ended"),
+        Column::number("least_margin", "Least scaled objective", Unit::One, 6),
+        Column::number("violation", "Worst violation", Unit::One, 3),
+        Column::number("evaluations", "Evaluations", Unit::One, 6),
+    ]);
+    for s in starts {
+        let ended = s.ended.as_ref().map_or_else(|why| why.clone(), |e| word(e).to_owned());
+        table.row(vec![
+            s.from.as_str().into(),
+            ended.as_str().into(),
+            finite(s.least_margin),
+            finite(s.violation),
+            (s.evaluations as f64).into(),
+        ]);
+    }
+    table
+}
+
+fn finite(v: f64) -> Cell {
+    if v.is_finite() { v.into() } else { Cell::Empty }
+}
+
+fn branch_table(branches: &[Branch]) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("values", "Whole numbers"),
+        Column::text("ended", "Ended"),
+        Column::number("least_margin", "Least scaled objective", Unit::One, 6),
+        Column::number("violation", "Worst violation", Unit::One, 3),
+        Column::number("evaluations", "Evaluations", Unit::One, 6),
+    ]);
+    for b in branches {
+        let values: Vec<String> = b.values.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+        let ended = b.ended.as_ref().map_or_else(|why| why.clone(), |e| word(e).to_owned());
+        table.row(vec![
+            values.join(", ").as_str().into(),
+            ended.as_str().into(),
+            finite(b.least_margin),
+            finite(b.violation),
+            (b.evaluations as f64).into(),
+        ]);
+    }
+    table
+}
+
+fn spread_table(made: &Robust) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("code", "Margin"),
+        Column::number("nominal", "As drawn", Unit::One, 4),
+        Column::number("worst", "Worst corner", Unit::One, 4),
+        Column::number("p01", "1 %", Unit::One, 4),
+        Column::number("p05", "5 %", Unit::One, 4),
+        Column::number("p50", "50 %", Unit::One, 4),
+        Column::text("worst_at", "Worst at"),
+    ]);
+    for s in &made.spreads {
+        let [p01, p05, p50] = s.percentiles;
+        table.row(vec![
+            s.code.as_str().into(),
+            s.nominal.into(),
+            s.worst.into(),
+            p01.into(),
+            p05.into(),
+            p50.into(),
+            s.worst_at.as_str().into(),
+        ]);
+    }
+    table
+}
+
+fn front_table(front: &Front) -> Table {
+    let mut columns: Vec<Column> = front
+        .aims
+        .iter()
+        .map(|a| {
+            let unit = if a.unit().is_empty() { String::new() } else { format!(", {}", a.unit()) };
+            Column::number(a.name(), &format!("{}{unit}", a.words()), Unit::One, 5)
+        })
+        .collect();
+    columns.extend(front.variables.iter().map(|v| Column::number(v, v, Unit::One, 5)));
+    columns.push(Column::text("end", "End of the front"));
+    let mut table = Table::new(columns);
+    for p in &front.points {
+        let mut row: Vec<Cell> = p.values.iter().chain(&p.x).map(|v| (*v).into()).collect();
+        row.push(p.anchor.map_or("", Objective::words).into());
+        table.row(row);
+    }
+    table
+}
+
+/// One part of an answer: heading, sentences, tables with captions, plots with captions.
+#[derive(Default)]
+pub struct Part {
+    /// Heading.
+    pub heading: &'static str,
+    /// Sentences.
+    pub lines: Vec<String>,
+    /// Tables.
+    pub tables: Vec<(&'static str, Table)>,
+    /// Plots as SVG.
+    pub plots: Vec<(String, &'static str)>,
+}
+
+impl Story {
+    /// Parts of the text and of the page, in order.
+    pub fn parts(&self) -> Vec<Part> {
+        let found = &self.found;
+        let aim = found.aim;
+        let mut parts = Vec::new();
+        if found.starts.len() > 1 {
+            let tables = vec![("Climbs, each from its own start", start_table(&found.starts))];
+            parts.push(Part { heading: "Starts", tables, ..Part::default() });
+        }
+        if found.branches.len() > 1 {
+            let tables =
+                vec![("Each whole number with a continuous search inside", branch_table(&found.branches))];
+            parts.push(Part { heading: "Whole numbers", tables, ..Part::default() });
+        }
+        if !found.prices.is_empty() {
+            let lines = found.prices.iter().map(|p| sentence(aim, p)).collect();
+            parts.push(Part { heading: "What holds the optimum", lines, ..Part::default() });
+        }
+        if let Some(relief) = &self.relief {
+            let mut lines: Vec<String> = relief.freed.iter().map(freed_sentence).collect();
+            if !relief.other_limits.is_empty() {
+                lines.push(format!("limits that no scenario frees: {}", relief.other_limits.join(", ")));
+            }
+            parts.push(Part {
+                heading: "What would free it (profile of least violation, one change alone)",
+                lines,
+                ..Part::default()
+            });
+        }
+        if let Some(realised) = &self.realised {
+            parts.push(Part { heading: "Centroid", lines: realised_lines(aim, realised), ..Part::default() });
+        }
+        parts.extend(self.front.as_ref().map(front_part));
+        parts.extend(self.made.as_ref().map(|made| self.made_part(made)));
+        if !self.why.is_empty() {
+            parts.push(Part { heading: "Not done", lines: self.why.clone(), ..Part::default() });
+        }
+        parts
+    }
+
+    fn made_part(&self, made: &Robust) -> Part {
+        let aim = self.found.aim;
+        let (drawn, worst, [p01, p05, p50]) = made.objective;
+        let mut lines = vec![format!(
+            "{}: {} as drawn, {} at the worst of {} corners; 1 %, 5 %, 50 % of {} draws (seed {}) lie below {}, {}, {}; \
+             every limit holds in {} of them",
+            aim.words(),
+            shown(aim, drawn),
+            shown(aim, worst),
+            made.corners,
+            made.draws.0,
+            made.seed,
+            shown(aim, p01),
+            shown(aim, p05),
+            shown(aim, p50),
+            Unit::Percent.show(made.yield_share, 3)
+        )];
+        if !made.impossible.is_empty() {
+            lines.push(format!("cannot be put together at: {}", made.impossible.join("; ")));
+        }
+        let mut tables = vec![("Margins of the optimum within the tolerances", spread_table(made))];
+        if let Some(robust) = &self.robust {
+            lines.push(format!(
+                "robust design: {} as drawn instead of {}, and {} at the worst corner instead of {}: it gives up {} to \
+                 {} ({}, {} corners as limits)",
+                shown(aim, robust.made.objective.0),
+                shown(aim, drawn),
+                shown(aim, robust.made.objective.1),
+                shown(aim, worst),
+                gain(aim, (drawn - robust.made.objective.0) * aim.sense()),
+                if robust.made.held() { "hold every limit at every corner" } else { "come as near as it can" },
+                word(&robust.status),
+                robust.held_at.len()
+            ));
+            tables.push(("Margins of the robust design", spread_table(&robust.made)));
+        }
+        Part { heading: "Within the tolerances", lines, tables, ..Part::default() }
+    }
+
+    /// Further design files: ending and text.
+    pub fn other_files(&self, written_by: &str) -> Vec<(&'static str, String)> {
+        let mut files = Vec::new();
+        if let Some(realised) = &self.realised {
+            let best = realised.search.as_ref().filter(|s| s.feasible());
+            let text = best.map_or(&realised.file, |s| &s.file);
+            let what = if best.is_some() {
+                "flanks searched in place of the centroid"
+            } else {
+                "flanks nearest to the wanted centroid"
+            };
+            files.push(("realised", format!("{written_by}: {what}\n{text}")));
+        }
+        if let Some(robust) = &self.robust {
+            files.push((
+                "robust",
+                format!("{written_by}: held at every corner of [tolerances]\n{}", robust.file),
+            ));
+        }
+        files
+    }
+}
+
+/// Captions of a front's plots.
+const TWO: &str = "Front: no design within the limits is better in both.";
+/// See [`TWO`].
+const THREE: &str =
+    "Points of the front seen along the third objective, joined in the order of the first axis.";
+
+fn front_part(front: &Front) -> Part {
+    let label = |a: &Objective| {
+        let unit = if a.unit().is_empty() { "1" } else { a.unit() };
+        format!("{} ({unit})", a.words())
+    };
+    let mut plots = Vec::new();
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        if j < front.aims.len() {
+            let mut points: Vec<[f64; 2]> = front.points.iter().map(|p| [p.values[i], p.values[j]]).collect();
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let plot = Plot::new(&label(&front.aims[i]), &label(&front.aims[j])).curve("front", points);
+            plots.push((plot.to_svg(), if front.aims.len() == 2 { TWO } else { THREE }));
+        }
+    }
+    let lines = vec![format!(
+        "{} points in {} evaluations; {} climbs ended at a point that another beats or that is not feasible",
+        front.points.len(),
+        front.evaluations,
+        front.beaten
+    )];
+    Part { heading: "Front", lines, tables: vec![("Points of the front", front_table(front))], plots }
+}
+
+fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
+    let n = &r.nearest;
+    let f = &n.flanks;
+    let mm = |m: f64| significant(m * 1e3, 5);
+    let at = |p: [f64; 2]| format!("({}, {}) mm", mm(p[0]), mm(p[1]));
+    let held = r.looked.rows.iter().filter(|m| !m.held()).map(|m| m.code.as_str()).collect::<Vec<_>>();
+    let limits = if held.is_empty() {
+        "every limit held".to_owned()
+    } else {
+        format!("not held: {}", held.join(", "))
+    };
+    let flanks = format!(
+        "flanks {} mm at the rear, {} mm in front, leaning {} and {} rad",
+        mm(f.rear_m),
+        mm(f.front_m),
+        significant(f.rear_tilt_rad, 4),
+        significant(f.front_tilt_rad, 4)
+    );
+    let weight = format!(
+        "{} g instead of {} g, {} kg m2 instead of {}",
+        significant(n.mass.mass_kg * 1e3, 4),
+        significant(n.given.0 * 1e3, 4),
+        significant(n.mass.inertia_kg_m2, 4),
+        significant(n.given.1, 4)
+    );
+    let mut lines = vec![format!(
+        "the optimum above is not yet realised: its centroid {} was free, its mass given",
+        at(n.wanted_m)
+    )];
+    lines.push(if n.reached() {
+        format!("realised by {flanks}; the sprag weighs {weight}; {} there {}, {limits}", aim.words(), shown(aim, r.objective))
+    } else {
+        format!(
+            "no two straight flanks realise it; the nearest is {}, {} mm off, by {flanks}; the sprag weighs {weight}; {} there \
+             {}, {limits}",
+            at(n.mass.centroid_m),
+            mm(n.distance_m),
+            aim.words(),
+            shown(aim, r.objective)
+        )
+    });
+    if let Some(s) = &r.search {
+        let ended = word(&s.outcome.status);
+        let values: Vec<String> =
+            s.variables.iter().map(|v| format!("{} {}", v.name, significant(v.best, 5))).collect();
+        let verdict = if s.feasible() { "every limit held" } else { "not every limit held" };
+        lines.push(format!(
+            "searched on with the flanks in place of the centroid: {} {}, {verdict}, {ended} after {} evaluations: {}",
+            aim.words(),
+            shown(aim, s.objective.1),
+            s.evaluations,
+            values.join(", ")
+        ));
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_price_is_a_sentence() {
+        let price = Price {
+            of: "hertz-peak-inner".into(),
+            kind: PriceKind::Limit,
+            unit: "MPa".into(),
+            gain_per_unit: 8e-5,
+            value: 4600.0,
+        };
+        let said = sentence(Objective::SlipMargin, &price);
+        assert_eq!(said, "raising the allowable of hertz-peak-inner by 50 MPa would buy 0.40 % slip margin");
+    }
+}

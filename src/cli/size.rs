@@ -1,0 +1,217 @@
+//! `size`: a first design file from what a clutch shall do.
+
+use super::Context;
+use super::exit::{Exit, Failure};
+use super::left_out::left_out;
+use super::output::{print_json, write_whole};
+use super::parts::{self, Answer};
+use crate::design::Design;
+use crate::margin::Margin;
+use crate::report::{Cell, Column, Table, Unit};
+use crate::scenario::{Settings, place_profile};
+use crate::size::{Ask, NoSize, Sized, Tried, size};
+use clap::Args;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  sprag-design size --bore 40 --torque 1000 --speed 3000 --safety 1.3 --friction 0.11 -o new.toml
+  sprag-design check new.toml
+  sprag-design optimize new.toml -o better.toml
+
+Every race space of one family of similar sprags is tried; the smallest ring from bore to outside is taken. The file that
+is written holds its limits, with a static and an excited scenario at nominal torque, and an optimize table.
+
+Exit codes: 0 written; 1 no clutch of the family does it, with the limit that prevents it and the nearest possible.";
+
+/// Arguments of `size`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct SizeArgs {
+    /// Bore of the inner race, diameter, mm
+    #[arg(long, value_name = "MM")]
+    pub bore: f64,
+    /// Nominal torque, Nm
+    #[arg(long, value_name = "NM")]
+    pub torque: f64,
+    /// Speed of the outer race up to which the sprags keep contact in overrun, rpm [0: not asked]
+    #[arg(long, value_name = "RPM", default_value_t = 0.0)]
+    pub speed: f64,
+    /// Peak torque over nominal torque
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.3)]
+    pub safety: f64,
+    /// Static friction
+    #[arg(long, value_name = "MU", default_value_t = 0.11)]
+    pub friction: f64,
+    /// Where to write the design file
+    #[arg(long, short, value_name = "NEW.toml")]
+    pub output: PathBuf,
+}
+
+/// Run the command.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
+    context.outputs.check(Path::new(""), &[&args.output])?;
+    let ask = Ask {
+        bore_m: args.bore / 1e3,
+        torque_nm: args.torque,
+        speed_rad_s: args.speed * std::f64::consts::PI / 30.0,
+        safety: args.safety,
+        friction: args.friction,
+    };
+    let started = Instant::now();
+    let settings = Settings { interrupt: Some(context.interrupt.flag()), ..Settings::default() };
+    let sized = size(&ask, &settings);
+    let run_time_s = started.elapsed().as_secs_f64();
+    if context.interrupt.requested() {
+        return Err(Failure::Interrupted);
+    }
+    let sized = match sized {
+        Ok(sized) => sized,
+        Err(NoSize::Ask(why)) => return Err(Failure::malformed(format!("--{why}"))),
+        Err(why @ NoSize::None { .. }) => {
+            let NoSize::None { tried } = &why else { return Ok(Exit::NotHeld) };
+            if context.json {
+                print_json(
+                    &json!({ "sized": false, "why": why.to_string(), "tried": rows_of(tried, None) }),
+                )?;
+            }
+            context.outputs.write_csv(&tried_table(tried, None))?;
+            context.answer(&format!("{}\n{why}\n", tried_table(tried, None).to_text(context.colour)))?;
+            return Ok(Exit::NotHeld);
+        }
+    };
+    write_whole(&args.output, sized.design.source.as_bytes())?;
+    let design = &sized.design;
+    let answer = Answer {
+        design,
+        run_time_s,
+        left_out: left_out(&design.clutch),
+        error_estimate: None,
+        body: json!({
+            "sized": true,
+            "written": args.output.display().to_string(),
+            "tried": rows_of(&sized.tried, Some(sized.taken)),
+            "margins": sized.margins.iter().map(margin_json).collect::<Vec<_>>(),
+        }),
+    };
+    context.outputs.write_csv(&tried_table(&sized.tried, Some(sized.taken)))?;
+    context.outputs.write_report(|| {
+        let mut page = parts::page("First design", design, context);
+        page.verdict(true, &verdict(&sized));
+        if let Ok(profile) = place_profile(&design.clutch) {
+            let rest = parts::pose_at_rest("first contact, no load", design, &profile);
+            parts::draw(&mut page, &parts::drawing(design, vec![rest]));
+        }
+        page.heading("Race spaces tried").table("", &tried_table(&sized.tried, Some(sized.taken)));
+        page.heading("Margins").table("", &margin_table(&sized.margins));
+        answer.close(&mut page);
+        page
+    })?;
+    answer.print(context)?;
+    context.answer(&text(&sized, &args.output, context.colour))?;
+    Ok(Exit::Held)
+}
+
+fn verdict(sized: &Sized) -> String {
+    let s = &sized.design.clutch.sprags;
+    let space = sized.tried[sized.taken].space_m;
+    format!(
+        "{} sprags of {} in a race space of {}; {} decides",
+        s.count,
+        Unit::Millimetre.show_plain(s.length_m, 4),
+        Unit::Millimetre.show_plain(space, 4),
+        sized.tried[sized.taken].decided_by
+    )
+}
+
+fn text(sized: &Sized, path: &Path, colour: bool) -> String {
+    let design: &Design = &sized.design;
+    format!(
+        "{}  {}\n\n{}\n{}\n{}\nwritten to {}\n",
+        design.name,
+        design.hash.get(..12).unwrap_or(&design.hash),
+        tried_table(&sized.tried, Some(sized.taken)).to_text(colour),
+        margin_table(&sized.margins).to_text(colour),
+        verdict(sized),
+        path.display()
+    )
+}
+
+fn tried_table(tried: &[Tried], taken: Option<usize>) -> Table {
+    let mut table = Table::new(vec![
+        Column::number("race_space_mm", "Race space", Unit::Millimetre, 4),
+        Column::number("count", "Sprags", Unit::One, 3),
+        Column::number("length_mm", "Length", Unit::Millimetre, 4),
+        Column::number("volume_cm3", "Volume, cm3", Unit::One, 4),
+        Column::number("carries_nm", "Carries", Unit::NewtonMetre, 4),
+        Column::text("decided_by", "Decided by"),
+        Column::text("verdict", ""),
+    ]);
+    for (i, t) in tried.iter().enumerate() {
+        let word = if taken == Some(i) {
+            "taken"
+        } else if t.held {
+            "possible"
+        } else {
+            "NOT POSSIBLE"
+        };
+        table.row(vec![
+            t.space_m.into(),
+            t.count.into(),
+            t.length_m.into(),
+            if t.held { Cell::Si(1e6 * t.volume_m3) } else { Cell::Empty },
+            t.carries_nm.into(),
+            t.decided_by.as_str().into(),
+            Cell::Verdict(t.held, word.to_owned()),
+        ]);
+    }
+    table
+}
+
+fn margin_table(rows: &[Margin]) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("code", "Limit"),
+        Column::text("unit", "Unit"),
+        Column::number("demand", "Demand", Unit::One, 5),
+        Column::number("allowable", "Allowable", Unit::One, 5),
+        Column::number("margin", "Margin", Unit::Percent, 3),
+        Column::number("torque_capacity_nm", "Reached at", Unit::NewtonMetre, 4),
+    ]);
+    for r in rows {
+        table.row(vec![
+            r.code.as_str().into(),
+            r.unit.into(),
+            r.demand.into(),
+            r.allowable.into(),
+            r.margin.into(),
+            r.torque_capacity_nm.into(),
+        ]);
+    }
+    table
+}
+
+fn rows_of(tried: &[Tried], taken: Option<usize>) -> Vec<Value> {
+    tried
+        .iter()
+        .enumerate()
+        .map(|(i, t)| {
+            json!({
+                "race_space_mm": Unit::Millimetre.from_si(t.space_m), "count": t.count,
+                "length_mm": Unit::Millimetre.from_si(t.length_m), "carries_nm": t.carries_nm,
+                "decided_by": t.decided_by, "possible": t.held, "taken": taken == Some(i),
+            })
+        })
+        .collect()
+}
+
+fn margin_json(r: &Margin) -> Value {
+    json!({
+        "code": r.code, "demand": r.demand, "allowable": r.allowable, "unit": r.unit, "margin": r.margin,
+        "torque_capacity_nm": r.torque_capacity_nm,
+    })
+}

@@ -1,0 +1,434 @@
+//! The fit: Nelder-Mead of argmin from several starts, finished by Levenberg and Marquardt.
+
+use std::fmt;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use argmin::core::{CostFunction, Executor, State};
+use argmin::solver::neldermead::NelderMead;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::observation::{Observation, Use};
+use super::predict::{NoPrediction, Prediction, design_with, predict};
+use super::statistics::{Knowledge, knowledge};
+use crate::design::{Design, value_at, variable_names, variable_path};
+
+/// A parameter to be found, between bounds in the unit of its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unknown {
+    /// A variable of `[optimize]`, such as `r_i2_mm`, or the dotted path of a number in the file.
+    pub name: String,
+    /// Lower bound.
+    pub min: f64,
+    /// Upper bound.
+    pub max: f64,
+}
+
+/// How the fit is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Starts: the design's own values first, the others at random between the bounds.
+    pub starts: usize,
+    /// Seed of the random starts.
+    pub seed: u64,
+    /// Most evaluations of all observations by the simplex of one start.
+    pub evaluations: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { starts: 4, seed: 1, evaluations: 200 }
+    }
+}
+
+/// Why nothing can be fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoFit {
+    /// No unknown, or one twice.
+    Unknowns(String),
+    /// An unknown that the design does not have, or bounds that are none.
+    Unknown {
+        /// Its name.
+        name: String,
+        /// What is wrong.
+        why: String,
+    },
+    /// No observation takes part in the fit.
+    NothingToFit,
+    /// No design between the bounds answers every observation.
+    Nowhere {
+        /// Designs tried.
+        tried: usize,
+        /// The last reason and the label of its row.
+        why: String,
+    },
+    /// Stopped from outside.
+    Stopped,
+}
+
+impl fmt::Display for NoFit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknowns(why) => f.write_str(why),
+            Self::Unknown { name, why } => write!(f, "unknown {name:?}: {why}"),
+            Self::NothingToFit => f.write_str("no row of the data is there for the fit"),
+            Self::Nowhere { tried, why } => write!(
+                f,
+                "none of {tried} designs between the bounds can be held against every row of the fit; {why}"
+            ),
+            Self::Stopped => f.write_str("stopped"),
+        }
+    }
+}
+
+impl std::error::Error for NoFit {}
+
+/// An observation and what the fitted design says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// What was seen.
+    pub observation: Observation,
+    /// What the model says.
+    pub predicted: Result<Prediction, NoPrediction>,
+}
+
+impl Point {
+    /// predicted/observed - 1.
+    pub fn relative(&self) -> Option<f64> {
+        self.predicted.as_ref().ok().map(|p| p.value / self.observation.value - 1.0)
+    }
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identified {
+    /// The unknowns.
+    pub unknowns: Vec<Unknown>,
+    /// Their values in the design at hand.
+    pub before: Vec<f64>,
+    /// What the data know of them.
+    pub knowledge: Knowledge,
+    /// Every observation, fitted or held back.
+    pub points: Vec<Point>,
+    /// Sum of the squared scaled residuals of the fit, one per start, and that of the solution.
+    pub sums: (Vec<f64>, f64),
+    /// Evaluations of all fitted observations.
+    pub evaluations: usize,
+    /// Whether the last step no longer mattered.
+    pub converged: bool,
+    /// Text of the design file with the values found.
+    pub source: String,
+}
+
+/// Sum that stands for a design that cannot be held against the data.
+const NO_DESIGN: f64 = 1e30;
+
+struct Problem<'a> {
+    design: &'a Design,
+    /// Observations of the fit, those with the same keys side by side.
+    groups: Vec<Vec<&'a Observation>>,
+    paths: Vec<String>,
+    low: Vec<f64>,
+    range: Vec<f64>,
+    count: AtomicUsize,
+    stop: Option<&'a AtomicBool>,
+}
+
+/// Observations with the same keys, in the order in which they come.
+fn grouped<'a>(all: impl Iterator<Item = &'a Observation>) -> Vec<Vec<&'a Observation>> {
+    let mut groups: Vec<Vec<&Observation>> = Vec::new();
+    for o in all {
+        match groups.iter_mut().find(|g| g[0].keys == o.keys) {
+            Some(group) => group.push(o),
+            None => groups.push(vec![o]),
+        }
+    }
+    groups
+}
+
+impl Problem<'_> {
+    /// Values in the units of the names at shares `t` of the ranges.
+    fn values(&self, t: &[f64]) -> Vec<f64> {
+        t.iter().zip(&self.low).zip(&self.range).map(|((t, low), range)| low + t * range).collect()
+    }
+
+    fn named(&self, t: &[f64]) -> Vec<(String, f64)> {
+        self.paths.iter().cloned().zip(self.values(t)).collect()
+    }
+
+    /// Scaled residuals at `t`.
+    fn residuals(&self, t: &[f64]) -> Result<DVector<f64>, String> {
+        if self.stop.is_some_and(|s| s.load(Ordering::Relaxed)) {
+            return Err("stopped".to_owned());
+        }
+        self.count.fetch_add(1, Ordering::Relaxed);
+        let values = self.named(t);
+        let rows: Result<Vec<Vec<f64>>, String> = self
+            .groups
+            .par_iter()
+            .map(|group| {
+                let at = |why: &NoPrediction, o: &Observation| format!("{}: {why}", o.label);
+                let said = predict(self.design, &values, group).map_err(|why| at(&why, group[0]))?;
+                said.iter()
+                    .zip(group)
+                    .map(|(p, o)| match p {
+                        Ok(p) => Ok((p.value - o.value) / o.scale()),
+                        Err(why) => Err(at(why, o)),
+                    })
+                    .collect()
+            })
+            .collect();
+        Ok(DVector::from_vec(rows?.concat()))
+    }
+
+    fn sum(&self, t: &[f64]) -> f64 {
+        self.residuals(t).map_or(NO_DESIGN, |r| r.norm_squared())
+    }
+
+    /// Derivatives by the shares, by central differences inside the bounds.
+    fn jacobian(&self, t: &[f64]) -> Result<DMatrix<f64>, String> {
+        // Curves are interpolated to some 1e-9: noise of 1e-6, and as much of truncation.
+        const STEP: f64 = 1e-3;
+        let mut columns = Vec::with_capacity(t.len());
+        for j in 0..t.len() {
+            let side = |to: f64| {
+                let mut moved = t.to_vec();
+                moved[j] = to;
+                self.residuals(&moved)
+            };
+            let (a, b) = ((t[j] - STEP).max(0.0), (t[j] + STEP).min(1.0));
+            // Where one side cannot be evaluated, the other has to do.
+            let (a, b, fa, fb) = match (side(a), side(b)) {
+                (Ok(fa), Ok(fb)) => (a, b, fa, fb),
+                (Ok(fa), Err(_)) => (a, t[j], fa, side(t[j])?),
+                (Err(_), Ok(fb)) => (t[j], b, side(t[j])?, fb),
+                (Err(why), Err(_)) => return Err(why),
+            };
+            columns.push((fb - fa) / (b - a));
+        }
+        Ok(DMatrix::from_columns(&columns))
+    }
+}
+
+/// t = (1 + sin u)/2: every u lies between the bounds.
+fn share(u: &[f64]) -> Vec<f64> {
+    u.iter().map(|u| 0.5 * (1.0 + u.sin())).collect()
+}
+
+struct Transformed<'p, 'a>(&'p Problem<'a>);
+
+impl CostFunction for Transformed<'_, '_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+    fn cost(&self, u: &Self::Param) -> Result<f64, argmin::core::Error> {
+        Ok(self.0.sum(&share(u)))
+    }
+}
+
+/// Find the unknowns of `design` from `observations`. `stop` is looked at before every evaluation.
+///
+/// Residuals are (predicted - observed) over the row's standard error, or over the observed number where none is given.
+///
+/// # Errors
+/// [`NoFit`].
+pub fn identify(
+    design: &Design,
+    observations: &[Observation],
+    unknowns: &[Unknown],
+    settings: &Settings,
+    stop: Option<&AtomicBool>,
+) -> Result<Identified, NoFit> {
+    let stopped = || stop.is_some_and(|s| s.load(Ordering::Relaxed));
+    let (paths, before) = paths(design, unknowns)?;
+    let fitted = observations.iter().filter(|o| o.purpose == Use::Fit);
+    let problem = Problem {
+        design,
+        groups: grouped(fitted),
+        paths,
+        low: unknowns.iter().map(|u| u.min).collect(),
+        range: unknowns.iter().map(|u| u.max - u.min).collect(),
+        count: AtomicUsize::new(0),
+        stop,
+    };
+    if problem.groups.is_empty() {
+        return Err(NoFit::NothingToFit);
+    }
+    let starts = starts(&problem, unknowns, &before, settings)
+        .map_err(|e| if stopped() { NoFit::Stopped } else { e })?;
+    let mut sums = Vec::new();
+    let mut best: Option<(Vec<f64>, f64, bool)> = None;
+    for start in starts {
+        let simplex = simplex_search(&problem, &start, settings.evaluations);
+        let (t, sum, converged) = finish(&problem, simplex);
+        if stopped() {
+            return Err(NoFit::Stopped);
+        }
+        sums.push(sum);
+        if best.as_ref().is_none_or(|b| sum < b.1) {
+            best = Some((t, sum, converged));
+        }
+    }
+    let nowhere = |why: String| NoFit::Nowhere { tried: problem.count.load(Ordering::Relaxed), why };
+    let (t, sum, converged) = best.ok_or_else(|| nowhere("no start".to_owned()))?;
+    let residuals = problem.residuals(&t).map_err(nowhere)?;
+    let jacobian = problem.jacobian(&t).map_err(nowhere)?;
+    let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &problem.range);
+    let mut named = problem.named(&t);
+    // What the data say nothing of stays as it was.
+    for j in knowledge.without_influence() {
+        if (unknowns[j].min..=unknowns[j].max).contains(&before[j]) {
+            (knowledge.estimates[j].value, named[j].1) = (before[j], before[j]);
+        }
+    }
+    let source = design_with(design, &[], &named).map_err(|e| nowhere(e.to_string()))?.source;
+    Ok(Identified {
+        unknowns: unknowns.to_vec(),
+        before,
+        knowledge,
+        points: points(design, &named, observations),
+        sums: (sums, sum),
+        evaluations: problem.count.load(Ordering::Relaxed),
+        converged,
+        source,
+    })
+}
+
+fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>), NoFit> {
+    if unknowns.is_empty() {
+        return Err(NoFit::Unknowns("name at least one unknown".to_owned()));
+    }
+    let arcs = design.clutch.sprags.inner_arcs.len();
+    let (mut paths, mut before) = (Vec::<String>::new(), Vec::new());
+    for u in unknowns {
+        let refuse = |why: String| NoFit::Unknown { name: u.name.clone(), why };
+        if !(u.min.is_finite() && u.max.is_finite() && u.min < u.max) {
+            return Err(refuse(format!(
+                "bounds {}:{}; allowed: two finite numbers, the smaller first",
+                u.min, u.max
+            )));
+        }
+        let path = variable_path(&u.name, arcs).or_else(|| u.name.contains('.').then(|| u.name.clone()));
+        let known = variable_names(arcs).join(", ");
+        let path = path.ok_or_else(|| {
+            refuse(format!(
+                "no such variable; there are {known}, and the dotted path of any number in the file"
+            ))
+        })?;
+        let value = value_at(&design.source, &path)
+            .ok_or_else(|| refuse(format!("the design file holds no number {path}; write it there first")))?;
+        if paths.contains(&path) {
+            return Err(NoFit::Unknowns(format!("{path} is named twice")));
+        }
+        paths.push(path);
+        before.push(value);
+    }
+    Ok((paths, before))
+}
+
+/// Shares at which a search begins: the design's own values if they lie between the bounds, then random ones; each can
+/// be held against the data.
+fn starts(
+    problem: &Problem,
+    unknowns: &[Unknown],
+    before: &[f64],
+    settings: &Settings,
+) -> Result<Vec<Vec<f64>>, NoFit> {
+    const TRIES: usize = 400;
+    let mut random = fastrand::Rng::with_seed(settings.seed);
+    let inside = unknowns.iter().zip(before).all(|(u, v)| (u.min..=u.max).contains(v));
+    let own = inside.then(|| {
+        let each = before.iter().zip(&problem.low).zip(&problem.range);
+        each.map(|((v, low), range)| (v - low) / range).collect::<Vec<f64>>()
+    });
+    let mut found = Vec::new();
+    let mut why = String::new();
+    let mut try_one = |t: Vec<f64>, found: &mut Vec<Vec<f64>>| match problem.residuals(&t) {
+        Ok(_) => found.push(t),
+        Err(reason) => why = reason,
+    };
+    if let Some(own) = own {
+        try_one(own, &mut found);
+    }
+    let mut tried = 0;
+    while found.len() < settings.starts.max(1) && tried < TRIES {
+        let t: Vec<f64> = unknowns.iter().map(|_| random.f64()).collect();
+        try_one(t, &mut found);
+        tried += 1;
+    }
+    if found.is_empty() { Err(NoFit::Nowhere { tried: tried + 1, why }) } else { Ok(found) }
+}
+
+/// Nelder and Mead's simplex from the shares `start`.
+fn simplex_search(problem: &Problem, start: &[f64], evaluations: usize) -> Vec<f64> {
+    // Away from the bounds, where the transformation has no slope.
+    let u: Vec<f64> = start.iter().map(|t| (2.0 * t.clamp(0.02, 0.98) - 1.0).asin()).collect();
+    let mut simplex = vec![u.clone()];
+    for j in 0..u.len() {
+        let mut corner = u.clone();
+        corner[j] += if corner[j] > 0.0 { -0.3 } else { 0.3 };
+        simplex.push(corner);
+    }
+    // Each iteration takes one or two evaluations.
+    let iterations = (evaluations as f64 / 1.6).ceil() as u64;
+    let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(1e-10) else { return start.to_vec() };
+    let run = Executor::new(Transformed(problem), solver).configure(|s| s.max_iters(iterations)).run();
+    match run.ok().and_then(|r| r.state().get_best_param().cloned()) {
+        Some(best) if problem.sum(&share(&best)) <= problem.sum(start) => share(&best),
+        _ => start.to_vec(),
+    }
+}
+
+/// Levenberg and Marquardt from the shares `t`, kept between the bounds: shares, sum, converged.
+fn finish(problem: &Problem, mut t: Vec<f64>) -> (Vec<f64>, f64, bool) {
+    let mut sum = problem.sum(&t);
+    let mut damping = 1e-3;
+    for _ in 0..30 {
+        let (Ok(r), Ok(j)) = (problem.residuals(&t), problem.jacobian(&t)) else { return (t, sum, false) };
+        let (normal, slope) = (j.transpose() * &j, j.transpose() * &r);
+        let mut moved = None;
+        for _ in 0..12 {
+            let mut damped = normal.clone();
+            for k in 0..t.len() {
+                damped[(k, k)] += damping * normal[(k, k)].max(1e-12 * normal.trace());
+            }
+            let Some(step) = damped.lu().solve(&slope) else { break };
+            let next: Vec<f64> = t.iter().zip(step.iter()).map(|(t, s)| (t - s).clamp(0.0, 1.0)).collect();
+            let after = problem.sum(&next);
+            if after < sum {
+                damping = (0.1 * damping).max(1e-12);
+                moved = Some((next, after));
+                break;
+            }
+            damping *= 10.0;
+        }
+        let Some((next, after)) = moved else { return (t, sum, true) };
+        let gain = (sum - after) / sum.max(f64::MIN_POSITIVE);
+        (t, sum) = (next, after);
+        if gain < 1e-10 || sum < 1e-24 {
+            return (t, sum, true);
+        }
+    }
+    (t, sum, false)
+}
+
+/// Every observation beside what the design with `values` says.
+fn points(design: &Design, values: &[(String, f64)], observations: &[Observation]) -> Vec<Point> {
+    let groups = grouped(observations.iter());
+    let mut points: Vec<Point> = groups
+        .par_iter()
+        .flat_map_iter(|group| {
+            let said = predict(design, values, group);
+            let each = match said {
+                Ok(said) => said,
+                Err(why) => group.iter().map(|_| Err(why.clone())).collect(),
+            };
+            group
+                .iter()
+                .zip(each)
+                .map(|(o, predicted)| Point { observation: (*o).clone(), predicted })
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    points.sort_by_key(|p| p.observation.line);
+    points
+}

@@ -1,0 +1,15 @@
+//! Unknown parameters of a design from measured or published numbers.
+//!
+//! In: a `Design`, a table of what was measured, the unknowns with their bounds. Out: [`Identified`]: values, confidence,
+//! correlation, residuals, what the data cannot tell apart. Absent: how a clutch works (`margin` and `wedge` are asked).
+//! Equations: none; least squares after Bates & Watts, *Nonlinear Regression Analysis*, ch. 2.
+
+mod fit;
+mod observation;
+mod predict;
+mod statistics;
+
+pub use fit::{Identified, NoFit, Point, Settings, Unknown, identify};
+pub use observation::{Fault, Kind, Observation, Use, observations};
+pub use predict::{NoPrediction, Prediction, predict};
+pub use statistics::{Estimate, Knowledge, STRONG, Tied};

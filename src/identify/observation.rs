@@ -1,0 +1,314 @@
+//! The table of what was measured: CSV text in, observations out.
+
+use std::fmt;
+
+/// A measured or published quantity; at a torque where its name in `stiffness` is one of a static point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Windup at the row's torque, deg.
+    Windup,
+    /// N_bi at the row's torque, N per sprag.
+    NormalInner,
+    /// N_be at the row's torque, N per sprag.
+    NormalOuter,
+    /// tan omega at the row's torque.
+    TanOmega,
+    /// p_0 at A at the row's torque, MPa.
+    HertzInner,
+    /// p_0 at B at the row's torque, MPa.
+    HertzOuter,
+    /// Secant stiffness at the row's torque, N m/rad.
+    Secant,
+    /// Tangent stiffness at the row's torque, N m/rad.
+    Tangent,
+    /// Smallest torque at which a limit on nominal torque or the grip is reached, N m.
+    NominalTorque,
+    /// Torque at which the curve ends (roll-over, end of profile), N m.
+    EndTorque,
+    /// Speed of the outer race at which the sprags lift off in overrun, rev/min.
+    LiftOff,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 11] = [
+        Self::Windup,
+        Self::NormalInner,
+        Self::NormalOuter,
+        Self::TanOmega,
+        Self::HertzInner,
+        Self::HertzOuter,
+        Self::Secant,
+        Self::Tangent,
+        Self::NominalTorque,
+        Self::EndTorque,
+        Self::LiftOff,
+    ];
+
+    /// Column of the table.
+    pub fn column(self) -> &'static str {
+        match self {
+            Self::Windup => "windup_deg",
+            Self::NormalInner => "normal_inner_n",
+            Self::NormalOuter => "normal_outer_n",
+            Self::TanOmega => "tan_omega",
+            Self::HertzInner => "hertz_inner_mpa",
+            Self::HertzOuter => "hertz_outer_mpa",
+            Self::Secant => "k_secant_nm_per_rad",
+            Self::Tangent => "k_tangent_nm_per_rad",
+            Self::NominalTorque => "nominal_torque_nm",
+            Self::EndTorque => "end_torque_nm",
+            Self::LiftOff => "lift_off_rpm",
+        }
+    }
+
+    /// Whether the row must name the torque at which it was seen.
+    pub fn needs_torque(self) -> bool {
+        !matches!(self, Self::NominalTorque | Self::EndTorque | Self::LiftOff)
+    }
+}
+
+/// What a row is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Use {
+    /// The unknowns are fitted to it.
+    Fit,
+    /// It is predicted and compared, and takes no part in the fit.
+    Check,
+}
+
+/// One observed number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observation {
+    /// Line of the table, from 1.
+    pub line: usize,
+    /// Label of the row, or its line.
+    pub label: String,
+    /// Keys of the design that this row changes (dotted path, value in the key's unit).
+    pub keys: Vec<(String, f64)>,
+    /// What was seen.
+    pub kind: Kind,
+    /// The number seen, in the unit of its column.
+    pub value: f64,
+    /// Torque at which it was seen, N m.
+    pub torque_nm: Option<f64>,
+    /// Standard error of the number; absent: in proportion to it.
+    pub sigma: Option<f64>,
+    /// What it is for.
+    pub purpose: Use,
+}
+
+impl Observation {
+    /// What a residual is divided by.
+    pub fn scale(&self) -> f64 {
+        self.sigma.unwrap_or(self.value.abs())
+    }
+}
+
+/// What is wrong with a table: line, column, what was found, what is allowed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// Line, from 1; 0: the table as a whole.
+    pub line: usize,
+    /// Column, if one is at fault.
+    pub column: String,
+    /// What was found.
+    pub found: String,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.line > 0 {
+            write!(f, "line {}: ", self.line)?;
+        }
+        if !self.column.is_empty() {
+            write!(f, "{}: ", self.column)?;
+        }
+        write!(f, "found {}; allowed: {}", self.found, self.allowed)
+    }
+}
+
+impl std::error::Error for Fault {}
+
+/// Words of the column `use`.
+const USES: &str = "fit, check, skip, or nothing for fit";
+
+/// The observations of a CSV table.
+///
+/// Columns, each at most once, in any order: `label`; `use` (fit, check, skip); `torque_nm`; those of [`Kind`], each
+/// with, if wanted, its standard error in the same unit as `<column>_sigma`; dotted keys of the design file that the row changes, such as
+/// `races.inner_radius_mm`. An empty cell says nothing. Lines that begin with # are comments.
+///
+/// # Errors
+/// The first [`Fault`].
+pub fn observations(text: &str) -> Result<Vec<Observation>, Fault> {
+    let mut reader =
+        csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
+    let broken = |e: csv::Error| Fault {
+        line: e.position().map_or(0, |p| p.line() as usize),
+        column: String::new(),
+        found: e.to_string(),
+        allowed: "CSV with one header line and as many cells in every row".to_owned(),
+    };
+    let header: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_owned).collect();
+    check_header(&header)?;
+    let mut all = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(broken)?;
+        let line = record.position().map_or(0, |p| p.line() as usize);
+        row(&header, &record, line, &mut all)?;
+    }
+    if all.is_empty() {
+        return Err(Fault {
+            line: 0,
+            column: String::new(),
+            found: "no observation".to_owned(),
+            allowed: format!("at least one number under {}", kinds()),
+        });
+    }
+    Ok(all)
+}
+
+fn kinds() -> String {
+    Kind::ALL.map(Kind::column).join(", ")
+}
+
+fn check_header(header: &[String]) -> Result<(), Fault> {
+    for (i, name) in header.iter().enumerate() {
+        let known = ["label", "use", "torque_nm"].contains(&name.as_str())
+            || name.contains('.')
+            || Kind::ALL.iter().any(|k| *name == k.column() || *name == format!("{}_sigma", k.column()));
+        let fault = |found: String, allowed: String| Fault { line: 1, column: name.clone(), found, allowed };
+        if !known {
+            return Err(fault(
+                "an unknown column".to_owned(),
+                format!(
+                    "label, use, torque_nm, {}, each of these with _sigma, or a dotted key of the design file",
+                    kinds()
+                ),
+            ));
+        }
+        if header.iter().take(i).any(|other| other == name) {
+            return Err(fault("the same column twice".to_owned(), "each column once".to_owned()));
+        }
+    }
+    Ok(())
+}
+
+fn row(
+    header: &[String],
+    record: &csv::StringRecord,
+    line: usize,
+    all: &mut Vec<Observation>,
+) -> Result<(), Fault> {
+    let cell = |name: &str| {
+        let at = header.iter().position(|h| h == name)?;
+        record.get(at).filter(|text| !text.is_empty())
+    };
+    let number = |name: &str| -> Result<Option<f64>, Fault> {
+        let Some(text) = cell(name) else { return Ok(None) };
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(Some(value)),
+            _ => Err(Fault {
+                line,
+                column: name.to_owned(),
+                found: format!("{text:?}"),
+                allowed: "a finite number, or nothing".to_owned(),
+            }),
+        }
+    };
+    let purpose = match cell("use") {
+        None | Some("fit") => Use::Fit,
+        Some("check") => Use::Check,
+        Some("skip") => return Ok(()),
+        Some(other) => {
+            return Err(Fault {
+                line,
+                column: "use".to_owned(),
+                found: format!("{other:?}"),
+                allowed: USES.to_owned(),
+            });
+        }
+    };
+    let mut keys = Vec::new();
+    for name in header.iter().filter(|name| name.contains('.')) {
+        keys.extend(number(name)?.map(|value| (name.clone(), value)));
+    }
+    let torque_nm = number("torque_nm")?;
+    let needs = |column: &str, value: Option<f64>, allowed: &str| match value {
+        Some(value) if value <= 0.0 => Err(Fault {
+            line,
+            column: column.to_owned(),
+            found: value.to_string(),
+            allowed: allowed.to_owned(),
+        }),
+        _ => Ok(()),
+    };
+    needs("torque_nm", torque_nm, "a torque above 0 N m")?;
+    for kind in Kind::ALL {
+        let Some(value) = number(kind.column())? else { continue };
+        needs(kind.column(), Some(value), "a number above 0")?;
+        if kind.needs_torque() && torque_nm.is_none() {
+            return Err(Fault {
+                line,
+                column: kind.column().to_owned(),
+                found: "no torque_nm".to_owned(),
+                allowed: "the torque at which this was seen, in the same row".to_owned(),
+            });
+        }
+        let sigma_column = format!("{}_sigma", kind.column());
+        let sigma = number(&sigma_column)?;
+        needs(&sigma_column, sigma, "a standard error above 0")?;
+        all.push(Observation {
+            line,
+            label: cell("label").map_or_else(|| format!("line {line}"), str::to_owned),
+            keys: keys.clone(),
+            kind,
+            value,
+            torque_nm,
+            sigma,
+            purpose,
+        });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_is_read_row_by_row() {
+        let text = "# from a bench\nlabel,use,races.inner_radius_mm,torque_nm,windup_deg,windup_deg_sigma,nominal_torque_nm\n\
+                    a,,20,10,1.5,0.01,\nb,skip,21,,,,7\nc,check,22,,,,8\n";
+        let all = observations(text).unwrap();
+        assert_eq!(all.len(), 2);
+        assert_eq!((all[0].kind, all[0].value, all[0].torque_nm), (Kind::Windup, 1.5, Some(10.0)));
+        assert_eq!((all[0].scale(), all[0].purpose, all[0].line), (0.01, Use::Fit, 3));
+        assert_eq!((all[1].label.as_str(), all[1].purpose, all[1].scale()), ("c", Use::Check, 8.0));
+        assert_eq!(all[1].keys, [("races.inner_radius_mm".to_owned(), 22.0)]);
+    }
+
+    #[test]
+    fn faults_name_line_and_column() {
+        for (text, line, column) in [
+            ("torque_nm,windup\n1,2\n", 1, "windup"),
+            ("torque_nm,torque_nm\n1,2\n", 1, "torque_nm"),
+            ("torque_nm,windup_deg\n1,x\n", 2, "windup_deg"),
+            ("torque_nm,windup_deg\n-1,2\n", 2, "torque_nm"),
+            ("torque_nm,windup_deg\n,2\n", 2, "windup_deg"),
+            ("torque_nm,windup_deg,windup_deg_sigma\n1,2,0\n", 2, "windup_deg_sigma"),
+            ("torque_nm,windup_deg\n1,inf\n", 2, "windup_deg"),
+            ("torque_nm,windup_deg,use\n1,2,no\n", 2, "use"),
+            ("torque_nm,windup_deg\n1,0\n", 2, "windup_deg"),
+            ("torque_nm,windup_deg\n1,2,3\n", 2, ""),
+            ("torque_nm,windup_deg\n", 0, ""),
+            ("", 0, ""),
+        ] {
+            let fault = observations(text).unwrap_err();
+            assert_eq!((fault.line, fault.column.as_str()), (line, column), "{text:?}: {fault}");
+        }
+    }
+}

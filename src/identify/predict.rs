@@ -1,0 +1,116 @@
+//! What the model says where something was observed.
+
+use std::fmt;
+
+use super::observation::{Kind, Observation};
+use crate::design::{Design, EditError, with_keys};
+use crate::margin::{LoadState, lift_off_rad_s, load_state, nominal_capacity};
+use crate::wedge::StaticPoint;
+
+/// Speed up to which a lift-off is looked for, rad/s: 60 000 rev/min.
+const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * std::f64::consts::PI / 30.0;
+
+/// A predicted number and what decided it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prediction {
+    /// In the unit of the observation's column.
+    pub value: f64,
+    /// Code of the limit that decides a capacity.
+    pub decided_by: Option<String>,
+}
+
+/// Why there is no prediction.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoPrediction {
+    /// A key or a value cannot be put into the design.
+    Edit(EditError),
+    /// The design with these values is refused.
+    Refused(String),
+    /// No load state.
+    NoState(String),
+    /// The curve ends below the torque of the observation.
+    BeyondTheCurve {
+        /// Where it ends, N m.
+        end_nm: f64,
+    },
+    /// Nothing lifts off below 60 000 rev/min.
+    NoLiftOff,
+    /// No limit of the design depends on the nominal torque.
+    NoLimit,
+}
+
+impl fmt::Display for NoPrediction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Edit(why) => write!(f, "{why}"),
+            Self::Refused(why) => write!(f, "the design is refused: {why}"),
+            Self::NoState(why) => f.write_str(why),
+            Self::BeyondTheCurve { end_nm } => {
+                write!(f, "the curve ends at {end_nm:.4} N m, below that torque")
+            }
+            Self::NoLiftOff => f.write_str("no lift-off up to 60 000 rpm"),
+            Self::NoLimit => f.write_str("the design has no limit at nominal torque"),
+        }
+    }
+}
+
+impl std::error::Error for NoPrediction {}
+
+/// The design with the keys of a row and further values put in (dotted paths, units of the keys; the later wins).
+///
+/// # Errors
+/// [`NoPrediction::Edit`], [`NoPrediction::Refused`].
+pub(super) fn design_with(
+    base: &Design,
+    keys: &[(String, f64)],
+    values: &[(String, f64)],
+) -> Result<Design, NoPrediction> {
+    let all: Vec<(&str, f64)> = keys.iter().chain(values).map(|(k, v)| (k.as_str(), *v)).collect();
+    let text = with_keys(&base.source, &all).map_err(NoPrediction::Edit)?;
+    Design::parse_in(&base.folder, &text, &base.name).map_err(|e| {
+        let first = e.problems().first().map_or_else(String::new, ToString::to_string);
+        NoPrediction::Refused(first)
+    })
+}
+
+/// What `design` with the values `values` (dotted path, value in the key's unit) says for `observations`, which share
+/// their keys.
+///
+/// # Errors
+/// [`NoPrediction`] of the design as a whole; that of single numbers stands in their place.
+pub fn predict(
+    design: &Design,
+    values: &[(String, f64)],
+    observations: &[&Observation],
+) -> Result<Vec<Result<Prediction, NoPrediction>>, NoPrediction> {
+    let Some(first) = observations.first() else { return Ok(Vec::new()) };
+    let changed = design_with(design, &first.keys, values)?;
+    let state = load_state(&changed).map_err(|e| NoPrediction::NoState(e.to_string()))?;
+    Ok(observations.iter().map(|o| one(&changed, &state, o)).collect())
+}
+
+fn one(design: &Design, state: &LoadState, o: &Observation) -> Result<Prediction, NoPrediction> {
+    let plain = |value: f64| Ok(Prediction { value, decided_by: None });
+    let at = |read: fn(&StaticPoint) -> f64| {
+        let point = o.torque_nm.and_then(|t| state.curve.at_torque(t));
+        point.map_or(Err(NoPrediction::BeyondTheCurve { end_nm: state.curve.end_torque_nm() }), |p| {
+            plain(read(&p))
+        })
+    };
+    match o.kind {
+        Kind::Windup => at(|p| p.windup_rad.to_degrees()),
+        Kind::NormalInner => at(|p| p.normal_inner_n),
+        Kind::NormalOuter => at(|p| p.normal_outer_n),
+        Kind::TanOmega => at(|p| p.tan_omega),
+        Kind::HertzInner => at(|p| p.hertz_inner_pa / 1e6),
+        Kind::HertzOuter => at(|p| p.hertz_outer_pa / 1e6),
+        Kind::Secant => at(|p| p.k_secant_nm_per_rad),
+        Kind::Tangent => at(|p| p.k_tangent_nm_per_rad),
+        Kind::EndTorque => plain(state.curve.end_torque_nm()),
+        Kind::LiftOff => lift_off_rad_s(design, state, LIFT_OFF_TO_RAD_S)
+            .map_or(Err(NoPrediction::NoLiftOff), |speed| plain(speed * 30.0 / std::f64::consts::PI)),
+        Kind::NominalTorque => nominal_capacity(design, &design.limits, state)
+            .map(|(value, code)| Prediction { value, decided_by: Some(code.to_owned()) })
+            .ok_or(NoPrediction::NoLimit),
+    }
+}

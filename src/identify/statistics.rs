@@ -1,0 +1,207 @@
+//! What a least-squares fit knows: confidence, correlation, and directions in which the data are blind.
+
+use nalgebra::{DMatrix, DVector, SVD};
+
+use crate::numeric::student;
+
+/// Correlation from which two parameters count as hardly told apart.
+pub const STRONG: f64 = 0.95;
+
+/// Smallest singular value over the largest, with columns of equal length, below which the data are blind in a
+/// direction: derivatives by differences are good to 1e-6 or so.
+const BLIND: f64 = 1e-5;
+
+/// Length of a column over the longest below which an unknown counts as without influence: what differences of
+/// interpolated curves see of nothing.
+const NOTHING: f64 = 1e-5;
+
+/// Confidence of the intervals.
+const CONFIDENCE: f64 = 0.95;
+
+/// One unknown as found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Value.
+    pub value: f64,
+    /// Standard error; `None` where the data do not determine the value.
+    pub sigma: Option<f64>,
+    /// Half width of the 95 % interval (Student's t); `None` as above.
+    pub half_width: Option<f64>,
+}
+
+/// Two or more unknowns that the data hardly tell apart, or not at all.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Tied {
+    /// Correlation of two unknowns above [`STRONG`] in magnitude.
+    Strongly {
+        /// Index of the one.
+        first: usize,
+        /// Index of the other.
+        second: usize,
+        /// Correlation.
+        correlation: f64,
+    },
+    /// A direction without influence on any residual: changes of the unknowns, the largest of them 1 in magnitude of its unit
+    /// times the range of its bounds.
+    Blind {
+        /// Change of each unknown, as a share of its range.
+        direction: Vec<f64>,
+    },
+}
+
+/// What the data know.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Knowledge {
+    /// One per unknown.
+    pub estimates: Vec<Estimate>,
+    /// Correlation matrix; absent where the data are blind in a direction.
+    pub correlation: Option<Vec<Vec<f64>>>,
+    /// Standard deviation of the scaled residuals with `freedom` degrees of freedom; absent without any.
+    pub residual_sigma: Option<f64>,
+    /// Observations less unknowns.
+    pub freedom: usize,
+    /// What cannot be told apart.
+    pub tied: Vec<Tied>,
+    /// Smallest over largest singular value of the Jacobian, columns of equal length.
+    pub singular_ratio: f64,
+}
+
+impl Knowledge {
+    /// Unknowns that alone make up a blind direction.
+    pub fn without_influence(&self) -> Vec<usize> {
+        let alone = |tied: &Tied| {
+            let Tied::Blind { direction } = tied else { return None };
+            let mut moved = (0..direction.len()).filter(|&j| direction[j].abs() > 0.01);
+            moved.next().filter(|_| moved.next().is_none())
+        };
+        self.tied.iter().filter_map(alone).collect()
+    }
+}
+
+/// From the Jacobian of the scaled residuals by the unknowns over their ranges, and the residuals at the solution.
+pub(super) fn knowledge(
+    jacobian: &DMatrix<f64>,
+    residuals: &DVector<f64>,
+    values: &[f64],
+    ranges: &[f64],
+) -> Knowledge {
+    let (m, p) = jacobian.shape();
+    let freedom = m.saturating_sub(p);
+    let residual_sigma = (freedom > 0).then(|| (residuals.norm_squared() / freedom as f64).sqrt());
+    // Columns of equal length: the ratio of singular values does not depend on the ranges.
+    let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
+    let largest = lengths.iter().fold(0.0, |a: f64, b| a.max(*b));
+    let mut scaled = jacobian.clone();
+    for (mut column, length) in scaled.column_iter_mut().zip(&lengths) {
+        // A column without length would hide behind its own scale.
+        let by = if *length > NOTHING * largest { *length } else { f64::INFINITY };
+        column /= by;
+    }
+    // Rows of zeros make the factorisation square where there are fewer observations than unknowns.
+    let padded = scaled.clone().resize(m.max(p), p, 0.0);
+    let svd = SVD::new(padded, false, true);
+    let v = svd.v_t.map(|v| v.transpose()).unwrap_or_else(|| DMatrix::identity(p, p));
+    let s = svd.singular_values;
+    let top = s.iter().fold(0.0, |a: f64, b| a.max(*b));
+    let mut tied = Vec::new();
+    for (k, sigma) in s.iter().enumerate() {
+        if *sigma > BLIND * top {
+            continue;
+        }
+        let raw: Vec<f64> = (0..p).map(|j| unscaled(v[(j, k)], lengths[j], largest)).collect();
+        let most = raw.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        tied.push(Tied::Blind { direction: raw.iter().map(|x| x / most).collect() });
+    }
+    let singular_ratio = if top > 0.0 { s.iter().fold(top, |a, b| a.min(*b)) / top } else { 0.0 };
+    let blind = !tied.is_empty();
+    let t = student::two_sided(CONFIDENCE, freedom);
+    let covariance = (!blind).then(|| {
+        let mut inner = DMatrix::zeros(p, p);
+        for k in 0..p {
+            let column = v.column(k);
+            inner += column * column.transpose() / (s[k] * s[k]);
+        }
+        inner
+    });
+    let estimates = (0..p)
+        .map(|j| {
+            let sigma = covariance
+                .as_ref()
+                .zip(residual_sigma)
+                .map(|(c, r)| r * c[(j, j)].max(0.0).sqrt() / lengths[j] * ranges[j]);
+            Estimate { value: values[j], sigma, half_width: sigma.zip(t).map(|(s, t)| s * t) }
+        })
+        .collect();
+    let correlation = covariance.map(|c| {
+        let of = |i: usize, j: usize| if i == j { 1.0 } else { c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt() };
+        (0..p).map(|i| (0..p).map(|j| of(i, j)).collect::<Vec<f64>>()).collect::<Vec<_>>()
+    });
+    if let Some(c) = &correlation {
+        for (first, row) in c.iter().enumerate() {
+            for (second, &correlation) in row.iter().enumerate().skip(first + 1) {
+                if correlation.abs() > STRONG {
+                    tied.push(Tied::Strongly { first, second, correlation });
+                }
+            }
+        }
+    }
+    Knowledge { estimates, correlation, residual_sigma, freedom, tied, singular_ratio }
+}
+
+/// A component of a direction in units of ranges: columns were divided by their lengths.
+fn unscaled(component: f64, length: f64, largest: f64) -> f64 {
+    component / if length > NOTHING * largest { length } else { (NOTHING * largest).max(f64::MIN_POSITIVE) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Straight line through five points: textbook standard errors (Draper & Smith, *Applied Regression Analysis*, 1.4):
+    /// s^2/S_xx for the slope, s^2 sum x^2/(n S_xx) for the intercept, correlation -mean x/sqrt(mean x^2).
+    #[test]
+    fn a_straight_line_has_the_textbook_errors() {
+        let (x, y) = ([1.0, 2.0, 3.0, 4.0, 5.0], [1.1, 1.9, 3.2, 3.8, 5.1]);
+        let (mx, my) = (3.0, y.iter().sum::<f64>() / 5.0);
+        let sxx: f64 = x.iter().map(|x| (x - mx) * (x - mx)).sum();
+        let slope = x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum::<f64>() / sxx;
+        let intercept = my - slope * mx;
+        let residuals = DVector::from_fn(5, |i, _| intercept + slope * x[i] - y[i]);
+        // Ranges 10 and 2: derivatives by the share of the range.
+        let jacobian = DMatrix::from_fn(5, 2, |i, j| if j == 0 { 10.0 } else { 2.0 * x[i] });
+        let k = knowledge(&jacobian, &residuals, &[intercept, slope], &[10.0, 2.0]);
+        let s2 = residuals.norm_squared() / 3.0;
+        let square: f64 = x.iter().map(|x| x * x).sum();
+        let want = [(s2 * square / (5.0 * sxx)).sqrt(), (s2 / sxx).sqrt()];
+        for (e, want) in k.estimates.iter().zip(want) {
+            assert!((e.sigma.unwrap() / want - 1.0).abs() < 1e-12, "{e:?} {want}");
+            // t(0.975, 3) = 3.182
+            assert!((e.half_width.unwrap() / want - 3.182).abs() < 1e-3);
+        }
+        let rho = k.correlation.unwrap()[0][1];
+        assert!((rho + mx / (square / 5.0).sqrt()).abs() < 1e-12, "{rho}");
+        assert!(k.tied.is_empty());
+    }
+
+    #[test]
+    fn a_sum_that_alone_is_seen_ties_its_terms() {
+        // Only a + 2b enters; c enters on its own, d not at all.
+        let jacobian = DMatrix::from_fn(6, 4, |i, j| {
+            let x = 1.0 + i as f64;
+            [x, 2.0 * x, x * x, 0.0][j]
+        });
+        let k = knowledge(&jacobian, &DVector::from_element(6, 0.1), &[1.0; 4], &[1.0; 4]);
+        assert_eq!(k.correlation, None);
+        assert!(k.estimates.iter().all(|e| e.sigma.is_none()));
+        let directions: Vec<&Vec<f64>> = k
+            .tied
+            .iter()
+            .map(|t| if let Tied::Blind { direction } = t { direction } else { panic!() })
+            .collect();
+        assert_eq!(directions.len(), 2, "{directions:?}");
+        for d in &directions {
+            assert!((d[0] + 2.0 * d[1]).abs() < 1e-6 && d[2].abs() < 1e-9, "{d:?}");
+        }
+        assert!(directions.iter().any(|d| d[3].abs() > 0.9), "{directions:?}");
+    }
+}

@@ -1,0 +1,126 @@
+//! What all runs of a search share: the flag that stops them and the record of their evaluations.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use sha2::{Digest, Sha256};
+
+use super::driver::maximise_least_margin;
+use super::journal::{Entry, Journal, Run, Watch};
+use super::outcome::{Iteration, Outcome, Refusal};
+use super::problem::ClutchProblem;
+use super::settings::Settings;
+
+/// What the entries of a record belong to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProblemId {
+    /// SHA-256 of [`ClutchProblem::identity`], hex.
+    pub hash: String,
+    /// Variables, in the order of each entry's x.
+    pub variables: Vec<String>,
+    /// Tolerance that bounds the error of an entry's margins, as printed.
+    pub error: String,
+}
+
+impl ProblemId {
+    /// Of a problem.
+    pub fn of(problem: &ClutchProblem) -> Self {
+        let digest = Sha256::digest(problem.identity().as_bytes());
+        Self {
+            hash: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+            variables: problem.variables().to_vec(),
+            error: format!("{:e}", problem.fidelity().settings.tolerance),
+        }
+    }
+}
+
+/// Keeper of every evaluation; only `cli` knows where.
+pub trait Record: Send {
+    /// What is known of a problem from earlier.
+    fn known(&mut self, _problem: &ProblemId) -> Journal {
+        Journal::default()
+    }
+    /// A point was evaluated.
+    fn evaluated(&mut self, _problem: &ProblemId, _entry: &Entry) {}
+    /// A step was tried, in some run.
+    fn iterated(&mut self, _iteration: &Iteration) {}
+    /// A new part of the search begins.
+    fn begins(&mut self, _part: &str) {}
+}
+
+/// Keeps nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Forgetful;
+
+impl Record for Forgetful {}
+
+/// Shared by all runs of a search.
+pub struct Desk<'a> {
+    stop: Option<&'a AtomicBool>,
+    record: Mutex<&'a mut dyn Record>,
+}
+
+/// One run's observer: entries go to the desk with the problem they belong to.
+struct Scribe<'d, 'a> {
+    desk: &'d Desk<'a>,
+    problem: ProblemId,
+}
+
+impl<'a> Desk<'a> {
+    /// Around a record.
+    pub fn new(stop: Option<&'a AtomicBool>, record: &'a mut dyn Record) -> Self {
+        Self { stop, record: Mutex::new(record) }
+    }
+
+    /// Whether the caller wants an end.
+    pub fn stopped(&self) -> bool {
+        self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+
+    /// Announce a part of the search.
+    pub fn begins(&self, part: &str) {
+        self.with(|record| record.begins(part));
+    }
+
+    /// A thread that died while it held the record has written whole entries or none.
+    fn with<T>(&self, what: impl FnOnce(&mut dyn Record) -> T) -> T {
+        let mut record = self.record.lock().unwrap_or_else(|e| e.into_inner());
+        what(&mut **record)
+    }
+
+    /// Does `what` with a run that remembers and records `problem`.
+    pub fn run<T>(
+        &self,
+        problem: &ClutchProblem,
+        what: impl for<'x> FnOnce(&'x ClutchProblem, Run<'x>) -> T,
+    ) -> T {
+        let id = ProblemId::of(problem);
+        let journal = self.with(|record| record.known(&id));
+        let mut scribe = Scribe { desk: self, problem: id };
+        what(problem, Run { journal, stop: self.stop, watch: Some(&mut scribe) })
+    }
+
+    /// One climb.
+    ///
+    /// # Errors
+    /// As [`maximise_least_margin`].
+    pub fn climb(
+        &self,
+        problem: &ClutchProblem,
+        x0: &[f64],
+        (lo, hi): (&[f64], &[f64]),
+        settings: &Settings,
+    ) -> Result<Outcome, Refusal> {
+        self.run(problem, |problem, run| maximise_least_margin(problem, x0, lo, hi, settings, run))
+    }
+}
+
+impl Watch for Scribe<'_, '_> {
+    fn evaluated(&mut self, entry: &Entry) {
+        self.desk.with(|record| record.evaluated(&self.problem, entry));
+    }
+
+    fn iterated(&mut self, iteration: &Iteration) {
+        self.desk.with(|record| record.iterated(iteration));
+    }
+}

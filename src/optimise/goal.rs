@@ -1,0 +1,108 @@
+//! What an objective measures of a clutch, more being better.
+
+use crate::design::{Limits, Objective};
+use crate::margin::{LoadState, Margin};
+
+/// One objective, with the shift and the scale at which it joins the least margin: (measure - from)/span.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Goal {
+    /// The objective.
+    pub objective: Objective,
+    /// Measure that counts as 0, in the measure's unit.
+    pub from: f64,
+    /// Measure's range that counts as 1, above 0.
+    pub span: f64,
+}
+
+impl Goal {
+    /// The objective alone, at a span that makes it of order one.
+    pub fn plain(objective: Objective, limits: &Limits) -> Self {
+        let span = match objective {
+            Objective::SlipMargin | Objective::StiffnessCurve => 1.0,
+            Objective::TorqueCapacity => limits.peak_torque_nm.unwrap_or(1.0),
+            Objective::PeakPressure => 1000.0,
+            Objective::Windup => 1.0,
+        };
+        Self { objective, from: 0.0, span }
+    }
+
+    /// The measure as it joins the least margin.
+    pub fn scaled(&self, measure: f64) -> f64 {
+        (measure - self.from) / self.span
+    }
+}
+
+/// One number that a goal raises, in the unit of [`Objective::unit`] times [`Objective::sense`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measure {
+    /// Goal it belongs to.
+    pub goal: usize,
+    /// What it is, such as `slip:high-6`, `capacity:hoop-inner`, `pressure:inner`.
+    pub code: String,
+    /// Its value; the least of a goal's measures is the goal.
+    pub value: f64,
+}
+
+/// Measures of `objective`; their count depends on the question alone, not on the clutch.
+pub(super) fn measures(
+    objective: Objective,
+    limits: &Limits,
+    target: &[[f64; 2]],
+    state: &LoadState,
+    rows: &[Margin],
+) -> Vec<Measure> {
+    let measure = |code: String, value: f64| Measure { goal: 0, code, value };
+    match objective {
+        // The row's margin is allowable/demand - 1 with allowable = mu_s/(1 + wanted).
+        Objective::SlipMargin => {
+            let wanted = limits.slip_margin.unwrap_or(0.0);
+            let slip = |m: &Margin| (1.0 + m.margin) * if m.margin > -1.0 { 1.0 + wanted } else { 1.0 } - 1.0;
+            rows.iter()
+                .filter(|m| m.code.starts_with("slip:"))
+                .map(|m| measure(m.code.clone(), slip(m)))
+                .collect()
+        }
+        // Peak and nominal torque grow in proportion.
+        Objective::TorqueCapacity => {
+            let peak = limits.peak_torque_nm.unwrap_or(1.0);
+            let nominal = limits.nominal_torque_nm.unwrap_or(peak);
+            rows.iter()
+                .filter_map(|m| {
+                    let at = if m.code.contains("nominal") { nominal } else { peak };
+                    Some(measure(format!("capacity:{}", m.code), m.torque_capacity_nm? / at * peak))
+                })
+                .collect()
+        }
+        Objective::PeakPressure => {
+            let torque = limits.peak_torque_nm.unwrap_or(1.0);
+            let (point, beyond) = at(state, torque);
+            // Pressure grows with the root of the load; beyond the curve's end that goes on.
+            [("inner", point.0), ("outer", point.1)]
+                .map(|(place, p)| measure(format!("pressure:{place}"), -p * 1e-6 * beyond.sqrt()))
+                .to_vec()
+        }
+        Objective::Windup => {
+            let torque = limits.nominal_torque_nm.unwrap_or(1.0);
+            let (point, beyond) = at(state, torque);
+            vec![measure("windup".to_owned(), -point.2.to_degrees() * beyond)]
+        }
+        Objective::StiffnessCurve => target
+            .iter()
+            .flat_map(|&[torque, wanted]| {
+                let (point, beyond) = at(state, torque);
+                let off = point.2 * beyond / wanted - 1.0;
+                [measure(format!("softer:{torque}"), -off), measure(format!("stiffer:{torque}"), off)]
+            })
+            .collect(),
+    }
+}
+
+/// (p_0 inner Pa, p_0 outer Pa, windup rad) at `torque`, or at the curve's end; and by what the torque lies beyond.
+fn at(state: &LoadState, torque: f64) -> ((f64, f64, f64), f64) {
+    let curve = &state.curve;
+    let last = curve.arc_end_n(curve.arc_count() - 1);
+    let end = curve.end_torque_nm();
+    let point = curve.at_torque(torque).or_else(|| curve.at_normal(last));
+    let point = point.map_or((0.0, 0.0, 0.0), |p| (p.hertz_inner_pa, p.hertz_outer_pa, p.windup_rad));
+    (point, if torque > end && end > 0.0 { torque / end } else { 1.0 })
+}

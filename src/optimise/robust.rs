@@ -1,0 +1,279 @@
+//! Margins of a design as it may be made, and a design that holds its limits at every corner.
+//!
+//! Monte Carlo draws each quantity evenly over its range. The robust search is the cutting-set method (Mutapcic and Boyd,
+//! Optim. Methods Softw. 24 (2009) 381): climb at a few corners, look at all, add those that are worse, climb again.
+
+use rayon::prelude::*;
+
+use super::corner::{Corner, corners, half_ranges};
+use super::desk::Desk;
+use super::evaluate::{Evaluation, Failure};
+use super::journal::Memo;
+use super::outcome::Status;
+use super::problem::{ClutchProblem, Names};
+use super::search::{NoSearch, refused};
+use super::starts::Method;
+use crate::design::Tolerances;
+
+/// Limits farther away than this need no corner of their own: a choice; each corner is a whole evaluation more.
+const NEAR: f64 = 0.2;
+/// Rounds of the cutting-set method: a choice; the set settles in two or three.
+const ROUNDS: usize = 5;
+/// A corner joins the set where a margin is worse than at every corner of the set by this.
+const WORSE: f64 = 1e-6;
+
+/// One margin of a design as it may be made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spread {
+    /// Its code; slip rows are mu_s/mu_req - 1.
+    pub code: String,
+    /// Whether it is one of the objectives.
+    pub objective: bool,
+    /// As drawn.
+    pub nominal: f64,
+    /// At the worst corner.
+    pub worst: f64,
+    /// That corner.
+    pub worst_at: String,
+    /// 1st, 5th, 50th percentile of the draws.
+    pub percentiles: [f64; 3],
+}
+
+/// Spreads of all margins of a design.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robust {
+    /// Margin by margin: objectives first, then limits.
+    pub spreads: Vec<Spread>,
+    /// The objective in its own unit: as drawn, at the worst corner, and its 1st, 5th, 50th percentile.
+    pub objective: (f64, f64, [f64; 3]),
+    /// Corners looked at.
+    pub corners: usize,
+    /// Draws, and those at which the clutch cannot be put together.
+    pub draws: (usize, usize),
+    /// Corners at which the clutch cannot be put together.
+    pub impossible: Vec<String>,
+    /// Seed of the draws.
+    pub seed: u64,
+    /// Share of the draws at which every limit holds and slip is as wanted.
+    pub yield_share: f64,
+    /// Evaluations of the clutch.
+    pub evaluations: usize,
+}
+
+impl Robust {
+    /// Whether every margin holds at every corner.
+    pub fn held(&self) -> bool {
+        self.impossible.is_empty()
+            && self.spreads.iter().all(|s| s.objective || s.worst >= -crate::margin::RESOLUTION)
+    }
+}
+
+/// A design found with every corner as a limit.
+#[derive(Debug, Clone)]
+pub struct RobustSearch {
+    /// Variables.
+    pub x: Vec<f64>,
+    /// How the last climb ended.
+    pub status: Status,
+    /// Corners that the climb was held to in the end.
+    pub held_at: Vec<String>,
+    /// What became of it.
+    pub made: Robust,
+    /// Climbs.
+    pub rounds: usize,
+    /// Design file.
+    pub file: String,
+    /// Evaluations of the clutch, each of all corners of a set counted as one per corner.
+    pub evaluations: usize,
+}
+
+/// All given corners of `problem` at `x`, side by side.
+fn at_each(
+    problem: &ClutchProblem,
+    x: &[f64],
+    points: &[Corner],
+    desk: &Desk,
+) -> Vec<Result<Evaluation, Failure>> {
+    points
+        .par_iter()
+        .map(|corner| {
+            let there = problem.at_corners(vec![*corner]);
+            desk.run(&there, |there, run| {
+                let mut memo = Memo::new(there, run, usize::MAX);
+                memo.one(x.to_vec()).unwrap_or(Err(Failure::Refused("stopped".to_owned())))
+            })
+        })
+        .collect()
+}
+
+/// Margins of `problem` at `x` at every corner of the tolerances, and percentiles of `draws` seeded draws.
+///
+/// # Errors
+/// [`NoSearch::Start`] where the design as drawn has no margins.
+pub fn spread(
+    problem: &ClutchProblem,
+    x: &[f64],
+    of: &Tolerances,
+    (draws, seed): (usize, u64),
+    desk: &Desk,
+) -> Result<Robust, NoSearch> {
+    let nominal_problem = problem.at_corners(vec![Corner::NOMINAL]);
+    let looked = nominal_problem.look_at(x).map_err(NoSearch::Start)?;
+    let names = nominal_problem.names(&looked);
+    let nominal = nominal_problem.evaluation(&looked);
+    desk.begins("corners of the tolerances");
+    let ends = corners(of);
+    let at_ends = at_each(problem, x, &ends, desk);
+    desk.begins("draws within the tolerances");
+    let mut random = fastrand::Rng::with_seed(seed);
+    let half = half_ranges(of);
+    let drawn: Vec<Corner> = (0..draws)
+        .map(|_| Corner {
+            of: *of,
+            shares: half.map(|h| if h > 0.0 { 2.0 * random.f64() - 1.0 } else { 0.0 }),
+        })
+        .collect();
+    let at_draws = at_each(problem, x, &drawn, desk);
+    let impossible: Vec<String> =
+        ends.iter().zip(&at_ends).filter(|(_, e)| e.is_err()).map(|(c, _)| c.name()).collect();
+    let good: Vec<&Evaluation> = at_draws.iter().filter_map(|e| e.as_ref().ok()).collect();
+    let count = nominal.objectives.len();
+    let row = |e: &Evaluation, j: usize| if j < count { e.objectives[j] } else { e.limits[j - count] };
+    let code = |names: &Names, j: usize| {
+        if j < count { names.objectives[j].clone() } else { names.limits[j - count].clone() }
+    };
+    // A row may be absent at a corner where an arc dropped out; only rows of the same shape compare.
+    let alike = |e: &Evaluation| e.objectives.len() == count && e.limits.len() == nominal.limits.len();
+    let spreads = (0..count + nominal.limits.len())
+        .map(|j| {
+            let known = ends
+                .iter()
+                .zip(&at_ends)
+                .filter_map(|(c, e)| Some((c, e.as_ref().ok().filter(|e| alike(e))?)));
+            let here = (row(&nominal, j), "nominal".to_owned());
+            let worst =
+                known.map(|(c, e)| (row(e, j), c.name())).fold(here, |a, b| if b.0 < a.0 { b } else { a });
+            let mut values: Vec<f64> = good.iter().filter(|e| alike(e)).map(|e| row(e, j)).collect();
+            values.sort_by(f64::total_cmp);
+            Spread {
+                code: code(&names, j),
+                objective: j < count,
+                nominal: row(&nominal, j),
+                worst: worst.0,
+                worst_at: worst.1,
+                percentiles: percentiles(&values),
+            }
+        })
+        .collect();
+    let goal = problem.goals()[0];
+    let own = |t: f64| (t * goal.span + goal.from) * goal.objective.sense();
+    let ends_least = at_ends.iter().flatten().map(Evaluation::least_margin);
+    let worst = ends_least.fold(nominal.least_margin(), f64::min);
+    let mut least: Vec<f64> = good.iter().map(|e| e.least_margin()).collect();
+    least.sort_by(f64::total_cmp);
+    let holds = |e: &Evaluation| e.violation() <= crate::margin::RESOLUTION;
+    let share = good.iter().filter(|e| holds(e)).count() as f64 / draws.max(1) as f64;
+    Ok(Robust {
+        spreads,
+        objective: (own(nominal.least_margin()), own(worst), percentiles(&least).map(own)),
+        corners: ends.len(),
+        draws: (draws, draws - good.len()),
+        impossible,
+        seed,
+        yield_share: share,
+        evaluations: 1 + ends.len() + draws,
+    })
+}
+
+/// 1st, 5th and 50th percentile of sorted values, by the nearest rank; zeros where there are none.
+fn percentiles(sorted: &[f64]) -> [f64; 3] {
+    [0.01, 0.05, 0.5].map(|p| {
+        let rank = (p * sorted.len() as f64).ceil() as usize;
+        sorted.get(rank.saturating_sub(1)).copied().unwrap_or(0.0)
+    })
+}
+
+/// The best worst corner from `x0` on: every margin a limit at every corner.
+///
+/// # Errors
+/// [`NoSearch`] where a climb is refused.
+pub fn robust(
+    problem: &ClutchProblem,
+    x0: &[f64],
+    (lo, hi): (&[f64], &[f64]),
+    of: &Tolerances,
+    (draws, seed): (usize, u64),
+    method: &Method,
+    desk: &Desk,
+) -> Result<RobustSearch, NoSearch> {
+    let ends = corners(of);
+    let mut set = vec![Corner::NOMINAL];
+    let mut x = x0.to_vec();
+    let mut status = Status::Converged;
+    let (mut evaluations, mut rounds) = (0, 0);
+    for _ in 0..ROUNDS {
+        let at_ends = at_each(problem, &x, &ends, desk);
+        evaluations += ends.len();
+        let fresh = worse_than_set(&set, &ends, &at_ends, &at_each(problem, &x, &set, desk));
+        if fresh.is_empty() {
+            break;
+        }
+        set.extend(fresh);
+        rounds += 1;
+        desk.begins(&format!("robust search, {} corners", set.len()));
+        let there = problem.at_corners(set.clone());
+        let outcome = desk.climb(&there, &x, (lo, hi), &method.climb).map_err(refused)?;
+        evaluations += outcome.evaluations * set.len();
+        status = outcome.status;
+        x = outcome.x;
+        if desk.stopped() {
+            break;
+        }
+    }
+    let made = spread(problem, &x, of, (draws, seed), desk)?;
+    let file = problem.finished_file(&x).map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
+    Ok(RobustSearch {
+        x,
+        status,
+        held_at: set.iter().map(Corner::name).collect(),
+        evaluations: evaluations + made.evaluations,
+        made,
+        rounds,
+        file,
+    })
+}
+
+/// Corners at which some margin is worse than at all corners of the set, one for each such margin.
+fn worse_than_set(
+    set: &[Corner],
+    ends: &[Corner],
+    at_ends: &[Result<Evaluation, Failure>],
+    at_set: &[Result<Evaluation, Failure>],
+) -> Vec<Corner> {
+    let known: Vec<Vec<f64>> = at_set.iter().flatten().map(Evaluation::outputs).collect();
+    let objectives = at_set.iter().flatten().next().map_or(0, |e| e.objectives.len());
+    let Some(width) = known.first().map(|row| row.len() - 1) else { return Vec::new() };
+    let mut fresh: Vec<Corner> = Vec::new();
+    // A corner at which there is no clutch joins by itself: its climb is turned away from.
+    fresh.extend(
+        ends.iter().zip(at_ends).filter(|(c, e)| e.is_err() && !set.contains(c)).map(|(c, _)| *c).take(1),
+    );
+    for j in 0..width {
+        let floor = known.iter().map(|row| row[j]).fold(f64::INFINITY, f64::min);
+        let worst = ends
+            .iter()
+            .zip(at_ends)
+            .filter_map(|(c, e)| Some((c, *e.as_ref().ok()?.outputs().get(j)?)))
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        // Margins that are far from deciding need no corner of their own.
+        if let Some((c, value)) = worst
+            && value < floor - WORSE
+            && (j < objectives || value < NEAR)
+            && !fresh.contains(c)
+            && !set.contains(c)
+        {
+            fresh.push(*c);
+        }
+    }
+    fresh
+}

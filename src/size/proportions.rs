@@ -1,0 +1,102 @@
+//! Proportions of a first design: similar sprags for every race space.
+//!
+//! The maker's race space of 8.33 mm with its rules (GMN 9050) is the pattern; others are its likeness, since plane
+//! elasticity knows no length of its own.
+
+use super::Ask;
+use crate::design::{Draft, KINETIC_SHARE};
+
+/// Race spaces tried, m: preferred numbers about the catalogue's 8.33 mm.
+pub(super) const SPACES_M: [f64; 7] = [2.5e-3, 4.0e-3, 6.0e-3, 8.33e-3, 12.5e-3, 18.0e-3, 25.0e-3];
+
+/// Fewest and most sprags.
+pub(super) const COUNTS: (usize, usize) = (8, 120);
+
+/// Length of a sprag over the race space, least and most: beyond 3 the load along it is anybody's guess.
+pub(super) const LENGTHS: (f64, f64) = (0.4, 3.0);
+
+/// r_e and r_i1 over the race space: their sum makes tan omega all but constant along the profile, their ratio leaves both
+/// contacts near the same pressure as the series that the catalogue's torques identify.
+const ARCS: (f64, f64) = (0.66, 0.35);
+
+/// Pitch at mid-gap over the race space, from the catalogue's weights (8.0 of 8.33 mm).
+const PITCH: f64 = 0.96;
+
+/// mu_s over tan omega at first contact: 10 % of slip margin, as much again for growth under load, and below mu_c.
+const RESERVE: f64 = 1.25;
+
+// First contact must grip with kinetic friction.
+const _: () = assert!(KINETIC_SHARE > 1.0 / RESERVE);
+
+/// Inner race's wall over the bore, and over the race space at least.
+const WALLS: (f64, f64) = (0.15, 0.5);
+
+/// Normal force of the spring on a sprag in slow overrun, N, at a race space of 8.33 mm: Table 1's 1.25 N rounded up.
+const SPRING_N: f64 = 1.5;
+
+const STEEL_KG_M3: f64 = 7850.0;
+
+/// Sprags at first contact between races with the race space `space_m`, the profile's end and flanks still open.
+pub(super) fn draft(ask: &Ask, space_m: f64) -> Draft {
+    let bore = 0.5 * ask.bore_m;
+    let track = bore + (WALLS.0 * ask.bore_m).max(WALLS.1 * space_m);
+    let outer = track + space_m;
+    let outside = 1.4 * outer;
+    let (r_e, r_i) = (ARCS.0 * space_m, ARCS.1 * space_m);
+    let count = (std::f64::consts::PI * (track + outer) / (PITCH * space_m)).floor() as usize;
+    let mut draft = Draft {
+        name: "sizing".to_owned(),
+        why: Vec::new(),
+        count,
+        length_m: LENGTHS.1 * space_m,
+        outer_radius_m: r_e,
+        inner_radius_m: r_i,
+        centre_distance_m: centre_distance_m(track, outer, r_i, r_e, ask.friction / RESERVE),
+        until_rad: 1.2,
+        flanks_m: None,
+        races_m: [bore, track, outer, outside],
+        width_m: 0.0,
+        inertias_kg_m2: [0.0; 2],
+        spring_nm_per_rad: 0.0,
+        drag_nm: 0.0,
+        friction: ask.friction,
+        torques_nm: [ask.torque_nm, ask.safety * ask.torque_nm],
+        gaps_m: [8.46, 8.60].map(|gap| gap / 8.33 * space_m),
+        speed_rad_s: ask.speed_rad_s,
+        excitation: [50.0, 10.0 * ask.torque_nm],
+    };
+    lengthen(&mut draft, LENGTHS.1 * space_m);
+    spring(&mut draft, SPRING_N * (space_m / 8.33e-3).powi(2));
+    draft
+}
+
+/// Length of the sprags and all that goes with it: races 0.36 of the race space wider (3 mm of 8.33), their inertias.
+pub(super) fn lengthen(draft: &mut Draft, length_m: f64) {
+    let [bore, track, outer, outside] = draft.races_m;
+    draft.length_m = length_m;
+    draft.width_m = length_m + 0.36 * (outer - track);
+    // (pi/2) rho w (R^4 - r^4)
+    let ring = |r: f64, big: f64| {
+        std::f64::consts::FRAC_PI_2 * STEEL_KG_M3 * draft.width_m * (big.powi(4) - r.powi(4))
+    };
+    draft.inertias_kg_m2 = [ring(bore, track), ring(outer, outside)];
+}
+
+/// A spring that presses each sprag with `normal_n` in slow overrun: drag by a coefficient of 0.1, and the stiffness with
+/// which Table 1's spring has its free angle of 0.145 rad, in proportion to force and race space.
+pub(super) fn spring(draft: &mut Draft, normal_n: f64) {
+    let [_, track, outer, _] = draft.races_m;
+    draft.drag_nm = 0.1 * draft.count as f64 * normal_n * track;
+    draft.spring_nm_per_rad = 0.01 * normal_n / 1.245 * (outer - track) / 8.33e-3;
+}
+
+/// e_1 for which tan omega at first contact is `tan`.
+///
+/// tan omega = R_e sin beta/(R_e cos beta - R_i) gives sin(omega - beta) = sin omega R_i/R_e; then e_1 closes triangle (9)
+/// of the centres, R_i + r_i and R_e - r_e from O under beta.
+fn centre_distance_m(inner_m: f64, outer_m: f64, r_i: f64, r_e: f64, tan: f64) -> f64 {
+    let omega = tan.atan();
+    let beta = omega - (omega.sin() * inner_m / outer_m).asin();
+    let (a, b) = (inner_m + r_i, outer_m - r_e);
+    (a * a + b * b - 2.0 * a * b * beta.cos()).sqrt()
+}
