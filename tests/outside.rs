@@ -18,7 +18,9 @@ fn by_hand(p: &Prepared) -> (f64, u64) {
     while t < p.duration_s {
         let h = STEP_S.min(p.duration_s - t);
         let to = |h: f64| -> State {
-            rk4::step(&mut |t, y: &State| p.model.slope(&mode, t, y).ok_or(()), t, &y, h).unwrap()
+            let mut rhs = |t: f64, y: &State| p.model.slope(&mode, t, y).ok_or(());
+            let k1 = rhs(t, &y).unwrap();
+            rk4::step(&mut rhs, t, &y, &k1, h).unwrap()
         };
         let fallen = |h: f64, mode: &Mode| {
             let now = events(&p.model, mode, t + h, &to(h));

@@ -106,10 +106,9 @@ impl Basis {
         let mut weight = [[0.0; POINTS]; POINTS];
         for (n, polynomial) in chebyshev.iter().enumerate() {
             let scale = if n == 0 { 1.0 } else { 2.0 } / POINTS as f64;
-            for j in 0..POINTS {
-                let share = scale * (n as f64 * angle(j)).cos();
-                for (k, c) in polynomial.iter().enumerate() {
-                    weight[k][j] += share * c;
+            for (row, c) in weight.iter_mut().zip(polynomial) {
+                for (j, w) in row.iter_mut().enumerate() {
+                    *w += c * scale * (n as f64 * angle(j)).cos();
                 }
             }
         }
