@@ -116,7 +116,7 @@ pub struct Precision {
 const TIGHTEST: f64 = 1e-13;
 /// Steps of the reference run per period, and of runs as the tool makes them.
 const REFERENCE_STEPS: f64 = 40.0;
-const STEPS: f64 = 8.0;
+const STEPS: f64 = 4.0;
 /// Enough for any scene of a design; a run that needs more is left out.
 const MOST: u64 = 5_000_000;
 

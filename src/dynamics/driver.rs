@@ -218,7 +218,7 @@ impl<'a> Driver<'a> {
                     -event(model, &mode, t, &d.at(t), grips, i)
                 };
                 let (from, until) = (looks.at(left), looks.at(right));
-                let (theta, depth) = highest(from, looks.extreme(j, e), until, value);
+                let (theta, depth) = highest(from, looks.extreme(j, e), until, 0.0, 0.0, value);
                 if depth > 0.0
                     && let Found::At(theta, which) =
                         self.first_event(&d, step, from, theta, &looks.seen(left).events)

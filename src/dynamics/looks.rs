@@ -139,10 +139,10 @@ impl Looks {
 
     /// How far a function may rise between the looks beside `j` above all looks, or fall below them: the top of the
     /// parabola lies above the nearest of three points by at most g^2/4 |second divided difference|, g the wider gap;
-    /// twice that is allowed for. 0 at an end that the parabola passes more than a gap before its top.
+    /// twice that is allowed for. 0 at an end that the parabola passes a quarter of a gap before its top.
     pub(super) fn overshoot(&self, j: usize, value: impl Fn(usize) -> f64) -> f64 {
         let (bend, gap, top) = self.parabola(j, value);
-        let beyond = j == 0 && top < -gap || j + 1 == self.count && top > 1.0 + gap;
+        let beyond = j == 0 && top < -0.25 * gap || j + 1 == self.count && top > 1.0 + 0.25 * gap;
         if beyond { 0.0 } else { 0.5 * bend.abs() * gap * gap }
     }
 

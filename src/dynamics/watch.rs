@@ -44,8 +44,9 @@ impl Driver<'_> {
                         let t = start + theta * length;
                         look(model, &mode, t, &d.at(t), false).figures[i]
                     };
-                    let (theta, found) =
-                        highest(looks.at(left), looks.extreme(j, value), looks.at(right), inside);
+                    let fine = 1e-3 * self.settings.tolerance * value(j).abs();
+                    let (from, guess, until) = (looks.at(left), looks.extreme(j, value), looks.at(right));
+                    let (theta, found) = highest(from, guess, until, best[i], fine, inside);
                     if found > best[i] {
                         (best[i], at_s[i]) = (found, start + theta * length);
                     }
@@ -90,8 +91,16 @@ impl Driver<'_> {
 
 /// Place and value of the largest value of a smooth function with one hump on [a, b], looked for about `guess` first:
 /// parabolas through the last three points, golden sections where those leave the bracket; to 1e-5 of [a, b], so 1e-10
-/// in the value.
-pub(super) fn highest(mut a: f64, guess: f64, mut b: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
+/// in the value, or until what is left to climb is below `fine`. Given up as soon as `worth` cannot be reached any more:
+/// a hump that is no record is not climbed.
+pub(super) fn highest(
+    mut a: f64,
+    guess: f64,
+    mut b: f64,
+    worth: f64,
+    fine: f64,
+    f: impl Fn(f64) -> f64,
+) -> (f64, f64) {
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
     let enough = 1e-5 * (b - a);
     let mut m = guess;
@@ -114,6 +123,13 @@ pub(super) fn highest(mut a: f64, guess: f64, mut b: f64, f: impl Fn(f64) -> f64
         }
     }
     for i in 0..20 {
+        // The parabola's top lies above the nearest of its points by at most g^2/4 |bend|, g the wider gap.
+        let bend = ((fb - fm) / (b - m) - (fm - fa) / (m - a)) / (b - a);
+        let gap = (m - a).max(b - m);
+        let left = 0.5 * bend.abs() * gap * gap;
+        if left < fine || fm.max(fa).max(fb) + left < worth {
+            break;
+        }
         let (p, q) = ((m - a) * (fm - fb), (m - b) * (fm - fa));
         let mut x = m - 0.5 * ((m - a) * p - (m - b) * q) / (p - q);
         // Every third step in the larger part, or a bracket might shrink from one side for ever.
@@ -153,12 +169,19 @@ mod tests {
     fn the_top_of_a_hump_is_found_inside_and_at_an_end() {
         for top in [0.05, 0.3, 0.5, 0.77, 1.0] {
             for guess in [0.0, top - 0.05, top, 0.5, 1.0] {
-                let (x, value) = highest(0.0, guess, 1.0, |x: f64| (1.3 * (x - top)).cos());
+                let (x, value) = highest(0.0, guess, 1.0, 0.0, 0.0, |x: f64| (1.3 * (x - top)).cos());
                 assert!((x - top).abs() < 1e-4 && (value - 1.0).abs() < 1e-9, "{top} {guess}: {x} {value}");
             }
         }
-        assert_eq!(highest(0.0, 1.0, 1.0, |x| x).0, 1.0);
+        assert_eq!(highest(0.0, 1.0, 1.0, 0.0, 0.0, |x| x).0, 1.0);
+        // One that is no record.
+        let asked = std::cell::Cell::new(0);
+        highest(0.0, 0.4, 1.0, 1.3, 0.0, |x: f64| {
+            asked.set(asked.get() + 1);
+            (1.3 * (x - 0.5)).cos()
+        });
+        assert!(asked.get() <= 5, "{}", asked.get());
         // A kink.
-        assert!((highest(0.0, 0.4, 1.0, |x: f64| -(x - 0.3).abs()).1).abs() < 1e-3);
+        assert!((highest(0.0, 0.4, 1.0, -1.0, 0.0, |x: f64| -(x - 0.3).abs()).1).abs() < 1e-3);
     }
 }

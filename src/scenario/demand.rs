@@ -29,10 +29,10 @@ pub struct Demand {
     pub rhs_evaluations: u64,
 }
 
-/// Steps per period: four looks in each see every half wave.
-pub(super) const STEPS_PER_PERIOD: f64 = 8.0;
+/// Steps per period at least: six looks in each see every half wave. Tolerances below 1e-4 take shorter ones anyway.
+pub(super) const STEPS_PER_PERIOD: f64 = 4.0;
 /// The same where peaks of a single run must be good to a hundredth of the tolerance.
-const STEPS_PER_PERIOD_OF_DEMAND: f64 = 20.0;
+const STEPS_PER_PERIOD_OF_DEMAND: f64 = 14.0;
 
 pub(super) fn run_settings(
     prepared: &Prepared,

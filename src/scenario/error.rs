@@ -96,6 +96,8 @@ pub(super) struct Scales {
     force_n: f64,
     pressure_pa: f64,
     contact: f64,
+    /// Infinite where B holds whatever that takes: its |T|/N then grows without bound as N_be falls to 0 at a touch.
+    tan_outer: f64,
 }
 
 impl Scales {
@@ -110,6 +112,7 @@ impl Scales {
             pressure_pa: or_one(hertz_peak(prepared, p.normal_max_n, p.normal_outer_max_n)),
             // Without a static load the contact margin is one of the largest already.
             contact: if prepared.static_normal_n > 0.0 { force_n / prepared.static_normal_n } else { 1.0 },
+            tan_outer: if prepared.model.outer_holds { f64::INFINITY } else { 1.0 },
         }
     }
 
@@ -127,7 +130,7 @@ impl Scales {
             e.slip_time_s[1] / self.time_s,
             e.contact_lost_s / self.time_s,
             e.tan_demand[0],
-            e.tan_demand[1],
+            e.tan_demand[1] / self.tan_outer,
             e.normal_min_n / self.force_n,
             e.normal_max_n / self.force_n,
             e.hertz_peak_pa / self.pressure_pa,

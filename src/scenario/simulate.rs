@@ -17,7 +17,7 @@ pub struct Settings {
     /// as pure numbers. Default 1e-6. Steps are tightened until two runs agree to it. [`demand`] alone runs once,
     /// at steps of a hundredth of it.
     pub tolerance: f64,
-    /// Longest step, s; `None`: an eighth of the excitation's period (a twentieth where only the demand is asked for),
+    /// Longest step, s; `None`: a quarter of the excitation's period (a fourteenth where only the demand is asked for),
     /// or 1/200 of the duration without one.
     pub longest_step_s: Option<f64>,
     /// Samples of the history, 0 for none.
