@@ -47,9 +47,10 @@ pub struct OptimizeArgs {
     /// Most evaluations of the clutch in each climb
     #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub evaluations: u32,
-    /// Climbs side by side: the first from the design, the others from scrambled Sobol points of the box
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub starts: u32,
+    /// Climbs side by side: the first from the design, the others from scrambled Sobol points of the box [default: 8, and 8
+    /// more up to 32 as long as the optima met let expect others]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub starts: Option<u32>,
     /// Global search first: a particle swarm of about N evaluations, then a climb from its best point
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "2000",
           value_parser = clap::value_parser!(u32).range(80..=1_000_000))]
@@ -73,6 +74,11 @@ pub struct OptimizeArgs {
     #[arg(long, value_name = "X", default_value_t = 1e-6, value_parser = super::positive)]
     pub tolerance: f64,
 }
+
+/// Climbs where their number is left open: with fewer than 8 even a single optimum met each time proves nothing.
+const STARTS: usize = 8;
+/// The same at most.
+const MOST_STARTS: usize = 32;
 
 /// First line of every design file that this command writes.
 const WRITTEN_BY: &str = "# Written by sprag-design optimize";
@@ -103,7 +109,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         (false, false) => JournalFile::begin(&record, &model, &design.hash)?,
     };
     let known = file.entries();
-    let drawn = args.starts > 1 || args.global.is_some() || args.robust;
+    let drawn = args.starts != Some(1) || args.global.is_some() || args.robust;
     context.message(&format!(
         "{} variables, {} scenarios, seed {}{}{}",
         task.variables.len(),
@@ -114,7 +120,8 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     ));
     let climb = Settings { max_evaluations: args.evaluations as usize, ..Settings::default() };
     let swarm = args.global.map(|n| n as usize);
-    let method = Method { climb, starts: args.starts as usize, swarm, seed: task.seed };
+    let (starts, most_starts) = args.starts.map_or((STARTS, MOST_STARTS), |n| (n as usize, n as usize));
+    let method = Method { climb, starts, most_starts, swarm, seed: task.seed };
     let settings = crate::scenario::Settings { tolerance: args.tolerance, ..Default::default() };
     let fidelity = Fidelity { settings, reduced: !args.full };
     let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);

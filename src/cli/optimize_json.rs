@@ -20,6 +20,9 @@ impl Story {
                     "violation": or_null(s.violation), "evaluations": s.evaluations })
         };
         map.insert("starts".into(), found.starts.iter().map(start).collect());
+        let optima = found.optima;
+        let known = json!({ "climbs": optima.climbs, "seen": optima.seen, "expected": optima.expected() });
+        map.insert("optima".into(), known);
         let branch = |b: &Branch| {
             let values: serde_json::Map<_, _> = b.values.iter().map(|(n, v)| (n.clone(), json!(v))).collect();
             json!({ "values": values, "ended": ended(&b.ended), "least_scaled_objective": or_null(b.least_margin),

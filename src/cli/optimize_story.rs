@@ -2,7 +2,8 @@
 
 use crate::design::Objective;
 use crate::optimise::{
-    Branch, Freed, Front, Price, PriceKind, Realised, Relief, Robust, RobustSearch, Search, Start, Status,
+    Branch, Freed, Front, Optima, Price, PriceKind, Realised, Relief, Robust, RobustSearch, Search, Start,
+    Status,
 };
 use crate::report::{Cell, Column, Plot, Table, Unit, significant};
 
@@ -115,6 +116,31 @@ fn start_table(starts: &[Start]) -> Table {
     table
 }
 
+/// What the ends of the climbs say of optima that none has met.
+fn optima_line(optima: &Optima) -> String {
+    let Optima { climbs, seen } = *optima;
+    if climbs == 0 {
+        return "No climb converged within the limits".into();
+    }
+    let met = format!(
+        "{climbs} climbs converged within the limits, to {seen} {}",
+        if seen == 1 { "optimum" } else { "optima" }
+    );
+    match optima.expected() {
+        Some(e) if optima.enough() => {
+            format!(
+                "{met}: others are not to be expected ({} in all; Boender and Rinnooy Kan 1987)",
+                significant(e, 2)
+            )
+        }
+        Some(e) => format!(
+            "{met}: {} in all are to be expected (Boender and Rinnooy Kan 1987), try more --starts",
+            significant(e, 2)
+        ),
+        None => format!("{met}: too few to tell whether there are others, try more --starts"),
+    }
+}
+
 fn finite(v: f64) -> Cell {
     if v.is_finite() { v.into() } else { Cell::Empty }
 }
@@ -207,7 +233,8 @@ impl Story {
         let mut parts = Vec::new();
         if found.starts.len() > 1 {
             let tables = vec![("Climbs, each from its own start", start_table(&found.starts))];
-            parts.push(Part { heading: "Starts", tables, ..Part::default() });
+            let lines = vec![optima_line(&found.optima)];
+            parts.push(Part { heading: "Starts", lines, tables, ..Part::default() });
         }
         if found.branches.len() > 1 {
             let tables =

@@ -51,6 +51,6 @@ pub use relief::{Freed, Relief, relief};
 pub use robust::{Robust, RobustSearch, Spread, robust, spread};
 pub use search::{NoSearch, Search, Variable, search, search_problem};
 pub use settings::{BadSetting, Noise, Settings};
-pub use starts::{Method, Start};
+pub use starts::{Method, Optima, Start};
 pub use swarm::{Swarmed, swarm};
 pub use view::Phase;

@@ -152,7 +152,7 @@ pub fn realise(
     let search = search_problem(
         &problem.over(joint.variables.iter().map(|v| v.name.clone()).collect()),
         &joint,
-        method,
+        &method.carried_on(),
         desk,
     );
     let search = search.ok().map(Box::new);

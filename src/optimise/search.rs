@@ -8,7 +8,7 @@ use super::influence::{Influence, influence};
 use super::outcome::{Outcome, Refusal, Status};
 use super::price::{Price, prices};
 use super::problem::{ClutchProblem, Fidelity, Looked, Names};
-use super::starts::{Method, Start, climb_all, rank, rescued};
+use super::starts::{Climbed, Method, Optima, Start, climb_all, rank, rescued};
 use crate::design::{Design, Objective, Optimize};
 use crate::margin::Margin;
 
@@ -62,6 +62,8 @@ pub struct Search {
     pub searched: Vec<String>,
     /// All climbs of the best branch.
     pub starts: Vec<Start>,
+    /// The optima that they met.
+    pub optima: Optima,
     /// Whole numbers tried, if any.
     pub branches: Vec<Branch>,
     /// Design file of the optimum.
@@ -197,7 +199,8 @@ pub fn search_problem(
 
     let combos = branches(whole, &whole_numbers);
     let tolerance = method.climb.violation_tolerance;
-    let mut best: Option<(Outcome, Vec<Start>, ClutchProblem, usize)> = None;
+    let mut best: Option<(Climbed, ClutchProblem, usize)> = None;
+    let carried_on = method.carried_on();
     let mut told = Vec::new();
     let mut x = starts(&variables, &searched);
     let (lo, hi) = bounds(&variables, &searched);
@@ -206,16 +209,17 @@ pub fn search_problem(
         let problem = problem.over(searched.clone());
         let begun = rescued(desk, &problem, &x, (&lo, &hi), method);
         let from = begun.unwrap_or_else(|| x.clone());
+        let method = if told.is_empty() { method } else { &carried_on };
         match climb_all(desk, &problem, &from, (&lo, &hi), method) {
             Ok(climbed) => {
                 evaluations += climbed.evaluations;
                 branch.tell(&climbed.best, climbed.evaluations);
                 let mine = rank(&climbed.best.evaluation, tolerance);
-                let better = best.as_ref().is_none_or(|b| mine < rank(&b.0.evaluation, tolerance));
+                let better = best.as_ref().is_none_or(|b| mine < rank(&b.0.best.evaluation, tolerance));
                 // The next whole number starts where the best so far stood.
                 if better {
                     x.clone_from(&climbed.best.x);
-                    best = Some((climbed.best, climbed.starts, problem, told.len()));
+                    best = Some((climbed, problem, told.len()));
                 }
             }
             Err(why) => {
@@ -228,7 +232,7 @@ pub fn search_problem(
             break;
         }
     }
-    let Some((outcome, climbs, problem, chosen)) = best else {
+    let Some((Climbed { best: outcome, starts: climbs, optima, .. }, problem, chosen)) = best else {
         return Err(first_refusal.map_or(NoSearch::Stopped, refused));
     };
     for v in &mut variables {
@@ -273,6 +277,7 @@ pub fn search_problem(
         outcome,
         searched,
         starts: climbs,
+        optima,
         branches: told,
         file,
         problem,

@@ -19,6 +19,8 @@ pub struct Method {
     pub climb: Settings,
     /// Climbs: the first from the design as it is, the others from scrambled Sobol points. At least 1.
     pub starts: usize,
+    /// As many climbs again, up to this many in all, as long as [`Optima`] lets expect optima that none has met.
+    pub most_starts: usize,
     /// Evaluations of a particle swarm before one more climb from its best point; none: no swarm.
     pub swarm: Option<usize>,
     /// Seed of scrambling and swarm.
@@ -27,7 +29,50 @@ pub struct Method {
 
 impl Default for Method {
     fn default() -> Self {
-        Self { climb: Settings::default(), starts: 1, swarm: None, seed: 1 }
+        Self { climb: Settings::default(), starts: 1, most_starts: 1, swarm: None, seed: 1 }
+    }
+}
+
+impl Method {
+    /// For a search that begins at the optimum of another: one climb, where the number of climbs was left open.
+    pub(super) fn carried_on(&self) -> Self {
+        let starts = if self.most_starts > self.starts { 1 } else { self.starts };
+        Self { starts, most_starts: starts, ..self.clone() }
+    }
+}
+
+/// Optima that climbs from random starts have met, and how many there may be.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Optima {
+    /// Climbs that converged within the limits.
+    pub climbs: usize,
+    /// Different ones among their ends, by the least margin.
+    pub seen: usize,
+}
+
+impl Optima {
+    /// Least margins that lie nearer together are one optimum: a part of the larger.
+    const APART: f64 = 1e-3;
+
+    fn of(starts: &[Start], tolerance: f64) -> Self {
+        let within = starts.iter().filter(|s| s.ended == Ok(Status::Converged) && s.violation <= tolerance);
+        let mut found: Vec<f64> = within.map(|s| s.least_margin).collect();
+        found.sort_by(f64::total_cmp);
+        let apart = |w: &&[f64]| w[1] - w[0] > Self::APART * w[1].abs().max(w[0].abs());
+        let seen = found.windows(2).filter(apart).count() + usize::from(!found.is_empty());
+        Self { climbs: found.len(), seen }
+    }
+
+    /// How many optima there are, as w met by n climbs let expect: w (n - 1)/(n - w - 2); `None` where they are too few.
+    /// Boender and Rinnooy Kan, Bayesian stopping rules for multistart global optimization methods, Math. Prog. 37 (1987).
+    pub fn expected(&self) -> Option<f64> {
+        let (n, w) = (self.climbs as f64, self.seen as f64);
+        (n > w + 2.0).then(|| w * (n - 1.0) / (n - w - 2.0))
+    }
+
+    /// Whether no other is to be expected. Without any design within the limits nothing is known, and nothing more asked.
+    pub fn enough(&self) -> bool {
+        self.climbs == 0 || self.expected().is_some_and(|e| e <= self.seen as f64 + 0.5)
     }
 }
 
@@ -51,6 +96,7 @@ pub struct Start {
 pub(super) struct Climbed {
     pub best: Outcome,
     pub starts: Vec<Start>,
+    pub optima: Optima,
     pub evaluations: usize,
 }
 
@@ -72,11 +118,10 @@ pub(super) fn climb_all(
     (lo, hi): (&[f64], &[f64]),
     method: &Method,
 ) -> Result<Climbed, Refusal> {
-    let others = method.starts.saturating_sub(1);
-    let points = starting_points(desk, problem, (lo, hi), others, method);
-    let mut spent_on_points = points.1;
-    let mut named: Vec<(String, Vec<f64>)> = vec![("design".to_owned(), x0.to_vec())];
-    named.extend(points.0.into_iter().enumerate().map(|(i, x)| (format!("point {}", i + 1), x)));
+    let tolerance = method.climb.violation_tolerance;
+    let mut from_box = Points { next: 0, spent: 0 };
+    let mut spent_on_swarm = 0;
+    let mut named = vec![("design".to_owned(), x0.to_vec())];
     if let Some(evaluations) = method.swarm {
         desk.begins("particle swarm");
         let settings = &method.climb;
@@ -84,90 +129,124 @@ pub(super) fn climb_all(
             swarm(problem, (x0, lo, hi), settings, (evaluations, method.seed), run)
         });
         if let Some(found) = found {
-            spent_on_points += found.evaluations;
+            spent_on_swarm = found.evaluations;
             named.push(("swarm".to_owned(), found.x));
         }
     }
-    desk.begins("search");
-    let outcomes: Vec<(String, Result<Outcome, Refusal>)> = named
-        .into_par_iter()
-        .map(|(from, x)| (from, desk.climb(problem, &x, (lo, hi), &method.climb)))
-        .collect();
-    let mut starts = Vec::with_capacity(outcomes.len());
-    let mut best: Option<Outcome> = None;
-    let mut refusal = None;
-    let tolerance = method.climb.violation_tolerance;
-    for (from, outcome) in outcomes {
+    let mut found = Found { tolerance, starts: Vec::new(), best: None, refusal: None };
+    let mut drawn = 0;
+    loop {
+        let wanted = (method.starts.max(1) - usize::from(drawn == 0))
+            .min(method.most_starts.max(method.starts) - 1 - drawn);
+        let points = from_box.draw(desk, problem, (lo, hi), wanted, method);
+        let none_left = points.is_empty() && wanted > 0;
+        named.extend(points.into_iter().enumerate().map(|(i, x)| (format!("point {}", drawn + i + 1), x)));
+        drawn += wanted;
+        desk.begins("search");
+        let outcomes: Vec<(String, Result<Outcome, Refusal>)> = std::mem::take(&mut named)
+            .into_par_iter()
+            .map(|(from, x)| (from, desk.climb(problem, &x, (lo, hi), &method.climb)))
+            .collect();
+        outcomes.into_iter().for_each(|(from, outcome)| found.add(from, outcome));
+        let optima = Optima::of(&found.starts, tolerance);
+        if optima.enough() || drawn + 1 >= method.most_starts || none_left || desk.stopped() {
+            break;
+        }
+    }
+    let Found { starts, best, refusal, .. } = found;
+    let optima = Optima::of(&starts, tolerance);
+    let spent_on_points = from_box.spent + spent_on_swarm;
+    let evaluations = spent_on_points + starts.iter().map(|s| s.evaluations).sum::<usize>();
+    match (best, refusal) {
+        (Some(best), _) => Ok(Climbed { best, starts, optima, evaluations }),
+        (None, Some(why)) => Err(why),
+        (None, None) => Err(Refusal::StoppedAtStart),
+    }
+}
+
+/// What the climbs so far have found.
+struct Found {
+    tolerance: f64,
+    starts: Vec<Start>,
+    best: Option<Outcome>,
+    refusal: Option<Refusal>,
+}
+
+impl Found {
+    fn add(&mut self, from: String, outcome: Result<Outcome, Refusal>) {
         match outcome {
             Ok(o) => {
-                starts.push(Start {
+                self.starts.push(Start {
                     from,
                     ended: Ok(o.status.clone()),
                     least_margin: o.evaluation.least_margin(),
                     violation: o.evaluation.violation(),
                     evaluations: o.evaluations,
                 });
-                let better = best
-                    .as_ref()
-                    .is_none_or(|b| rank(&o.evaluation, tolerance) < rank(&b.evaluation, tolerance));
+                let better = self.best.as_ref().is_none_or(|b| {
+                    rank(&o.evaluation, self.tolerance) < rank(&b.evaluation, self.tolerance)
+                });
                 if better {
-                    best = Some(o);
+                    self.best = Some(o);
                 }
             }
             Err(why) => {
-                let ended = Err(why.to_string());
-                starts.push(Start {
+                self.starts.push(Start {
                     from,
-                    ended,
+                    ended: Err(why.to_string()),
                     least_margin: f64::NEG_INFINITY,
                     violation: f64::INFINITY,
                     evaluations: 1,
                 });
-                refusal.get_or_insert(why);
+                self.refusal.get_or_insert(why);
             }
         }
     }
-    let evaluations = spent_on_points + starts.iter().map(|s| s.evaluations).sum::<usize>();
-    match (best, refusal) {
-        (Some(best), _) => Ok(Climbed { best, starts, evaluations }),
-        (None, Some(why)) => Err(why),
-        (None, None) => Err(Refusal::StoppedAtStart),
-    }
 }
 
-/// `wanted` points of the box at which there are margins, and evaluations spent on looking.
-fn starting_points(
-    desk: &Desk,
-    problem: &ClutchProblem,
-    (lo, hi): (&[f64], &[f64]),
-    wanted: usize,
-    method: &Method,
-) -> (Vec<Vec<f64>>, usize) {
-    let mut found = Vec::new();
-    let mut spent = 0;
-    if wanted == 0 {
-        return (found, spent);
-    }
-    desk.begins("starting points");
-    desk.run(problem, |problem, run| {
-        let mut memo = super::journal::Memo::new(problem, run, usize::MAX);
-        let scramble = method.seed as u32 ^ (method.seed >> 32) as u32;
-        let mut index = 0;
-        while found.len() < wanted && index < (wanted * TRIES) as u32 {
-            let some: Vec<Vec<f64>> = (index..index + wanted as u32)
-                .map(|i| {
-                    let share = |d: usize| f64::from(sobol_burley::sample(i, d as u32, scramble));
-                    (0..lo.len()).map(|d| lo[d] + share(d) * (hi[d] - lo[d])).collect()
-                })
-                .collect();
-            index += wanted as u32;
-            let Ok(outcomes) = memo.batch(some.clone()) else { break };
-            found.extend(some.into_iter().zip(outcomes).filter(|(_, o)| o.is_ok()).map(|(x, _)| x));
+/// The sequence of points that starts are drawn from.
+struct Points {
+    /// Index of the next in the Sobol sequence.
+    next: u32,
+    /// Evaluations spent on looking.
+    spent: usize,
+}
+
+impl Points {
+    /// The next `wanted` points of the box at which there are margins.
+    fn draw(
+        &mut self,
+        desk: &Desk,
+        problem: &ClutchProblem,
+        (lo, hi): (&[f64], &[f64]),
+        wanted: usize,
+        method: &Method,
+    ) -> Vec<Vec<f64>> {
+        let mut found = Vec::new();
+        if wanted == 0 {
+            return found;
         }
-        spent = memo.evaluations();
-    });
-    found.truncate(wanted);
-    (found, spent)
+        desk.begins("starting points");
+        let last = self.next + (wanted * TRIES) as u32;
+        desk.run(problem, |problem, run| {
+            let mut memo = super::journal::Memo::new(problem, run, usize::MAX);
+            let scramble = method.seed as u32 ^ (method.seed >> 32) as u32;
+            while found.len() < wanted && self.next < last {
+                let some: Vec<Vec<f64>> = (self.next..self.next + wanted as u32)
+                    .map(|i| {
+                        let share = |d: usize| f64::from(sobol_burley::sample(i, d as u32, scramble));
+                        (0..lo.len()).map(|d| lo[d] + share(d) * (hi[d] - lo[d])).collect()
+                    })
+                    .collect();
+                self.next += wanted as u32;
+                let Ok(outcomes) = memo.batch(some.clone()) else { break };
+                found.extend(some.into_iter().zip(outcomes).filter(|(_, o)| o.is_ok()).map(|(x, _)| x));
+            }
+            self.spent += memo.evaluations();
+        });
+        found.truncate(wanted);
+        found
+    }
 }
 
 /// A start with margins near `x0`: `x0` itself, or the best of some points of the box.
@@ -182,5 +261,5 @@ pub(super) fn rescued(
     if problem.evaluate(x0).is_ok() {
         return Some(x0.to_vec());
     }
-    starting_points(desk, problem, bounds, 4, method).0.into_iter().next()
+    Points { next: 0, spent: 0 }.draw(desk, problem, bounds, 4, method).into_iter().next()
 }
