@@ -144,11 +144,11 @@ METHODS = [("scipy differential evolution", differential_evolution), ("pymoo gen
            ("scipy COBYLA, 5 starts", local("COBYLA")), ("scipy SLSQP, 5 starts", local("SLSQP"))]
 
 
-def ours(design):
+def ours(design, threads):
     with tempfile.TemporaryDirectory() as folder:
         begun = time.perf_counter()
-        done = subprocess.run([TOOL, "optimize", design, "-o", os.path.join(folder, "new.toml"), "--json", "--quiet"],
-                              capture_output=True, text=True)
+        done = subprocess.run([TOOL, "optimize", design, "-o", os.path.join(folder, "new.toml"), "--json", "--quiet",
+                               "--threads", str(threads)], capture_output=True, text=True)
         seconds = time.perf_counter() - begun
         found = json.loads(done.stdout)
     return found, seconds
@@ -158,10 +158,13 @@ def main():
     rows, courses = [], {}
     for design in DESIGNS:
         name = os.path.splitext(os.path.basename(design))[0]
-        found, seconds = ours(design)
-        best = found.get("best") or {}
-        rows.append((name, "sprag-design optimize", found["evaluations"], seconds, best.get("objective")))
-        print(rows[-1], file=sys.stderr, flush=True)
+        for threads in (1, 2):
+            found, seconds = ours(design, threads)
+            best = found.get("best") or {}
+            starts = [s["evaluations"] for s in found["starts"]]
+            rows.append((name, f"sprag-design optimize, {threads} thread{'s' * (threads > 1)}", found["evaluations"], seconds,
+                         best.get("objective"), len(starts), max(starts), found["optima"]["seen"]))
+            print(rows[-1], file=sys.stderr, flush=True)
         ev = Evaluator(design)
         for method, go in METHODS:
             ev.forget()
@@ -178,7 +181,7 @@ def write(rows, courses):
     path = OUT + ".csv"
     with open(path + ".new", "w", newline="") as f:
         w = csv.writer(f)
-        w.writerow(["problem", "method", "evaluations", "time_s", "objective"])
+        w.writerow(["problem", "method", "evaluations", "time_s", "objective", "starts", "most_in_a_start", "optima"])
         w.writerows(rows)
     os.replace(path + ".new", path)
     with open(OUT + "-courses.jsonl", "w") as f:
