@@ -72,6 +72,30 @@ def robust(design):
     return "".join(out) + f"</table><p>{html.escape(note)}</p>"
 
 
+def fidelities(design):
+    """One climb by the error allowed in an evaluation, with what a scene cannot feel left out, and with everything."""
+    rows = []
+    for full in (False, True):
+        for tolerance in ("1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-8"):
+            with tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run([TOOL, "optimize", design, "-o", os.path.join(folder, "new.toml"), "--json", "--quiet",
+                                       "--starts", "1", "--threads", "1", "--tolerance", tolerance]
+                                      + ["--full"] * full, capture_output=True, text=True)
+            d = json.loads(done.stdout)
+            moved = max(abs(c["change"]) for c in d["change_in_full"])
+            rows.append((tolerance, full, d["best"]["objective"], d["error_estimate"], moved, d["evaluations"],
+                         1e3 * d["run_time_s"] / d["evaluations"], d["run_time_s"]))
+    sharpest = rows[-1][2]
+    out = ["<table><tr><th>error allowed in the search</th><th>model in the search</th><th>optimum, looked at in full</th>"
+           "<th>off the sharpest, %</th><th>objective moves when looked at in full</th><th>any margin moves</th>"
+           "<th>evaluations</th><th>ms each</th><th>time, s</th></tr>"]
+    for tolerance, full, objective, own, moved, count, each, seconds in rows:
+        out.append(f"<tr><td>{tolerance}</td><td>{'everything' if full else 'reduced'}</td><td>{objective:.7f}</td>"
+                   f"<td>{100 * abs(gap(sharpest, objective)):.1g}</td><td>{own:.1e}</td><td>{moved:.1e}</td><td>{count}</td>"
+                   f"<td>{each:.0f}</td><td>{seconds:.1f}</td></tr>")
+    return "".join(out) + "</table>"
+
+
 def picture(rows, best):
     figure, axes = plt.subplots(figsize=(8, 3.4))
     for r in rows:
@@ -123,7 +147,9 @@ def main():
         v = ", ".join(f"{x['name']} {x['min']:g} to {x['max']:g}" for x in problem["variables"])
         parts.append(f"<h2>{html.escape(problem['design'])}</h2><p>Free: {html.escape(v)}. Objectives (the least is "
                      f"maximised): {html.escape(', '.join(problem['objectives']))}. Limits: {len(problem['limits'])}."
-                     f"</p>{table(rows, best)}{picture(rows, best)}<p>{html.escape(threads)}</p>{robust(design)}")
+                     f"</p>{table(rows, best)}{picture(rows, best)}<p>{html.escape(threads)}</p>{robust(design)}"
+                     f"<p>Error against run time by what is left out of an evaluation (one climb from the file's start, one "
+                     f"thread; the default allows 1e-6 and leaves out what a scene cannot feel):</p>{fidelities(design)}")
     first = f"sprag-design {problem['version']}; designs {', '.join(hashes)}; {COMMAND}"
     page = f"""<!-- {html.escape(first)} -->
 <!doctype html><html lang="en"><meta charset="utf-8"><title>Optimisers on one evaluator</title><style>{STYLE}</style>
