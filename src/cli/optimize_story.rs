@@ -110,7 +110,7 @@ fn start_table(starts: &[Start]) -> Table {
             ended.as_str().into(),
             finite(s.least_margin),
             finite(s.violation),
-            (s.evaluations as f64).into(),
+            s.evaluations.into(),
         ]);
     }
     table
@@ -161,7 +161,7 @@ fn branch_table(branches: &[Branch]) -> Table {
             ended.as_str().into(),
             finite(b.least_margin),
             finite(b.violation),
-            (b.evaluations as f64).into(),
+            b.evaluations.into(),
         ]);
     }
     table
