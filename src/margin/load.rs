@@ -261,7 +261,7 @@ fn clearance_up_to_m(design: &Design, state: &LoadState, peak: &StaticPoint) -> 
 }
 
 /// Beyond the curve's end the stress rows continue as the torque shortfall, so that a search sees a slope.
-fn beyond(margin: f64, torque: f64, end: f64) -> f64 {
+pub(super) fn beyond(margin: f64, torque: f64, end: f64) -> f64 {
     if end >= torque { margin } else { margin.min(end / torque - 1.0) }
 }
 

@@ -9,12 +9,14 @@ mod gap;
 mod hoop;
 mod load;
 mod overrun;
+mod run_out;
 mod scenes;
 mod subsurface;
 
 pub use capacity::{Course, courses, nominal_capacity};
 pub use load::{LoadState, load_state};
 pub use overrun::{OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
+pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
 
 use crate::design::{Design, Limits, Scenario};

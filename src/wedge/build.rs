@@ -46,6 +46,20 @@ impl WedgeCurve {
         Self::march(statics.map_err(NoCurve::NoElastic)?, exponent(clutch), speed_rad_s, reach_nm)
     }
 
+    /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
+    /// of the outer, (along OC_e outward, across it towards positive azimuth), m. The gap is narrower by the first;
+    /// the second tilts the tracks against each other by itself over R_i, which is as much of tan omega. The windup counts
+    /// from the sprag's own first contact. Exact in the offset, which stays with the sprag.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_off_centre(clutch: &Clutch, profile: &Profile, offset_m: [f64; 2]) -> Result<Self, NoCurve> {
+        let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
+        let mut statics = whole.map_err(NoCurve::NoElastic)?;
+        statics.offset_m = offset_m;
+        Self::march(statics, exponent(clutch), 0.0, None)
+    }
+
     /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).
     /// The paper's Figure 11 sets it beside the whole.
     ///

@@ -54,6 +54,8 @@ pub struct Closure {
     pub rotation: Dual,
     /// alpha, body rotation against the line OG since first contact at rest, rad.
     pub alpha: Dual,
+    /// Axis of the inner race against that of the outer: along OC_e, and across it, m. [0, 0]: concentric.
+    pub offset_m: [f64; 2],
 }
 
 impl Closure {
@@ -78,14 +80,21 @@ impl Closure {
 
     /// Rolling ratios rho_i, rho_e.
     pub fn rolling_ratios(&self) -> (f64, f64) {
-        kinematics::rolling_ratios(
+        let (rho_i, rho_e) = kinematics::rolling_ratios(
             self.lengths.oa.v,
             self.lengths.ob.v,
             self.oc_g.v,
             self.oc_g_slope(),
             self.beta.v + self.gamma.v,
             self.gamma.v,
-        )
+        );
+        (rho_i - self.offset_at_a_m() / self.lengths.oa.v, rho_e)
+    }
+
+    /// The offset of the axes along the normal at A, m.
+    fn offset_at_a_m(&self) -> f64 {
+        let (sin_b, cos_b) = self.beta.v.sin_cos();
+        self.offset_m[0] * cos_b + self.offset_m[1] * sin_b
     }
 
     /// d windup / d N_bi, rad/N, with C_e as the reference point, so that no centroid enters:
@@ -93,7 +102,8 @@ impl Closure {
     pub fn windup_slope(&self) -> f64 {
         let l = &self.lengths;
         let (sin_b, cos_b) = self.beta.v.sin_cos();
-        let inner = (self.rotation.d * (l.oa.v - l.oc_e.v * cos_b) - sin_b * l.oc_e.d) / l.oa.v;
+        let inner = (self.rotation.d * (l.oa.v - l.oc_e.v * cos_b + self.offset_at_a_m()) - sin_b * l.oc_e.d)
+            / l.oa.v;
         let outer = self.rotation.d * (l.ob.v - l.oc_e.v) / l.ob.v;
         outer - inner
     }
@@ -110,7 +120,9 @@ pub struct Statics {
     pub profile: Profile,
     /// The curvature that laws which know the radius are given at A.
     pub inner_curvature: InnerCurvature,
-    radii: Radii,
+    /// Axis of the inner race against that of the outer at this sprag: along OC_e, and across it, m.
+    pub(super) offset_m: [f64; 2],
+    pub(super) radii: Radii,
     centroid_m: [f64; 2],
     mass_kg: f64,
     gamma0: f64,
@@ -130,6 +142,7 @@ impl Statics {
         Ok(Self {
             count: s.count,
             inner_curvature,
+            offset_m: [0.0; 2],
             elastic: Elastic::new(clutch)?,
             radii: Radii {
                 inner_race_m: r.inner_radius_m,
@@ -170,6 +183,10 @@ impl Statics {
     ///
     /// At rest this is tan omega = OB sin beta/(OB cos beta - OA), N_be = F cos nu.
     ///
+    /// With the axis of the inner race off that of the outer by (d, t) ([`super::WedgeCurve::build_off_centre`]) moments about B
+    /// and O have OB sin beta -> (OB - d) sin beta + t cos beta, OB cos beta -> (OB - d) cos beta - t sin beta and
+    /// T_be OB = T_bi OA - d (N sin beta - T_bi cos beta) + t (N cos beta + T_bi sin beta).
+    ///
     /// N_be and, where the law knows the radius, the curvature under the contact at A settle in one fixed-point loop.
     #[doc(alias = "Eq. (10)")]
     pub fn closure(
@@ -181,6 +198,7 @@ impl Statics {
     ) -> Result<Closure, NoClosure> {
         let (distance, azimuth) = self.centres[arc];
         let radii = Radii { inner_arc_m: self.profile.arcs[arc].radius_m, ..self.radii };
+        let [along, across] = self.offset_m;
         let n = Dual::variable(n_bi);
         let mut n_be = n;
         let mut inner = InnerApproach::new(self, arc, n);
@@ -190,17 +208,21 @@ impl Statics {
         for round in 0..60 {
             let d = self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s);
             let l = kinematics::lengths(&radii, &d);
-            let (sin_b, cos_b) = kinematics::beta(&l, distance).ok_or(NoClosure::RolledOver)?;
+            let (sin_b, cos_b) =
+                kinematics::beta_off_centre(&l, distance, self.offset_m).ok_or(NoClosure::RolledOver)?;
             let beta = sin_b.atan2(cos_b);
-            let rotation = (l.oc_i * sin_b).atan2(l.oc_i * cos_b - l.oc_e) + (shift_rad - azimuth);
+            let rotation =
+                (l.oc_i * sin_b + across).atan2(l.oc_i * cos_b - l.oc_e + along) + (shift_rad - azimuth);
             let g = kinematics::centroid(self.centroid_m, l.oc_e, rotation);
-            let lever = l.ob * cos_b - l.oa;
-            let ratio = l.ob * sin_b / lever;
+            let to_b = l.ob - along;
+            let lever = to_b * cos_b - sin_b * across - l.oa;
+            let ratio = (to_b * sin_b + cos_b * across) / lever;
             let (sin_g, cos_g) = g.gamma.sin_cos();
             let f_c = g.oc_g * (self.mass_kg * speed_rad_s * speed_rad_s);
             let offset = -(f_c * l.ob * sin_g / lever);
             let t_bi = n * ratio + offset;
-            let t_be = t_bi * l.oa / l.ob;
+            let couple = (n * cos_b + t_bi * sin_b) * across - (n * sin_b - t_bi * cos_b) * along;
+            let t_be = (t_bi * l.oa + couple) / l.ob;
             let (sin_bg, cos_bg) = (beta + g.gamma).sin_cos();
             let next = (n * cos_bg + t_bi * sin_bg - t_be * sin_g + f_c) / cos_g;
             // A sprag that centrifugal force presses off the inner race still never pulls on the outer one.
@@ -236,6 +258,7 @@ impl Statics {
                     oc_g: g.oc_g,
                     rotation,
                     alpha: rotation + g.gamma - self.gamma0,
+                    offset_m: self.offset_m,
                 });
             }
         }

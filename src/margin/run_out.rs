@@ -1,0 +1,94 @@
+//! Load round the circumference where the axes of the two tracks do not meet: every sprag in its own gap.
+//!
+//! The axis of the inner race lies e from that of the outer, away from the widest gap. At the azimuth psi from there
+//! the offset is (-e cos psi, e sin psi) along and across the radius: the gap is J + e cos psi (to e^2/2R), and the tracks are
+//! tilted against each other by (e/R_i) sin psi, which changes tan omega as much as the gap does. Sprags at psi and -psi
+//! therefore do not carry the same; the sum and the difference of the two carry the two effects.
+//!
+//! All sprags touch both races before the clutch engages (the spring sees to that), each at its own first contact, and
+//! the races turn as one: every sprag has the same windup W from its own first contact. A sprag that engaged at psi_0 and is
+//! brought to psi by races that move together (the clutch turns against the offset, or a race gives way by
+//! D) has the windup W + g(psi_0) - g(psi) of the curve of its present gap, g as in
+//! [`crate::wedge::Statics::touch_windup_rad`]; at and below 0 it carries nothing. The strut's shortening is the same
+//! statement: dW counts as OA sin omega dW, a move of the race as its part along AB.
+//!
+//! Left out: the ring law is that of sprags loaded alike, so a sprag's share of the growth comes from its own force
+//! alone; the azimuth of a sprag stays (it rolls on by half the windup: e/2R of windup in the gap); curves are those of
+//! the given offset where a race gives way (D is a few percent of it).
+
+mod balance;
+mod rows;
+
+pub use balance::{Round, SpragLoad, Stop, Survey};
+pub use rows::run_out_margins;
+
+use super::LoadState;
+use crate::design::Design;
+use crate::wedge::{EndReason, NoCurve, WedgeCurve};
+use std::f64::consts::TAU;
+
+/// One place round the circumference.
+#[derive(Debug, Clone)]
+pub struct Seat {
+    /// Azimuth from the widest gap, rad, 0 to 2 pi.
+    pub azimuth_rad: f64,
+    /// Axis of the inner race against that of the outer: along the radius and across it, m.
+    pub offset_m: [f64; 2],
+    /// Curve of a sprag that stands here; why there is none: it does not touch both races on its profile.
+    pub curve: Result<WedgeCurve, NoCurve>,
+    /// g, rad.
+    touch_windup_rad: f64,
+}
+
+/// A clutch off centre.
+#[derive(Debug, Clone)]
+pub struct RunOut {
+    /// Places of the sprags, the first in the widest gap.
+    pub seats: Vec<Seat>,
+    /// Distance of the axes, m.
+    pub offset_m: f64,
+    /// By how many places the engaged sprags are moved on in each round; [0] where the offset stays with them.
+    pub turns: Vec<usize>,
+    /// Radial stiffness of the bearings, N/m; infinite: stiff.
+    pub stiffness_n_per_m: f64,
+}
+
+/// Rounds looked at in one turn of the clutch against the offset: every 30 deg, or every place where there are fewer.
+const TURNS: usize = 12;
+
+impl RunOut {
+    /// The clutch of `design` off centre; `None` where it names no eccentricity.
+    pub fn new(design: &Design, state: &LoadState) -> Option<Self> {
+        let e = design.clutch.races.eccentricity?;
+        let count = design.clutch.sprags.count;
+        let statics = state.curve.statics();
+        let seat = |i: usize| {
+            let azimuth_rad = TAU * i as f64 / count as f64;
+            let (sin, cos) = azimuth_rad.sin_cos();
+            let offset_m = [-e.offset_m * cos, e.offset_m * sin];
+            let touch = statics.touch_windup_rad(offset_m);
+            let curve = match touch {
+                Some(_) => WedgeCurve::build_off_centre(&design.clutch, &state.profile, offset_m),
+                None => Err(NoCurve::NoFirstContact),
+            };
+            // A curve that breaks off for want of convergence is none to answer with.
+            let curve = curve.and_then(|c| match c.end().0 {
+                EndReason::NoConvergence => Err(NoCurve::NoConvergence),
+                _ => Ok(c),
+            });
+            Seat { azimuth_rad, offset_m, curve, touch_windup_rad: touch.unwrap_or(0.0) }
+        };
+        let rounds = if e.turning { count.min(TURNS) } else { 1 };
+        Some(Self {
+            seats: (0..count).map(seat).collect(),
+            offset_m: e.offset_m,
+            turns: (0..rounds).map(|k| k * count / rounds).collect(),
+            stiffness_n_per_m: e.stiffness_n_per_m,
+        })
+    }
+
+    /// Azimuths, rad, at which a sprag does not touch both races.
+    pub fn empty_rad(&self) -> Vec<f64> {
+        self.seats.iter().filter(|s| s.curve.is_err()).map(|s| s.azimuth_rad).collect()
+    }
+}
