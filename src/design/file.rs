@@ -178,10 +178,22 @@ pub(super) struct EccentricityFile {
     /// the sprags (a track that runs out, or a clutch that stands).
     #[serde(default)]
     pub turning: bool,
+    /// The race that the offset stays with while the clutch winds up: the one whose track runs out, or that stands while
+    /// the bearings are off centre; absent: outer-race.
+    #[serde(default)]
+    pub stays_with: CarrierFile,
     /// Radial stiffness of the bearings of both races together, N/um; 0: a race that floats on the sprags once they
     /// are engaged; absent: stiff, the offset stays as it is.
     #[schemars(extend("minimum" = 0))]
     pub bearing_stiffness_n_per_um: Option<f64>,
+}
+
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum CarrierFile {
+    #[default]
+    OuterRace,
+    InnerRace,
 }
 
 /// Interference fits at the reference temperature. Shaft and housing are of the material, the width and the temperature

@@ -31,8 +31,8 @@ mod tolerances_file;
 mod variables;
 
 pub use clutch::{
-    Axial, Clutch, ContactLaw, Eccentricity, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials,
-    Races, Running, Sprags, Spring, StressState, TrackRun,
+    Axial, Carrier, Clutch, ContactLaw, Eccentricity, EndProfile, Flanks, Friction, InnerArc, MassSource,
+    Materials, Races, Running, Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem};
 pub use draft::{Draft, KINETIC_SHARE};

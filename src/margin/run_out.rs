@@ -5,6 +5,10 @@
 //! tilted against each other by (e/R_i) sin psi, which changes tan omega as much as the gap does. Sprags at psi and -psi
 //! therefore do not carry the same; the sum and the difference of the two carry the two effects.
 //!
+//! The offset stays with one race; the sprags roll on along both while the clutch winds up, by a third of the windup
+//! against the outer race and two thirds against the inner, and so into a narrower or wider gap. That is of first order in
+//! e too.
+//!
 //! All sprags touch both races before the clutch engages (the spring sees to that), each at its own first contact, and
 //! the races turn as one: every sprag has the same windup W from its own first contact. A sprag that engaged at psi_0 and is
 //! brought to psi by races that move together (the clutch turns against the offset, or a race gives way by
@@ -13,8 +17,7 @@
 //! statement: dW counts as OA sin omega dW, a move of the race as its part along AB.
 //!
 //! Left out: the ring law is that of sprags loaded alike, so a sprag's share of the growth comes from its own force
-//! alone; the azimuth of a sprag stays (it rolls on by half the windup: e/2R of windup in the gap); curves are those of
-//! the given offset where a race gives way (D is a few percent of it).
+//! alone; curves are those of the given offset where a race gives way.
 
 mod balance;
 mod rows;
@@ -23,7 +26,7 @@ pub use balance::{Round, SpragLoad, Stop, Survey};
 pub use rows::run_out_margins;
 
 use super::LoadState;
-use crate::design::Design;
+use crate::design::{Carrier, Design};
 use crate::wedge::{EndReason, NoCurve, WedgeCurve};
 use std::f64::consts::TAU;
 
@@ -49,6 +52,8 @@ pub struct RunOut {
     pub offset_m: f64,
     /// By how many places the engaged sprags are moved on in each round; [0] where the offset stays with them.
     pub turns: Vec<usize>,
+    /// The race that the offset stays with while the clutch winds up.
+    pub carrier: Carrier,
     /// Radial stiffness of the bearings, N/m; infinite: stiff.
     pub stiffness_n_per_m: f64,
 }
@@ -66,9 +71,8 @@ impl RunOut {
             let azimuth_rad = TAU * i as f64 / count as f64;
             let (sin, cos) = azimuth_rad.sin_cos();
             let offset_m = [-e.offset_m * cos, e.offset_m * sin];
-            let touch = statics.touch_windup_rad(offset_m);
-            let curve = match touch {
-                Some(_) => WedgeCurve::build_off_centre(&design.clutch, &state.profile, offset_m),
+            let curve = match statics.touch_windup_rad(offset_m) {
+                Some(_) => WedgeCurve::build_off_centre(&design.clutch, &state.profile, offset_m, e.carrier),
                 None => Err(NoCurve::NoFirstContact),
             };
             // A curve that breaks off for want of convergence is none to answer with.
@@ -76,6 +80,8 @@ impl RunOut {
                 EndReason::NoConvergence => Err(NoCurve::NoConvergence),
                 _ => Ok(c),
             });
+            // Again from the curve's own statics, which know the race that carries the offset.
+            let touch = curve.as_ref().ok().and_then(|c| c.statics().touch_windup_rad(offset_m));
             Seat { azimuth_rad, offset_m, curve, touch_windup_rad: touch.unwrap_or(0.0) }
         };
         let rounds = if e.turning { count.min(TURNS) } else { 1 };
@@ -83,6 +89,7 @@ impl RunOut {
             seats: (0..count).map(seat).collect(),
             offset_m: e.offset_m,
             turns: (0..rounds).map(|k| k * count / rounds).collect(),
+            carrier: e.carrier,
             stiffness_n_per_m: e.stiffness_n_per_m,
         })
     }

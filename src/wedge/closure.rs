@@ -1,8 +1,9 @@
 //! Static equilibrium of one sprag at a given inner normal force: the only static iteration of the project.
 
 use super::elastic::{Elastic, NoElastic};
+use super::off_centre::turned;
 use super::patch::{InnerApproach, InnerCurvature};
-use crate::design::Clutch;
+use crate::design::{Carrier, Clutch};
 use crate::kinematics::{self, Deformations, Lengths, Radii};
 use crate::numeric::dual::Dual;
 use crate::profile::Profile;
@@ -55,7 +56,10 @@ pub struct Closure {
     /// alpha, body rotation against the line OG since first contact at rest, rad.
     pub alpha: Dual,
     /// Axis of the inner race against that of the outer: along OC_e, and across it, m. [0, 0]: concentric.
-    pub offset_m: [f64; 2],
+    pub offset_m: [Dual; 2],
+    /// By how much the race that carries the offset has turned against the line OC_e since first contact at rest between
+    /// concentric races, rad.
+    pub carried_rad: f64,
 }
 
 impl Closure {
@@ -88,13 +92,11 @@ impl Closure {
             self.beta.v + self.gamma.v,
             self.gamma.v,
         );
-        (rho_i - self.offset_at_a_m() / self.lengths.oa.v, rho_e)
-    }
-
-    /// The offset of the axes along the normal at A, m.
-    fn offset_at_a_m(&self) -> f64 {
-        let (sin_b, cos_b) = self.beta.v.sin_cos();
-        self.offset_m[0] * cos_b + self.offset_m[1] * sin_b
+        match self.offset_m.map(|o| o.v) {
+            [0.0, 0.0] => (rho_i, rho_e),
+            // Against OG the offset moves by itself: only the sum has a meaning, the windup's.
+            _ => (self.windup_slope() / self.alpha.d - rho_e, rho_e),
+        }
     }
 
     /// d windup / d N_bi, rad/N, with C_e as the reference point, so that no centroid enters:
@@ -102,8 +104,11 @@ impl Closure {
     pub fn windup_slope(&self) -> f64 {
         let l = &self.lengths;
         let (sin_b, cos_b) = self.beta.v.sin_cos();
-        let inner = (self.rotation.d * (l.oa.v - l.oc_e.v * cos_b + self.offset_at_a_m()) - sin_b * l.oc_e.d)
-            / l.oa.v;
+        // The point of the sprag at A against the axis of the inner race, which may move as well.
+        let [along, across] = self.offset_m;
+        let arm = l.oa.v - l.oc_e.v * cos_b + along.v * cos_b + across.v * sin_b;
+        let axis = across.d * cos_b - along.d * sin_b;
+        let inner = (self.rotation.d * arm - sin_b * l.oc_e.d - axis) / l.oa.v;
         let outer = self.rotation.d * (l.ob.v - l.oc_e.v) / l.ob.v;
         outer - inner
     }
@@ -120,8 +125,10 @@ pub struct Statics {
     pub profile: Profile,
     /// The curvature that laws which know the radius are given at A.
     pub inner_curvature: InnerCurvature,
-    /// Axis of the inner race against that of the outer at this sprag: along OC_e, and across it, m.
+    /// Axis of the inner race against that of the outer at this sprag before it rolls on: along OC_e, and across it, m.
     pub(super) offset_m: [f64; 2],
+    /// The race that this stays with.
+    pub(super) carrier: Carrier,
     pub(super) radii: Radii,
     centroid_m: [f64; 2],
     mass_kg: f64,
@@ -143,6 +150,7 @@ impl Statics {
             count: s.count,
             inner_curvature,
             offset_m: [0.0; 2],
+            carrier: Carrier::default(),
             elastic: Elastic::new(clutch)?,
             radii: Radii {
                 inner_race_m: r.inner_radius_m,
@@ -198,7 +206,8 @@ impl Statics {
     ) -> Result<Closure, NoClosure> {
         let (distance, azimuth) = self.centres[arc];
         let radii = Radii { inner_arc_m: self.profile.arcs[arc].radius_m, ..self.radii };
-        let [along, across] = self.offset_m;
+        let mut apart = self.offset_m.map(Dual::constant);
+        let mut carried = Dual::constant(0.0);
         let n = Dual::variable(n_bi);
         let mut n_be = n;
         let mut inner = InnerApproach::new(self, arc, n);
@@ -209,7 +218,8 @@ impl Statics {
             let d = self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s);
             let l = kinematics::lengths(&radii, &d);
             let (sin_b, cos_b) =
-                kinematics::beta_off_centre(&l, distance, self.offset_m).ok_or(NoClosure::RolledOver)?;
+                kinematics::beta_off_centre(&l, distance, apart).ok_or(NoClosure::RolledOver)?;
+            let [along, across] = apart;
             let beta = sin_b.atan2(cos_b);
             let rotation =
                 (l.oc_i * sin_b + across).atan2(l.oc_i * cos_b - l.oc_e + along) + (shift_rad - azimuth);
@@ -228,18 +238,24 @@ impl Statics {
             // A sprag that centrifugal force presses off the inner race still never pulls on the outer one.
             let next = if next.v > FIRST_CONTACT_N { next } else { Dual::constant(FIRST_CONTACT_N) };
             let curvature = inner.curvature_per_m.v;
-            let moved = inner.update(self, arc, n, rotation - (beta - self.profile.beta0_rad));
+            let turn = rotation - (beta - self.profile.beta0_rad);
+            let moved = inner.update(self, arc, n, turn);
+            // The offset turns with a race; without one there is nothing to turn.
+            let on = if self.is_concentric() { carried } else { self.carried(arc, rotation, turn) };
+            let rolled_on = on - carried;
+            carried = on;
             let change = (next.v - n_be.v).abs() / next.v;
             let slope_change = (next.d - n_be.d).abs() / next.d.abs().max(1e-3);
             // The turn carries some 5e-15 of rounding, which a large step of curvature makes 1e-15 of delta_H.
-            let still = moved.v <= 1e-14 && moved.d <= 1e-13;
+            let there = rolled_on.v.abs() <= 1e-14 && rolled_on.d.abs() <= 1e-12 * on.d.abs();
+            let still = moved.v <= 1e-14 && moved.d <= 1e-13 && there;
             let settled = still && change <= 4.0 * f64::EPSILON && slope_change <= 1e-14
                 || still
                     && round > 4
                     && change >= residual
                     && slope_change >= slope_residual
                     && change < 1e-13
-                || round > 20 && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
+                || round > 20 && there && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
             n_be = next;
             (residual, slope_residual, unsettled) = (change, slope_change, change.max(moved.v));
             if settled {
@@ -258,8 +274,12 @@ impl Statics {
                     oc_g: g.oc_g,
                     rotation,
                     alpha: rotation + g.gamma - self.gamma0,
-                    offset_m: self.offset_m,
+                    offset_m: apart,
+                    carried_rad: self.carried(arc, rotation, turn).v,
                 });
+            }
+            if !self.is_concentric() {
+                apart = turned(self.offset_m, carried);
             }
         }
         Err(NoClosure::NoConvergence { residual: unsettled })

@@ -1,40 +1,81 @@
-//! A sprag between races whose axes do not meet: where windups of sprags in different gaps count from, and the state at
-//! a windup.
+//! A sprag between races whose axes do not meet: how the offset turns while the sprag rolls on, where windups of sprags in
+//! different gaps count from, and the state at a windup.
 
 use super::closure::Statics;
 use super::curve::{WedgeCurve, WedgePoint};
-use crate::kinematics::{Deformations, Lengths, Radii, beta_off_centre, lengths};
+use crate::design::Carrier;
+use crate::kinematics::{Deformations, Radii, beta_off_centre, lengths};
 use crate::numeric::dual::Dual;
 
+/// `offset_m` turned by `angle`.
+pub(super) fn turned([x, y]: [f64; 2], angle: Dual) -> [Dual; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [cos * x - sin * y, sin * x + cos * y]
+}
+
 impl Statics {
+    /// Whether the axes meet.
+    pub(super) fn is_concentric(&self) -> bool {
+        self.offset_m == [0.0; 2]
+    }
+
+    /// Length of the inner profile rolled over on arc `arc` at `turn`, m.
+    fn rolled_m(&self, arc: usize, turn: Dual) -> Dual {
+        let arcs = &self.profile.arcs;
+        let before: f64 = arcs[..arc].iter().map(|a| a.radius_m * (a.until_rad - a.from_rad)).sum();
+        (turn - arcs[arc].from_rad) * arcs[arc].radius_m + before
+    }
+
+    /// Turn of the outer race against the line OC_e since first contact at rest, rigid bodies rolling: R_e dtheta_be = r_e dOmega.
+    fn outer_turn(&self, rotation: Dual) -> Dual {
+        rotation * (self.profile.outer_radius_m / self.radii.outer_race_m)
+    }
+
+    /// The same of the inner race: R_i dtheta_bi = R_i dbeta - ds.
+    fn inner_turn(&self, arc: usize, rotation: Dual, turn: Dual) -> Dual {
+        rotation - turn + self.rolled_m(arc, turn) * (-1.0 / self.radii.inner_race_m)
+    }
+
+    /// Turn of the race that carries the offset.
+    pub(super) fn carried(&self, arc: usize, rotation: Dual, turn: Dual) -> Dual {
+        match self.carrier {
+            Carrier::OuterRace => self.outer_turn(rotation),
+            Carrier::InnerRace => self.inner_turn(arc, rotation, turn),
+        }
+    }
+
     /// Windup, rad, that rolls the sprag without load from first contact between concentric races to first contact
     /// where the axes lie `offset_m` apart (see [`WedgeCurve::build_off_centre`]):
     ///
     ///   g = r_e Omega/R_e + s(turn)/R_i - (beta - beta_0),
     ///
-    /// s the length of the inner profile rolled over; from OB dtheta_be = r_e dOmega and R_i dtheta_bi = R_i dbeta - ds, both
-    /// against the line OC_e. Rigid bodies at rest. `None` where the sprag does not touch both races on its profile.
+    /// s the length of the inner profile rolled over. Rigid bodies at rest. A step dd of the offset, as the carrying race
+    /// sees it, costs dg = -dd AB/(|AB| OA sin omega): the strut keeps its length. `None` where the sprag does not touch both
+    /// races on its profile.
     pub fn touch_windup_rad(&self, offset_m: [f64; 2]) -> Option<f64> {
         let p = &self.profile;
-        let mut rolled_m = 0.0;
-        for arc in &p.arcs {
+        for (k, arc) in p.arcs.iter().enumerate() {
             let radii = Radii { inner_arc_m: arc.radius_m, ..self.radii };
             let l = lengths(&radii, &UNLOADED);
-            let Lengths { oc_i, oc_e, .. } = l;
-            let (sin, cos) = beta_off_centre(&l, arc.centre_m.norm(), offset_m)?;
-            let beta = sin.v.atan2(cos.v);
-            let [along, across] = offset_m;
-            let rotation = (oc_i.v * sin.v + across).atan2(oc_i.v * cos.v - oc_e.v + along)
-                - arc.centre_m.x.atan2(arc.centre_m.y);
-            let turn = rotation - (beta - p.beta0_rad);
-            if turn < arc.until_rad {
-                rolled_m += arc.radius_m * (turn - arc.from_rad);
-                return Some(
-                    p.outer_radius_m * rotation / radii.outer_race_m + rolled_m / radii.inner_race_m
-                        - (beta - p.beta0_rad),
-                );
+            let mut carried = Dual::constant(0.0);
+            for _ in 0..60 {
+                let [along, across] = turned(offset_m, carried);
+                let (sin, cos) = beta_off_centre(&l, arc.centre_m.norm(), [along, across])?;
+                let beta = sin.atan2(cos);
+                let rotation = (l.oc_i * sin + across).atan2(l.oc_i * cos - l.oc_e + along)
+                    - arc.centre_m.x.atan2(arc.centre_m.y);
+                let turn = rotation - (beta - p.beta0_rad);
+                let on = self.carried(k, rotation, turn);
+                let settled = (on.v - carried.v).abs() <= 1e-15;
+                carried = on;
+                if !settled {
+                    continue;
+                }
+                if turn.v >= arc.until_rad {
+                    break;
+                }
+                return Some(self.outer_turn(rotation).v - self.inner_turn(k, rotation, turn).v);
             }
-            rolled_m += arc.radius_m * (arc.until_rad - arc.from_rad);
         }
         None
     }
@@ -53,7 +94,7 @@ const UNLOADED: Deformations = {
 };
 
 impl WedgeCurve {
-    /// Axis of the inner race against that of the outer at this sprag: along OC_e outward, and across it, m.
+    /// Axis of the inner race against that of the outer at this sprag, as [`Self::build_off_centre`] was given it, m.
     pub fn offset_m(&self) -> [f64; 2] {
         self.statics.offset_m
     }
@@ -63,9 +104,9 @@ impl WedgeCurve {
         self.windup_rad(self.arcs[self.arcs.len() - 1].alpha_until)
     }
 
-    /// State at `windup_rad` since this curve's first contact, from the table; `None` at or below 0 (no load) and beyond
-    /// the curve's end.
-    pub fn at_windup(&self, windup_rad: f64) -> Option<WedgePoint> {
+    /// State at `windup_rad` since this curve's first contact, from the table, with the turn of the race that carries
+    /// the offset against the line OC_e, rad; `None` at or below 0 (no load) and beyond the curve's end.
+    pub fn at_windup(&self, windup_rad: f64) -> Option<(WedgePoint, f64)> {
         let (_, last) = self.end();
         let end = self.end_windup_rad();
         if !(windup_rad > 0.0 && windup_rad <= end * (1.0 + 1e-12)) {
@@ -83,6 +124,11 @@ impl WedgeCurve {
                 break;
             }
         }
-        Some(self.in_arc(self.arc_at(alpha), alpha))
+        let k = self.arc_at(alpha);
+        let p = self.in_arc(k, alpha);
+        let rotation = alpha - p.gamma + self.statics.gamma0_rad();
+        let turn = rotation - (p.beta_gamma - p.gamma - self.statics.profile.beta0_rad);
+        let of = Dual::constant;
+        Some((p, self.statics.carried(self.first + k, of(rotation), of(turn)).v))
     }
 }

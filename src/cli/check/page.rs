@@ -54,6 +54,9 @@ pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, co
         );
         page.table("", &running.table());
     }
+    if let Some(run_out) = &answer.body.run_out {
+        run_out.draw(&mut page);
+    }
     let wanted = design.limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
     answer.body.overrun.draw(&mut page, answer.body.lift_off_rpm, wanted);
     parts::draw(

@@ -133,13 +133,14 @@ impl RunOut {
         if own <= 0.0 {
             return Ok(none);
         }
-        let p = curve.at_windup(own).ok_or(seat)?;
+        let (p, carried) = curve.at_windup(own).ok_or(seat)?;
         let beta = p.beta_gamma - p.gamma;
         let (sin, cos) = beta.sin_cos();
         // On the inner race, along the radius at C_e and across it: -N n_A + T t_A.
         let along = -p.n_bi * cos - p.t_static * sin;
         let across = -p.n_bi * sin + p.t_static * cos;
-        let (s, c) = self.seats[seat].azimuth_rad.sin_cos();
+        // As the race that carries the offset sees it.
+        let (s, c) = (self.seats[seat].azimuth_rad - carried).sin_cos();
         let force_n = [along * c - across * s, along * s + across * c];
         Ok(SpragLoad { normal_n: p.n_bi, torque_nm: p.t_static * p.oa, force_n, ..none })
     }

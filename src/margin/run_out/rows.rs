@@ -109,6 +109,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
     {
         rows.extend(share_row(limits, ring, &survey));
     }
+    rows.extend(re_engagement_row(design, ring));
     for limit in &LIMITS {
         let (Some(torque), Some(allowed)) = ((limit.torque_nm)(limits), (limit.allowed)(design, limits))
         else {
@@ -124,10 +125,9 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
             Some((value, sprag)) => (value, format!("{}: {}", limit.name, ring.words(&sprag))),
             None => (0.0, format!("{}: no sprag carries", limit.name)),
         };
-        let capacity = capacities.then(|| {
-            let over = |s: &Survey| worst(s).map_or(f64::NAN, |(value, _)| value - allowed);
-            reached(ring, &surveys, &over).unwrap_or(end)
-        });
+        // What is not reached before the end has none: `run-out-end` is that of all.
+        let over = |s: &Survey| worst(s).map_or(f64::NAN, |(value, _)| value - allowed);
+        let capacity = capacities.then(|| reached(ring, &surveys, &over)).flatten();
         rows.push(Margin {
             code: limit.code.into(),
             name,
@@ -195,6 +195,26 @@ fn share_row(limits: &Limits, ring: &RunOut, survey: &Survey) -> Option<Margin> 
         margin: allowable / share - 1.0,
         torque_capacity_nm: None,
         required: false,
+    })
+}
+
+/// tan omega at first contact in the gap where it is largest.
+fn re_engagement_row(design: &Design, ring: &RunOut) -> Option<Margin> {
+    let kinetic = design.clutch.friction.kinetic;
+    let touching = ring.seats.iter().filter_map(|s| Some((s.curve.as_ref().ok()?.touch().t_ratio, s)));
+    let (first, seat) = touching.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(Margin {
+        code: "run-out-re-engagement".into(),
+        name: format!(
+            "tan omega at first contact against mu_c, worst sprag off centre: {}",
+            degrees(seat.azimuth_rad)
+        ),
+        demand: first,
+        allowable: kinetic,
+        unit: "1",
+        margin: ratio(first, kinetic),
+        torque_capacity_nm: None,
+        required: true,
     })
 }
 
