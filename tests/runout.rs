@@ -366,7 +366,7 @@ fn a_floating_race_finds_its_place() {
     let sum: f64 = b.loads.iter().map(|l| l.normal_n).sum();
     assert!(Vector::from(b.radial_n()).norm() < 1e-8 * sum && (b.torque_nm() / torque - 1.0).abs() < 1e-8);
     println!("share held {:.5}, floating {:.5}, on bearings {:.5}", a.share().0, b.share().0, c.share().0);
-    assert!(b.share().0 - 1.0 < 0.3 * (a.share().0 - 1.0));
+    assert!(b.share().0 - 1.0 < 0.1 * (a.share().0 - 1.0));
     // k = dN/dl of each strut; half of the sprags' sum resists in any direction.
     let mut stiffness = 0.0;
     for l in &a.loads {
@@ -387,16 +387,14 @@ fn a_floating_race_finds_its_place() {
     let (clutch, profile) = (&ring("offset_mm = 0").0.clutch, place());
     for l in &b.loads {
         let seat = &floating.seats[l.seat];
-        let (s, k) = seat.azimuth_rad.sin_cos();
-        let moved = [
-            seat.offset_m[0] + b.shift_m[0] * k + b.shift_m[1] * s,
-            seat.offset_m[1] - b.shift_m[0] * s + b.shift_m[1] * k,
-        ];
+        let back = |angle: f64, v: Vector| nalgebra::Rotation2::new(-angle) * v;
+        let there = Vector::from(seat.offset_m) + back(seat.azimuth_rad, shift);
+        let [base, moved] = [seat.offset_m.into(), there].map(|v| back(seat.turned_rad, v).into());
         let there = WedgeCurve::build_off_centre(clutch, &profile, moved, Carrier::OuterRace).unwrap();
         let g = |o: [f64; 2]| there.statics().touch_windup_rad(o).unwrap();
-        let n = there.at_windup(b.windup_rad + g(seat.offset_m) - g(moved)).unwrap().0.n_bi;
-        let named = shift.norm() / 11.11e-3 / 0.0778;
-        assert!((n / l.normal_n - 1.0).abs() < 1.2 * named, "{} {}", n / l.normal_n - 1.0, named);
+        let n = there.at_windup(b.windup_rad + g(base) - g(moved)).unwrap().0.n_bi;
+        // What is left out: the square of the shift, some 0.4 % of its own 3 %.
+        assert!((n / l.normal_n - 1.0).abs() < 2e-4, "{} {}", l.seat, n / l.normal_n - 1.0);
     }
 }
 

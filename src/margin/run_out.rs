@@ -5,19 +5,19 @@
 //! tilted against each other by (e/R_i) sin psi, which changes tan omega as much as the gap does. Sprags at psi and -psi
 //! therefore do not carry the same; the sum and the difference of the two carry the two effects.
 //!
-//! The offset stays with one race; the sprags roll on along both while the clutch winds up, by a third of the windup
-//! against the outer race and two thirds against the inner, and so into a narrower or wider gap. That is of first order in
-//! e too.
+//! The offset stays with one race. The sprags roll on along both while the clutch winds up, by a third of the windup
+//! against the outer race and two thirds against the inner, and so into a narrower or wider gap, which is of first order
+//! in e too: a strut shortens by OA sin omega dW where the outer race carries the offset, by OB sin nu dW where the
+//! inner does.
 //!
-//! All sprags touch both races before the clutch engages (the spring sees to that), each at its own first contact, and
-//! the races turn as one: every sprag has the same windup W from its own first contact. A sprag that engaged at psi_0 and is
-//! brought to psi by races that move together (the clutch turns against the offset, or a race gives way by
-//! D) has the windup W + g(psi_0) - g(psi) of the curve of its present gap, g as in
-//! [`crate::wedge::Statics::touch_windup_rad`]; at and below 0 it carries nothing. The strut's shortening is the same
-//! statement: dW counts as OA sin omega dW, a move of the race as its part along AB.
+//! All sprags touch both races before the clutch engages (the spring sees to that), each at its own first contact and
+//! evenly spaced, and the races turn as one: every sprag has the same windup W from its own first contact. A sprag that
+//! engaged at psi_0 and is brought to psi by a clutch that turns against the offset has the windup W + g(psi_0) - g(psi) of
+//! the curve of its present gap, g as in [`crate::wedge::Statics::touch_windup_rad`]; a race that gives way adds what
+//! its shift shortens the strut by. At and below 0 a sprag carries nothing.
 //!
 //! Left out: the ring law is that of sprags loaded alike, so a sprag's share of the growth comes from its own force
-//! alone; curves are those of the given offset where a race gives way.
+//! alone; of a shift the square, and what it does to tan omega.
 
 mod balance;
 mod rows;
@@ -33,14 +33,23 @@ use std::f64::consts::TAU;
 /// One place round the circumference.
 #[derive(Debug, Clone)]
 pub struct Seat {
-    /// Azimuth from the widest gap, rad, 0 to 2 pi.
+    /// Azimuth from the widest gap at which a sprag touches both races before it engages, rad, 0 to 2 pi.
     pub azimuth_rad: f64,
-    /// Axis of the inner race against that of the outer: along the radius and across it, m.
+    /// Axis of the inner race against that of the outer there: along the radius and across it, m.
     pub offset_m: [f64; 2],
-    /// Curve of a sprag that stands here; why there is none: it does not touch both races on its profile.
+    /// By how much the race that carries the offset has turned against a sprag that has come here from first contact
+    /// between concentric races, rad.
+    pub turned_rad: f64,
+    /// Curve of a sprag that engages here; why there is none: it does not touch both races on its profile.
     pub curve: Result<WedgeCurve, NoCurve>,
     /// g, rad.
     touch_windup_rad: f64,
+}
+
+/// A vector turned by `angle_rad`.
+fn rotated([x, y]: [f64; 2], angle_rad: f64) -> [f64; 2] {
+    let (s, c) = angle_rad.sin_cos();
+    [x * c - y * s, x * s + y * c]
 }
 
 /// A clutch off centre.
@@ -69,20 +78,20 @@ impl RunOut {
         let statics = state.curve.statics();
         let seat = |i: usize| {
             let azimuth_rad = TAU * i as f64 / count as f64;
-            let (sin, cos) = azimuth_rad.sin_cos();
-            let offset_m = [-e.offset_m * cos, e.offset_m * sin];
-            let curve = match statics.touch_windup_rad(offset_m) {
-                Some(_) => WedgeCurve::build_off_centre(&design.clutch, &state.profile, offset_m, e.carrier),
-                None => Err(NoCurve::NoFirstContact),
-            };
+            let offset_m = rotated([-e.offset_m, 0.0], -azimuth_rad);
+            let touch = statics.touch_turn_rad(offset_m, e.carrier).ok_or(NoCurve::NoFirstContact);
+            let turned_rad = *touch.as_ref().unwrap_or(&0.0);
+            let curve = touch.and_then(|back| {
+                let base = rotated(offset_m, -back);
+                WedgeCurve::build_off_centre(&design.clutch, &state.profile, base, e.carrier)
+            });
             // A curve that breaks off for want of convergence is none to answer with.
             let curve = curve.and_then(|c| match c.end().0 {
                 EndReason::NoConvergence => Err(NoCurve::NoConvergence),
                 _ => Ok(c),
             });
-            // Again from the curve's own statics, which know the race that carries the offset.
-            let touch = curve.as_ref().ok().and_then(|c| c.statics().touch_windup_rad(offset_m));
-            Seat { azimuth_rad, offset_m, curve, touch_windup_rad: touch.unwrap_or(0.0) }
+            let g = curve.as_ref().ok().and_then(|c| c.statics().touch_windup_rad(c.offset_m()));
+            Seat { azimuth_rad, offset_m, turned_rad, curve, touch_windup_rad: g.unwrap_or(0.0) }
         };
         let rounds = if e.turning { count.min(TURNS) } else { 1 };
         Some(Self {

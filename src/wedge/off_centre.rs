@@ -7,7 +7,7 @@ use crate::design::Carrier;
 use crate::kinematics::{Deformations, Radii, beta_off_centre, lengths};
 use crate::numeric::dual::Dual;
 
-/// `offset_m` turned by `angle`.
+/// A vector turned by `angle`.
 pub(super) fn turned([x, y]: [f64; 2], angle: Dual) -> [Dual; 2] {
     let (sin, cos) = angle.sin_cos();
     [cos * x - sin * y, sin * x + cos * y]
@@ -38,7 +38,11 @@ impl Statics {
 
     /// Turn of the race that carries the offset.
     pub(super) fn carried(&self, arc: usize, rotation: Dual, turn: Dual) -> Dual {
-        match self.carrier {
+        self.carried_by(self.carrier, arc, rotation, turn)
+    }
+
+    fn carried_by(&self, carrier: Carrier, arc: usize, rotation: Dual, turn: Dual) -> Dual {
+        match carrier {
             Carrier::OuterRace => self.outer_turn(rotation),
             Carrier::InnerRace => self.inner_turn(arc, rotation, turn),
         }
@@ -53,31 +57,43 @@ impl Statics {
     /// sees it, costs dg = -dd AB/(|AB| OA sin omega): the strut keeps its length. `None` where the sprag does not touch both
     /// races on its profile.
     pub fn touch_windup_rad(&self, offset_m: [f64; 2]) -> Option<f64> {
-        let p = &self.profile;
-        for (k, arc) in p.arcs.iter().enumerate() {
-            let radii = Radii { inner_arc_m: arc.radius_m, ..self.radii };
-            let l = lengths(&radii, &UNLOADED);
+        (0..self.profile.arcs.len()).find_map(|k| {
             let mut carried = Dual::constant(0.0);
             for _ in 0..60 {
-                let [along, across] = turned(offset_m, carried);
-                let (sin, cos) = beta_off_centre(&l, arc.centre_m.norm(), [along, across])?;
-                let beta = sin.atan2(cos);
-                let rotation = (l.oc_i * sin + across).atan2(l.oc_i * cos - l.oc_e + along)
-                    - arc.centre_m.x.atan2(arc.centre_m.y);
-                let turn = rotation - (beta - p.beta0_rad);
+                let (rotation, turn) = self.touch(k, turned(offset_m, carried))?;
                 let on = self.carried(k, rotation, turn);
                 let settled = (on.v - carried.v).abs() <= 1e-15;
                 carried = on;
-                if !settled {
-                    continue;
+                if settled {
+                    let g = self.outer_turn(rotation).v - self.inner_turn(k, rotation, turn).v;
+                    return (turn.v < self.profile.arcs[k].until_rad).then_some(g);
                 }
-                if turn.v >= arc.until_rad {
-                    break;
-                }
-                return Some(self.outer_turn(rotation).v - self.inner_turn(k, rotation, turn).v);
             }
-        }
-        None
+            None
+        })
+    }
+
+    /// By how much the race `carrier` has turned against the line OC_e when the sprag, without load, has come from first
+    /// contact between concentric races to first contact where the offset is `there_m`, rad; that as
+    /// [`WedgeCurve::build_off_centre`] wants it is `there_m` turned back by this. `None` as above.
+    pub fn touch_turn_rad(&self, there_m: [f64; 2], carrier: Carrier) -> Option<f64> {
+        (0..self.profile.arcs.len()).find_map(|k| {
+            let (rotation, turn) = self.touch(k, there_m.map(Dual::constant))?;
+            let on = self.carried_by(carrier, k, rotation, turn);
+            (turn.v < self.profile.arcs[k].until_rad).then_some(on.v)
+        })
+    }
+
+    /// Rotation and turn of the rigid sprag that touches both races with arc `k`, as if that went on for ever.
+    fn touch(&self, k: usize, [along, across]: [Dual; 2]) -> Option<(Dual, Dual)> {
+        let arc = &self.profile.arcs[k];
+        let radii = Radii { inner_arc_m: arc.radius_m, ..self.radii };
+        let l = lengths(&radii, &UNLOADED);
+        let (sin, cos) = beta_off_centre(&l, arc.centre_m.norm(), [along, across])?;
+        let beta = sin.atan2(cos);
+        let rotation = (l.oc_i * sin + across).atan2(l.oc_i * cos - l.oc_e + along)
+            - arc.centre_m.x.atan2(arc.centre_m.y);
+        Some((rotation, rotation - (beta - self.profile.beta0_rad)))
     }
 }
 

@@ -1,8 +1,9 @@
 //! Which windup, and which shift of a race that is not held, carry a torque.
 
-use super::RunOut;
+use super::{RunOut, rotated};
+use crate::design::Carrier;
 use crate::numeric::root;
-use crate::wedge::{EndReason, StaticPoint};
+use crate::wedge::{EndReason, StaticPoint, WedgeCurve};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// One sprag under load.
@@ -128,50 +129,68 @@ impl RunOut {
     ) -> Result<SpragLoad, usize> {
         let seat = self.moved_on(engaged, turned);
         let none = SpragLoad { engaged, seat, normal_n: 0.0, torque_nm: 0.0, force_n: [0.0; 2] };
-        let Some((curve, lag)) = self.lag(engaged, seat, shift_m) else { return Ok(none) };
-        let own = windup_rad + lag;
+        let Some((curve, lag)) = self.lag(engaged, seat) else { return Ok(none) };
+        // As the race that carries the offset sees it; sprags stand at even azimuths when they touch.
+        let rests = self.seats[seat].azimuth_rad + self.seats[engaged].turned_rad;
+        let (own, carried) = match shift_m {
+            [0.0, 0.0] => (windup_rad + lag, None),
+            _ => {
+                let (more, carried) = self.yielded(curve, windup_rad + lag, shift_m, rests);
+                (windup_rad + lag + more, Some(carried))
+            }
+        };
         if own <= 0.0 {
             return Ok(none);
         }
-        let (p, carried) = curve.at_windup(own).ok_or(seat)?;
-        let beta = p.beta_gamma - p.gamma;
-        let (sin, cos) = beta.sin_cos();
+        let (p, along_curve) = curve.at_windup(own).ok_or(seat)?;
+        // A race that gives way rolls no sprag on.
+        let carried = carried.unwrap_or(along_curve);
+        let (sin, cos) = (p.beta_gamma - p.gamma).sin_cos();
         // On the inner race, along the radius at C_e and across it: -N n_A + T t_A.
         let along = -p.n_bi * cos - p.t_static * sin;
         let across = -p.n_bi * sin + p.t_static * cos;
-        // As the race that carries the offset sees it.
-        let (s, c) = (self.seats[seat].azimuth_rad - carried).sin_cos();
-        let force_n = [along * c - across * s, along * s + across * c];
+        let force_n = rotated([along, across], rests - carried);
         Ok(SpragLoad { normal_n: p.n_bi, torque_nm: p.t_static * p.oa, force_n, ..none })
+    }
+
+    /// Windup, rad, that shortens the strut of a sprag wound up by `own` as the inner race moved by `shift_m` does: the part
+    /// of the shift along AB over OA sin omega, or over OB sin nu where the inner race carries the offset. Of first order in
+    /// the shift. Beside it how far the sprag has rolled on.
+    fn yielded(&self, curve: &WedgeCurve, own: f64, shift_m: [f64; 2], rests_rad: f64) -> (f64, f64) {
+        let end = curve.end_windup_rad();
+        // A sprag without load takes what it has at its touch.
+        let Some((p, carried)) = curve.at_windup(own.clamp(1e-6 * end, end)) else {
+            return (0.0, 0.0);
+        };
+        let omega = (p.t_static / p.n_bi).atan();
+        let nu = omega - (p.beta_gamma - p.gamma);
+        let [along, across] = rotated(shift_m, carried - rests_rad);
+        let lever = match self.carrier {
+            Carrier::OuterRace => p.oa * omega.sin(),
+            Carrier::InnerRace => p.ob * nu.sin(),
+        };
+        ((along * nu.cos() - across * nu.sin()) / lever, carried)
     }
 
     /// The curve of a sprag's present place and by how much its own windup exceeds the common one: g where it
     /// engaged less g where it stands. `None`: it did not touch when the clutch engaged, or has no gap to stand in now.
-    fn lag(
-        &self,
-        engaged: usize,
-        seat: usize,
-        shift_m: [f64; 2],
-    ) -> Option<(&crate::wedge::WedgeCurve, f64)> {
+    fn lag(&self, engaged: usize, seat: usize) -> Option<(&WedgeCurve, f64)> {
         let (from, to) = (&self.seats[engaged], &self.seats[seat]);
         let (Ok(_), Ok(curve)) = (&from.curve, &to.curve) else { return None };
-        let here = match shift_m {
-            [0.0, 0.0] => to.touch_windup_rad,
-            [x, y] => {
-                let (s, c) = to.azimuth_rad.sin_cos();
-                let offset_m = [to.offset_m[0] + x * c + y * s, to.offset_m[1] - x * s + y * c];
-                curve.statics().touch_windup_rad(offset_m)?
-            }
+        let here = match engaged == seat {
+            true => to.touch_windup_rad,
+            // It has not rolled on since it engaged.
+            false => curve.statics().touch_windup_rad(rotated(to.offset_m, -from.turned_rad))?,
         };
         Some((curve, from.touch_windup_rad - here))
     }
 
     /// Windup at which the first sprag takes load and that at which the first comes to the end of its curve, with its seat.
-    fn windups(&self, turned: usize, shift_m: [f64; 2]) -> Option<(f64, f64, usize)> {
+    fn windups(&self, turned: usize) -> Option<(f64, f64, usize)> {
         let mut range: Option<(f64, f64, usize)> = None;
         for engaged in 0..self.seats.len() {
             let seat = self.moved_on(engaged, turned);
-            let Some((curve, lag)) = self.lag(engaged, seat, shift_m) else { continue };
+            let Some((curve, lag)) = self.lag(engaged, seat) else { continue };
             let (from, until) = (-lag, curve.end_windup_rad() - lag);
             let (a, b, at) = range.unwrap_or((from, until, seat));
             range = Some((a.min(from), b.min(until), if until < b { seat } else { at }));
@@ -181,15 +200,15 @@ impl RunOut {
 
     /// Where the clutch comes to its end with the axes held, in the round in which that is first.
     pub fn end(&self) -> Stop {
-        let ends = self.turns.iter().map(|&turned| self.end_of(turned, [0.0; 2]));
+        let ends = self.turns.iter().map(|&turned| self.end_of(turned));
         ends.min_by(|a, b| a.torque_nm.total_cmp(&b.torque_nm)).unwrap_or(Stop::EMPTY)
     }
 
-    fn end_of(&self, turned: usize, shift_m: [f64; 2]) -> Stop {
-        let Some((from, until, seat)) = self.windups(turned, shift_m) else { return Stop::EMPTY };
+    fn end_of(&self, turned: usize) -> Stop {
+        let Some((from, until, seat)) = self.windups(turned) else { return Stop::EMPTY };
         let reason = self.seats[seat].curve.as_ref().map_or(EndReason::NoConvergence, |c| c.end().0);
         // A sprag at its end before any other touches: nothing is carried.
-        let last = self.round(turned, until, shift_m).ok().filter(|_| until > from);
+        let last = self.round(turned, until, [0.0; 2]).ok().filter(|_| until > from);
         Stop { torque_nm: last.map_or(0.0, |r| r.torque_nm()), seat: Some(seat), reason }
     }
 
@@ -198,31 +217,30 @@ impl RunOut {
     /// # Errors
     /// [`Stop`] where a sprag comes to its end before, or no balance of a race that gives way was found.
     pub fn carrying(&self, turned: usize, torque_nm: f64) -> Result<Round, Stop> {
-        let held = self.held(turned, torque_nm, [0.0; 2])?;
+        let held = self.held(turned, torque_nm)?;
         if self.stiffness_n_per_m.is_infinite() {
             return Ok(held);
         }
         self.given_way(held, torque_nm)
     }
 
-    /// With the shift as it is: by bracketing in the windup.
-    fn held(&self, turned: usize, torque_nm: f64, shift_m: [f64; 2]) -> Result<Round, Stop> {
-        let stop = self.end_of(turned, shift_m);
-        let (Some((from, until, _)), true) = (self.windups(turned, shift_m), stop.torque_nm >= torque_nm)
-        else {
+    /// The axes held: by bracketing in the windup.
+    fn held(&self, turned: usize, torque_nm: f64) -> Result<Round, Stop> {
+        let stop = self.end_of(turned);
+        let (Some((from, until, _)), true) = (self.windups(turned), stop.torque_nm >= torque_nm) else {
             return Err(stop);
         };
-        let miss = |w: f64| self.round(turned, w, shift_m).map_or(f64::NAN, |r| r.torque_nm() - torque_nm);
+        let miss = |w: f64| self.round(turned, w, [0.0; 2]).map_or(f64::NAN, |r| r.torque_nm() - torque_nm);
         let (a, b) = (miss(from), miss(until));
         let w = root::bracketed(from, until, a, b, 1e-15 * (until - from), miss).ok_or(stop)?;
-        self.round(turned, w, shift_m).map_err(|_| stop)
+        self.round(turned, w, [0.0; 2]).map_err(|_| stop)
     }
 
     /// The inner race on its bearings: radial forces of the sprags = stiffness times shift, by Newton in (windup, shift),
     /// each in units of what winds a sprag up alike.
     fn given_way(&self, held: Round, torque_nm: f64) -> Result<Round, Stop> {
         let turned = held.turned;
-        let none = Stop { reason: EndReason::NoConvergence, ..self.end_of(turned, [0.0; 2]) };
+        let none = Stop { reason: EndReason::NoConvergence, ..self.end_of(turned) };
         // A shift of the race by `per_rad` is about as much to a sprag as a radian of windup: OA tan omega.
         let normal: f64 = held.loads.iter().map(|l| l.normal_n).sum();
         let per_rad = torque_nm / normal;

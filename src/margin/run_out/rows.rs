@@ -123,7 +123,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
         }
         let (value, name) = match found {
             Some((value, sprag)) => (value, format!("{}: {}", limit.name, ring.words(&sprag))),
-            None => (0.0, format!("{}: no sprag carries", limit.name)),
+            None => (0.0, format!("{}: no equilibrium of the sprags was found", limit.name)),
         };
         // What is not reached before the end has none: `run-out-end` is that of all.
         let over = |s: &Survey| worst(s).map_or(f64::NAN, |(value, _)| value - allowed);
