@@ -65,6 +65,9 @@ pub struct RunOut {
     pub carrier: Carrier,
     /// Radial stiffness of the bearings, N/m; infinite: stiff.
     pub stiffness_n_per_m: f64,
+    /// Where the clutch comes to its end: in the round in which that is first with the axes held; where the bearings give
+    /// way, at most there, and at the last torque that was balanced.
+    pub end: Stop,
 }
 
 /// Rounds looked at in one turn of the clutch against the offset: every 30 deg, or every place where there are fewer.
@@ -94,13 +97,16 @@ impl RunOut {
             Seat { azimuth_rad, offset_m, turned_rad, curve, touch_windup_rad: g.unwrap_or(0.0) }
         };
         let rounds = if e.turning { count.min(TURNS) } else { 1 };
-        Some(Self {
+        let mut ring = Self {
             seats: (0..count).map(seat).collect(),
             offset_m: e.offset_m,
             turns: (0..rounds).map(|k| k * count / rounds).collect(),
             carrier: e.carrier,
             stiffness_n_per_m: e.stiffness_n_per_m,
-        })
+            end: Stop::EMPTY,
+        };
+        ring.end = ring.find_end();
+        Some(ring)
     }
 
     /// Azimuths, rad, at which a sprag does not touch both races.

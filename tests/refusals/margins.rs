@@ -68,7 +68,7 @@ fn axes_apart() {
     case("offset_mm = inf", "offset_mm", &["inf"]);
     case("turning = true", "offset_mm", &["add offset_mm"]);
     case("offset_mm = 0.01, turning = 1", "turning", &["true or false"]);
-    case("offset_mm = 0.25", "offset_mm", &["less than 0.25 mm", "least height, 8.08 mm", "half of what a dial indicator reads"]);
+    case("offset_mm = 0.26", "offset_mm", &["less than 0.25 mm", "least height, 8.08 mm", "half of what a dial indicator reads"]);
     case("offset_mm = 9.0", "offset_mm", &["less than 0.25 mm"]);
     case("offset_mm = 0.01, bearing_stiffness_n_per_um = -1", "bearing_stiffness_n_per_um", &["at least 0"]);
     case("offset_mm = 0.01, turning = true, bearing_stiffness_n_per_um = 0", "turning", &["remove turning", "floats"]);

@@ -92,7 +92,7 @@ impl Section {
         let asked = [("nominal", limits.nominal_torque_nm), ("peak", limits.peak_torque_nm)];
         let found: Vec<(&str, Survey)> =
             asked.into_iter().filter_map(|(name, torque)| Some((name, ring.survey(torque?).ok()?))).collect();
-        let stop = ring.end();
+        let stop = ring.end;
         Self {
             offset_um: Unit::Micrometre.from_si(ring.offset_m),
             indicator_um: Unit::Micrometre.from_si(2.0 * ring.offset_m),

@@ -198,10 +198,19 @@ impl RunOut {
         range
     }
 
-    /// Where the clutch comes to its end with the axes held, in the round in which that is first.
-    pub fn end(&self) -> Stop {
+    pub(super) fn find_end(&self) -> Stop {
         let ends = self.turns.iter().map(|&turned| self.end_of(turned));
-        ends.min_by(|a, b| a.torque_nm.total_cmp(&b.torque_nm)).unwrap_or(Stop::EMPTY)
+        let held = ends.min_by(|a, b| a.torque_nm.total_cmp(&b.torque_nm)).unwrap_or(Stop::EMPTY);
+        let balanced = |torque: f64| self.survey(torque).is_ok();
+        if self.stiffness_n_per_m.is_infinite() || balanced(held.torque_nm * (1.0 - 1e-9)) {
+            return held;
+        }
+        let (mut last, mut beyond) = (0.0, held.torque_nm);
+        for _ in 0..16 {
+            let torque = 0.5 * (last + beyond);
+            if balanced(torque) { last = torque } else { beyond = torque }
+        }
+        Stop { torque_nm: last, ..held }
     }
 
     fn end_of(&self, turned: usize) -> Stop {
@@ -317,5 +326,5 @@ impl RunOut {
 }
 
 impl Stop {
-    const EMPTY: Self = Self { torque_nm: 0.0, seat: None, reason: EndReason::NoConvergence };
+    pub(super) const EMPTY: Self = Self { torque_nm: 0.0, seat: None, reason: EndReason::NoConvergence };
 }

@@ -94,7 +94,7 @@ const CAPACITY: f64 = 1e-5;
 /// Rows of the worst sprag; a torque beyond the end shows its demand there and continues as the shortfall of torque.
 /// `capacities` asks for the torques at which the limits would be reached.
 pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capacities: bool) -> Vec<Margin> {
-    let end = ring.end().torque_nm;
+    let end = ring.end.torque_nm;
     let mut rows = Vec::new();
     let asked = limits.peak_torque_nm.or(limits.nominal_torque_nm);
     if let Some(torque) = asked {
@@ -155,7 +155,7 @@ fn reached(ring: &RunOut, surveys: &[Survey], over: &dyn Fn(&Survey) -> f64) -> 
 }
 
 fn end_row(ring: &RunOut, torque: f64, end: f64) -> Margin {
-    let stop = ring.end();
+    let stop = ring.end;
     let who = stop.seat.map_or("no sprag touches both races".to_owned(), |seat| {
         format!("the sprag {}, {}", degrees(ring.seats[seat].azimuth_rad), stop.reason.name())
     });
