@@ -207,7 +207,7 @@ fn place() -> sprag_design::profile::Profile {
 /// 3 and 80 sprags, offsets larger than sprags can follow: numbers or named outcomes.
 #[test]
 fn extremes_are_answered() {
-    let three = [("count = 12 ", "count = 3 ")];
+    let three = [three()];
     let mut eighty = vec![("count = 12 ", "count = 80 ")];
     eighty.extend(LARGER);
     for (name, changes) in [("3", &three[..]), ("12", &[]), ("80", &eighty[..])] {
@@ -252,4 +252,34 @@ fn extremes_are_answered() {
             }
         }
     }
+}
+
+/// A profile that ends soon: sprags in the widest gaps do not touch both races and carry nothing, the others all.
+#[test]
+fn sprags_that_do_not_touch_are_named() {
+    let short = [("radius_mm = 4.15, until_rad = 0.45", "radius_mm = 4.15, until_rad = 0.14")];
+    let (design, state) = off_centre("offset_mm = 0.1", &short);
+    let ring = RunOut::new(&design, &state).unwrap();
+    let empty = ring.empty_rad();
+    assert!(empty.len() > 1 && empty.len() < 7 && empty[0] == 0.0, "{empty:?}");
+    assert!(ring.end.torque_nm > 0.0);
+    let survey = ring.survey(0.5 * ring.end.torque_nm).unwrap();
+    assert_eq!(survey.unloaded(), empty.len());
+    let round = &survey.rounds[0];
+    assert!((round.torque_nm() / survey.torque_nm - 1.0).abs() < 1e-9);
+    for l in &round.loads {
+        assert_eq!(l.normal_n > 0.0, !empty.contains(&ring.seats[l.seat].azimuth_rad));
+    }
+    // Nobody touches: the end is at no torque, and every row says so in a number.
+    let none = [("radius_mm = 4.15, until_rad = 0.45", "radius_mm = 4.15, until_rad = 0.1201"), three()];
+    let (design, state) = off_centre("offset_mm = 0.2, turning = true", &none);
+    let ring = RunOut::new(&design, &state).unwrap();
+    for row in run_out_margins(&design, &design.limits, &ring, true) {
+        assert!(row.demand.is_finite() && row.margin.is_finite() && row.allowable.is_finite(), "{row:?}");
+    }
+    println!("{:?} {:?}", ring.end, ring.empty_rad());
+}
+
+fn three() -> (&'static str, &'static str) {
+    ("count = 12 ", "count = 3 ")
 }
