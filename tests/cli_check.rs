@@ -116,6 +116,34 @@ fn table_and_page_are_written_whole() {
 }
 
 #[test]
+fn a_torque_that_is_not_carried_is_said_in_its_rows() {
+    let folder = Folder::new();
+    // The profile ends at 200 Nm.
+    let beyond = folder.changed(MULTI, &[("peak_torque_nm = 110.0", "peak_torque_nm = 300.0")]);
+    let output = run(&["check", &beyond, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let value = json(&output);
+    let rows = value["margins"].as_array().unwrap();
+    let named =
+        |code: &str| rows.iter().find(|r| r["code"] == code).unwrap()["name"].as_str().unwrap().to_owned();
+    for code in ["hertz-peak-inner", "hoop-outer", "end-of-profile"] {
+        assert!(named(code).contains("not carried") && named(code).contains("200.43"), "{}", named(code));
+    }
+    assert!(!named("hertz-nominal-inner").contains("not carried"));
+}
+
+#[test]
+fn a_steady_overrun_has_no_slip_row_and_says_why() {
+    let text = stdout(&run(&["check", "designs/huang2017-bench.toml"]));
+    assert!(!text.contains("slip:overrun") && !text.contains("contact:overrun"), "{text}");
+    assert!(
+        text.contains("No slip or contact row for overrun: in steady overrun the inner contact slides"),
+        "{text}"
+    );
+    assert!(text.contains("slip:step-up"));
+}
+
+#[test]
 fn axes_apart_are_answered_round_the_circumference() {
     let folder = Folder::new();
     // Without the key there are no rows and no section.

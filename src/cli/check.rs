@@ -12,7 +12,7 @@ use super::left_out::{left_out, off_centre};
 use super::output;
 use super::parts::{self, Answer};
 use super::{Context, interrupt::Interrupt, progress::Progress};
-use crate::design::{Design, Scenario};
+use crate::design::{Design, Scenario, ScenarioKind};
 use crate::margin::{
     LoadState, Margin, NoMargins, OverrunCurve, RunOut, lift_off_rad_s, load_margins, load_state,
     overrun_curve, run_out_margins, scene_margins,
@@ -161,7 +161,7 @@ fn text(design: &Design, check: &Check, body: &Body, colour: bool) -> String {
     let mut out = format!("{}  {}\n\n{table}\n", design.name, &design.hash.get(..12).unwrap_or(&design.hash));
     out.push_str(&body.verdict());
     out.push('\n');
-    for line in body.remarks() {
+    for line in body.remarks().into_iter().chain(overrunning(design)) {
         out.push_str(&line);
         out.push('\n');
     }
@@ -172,6 +172,19 @@ fn text(design: &Design, check: &Check, body: &Body, colour: bool) -> String {
         ));
     }
     out
+}
+
+/// Why steady overruns have no rows, where the design has any.
+fn overrunning(design: &Design) -> Option<String> {
+    let steady = design.scenarios.iter().filter(|s| matches!(s.kind, ScenarioKind::Overrun { .. }));
+    let names: Vec<&str> = steady.map(|s| s.name.as_str()).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "No slip or contact row for {}: in steady overrun the inner contact slides and nothing is to stick; limits \
+             keep_contact_to_rpm and lift_off_by_rpm hold it",
+            names.join(", ")
+        )
+    })
 }
 
 /// A margin in percent; a limit that nothing demands has none.

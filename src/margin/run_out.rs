@@ -59,7 +59,7 @@ pub struct RunOut {
     pub seats: Vec<Seat>,
     /// Distance of the axes, m.
     pub offset_m: f64,
-    /// By how many places the engaged sprags are moved on in each round; [0] where the offset stays with them.
+    /// By how many places the engaged sprags are moved on in each round; 0 alone where the offset stays with them.
     pub turns: Vec<usize>,
     /// The race that the offset stays with while the clutch winds up.
     pub carrier: Carrier,

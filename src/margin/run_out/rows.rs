@@ -2,7 +2,7 @@
 
 use super::{RunOut, SpragLoad, Survey};
 use crate::design::{Design, Limits};
-use crate::margin::load::{beyond, grip};
+use crate::margin::load::{beyond, grip, said};
 use crate::margin::{Margin, ratio};
 use crate::numeric::root;
 use crate::wedge::StaticPoint;
@@ -130,7 +130,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
         let capacity = capacities.then(|| reached(ring, &surveys, &over)).flatten();
         rows.push(Margin {
             code: limit.code.into(),
-            name,
+            name: said(&name, torque, end),
             demand: value * limit.per_si,
             allowable: allowed * limit.per_si,
             unit: limit.unit,
