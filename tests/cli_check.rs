@@ -116,6 +116,80 @@ fn table_and_page_are_written_whole() {
 }
 
 #[test]
+fn a_torque_that_is_not_carried_is_said_in_its_rows() {
+    let folder = Folder::new();
+    // The profile ends at 200 Nm.
+    let beyond = folder.changed(MULTI, &[("peak_torque_nm = 110.0", "peak_torque_nm = 300.0")]);
+    let output = run(&["check", &beyond, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let value = json(&output);
+    let rows = value["margins"].as_array().unwrap();
+    let named =
+        |code: &str| rows.iter().find(|r| r["code"] == code).unwrap()["name"].as_str().unwrap().to_owned();
+    for code in ["hertz-peak-inner", "hoop-outer", "end-of-profile"] {
+        assert!(named(code).contains("not carried") && named(code).contains("200.43"), "{}", named(code));
+    }
+    assert!(!named("hertz-nominal-inner").contains("not carried"));
+}
+
+#[test]
+fn a_steady_overrun_has_no_slip_row_and_says_why() {
+    let text = stdout(&run(&["check", "designs/huang2017-bench.toml"]));
+    assert!(!text.contains("slip:overrun") && !text.contains("contact:overrun"), "{text}");
+    assert!(
+        text.contains("No slip or contact row for overrun: in steady overrun the inner contact slides"),
+        "{text}"
+    );
+    assert!(text.contains("slip:step-up"));
+}
+
+#[test]
+fn axes_apart_are_answered_round_the_circumference() {
+    let folder = Folder::new();
+    // Without the key there are no rows and no section.
+    let even = json(&run(&["check", MULTI, "--json"]));
+    assert!(even["run_out"].is_null());
+    let codes = |value: &serde_json::Value| {
+        let rows = value["margins"].as_array().unwrap();
+        rows.iter().filter(|r| r["code"].as_str().unwrap().starts_with("run-out-")).count()
+    };
+    assert_eq!(codes(&even), 0);
+    let apart =
+        folder.changed(MULTI, &[("[races]", "[races]\neccentricity = { offset_mm = 0.01, turning = true }")]);
+    let (csv, html) = (folder.path("margins.csv"), folder.path("check.html"));
+    let output = run(&["check", &apart, "--json", "--csv", &csv, "--report", &html]);
+    assert_eq!(output.status.code(), Some(0));
+    let value = json(&output);
+    assert_eq!(codes(&value), 10);
+    let section = &value["run_out"];
+    assert_eq!((section["indicator_um"].as_f64(), section["turning"].as_bool()), (Some(20.0), Some(true)));
+    assert!(section["bearing_stiffness_n_per_um"].is_null() && section["stays_with"] == "outer-race");
+    let nominal = &section["at"][0];
+    assert_eq!((nominal["torque"].as_str(), nominal["torque_nm"].as_f64()), (Some("nominal"), Some(90.0)));
+    let share = nominal["largest_share"].as_f64().unwrap();
+    assert!((1.15..1.19).contains(&share), "{share}");
+    let sprags = nominal["sprags"].as_array().unwrap();
+    let mean = sprags.iter().map(|s| s["share"].as_f64().unwrap()).sum::<f64>() / 12.0;
+    assert!(sprags.len() == 12 && (mean - 1.0).abs() < 1e-12);
+    // The assumption that it lifts is no longer left out; what stays is named with its size.
+    let left_out = value["left_out"].to_string();
+    assert!(
+        !left_out.contains("eccentric and tilted") && left_out.contains("coupling of neighbouring sprags")
+    );
+    assert!(std::fs::read_to_string(csv).unwrap().contains("run-out-hertz-peak-inner,"));
+    let page = is_self_contained(html);
+    assert!(
+        page.contains("Load round the circumference")
+            && page.contains("180 deg from the widest gap, engaged at 0 deg")
+    );
+    let text = stdout(&run(&["check", &apart]));
+    assert!(
+        text.contains("Axes apart by 10.00 µm (indicator 20.00 µm), the engaged clutch turns against it"),
+        "{text}"
+    );
+}
+
+#[test]
 fn a_malformed_design_is_code_2_in_words_and_as_an_object_and_writes_nothing() {
     let folder = Folder::new();
     let bad = folder.changed(MULTI, &[("count = 12 ", "count = -12 ")]);

@@ -4,17 +4,18 @@ mod body;
 mod charts;
 mod overrun;
 mod page;
+mod run_out;
 mod running;
 
 use super::exit::{Exit, Failure};
-use super::left_out::left_out;
+use super::left_out::{left_out, off_centre};
 use super::output;
 use super::parts::{self, Answer};
 use super::{Context, interrupt::Interrupt, progress::Progress};
-use crate::design::{Design, Scenario};
+use crate::design::{Design, Scenario, ScenarioKind};
 use crate::margin::{
-    LoadState, Margin, NoMargins, OverrunCurve, lift_off_rad_s, load_margins, load_state, overrun_curve,
-    scene_margins,
+    LoadState, Margin, NoMargins, OverrunCurve, RunOut, lift_off_rad_s, load_margins, load_state,
+    overrun_curve, run_out_margins, scene_margins,
 };
 use crate::report::Unit;
 use crate::scenario::Settings;
@@ -54,6 +55,8 @@ struct Check {
     scene_error: Option<f64>,
     lift_off_rad_s: Option<f64>,
     overrun: OverrunCurve,
+    /// Where the design's axes lie apart.
+    run_out: Option<RunOut>,
 }
 
 /// Run the command.
@@ -77,13 +80,19 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         searched_to_rad_s: LIFT_OFF_TO_RAD_S,
         overrun: overrun::Section::new(&check.overrun),
         running: running::Section::new(&design, &check.state),
+        run_out: check.run_out.as_ref().map(|ring| run_out::Section::new(&design, &check.state, ring)),
+    };
+    let list = left_out(&design.clutch);
+    let left_out = match &source.run_out {
+        Some(section) => off_centre(list, section.left_out()),
+        None => list,
     };
     let body = Body::new(&check.rows, source);
     let held = body.pass;
     let answer = Answer {
         design: &design,
         run_time_s,
-        left_out: left_out(&design.clutch),
+        left_out,
         error_estimate: Some(serde_json::json!({
             "statics_relative": check.state.curve.truncation(),
             "scenario_margins": check.scene_error,
@@ -104,6 +113,10 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
 fn compute(design: &Design, context: &Context) -> Result<Check, Failure> {
     let state = load_state(design).map_err(|e: NoMargins| Failure::malformed(e.to_string()))?;
     let mut rows = load_margins(design, &design.limits, true, &state);
+    let run_out = RunOut::new(design, &state);
+    if let Some(ring) = &run_out {
+        rows.extend(run_out_margins(design, &design.limits, ring, true));
+    }
     let progress = context.progress("margins", "scenarios", Some(design.scenarios.len() as u64));
     let scenes: Vec<Option<(Vec<Margin>, f64)>> = design
         .scenarios
@@ -121,7 +134,7 @@ fn compute(design: &Design, context: &Context) -> Result<Check, Failure> {
     let up_to = overrun::up_to_rad_s(&design.limits, lift_off_rad_s, track_m);
     let overrun = overrun_curve(design, &state, up_to)
         .map_err(|e| Failure::malformed(format!("no wedge curve: {e}")))?;
-    Ok(Check { state, rows, scene_error, lift_off_rad_s, overrun })
+    Ok(Check { state, rows, scene_error, lift_off_rad_s, overrun, run_out })
 }
 
 /// Margins of one scenario and their error; nothing once the user asked to stop.
@@ -148,7 +161,7 @@ fn text(design: &Design, check: &Check, body: &Body, colour: bool) -> String {
     let mut out = format!("{}  {}\n\n{table}\n", design.name, &design.hash.get(..12).unwrap_or(&design.hash));
     out.push_str(&body.verdict());
     out.push('\n');
-    for line in body.remarks() {
+    for line in body.remarks().into_iter().chain(overrunning(design)) {
         out.push_str(&line);
         out.push('\n');
     }
@@ -159,6 +172,19 @@ fn text(design: &Design, check: &Check, body: &Body, colour: bool) -> String {
         ));
     }
     out
+}
+
+/// Why steady overruns have no rows, where the design has any.
+fn overrunning(design: &Design) -> Option<String> {
+    let steady = design.scenarios.iter().filter(|s| matches!(s.kind, ScenarioKind::Overrun { .. }));
+    let names: Vec<&str> = steady.map(|s| s.name.as_str()).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "No slip or contact row for {}: in steady overrun the inner contact slides and nothing is to stick; limits \
+             keep_contact_to_rpm and lift_off_by_rpm hold it",
+            names.join(", ")
+        )
+    })
 }
 
 /// A margin in percent; a limit that nothing demands has none.

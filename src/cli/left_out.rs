@@ -33,12 +33,12 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
             "not estimated",
         ),
         LeftOut::new(
-            "unequal sharing of the load between the sprags",
+            UNEQUAL,
             "all sprags are taken to carry the same force (assumption of the paper)",
             "not estimated",
         ),
         LeftOut::new(
-            "eccentric and tilted races",
+            ECCENTRIC,
             "the races are taken to be concentric (assumption of the paper)",
             "not estimated",
         ),
@@ -84,6 +84,16 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
     }
     list
 }
+
+/// The same where every sprag was looked at in its own gap: `instead` of the two assumptions that this lifts.
+pub fn off_centre(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
+    let lifted = [UNEQUAL, ECCENTRIC];
+    let kept = list.into_iter().filter(|e| !lifted.contains(&e.term.as_str()));
+    kept.chain(instead.iter().cloned()).collect()
+}
+
+const UNEQUAL: &str = "unequal sharing of the load between the sprags";
+const ECCENTRIC: &str = "eccentric and tilted races";
 
 /// What is left out along the axis.
 fn lengthwise(clutch: &Clutch) -> Option<LeftOut> {

@@ -9,7 +9,7 @@ use super::file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
 use super::limits_file::LimitsFile;
 use super::{Clutch, ContactLaw, Friction, Limits, Races, Spring, StressState};
-use super::{axial, geometry, running, steels};
+use super::{axial, eccentricity, geometry, running, steels};
 
 /// mm to m. Division, because 1e-3 is no binary fraction: 4.68 mm becomes the double nearest to 4.68e-3 m
 /// oftener than by a product.
@@ -42,6 +42,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
     let made = races?;
     let sprags = geometry::sprags(&file.sprags, &made, materials.as_ref(), out);
     let (races, sprags, running) = running::running(file, made, sprags?, materials.as_ref()?, out)?;
+    eccentricity::check(&races, &sprags, out);
     Some(Clutch {
         sprags,
         races,
@@ -83,6 +84,7 @@ fn races(file: &RacesFile, out: &mut Findings) -> Option<Races> {
         inner_inertia_kg_m2: file.inner_inertia_kg_m2,
         outer_inertia_kg_m2: file.outer_inertia_kg_m2,
         viscous_damping_nm_s_per_rad: file.viscous_damping_nm_s_per_rad,
+        eccentricity: file.eccentricity.as_ref().map(eccentricity::si),
     })
 }
 

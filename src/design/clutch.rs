@@ -70,6 +70,34 @@ pub struct Races {
     pub outer_inertia_kg_m2: f64,
     /// Viscous damping C_rl between the races, N m s/rad.
     pub viscous_damping_nm_s_per_rad: f64,
+    /// How the axes of the two tracks lie; `None`: on one another.
+    pub eccentricity: Option<Eccentricity>,
+}
+
+/// Two tracks whose axes are parallel but apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Eccentricity {
+    /// Distance of the axes, m: the gap runs from the drawn one less this to the drawn one plus this. A dial indicator on
+    /// one track reads twice this as the other turns (total indicator reading).
+    pub offset_m: f64,
+    /// Whether the engaged clutch turns against the offset (races in two sets of bearings that are out of line), so that
+    /// each sprag passes every gap under load. Otherwise the offset stays with the sprags (a track that runs out).
+    pub turning: bool,
+    /// Which race the offset stays with while the clutch winds up.
+    pub carrier: Carrier,
+    /// Radial stiffness of what holds the two axes apart, N/m: 0 a race that floats on the sprags, infinite: held.
+    pub stiffness_n_per_m: f64,
+}
+
+/// The race that an offset of the axes stays with. Sprags roll on along both while they wind up, and so along a gap that
+/// narrows or widens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Carrier {
+    /// Its track runs out, or it stands and the bearings are off centre.
+    #[default]
+    OuterRace,
+    /// The same of the inner race.
+    InnerRace,
 }
 
 /// How one track came from its radius as made to that as run, without load.

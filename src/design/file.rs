@@ -162,6 +162,38 @@ pub(super) struct RacesFile {
     pub viscous_damping_nm_s_per_rad: f64,
     /// Interference fits of the races with shaft and housing; absent: loose. The radii above are then as made.
     pub press_fit: Option<PressFitFile>,
+    /// Axes of the two tracks apart by a known amount; absent: concentric.
+    pub eccentricity: Option<EccentricityFile>,
+}
+
+/// Tracks off centre, for the rows run-out-* of `check`: every sprag in its own gap. Not a tolerance: [tolerances] has
+/// run_out_mm for an amount that is not known.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct EccentricityFile {
+    /// Distance between the axes of the two tracks, mm: half of what a dial indicator reads (TIR).
+    #[schemars(extend("minimum" = 0))]
+    pub offset_mm: f64,
+    /// Whether the engaged clutch turns against the offset (bearings out of line); absent or false: the offset stays with
+    /// the sprags (a track that runs out, or a clutch that stands).
+    #[serde(default)]
+    pub turning: bool,
+    /// The race that the offset stays with while the clutch winds up: the one whose track runs out, or that stands while
+    /// the bearings are off centre; absent: outer-race.
+    #[serde(default)]
+    pub stays_with: CarrierFile,
+    /// Radial stiffness of the bearings of both races together, N/um; 0: a race that floats on the sprags once they
+    /// are engaged; absent: stiff, the offset stays as it is.
+    #[schemars(extend("minimum" = 0))]
+    pub bearing_stiffness_n_per_um: Option<f64>,
+}
+
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum CarrierFile {
+    #[default]
+    OuterRace,
+    InnerRace,
 }
 
 /// Interference fits at the reference temperature. Shaft and housing are of the material, the width and the temperature

@@ -10,6 +10,7 @@ mod contact_file;
 mod diagnostic;
 mod document;
 mod draft;
+mod eccentricity;
 mod edit;
 mod file;
 mod findings;
@@ -30,8 +31,8 @@ mod tolerances_file;
 mod variables;
 
 pub use clutch::{
-    Axial, Clutch, ContactLaw, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials, Races, Running,
-    Sprags, Spring, StressState, TrackRun,
+    Axial, Carrier, Clutch, ContactLaw, Eccentricity, EndProfile, Flanks, Friction, InnerArc, MassSource,
+    Materials, Races, Running, Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem};
 pub use draft::{Draft, KINETIC_SHARE};

@@ -27,7 +27,8 @@ pub(super) struct TolerancesFile {
     #[serde(default)]
     #[schemars(extend("minimum" = 0))]
     pub sprag_inner_radius_mm: f64,
-    /// Eccentricity of the races, mm: the gap at the worst sprag is this much narrower or wider.
+    /// Eccentricity of the races, mm, its amount and direction unknown: all sprags are looked at in a gap that much narrower
+    /// or wider. A known one is resolved round the circumference: eccentricity in [races].
     #[serde(default)]
     #[schemars(extend("minimum" = 0))]
     pub run_out_mm: f64,
@@ -61,7 +62,7 @@ pub struct Tolerances {
     pub sprag_outer_radius_m: f64,
     /// All r_ik together, m.
     pub sprag_inner_radius_m: f64,
-    /// Eccentricity of the races, m.
+    /// Eccentricity of the races of unknown amount, all sprags in the worst gap, m.
     pub run_out_m: f64,
     /// mu_s.
     pub friction: f64,

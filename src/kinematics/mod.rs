@@ -79,6 +79,21 @@ pub fn beta(l: &Lengths, centre_distance_m: f64) -> Option<(Dual, Dual)> {
     Some((sin, half * (-2.0) + 1.0))
 }
 
+/// The same where the inner race's axis O_i lies off that of the outer race, O: at `offset_m` = (along OC_e outward,
+/// across it towards positive azimuth), m. OC_i counts from O_i, OC_e from O, and beta is the azimuth of the normal at A
+/// ahead of that at B: the triangle O_i C_i C_e, turned by the azimuth of C_e seen from O_i.
+pub fn beta_off_centre(l: &Lengths, centre_distance_m: f64, offset_m: [Dual; 2]) -> Option<(Dual, Dual)> {
+    let [along, across] = offset_m;
+    if along.v == 0.0 && across.v == 0.0 {
+        return beta(l, centre_distance_m);
+    }
+    let x = l.oc_e - along;
+    let reach = (x * x + across * across).sqrt();
+    let (sin, cos) = beta(&Lengths { oc_e: reach, ..*l }, centre_distance_m)?;
+    let (sin_t, cos_t) = (across / reach, x / reach);
+    Some((sin * cos_t - cos * sin_t, cos * cos_t + sin * sin_t))
+}
+
 /// The centroid seen from O.
 #[derive(Debug, Clone, Copy)]
 pub struct Centroid {

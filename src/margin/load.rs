@@ -65,7 +65,8 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             ("hertz-nominal-inner", "Hertz pressure, inner contact, nominal torque", p.hertz_inner_pa),
             ("hertz-nominal-outer", "Hertz pressure, outer contact, nominal torque", p.hertz_outer_pa),
         ] {
-            push(code, name, value * MPA, allowed * MPA, "MPa", beyond(ratio(value, allowed), torque, end));
+            let margin = beyond(ratio(value, allowed), torque, end);
+            push(code, &said(name, torque, end), value * MPA, allowed * MPA, "MPa", margin);
         }
     }
     for y in &YIELDS {
@@ -76,7 +77,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         let (unit, per_si) = y.unit;
         push(
             y.code,
-            y.name,
+            &said(y.name, torque, end),
             value * per_si,
             allowed * per_si,
             unit,
@@ -92,7 +93,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             ] {
                 push(
                     code,
-                    name,
+                    &said(name, torque, end),
                     value * MPA,
                     allowed * MPA,
                     "MPa",
@@ -105,7 +106,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             let Some((allowed, required)) = (hoop.allowed)(limits) else { continue };
             let value = hoop.demand_pa(&design.clutch, elastic, &p);
             let margin = beyond(ratio(value, allowed), torque, end);
-            push(hoop.code, hoop.name, value * MPA, allowed * MPA, "MPa", margin);
+            push(hoop.code, &said(hoop.name, torque, end), value * MPA, allowed * MPA, "MPa", margin);
             if !required {
                 shown_only.push(hoop.code);
             }
@@ -113,7 +114,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         for below in &SUBSURFACE {
             let Some((allowed, from_m)) = (below.allowed)(limits) else { continue };
             let (value, depth_m) = below.demand(design, from_m, &p);
-            let name = format!("{}, {:.3} mm deep", below.name, depth_m * 1e3);
+            let name = said(&format!("{}, {:.3} mm deep", below.name, depth_m * 1e3), torque, end);
             let margin = beyond(ratio(value, allowed), torque, end);
             push(below.code, &name, value * MPA, allowed * MPA, "MPa", margin);
         }
@@ -122,7 +123,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         let margin = if end >= torque { ratio(p.contact_turn_rad, turn) } else { end / torque - 1.0 };
         push(
             "end-of-profile",
-            "contact turn on the profile, peak torque",
+            &said("contact turn on the profile, peak torque", torque, end),
             p.contact_turn_rad,
             turn,
             "rad",
@@ -134,7 +135,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             let value = body_stress_pa(design, state, &p);
             let name = "compression of the sprag's body half way between the contacts, peak torque";
             let margin = beyond(ratio(value, allowed), torque, end);
-            push("body-yield", name, value * MPA, allowed * MPA, "MPa", margin);
+            push("body-yield", &said(name, torque, end), value * MPA, allowed * MPA, "MPa", margin);
         }
         let mu = design.clutch.friction.static_;
         let grip = largest_grip(design, limits, state, &p);
@@ -261,8 +262,18 @@ fn clearance_up_to_m(design: &Design, state: &LoadState, peak: &StaticPoint) -> 
 }
 
 /// Beyond the curve's end the stress rows continue as the torque shortfall, so that a search sees a slope.
-fn beyond(margin: f64, torque: f64, end: f64) -> f64 {
+pub(super) fn beyond(margin: f64, torque: f64, end: f64) -> f64 {
     if end >= torque { margin } else { margin.min(end / torque - 1.0) }
+}
+
+/// The name of a row, with word that its torque is not carried where the curve ends below it.
+pub(super) fn said(name: &str, torque_nm: f64, end_nm: f64) -> String {
+    match end_nm >= torque_nm {
+        true => name.to_owned(),
+        false => format!(
+            "{name}: not carried, the demand is that at the end of the curve, {end_nm:.4} Nm, the margin at most the torque's"
+        ),
+    }
 }
 
 /// Static point at `torque`, or at the curve's end if that comes first.

@@ -9,15 +9,17 @@ mod gap;
 mod hoop;
 mod load;
 mod overrun;
+mod run_out;
 mod scenes;
 mod subsurface;
 
 pub use capacity::{Course, courses, nominal_capacity};
 pub use load::{LoadState, load_state};
 pub use overrun::{OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
+pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
 
-use crate::design::{Design, Limits, Scenario};
+use crate::design::{Design, Limits, Scenario, ScenarioKind};
 use crate::scenario::{Settings, place_profile};
 use crate::wedge::{NoCurve, WedgeCurve};
 
@@ -110,7 +112,8 @@ pub fn load_margins(design: &Design, limits: &Limits, capacities: bool, state: &
     rows
 }
 
-/// The two margins of one scenario, slip and contact. Scenarios know nothing of one another, so a caller may
+/// The two margins of one scenario, slip and contact; none of a steady overrun, where A slides and nothing is to
+/// stick (limits `keep-contact` and `lift-off` hold that). Scenarios know nothing of one another, so a caller may
 /// take them in parallel.
 pub fn scene_margins(
     scenario: &Scenario,
@@ -118,7 +121,10 @@ pub fn scene_margins(
     required: bool,
     settings: &Settings,
 ) -> Vec<Margin> {
-    scene_rows(scenario, &scene_demand(scenario, settings), limits, required)
+    match scenario.kind {
+        ScenarioKind::Overrun { .. } => Vec::new(),
+        _ => scene_rows(scenario, &scene_demand(scenario, settings), limits, required),
+    }
 }
 
 /// The same two margins from a demand that is known.

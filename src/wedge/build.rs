@@ -4,7 +4,7 @@ use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
 use super::patch::InnerCurvature;
 use super::table::{ArcBuilder, ArcTable};
-use crate::design::{Clutch, ContactLaw};
+use crate::design::{Carrier, Clutch, ContactLaw};
 use crate::numeric::root;
 use crate::profile::Profile;
 
@@ -44,6 +44,26 @@ impl WedgeCurve {
     ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         Self::march(statics.map_err(NoCurve::NoElastic)?, exponent(clutch), speed_rad_s, reach_nm)
+    }
+
+    /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
+    /// of the outer, (along OC_e outward, across it towards positive azimuth) at first contact between concentric races,
+    /// m, and turns with the race `carrier` from there on. The gap is narrower by the first; the second tilts the tracks
+    /// against each other by itself over R_i, which is as much of tan omega. The windup counts from the sprag's own first
+    /// contact.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_off_centre(
+        clutch: &Clutch,
+        profile: &Profile,
+        offset_m: [f64; 2],
+        carrier: Carrier,
+    ) -> Result<Self, NoCurve> {
+        let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
+        let mut statics = whole.map_err(NoCurve::NoElastic)?;
+        (statics.offset_m, statics.carrier) = (offset_m, carrier);
+        Self::march(statics, exponent(clutch), 0.0, None)
     }
 
     /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).

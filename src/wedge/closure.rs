@@ -1,8 +1,9 @@
 //! Static equilibrium of one sprag at a given inner normal force: the only static iteration of the project.
 
 use super::elastic::{Elastic, NoElastic};
+use super::off_centre::turned;
 use super::patch::{InnerApproach, InnerCurvature};
-use crate::design::Clutch;
+use crate::design::{Carrier, Clutch};
 use crate::kinematics::{self, Deformations, Lengths, Radii};
 use crate::numeric::dual::Dual;
 use crate::profile::Profile;
@@ -54,6 +55,11 @@ pub struct Closure {
     pub rotation: Dual,
     /// alpha, body rotation against the line OG since first contact at rest, rad.
     pub alpha: Dual,
+    /// Axis of the inner race against that of the outer: along OC_e, and across it, m. [0, 0]: concentric.
+    pub offset_m: [Dual; 2],
+    /// By how much the race that carries the offset has turned against the line OC_e since first contact at rest between
+    /// concentric races, rad.
+    pub carried_rad: f64,
 }
 
 impl Closure {
@@ -78,14 +84,19 @@ impl Closure {
 
     /// Rolling ratios rho_i, rho_e.
     pub fn rolling_ratios(&self) -> (f64, f64) {
-        kinematics::rolling_ratios(
+        let (rho_i, rho_e) = kinematics::rolling_ratios(
             self.lengths.oa.v,
             self.lengths.ob.v,
             self.oc_g.v,
             self.oc_g_slope(),
             self.beta.v + self.gamma.v,
             self.gamma.v,
-        )
+        );
+        match self.offset_m.map(|o| o.v) {
+            [0.0, 0.0] => (rho_i, rho_e),
+            // Against OG the offset moves by itself: only the sum has a meaning, the windup's.
+            _ => (self.windup_slope() / self.alpha.d - rho_e, rho_e),
+        }
     }
 
     /// d windup / d N_bi, rad/N, with C_e as the reference point, so that no centroid enters:
@@ -93,7 +104,11 @@ impl Closure {
     pub fn windup_slope(&self) -> f64 {
         let l = &self.lengths;
         let (sin_b, cos_b) = self.beta.v.sin_cos();
-        let inner = (self.rotation.d * (l.oa.v - l.oc_e.v * cos_b) - sin_b * l.oc_e.d) / l.oa.v;
+        // The point of the sprag at A against the axis of the inner race, which may move as well.
+        let [along, across] = self.offset_m;
+        let arm = l.oa.v - l.oc_e.v * cos_b + along.v * cos_b + across.v * sin_b;
+        let axis = across.d * cos_b - along.d * sin_b;
+        let inner = (self.rotation.d * arm - sin_b * l.oc_e.d - axis) / l.oa.v;
         let outer = self.rotation.d * (l.ob.v - l.oc_e.v) / l.ob.v;
         outer - inner
     }
@@ -110,7 +125,11 @@ pub struct Statics {
     pub profile: Profile,
     /// The curvature that laws which know the radius are given at A.
     pub inner_curvature: InnerCurvature,
-    radii: Radii,
+    /// Axis of the inner race against that of the outer at this sprag before it rolls on: along OC_e, and across it, m.
+    pub(super) offset_m: [f64; 2],
+    /// The race that this stays with.
+    pub(super) carrier: Carrier,
+    pub(super) radii: Radii,
     centroid_m: [f64; 2],
     mass_kg: f64,
     gamma0: f64,
@@ -130,6 +149,8 @@ impl Statics {
         Ok(Self {
             count: s.count,
             inner_curvature,
+            offset_m: [0.0; 2],
+            carrier: Carrier::default(),
             elastic: Elastic::new(clutch)?,
             radii: Radii {
                 inner_race_m: r.inner_radius_m,
@@ -170,6 +191,10 @@ impl Statics {
     ///
     /// At rest this is tan omega = OB sin beta/(OB cos beta - OA), N_be = F cos nu.
     ///
+    /// With the axis of the inner race off that of the outer by (d, t) ([`super::WedgeCurve::build_off_centre`]) moments about B
+    /// and O have OB sin beta -> (OB - d) sin beta + t cos beta, OB cos beta -> (OB - d) cos beta - t sin beta and
+    /// T_be OB = T_bi OA - d (N sin beta - T_bi cos beta) + t (N cos beta + T_bi sin beta).
+    ///
     /// N_be and, where the law knows the radius, the curvature under the contact at A settle in one fixed-point loop.
     #[doc(alias = "Eq. (10)")]
     pub fn closure(
@@ -181,6 +206,8 @@ impl Statics {
     ) -> Result<Closure, NoClosure> {
         let (distance, azimuth) = self.centres[arc];
         let radii = Radii { inner_arc_m: self.profile.arcs[arc].radius_m, ..self.radii };
+        let mut apart = self.offset_m.map(Dual::constant);
+        let mut carried = Dual::constant(0.0);
         let n = Dual::variable(n_bi);
         let mut n_be = n;
         let mut inner = InnerApproach::new(self, arc, n);
@@ -190,34 +217,45 @@ impl Statics {
         for round in 0..60 {
             let d = self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s);
             let l = kinematics::lengths(&radii, &d);
-            let (sin_b, cos_b) = kinematics::beta(&l, distance).ok_or(NoClosure::RolledOver)?;
+            let (sin_b, cos_b) =
+                kinematics::beta_off_centre(&l, distance, apart).ok_or(NoClosure::RolledOver)?;
+            let [along, across] = apart;
             let beta = sin_b.atan2(cos_b);
-            let rotation = (l.oc_i * sin_b).atan2(l.oc_i * cos_b - l.oc_e) + (shift_rad - azimuth);
+            let rotation =
+                (l.oc_i * sin_b + across).atan2(l.oc_i * cos_b - l.oc_e + along) + (shift_rad - azimuth);
             let g = kinematics::centroid(self.centroid_m, l.oc_e, rotation);
-            let lever = l.ob * cos_b - l.oa;
-            let ratio = l.ob * sin_b / lever;
+            let to_b = l.ob - along;
+            let lever = to_b * cos_b - sin_b * across - l.oa;
+            let ratio = (to_b * sin_b + cos_b * across) / lever;
             let (sin_g, cos_g) = g.gamma.sin_cos();
             let f_c = g.oc_g * (self.mass_kg * speed_rad_s * speed_rad_s);
             let offset = -(f_c * l.ob * sin_g / lever);
             let t_bi = n * ratio + offset;
-            let t_be = t_bi * l.oa / l.ob;
+            let couple = (n * cos_b + t_bi * sin_b) * across - (n * sin_b - t_bi * cos_b) * along;
+            let t_be = (t_bi * l.oa + couple) / l.ob;
             let (sin_bg, cos_bg) = (beta + g.gamma).sin_cos();
             let next = (n * cos_bg + t_bi * sin_bg - t_be * sin_g + f_c) / cos_g;
             // A sprag that centrifugal force presses off the inner race still never pulls on the outer one.
             let next = if next.v > FIRST_CONTACT_N { next } else { Dual::constant(FIRST_CONTACT_N) };
             let curvature = inner.curvature_per_m.v;
-            let moved = inner.update(self, arc, n, rotation - (beta - self.profile.beta0_rad));
+            let turn = rotation - (beta - self.profile.beta0_rad);
+            let moved = inner.update(self, arc, n, turn);
+            // The offset turns with a race; without one there is nothing to turn.
+            let on = if self.is_concentric() { carried } else { self.carried(arc, rotation, turn) };
+            let rolled_on = on - carried;
+            carried = on;
             let change = (next.v - n_be.v).abs() / next.v;
             let slope_change = (next.d - n_be.d).abs() / next.d.abs().max(1e-3);
             // The turn carries some 5e-15 of rounding, which a large step of curvature makes 1e-15 of delta_H.
-            let still = moved.v <= 1e-14 && moved.d <= 1e-13;
+            let there = rolled_on.v.abs() <= 1e-14 && rolled_on.d.abs() <= 1e-12 * on.d.abs();
+            let still = moved.v <= 1e-14 && moved.d <= 1e-13 && there;
             let settled = still && change <= 4.0 * f64::EPSILON && slope_change <= 1e-14
                 || still
                     && round > 4
                     && change >= residual
                     && slope_change >= slope_residual
                     && change < 1e-13
-                || round > 20 && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
+                || round > 20 && there && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
             n_be = next;
             (residual, slope_residual, unsettled) = (change, slope_change, change.max(moved.v));
             if settled {
@@ -236,7 +274,12 @@ impl Statics {
                     oc_g: g.oc_g,
                     rotation,
                     alpha: rotation + g.gamma - self.gamma0,
+                    offset_m: apart,
+                    carried_rad: self.carried(arc, rotation, turn).v,
                 });
+            }
+            if !self.is_concentric() {
+                apart = turned(self.offset_m, carried);
             }
         }
         Err(NoClosure::NoConvergence { residual: unsettled })

@@ -11,6 +11,7 @@ mod build;
 mod closure;
 mod curve;
 mod elastic;
+mod off_centre;
 mod patch;
 mod stiffness;
 mod table;

@@ -33,6 +33,7 @@ pub fn clutch(arcs: &[(f64, f64)]) -> (Clutch, Profile) {
             inner_inertia_kg_m2: 1.41e-3,
             outer_inertia_kg_m2: 1.41e-3,
             viscous_damping_nm_s_per_rad: 0.1,
+            eccentricity: None,
         },
         running: None,
         spring: Spring { stiffness_nm_per_rad: 0.01, drag_torque_nm: 0.0166 },

@@ -54,3 +54,24 @@ fn fits_and_temperatures() {
         Case(&[("density_kg_m3 = 7850.0 ", "expansion_um_per_m_k = 20.0\ndensity_kg_m3 = 7850.0 "), ("[friction]", &WARM.replace("90.0", "1500.0"))], "thermal", "[thermal]", &["still touch both races", "8.33 mm as made"]),
     ]);
 }
+
+#[test]
+#[rustfmt::skip] // one way per line
+fn axes_apart() {
+    let case = |keys: &str, key: &str, words: &[&str]| {
+        let apart = format!("eccentricity = {{ {keys} }}\nwidth_mm = 6.0      ");
+        let key = if key.is_empty() { "races.eccentricity".to_owned() } else { format!("races.eccentricity.{key}") };
+        hold(&[Case(&[("width_mm = 6.0      ", &apart)], &key, "eccentricity", words)]);
+    };
+    case("offset_mm = -0.01", "offset_mm", &["at least 0"]);
+    case("offset_mm = \"0.01\"", "offset_mm", &["number"]);
+    case("offset_mm = inf", "offset_mm", &["inf"]);
+    case("turning = true", "offset_mm", &["add offset_mm"]);
+    case("offset_mm = 0.01, turning = 1", "turning", &["true or false"]);
+    case("offset_mm = 0.26", "offset_mm", &["less than 0.25 mm", "least height, 8.08 mm", "half of what a dial indicator reads"]);
+    case("offset_mm = 9.0", "offset_mm", &["less than 0.25 mm"]);
+    case("offset_mm = 0.01, bearing_stiffness_n_per_um = -1", "bearing_stiffness_n_per_um", &["at least 0"]);
+    case("offset_mm = 0.01, turning = true, bearing_stiffness_n_per_um = 0", "turning", &["remove turning", "floats"]);
+    case("offset_mm = 0.01, ovality_mm = 0.01", "ovality_mm", &["unknown"]);
+    hold(&[Case(&[("width_mm = 6.0      ", "eccentricity_mm = 0.01\nwidth_mm = 6.0      ")], "races.eccentricity_mm", "eccentricity_mm", &["did you mean eccentricity?"])]);
+}

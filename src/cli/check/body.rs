@@ -1,7 +1,7 @@
 //! The margins as table and as JSON.
 
 use super::overrun::Section;
-use super::running;
+use super::{run_out, running};
 use crate::margin::Margin;
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::wedge::EndReason;
@@ -66,6 +66,8 @@ pub(super) struct Source {
     pub(super) overrun: Section,
     /// Radii as made and as run, where they differ.
     pub(super) running: Option<running::Section>,
+    /// Load round the circumference, where the axes lie apart.
+    pub(super) run_out: Option<run_out::Section>,
 }
 
 /// Keys of `check`.
@@ -89,6 +91,8 @@ pub(super) struct Body {
     pub(super) overrun: Section,
     /// Null: the races run as made.
     pub(super) running: Option<running::Section>,
+    /// Null: the design names no eccentricity.
+    pub(super) run_out: Option<run_out::Section>,
 }
 
 impl Body {
@@ -108,7 +112,7 @@ impl Body {
                     torque_capacity_nm,
                 })
         };
-        let nominal = |r: &Margin| r.code.starts_with("hertz-nominal");
+        let nominal = |r: &Margin| r.code.trim_start_matches("run-out-").starts_with("hertz-nominal");
         Self {
             margins: rows.iter().map(row).collect(),
             pass: required().all(Margin::held),
@@ -126,6 +130,7 @@ impl Body {
             lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
             overrun: source.overrun,
             running: source.running,
+            run_out: source.run_out,
         }
     }
 
@@ -174,12 +179,13 @@ impl Body {
             )
         });
         let running = self.running.iter().flat_map(running::Section::remarks);
+        let run_out = self.run_out.iter().flat_map(run_out::Section::remarks);
         let searched = format!("{:.0}", self.lift_off_searched_to_rpm);
         let lift_off = match self.lift_off_rpm {
             Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
             None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
         };
-        capacity.chain(early).chain([lift_off, self.overrun.remark()]).chain(running).collect()
+        capacity.chain(early).chain([lift_off, self.overrun.remark()]).chain(running).chain(run_out).collect()
     }
 }
 
@@ -237,7 +243,7 @@ fn capacity_cell(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> Cell {
 
 /// Whether the limit is not reached before the curve ends; the two limits that are the end itself are.
 pub(super) fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> bool {
-    let is_end = matches!(r.code.as_str(), "end-of-profile" | "roll-over");
+    let is_end = matches!(r.code.as_str(), "end-of-profile" | "roll-over" | "run-out-end");
     !is_end && capacity_nm >= end_torque_nm * (1.0 - 1e-9)
 }
 
@@ -306,6 +312,7 @@ mod tests {
             searched_to_rad_s: 100.0,
             overrun: Section::new(&OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 }),
             running: None,
+            run_out: None,
         }
     }
 

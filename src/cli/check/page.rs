@@ -1,7 +1,7 @@
 //! The margin check as a page.
 
 use super::body::{Body, NO_DEMAND, is_beyond, people_table};
-use super::{Check, charts, margin_text};
+use super::{Check, charts, margin_text, overrunning};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
 use crate::design::Design;
@@ -11,7 +11,7 @@ use crate::report::{Bar, Bars, Column, Page, Table, Tone, Unit};
 pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, context: &Context) -> Page {
     let mut page = parts::page("Margin check", design, context);
     page.verdict(answer.body.pass, &answer.body.verdict());
-    page.list(answer.body.remarks());
+    page.list(answer.body.remarks().into_iter().chain(overrunning(design)));
     let end_nm = check.state.curve.end_torque_nm();
     page.heading("Margins");
     page.table(
@@ -53,6 +53,9 @@ pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, co
              the clutch runs as drawn, enlarged as the sprags are, so that the gap is right at every torque.",
         );
         page.table("", &running.table());
+    }
+    if let Some(run_out) = &answer.body.run_out {
+        run_out.draw(&mut page);
     }
     let wanted = design.limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
     answer.body.overrun.draw(&mut page, answer.body.lift_off_rpm, wanted);

@@ -1,0 +1,224 @@
+//! Races off centre in the margin check: words, JSON, plot, what stays left out.
+
+use crate::cli::left_out::LeftOut;
+use crate::design::{Carrier, Design};
+use crate::margin::{LoadState, Round, RunOut, Survey};
+use crate::report::{Curve, Page, Plot, Unit, significant};
+use serde::Serialize;
+
+/// One sprag of the JSON.
+#[derive(Debug, Clone, Serialize)]
+struct Sprag {
+    /// Azimuth from the widest gap where it stands.
+    azimuth_deg: f64,
+    /// The same where it engaged.
+    engaged_deg: f64,
+    normal_inner_n: f64,
+    /// That over the mean of all sprags.
+    share: f64,
+}
+
+/// One torque of the JSON: the round in which one sprag has the largest share.
+#[derive(Debug, Clone, Serialize)]
+struct At {
+    /// nominal or peak.
+    torque: &'static str,
+    torque_nm: f64,
+    windup_deg: f64,
+    largest_share: f64,
+    sprags_without_load: usize,
+    /// Largest of all rounds.
+    radial_force_n: f64,
+    /// By how much the inner race gives way.
+    shift_um: f64,
+    sprags: Vec<Sprag>,
+    #[serde(skip)]
+    words: String,
+}
+
+/// `run_out` of the JSON; null where the design names no eccentricity.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Section {
+    offset_um: f64,
+    /// What a dial indicator reads (TIR).
+    indicator_um: f64,
+    turning: bool,
+    /// The race that the offset stays with.
+    stays_with: &'static str,
+    /// Null: stiff.
+    bearing_stiffness_n_per_um: Option<f64>,
+    /// Torque at which the first sprag comes to its end, and why.
+    end_torque_nm: f64,
+    end_reason: &'static str,
+    /// Where a sprag does not touch both races.
+    without_contact_deg: Vec<f64>,
+    /// A torque beyond the end is absent.
+    at: Vec<At>,
+    #[serde(skip)]
+    left_out: Vec<LeftOut>,
+}
+
+fn at(ring: &RunOut, torque: &'static str, survey: &Survey) -> At {
+    let round = survey.worst_round();
+    let (largest_share, worst) = round.share();
+    let mean = round.loads.iter().map(|l| l.normal_n).sum::<f64>() / round.loads.len() as f64;
+    let degrees = |seat: usize| Unit::Degree.from_si(ring.seats[seat].azimuth_rad);
+    let sprag = |l: &crate::margin::SpragLoad| Sprag {
+        azimuth_deg: degrees(l.seat),
+        engaged_deg: degrees(l.engaged),
+        normal_inner_n: l.normal_n,
+        share: l.normal_n / mean,
+    };
+    At {
+        torque,
+        torque_nm: survey.torque_nm,
+        windup_deg: Unit::Degree.from_si(round.windup_rad),
+        largest_share,
+        sprags_without_load: survey.unloaded(),
+        radial_force_n: survey.radial_n(),
+        shift_um: Unit::Micrometre.from_si(shift_m(round)),
+        sprags: round.loads.iter().map(sprag).collect(),
+        words: ring.words(&worst),
+    }
+}
+
+fn shift_m(round: &Round) -> f64 {
+    round.shift_m[0].hypot(round.shift_m[1])
+}
+
+impl Section {
+    pub(super) fn new(design: &Design, state: &LoadState, ring: &RunOut) -> Self {
+        let limits = &design.limits;
+        let asked = [("nominal", limits.nominal_torque_nm), ("peak", limits.peak_torque_nm)];
+        let found: Vec<(&str, Survey)> =
+            asked.into_iter().filter_map(|(name, torque)| Some((name, ring.survey(torque?).ok()?))).collect();
+        let stop = ring.end;
+        Self {
+            offset_um: Unit::Micrometre.from_si(ring.offset_m),
+            indicator_um: Unit::Micrometre.from_si(2.0 * ring.offset_m),
+            turning: ring.turns.len() > 1,
+            stays_with: match ring.carrier {
+                Carrier::OuterRace => "outer-race",
+                Carrier::InnerRace => "inner-race",
+            },
+            // N/m to N/um.
+            bearing_stiffness_n_per_um: Some(1e-6 * ring.stiffness_n_per_m).filter(|k| k.is_finite()),
+            end_torque_nm: stop.torque_nm,
+            end_reason: if stop.seat.is_some() { stop.reason.name() } else { "no-contact" },
+            without_contact_deg: ring.empty_rad().into_iter().map(|a| Unit::Degree.from_si(a)).collect(),
+            at: found.iter().map(|(name, survey)| at(ring, name, survey)).collect(),
+            left_out: left_out(design, state, &found),
+        }
+    }
+
+    /// What stays left out although the sprags stand in their own gaps.
+    pub(super) fn left_out(&self) -> &[LeftOut] {
+        &self.left_out
+    }
+
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let kind = match (self.turning, self.bearing_stiffness_n_per_um) {
+            (true, _) => "the engaged clutch turns against it",
+            (false, Some(0.0)) => "the engaged race floats on the sprags",
+            (false, _) => "it stays as it is",
+        };
+        let mut lines = vec![format!(
+            "Axes apart by {} µm (indicator {} µm), {kind}; the first sprag comes to its end ({}) at {}",
+            significant(self.offset_um, 4),
+            significant(self.indicator_um, 4),
+            self.end_reason,
+            Unit::NewtonMetre.show(self.end_torque_nm, 4)
+        )];
+        lines.extend(self.at.iter().map(|at| {
+            let shift = match self.bearing_stiffness_n_per_um {
+                Some(_) => format!(", the race gives way by {} µm", significant(at.shift_um, 3)),
+                None => String::new(),
+            };
+            format!(
+                "Off centre at {} torque: largest normal force {} of the mean ({}), {} of {} sprags without load, bearings \
+                 hold {}{shift}",
+                at.torque,
+                significant(at.largest_share, 4),
+                at.words,
+                at.sprags_without_load,
+                at.sprags.len(),
+                Unit::Newton.show(at.radial_force_n, 3)
+            )
+        }));
+        if !self.without_contact_deg.is_empty() {
+            let places: Vec<String> = self.without_contact_deg.iter().map(|a| format!("{a:.0}")).collect();
+            lines.push(format!(
+                "Sprags that do not touch both races, deg from the widest gap: {}",
+                places.join(", ")
+            ));
+        }
+        lines
+    }
+
+    /// Section of the page.
+    pub(super) fn draw(&self, page: &mut Page) {
+        page.heading("Load round the circumference");
+        page.list(self.remarks());
+        page.paragraph(
+            "Every sprag stands in its own gap, which is widest at 0 deg; the offset also tilts the tracks against each \
+             other, most at 90 and 270 deg, so that the two halves differ. All sprags have touched before the clutch \
+             engages and are wound up alike. Rows run-out-* hold the worst of them to the limits.",
+        );
+        let mut plot = Plot::new("Azimuth from the widest gap, deg", "Normal force of a sprag over the mean")
+            .level(1.0, "mean");
+        for at in &self.at {
+            let mut points: Vec<[f64; 2]> = at.sprags.iter().map(|s| [s.azimuth_deg, s.share]).collect();
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let name = format!("{} torque, {}", at.torque, Unit::NewtonMetre.show_plain(at.torque_nm, 4));
+            plot.curves.push(Curve { dots: true, ..Curve::new(&name, points) });
+        }
+        if !self.at.is_empty() {
+            page.figure(
+                &plot.to_svg(),
+                "Load of each sprag over the mean, by where it stands; of a clutch that turns against the offset, in the \
+                 position with the largest share.",
+            );
+        }
+    }
+}
+
+/// Terms with their size at the largest torque found.
+fn left_out(design: &Design, state: &LoadState, found: &[(&str, Survey)]) -> Vec<LeftOut> {
+    let share = found.iter().map(|(_, s)| s.worst_round().share().0).fold(1.0, f64::max);
+    let torque = found.last().map(|(_, s)| s.torque_nm);
+    let ring_part = torque.and_then(|t| state.curve.closure_at_torque(t)).map(|(_, c)| {
+        let d = &c.deformations;
+        let rings = d.race_inner.v + d.race_outer.v;
+        rings / (rings + d.contact_inner.v + d.contact_outer.v + d.body.v)
+    });
+    let percent = |x: f64| Unit::Percent.show(x, 2);
+    let mut list = vec![
+        LeftOut::new(
+            "coupling of neighbouring sprags through the rings, off centre",
+            "the ring law is that of sprags loaded alike: each sprag's growth of the rings follows its own force",
+            &ring_part.map_or("not estimated: no torque is asked for".to_owned(), |part| {
+                format!(
+                    "of the order of {} of the worst sprag's force ({} of what yields is growth, times its share above the \
+                     mean)",
+                    percent(part * (share - 1.0)),
+                    percent(part)
+                )
+            }),
+        ),
+        LeftOut::new(
+            "tilted and out-of-round tracks",
+            "tracks are circles with parallel axes",
+            "not estimated",
+        ),
+    ];
+    let shift = found.iter().map(|(_, s)| s.worst_round()).map(shift_m).fold(0.0, f64::max);
+    if shift > 0.0 {
+        let tilt = shift / design.clutch.races.inner_radius_m / state.first_tan_omega;
+        list.push(LeftOut::new(
+            "the race's shift in the wedge angle",
+            "where the bearings give way the windups follow the race, the curves are those of the offset as given",
+            &format!("up to {} of tan ω and of a sprag's force", percent(tilt)),
+        ));
+    }
+    list
+}
