@@ -1,73 +1,46 @@
 //! How each static limit's demand runs with torque, and the torque at which it would be reached.
 
 use super::Margin;
-use super::body::body_stress_pa;
-use super::gap::YIELDS;
-use super::hoop::HOOPS;
+use super::held::{When, held};
 use super::load::{LoadState, clearance_at_m, grip, profile_capacity};
-use super::subsurface::SUBSURFACE;
 use crate::design::{Design, Limits};
 use crate::numeric::root;
 use crate::wedge::StaticPoint;
 
-/// A demand as a function of the static state.
-type Demand<'a> = Box<dyn Fn(&StaticPoint) -> f64 + 'a>;
-
 /// What one limit bounds, as a function of the static state; demand and allowable in the same unit.
 struct Bounded<'a> {
+    code: &'static str,
     allowed: f64,
-    demand: Demand<'a>,
+    demand: Box<dyn Fn(&StaticPoint) -> f64 + 'a>,
 }
 
-/// What the limit `code` bounds; `None` where it does not depend on torque, or has no allowable.
-fn bounded<'a>(
-    code: &str,
-    design: &'a Design,
-    limits: &'a Limits,
-    state: &'a LoadState,
-) -> Option<Bounded<'a>> {
-    if let Some(hoop) = HOOPS.iter().find(|h| h.code == code) {
-        let (allowed, _) = (hoop.allowed)(limits)?;
-        let (clutch, elastic) = (&design.clutch, &state.curve.statics().elastic);
-        return Some(Bounded { allowed, demand: Box::new(move |p| hoop.demand_pa(clutch, elastic, p)) });
-    }
-    if let Some(y) = YIELDS.iter().find(|y| y.code == code) {
-        let (count, elastic) = (design.clutch.sprags.count, &state.curve.statics().elastic);
-        let allowed = (y.allowed)(limits, design)?;
-        return Some(Bounded { allowed, demand: Box::new(move |p| (y.demand)(elastic, count, p)) });
-    }
-    if let Some(below) = SUBSURFACE.iter().find(|b| b.code == code) {
-        let (allowed, from_m) = (below.allowed)(limits)?;
-        return Some(Bounded { allowed, demand: Box::new(move |p| below.demand(design, from_m, p).0) });
-    }
+/// What depends on torque: what is held at a torque, then grip, room between neighbours and the end of the curve.
+fn bounded<'a>(design: &'a Design, limits: &'a Limits, state: &'a LoadState) -> Vec<Bounded<'a>> {
     let mu = design.clutch.friction.static_;
-    let (allowed, demand): (f64, Demand<'a>) = match code {
-        "hertz-nominal-inner" => (limits.hertz_nominal_pa?, Box::new(|p| p.hertz_inner_pa)),
-        "hertz-nominal-outer" => (limits.hertz_nominal_pa?, Box::new(|p| p.hertz_outer_pa)),
-        "hertz-peak-inner" => (limits.hertz_peak_pa?, Box::new(|p| p.hertz_inner_pa)),
-        "hertz-peak-outer" => (limits.hertz_peak_pa?, Box::new(|p| p.hertz_outer_pa)),
-        "grip-inner" => (mu, Box::new(move |p| grip(design, limits, p)[0])),
-        "grip-outer" => (mu, Box::new(move |p| grip(design, limits, p)[1])),
-        "body-yield" => (limits.body_yield_pa?, Box::new(move |p| body_stress_pa(design, state, p))),
-        // Clearance used up, so that it rises to 1 where neighbours touch.
-        "neighbours" => {
-            let free = clearance_at_m(design, state, &StaticPoint::UNLOADED)?;
-            (1.0, Box::new(move |p| 1.0 - clearance_at_m(design, state, p).unwrap_or(free) / free))
-        }
-        "end-of-profile" => (state.profile.end_turn_rad(), Box::new(|p| p.contact_turn_rad)),
-        "roll-over" => (state.curve.roll_over_torque_nm(), Box::new(|p| p.torque_nm)),
-        _ => return None,
-    };
-    Some(Bounded { allowed, demand })
+    let at_torque = held(design, limits, state).into_iter();
+    let mut list: Vec<Bounded> =
+        at_torque.map(|h| Bounded { code: h.code, allowed: h.allowed, demand: h.demand }).collect();
+    let mut add = |code, allowed, demand| list.push(Bounded { code, allowed, demand });
+    add("grip-inner", mu, Box::new(move |p| grip(design, limits, p)[0]));
+    add("grip-outer", mu, Box::new(move |p| grip(design, limits, p)[1]));
+    // Clearance used up, so that it rises to 1 where neighbours touch.
+    if let Some(free) = clearance_at_m(design, state, &StaticPoint::UNLOADED) {
+        let used = move |p: &StaticPoint| 1.0 - clearance_at_m(design, state, p).unwrap_or(free) / free;
+        add("neighbours", 1.0, Box::new(used));
+    }
+    add("end-of-profile", state.profile.end_turn_rad(), Box::new(|p| p.contact_turn_rad));
+    add("roll-over", state.curve.roll_over_torque_nm(), Box::new(|p| p.torque_nm));
+    list
 }
 
 /// Fill `torque_capacity_nm` of the rows that depend on torque.
 pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state: &LoadState) {
+    let list = bounded(design, limits, state);
     for row in rows {
         row.torque_capacity_nm = match row.code.as_str() {
             "end-of-profile" => Some(profile_capacity(state)),
             "roll-over" => Some(row.allowable),
-            code => bounded(code, design, limits, state).map(|b| torque_where(state, b.allowed, &*b.demand)),
+            code => list.iter().find(|b| b.code == code).map(|b| torque_where(state, b.allowed, &*b.demand)),
         };
     }
 }
@@ -91,8 +64,9 @@ pub fn courses(
     state: &LoadState,
     points: &[StaticPoint],
 ) -> Vec<Course> {
+    let list = bounded(design, limits, state);
     let course = |row: &Margin| {
-        let b = bounded(&row.code, design, limits, state)?;
+        let b = list.iter().find(|b| b.code == row.code)?;
         let points = points.iter().map(|p| [p.torque_nm, (b.demand)(p) / b.allowed]).collect();
         Some(Course { code: row.code.clone(), required: row.required, points })
     };
@@ -160,35 +134,20 @@ pub(super) fn axial_from_nm(
 /// Smallest torque (N m) at which a limit on nominal torque, the grip at either contact or the curve's end is reached,
 /// and the code of what decides; `None` where `limits` holds none of them.
 pub fn nominal_capacity(design: &Design, limits: &Limits, state: &LoadState) -> Option<(f64, &'static str)> {
-    let count = design.clutch.sprags.count;
-    let elastic = &state.curve.statics().elastic;
-    let mu = design.clutch.friction.static_;
     // What does not grip at first contact never gets as far as the torque at which it would.
-    if state.first_tan_omega >= mu {
+    if state.first_tan_omega >= design.clutch.friction.static_ {
         return Some((0.0, "grip-inner"));
     }
-    let mut least = (state.curve.end_torque_nm(), "end-of-curve");
-    let mut any = false;
-    let mut take = |code, allowed: f64, value: &dyn Fn(&StaticPoint) -> f64| {
-        let torque = torque_where(state, allowed, value);
-        if torque < least.0 {
-            least = (torque, code);
-        }
-    };
-    if let Some(allowed) = limits.hertz_nominal_pa {
-        any = true;
-        take("hertz-nominal-inner", allowed, &|p| p.hertz_inner_pa);
-        take("hertz-nominal-outer", allowed, &|p| p.hertz_outer_pa);
+    let named: Vec<&str> =
+        held(design, limits, state).iter().filter(|h| h.when == When::Nominal).map(|h| h.code).collect();
+    if named.is_empty() {
+        return None;
     }
-    // Those that are held at the nominal torque itself.
-    let nominal = Limits { nominal_torque_nm: Some(1.0), peak_torque_nm: None, ..*limits };
-    for y in YIELDS.iter().filter(|y| (y.torque_nm)(&nominal).is_some()) {
-        if let Some(allowed) = (y.allowed)(limits, design) {
-            any = true;
-            take(y.code, allowed, &|p| (y.demand)(elastic, count, p));
-        }
-    }
-    take("grip-inner", mu, &|p| grip(design, limits, p)[0]);
-    take("grip-outer", mu, &|p| grip(design, limits, p)[1]);
-    any.then_some(least)
+    let counts = |b: &Bounded| named.contains(&b.code) || b.code.starts_with("grip-");
+    let reached = bounded(design, limits, state)
+        .into_iter()
+        .filter(counts)
+        .map(|b| (torque_where(state, b.allowed, &*b.demand), b.code));
+    let end = (state.curve.end_torque_nm(), "end-of-curve");
+    Some(reached.fold(end, |least, found| if found.0 < least.0 { found } else { least }))
 }

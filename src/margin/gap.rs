@@ -1,5 +1,6 @@
 //! What yields as a whole: opening of the race gap, windup, equivalent stress of the races.
 
+use super::held::When;
 use crate::design::{Design, Limits};
 use crate::wedge::{Elastic, StaticPoint};
 
@@ -9,8 +10,8 @@ pub(super) struct Yield {
     pub name: &'static str,
     /// Unit as printed, and by what SI is multiplied for it.
     pub unit: (&'static str, f64),
-    /// Torque at which it is held, N m.
-    pub torque_nm: fn(&Limits) -> Option<f64>,
+    /// Torque at which it is held.
+    pub when: When,
     /// Allowable, SI. That of a gap is its opening: the allowed gap less the gap at rest.
     pub allowed: fn(&Limits, &Design) -> Option<f64>,
     /// Demand, SI, of a clutch with that many sprags.
@@ -31,7 +32,7 @@ pub(super) const YIELDS: [Yield; 5] = [
         code: "gap-nominal",
         name: "opening of the race gap, nominal torque",
         unit: MM,
-        torque_nm: |l| l.nominal_torque_nm,
+        when: When::Nominal,
         allowed: |l, d| opening(l.gap_nominal_m, d),
         demand: |e, _, p| e.gap_opening_m(p.normal_inner_n, p.normal_outer_n),
     },
@@ -39,7 +40,7 @@ pub(super) const YIELDS: [Yield; 5] = [
         code: "windup-nominal",
         name: "windup, nominal torque",
         unit: DEG,
-        torque_nm: |l| l.nominal_torque_nm,
+        when: When::Nominal,
         allowed: |l, _| l.windup_nominal_rad,
         demand: |_, _, p| p.windup_rad,
     },
@@ -47,7 +48,7 @@ pub(super) const YIELDS: [Yield; 5] = [
         code: "equivalent-inner",
         name: "equivalent stress of the inner race, nominal torque",
         unit: MPA,
-        torque_nm: |l| l.nominal_torque_nm,
+        when: When::Nominal,
         allowed: |l, _| l.equivalent_inner_pa,
         demand: |e, count, p| e.inner_race.equivalent_pa(count, p.normal_inner_n),
     },
@@ -55,7 +56,7 @@ pub(super) const YIELDS: [Yield; 5] = [
         code: "equivalent-outer",
         name: "equivalent stress of the outer race, nominal torque",
         unit: MPA,
-        torque_nm: |l| l.nominal_torque_nm,
+        when: When::Nominal,
         allowed: |l, _| l.equivalent_outer_pa,
         demand: |e, count, p| e.outer_race.equivalent_pa(count, p.normal_outer_n),
     },
@@ -63,7 +64,7 @@ pub(super) const YIELDS: [Yield; 5] = [
         code: "gap-peak",
         name: "opening of the race gap, peak torque",
         unit: MM,
-        torque_nm: |l| l.peak_torque_nm,
+        when: When::Peak,
         allowed: |l, d| opening(l.gap_peak_m, d),
         demand: |e, _, p| e.gap_opening_m(p.normal_inner_n, p.normal_outer_n),
     },

@@ -1,11 +1,8 @@
 //! Limits that follow from the static load state, first contact and overrun.
 
-use super::body::body_stress_pa;
 use super::capacity::axial_from_nm;
-use super::gap::YIELDS;
-use super::hoop::HOOPS;
+use super::held::held;
 use super::overrun::overrun_moments;
-use super::subsurface::SUBSURFACE;
 use super::{Margin, NoMargins, curve_at_rest, ratio};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
@@ -40,8 +37,6 @@ pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
     Ok(LoadState { profile, outline, curve, alpha_max_rad, first_tan_omega })
 }
 
-const MPA: f64 = 1e-6;
-
 pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<Margin> {
     let mut rows = Vec::new();
     let mut push = |code: &str, name: &str, demand: f64, allowable: f64, unit, margin: f64| {
@@ -59,65 +54,19 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
     let curve = &state.curve;
     let end = curve.end_torque_nm();
     let mut shown_only = Vec::new();
-    if let (Some(torque), Some(allowed)) = (limits.nominal_torque_nm, limits.hertz_nominal_pa) {
+    for h in held(design, limits, state) {
+        let Some(torque) = h.when.torque_nm(limits) else { continue };
         let p = at(curve, torque);
-        for (code, name, value) in [
-            ("hertz-nominal-inner", "Hertz pressure, inner contact, nominal torque", p.hertz_inner_pa),
-            ("hertz-nominal-outer", "Hertz pressure, outer contact, nominal torque", p.hertz_outer_pa),
-        ] {
-            let margin = beyond(ratio(value, allowed), torque, end);
-            push(code, &said(name, torque, end), value * MPA, allowed * MPA, "MPa", margin);
+        let value = (h.demand)(&p);
+        let (unit, per_si) = h.unit;
+        let margin = beyond(ratio(value, h.allowed), torque, end);
+        push(h.code, &said(&(h.name)(&p), torque, end), value * per_si, h.allowed * per_si, unit, margin);
+        if !h.required {
+            shown_only.push(h.code);
         }
-    }
-    for y in &YIELDS {
-        let (Some(torque), Some(allowed)) = ((y.torque_nm)(limits), (y.allowed)(limits, design)) else {
-            continue;
-        };
-        let value = (y.demand)(&curve.statics().elastic, design.clutch.sprags.count, &at(curve, torque));
-        let (unit, per_si) = y.unit;
-        push(
-            y.code,
-            &said(y.name, torque, end),
-            value * per_si,
-            allowed * per_si,
-            unit,
-            beyond(ratio(value, allowed), torque, end),
-        );
     }
     if let Some(torque) = limits.peak_torque_nm {
         let p = at(curve, torque);
-        if let Some(allowed) = limits.hertz_peak_pa {
-            for (code, name, value) in [
-                ("hertz-peak-inner", "Hertz pressure, inner contact, peak torque", p.hertz_inner_pa),
-                ("hertz-peak-outer", "Hertz pressure, outer contact, peak torque", p.hertz_outer_pa),
-            ] {
-                push(
-                    code,
-                    &said(name, torque, end),
-                    value * MPA,
-                    allowed * MPA,
-                    "MPa",
-                    beyond(ratio(value, allowed), torque, end),
-                );
-            }
-        }
-        let elastic = &curve.statics().elastic;
-        for hoop in &HOOPS {
-            let Some((allowed, required)) = (hoop.allowed)(limits) else { continue };
-            let value = hoop.demand_pa(&design.clutch, elastic, &p);
-            let margin = beyond(ratio(value, allowed), torque, end);
-            push(hoop.code, &said(hoop.name, torque, end), value * MPA, allowed * MPA, "MPa", margin);
-            if !required {
-                shown_only.push(hoop.code);
-            }
-        }
-        for below in &SUBSURFACE {
-            let Some((allowed, from_m)) = (below.allowed)(limits) else { continue };
-            let (value, depth_m) = below.demand(design, from_m, &p);
-            let name = said(&format!("{}, {:.3} mm deep", below.name, depth_m * 1e3), torque, end);
-            let margin = beyond(ratio(value, allowed), torque, end);
-            push(below.code, &name, value * MPA, allowed * MPA, "MPa", margin);
-        }
         // Turn left on the profile; a curve that ends below the peak torque has none.
         let turn = state.profile.end_turn_rad();
         let margin = if end >= torque { ratio(p.contact_turn_rad, turn) } else { end / torque - 1.0 };
@@ -131,12 +80,6 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         );
         let over = curve.roll_over_torque_nm();
         push("roll-over", "peak torque against roll-over torque", torque, over, "Nm", over / torque - 1.0);
-        if let Some(allowed) = limits.body_yield_pa {
-            let value = body_stress_pa(design, state, &p);
-            let name = "compression of the sprag's body half way between the contacts, peak torque";
-            let margin = beyond(ratio(value, allowed), torque, end);
-            push("body-yield", &said(name, torque, end), value * MPA, allowed * MPA, "MPa", margin);
-        }
         let mu = design.clutch.friction.static_;
         let grip = largest_grip(design, limits, state, &p);
         let names = match limits.axial_load_n {

@@ -6,6 +6,7 @@
 mod body;
 mod capacity;
 mod gap;
+mod held;
 mod hoop;
 mod load;
 mod overrun;
