@@ -168,6 +168,8 @@ fn axes_apart_are_answered_round_the_circumference() {
     assert_eq!((nominal["torque"].as_str(), nominal["torque_nm"].as_f64()), (Some("nominal"), Some(90.0)));
     let share = nominal["largest_share"].as_f64().unwrap();
     assert!((1.15..1.19).contains(&share), "{share}");
+    let rigid = nominal["largest_share_rigid"].as_f64().unwrap();
+    assert!(rigid > share && rigid < 1.0 + 4.0 * (share - 1.0), "{rigid}");
     let sprags = nominal["sprags"].as_array().unwrap();
     let mean = sprags.iter().map(|s| s["share"].as_f64().unwrap()).sum::<f64>() / 12.0;
     assert!(sprags.len() == 12 && (mean - 1.0).abs() < 1e-12);

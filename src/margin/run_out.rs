@@ -17,7 +17,9 @@
 //! its shift shortens the strut by. At and below 0 a sprag carries nothing.
 //!
 //! Left out: the ring law is that of sprags loaded alike, so a sprag's share of the growth comes from its own force
-//! alone; of a shift the square, and what it does to tan omega.
+//! alone. Rings that stay round under uneven load would oppose a sprag's excess by the contacts alone: the excess over
+//! the mean is too small by up to 1/(1 - p), p the part of the rings in what yields. Also left out: of a shift the
+//! square, and what it does to tan omega.
 
 mod balance;
 mod rows;

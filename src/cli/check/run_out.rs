@@ -26,6 +26,8 @@ struct At {
     torque_nm: f64,
     windup_deg: f64,
     largest_share: f64,
+    /// The same if the rings did not yield to uneven load at all: an upper bound.
+    largest_share_rigid: f64,
     sprags_without_load: usize,
     /// Largest of all rounds.
     radial_force_n: f64,
@@ -58,7 +60,15 @@ pub(super) struct Section {
     left_out: Vec<LeftOut>,
 }
 
-fn at(ring: &RunOut, torque: &'static str, survey: &Survey) -> At {
+/// Part of what yields under a little more load that is growth of the rings, at a torque of the even clutch, pure number.
+fn growing(state: &LoadState, torque_nm: f64) -> Option<f64> {
+    let (_, c) = state.curve.closure_at_torque(torque_nm)?;
+    let d = &c.deformations;
+    let rings = d.race_inner.d + d.race_outer.d;
+    Some(rings / (rings + d.contact_inner.d + d.contact_outer.d + d.body.d))
+}
+
+fn at(ring: &RunOut, state: &LoadState, torque: &'static str, survey: &Survey) -> At {
     let round = survey.worst_round();
     let (largest_share, worst) = round.share();
     let mean = round.loads.iter().map(|l| l.normal_n).sum::<f64>() / round.loads.len() as f64;
@@ -74,6 +84,9 @@ fn at(ring: &RunOut, torque: &'static str, survey: &Survey) -> At {
         torque_nm: survey.torque_nm,
         windup_deg: Unit::Degree.from_si(round.windup_rad),
         largest_share,
+        // A sprag that takes more than the mean is then opposed by the rest alone.
+        largest_share_rigid: growing(state, survey.torque_nm)
+            .map_or(largest_share, |part| 1.0 + (largest_share - 1.0) / (1.0 - part)),
         sprags_without_load: survey.unloaded(),
         radial_force_n: survey.radial_n(),
         shift_um: Unit::Micrometre.from_si(shift_m(round)),
@@ -106,7 +119,7 @@ impl Section {
             end_torque_nm: stop.torque_nm,
             end_reason: if stop.seat.is_some() { stop.reason.name() } else { "no-contact" },
             without_contact_deg: ring.empty_rad().into_iter().map(|a| Unit::Degree.from_si(a)).collect(),
-            at: found.iter().map(|(name, survey)| at(ring, name, survey)).collect(),
+            at: found.iter().map(|(name, survey)| at(ring, state, name, survey)).collect(),
             left_out: left_out(design, state, &found),
         }
     }
@@ -135,10 +148,11 @@ impl Section {
                 None => String::new(),
             };
             format!(
-                "Off centre at {} torque: largest normal force {} of the mean ({}), {} of {} sprags without load, bearings \
+                "Off centre at {} torque: largest normal force {} of the mean (at most {} if the rings stay round; {}), {} of {} sprags without load, bearings \
                  hold {}{shift}",
                 at.torque,
                 significant(at.largest_share, 4),
+                significant(at.largest_share_rigid, 4),
                 at.words,
                 at.sprags_without_load,
                 at.sprags.len(),
@@ -186,11 +200,7 @@ impl Section {
 fn left_out(design: &Design, state: &LoadState, found: &[(&str, Survey)]) -> Vec<LeftOut> {
     let share = found.iter().map(|(_, s)| s.worst_round().share().0).fold(1.0, f64::max);
     let torque = found.last().map(|(_, s)| s.torque_nm);
-    let ring_part = torque.and_then(|t| state.curve.closure_at_torque(t)).map(|(_, c)| {
-        let d = &c.deformations;
-        let rings = d.race_inner.v + d.race_outer.v;
-        rings / (rings + d.contact_inner.v + d.contact_outer.v + d.body.v)
-    });
+    let ring_part = torque.and_then(|t| growing(state, t));
     let percent = |x: f64| Unit::Percent.show(x, 2);
     let mut list = vec![
         LeftOut::new(
@@ -198,9 +208,10 @@ fn left_out(design: &Design, state: &LoadState, found: &[(&str, Survey)]) -> Vec
             "the ring law is that of sprags loaded alike: each sprag's growth of the rings follows its own force",
             &ring_part.map_or("not estimated: no torque is asked for".to_owned(), |part| {
                 format!(
-                    "of the order of {} of the worst sprag's force ({} of what yields is growth, times its share above the \
-                     mean)",
-                    percent(part * (share - 1.0)),
+                    "the worst sprag's excess over the mean, {}, is {} at most, if the rings stay round under uneven load: \
+                     their growth is {} of what yields",
+                    percent(share - 1.0),
+                    percent((share - 1.0) / (1.0 - part)),
                     percent(part)
                 )
             }),
