@@ -142,7 +142,7 @@ def main():
                         f"{other['evaluations']}: ours is {abs(off):.2g} % {'below' if off > 0 else 'above'} it.</li>")
         pair = next(r for r in rows if r["method"] == PAIR)
         same = "the same to the last digit" if pair["objective"] == ours["objective"] else "NOT the same"
-        threads = (f"{ours['starts']} climbs met {ours['optima']} optima; none took more than {ours['most_in_a_start']} "
+        threads = (f"{ours['starts']} climbs met {ours['optima']} {'optimum' if ours['optima'] == '1' else 'optima'}; none took more than {ours['most_in_a_start']} "
                    f"evaluations. Two threads end at {same}, {float(ours['time_s']) / float(pair['time_s']):.2f} times sooner.")
         v = ", ".join(f"{x['name']} {x['min']:g} to {x['max']:g}" for x in problem["variables"])
         parts.append(f"<h2>{html.escape(problem['design'])}</h2><p>Free: {html.escape(v)}. Objectives (the least is "

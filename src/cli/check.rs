@@ -88,7 +88,7 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         None => list,
     };
     let body = Body::new(&check.rows, source);
-    let held = body.pass;
+    let (held, unknown) = (body.pass, body.unknown());
     let answer = Answer {
         design: &design,
         run_time_s,
@@ -106,7 +106,11 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.write_report(|| page::page(&design, &check, &answer, context))?;
     context.answer(&text(&design, &check, &answer.body, context.colour))?;
     answer.print(context)?;
-    Ok(if held { Exit::Held } else { Exit::NotHeld })
+    Ok(match (held, unknown) {
+        (true, _) => Exit::Held,
+        (false, true) => Exit::Failed,
+        (false, false) => Exit::NotHeld,
+    })
 }
 
 /// All margins; the scenarios in parallel, each at two tolerances.
@@ -166,7 +170,7 @@ fn text(design: &Design, check: &Check, body: &Body, colour: bool) -> String {
         out.push('\n');
     }
     out.push_str("Reached at: torque at which the limit would be reached; >: not before the curve ends\n");
-    if check.rows.iter().any(|r| r.demand == f64::MAX) {
+    if check.rows.iter().any(|r| r.computed && r.demand == f64::MAX) {
         out.push_str(&format!(
             "{NONE_SUFFICES}: contact would open, or the clutch leaves its curve, whatever the friction\n"
         ));

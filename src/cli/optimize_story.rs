@@ -320,10 +320,11 @@ impl Story {
             files.push(("realised", format!("{written_by}: {what}\n{text}")));
         }
         if let Some(robust) = &self.robust {
-            files.push((
-                "robust",
-                format!("{written_by}: held at every corner of [tolerances]\n{}", robust.file),
-            ));
+            let what = match robust.made.held() {
+                true => "held at every corner of [tolerances]",
+                false => "as near as was found to holding every corner of [tolerances], not held at all",
+            };
+            files.push(("robust", format!("{written_by}: {what}\n{}", robust.file)));
         }
         files
     }

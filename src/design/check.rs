@@ -172,6 +172,43 @@ pub(super) fn body_yield(file: &DesignFile, out: &mut Findings) {
     }
 }
 
+/// A tolerance must leave its quantity above 0.
+pub(super) fn tolerances(file: &DesignFile, out: &mut Findings) {
+    let Some(t) = &file.tolerances else { return };
+    let (found, value) = (t.friction, file.friction.static_);
+    if found >= value {
+        out.refuse(
+            &["tolerances.friction", "friction.static"],
+            format!("a half range below the value itself, {value}: {found} would leave no friction"),
+            "lower tolerances.friction".to_owned(),
+        );
+    }
+    let least =
+        file.sprags.inner_arcs.iter().map(|a| a.radius_mm).fold(file.sprags.outer_radius_mm, f64::min);
+    for (key, found, of) in [
+        (
+            "tolerances.inner_race_radius_mm",
+            t.inner_race_radius_mm,
+            file.races.outer_radius_mm - file.races.inner_radius_mm,
+        ),
+        (
+            "tolerances.outer_race_radius_mm",
+            t.outer_race_radius_mm,
+            file.races.outer_radius_mm - file.races.inner_radius_mm,
+        ),
+        ("tolerances.sprag_outer_radius_mm", t.sprag_outer_radius_mm, least),
+        ("tolerances.sprag_inner_radius_mm", t.sprag_inner_radius_mm, least),
+    ] {
+        if found >= 0.5 * of {
+            out.refuse(
+                &[key],
+                format!("a half range below half of what it varies, {of} mm (gap between the races, smallest sprag radius)"),
+                format!("lower {key}"),
+            );
+        }
+    }
+}
+
 /// The limits of a table, the absent ones from `base`.
 pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Limits {
     let base = if file.from_material == Some(true) { steels::limits(file, base, out) } else { base };

@@ -41,6 +41,12 @@ pub(super) struct Held<'a> {
     pub demand: Box<dyn Fn(&StaticPoint) -> f64 + 'a>,
 }
 
+/// Whether the row `code` is held at nominal torque, those of the worst sprag off centre included.
+pub fn at_nominal_torque(code: &str) -> bool {
+    let code = code.trim_start_matches("run-out-");
+    code.starts_with("hertz-nominal") || YIELDS.iter().any(|y| y.code == code && y.when == When::Nominal)
+}
+
 const MPA: (&str, f64) = ("MPa", 1e-6);
 
 /// All that `limits` names, in the order of the rows.

@@ -49,6 +49,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             margin,
             torque_capacity_nm: None,
             required: true,
+            computed: true,
         });
     };
     let curve = &state.curve;

@@ -15,6 +15,7 @@ mod scenes;
 mod subsurface;
 
 pub use capacity::{Course, courses, nominal_capacity};
+pub use held::at_nominal_torque;
 pub use load::{LoadState, load_state};
 pub use overrun::{OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
 pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins};
@@ -43,6 +44,8 @@ pub struct Margin {
     pub torque_capacity_nm: Option<f64>,
     /// Whether it counts for the verdict; the others are shown only.
     pub required: bool,
+    /// Whether demand and margin are known; else a run met its limit of work, and the margin is -1.
+    pub computed: bool,
 }
 
 /// Resolution of a margin: what the optimiser leaves of a limit that it stops at. A margin above minus this is
@@ -113,7 +116,7 @@ pub fn load_margins(design: &Design, limits: &Limits, capacities: bool, state: &
     rows
 }
 
-/// The two margins of one scenario, slip and contact; none of a steady overrun, where A slides and nothing is to
+/// The margins of one scenario, slip, contact and, with a limit on it, Hertz pressure; none of a steady overrun, where A slides and nothing is to
 /// stick (limits `keep-contact` and `lift-off` hold that). Scenarios know nothing of one another, so a caller may
 /// take them in parallel.
 pub fn scene_margins(
@@ -128,7 +131,7 @@ pub fn scene_margins(
     }
 }
 
-/// The same two margins from a demand that is known.
+/// The same margins from a demand that is known.
 pub fn scene_rows(scenario: &Scenario, found: &SceneDemand, limits: &Limits, required: bool) -> Vec<Margin> {
     scenes::rows(&scenario.name, found, limits, required)
 }

@@ -1,4 +1,4 @@
-//! Limits that follow from the scenarios: slip margin and contact margin.
+//! Limits that follow from the scenarios: slip margin, contact margin, Hertz pressure.
 
 use super::Margin;
 use crate::design::{Limits, Scenario};
@@ -45,27 +45,49 @@ pub fn scene_demand(scenario: &Scenario, settings: &Settings) -> SceneDemand {
 pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool) -> Vec<Margin> {
     let wanted = limits.slip_margin.unwrap_or(0.0);
     let allowed = d.static_friction / (1.0 + wanted);
-    let need = d.demand.as_ref().ok().and_then(|d| d.required_friction);
-    let slip = Margin {
-        code: format!("slip:{name}"),
-        name: format!("friction that {name} needs to stick, against mu_s/(1 + {wanted})"),
-        // No friction suffices: the demand is beyond any coefficient.
-        demand: need.unwrap_or(f64::MAX),
-        allowable: allowed,
-        unit: "1",
-        margin: need.map_or(-1.0, |n| allowed / n - 1.0),
+    let found = d.demand.as_ref().ok();
+    let need = found.and_then(|d| d.required_friction);
+    let gave_up = found.and_then(|d| d.gave_up);
+    let row = |kind: &str, what: String, unit, demand: f64, allowable: f64, margin: f64| Margin {
+        code: format!("{kind}:{name}"),
+        name: match gave_up {
+            None => what,
+            Some(stop) => format!("{what}: not computed, {}", stop.name()),
+        },
+        demand,
+        allowable,
+        unit,
+        margin: if gave_up.is_none() { margin } else { -1.0 },
         torque_capacity_nm: None,
         required,
+        computed: gave_up.is_none(),
     };
-    let contact = Margin {
-        code: format!("contact:{name}"),
-        name: format!("smallest normal force in {name} over the static one"),
-        demand: 0.0,
-        allowable: d.contact_margin(),
-        unit: "1",
-        margin: d.contact_margin(),
-        torque_capacity_nm: None,
-        required,
-    };
-    vec![slip, contact]
+    let mut rows = vec![
+        row(
+            "slip",
+            format!("friction that {name} needs to stick, against mu_s/(1 + {wanted})"),
+            "1",
+            // No friction suffices: the demand is beyond any coefficient.
+            need.unwrap_or(f64::MAX),
+            allowed,
+            need.map_or(-1.0, |n| allowed / n - 1.0),
+        ),
+        row(
+            "contact",
+            format!("smallest normal force in {name} over the static one"),
+            "1",
+            0.0,
+            d.contact_margin(),
+            d.contact_margin(),
+        ),
+    ];
+    if let Some(allowed) = limits.hertz_peak_pa {
+        let margin = match found {
+            Some(demand) if demand.finished => super::ratio(d.hertz_peak_pa, allowed),
+            _ => -1.0,
+        };
+        let what = format!("largest Hertz pressure, inner contact, in {name} if it rolls throughout");
+        rows.push(row("hertz", what, "MPa", d.hertz_peak_pa * 1e-6, allowed * 1e-6, margin));
+    }
+    rows
 }

@@ -1,6 +1,7 @@
 //! What an objective measures of a clutch, more being better.
 
 use crate::design::{Limits, Objective};
+use crate::margin::at_nominal_torque;
 use crate::margin::{LoadState, Margin};
 
 /// One objective, with the shift and the scale at which it joins the least margin: (measure - from)/span.
@@ -68,7 +69,7 @@ pub(super) fn measures(
             let nominal = limits.nominal_torque_nm.unwrap_or(peak);
             rows.iter()
                 .filter_map(|m| {
-                    let at = if m.code.contains("nominal") { nominal } else { peak };
+                    let at = if at_nominal_torque(&m.code) { nominal } else { peak };
                     Some(measure(format!("capacity:{}", m.code), m.torque_capacity_nm? / at * peak))
                 })
                 .collect()

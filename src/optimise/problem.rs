@@ -193,6 +193,10 @@ impl ClutchProblem {
         }
         for scenario in design.scenarios.iter().filter(|s| self.scenarios.contains(&s.name)) {
             rows.extend(self.scene(scenario));
+            // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
+            if let Some(row) = rows.iter().find(|r| !r.computed) {
+                return Err(Failure::Refused(row.name.clone()));
+            }
         }
         let mut measures_of_goals = Vec::new();
         for (k, goal) in self.goals.iter().enumerate() {

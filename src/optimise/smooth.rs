@@ -73,6 +73,7 @@ pub(super) fn flank_rows(design: &Design, state: &LoadState) -> Vec<Margin> {
         margin: left - ROOM,
         torque_capacity_nm: None,
         required: true,
+        computed: true,
     })
     .collect()
 }

@@ -23,6 +23,8 @@ pub struct Demand {
     pub normal_max_n: [f64; 2],
     /// Whether the rolling run reached its end; if not, it left the profile or rolled over.
     pub finished: bool,
+    /// Where it met a limit of work instead, or ceased to be finite: then nothing of it holds.
+    pub gave_up: Option<Stop>,
     /// Whether it was interrupted from outside; then nothing of it holds.
     pub interrupted: bool,
     /// Right-hand sides it took.
@@ -76,6 +78,7 @@ pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, tolerance: f64
             contact_margin: 1.0,
             normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
             finished: true,
+            gave_up: None,
             interrupted: false,
             rhs_evaluations: 0,
         };
@@ -129,6 +132,7 @@ pub(super) fn roll(
         contact_margin: contact_margin(prepared.static_normal_n, &r),
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished,
+        gave_up: matches!(r.stop, Stop::StepLimit | Stop::EventLimit | Stop::NotFinite).then_some(r.stop),
         interrupted,
         rhs_evaluations: before + r.run.counters.rhs_evaluations,
     };

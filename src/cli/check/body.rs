@@ -2,13 +2,15 @@
 
 use super::overrun::Section;
 use super::{run_out, running};
-use crate::margin::Margin;
+use crate::margin::{Margin, at_nominal_torque};
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::wedge::EndReason;
 use serde::Serialize;
 
 /// A demand that no friction meets, in words.
 pub(super) const NONE_SUFFICES: &str = "none suffices";
+/// What stands for the demand of a run that met its limit of work.
+const NOT_COMPUTED: &str = "not computed";
 /// Margin that stands for "nothing is demanded" (`margin`).
 pub(super) const NO_DEMAND: f64 = 1e6;
 
@@ -24,6 +26,8 @@ struct Row {
     margin: f64,
     torque_capacity_nm: Option<f64>,
     required: bool,
+    /// False where a run met its limit of work: neither held nor broken.
+    computed: bool,
 }
 
 /// The required limit with the least margin.
@@ -112,7 +116,7 @@ impl Body {
                     torque_capacity_nm,
                 })
         };
-        let nominal = |r: &Margin| r.code.trim_start_matches("run-out-").starts_with("hertz-nominal");
+        let nominal = |r: &Margin| at_nominal_torque(&r.code);
         Self {
             margins: rows.iter().map(row).collect(),
             pass: required().all(Margin::held),
@@ -140,10 +144,16 @@ impl Body {
         both.map(|c| (c.code.clone(), c.torque_capacity_nm)).collect()
     }
 
+    /// Whether a required row could not be computed.
+    pub(super) fn unknown(&self) -> bool {
+        self.margins.iter().any(|r| r.required && !r.computed)
+    }
+
     /// The answer in one line.
     pub(super) fn verdict(&self) -> String {
         let required: Vec<&Row> = self.margins.iter().filter(|r| r.required).collect();
         let broken = required.iter().filter(|r| r.margin < -crate::margin::RESOLUTION).count();
+        let unknown = required.iter().filter(|r| !r.computed).count();
         match &self.deciding {
             None => "HELD: the design names no limit that could be broken".to_owned(),
             Some(d) if self.pass => format!(
@@ -151,6 +161,11 @@ impl Body {
                 required.len(),
                 d.code,
                 super::margin_text(d.margin)
+            ),
+            Some(_) if unknown > 0 => format!(
+                "NOT COMPUTED: {unknown} of {} required rows, whose runs met their limit of work; {} others not held",
+                required.len(),
+                broken - unknown
             ),
             Some(d) => format!(
                 "NOT HELD: {broken} of {} required limits; {} decides, margin {}",
@@ -199,6 +214,7 @@ fn row(r: &Margin) -> Row {
         margin: r.margin,
         torque_capacity_nm: r.torque_capacity_nm,
         required: r.required,
+        computed: r.computed,
     }
 }
 
@@ -222,7 +238,10 @@ pub(super) fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
     for r in rows {
         table.row(vec![
             r.code.as_str().into(),
-            demand(r).map_or(NONE_SUFFICES.into(), Cell::Si),
+            match demand(r) {
+                _ if !r.computed => NOT_COMPUTED.into(),
+                found => found.map_or(NONE_SUFFICES.into(), Cell::Si),
+            },
             r.allowable.into(),
             (if r.unit == "1" { "" } else { r.unit }).into(),
             if r.margin >= NO_DEMAND { "no demand".into() } else { r.margin.into() },
@@ -249,6 +268,8 @@ pub(super) fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> boo
 
 fn verdict(r: &Margin) -> Cell {
     match (r.required, r.held()) {
+        (true, _) if !r.computed => Cell::Verdict(false, "NOT COMPUTED".into()),
+        (false, _) if !r.computed => "shown only, not computed".into(),
         (true, true) => Cell::Verdict(true, "held".into()),
         (true, false) => Cell::Verdict(false, "NOT HELD".into()),
         (false, true) => "shown only".into(),
@@ -300,6 +321,7 @@ mod tests {
             margin,
             torque_capacity_nm: capacity,
             required,
+            computed: true,
         }
     }
 

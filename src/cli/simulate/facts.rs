@@ -29,6 +29,9 @@ fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
         Some((Some(needed), margin)) => {
             format!("slip margin {} (needs {})", Unit::Percent.show(margin, 3), Unit::One.show(needed, 4))
         }
+        _ if s.demand.is_some_and(|d| d.gave_up.is_some()) => {
+            "what friction would suffice is not known".to_owned()
+        }
         Some((None, _)) => "no friction would suffice to stick, the contact would open".to_owned(),
         None => String::new(),
     };
@@ -42,15 +45,23 @@ fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
                 format!("drag torque {}", Unit::NewtonMetre.show(drag, 4))
             }
         }
+        Some(Verdict::Sticks) if s.demand.is_some_and(|d| d.slip_margin < 0.0) => {
+            format!("slips by less than 1 um, which counts as sticking; {margin}")
+        }
         Some(Verdict::Sticks) => margin,
         Some(Verdict::SlipsOverrunning) => {
             format!("slip has shifted the inner race by {offset} towards overrunning; {margin}")
         }
         Some(Verdict::SlipsEngaging) if matches!(kind, ScenarioKind::Static { .. }) => margin,
         Some(Verdict::SlipsEngaging) => {
-            format!("slip has shifted the inner race by {offset} towards engaging; {margin}")
+            // The offset holds the slip of the outer contact too, which may turn it round.
+            let way = if s.offset_rad > 0.0 { "overrunning" } else { "engaging" };
+            format!("slip has shifted the inner race by {offset} towards {way}; {margin}")
         }
         Some(Verdict::Disengages) => {
+            if s.peaks.normal_max_n <= 0.0 {
+                return "the sprags touch without a force".to_owned();
+            }
             let lost = Unit::Millisecond.show(s.contact_lost_s, 4);
             format!("contact lost for {lost}, run {} at {}", s.stop.name(), Unit::Second.show(s.t_s, 4))
         }
@@ -188,11 +199,20 @@ fn peaks(f: &mut Facts, p: &Peaks, e: Option<ErrorEstimate>) {
     f.add(&at("smallest normal force, inner", 2), p.normal_min_n, Unit::Newton, e.map(|e| e.normal_min_n));
     f.add(&at("largest normal force, inner", 3), p.normal_max_n, Unit::Newton, e.map(|e| e.normal_max_n));
     f.add(&at("largest |T|/N, inner", 0), p.tan_inner, Unit::One, e.map(|e| e.tan_demand[0]));
-    f.add(&at("largest |T|/N, outer", 1), p.tan_outer, Unit::One, e.map(|e| e.tan_demand[1]));
+    let outer = at("largest |T|/N, outer", 1);
+    match e {
+        Some(e) if e.tan_demand[1] > 0.01 * p.tan_outer => {
+            f.word(&outer, "no bound: N falls to 0 while it holds")
+        }
+        _ => f.add(&outer, p.tan_outer, Unit::One, e.map(|e| e.tan_demand[1])),
+    }
 }
 
 fn demand(f: &mut Facts, s: &Simulation) {
     let Some(d) = s.demand else { return };
+    if let Some(stop) = d.gave_up {
+        return f.word("static friction needed to stick", &format!("not computed: {}", stop.name()));
+    }
     match d.required_friction {
         Some(needed) if d.by_bisection => {
             f.add(

@@ -137,6 +137,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
             margin: if found.is_some() { beyond(ratio(value, allowed), torque, end) } else { -1.0 },
             torque_capacity_nm: capacity,
             required: true,
+            computed: true,
         });
     }
     rows
@@ -168,6 +169,7 @@ fn end_row(ring: &RunOut, torque: f64, end: f64) -> Margin {
         margin: end / torque - 1.0,
         torque_capacity_nm: Some(end),
         required: true,
+        computed: true,
     }
 }
 
@@ -195,6 +197,7 @@ fn share_row(limits: &Limits, ring: &RunOut, survey: &Survey) -> Option<Margin> 
         margin: allowable / share - 1.0,
         torque_capacity_nm: None,
         required: false,
+        computed: true,
     })
 }
 
@@ -215,6 +218,7 @@ fn re_engagement_row(design: &Design, ring: &RunOut) -> Option<Margin> {
         margin: ratio(first, kinetic),
         torque_capacity_nm: None,
         required: true,
+        computed: true,
     })
 }
 
