@@ -10,7 +10,7 @@ fn the_multi_arc_design_holds() {
     let output = run(&["check", MULTI]);
     let text = stdout(&output);
     assert_eq!(output.status.code(), Some(0), "{text}");
-    assert!(text.contains("HELD: all 17 required limits") && text.contains("none suffices"), "{text}");
+    assert!(text.contains("HELD: all 19 required limits") && text.contains("none suffices"), "{text}");
     assert!(output.stderr.is_empty() && !text.contains('\u{1b}'));
 }
 
@@ -21,13 +21,53 @@ fn a_limit_that_is_not_held_is_code_1_and_named() {
     let output = run(&["check", &sharper]);
     assert_eq!(output.status.code(), Some(1));
     let text = stdout(&output);
-    assert!(text.contains("NOT HELD: 1 of 17 required limits; hertz-nominal-inner decides"), "{text}");
+    assert!(text.contains("NOT HELD: 1 of 19 required limits; hertz-nominal-inner decides"), "{text}");
     // A scenario that is shown only does not count, one that is asked for does.
     let asked =
         folder.changed(MULTI, &[("scenarios = [\"low-10\", \"rated-45\"]", "scenarios = [\"high-8\"]")]);
     let output = run(&["check", &asked, "--json"]);
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(json(&output)["deciding"]["code"], "slip:high-8");
+}
+
+#[test]
+fn a_scene_that_presses_too_hard_is_not_held() {
+    let folder = Folder::new();
+    let harder = folder.changed(MULTI, &[("preload_nm = 45.0", "preload_nm = 150.0")]);
+    let output = run(&["check", &harder, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let value = json(&output);
+    let row = value["margins"].as_array().unwrap().iter().find(|r| r["code"] == "hertz:rated-45").unwrap();
+    // 15 Nm beyond 150 are nearly half as much again as the 110 Nm of 4188 MPa; pressure grows as the root of the force.
+    let demand = row["demand"].as_f64().unwrap();
+    assert!(
+        (4600.0..4188.0 * 1.5f64.sqrt()).contains(&demand) && row["margin"].as_f64().unwrap() < 0.0,
+        "{row}"
+    );
+}
+
+#[test]
+fn a_run_that_meets_its_limit_of_work_is_not_computed_rather_than_broken() {
+    let folder = Folder::new();
+    let long = folder.changed(MULTI, &[("duration_s = 0.3", "duration_s = 100.0")]);
+    let output = run(&["check", &long]);
+    let text = stdout(&output);
+    assert_eq!(output.status.code(), Some(3), "{text}");
+    assert!(text.contains("NOT COMPUTED: 6 of 19") && !text.contains("none suffices"), "{text}");
+}
+
+#[test]
+fn limits_at_nominal_torque_set_the_nominal_capacity() {
+    let folder = Folder::new();
+    let tighter =
+        folder.changed(MULTI, &[("hertz_nominal_mpa", "windup_nominal_deg = 6.0\nhertz_nominal_mpa")]);
+    let value = json(&run(&["check", &tighter, "--json"]));
+    assert_eq!(
+        value["nominal_torque_capacity"]["code"], "windup-nominal",
+        "{}",
+        value["nominal_torque_capacity"]
+    );
+    assert_eq!(value["peak_torque_capacity"]["code"], "hoop-inner");
 }
 
 #[test]
@@ -38,7 +78,7 @@ fn the_object_has_its_keys_and_only_numbers_that_are_some() {
     assert_eq!(value["pass"], true);
     assert_eq!(value["deciding"]["code"], "hoop-inner");
     let margins = value["margins"].as_array().unwrap();
-    assert_eq!(margins.len(), 15 + 2 * 11);
+    assert_eq!(margins.len(), 15 + 3 * 11);
     for row in margins {
         let code = row["code"].as_str().unwrap();
         // Contact opens in these two whatever the friction.
@@ -97,7 +137,7 @@ fn table_and_page_are_written_whole() {
         lines.next().unwrap(),
         "code,name,demand,allowable,unit,margin,torque_capacity_nm,required,held"
     );
-    assert_eq!(lines.count(), 15 + 2 * 11);
+    assert_eq!(lines.count(), 15 + 3 * 11);
     let page = is_self_contained(html);
     for part in [
         "Margin check",

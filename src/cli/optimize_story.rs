@@ -248,7 +248,10 @@ impl Story {
         if let Some(relief) = &self.relief {
             let mut lines: Vec<String> = relief.freed.iter().map(freed_sentence).collect();
             if !relief.other_limits.is_empty() {
-                lines.push(format!("limits that no scenario frees: {}", relief.other_limits.join(", ")));
+                lines.push(format!(
+                    "broken there too, which no change of a scenario mends: {}",
+                    relief.other_limits.join(", ")
+                ));
             }
             parts.push(Part {
                 heading: "What would free it (profile of least violation, one change alone)",

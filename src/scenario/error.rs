@@ -40,6 +40,31 @@ pub struct ErrorEstimate {
     pub contact_margin: f64,
 }
 
+impl ErrorEstimate {
+    /// Each figure's error, at least `share` of that in `other`: two runs may agree by chance.
+    pub(super) fn at_least(&self, share: f64, other: &Self) -> Self {
+        let more = |a: f64, b: f64| a.max(share * b);
+        let pair = |a: [f64; 2], b: [f64; 2]| [more(a[0], b[0]), more(a[1], b[1])];
+        Self {
+            theta_inner_rad: more(self.theta_inner_rad, other.theta_inner_rad),
+            theta_outer_rad: more(self.theta_outer_rad, other.theta_outer_rad),
+            offset_rad: more(self.offset_rad, other.offset_rad),
+            net_slip_m: more(self.net_slip_m, other.net_slip_m),
+            net_slip_outer_m: more(self.net_slip_outer_m, other.net_slip_outer_m),
+            slip_distance_m: pair(self.slip_distance_m, other.slip_distance_m),
+            slip_time_s: pair(self.slip_time_s, other.slip_time_s),
+            contact_lost_s: more(self.contact_lost_s, other.contact_lost_s),
+            tan_demand: pair(self.tan_demand, other.tan_demand),
+            normal_min_n: more(self.normal_min_n, other.normal_min_n),
+            normal_max_n: more(self.normal_max_n, other.normal_max_n),
+            hertz_peak_pa: more(self.hertz_peak_pa, other.hertz_peak_pa),
+            required_friction: more(self.required_friction, other.required_friction),
+            slip_margin: more(self.slip_margin, other.slip_margin),
+            contact_margin: more(self.contact_margin, other.contact_margin),
+        }
+    }
+}
+
 /// The figures themselves.
 pub(super) struct Figures(ErrorEstimate);
 

@@ -47,11 +47,14 @@ impl Default for Settings {
 }
 
 /// Loosest and tightest relative tolerance of a step.
-const STEP_TOLERANCES: [f64; 2] = [1e-4, 1e-13];
+const STEP_TOLERANCES: [f64; 2] = [1e-3, 1e-13];
+/// What of the difference between two runs is left in the next, at least: their steps differ tenfold in tolerance.
+const LEFT: f64 = 0.1;
 
-/// Simulate `scenario` with the event-driven scheme. Two runs, whose steps differ tenfold in tolerance: the finer is
-/// the answer, the difference its error estimate. Where that exceeds the tolerance asked for, a finer run follows,
-/// until they agree, a run meets its limit of work, or steps reach rounding.
+/// Simulate `scenario` with the event-driven scheme. Three runs, whose steps differ tenfold in tolerance: the finest is
+/// the answer, its difference to the one before the error estimate, at least a tenth of the difference before that.
+/// Where that exceeds the tolerance asked for, a finer run follows, until they agree, a run meets its limit of work, or
+/// steps reach rounding.
 ///
 /// # Errors
 /// [`NoScenario`] where the scenario has no start; whatever happens afterwards is a result.
@@ -66,23 +69,25 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         return steady(prepared, settings);
     }
     let go = |tolerance: f64, samples: usize| attempt(prepared, settings, tolerance, samples, reduced);
-    let mut tolerance = (10.0 * settings.tolerance).clamp(100.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
+    let mut tolerance = (100.0 * settings.tolerance).clamp(1000.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
     let mut coarse = go(tolerance, 0);
     let (mut steps, mut rhs, mut spread) = (0, 0, [f64::INFINITY, f64::NEG_INFINITY]);
+    let mut before = None;
     loop {
         tolerance *= 0.1;
         let fine = if coarse.interrupted() { coarse.clone() } else { go(tolerance, settings.samples) };
         for theta in [coarse.run.state[2], fine.run.state[2]] {
             spread = [spread[0].min(theta), spread[1].max(theta)];
         }
-        let s = conclude(prepared, settings, &fine, &coarse);
+        let s = conclude(prepared, settings, &fine, &coarse, before);
         let gave_up = matches!(fine.run.stop, Stop::StepLimit | Stop::EventLimit | Stop::NotFinite);
         let last = gave_up || tolerance < 9.0 * STEP_TOLERANCES[1] || s.stop == Stop::Interrupted;
-        if last || s.tolerance_reached {
+        if last || s.tolerance_reached && before.is_some() {
             let (steps, rhs_evaluations) = (s.steps + steps, s.rhs_evaluations + rhs);
             return Simulation { steps, rhs_evaluations, spread_rad: spread, ..s };
         }
         (steps, rhs) = (steps + coarse.run.counters.steps, rhs + coarse.rhs_evaluations());
+        before = s.error;
         coarse = fine;
     }
 }
@@ -167,7 +172,7 @@ pub fn simulate_published(
     } else {
         go(0.5 * step_s, 0, before, 1e-2 * settings.tolerance)
     };
-    let s = conclude(&prepared, settings, &answer, &other);
+    let s = conclude(&prepared, settings, &answer, &other, None);
     let (a, b) = (answer.run.state[2], other.run.state[2]);
     Ok(Simulation { spread_rad: [a.min(b), a.max(b)], ..s })
 }
@@ -178,11 +183,18 @@ pub fn published_steps(duration_s: f64, step_s: f64) -> u64 {
     steps(step_s) + steps(0.5 * step_s)
 }
 
-/// The answer `fine`, its error by `other`, the verdict of both.
-fn conclude(prepared: &Prepared, settings: &Settings, fine: &Try, other: &Try) -> Simulation {
+/// The answer `fine`, its error by `other` and, where there was one, by the difference `before`; the verdict of both.
+fn conclude(
+    prepared: &Prepared,
+    settings: &Settings,
+    fine: &Try,
+    other: &Try,
+    before: Option<ErrorEstimate>,
+) -> Simulation {
     let whole = !fine.interrupted() && !other.interrupted();
     let figures = |t: &Try| Figures::of(prepared, &t.run, t.demand);
-    let error = whole.then(|| figures(fine).difference(&figures(other)));
+    let difference = || figures(fine).difference(&figures(other));
+    let error = whole.then(|| before.map_or_else(difference, |b| difference().at_least(LEFT, &b)));
     let agreed = error.and_then(|error| {
         let (a, b) = (verdict(prepared, &fine.run, &error)?, verdict(prepared, &other.run, &error)?);
         Some(if a == b { a } else { Verdict::AtThreshold })
