@@ -198,6 +198,7 @@ impl Body {
             Ok((_, s)) => s,
         };
         let overruns = matches!(scene.scenario.kind, ScenarioKind::Overrun { .. });
+        let known = s.demand.filter(|d| d.gave_up.is_none());
         Self {
             stop: s.stop.name(),
             t_end_s: Some(s.t_s),
@@ -207,9 +208,9 @@ impl Body {
             slip: Slips { inner: Slip::of(&s.inner), outer: Slip::of(&s.outer) },
             contact_lost_s: Some(s.contact_lost_s),
             peak_tan_demand: Some(s.peaks.tan_inner.max(s.peaks.tan_outer)),
-            required_static_friction: s.demand.and_then(|d| d.required_friction),
-            slip_margin: s.demand.map(|d| d.slip_margin),
-            contact_margin: s.demand.map(|d| d.contact_margin),
+            required_static_friction: known.and_then(|d| d.required_friction),
+            slip_margin: known.map(|d| d.slip_margin),
+            contact_margin: known.map(|d| d.contact_margin),
             normal_min_n: Some(s.peaks.normal_min_n),
             normal_max_n: Some(s.peaks.normal_max_n),
             hertz_peak_mpa: Some(s.hertz_peak_pa / 1e6),
