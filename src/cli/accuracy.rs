@@ -51,7 +51,7 @@ pub struct AccuracyArgs {
     #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub seed: u64,
     /// Smallest step of the published scheme, s, 1e-8 to 1e-4
-    #[arg(long, value_name = "S", default_value_t = 1e-7, allow_negative_numbers = true, value_parser = positive)]
+    #[arg(long, value_name = "S", default_value_t = 1e-7, allow_hyphen_values = true, value_parser = positive)]
     pub min_step: f64,
 }
 

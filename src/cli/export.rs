@@ -60,16 +60,16 @@ pub struct ExportArgs {
     #[arg(long, value_enum, default_value_t = VariantName::Layer)]
     pub variant: VariantName,
     /// Spacing of the mesh at the contacts, mm
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = positive, default_value = "0.025")]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = positive, default_value = "0.025")]
     pub mesh: f64,
     /// Torque to be reached, Nm [default: the design's nominal torque]
-    #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = positive)]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = positive)]
     pub torque: Option<f64>,
     /// Increments of the turning step [default: 12, more where the contacts travel far]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub increments: Option<usize>,
     /// Coefficient of friction of the deck; it is to stick, the design's own is not used
-    #[arg(long, value_name = "MU", allow_negative_numbers = true, value_parser = positive, default_value = "0.3")]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = positive, default_value = "0.3")]
     pub friction: f64,
     /// Read this result of ccx instead of writing; the deck is looked for beside it, as .inp
     #[arg(long, value_name = "RESULT.dat")]

@@ -72,7 +72,7 @@ pub struct OptimizeArgs {
     #[arg(long)]
     pub full: bool,
     /// True error allowed of an evaluation in the search, 1e-13 to 1e-3; the optimum is looked at once more at a tenth of 1e-6
-    #[arg(long, value_name = "X", default_value_t = 1e-6, allow_negative_numbers = true, value_parser = super::positive)]
+    #[arg(long, value_name = "X", default_value_t = 1e-6, allow_hyphen_values = true, value_parser = super::positive)]
     pub tolerance: f64,
 }
 

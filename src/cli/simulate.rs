@@ -67,15 +67,15 @@ pub struct SimulateArgs {
     /// Method of integration
     #[arg(long, value_enum, default_value_t = Method::Event)]
     pub method: Method,
-    /// Fixed step, s (for the event method: its longest step) [default: chosen by the event method, 1e-5 published]
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = positive)]
+    /// Fixed step, s, 1e-9 or more (for the event method: its longest step) [default: chosen by the event method, 1e-5 published]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive)]
     pub step: Option<f64>,
     /// True error allowed of every figure of the event method relative to its natural size (an angle: 1 rad, a time: the
     /// duration, a force: the largest), 1e-13 to 1e-3; steps are tightened until two runs agree to it [default: 1e-6]
-    #[arg(long, value_name = "X", allow_negative_numbers = true, value_parser = positive)]
+    #[arg(long, value_name = "X", allow_hyphen_values = true, value_parser = positive)]
     pub tolerance: Option<f64>,
     /// Half width of the band of zero velocity of the published method, m/s [default: 1e-4]
-    #[arg(long, value_name = "M_PER_S", allow_negative_numbers = true, value_parser = positive)]
+    #[arg(long, value_name = "M_PER_S", allow_hyphen_values = true, value_parser = positive)]
     pub band: Option<f64>,
     /// Run everything, also what the scene cannot feel (arcs never touched, the friction law where nothing slips)
     #[arg(long)]

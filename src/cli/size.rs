@@ -32,19 +32,19 @@ Exit codes: 0 written; 1 no clutch of the family does it, with the limit that pr
 #[command(after_help = EXAMPLES)]
 pub struct SizeArgs {
     /// Bore of the inner race, diameter, mm
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub bore: f64,
     /// Nominal torque, Nm
-    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true)]
     pub torque: f64,
     /// Speed of the outer race up to which the sprags keep contact in overrun, rpm [0: not asked]
-    #[arg(long, value_name = "RPM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", default_value_t = 0.0, allow_hyphen_values = true)]
     pub speed: f64,
     /// Peak torque over nominal torque
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.3, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.3, allow_hyphen_values = true)]
     pub safety: f64,
     /// Static friction
-    #[arg(long, value_name = "MU", default_value_t = 0.11, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MU", default_value_t = 0.11, allow_hyphen_values = true)]
     pub friction: f64,
     /// Where to write the design file
     #[arg(long, short, value_name = "NEW.toml")]

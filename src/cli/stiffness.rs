@@ -56,7 +56,7 @@ pub struct StiffnessArgs {
     #[arg(long, value_name = "NM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',', conflicts_with = "max_torque")]
     pub torques: Vec<f64>,
     /// Largest torque of an even table, Nm [default: the design's peak torque]
-    #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = positive)]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = positive)]
     pub max_torque: Option<f64>,
     /// Finite-element result to compare with, CSV; once for each FILE, in their order
     #[arg(long, value_name = "PATH")]

@@ -9,7 +9,7 @@ use kuva::prelude::{Layout, LinePlot, Plot as KuvaPlot, SvgBackend, Theme, TickF
 use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
-use scale::{Extent, log_tick, thinned, tick};
+use scale::{Extent, log_tick, one_decade, thinned, tick};
 use std::sync::Arc;
 use style::{Style, styles};
 
@@ -216,16 +216,16 @@ impl Plot {
             .with_x_axis_max(x_range.1)
             .with_y_axis_min(y_range.0)
             .with_y_axis_max(y_range.1);
-        if self.log_x {
-            layout = layout.with_log_x().with_x_tick_format(TickFormat::Custom(Arc::new(log_tick(x_range))));
-        } else {
-            layout = layout.with_x_tick_format(format(x_range));
-        }
-        if self.log_y {
-            layout = layout.with_log_y();
-        } else {
-            layout = layout.with_y_tick_format(format(y_range));
-        }
+        // Labels of an x axis run into one another sooner than those of a y axis.
+        let log = |all: bool| TickFormat::Custom(Arc::new(log_tick(all)));
+        layout = match self.log_x {
+            true => layout.with_log_x().with_x_tick_format(log(one_decade(x_range))),
+            false => layout.with_x_tick_format(format(x_range)),
+        };
+        layout = match self.log_y {
+            true => layout.with_log_y().with_y_tick_format(log(true)),
+            false => layout.with_y_tick_format(format(y_range)),
+        };
         layout
     }
 

@@ -102,14 +102,14 @@ impl Section {
         let at = |race: &str| {
             last(race).map_or(String::new(), |p| {
                 let drag = match p.lifted_off {
-                    true => "none, the sprags being off by then".to_owned(),
+                    true => "none (the sprags are off by then)".to_owned(),
                     false => Unit::NewtonMetre.show(p.drag_torque_nm, 3),
                 };
-                format!("with the {race} race at {:.0} rpm {drag}", p.speed_rpm)
+                format!("at {:.0} rpm of the {race} race {drag}", p.speed_rpm)
             })
         };
         format!(
-            "Overrun: drag {slow} when slow, {}, {}; the centrifugal force is {} (gamma {:.3} deg)",
+            "Overrun: drag {slow} when slow; {}; {}; the centrifugal force is {} (gamma {:.3} deg)",
             at("outer"),
             at("inner"),
             self.centrifugal,

@@ -39,13 +39,16 @@ pub(super) fn tick(value: f64, span: f64, largest: f64) -> String {
     text.replace('-', "\u{2212}")
 }
 
-/// Text of the ticks of a logarithmic x axis: powers of ten, and what lies between only within one decade, so that
-/// they do not run into one another.
-pub(super) fn log_tick(range: (f64, f64)) -> impl Fn(f64) -> String + Send + Sync + 'static {
-    let narrow = range.1 <= 10.001 * range.0;
+/// Whether an axis spans one decade at most: there is room for more than powers of ten.
+pub(super) fn one_decade((low, high): (f64, f64)) -> bool {
+    high <= 10.001 * low
+}
+
+/// Text of the ticks of a logarithmic axis: powers of ten, what lies between only if `all` are to be written.
+pub(super) fn log_tick(all: bool) -> impl Fn(f64) -> String + Send + Sync + 'static {
     move |value: f64| {
         let power = value.log10();
-        if !narrow && (power - power.round()).abs() > 1e-6 {
+        if !all && (power - power.round()).abs() > 1e-6 {
             String::new()
         } else if (1e-3..9e3).contains(&value) {
             plain(value, 3)

@@ -1,4 +1,4 @@
-use super::scale::{log_tick, thinned, tick, widened};
+use super::scale::{log_tick, one_decade, thinned, tick, widened};
 use super::style::styles;
 use super::*;
 
@@ -85,10 +85,10 @@ fn ticks_of_one_axis_agree() {
 
 #[test]
 fn powers_of_ten_alone_are_written_on_a_long_logarithmic_axis() {
-    let long = log_tick((100.0, 1e5));
+    let long = log_tick(one_decade((100.0, 1e5)));
     let told: Vec<String> = [100.0, 200.0, 1000.0, 5000.0, 1e4, 1e5].map(long).into();
     assert_eq!(told, ["100", "", "1000", "", "1e4", "1e5"]);
-    let short = log_tick((1e4, 1e5));
+    let short = log_tick(one_decade((1e4, 1e5)));
     assert_eq!([1e4, 2e4, 5e4].map(short), ["1e4", "2e4", "5e4"]);
 }
 
