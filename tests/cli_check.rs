@@ -63,8 +63,8 @@ fn the_object_has_its_keys_and_only_numbers_that_are_some() {
     let errors = &value["error_estimate"];
     assert!(errors["statics_relative"].as_f64().unwrap() < 1e-8, "{errors}");
     assert!(errors["scenario_margins"].as_f64().unwrap() < 1e-5, "{errors}");
-    // Table 1's sprag lifts off near 5000 rpm; that speed is one of those of the overrun, and there the drag ends, but for
-    // the force of some mN at which first contact is taken.
+    // Table 1's sprag lifts off near 5000 rpm; that speed is one of those of the overrun, and there the drag ends: the
+    // equilibrium in overrun loses its last 1 mN at A within some 2 rpm of it.
     let lift_off = value["lift_off_rpm"].as_f64().unwrap();
     assert!((lift_off - 4968.0).abs() < 1.0);
     let points = value["overrun"]["points"].as_array().unwrap().iter().filter(|p| p["race"] == "outer");
