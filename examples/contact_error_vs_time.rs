@@ -240,7 +240,7 @@ fn curves(plot: Plot, laws: &[Law], of: impl Fn(&Error3) -> f64 + Copy) -> Strin
             .filter(|l| l.family == family)
             .map(|l| [1e3 * typical(l, |e| e.seconds), 100.0 * typical(l, of)])
             .collect();
-        plot.curves.push(Curve { name: family.into(), points, dash, dots: true });
+        plot.curves.push(Curve { name: family.into(), points, dash, dots: true, colour: None });
     }
     plot.to_svg()
 }

@@ -49,6 +49,15 @@ fn a_scene_and_a_few_cases_are_compared_and_written() {
 }
 
 #[test]
+fn a_scheme_that_never_finishes_is_said_in_words() {
+    // At 1e-4 s the published scheme leaves the equations of this scene.
+    let out = tool(&["--scenario", "high-10", "--min-step", "1e-4", "--cases", "0"]).output().unwrap();
+    let said = String::from_utf8_lossy(&out.stdout).into_owned();
+    assert_eq!(out.status.code(), Some(0), "{said}");
+    assert!(said.contains("published never: no step finished") && !said.contains("inf rad"), "{said}");
+}
+
+#[test]
 fn what_makes_no_sense_is_refused() {
     for (args, word) in [
         (["--min-step", "1"], "--min-step"),

@@ -36,7 +36,7 @@ fn other_formats_and_senseless_flags_are_refused_with_code_2() {
         (&["--increments", "0"], "increments"),
         (&["--json"], "--read"),
         (&["--torques", "3"], "--read"),
-        (&["--read", "no-such.dat"], "no-such"),
+        (&["--read", "no-such.dat"], "no-such.dat: the result"),
         (&["-o", SINGLE], "never overwritten"),
     ] {
         let (code, text) = code(&[&["export", SINGLE, "--format", "calculix"], flags].concat());

@@ -170,6 +170,8 @@ fn senseless_questions_exit_with_2_and_write_nothing() {
         vec!["optimize", DESIGN, "-o", DESIGN],
         vec!["optimize", DESIGN, "-o", name, "--resume"],
         vec!["optimize", DESIGN, "-o", name, "--evaluations", "0"],
+        vec!["optimize", DESIGN, "-o", name, "--tolerance", "1e-30"],
+        vec!["optimize", DESIGN, "-o", name, "--tolerance", "1e9"],
     ] {
         let out = tool(&args);
         assert_eq!(out.status.code(), Some(2), "{args:?}: {}", String::from_utf8_lossy(&out.stderr));
@@ -230,17 +232,20 @@ fn evaluate_answers_line_by_line() {
         .stdout(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    let lines = "[4.08, 4.15, 0.1935, 0.5288]\n\n[4.08, 4.15]\n[4.08, 4.15, 0.1935, 50.0]\nnothing\n";
-    child.stdin.take().unwrap().write_all(lines.as_bytes()).unwrap();
+    let lines =
+        b"[4.08, 4.15, 0.1935, 0.5288]\n\n[4.08, 4.15]\n[4.08, 4.15, 0.1935, 50.0]\n\xff\xfe\n[4.08, 4.15, 0.1935, 0.5288]";
+    child.stdin.take().unwrap().write_all(lines).unwrap();
     let out = child.wait_with_output().unwrap();
     assert_eq!(out.status.code(), Some(2), "two lines are no vectors");
     let told: Vec<Value> =
         String::from_utf8(out.stdout).unwrap().lines().map(|l| serde_json::from_str(l).unwrap()).collect();
-    assert_eq!(told.len(), 5);
+    assert_eq!(told.len(), 6);
     assert_eq!(told[0]["variables"][0]["name"], "r_i2_mm");
     assert_eq!(told[0]["limits"].as_array().unwrap().len(), told[1]["limits"].as_array().unwrap().len());
     assert!((told[1]["least"].as_f64().unwrap() - 0.34318).abs() < 1e-5 && told[1]["feasible"] == false);
     assert!(told[2]["malformed"].as_str().unwrap().starts_with("line 3"));
-    assert!(told[3]["refused"].as_str().unwrap().contains("centroid"));
-    assert!(told[4]["malformed"].is_string());
+    let refused = told[3]["refused"].as_str().unwrap();
+    assert!(refused.starts_with("x[3], centroid_y_mm = 50, lies outside its bounds"), "{refused}");
+    assert!(told[4]["malformed"].as_str().unwrap().starts_with("line 5: no UTF-8"));
+    assert_eq!(told[5], told[1]);
 }

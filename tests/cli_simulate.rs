@@ -172,6 +172,8 @@ fn a_question_that_makes_no_sense_is_code_2_and_says_what_would() {
         ("high-6", &["--tolerance", "1e-8", "--method", "published"], &["--step"]),
         ("high-6", &["--band", "1e-4"], &["--method published"]),
         ("high-6", &["--method", "published", "--step", "1"], &["0.3 s"]),
+        ("high-6", &["--method", "published", "--step", "1e-12"], &["1e-9 s or more"]),
+        ("high-6", &["--step", "1e-12"], &["1e-9 s or more"]),
     ] {
         let output = simulate(DESIGN, scenario, more);
         assert_eq!(output.status.code(), Some(2), "{scenario} {more:?}");

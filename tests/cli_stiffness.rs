@@ -161,6 +161,8 @@ fn malformed_questions_are_code_2_and_write_nothing() {
         &["stiffness", &bad, "--csv", &csv, "--json"][..],
         &["stiffness", &missing, "--csv", &csv, "--json"],
         &["stiffness", MULTI, "--csv", &csv, "--torques", "1e-9"],
+        &["stiffness", MULTI, "--csv", &csv, "--fem", &missing],
+        &["stiffness", MULTI, "--csv", MULTI],
     ] {
         let output = run(args);
         assert_eq!(output.status.code(), Some(2), "{args:?}");

@@ -54,6 +54,47 @@ fn the_design_file_is_never_an_output() {
 }
 
 #[test]
+fn a_negative_number_is_a_value_and_refused_as_one() {
+    const DESIGN: &str = "designs/huang2017-multi-arc.toml";
+    for (args, word) in [
+        (&["stiffness", DESIGN, "--torques", "-5"][..], "above zero"),
+        (&["stiffness", DESIGN, "--torques", "3,-5"], "above zero"),
+        (&["stiffness", DESIGN, "--torques", "-5,3"], "above zero"),
+        (&["stiffness", DESIGN, "--max-torque", "-4"], "above zero"),
+        (&["simulate", DESIGN, "--scenario", "high-6", "--step", "-1"], "above zero"),
+        (&["simulate", DESIGN, "--scenario", "high-6", "--tolerance", "-1e-6"], "above zero"),
+        (&["optimize", DESIGN, "--evaluations", "-3"], "1..=1000000"),
+        (&["accuracy", DESIGN, "--cases", "-1"], "0..=100000"),
+        (&["size", "--bore", "-40", "--torque", "10", "-o", "never.toml"], "1 to 2000 mm"),
+        (&["check", DESIGN, "--threads", "-1"], "1..=1024"),
+    ] {
+        let output = run(args);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(said.contains(word) && !said.contains("unexpected argument"), "{args:?}: {said}");
+    }
+}
+
+#[test]
+fn options_without_meaning_are_refused_in_a_sentence() {
+    const DESIGN: &str = "designs/huang2017-multi-arc.toml";
+    for args in [
+        &["schema", "--csv", "a.csv"][..],
+        &["schema", "--report", "a.html"],
+        &["materials", "--report", "a.html"],
+        &["completions", "bash", "--json"],
+        &["evaluate", DESIGN, "--json"],
+        &["evaluate", DESIGN, "--report", "a.html"],
+    ] {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(text(&output.stderr).contains("has no meaning with") && output.stdout.is_empty(), "{args:?}");
+    }
+    assert_eq!(run(&["schema", "--json"]).status.code(), Some(0));
+    assert_eq!(run(&["materials", "--json"]).status.code(), Some(0));
+}
+
+#[test]
 fn a_reader_that_leaves_is_no_failure() {
     let mut child = program()
         .args(["completions", "bash"])

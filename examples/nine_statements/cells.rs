@@ -128,7 +128,7 @@ fn plot(ran: &[Ran], what: usize, title: &str, size: [f64; 2], until_ms: f64) ->
     let mut plot = Plot::new("time, ms", title).sized(size[0], size[1]);
     for ((r, name), dash) in ran.iter().zip(AMPLITUDES).zip([Dash::Solid, Dash::Dashed, Dash::Solid]) {
         let points = r.history.iter().filter(|h| h[0] <= until_ms).map(|h| [h[0], h[what]]).collect();
-        plot.curves.push(Curve { name: name.into(), points, dash, dots: false });
+        plot.curves.push(Curve { name: name.into(), points, dash, dots: false, colour: None });
     }
     plot.to_svg()
 }

@@ -45,13 +45,13 @@ pub struct AccuracyArgs {
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub scenario: Vec<String>,
     /// Cases of the stability map; 0: no map
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(0..=MOST_CASES))]
+    #[arg(long, value_name = "N", default_value_t = 300, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=MOST_CASES))]
     pub cases: u32,
     /// Seed of the stability map
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub seed: u64,
     /// Smallest step of the published scheme, s, 1e-8 to 1e-4
-    #[arg(long, value_name = "S", default_value_t = 1e-7, value_parser = positive)]
+    #[arg(long, value_name = "S", default_value_t = 1e-7, allow_hyphen_values = true, value_parser = positive)]
     pub min_step: f64,
 }
 
@@ -73,7 +73,7 @@ struct Study {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &AccuracyArgs, context: &Context) -> Result<Exit, Failure> {
-    context.outputs.check(&args.file, &[])?;
+    context.outputs.check(&[&args.file], &[])?;
     if !(1e-8..=1e-4).contains(&args.min_step) {
         return Err(Failure::malformed(format!("--min-step {:e}: allowed: 1e-8 to 1e-4", args.min_step)));
     }

@@ -15,11 +15,12 @@ use super::{Context, interrupt::Interrupt, progress::Progress};
 use crate::design::{Design, Scenario, ScenarioKind};
 use crate::margin::{
     LoadState, Margin, NoMargins, OverrunCurve, RunOut, lift_off_rad_s, load_margins, load_state,
-    overrun_curve, run_out_margins, scene_margins,
+    run_out_margins, scene_margins,
 };
 use crate::report::Unit;
 use crate::scenario::Settings;
-use body::{Body, NONE_SUFFICES, Source, csv_table, people_table};
+use body::{Body, NONE_SUFFICES, Source, csv_table};
+pub(super) use body::{ends_first, people_table};
 use clap::Args;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -30,8 +31,11 @@ const EXAMPLES: &str = "\
 Examples:
   sprag-design check designs/huang2017-multi-arc.toml
   sprag-design check designs/huang2017-multi-arc.toml --report check.html
-  sprag-design check designs/huang2017-multi-arc.toml --json | jq '.margins[] | select(.margin < 0)'";
+  sprag-design check designs/huang2017-multi-arc.toml --json | jq '.margins[] | select(.held | not)'";
 
+/// What a capacity in a table of margins means.
+pub(super) const REACHED_AT: &str =
+    "Reached at: torque at which the limit would be reached; >: not before the curve ends";
 /// Speed up to which a lift-off of the sprags is looked for, rad/s: 60 000 rpm, beyond any clutch of this kind.
 const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * PI / 30.0;
 
@@ -65,7 +69,7 @@ struct Check {
 /// [`Failure`].
 pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
     let others: Vec<&Path> = args.overrun_csv.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&args.file, &others)?;
+    context.outputs.check(&[&args.file], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let started = Instant::now();
     let check = compute(&design, context)?;
@@ -99,7 +103,7 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         })),
         body,
     };
-    context.outputs.write_csv(&csv_table(&check.rows))?;
+    context.outputs.write_csv(&csv_table(&check.rows, check.state.curve.end_torque_nm()))?;
     if let Some(path) = &args.overrun_csv {
         output::write_table(path, &answer.body.overrun.table())?;
     }
@@ -136,7 +140,7 @@ fn compute(design: &Design, context: &Context) -> Result<Check, Failure> {
     let lift_off_rad_s = lift_off_rad_s(design, &state, LIFT_OFF_TO_RAD_S);
     let track_m = design.clutch.races.outer_radius_m;
     let up_to = overrun::up_to_rad_s(&design.limits, lift_off_rad_s, track_m);
-    let overrun = overrun_curve(design, &state, up_to)
+    let overrun = overrun::curve(design, &state, up_to, lift_off_rad_s)
         .map_err(|e| Failure::malformed(format!("no wedge curve: {e}")))?;
     Ok(Check { state, rows, scene_error, lift_off_rad_s, overrun, run_out })
 }
@@ -169,7 +173,8 @@ fn text(design: &Design, check: &Check, body: &Body, colour: bool) -> String {
         out.push_str(&line);
         out.push('\n');
     }
-    out.push_str("Reached at: torque at which the limit would be reached; >: not before the curve ends\n");
+    out.push_str(REACHED_AT);
+    out.push('\n');
     if check.rows.iter().any(|r| r.computed && r.demand == f64::MAX) {
         out.push_str(&format!(
             "{NONE_SUFFICES}: contact would open, or the clutch leaves its curve, whatever the friction\n"
@@ -193,5 +198,9 @@ fn overrunning(design: &Design) -> Option<String> {
 
 /// A margin in percent; a limit that nothing demands has none.
 fn margin_text(margin: f64) -> String {
-    if margin >= body::NO_DEMAND { "no demand".to_owned() } else { Unit::Percent.show(margin, 3) }
+    if margin >= body::NO_DEMAND {
+        "no demand".to_owned()
+    } else {
+        Unit::Percent.show(body::resolved(margin), 3)
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::exit::{Exit, Failure};
 use super::{Context, output, parts};
-use crate::design::Design;
+use crate::design::{Design, Optimize};
 use crate::optimise::{ClutchProblem, Evaluate, Fidelity, Looked};
 use clap::Args;
 use serde_json::{Value, json};
@@ -17,7 +17,7 @@ Examples:
 Each line on standard input is a JSON array: the values of the variables of [optimize], in the file's order and units.
 Each gets one line on standard output, in order and at once: x; objectives (the least of them is what `optimize`
 maximises); limits (each must be 0 or more); least, the least objective; violation, the largest -limit or 0; feasible.
-Where there is no clutch at x: x and refused, the reason. A line that is no such array: malformed, and exit code 2 at
+Where x is out of bounds or there is no clutch at it: x and refused, the reason. A line that is no such array: malformed, and exit code 2 at
 the end. --describe tells names, bounds and start first.";
 
 /// Arguments of `evaluate`.
@@ -54,20 +54,26 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
         line(&description(&design, &problem))?;
     }
     let mut malformed = false;
-    for (at, text) in std::io::stdin().lock().lines().enumerate() {
+    for (at, text) in std::io::stdin().lock().split(b'\n').enumerate() {
         if context.interrupt.requested() {
             return Err(Failure::Interrupted);
         }
         let text = text.map_err(|e| Failure::Failed(format!("standard input: {e}")))?;
-        if text.trim().is_empty() {
+        if text.trim_ascii().is_empty() {
             continue;
         }
         let count = problem.variables().len();
-        let read: Result<Vec<f64>, String> = serde_json::from_str(&text).map_err(|e| e.to_string());
+        let read: Result<Vec<f64>, String> = match std::str::from_utf8(&text) {
+            Ok(text) => serde_json::from_str(text).map_err(|e| e.to_string()),
+            Err(e) => Err(format!("no UTF-8 text: {e}")),
+        };
         match read.and_then(|x| {
             if x.len() == count { Ok(x) } else { Err(format!("{} numbers, not {count}", x.len())) }
         }) {
-            Ok(x) => line(&answer(&problem, &x))?,
+            Ok(x) => line(&match outside(task, &x) {
+                Some(why) => json!({ "x": x, "refused": why }),
+                None => answer(&problem, &x),
+            })?,
             Err(why) => {
                 malformed = true;
                 line(&json!({ "malformed": format!("line {}: {why}", at + 1) }))?;
@@ -75,6 +81,13 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
         }
     }
     Ok(if malformed { Exit::Malformed } else { Exit::Held })
+}
+
+/// The first value beyond its bounds, in words.
+fn outside(task: &Optimize, x: &[f64]) -> Option<String> {
+    let (i, (v, x)) =
+        task.variables.iter().zip(x).enumerate().find(|(_, (v, x))| !(v.min..=v.max).contains(x))?;
+    Some(format!("x[{i}], {} = {x}, lies outside its bounds {} to {}", v.name, v.min, v.max))
 }
 
 /// One line of the answer.

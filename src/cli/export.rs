@@ -60,22 +60,22 @@ pub struct ExportArgs {
     #[arg(long, value_enum, default_value_t = VariantName::Layer)]
     pub variant: VariantName,
     /// Spacing of the mesh at the contacts, mm
-    #[arg(long, value_name = "MM", value_parser = positive, default_value = "0.025")]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = positive, default_value = "0.025")]
     pub mesh: f64,
     /// Torque to be reached, Nm [default: the design's nominal torque]
-    #[arg(long, value_name = "NM", value_parser = positive)]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = positive)]
     pub torque: Option<f64>,
     /// Increments of the turning step [default: 12, more where the contacts travel far]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub increments: Option<usize>,
     /// Coefficient of friction of the deck; it is to stick, the design's own is not used
-    #[arg(long, value_name = "MU", value_parser = positive, default_value = "0.3")]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = positive, default_value = "0.3")]
     pub friction: f64,
     /// Read this result of ccx instead of writing; the deck is looked for beside it, as .inp
     #[arg(long, value_name = "RESULT.dat")]
     pub read: Option<PathBuf>,
     /// Torques at which the result is read, Nm, comma separated [default: every increment]
-    #[arg(long, value_name = "NM,...", value_parser = positive, value_delimiter = ',', requires = "read")]
+    #[arg(long, value_name = "NM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',', requires = "read")]
     pub torques: Vec<f64>,
 }
 
@@ -84,8 +84,9 @@ pub struct ExportArgs {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
-    let others: Vec<_> = args.output.iter().chain(&args.read).map(PathBuf::as_path).collect();
-    context.outputs.check(&args.file, &others)?;
+    let inputs: Vec<_> = std::iter::once(&args.file).chain(&args.read).map(PathBuf::as_path).collect();
+    let others: Vec<_> = args.output.iter().map(PathBuf::as_path).collect();
+    context.outputs.check(&inputs, &others)?;
     let design = parts::read_design(&args.file, context)?;
     if let Some(dat) = &args.read {
         return result::run(&design, dat, &args.torques, context);

@@ -45,13 +45,13 @@ pub struct IdentifyArgs {
     #[arg(long, short, value_name = "NEW.toml")]
     pub output: Option<PathBuf>,
     /// Starts of the search: the file's own values, the others at random between the bounds
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 4, allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub starts: u16,
     /// Seed of the random starts
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
     pub seed: u64,
     /// Most evaluations of the simplex search of one start
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub evaluations: u32,
 }
 
@@ -82,8 +82,7 @@ const WRITTEN_BY: &str = "# Written by sprag-design identify";
 pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
     let mut others: Vec<&std::path::Path> = Vec::new();
     others.extend(args.output.as_deref());
-    context.outputs.check(&args.file, &others)?;
-    context.outputs.check(&args.data, &others)?;
+    context.outputs.check(&[&args.file, &args.data], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let named = |why: String| Failure::malformed(format!("{}: {why}", args.data.display()));
     let text = std::fs::read_to_string(&args.data).map_err(|e| named(e.to_string()))?;

@@ -107,7 +107,7 @@ struct Common {
     #[arg(long, global = true, value_name = "PATH.html")]
     report: Option<PathBuf>,
     /// Number of threads [default: all cores]
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, global = true, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// No progress and no messages, only the answer and errors
     #[arg(long, short, global = true)]
@@ -177,6 +177,7 @@ pub fn run() -> ExitCode {
 }
 
 fn dispatch(cli: Cli) -> Result<Exit, Failure> {
+    refuse_meaningless(&cli.command, &cli.common)?;
     let context = context(cli.common)?;
     match cli.command {
         Command::Check(args) => check::run(&args, &context),
@@ -196,6 +197,28 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
             output::print(&String::from_utf8_lossy(&script))?;
             Ok(Exit::Held)
         }
+    }
+}
+
+/// Refuse `--json`, `--csv` and `--report` where a command has no such answer.
+fn refuse_meaningless(command: &Command, common: &Common) -> Result<(), Failure> {
+    let (name, why, [json, csv, report]) = match command {
+        Command::Materials => ("materials", "steels are a table, they have no page", [true, true, false]),
+        Command::Schema => ("schema", "its answer is one JSON object", [true, false, false]),
+        Command::Completions { .. } => ("completions", "its answer is a script", [false; 3]),
+        Command::Evaluate(_) => {
+            ("evaluate", "its answer is a JSON object for each line that it reads", [false; 3])
+        }
+        _ => return Ok(()),
+    };
+    let given = [
+        ("--json", common.json && !json),
+        ("--csv", common.csv.is_some() && !csv),
+        ("--report", common.report.is_some() && !report),
+    ];
+    match given.into_iter().find(|(_, refused)| *refused) {
+        Some((flag, _)) => Err(Failure::malformed(format!("{flag} has no meaning with {name}: {why}"))),
+        None => Ok(()),
     }
 }
 

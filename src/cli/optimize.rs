@@ -6,6 +6,7 @@ use super::journal::{self, JournalFile};
 use super::optimize_story::Story;
 use super::output::{TOOL, VERSION, write_whole};
 use super::progress::Progress;
+use super::simulate::refuse_tolerance;
 use super::{optimize_answer as answer, parts};
 use crate::design::{Design, Objective, Optimize};
 use crate::optimise::{
@@ -45,33 +46,33 @@ pub struct OptimizeArgs {
     #[arg(long, value_name = "PATH")]
     pub journal: Option<PathBuf>,
     /// Most evaluations of the clutch in each climb
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 500, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub evaluations: u32,
     /// Climbs side by side: the first from the design, the others from scrambled Sobol points of the box [default: 8, and 8
     /// more up to 32 as long as the optima met let expect others]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub starts: Option<u32>,
     /// Global search first: a particle swarm of about N evaluations, then a climb from its best point
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "2000",
-          value_parser = clap::value_parser!(u32).range(80..=1_000_000))]
+          allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(80..=1_000_000))]
     pub global: Option<u32>,
     /// Front between two or three objectives, such as slip-margin,torque-capacity
     #[arg(long, value_name = "OBJECTIVES", value_delimiter = ',', num_args = 1)]
     pub pareto: Vec<Objective>,
     /// Steps of the front between any two of its ends
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(2..=64))]
+    #[arg(long, value_name = "N", default_value_t = 8, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(2..=64))]
     pub points: u32,
     /// Margins within the file's tolerances at every corner and in seeded draws, and a design that holds them at every corner
     #[arg(long)]
     pub robust: bool,
     /// Draws within the tolerances
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(10..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(10..=100_000))]
     pub draws: u32,
     /// Run everything in the search too, and leave nothing out that a scene cannot feel
     #[arg(long)]
     pub full: bool,
-    /// True error allowed of an evaluation in the search; the optimum is looked at once more at a tenth of 1e-6
-    #[arg(long, value_name = "X", default_value_t = 1e-6, value_parser = super::positive)]
+    /// True error allowed of an evaluation in the search, 1e-13 to 1e-3; the optimum is looked at once more at a tenth of 1e-6
+    #[arg(long, value_name = "X", default_value_t = 1e-6, allow_hyphen_values = true, value_parser = super::positive)]
     pub tolerance: f64,
 }
 
@@ -88,9 +89,10 @@ const WRITTEN_BY: &str = "# Written by sprag-design optimize";
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
+    refuse_tolerance(args.tolerance)?;
     let new = output_path(args)?;
     let record = args.journal.clone().unwrap_or_else(|| journal::path_for(&new));
-    context.outputs.check(&args.file, &[&new, &record])?;
+    context.outputs.check(&[&args.file], &[&new, &record])?;
     let design = parts::read_design(&args.file, context)?;
     let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
     let Some(task) = design.optimize.clone() else {

@@ -80,11 +80,12 @@ pub struct Outputs {
 
 impl Outputs {
     /// Refuse what would only fail, or do harm, after the work is done: the input as an output, one file
-    /// for two outputs, a folder that is not there. `others`: further outputs of the command.
+    /// for two outputs, a folder that is not there. `inputs`: files that the command reads, the design first; `others`:
+    /// further outputs of the command.
     ///
     /// # Errors
     /// [`Failure::Malformed`] naming the path.
-    pub fn check(&self, input: &Path, others: &[&Path]) -> Result<(), Failure> {
+    pub fn check(&self, inputs: &[&Path], others: &[&Path]) -> Result<(), Failure> {
         let all: Vec<&Path> =
             self.csv.iter().chain(&self.report).map(PathBuf::as_path).chain(others.iter().copied()).collect();
         let mut seen: Vec<PathBuf> = Vec::new();
@@ -97,8 +98,10 @@ impl Outputs {
                 return Err(refused(path, &format!("the folder {} does not exist", folder.display())));
             }
             let here = resolved(path);
-            if here == resolved(input) {
-                return Err(refused(path, "is the design file itself; it is never overwritten"));
+            match inputs.iter().position(|input| here == resolved(input)) {
+                Some(0) => return Err(refused(path, "is the design file itself; it is never overwritten")),
+                Some(_) => return Err(refused(path, "is read by this command; it is never overwritten")),
+                None => {}
             }
             // Two outputs to /dev/null or to a terminal do no harm.
             if is_special(path) {

@@ -38,6 +38,10 @@ const PUBLISHED_BAND_M_S: f64 = 1e-4;
 const CONVERGED_RAD: f64 = 1e-4;
 /// Tolerances that make sense: below, rounding rules; above, events are missed.
 const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
+/// Shortest step that makes sense, s: below, rounding of the time rules.
+const SHORTEST_STEP_S: f64 = 1e-9;
+/// Steps of the published scheme that one command takes on: some hours.
+const MOST_STEPS: u64 = 1_000_000_000;
 /// Rows of the history; peaks never come from them.
 const SAMPLES: usize = 1200;
 
@@ -63,14 +67,15 @@ pub struct SimulateArgs {
     /// Method of integration
     #[arg(long, value_enum, default_value_t = Method::Event)]
     pub method: Method,
-    /// Fixed step, s (for the event method: its longest step) [default: chosen by the event method, 1e-5 published]
-    #[arg(long, value_name = "S", value_parser = positive)]
+    /// Fixed step, s, 1e-9 or more (for the event method: its longest step) [default: chosen by the event method, 1e-5 published]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive)]
     pub step: Option<f64>,
-    /// Relative error allowed per step of the event method, 1e-13 to 1e-3 [default: 1e-8]
-    #[arg(long, value_name = "X", value_parser = positive)]
+    /// True error allowed of every figure of the event method relative to its natural size (an angle: 1 rad, a time: the
+    /// duration, a force: the largest), 1e-13 to 1e-3; steps are tightened until two runs agree to it [default: 1e-6]
+    #[arg(long, value_name = "X", allow_hyphen_values = true, value_parser = positive)]
     pub tolerance: Option<f64>,
     /// Half width of the band of zero velocity of the published method, m/s [default: 1e-4]
-    #[arg(long, value_name = "M_PER_S", value_parser = positive)]
+    #[arg(long, value_name = "M_PER_S", allow_hyphen_values = true, value_parser = positive)]
     pub band: Option<f64>,
     /// Run everything, also what the scene cannot feel (arcs never touched, the friction law where nothing slips)
     #[arg(long)]
@@ -99,7 +104,7 @@ struct Scene<'a> {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
-    context.outputs.check(&args.file, &[])?;
+    context.outputs.check(&[&args.file], &[])?;
     refuse_senseless(args)?;
     let design = parts::read_design(&args.file, context)?;
     let scenario = design.scenario(&args.scenario).ok_or_else(|| unknown(&args.scenario, &design))?;
@@ -109,6 +114,7 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     {
         return Err(refused("--step", step, &format!("at most the duration of the scenario, {duration} s")));
     }
+    refuse_endless(args, duration)?;
     let start = Instant::now();
     let (outcome, planned) = match computed(args, context, scenario) {
         Ok((prepared, simulation, planned)) => (Ok((prepared, simulation)), planned),
@@ -251,11 +257,11 @@ fn duration_s(scenario: &Scenario) -> Option<f64> {
 }
 
 fn refuse_senseless(args: &SimulateArgs) -> Result<(), Failure> {
+    if let Some(step) = args.step.filter(|&step| step < SHORTEST_STEP_S) {
+        return Err(refused("--step", step, &format!("{SHORTEST_STEP_S:e} s or more")));
+    }
     if let Some(x) = args.tolerance {
-        let [low, high] = TOLERANCES;
-        if !(low..=high).contains(&x) {
-            return Err(refused("--tolerance", x, &format!("{low:e} to {high:e}; 1e-6 serves well")));
-        }
+        refuse_tolerance(x)?;
         if args.method == Method::Published {
             return Err(refused("--tolerance", x, "--step with --method published, whose step is fixed"));
         }
@@ -266,6 +272,30 @@ fn refuse_senseless(args: &SimulateArgs) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Refuse a `--tolerance` that makes no sense.
+pub(super) fn refuse_tolerance(x: f64) -> Result<(), Failure> {
+    let [low, high] = TOLERANCES;
+    match (low..=high).contains(&x) {
+        true => Ok(()),
+        false => Err(refused("--tolerance", x, &format!("{low:e} to {high:e}; 1e-6 serves well"))),
+    }
+}
+
+/// Refuse a run of the published scheme that would not end in a day.
+fn refuse_endless(args: &SimulateArgs, duration_s: Option<f64>) -> Result<(), Failure> {
+    let (Method::Published, Some(duration_s)) = (args.method, duration_s) else { return Ok(()) };
+    let step_s = args.step.unwrap_or(PUBLISHED_STEP_S);
+    if published_steps(duration_s, step_s) <= MOST_STEPS {
+        return Ok(());
+    }
+    let least = step_s * (published_steps(duration_s, step_s) as f64 / MOST_STEPS as f64);
+    let why = format!(
+        "{least:.1e} s or more: at most {:e} steps in twice the scenario's {duration_s} s, the second time halved",
+        MOST_STEPS as f64
+    );
+    Err(refused("--step", step_s, &why))
 }
 
 fn refused(flag: &str, found: f64, allowed: &str) -> Failure {

@@ -1,12 +1,13 @@
 //! `size`: a first design file from what a clutch shall do.
 
 use super::Context;
+use super::check::{REACHED_AT, ends_first, people_table};
 use super::exit::{Exit, Failure};
 use super::left_out::left_out;
 use super::output::{print_json, write_whole};
 use super::parts::{self, Answer};
 use crate::design::Design;
-use crate::margin::Margin;
+use crate::margin::{Margin, load_state};
 use crate::report::{Cell, Column, Table, Unit};
 use crate::scenario::{Settings, place_profile};
 use crate::size::{Ask, NoSize, Sized, Tried, size};
@@ -31,19 +32,19 @@ Exit codes: 0 written; 1 no clutch of the family does it, with the limit that pr
 #[command(after_help = EXAMPLES)]
 pub struct SizeArgs {
     /// Bore of the inner race, diameter, mm
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub bore: f64,
     /// Nominal torque, Nm
-    #[arg(long, value_name = "NM")]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true)]
     pub torque: f64,
     /// Speed of the outer race up to which the sprags keep contact in overrun, rpm [0: not asked]
-    #[arg(long, value_name = "RPM", default_value_t = 0.0)]
+    #[arg(long, value_name = "RPM", default_value_t = 0.0, allow_hyphen_values = true)]
     pub speed: f64,
     /// Peak torque over nominal torque
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.3)]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.3, allow_hyphen_values = true)]
     pub safety: f64,
     /// Static friction
-    #[arg(long, value_name = "MU", default_value_t = 0.11)]
+    #[arg(long, value_name = "MU", default_value_t = 0.11, allow_hyphen_values = true)]
     pub friction: f64,
     /// Where to write the design file
     #[arg(long, short, value_name = "NEW.toml")]
@@ -55,7 +56,7 @@ pub struct SizeArgs {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
-    context.outputs.check(Path::new(""), &[&args.output])?;
+    context.outputs.check(&[], &[&args.output])?;
     let ask = Ask {
         bore_m: args.bore / 1e3,
         torque_nm: args.torque,
@@ -87,6 +88,8 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
     };
     write_whole(&args.output, sized.design.source.as_bytes())?;
     let design = &sized.design;
+    // Of a design whose margins are known there is a curve.
+    let end_nm = load_state(design).map_or(f64::INFINITY, |state| state.curve.end_torque_nm());
     let answer = Answer {
         design,
         run_time_s,
@@ -96,7 +99,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
             "sized": true,
             "written": args.output.display().to_string(),
             "tried": rows_of(&sized.tried, Some(sized.taken)),
-            "margins": sized.margins.iter().map(margin_json).collect::<Vec<_>>(),
+            "margins": sized.margins.iter().map(|r| margin_json(r, end_nm)).collect::<Vec<_>>(),
         }),
     };
     context.outputs.write_csv(&tried_table(&sized.tried, Some(sized.taken)))?;
@@ -108,12 +111,12 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
             parts::draw(&mut page, &parts::drawing(design, vec![rest]));
         }
         page.heading("Race spaces tried").table("", &tried_table(&sized.tried, Some(sized.taken)));
-        page.heading("Margins").table("", &margin_table(&sized.margins));
+        page.heading("Margins").table(REACHED_AT, &people_table(&sized.margins, end_nm));
         answer.close(&mut page);
         page
     })?;
     answer.print(context)?;
-    context.answer(&text(&sized, &args.output, context.colour))?;
+    context.answer(&text(&sized, end_nm, &args.output, context.colour))?;
     Ok(Exit::Held)
 }
 
@@ -129,14 +132,14 @@ fn verdict(sized: &Sized) -> String {
     )
 }
 
-fn text(sized: &Sized, path: &Path, colour: bool) -> String {
+fn text(sized: &Sized, end_nm: f64, path: &Path, colour: bool) -> String {
     let design: &Design = &sized.design;
     format!(
-        "{}  {}\n\n{}\n{}\n{}\nwritten to {}\n",
+        "{}  {}\n\n{}\n{}\n{}\n{REACHED_AT}\nwritten to {}\n",
         design.name,
         design.hash.get(..12).unwrap_or(&design.hash),
         tried_table(&sized.tried, Some(sized.taken)).to_text(colour),
-        margin_table(&sized.margins).to_text(colour),
+        people_table(&sized.margins, end_nm).to_text(colour),
         verdict(sized),
         path.display()
     )
@@ -173,28 +176,6 @@ fn tried_table(tried: &[Tried], taken: Option<usize>) -> Table {
     table
 }
 
-fn margin_table(rows: &[Margin]) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("code", "Limit"),
-        Column::text("unit", "Unit"),
-        Column::number("demand", "Demand", Unit::One, 5),
-        Column::number("allowable", "Allowable", Unit::One, 5),
-        Column::number("margin", "Margin", Unit::Percent, 3),
-        Column::number("torque_capacity_nm", "Reached at", Unit::NewtonMetre, 4),
-    ]);
-    for r in rows {
-        table.row(vec![
-            r.code.as_str().into(),
-            r.unit.into(),
-            r.demand.into(),
-            r.allowable.into(),
-            r.margin.into(),
-            r.torque_capacity_nm.into(),
-        ]);
-    }
-    table
-}
-
 fn rows_of(tried: &[Tried], taken: Option<usize>) -> Vec<Value> {
     tried
         .iter()
@@ -209,9 +190,9 @@ fn rows_of(tried: &[Tried], taken: Option<usize>) -> Vec<Value> {
         .collect()
 }
 
-fn margin_json(r: &Margin) -> Value {
+fn margin_json(r: &Margin, end_nm: f64) -> Value {
     json!({
         "code": r.code, "demand": r.demand, "allowable": r.allowable, "unit": r.unit, "margin": r.margin,
-        "torque_capacity_nm": r.torque_capacity_nm,
+        "torque_capacity_nm": r.torque_capacity_nm, "capacity_beyond_end": ends_first(r, end_nm), "held": r.held(),
     })
 }

@@ -23,7 +23,7 @@ pub use laws::ContactName;
 use pressure::PressureMap;
 pub use pressure::PressureName;
 use rayon::prelude::*;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -53,10 +53,10 @@ pub struct StiffnessArgs {
     #[arg(long, value_name = "LAW,...", value_enum, value_delimiter = ',')]
     pub contact: Vec<ContactName>,
     /// Torques of the table, Nm, comma separated
-    #[arg(long, value_name = "NM,...", value_parser = positive, value_delimiter = ',', conflicts_with = "max_torque")]
+    #[arg(long, value_name = "NM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',', conflicts_with = "max_torque")]
     pub torques: Vec<f64>,
     /// Largest torque of an even table, Nm [default: the design's peak torque]
-    #[arg(long, value_name = "NM", value_parser = positive)]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = positive)]
     pub max_torque: Option<f64>,
     /// Finite-element result to compare with, CSV; once for each FILE, in their order
     #[arg(long, value_name = "PATH")]
@@ -97,9 +97,8 @@ struct Study {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
-    for file in &args.files {
-        context.outputs.check(file, &args.fem.iter().map(PathBuf::as_path).collect::<Vec<_>>())?;
-    }
+    let inputs: Vec<&Path> = args.files.iter().chain(&args.fem).map(PathBuf::as_path).collect();
+    context.outputs.check(&inputs, &[])?;
     refuse_tiny(args)?;
     let several = args.files.len() > 1;
     if several && (context.json || context.outputs.csv.is_some() || context.outputs.report.is_none()) {

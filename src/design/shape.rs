@@ -87,7 +87,7 @@ pub(super) fn keys_of(path: &str) -> Vec<&'static str> {
 
 /// What the key at a dotted path may hold, where `value` is outside of it.
 pub(super) fn out_of_range(path: &str, value: f64) -> Option<String> {
-    schema_of(path).filter(|s| !in_range(s, value)).map(allowed)
+    schema_of(path).filter(|s| !in_range(s, value)).map(|s| allowed_for(s, Some(value)))
 }
 
 /// What the key at a dotted path holds, in the schema's words.
@@ -178,6 +178,7 @@ impl<'a> Walk<'_, 'a> {
                 let constant = schema.get("const").and_then(Value::as_str);
                 listed.is_none_or(|l| l.iter().any(|v| v.as_str() == Some(s.as_ref())))
                     && constant.is_none_or(|c| c == s.as_ref())
+                    && !s.chars().any(char::is_control)
                     && s.trim().chars().count() as f64 >= bound(schema, "minLength").unwrap_or(0.0)
             }
             (Some("boolean"), DeValue::Boolean(_)) => true,
@@ -195,7 +196,13 @@ impl<'a> Walk<'_, 'a> {
         }
         let is_table = matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_));
         let span = if is_table { key_span } else { value.span() };
-        let allowed = allowed(schema);
+        let allowed = match value.get_ref() {
+            v @ (DeValue::Float(_) | DeValue::Integer(_)) => allowed_for(schema, number_of(v)),
+            DeValue::String(s) if s.chars().any(char::is_control) => {
+                format!("{} and without line breaks or other control characters", allowed(schema))
+            }
+            _ => allowed(schema),
+        };
         let name = path.rsplit('.').next().unwrap_or(path);
         let help = match description(schema) {
             "" => format!("give {name} {allowed}"),
@@ -235,6 +242,19 @@ fn in_range(schema: &Value, x: f64) -> bool {
         && bound(schema, "exclusiveMinimum").is_none_or(|b| x > b)
         && bound(schema, "maximum").is_none_or(|b| x <= b)
         && bound(schema, "exclusiveMaximum").is_none_or(|b| x < b)
+}
+
+/// What a schema allows instead of the number `x`, in words: with the magnitudes where these are what turns it away.
+fn allowed_for(schema: &Value, x: Option<f64>) -> String {
+    let too_far = |x: f64| x != 0.0 && x.is_finite() && !MAGNITUDES.contains(&x.abs());
+    match x {
+        Some(x) if too_far(x) => {
+            let (least, most) = (MAGNITUDES.start(), MAGNITUDES.end());
+            let zero = if in_range(schema, 0.0) { "0 or " } else { "" };
+            format!("{}, {zero}of a magnitude from {least:e} to {most:e}", allowed(schema))
+        }
+        _ => allowed(schema),
+    }
 }
 
 /// What a schema allows, in words.

@@ -2,16 +2,16 @@
 //! frame, where they can cover no curve.
 
 mod scale;
+mod style;
 
-use super::svg::{FONT, INK, RULE, SERIES, SOFT, text_width};
-use kuva::prelude::{
-    Layout, LinePlot, LineStyle, Plot as KuvaPlot, SvgBackend, Theme, TickFormat, render_multiple,
-};
+use super::svg::{FONT, INK, RULE, SOFT, text_width};
+use kuva::prelude::{Layout, LinePlot, Plot as KuvaPlot, SvgBackend, Theme, TickFormat, render_multiple};
 use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
-use scale::{Extent, thinned, tick};
+use scale::{Extent, log_tick, one_decade, thinned, tick};
 use std::sync::Arc;
+use style::{Style, styles};
 
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,12 +36,21 @@ pub struct Curve {
     pub dash: Dash,
     /// Draw the points as dots too, for few computed points.
     pub dots: bool,
+    /// Place of its colour in the series, for what keeps its colour in several plots; else by its place in the plot.
+    pub colour: Option<usize>,
 }
 
 impl Curve {
     /// A full line.
     pub fn new(name: &str, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.to_owned(), points, dash: Dash::Solid, dots: false }
+        Self { name: name.to_owned(), points, dash: Dash::Solid, dots: false, colour: None }
+    }
+}
+
+impl Curve {
+    /// The same in the colour at that place of the series.
+    pub fn coloured(self, colour: usize) -> Self {
+        Self { colour: Some(colour), ..self }
     }
 }
 
@@ -128,15 +137,16 @@ impl Plot {
         };
         let mut plots: Vec<KuvaPlot> = Vec::new();
         let mut extent = Extent::default();
-        for (index, curve) in self.curves.iter().enumerate() {
+        let styles = styles(&self.curves);
+        for (curve, style) in self.curves.iter().zip(&styles) {
             for run in curve.points.split(|p| !drawable(p)).filter(|run| !run.is_empty()) {
                 run.iter().for_each(|p| extent.add(*p));
                 plots.push(
                     LinePlot::new()
                         .with_data(thinned(run, self.size_px[0]))
-                        .with_color(SERIES[index % SERIES.len()])
+                        .with_color(style.css())
                         .with_stroke_width(1.8)
-                        .with_line_style(kuva_style(curve.dash))
+                        .with_line_style(style.line())
                         .into(),
                 );
             }
@@ -158,8 +168,8 @@ impl Plot {
         // the process: they would clash between figures and make a page depend on what was drawn before.
         scene.defs.clear();
         scene.elements.retain(|e| !matches!(e, Primitive::ClipStart { .. } | Primitive::ClipEnd));
-        self.draw_dots(scene, &computed, drawable);
-        self.draw_legend(scene, &legend);
+        self.draw_dots(scene, &computed, &styles, drawable);
+        self.draw_legend(scene, &legend, &styles);
         self.draw_markers(scene, |x| computed.map_x(x), &markers, top_px);
         self.draw_levels(scene, &computed, top_px);
         if extent.is_empty() {
@@ -206,16 +216,16 @@ impl Plot {
             .with_x_axis_max(x_range.1)
             .with_y_axis_min(y_range.0)
             .with_y_axis_max(y_range.1);
-        if self.log_x {
-            layout = layout.with_log_x();
-        } else {
-            layout = layout.with_x_tick_format(format(x_range));
-        }
-        if self.log_y {
-            layout = layout.with_log_y();
-        } else {
-            layout = layout.with_y_tick_format(format(y_range));
-        }
+        // Labels of an x axis run into one another sooner than those of a y axis.
+        let log = |all: bool| TickFormat::Custom(Arc::new(log_tick(all)));
+        layout = match self.log_x {
+            true => layout.with_log_x().with_x_tick_format(log(one_decade(x_range))),
+            false => layout.with_x_tick_format(format(x_range)),
+        };
+        layout = match self.log_y {
+            true => layout.with_log_y().with_y_tick_format(log(true)),
+            false => layout.with_y_tick_format(format(y_range)),
+        };
         layout
     }
 
@@ -246,27 +256,33 @@ impl Plot {
         if empty { format!("{} (no data)", curve.name) } else { curve.name.clone() }
     }
 
-    fn draw_legend(&self, scene: &mut Scene, rows: &[Vec<(usize, f64)>]) {
+    fn draw_legend(&self, scene: &mut Scene, rows: &[Vec<(usize, f64)>], styles: &[Style]) {
         for (number, row) in rows.iter().enumerate() {
             let y = 14.0 + ROW_PX * number as f64;
             for &(index, x) in row {
-                let dash = self.curves.get(index).map(|c| kuva_style(c.dash)).and_then(|s| s.dasharray());
+                let Some(style) = styles.get(index) else { continue };
                 scene.add(Primitive::Line {
                     x1: x,
                     y1: y - 4.0,
                     x2: x + 26.0,
                     y2: y - 4.0,
-                    stroke: Color::from(SERIES[index % SERIES.len()]),
+                    stroke: style.colour(),
                     stroke_width: 2.4,
-                    stroke_dasharray: dash,
+                    stroke_dasharray: style.line().dasharray(),
                 });
                 add_text(scene, [x + 32.0, y], TextAnchor::Start, INK, &self.legend_name(index));
             }
         }
     }
 
-    fn draw_dots(&self, scene: &mut Scene, computed: &ComputedLayout, drawable: impl Fn(&[f64; 2]) -> bool) {
-        for (index, curve) in self.curves.iter().enumerate() {
+    fn draw_dots(
+        &self,
+        scene: &mut Scene,
+        computed: &ComputedLayout,
+        styles: &[Style],
+        drawable: impl Fn(&[f64; 2]) -> bool,
+    ) {
+        for (curve, style) in self.curves.iter().zip(styles) {
             // A point alone between gaps has no line: it is shown as a dot in any case.
             let alone = |i: usize| {
                 let gap = |j: Option<usize>| j.and_then(|j| curve.points.get(j)).is_none_or(|p| !drawable(p));
@@ -278,7 +294,7 @@ impl Plot {
                         cx: computed.map_x(point[0]),
                         cy: computed.map_y(point[1]),
                         r: 2.8,
-                        fill: Color::from(SERIES[index % SERIES.len()]),
+                        fill: style.colour(),
                         fill_opacity: None,
                         stroke: None,
                         stroke_width: None,
@@ -378,14 +394,6 @@ fn add_text(scene: &mut Scene, at: [f64; 2], anchor: TextAnchor, colour: &str, c
         bold: false,
         color: Some(Color::from(colour)),
     });
-}
-
-fn kuva_style(dash: Dash) -> LineStyle {
-    match dash {
-        Dash::Solid => LineStyle::Solid,
-        Dash::Dashed => LineStyle::Dashed,
-        Dash::Dotted => LineStyle::Dotted,
-    }
 }
 
 #[cfg(test)]

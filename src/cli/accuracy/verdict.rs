@@ -84,7 +84,7 @@ pub(super) fn sentence(scene: &Precision) -> String {
                 };
                 format!("{bare} {} ms ({}{ratio})", significant(1e3 * p.seconds, 3), setting(*method, p))
             }
-            None => format!("{bare} never: best error {}", best(scene, *method)),
+            None => format!("{bare} never: {}", best(scene, *method)),
         });
     }
     let gain = gain_over_published(scene).map_or(String::new(), |g| {
@@ -98,10 +98,15 @@ pub(super) fn sentence(scene: &Precision) -> String {
     format!("{}: below {WANTED_RAD:.0e} rad: {}.{gain}", scene.scene, parts.join("; "))
 }
 
+/// The least error of a method in words, or that none of its settings came to the end of the scene.
 fn best(scene: &Precision, method: Method) -> String {
     let errors = scene.methods.iter().filter(|(m, _)| m.key() == method.key());
     let least = errors.flat_map(|(_, p)| p).filter_map(|p| p.theta_error_rad).fold(f64::INFINITY, f64::min);
-    format!("{least:.1e} rad")
+    match (least.is_finite(), method) {
+        (true, _) => format!("best error {least:.1e} rad"),
+        (false, Method::Published(_)) => "no step finished".to_owned(),
+        (false, _) => "no tolerance finished".to_owned(),
+    }
 }
 
 fn at_its_step(scene: &Precision) -> String {

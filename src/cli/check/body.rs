@@ -2,7 +2,7 @@
 
 use super::overrun::Section;
 use super::{run_out, running};
-use crate::margin::{Margin, at_nominal_torque};
+use crate::margin::{Margin, RESOLUTION, at_nominal_torque};
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::wedge::EndReason;
 use serde::Serialize;
@@ -25,9 +25,12 @@ struct Row {
     unit: &'static str,
     margin: f64,
     torque_capacity_nm: Option<f64>,
+    /// Whether the limit is not reached before the curve ends: the capacity is then at least that much.
+    capacity_beyond_end: bool,
     required: bool,
     /// False where a run met its limit of work: neither held nor broken.
     computed: bool,
+    held: bool,
 }
 
 /// The required limit with the least margin.
@@ -118,7 +121,7 @@ impl Body {
         };
         let nominal = |r: &Margin| at_nominal_torque(&r.code);
         Self {
-            margins: rows.iter().map(row).collect(),
+            margins: rows.iter().map(|r| row(r, source.end_torque_nm)).collect(),
             pass: required().all(Margin::held),
             deciding: required().min_by(|a, b| a.margin.total_cmp(&b.margin)).map(|r| Deciding {
                 code: r.code.clone(),
@@ -152,7 +155,7 @@ impl Body {
     /// The answer in one line.
     pub(super) fn verdict(&self) -> String {
         let required: Vec<&Row> = self.margins.iter().filter(|r| r.required).collect();
-        let broken = required.iter().filter(|r| r.margin < -crate::margin::RESOLUTION).count();
+        let broken = required.iter().filter(|r| !r.held).count();
         let unknown = required.iter().filter(|r| !r.computed).count();
         match &self.deciding {
             None => "HELD: the design names no limit that could be broken".to_owned(),
@@ -204,7 +207,7 @@ impl Body {
     }
 }
 
-fn row(r: &Margin) -> Row {
+fn row(r: &Margin, end_torque_nm: f64) -> Row {
     Row {
         code: r.code.clone(),
         name: r.name.clone(),
@@ -213,8 +216,10 @@ fn row(r: &Margin) -> Row {
         unit: r.unit,
         margin: r.margin,
         torque_capacity_nm: r.torque_capacity_nm,
+        capacity_beyond_end: ends_first(r, end_torque_nm),
         required: r.required,
         computed: r.computed,
+        held: r.held(),
     }
 }
 
@@ -225,7 +230,7 @@ fn demand(r: &Margin) -> Option<f64> {
 
 /// The table for people: codes, not sentences, so that it fits a terminal. A limit that is not reached before the
 /// curve ends, at `end_torque_nm`, has a capacity beyond it.
-pub(super) fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
+pub(in crate::cli) fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
     let mut table = Table::new(vec![
         Column::text("code", "Limit"),
         Column::number("demand", "Demand", Unit::One, 4),
@@ -244,7 +249,7 @@ pub(super) fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
             },
             r.allowable.into(),
             (if r.unit == "1" { "" } else { r.unit }).into(),
-            if r.margin >= NO_DEMAND { "no demand".into() } else { r.margin.into() },
+            if r.margin >= NO_DEMAND { "no demand".into() } else { resolved(r.margin).into() },
             r.torque_capacity_nm.map_or(Cell::Empty, |c| capacity_cell(r, c, end_torque_nm)),
             verdict(r),
         ]);
@@ -266,6 +271,16 @@ pub(super) fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> boo
     !is_end && capacity_nm >= end_torque_nm * (1.0 - 1e-9)
 }
 
+/// Whether the limit has a capacity, and that lies at the end of the curve or beyond.
+pub(in crate::cli) fn ends_first(r: &Margin, end_torque_nm: f64) -> bool {
+    r.torque_capacity_nm.is_some_and(|c| is_beyond(r, c, end_torque_nm))
+}
+
+/// A margin as people read it: what its resolution cannot tell from 0 is 0.
+pub(super) fn resolved(margin: f64) -> f64 {
+    if margin.abs() < RESOLUTION { 0.0 } else { margin }
+}
+
 fn verdict(r: &Margin) -> Cell {
     match (r.required, r.held()) {
         (true, _) if !r.computed => Cell::Verdict(false, "NOT COMPUTED".into()),
@@ -278,7 +293,7 @@ fn verdict(r: &Margin) -> Cell {
 }
 
 /// The table for programs: every number in full, nothing but numbers in number columns.
-pub(super) fn csv_table(rows: &[Margin]) -> Table {
+pub(super) fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
     let mut table = Table::new(vec![
         Column::text("code", "Code"),
         Column::text("name", "Limit"),
@@ -289,6 +304,7 @@ pub(super) fn csv_table(rows: &[Margin]) -> Table {
         Column::number("torque_capacity_nm", "Torque capacity", Unit::NewtonMetre, 5),
         Column::text("required", "Required"),
         Column::text("held", "Held"),
+        Column::text("capacity_beyond_end", "Capacity beyond the end of the curve"),
     ]);
     for r in rows {
         table.row(vec![
@@ -301,6 +317,7 @@ pub(super) fn csv_table(rows: &[Margin]) -> Table {
             r.torque_capacity_nm.into(),
             r.required.to_string().into(),
             r.held().to_string().into(),
+            ends_first(r, end_torque_nm).to_string().into(),
         ]);
     }
     table
@@ -367,8 +384,8 @@ mod tests {
         let json = serde_json::to_value(Body::new(&rows, source(None))).unwrap();
         assert!(json["margins"][0]["demand"].is_null() && json["margins"][0]["margin"] == -1.0);
         assert!(people_table(&rows, 200.0).to_text(false).contains(NONE_SUFFICES));
-        let csv = String::from_utf8(csv_table(&rows).to_csv().unwrap()).unwrap();
-        assert!(csv.contains("slip:x,limit slip:x,,1,1,-1,,true,false"), "{csv}");
+        let csv = String::from_utf8(csv_table(&rows, 200.0).to_csv().unwrap()).unwrap();
+        assert!(csv.contains("slip:x,limit slip:x,,1,1,-1,,true,false,false"), "{csv}");
     }
 
     #[test]
@@ -380,6 +397,18 @@ mod tests {
         let body = Body::new(&rows, source(None));
         assert_eq!(body.lowest_torque_capacity.unwrap().code, "end-of-profile");
         assert!(body.nominal_torque_capacity.is_none());
+    }
+
+    #[test]
+    fn rounding_is_no_margin_and_a_capacity_beyond_the_end_is_said() {
+        let rows = [margin("a", 1.0, -5.77e-15, Some(50.0), true), margin("b", 1.0, -0.1, Some(40.0), true)];
+        let json = serde_json::to_value(Body::new(&rows, source(None))).unwrap();
+        let [a, b] = [&json["margins"][0], &json["margins"][1]];
+        assert!(a["held"] == true && a["capacity_beyond_end"] == true && a["margin"] == -5.77e-15);
+        assert!(b["held"] == false && b["capacity_beyond_end"] == false);
+        let text = people_table(&rows, 50.0).to_text(false);
+        assert!(!text.contains("e-1") && text.contains("> 50.00"), "{text}");
+        assert_eq!(super::super::margin_text(-5.77e-15), "0 %");
     }
 
     #[test]

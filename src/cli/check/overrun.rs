@@ -1,9 +1,10 @@
 //! Overrun in the margin check: words, JSON, table, plots.
 
 use crate::cli::parts;
-use crate::design::Limits;
-use crate::margin::{OverrunCurve, OverrunPoint};
+use crate::design::{Design, Limits};
+use crate::margin::{LoadState, OverrunCurve, OverrunPoint, overrun_curve};
 use crate::report::{Column, Page, Plot, Table, Unit};
+use crate::wedge::NoCurve;
 use serde::Serialize;
 
 /// Speed of the tracks beyond which nobody runs such a clutch, m/s: a choice that ends the plots where the sprags
@@ -15,6 +16,31 @@ pub(super) fn up_to_rad_s(limits: &Limits, lift_off_rad_s: Option<f64>, track_m:
     let wanted = limits.keep_contact_to_rad_s.unwrap_or(0.0);
     let beyond = 1.25 * lift_off_rad_s.unwrap_or(0.0).max(wanted);
     if lift_off_rad_s.is_some() && beyond > 0.0 { beyond } else { beyond.max(FASTEST_M_S / track_m) }
+}
+
+/// Overrun up to `up_to_rad_s`, lift-off among the speeds: there drag and force at A end.
+///
+/// # Errors
+/// [`NoCurve`] as [`overrun_curve`].
+pub(super) fn curve(
+    design: &Design,
+    state: &LoadState,
+    up_to_rad_s: f64,
+    lift_off_rad_s: Option<f64>,
+) -> Result<OverrunCurve, NoCurve> {
+    let mut curve = overrun_curve(design, state, up_to_rad_s)?;
+    if let Some(speed) = lift_off_rad_s.filter(|&speed| speed > 0.0 && speed < up_to_rad_s) {
+        let there = overrun_curve(design, state, speed)?;
+        let pairs = [(&mut curve.outer_race, there.outer_race), (&mut curve.inner_race, there.inner_race)];
+        for (points, there) in pairs {
+            // A curve that ends early does not reach lift-off.
+            if let Some(last) = there.last().filter(|p| p.speed_rad_s >= speed) {
+                let at = points.partition_point(|p| p.speed_rad_s < speed);
+                points.insert(at, *last);
+            }
+        }
+    }
+    Ok(curve)
 }
 
 /// One speed of the JSON.
@@ -69,21 +95,21 @@ impl Section {
         }
     }
 
-    /// Drag in one line; lift-off has its own.
+    /// Drag in one line; lift-off has its own, and the last speed looked at is not it.
     pub(super) fn remark(&self) -> String {
         let last = |race: &str| self.points.iter().rev().find(|p| p.race == race);
         let slow = Unit::NewtonMetre.show(self.drag_torque_slow_nm, 3);
         let at = |race: &str| {
             last(race).map_or(String::new(), |p| {
                 let drag = match p.lifted_off {
-                    true => "none, lifted off".to_owned(),
+                    true => "none (the sprags are off by then)".to_owned(),
                     false => Unit::NewtonMetre.show(p.drag_torque_nm, 3),
                 };
-                format!("{drag} at {:.0} rpm of the {race} race", p.speed_rpm)
+                format!("at {:.0} rpm of the {race} race {drag}", p.speed_rpm)
             })
         };
         format!(
-            "Overrun: drag {slow} when slow, {}, {}; centrifugal force is {} (gamma {:.3} deg)",
+            "Overrun: drag {slow} when slow; {}; {}; the centrifugal force is {} (gamma {:.3} deg)",
             at("outer"),
             at("inner"),
             self.centrifugal,

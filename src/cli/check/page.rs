@@ -1,6 +1,6 @@
 //! The margin check as a page.
 
-use super::body::{Body, NO_DEMAND, is_beyond, people_table};
+use super::body::{Body, NO_DEMAND, is_beyond, people_table, resolved};
 use super::{Check, charts, margin_text, overrunning};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
@@ -15,7 +15,8 @@ pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, co
     let end_nm = check.state.curve.end_torque_nm();
     page.heading("Margins");
     page.table(
-        "Margin = allowable / demand − 1, held from 0 up; “reached at” is the torque at which the limit would be reached (>: not before the curve ends).",
+        "Margin = allowable / demand − 1, but for the rows that the last table of this page gives another rule; held from 0 up. “Reached at” is \
+         the torque at which the limit would be reached (>: not before the curve ends).",
         &people_table(&check.rows, end_nm),
     );
     page.figure(
@@ -72,11 +73,28 @@ pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, co
 }
 
 fn names(rows: &[Margin]) -> Table {
-    let mut table = Table::new(vec![Column::text("code", "Limit"), Column::text("name", "Meaning")]);
+    let mut table = Table::new(vec![
+        Column::text("code", "Limit"),
+        Column::text("name", "Meaning"),
+        Column::text("rule", "Margin"),
+    ]);
     for r in rows {
-        table.row(vec![r.code.as_str().into(), r.name.as_str().into()]);
+        table.row(vec![r.code.as_str().into(), r.name.as_str().into(), rule(&r.code).into()]);
     }
     table
+}
+
+/// How the margin of a limit is made up (`margin`).
+fn rule(code: &str) -> &'static str {
+    match code.split(':').next().unwrap_or(code) {
+        "keep-contact" => "1 − demand / allowable; −1 where the spring closes nothing",
+        "lift-off" => "allowable / demand − 1; 1 where the spring closes nothing",
+        "neighbours" => "clearance over the gap between the tracks at rest",
+        "contact" => "the ratio itself; −1 where the scenario does not start or end",
+        "slip" => "allowable / demand − 1; −1 where no friction suffices",
+        "axial-from" => "allowable / demand − 1; −1 where it is never carried",
+        _ => "allowable / demand − 1",
+    }
 }
 
 fn tone(r: &Margin) -> Tone {
@@ -90,7 +108,7 @@ fn tone(r: &Margin) -> Tone {
 fn margin_bars(rows: &[Margin]) -> Bars {
     let bar = |r: &Margin| Bar {
         label: r.code.clone(),
-        value: if r.margin >= NO_DEMAND { f64::NAN } else { Unit::Percent.from_si(r.margin) },
+        value: if r.margin >= NO_DEMAND { f64::NAN } else { Unit::Percent.from_si(resolved(r.margin)) },
         text: margin_text(r.margin),
         tone: tone(r),
     };

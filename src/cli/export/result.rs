@@ -37,10 +37,12 @@ struct Point {
 
 pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Context) -> Result<Exit, Failure> {
     let deck = dat.with_extension("inp");
-    let text = |path: &Path| {
-        std::fs::read_to_string(path).map_err(|e| Failure::malformed(format!("{}: {e}", path.display())))
+    let text = |path: &Path, what: &str| {
+        std::fs::read_to_string(path)
+            .map_err(|e| Failure::malformed(format!("{}: {what}: {e}", path.display())))
     };
-    let (deck_text, dat_text) = (text(&deck)?, text(dat)?);
+    let dat_text = text(dat, "the result to be read")?;
+    let deck_text = text(&deck, "the deck of that result, looked for beside it")?;
     let started = Instant::now();
     let facts = Facts::parse(&deck_text).map_err(|key| {
         Failure::malformed(format!("{}: no deck of this tool, or its head lacks {key}", deck.display()))

@@ -85,16 +85,18 @@ fn harmful_outputs_are_refused_before_the_work() {
     fs::write(&design, b"schema = 1").unwrap();
     let outputs = |csv: &Path, report: &Path| Outputs { csv: Some(csv.into()), report: Some(report.into()) };
     let (csv, html) = (folder.0.join("a.csv"), folder.0.join("a.html"));
-    assert!(outputs(&csv, &html).check(&design, &[]).is_ok());
+    let fem = folder.0.join("fem.csv");
+    assert!(outputs(&csv, &html).check(&[&design], &[]).is_ok());
     let same = folder.0.join(".").join("design.toml");
     for (bad, others, want) in [
         (outputs(&same, &html), vec![], "never overwritten"),
+        (outputs(&fem, &html), vec![], "is read by this command"),
         (outputs(&csv, &csv), vec![], "two outputs"),
         (outputs(&csv, &html), vec![csv.as_path()], "two outputs"),
         (outputs(&folder.0, &html), vec![], "folder"),
         (outputs(&folder.0.join("none").join("a.csv"), &html), vec![], "does not exist"),
     ] {
-        let failure = bad.check(&design, &others).unwrap_err();
+        let failure = bad.check(&[&design, &fem], &others).unwrap_err();
         assert_eq!(failure.exit(), crate::cli::exit::Exit::Malformed);
         let text = message(failure);
         assert!(text.contains(want), "{text} should say {want}");

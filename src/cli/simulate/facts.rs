@@ -4,7 +4,7 @@ use super::Scene;
 use crate::design::ScenarioKind;
 use crate::dynamics::Peaks;
 use crate::margin::{lift_off_rad_s as lift_off, load_state};
-use crate::report::{Cell, Column, Table, Unit};
+use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::scenario::{ErrorEstimate, Prepared, Simulation, Verdict};
 
 /// Lift-off is looked for up to this speed of the outer race, rad/s: 60 000 rev/min, a choice.
@@ -180,9 +180,9 @@ fn motion(f: &mut Facts, scene: &Scene, s: &Simulation) {
     demand(f, s);
     if let Some(b) = s.energy {
         let balance = format!(
-            "{:.4} J through, {:.4} J lost in friction, {:.1e} left over",
-            b.through_j,
-            -b.friction_inner_j - b.friction_outer_j,
+            "{} J through, {} J lost in friction, {:.1e} left over",
+            significant(b.through_j, 5),
+            significant(-b.friction_inner_j - b.friction_outer_j, 4),
             b.relative().abs()
         );
         f.word("energy balance", &balance);

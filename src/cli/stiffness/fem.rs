@@ -28,7 +28,7 @@ impl Fem {
         let name = path.display().to_string();
         let fault = |line: u64, what: &str| Failure::malformed(format!("{name}:{line}: {what}"));
         let mut reader =
-            csv::Reader::from_path(path).map_err(|e| Failure::malformed(format!("{name}: {e}")))?;
+            csv::Reader::from_path(path).map_err(|e| Failure::malformed(format!("--fem {name}: {e}")))?;
         let headers = reader.headers().map_err(|e| fault(1, &e.to_string()))?.clone();
         let column = |wanted: &[&str]| headers.iter().position(|h| wanted.contains(&h.trim()));
         let missing = |what: &str| {

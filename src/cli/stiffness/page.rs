@@ -42,7 +42,8 @@ fn section(page: &mut Page, study: &Study) {
     let mut windup = curves.windup();
     if let Some(fem) = &study.fem {
         let points = fem.rows.iter().map(|r| [Unit::Degree.from_si(r.windup_rad), r.torque_nm]).collect();
-        windup.curves.push(Curve { dots: true, ..Curve::new("finite elements", points) });
+        let fem = Curve::new("finite elements", points).coloured(laws.len());
+        windup.curves.push(Curve { dots: true, ..fem });
     }
     page.figure(&windup.to_svg(), "Torque over windup. Vertical lines: junctions of the first law's curve.");
     if let Some(fem) = &study.fem {
@@ -191,7 +192,7 @@ impl<'a> Curves<'a> {
         self.points.iter().map(kept).collect()
     }
 
-    /// One quantity over torque, a curve per law, junctions of the first.
+    /// One quantity over torque, a curve per law in its colour of every plot, junctions of the first.
     fn plot(&self, title: &str, value: &dyn Fn(&StaticPoint) -> f64) -> Plot {
         let mut plot = Plot::new("Torque, Nm", title);
         for (law, points) in self.laws.iter().zip(&self.points) {
@@ -222,9 +223,9 @@ impl<'a> Curves<'a> {
     fn structure(&self) -> Plot {
         let degrees = |p: &StaticPoint| Unit::Degree.from_si(p.windup_rad);
         let mut plot = Plot::new("Windup, deg", "Torque, Nm");
-        for (law, points) in self.laws.iter().zip(&self.points) {
+        for (k, (law, points)) in self.laws.iter().zip(&self.points).enumerate() {
             let whole = points.iter().map(|p| [degrees(p), p.torque_nm]).collect();
-            plot = plot.curve(law.name.key(), whole);
+            plot.curves.push(Curve::new(law.name.key(), whole).coloured(k));
             let local = points.iter().filter_map(|p| law.local.at_torque(p.torque_nm));
             plot.curves.push(Curve {
                 dash: Dash::Dashed,
@@ -232,6 +233,7 @@ impl<'a> Curves<'a> {
                     &format!("{}, local", law.name.key()),
                     local.map(|p| [degrees(&p), p.torque_nm]).collect(),
                 )
+                .coloured(k)
             });
         }
         plot
@@ -240,15 +242,15 @@ impl<'a> Curves<'a> {
     /// Windup over that of finite elements, less one, %, whole and with local deformation alone.
     fn against(&self, fem: &Fem) -> Plot {
         let mut plot = Plot::new("Torque, Nm", "Windup against finite elements, %");
-        for law in self.laws {
+        for (k, law) in self.laws.iter().enumerate() {
             let points = |of: &dyn Fn(&Distance) -> Option<f64>| {
                 let each = fem.rows.iter();
                 each.filter_map(|r| Some([r.torque_nm, Unit::Percent.from_si(of(&distance(law, r))?)]))
                     .collect()
             };
             let key = law.name.key();
-            plot.curves.push(Curve { dots: true, ..Curve::new(key, points(&|d| d.windup)) });
-            let local = Curve::new(&format!("{key}, local"), points(&|d| d.windup_local_only));
+            plot.curves.push(Curve { dots: true, ..Curve::new(key, points(&|d| d.windup)).coloured(k) });
+            let local = Curve::new(&format!("{key}, local"), points(&|d| d.windup_local_only)).coloured(k);
             plot.curves.push(Curve { dots: true, dash: Dash::Dashed, ..local });
         }
         self.marked(plot, |j| j)

@@ -1,6 +1,6 @@
 //! Extents, axis ranges, ticks, and how many points are worth drawing.
 
-use crate::report::number::significant;
+use crate::report::number::{plain, significant};
 
 /// `run` with no more points than the eye can tell apart: of each half pixel of index the first, the
 /// lowest, the highest and the last stay, so no peak is lost.
@@ -37,6 +37,25 @@ pub(super) fn tick(value: f64, span: f64, largest: f64) -> String {
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     let text = if text == "-0" { "0" } else { text };
     text.replace('-', "\u{2212}")
+}
+
+/// Whether an axis spans one decade at most: there is room for more than powers of ten.
+pub(super) fn one_decade((low, high): (f64, f64)) -> bool {
+    high <= 10.001 * low
+}
+
+/// Text of the ticks of a logarithmic axis: powers of ten, what lies between only if `all` are to be written.
+pub(super) fn log_tick(all: bool) -> impl Fn(f64) -> String + Send + Sync + 'static {
+    move |value: f64| {
+        let power = value.log10();
+        if !all && (power - power.round()).abs() > 1e-6 {
+            String::new()
+        } else if (1e-3..9e3).contains(&value) {
+            plain(value, 3)
+        } else {
+            short_scientific(value)
+        }
+    }
 }
 
 fn short_scientific(value: f64) -> String {

@@ -1,4 +1,5 @@
-use super::scale::{thinned, tick, widened};
+use super::scale::{log_tick, one_decade, thinned, tick, widened};
+use super::style::styles;
 use super::*;
 
 fn two_curves() -> Plot {
@@ -80,4 +81,33 @@ fn ticks_of_one_axis_agree() {
     assert_eq!(tick(-0.0, 100.0, 100.0), "0");
     assert_eq!(tick(2.5e-5, 1e-4, 1e-4), "2.5e-5");
     assert_eq!(tick(-0.0072, 0.02, 0.01), "−0.0072");
+}
+
+#[test]
+fn powers_of_ten_alone_are_written_on_a_long_logarithmic_axis() {
+    let long = log_tick(one_decade((100.0, 1e5)));
+    let told: Vec<String> = [100.0, 200.0, 1000.0, 5000.0, 1e4, 1e5].map(long).into();
+    assert_eq!(told, ["100", "", "1000", "", "1e4", "1e5"]);
+    let short = log_tick(one_decade((1e4, 1e5)));
+    assert_eq!([1e4, 2e4, 5e4].map(short), ["1e4", "2e4", "5e4"]);
+}
+
+#[test]
+fn no_two_curves_of_a_plot_look_alike() {
+    let dashes = [Dash::Solid, Dash::Dashed, Dash::Dotted];
+    let many: Vec<Curve> =
+        (0..36).map(|i| Curve { dash: dashes[i % 5 % 3], ..Curve::new("c", vec![]) }).collect();
+    let all = styles(&many);
+    for (i, a) in all.iter().enumerate() {
+        assert!(!all[..i].contains(a), "{i}: {a:?}");
+    }
+    // A law's colour is its own in every plot, whatever stands before it.
+    let laws = [Curve::new("other", vec![]), Curve::new("law", vec![]).coloured(0)];
+    let twice = [
+        Curve::new("law", vec![]).coloured(0),
+        Curve { dash: Dash::Dashed, ..Curve::new("law, local", vec![]).coloured(0) },
+    ];
+    assert_eq!(styles(&laws)[1].css(), styles(&twice)[0].css());
+    assert_eq!(styles(&twice)[0].css(), styles(&twice)[1].css());
+    assert_ne!(styles(&twice)[0], styles(&twice)[1]);
 }
