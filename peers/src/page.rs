@@ -119,7 +119,7 @@ const WHY: [&str; 5] = [
      digits with more right-hand sides (its dense output costs three a step, whether needed or not); each of ours takes longer \
      because the time holds looks at events inside the step, at extremes of forces and at the windup. The row “four looks a \
      step” gives it our way of looking at events, though not at extremes: a quarter to a half of the difference where nothing slips.",
-    "At coarse errors ours pays for its longest step, an eighth of a period, kept so that no event or extreme is jumped over: \
+    "At coarse errors ours pays for its longest step, a quarter of a period, kept so that no event or extreme is jumped over: \
      in high-6 and low-10 that, not the tolerance, sets its work, and it delivers up to some thousand times less error than \
      asked for. Without that limit it is the row “steps of any length”. A method of order 5 (tsit45) has the cheaper step where \
      so little is asked; towards 1e-8 rad order 8 catches up.",
@@ -148,7 +148,7 @@ const OMISSIONS: [&str; 9] = [
      just released has v = 0) does not count for 1 ns, so that roots at the start of a piece need no direction; radau5 gets \
      its relative tolerance once per state, because one number is transformed as often as there are states; Jacobians are \
      differences with our increments, the base point evaluated once (ours takes differences too).",
-    "Longest step: an eighth of a period (of a twenty-fifth of the duration) for ours and for differential-equations. diffsol \
+    "Longest step: a quarter of a period (of a twenty-fifth of the duration) for ours and for differential-equations. diffsol \
      has no such setting; where its explicit step runs far beyond an event the right-hand side is no number, which it accepts \
      (“no number” below). That counts as failed.",
     "The published scheme runs with one band of zero velocity, 1e-4 m/s, down to steps of 1e-6 s; the report of the command \

@@ -102,7 +102,7 @@ pub struct Scene {
 /// As in the report of the command `accuracy`.
 const TIGHTEST: f64 = 1e-13;
 const REFERENCE_STEPS: f64 = 40.0;
-const STEPS: f64 = 8.0;
+const STEPS: f64 = 4.0;
 const BAND_M_S: f64 = 1e-4;
 /// Time for all runs of one setting, s, and their number.
 const TIME_S: f64 = 0.05;
