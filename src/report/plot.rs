@@ -90,6 +90,8 @@ const LEFT_PX: f64 = 66.0;
 const RIGHT_PX: f64 = 18.0;
 const BOTTOM_PX: f64 = 50.0;
 const MARKER_ROWS: usize = 3;
+/// Smallest y that kuva shows on a logarithmic axis, with a decade of room.
+const DEEPEST: f64 = 1e-9;
 
 impl Plot {
     /// An empty plot with linear axes.
@@ -132,6 +134,24 @@ impl Plot {
 
     /// The SVG. Curves without a single drawable point stay in the legend, named as having no data.
     pub fn to_svg(&self) -> String {
+        let lift = self.lift();
+        let mut lifted = self.clone();
+        lifted.curves.iter_mut().flat_map(|c| &mut c.points).for_each(|p| p[1] *= lift);
+        lifted.levels.iter_mut().for_each(|level| level.at *= lift);
+        lifted.drawn(lift)
+    }
+
+    /// Power of ten by which all y are raised where the axis is logarithmic and goes too deep: kuva draws everything
+    /// below 1e-10 at 1e-10.
+    fn lift(&self) -> f64 {
+        let points = self.curves.iter().flat_map(|c| &c.points).map(|p| p[1]);
+        let positive = points.chain(self.levels.iter().map(|l| l.at)).filter(|&y| y > 0.0 && y.is_finite());
+        let least = positive.fold(1.0, f64::min);
+        if self.log_y && least < DEEPEST { 10f64.powf((DEEPEST / least).log10().ceil()) } else { 1.0 }
+    }
+
+    /// The SVG of a plot whose y are raised by `lift`, its ticks as they were.
+    fn drawn(&self, lift: f64) -> String {
         let drawable = |&[x, y]: &[f64; 2]| {
             x.is_finite() && y.is_finite() && (!self.log_x || x > 0.0) && (!self.log_y || y > 0.0)
         };
@@ -157,11 +177,11 @@ impl Plot {
         let legend = self.legend_rows();
         let (x_range, y_range) = extent.ranges(self.log_x, self.log_y);
         // Left and right margins are fixed, so where a marker comes to stand is known before the top margin is.
-        let ruler = ComputedLayout::from_layout(&self.layout(x_range, y_range, 0.0));
+        let ruler = ComputedLayout::from_layout(&self.layout(x_range, y_range, 0.0, lift));
         let markers = self.placed_markers(|x| ruler.map_x(x), &extent);
         let marker_rows = markers.iter().filter_map(|m| m.2).max().map_or(0, |row| row + 1);
         let top_px = 10.0 + ROW_PX * (legend.len() + marker_rows) as f64;
-        let layout = self.layout(x_range, y_range, top_px);
+        let layout = self.layout(x_range, y_range, top_px, lift);
         let computed = ComputedLayout::from_layout(&layout);
         let scene = &mut render_multiple(plots, layout);
         // The axes enclose every point, so nothing needs clipping; kuva's clip ids come from a counter of
@@ -184,7 +204,7 @@ impl Plot {
         self.inline(&SvgBackend::new().render_scene(scene))
     }
 
-    fn layout(&self, x_range: (f64, f64), y_range: (f64, f64), top_px: f64) -> Layout {
+    fn layout(&self, x_range: (f64, f64), y_range: (f64, f64), top_px: f64, lift: f64) -> Layout {
         let theme = Theme {
             background: "none".into(),
             axis_color: SOFT.into(),
@@ -217,13 +237,13 @@ impl Plot {
             .with_y_axis_min(y_range.0)
             .with_y_axis_max(y_range.1);
         // Labels of an x axis run into one another sooner than those of a y axis.
-        let log = |all: bool| TickFormat::Custom(Arc::new(log_tick(all)));
+        let log = |all: bool, lift: f64| TickFormat::Custom(Arc::new(log_tick(all, lift)));
         layout = match self.log_x {
-            true => layout.with_log_x().with_x_tick_format(log(one_decade(x_range))),
+            true => layout.with_log_x().with_x_tick_format(log(one_decade(x_range), 1.0)),
             false => layout.with_x_tick_format(format(x_range)),
         };
         layout = match self.log_y {
-            true => layout.with_log_y().with_y_tick_format(log(true)),
+            true => layout.with_log_y().with_y_tick_format(log(true, lift)),
             false => layout.with_y_tick_format(format(y_range)),
         };
         layout

@@ -44,9 +44,11 @@ pub(super) fn one_decade((low, high): (f64, f64)) -> bool {
     high <= 10.001 * low
 }
 
-/// Text of the ticks of a logarithmic axis: powers of ten, what lies between only if `all` are to be written.
-pub(super) fn log_tick(all: bool) -> impl Fn(f64) -> String + Send + Sync + 'static {
-    move |value: f64| {
+/// Text of the ticks of a logarithmic axis: powers of ten, what lies between only if `all` are to be written; the
+/// values of the axis are raised by `lift`.
+pub(super) fn log_tick(all: bool, lift: f64) -> impl Fn(f64) -> String + Send + Sync + 'static {
+    move |raised: f64| {
+        let value = raised / lift;
         let power = value.log10();
         if !all && (power - power.round()).abs() > 1e-6 {
             String::new()

@@ -85,10 +85,10 @@ fn ticks_of_one_axis_agree() {
 
 #[test]
 fn powers_of_ten_alone_are_written_on_a_long_logarithmic_axis() {
-    let long = log_tick(one_decade((100.0, 1e5)));
+    let long = log_tick(one_decade((100.0, 1e5)), 1.0);
     let told: Vec<String> = [100.0, 200.0, 1000.0, 5000.0, 1e4, 1e5].map(long).into();
     assert_eq!(told, ["100", "", "1000", "", "1e4", "1e5"]);
-    let short = log_tick(one_decade((1e4, 1e5)));
+    let short = log_tick(one_decade((1e4, 1e5)), 1.0);
     assert_eq!([1e4, 2e4, 5e4].map(short), ["1e4", "2e4", "5e4"]);
 }
 
@@ -110,4 +110,19 @@ fn no_two_curves_of_a_plot_look_alike() {
     assert_eq!(styles(&laws)[1].css(), styles(&twice)[0].css());
     assert_eq!(styles(&twice)[0].css(), styles(&twice)[1].css());
     assert_ne!(styles(&twice)[0], styles(&twice)[1]);
+}
+
+#[test]
+fn errors_at_rounding_are_drawn_where_they_are() {
+    let mut plot = Plot::new("Tolerance", "Error")
+        .curve("method", vec![[1.0, 1e-4], [2.0, 1e-8], [3.0, 1e-12]])
+        .level(1e-6, "wanted");
+    (plot.log_y, plot.curves[0].dots) = (true, true);
+    let svg = plot.to_svg();
+    let heights: Vec<f64> =
+        svg.split("cy=\"").skip(1).map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect();
+    assert_eq!(heights.len(), 3);
+    let [upper, lower] = [heights[1] - heights[0], heights[2] - heights[1]];
+    assert!(upper > 0.0 && (upper / lower - 1.0).abs() < 1e-6, "{heights:?}");
+    assert!(svg.contains(">1e-12<") && svg.contains(">1e-4<"), "{svg}");
 }
