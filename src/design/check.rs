@@ -185,17 +185,10 @@ pub(super) fn tolerances(file: &DesignFile, out: &mut Findings) {
     }
     let least =
         file.sprags.inner_arcs.iter().map(|a| a.radius_mm).fold(file.sprags.outer_radius_mm, f64::min);
+    let gap = file.races.outer_radius_mm - file.races.inner_radius_mm;
     for (key, found, of) in [
-        (
-            "tolerances.inner_race_radius_mm",
-            t.inner_race_radius_mm,
-            file.races.outer_radius_mm - file.races.inner_radius_mm,
-        ),
-        (
-            "tolerances.outer_race_radius_mm",
-            t.outer_race_radius_mm,
-            file.races.outer_radius_mm - file.races.inner_radius_mm,
-        ),
+        ("tolerances.inner_race_radius_mm", t.inner_race_radius_mm, gap),
+        ("tolerances.outer_race_radius_mm", t.outer_race_radius_mm, gap),
         ("tolerances.sprag_outer_radius_mm", t.sprag_outer_radius_mm, least),
         ("tolerances.sprag_inner_radius_mm", t.sprag_inner_radius_mm, least),
     ] {
