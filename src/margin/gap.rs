@@ -27,15 +27,17 @@ fn opening(gap_m: Option<f64>, design: &Design) -> Option<f64> {
     gap_m.map(|gap| gap - (r.outer_radius_m - r.inner_radius_m))
 }
 
+const GAP: Yield = Yield {
+    code: "gap-nominal",
+    name: "opening of the race gap, nominal torque",
+    unit: MM,
+    when: When::Nominal,
+    allowed: |l, d| opening(l.gap_nominal_m, d),
+    demand: |e, _, p| e.gap_opening_m(p.normal_inner_n, p.normal_outer_n),
+};
+
 pub(super) const YIELDS: [Yield; 5] = [
-    Yield {
-        code: "gap-nominal",
-        name: "opening of the race gap, nominal torque",
-        unit: MM,
-        when: When::Nominal,
-        allowed: |l, d| opening(l.gap_nominal_m, d),
-        demand: |e, _, p| e.gap_opening_m(p.normal_inner_n, p.normal_outer_n),
-    },
+    GAP,
     Yield {
         code: "windup-nominal",
         name: "windup, nominal torque",
@@ -63,9 +65,8 @@ pub(super) const YIELDS: [Yield; 5] = [
     Yield {
         code: "gap-peak",
         name: "opening of the race gap, peak torque",
-        unit: MM,
         when: When::Peak,
         allowed: |l, d| opening(l.gap_peak_m, d),
-        demand: |e, _, p| e.gap_opening_m(p.normal_inner_n, p.normal_outer_n),
+        ..GAP
     },
 ];
