@@ -2,7 +2,8 @@
 
 use super::Margin;
 use super::held::{When, held};
-use super::load::{LoadState, clearance_at_m, grip, profile_capacity};
+use super::load::{LoadState, clearance_at_m, profile_capacity};
+use super::sprag::{GRIP, grip};
 use crate::design::{Design, Limits};
 use crate::numeric::root;
 use crate::wedge::StaticPoint;
@@ -14,21 +15,22 @@ struct Bounded<'a> {
     demand: Box<dyn Fn(&StaticPoint) -> f64 + 'a>,
 }
 
-/// What depends on torque: what is held at a torque, then grip, room between neighbours and the end of the curve.
+/// What depends on torque: what is held at a torque, then grip, room between neighbours and roll-over.
 fn bounded<'a>(design: &'a Design, limits: &'a Limits, state: &'a LoadState) -> Vec<Bounded<'a>> {
-    let mu = design.clutch.friction.static_;
     let at_torque = held(design, limits, state).into_iter();
     let mut list: Vec<Bounded> =
         at_torque.map(|h| Bounded { code: h.code, allowed: h.allowed, demand: h.demand }).collect();
     let mut add = |code, allowed, demand| list.push(Bounded { code, allowed, demand });
-    add("grip-inner", mu, Box::new(move |p| grip(design, limits, p)[0]));
-    add("grip-outer", mu, Box::new(move |p| grip(design, limits, p)[1]));
+    for limit in &GRIP {
+        if let Some(mu) = (limit.allowed)(design, limits) {
+            add(limit.code, mu, Box::new(move |p| (limit.demand)(design, limits, p)));
+        }
+    }
     // Clearance used up, so that it rises to 1 where neighbours touch.
     if let Some(free) = clearance_at_m(design, state, &StaticPoint::UNLOADED) {
         let used = move |p: &StaticPoint| 1.0 - clearance_at_m(design, state, p).unwrap_or(free) / free;
         add("neighbours", 1.0, Box::new(used));
     }
-    add("end-of-profile", state.profile.end_turn_rad(), Box::new(|p| p.contact_turn_rad));
     add("roll-over", state.curve.roll_over_torque_nm(), Box::new(|p| p.torque_nm));
     list
 }

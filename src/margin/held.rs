@@ -4,6 +4,7 @@ use super::body::body_stress_pa;
 use super::gap::YIELDS;
 use super::hoop::HOOPS;
 use super::load::LoadState;
+use super::sprag::{END_OF_PROFILE, NOMINAL_PRESSURE, OfSprag, PEAK_PRESSURE};
 use super::subsurface::SUBSURFACE;
 use crate::design::{Design, Limits};
 use crate::wedge::StaticPoint;
@@ -49,62 +50,57 @@ pub fn at_nominal_torque(code: &str) -> bool {
 
 const MPA: (&str, f64) = ("MPa", 1e-6);
 
-/// All that `limits` names, in the order of the rows.
+/// All that `limits` names, the grip apart, in the order of the rows.
 pub(super) fn held<'a>(design: &'a Design, limits: &'a Limits, state: &'a LoadState) -> Vec<Held<'a>> {
     let mut list: Vec<Held<'a>> = Vec::new();
     let elastic = &state.curve.statics().elastic;
     let clutch = &design.clutch;
-    let mut add = |code, name: &'static str, unit, when, allowed: (f64, bool), demand| {
-        let (allowed, required) = allowed;
-        list.push(Held { code, name: Box::new(|_| name.to_owned()), unit, when, allowed, required, demand });
+    let of_sprag = |limit: &'static OfSprag| {
+        let allowed = (limit.allowed)(design, limits)?;
+        let demand = Box::new(move |p: &StaticPoint| (limit.demand)(design, limits, p));
+        Some(one(limit.code, (limit.name)(limits), limit.unit, limit.when, (allowed, true), demand))
     };
-    let inner = || -> Box<dyn Fn(&StaticPoint) -> f64 + 'a> { Box::new(|p| p.hertz_inner_pa) };
-    let outer = || -> Box<dyn Fn(&StaticPoint) -> f64 + 'a> { Box::new(|p| p.hertz_outer_pa) };
-    if let Some(allowed) = limits.hertz_nominal_pa.map(|a| (a, true)) {
-        let name = [
-            "Hertz pressure, inner contact, nominal torque",
-            "Hertz pressure, outer contact, nominal torque",
-        ];
-        add("hertz-nominal-inner", name[0], MPA, When::Nominal, allowed, inner());
-        add("hertz-nominal-outer", name[1], MPA, When::Nominal, allowed, outer());
-    }
+    list.extend(NOMINAL_PRESSURE.iter().filter_map(of_sprag));
     for y in &YIELDS {
         if let Some(allowed) = (y.allowed)(limits, design) {
             let count = clutch.sprags.count;
             let demand = Box::new(move |p: &StaticPoint| (y.demand)(elastic, count, p));
-            add(y.code, y.name, y.unit, y.when, (allowed, true), demand);
+            list.push(one(y.code, y.name, y.unit, y.when, (allowed, true), demand));
         }
     }
-    if let Some(allowed) = limits.hertz_peak_pa.map(|a| (a, true)) {
-        let name =
-            ["Hertz pressure, inner contact, peak torque", "Hertz pressure, outer contact, peak torque"];
-        add("hertz-peak-inner", name[0], MPA, When::Peak, allowed, inner());
-        add("hertz-peak-outer", name[1], MPA, When::Peak, allowed, outer());
-    }
+    list.extend(PEAK_PRESSURE.iter().filter_map(of_sprag));
     for hoop in &HOOPS {
         if let Some(allowed) = (hoop.allowed)(limits) {
             let demand = Box::new(move |p: &StaticPoint| hoop.demand_pa(clutch, elastic, p));
-            add(hoop.code, hoop.name, MPA, When::Peak, allowed, demand);
+            list.push(one(hoop.code, hoop.name, MPA, When::Peak, allowed, demand));
         }
     }
     if let Some(allowed) = limits.body_yield_pa {
         let name = "compression of the sprag's body half way between the contacts, peak torque";
         let demand = Box::new(move |p: &StaticPoint| body_stress_pa(design, state, p));
-        add("body-yield", name, MPA, When::Peak, (allowed, true), demand);
+        list.push(one("body-yield", name, MPA, When::Peak, (allowed, true), demand));
     }
     for below in &SUBSURFACE {
         if let Some((allowed, from_m)) = (below.allowed)(limits) {
             let at = move |p: &StaticPoint| below.demand(design, from_m, p);
-            list.push(Held {
-                code: below.code,
-                name: Box::new(move |p| format!("{}, {:.3} mm deep", below.name, at(p).1 * 1e3)),
-                unit: MPA,
-                when: When::Peak,
-                allowed,
-                required: true,
-                demand: Box::new(move |p| at(p).0),
-            });
+            let demand = Box::new(move |p: &StaticPoint| at(p).0);
+            let name =
+                Box::new(move |p: &StaticPoint| format!("{}, {:.3} mm deep", below.name, at(p).1 * 1e3));
+            list.push(Held { name, ..one(below.code, below.name, MPA, When::Peak, (allowed, true), demand) });
         }
     }
+    list.extend(of_sprag(&END_OF_PROFILE));
     list
+}
+
+/// A limit whose name does not depend on the state; `allowed` with whether it counts for the verdict.
+fn one<'a>(
+    code: &'static str,
+    name: &'static str,
+    unit: (&'static str, f64),
+    when: When,
+    (allowed, required): (f64, bool),
+    demand: Box<dyn Fn(&StaticPoint) -> f64 + 'a>,
+) -> Held<'a> {
+    Held { code, name: Box::new(|_| name.to_owned()), unit, when, allowed, required, demand }
 }

@@ -3,6 +3,7 @@
 use super::capacity::axial_from_nm;
 use super::held::held;
 use super::overrun::overrun_moments;
+use super::sprag::GRIP;
 use super::{Margin, NoMargins, curve_at_rest, ratio};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
@@ -68,33 +69,14 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
     }
     if let Some(torque) = limits.peak_torque_nm {
         let p = at(curve, torque);
-        // Turn left on the profile; a curve that ends below the peak torque has none.
-        let turn = state.profile.end_turn_rad();
-        let margin = if end >= torque { ratio(p.contact_turn_rad, turn) } else { end / torque - 1.0 };
-        push(
-            "end-of-profile",
-            &said("contact turn on the profile, peak torque", torque, end),
-            p.contact_turn_rad,
-            turn,
-            "rad",
-            margin,
-        );
         let over = curve.roll_over_torque_nm();
         push("roll-over", "peak torque against roll-over torque", torque, over, "Nm", over / torque - 1.0);
-        let mu = design.clutch.friction.static_;
-        let grip = largest_grip(design, limits, state, &p);
-        let names = match limits.axial_load_n {
-            None => [
-                "largest static tan omega up to peak torque against mu_s",
-                "largest static tan nu up to peak torque against mu_s",
-            ],
-            Some(_) => [
-                "friction for torque and axial load at A, peak torque, or tan omega below it, against mu_s",
-                "friction for torque and axial load at B, peak torque, or tan nu below it, against mu_s",
-            ],
-        };
-        push("grip-inner", names[0], grip[0], mu, "1", ratio(grip[0], mu));
-        push("grip-outer", names[1], grip[1], mu, "1", ratio(grip[1], mu));
+        let below = below(state, &p);
+        for limit in &GRIP {
+            let Some(mu) = (limit.allowed)(design, limits) else { continue };
+            let need = limit.largest(design, limits, &p, &below);
+            push(limit.code, (limit.name)(limits), need, mu, limit.unit.0, ratio(need, mu));
+        }
         if limits.axial_load_n.is_some_and(|n| n > 0.0) {
             let wanted = limits.nominal_torque_nm.unwrap_or(torque);
             let from = axial_from_nm(design, limits, state, torque);
@@ -108,7 +90,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             );
             shown_only.push("axial-from");
         }
-        if let Some(gap) = clearance_up_to_m(design, state, &p) {
+        if let Some(gap) = clearance_up_to_m(design, state, &p, &below) {
             // Clearance itself, relative to the sprag's height: smooth through contact.
             let height = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
             push(
@@ -159,33 +141,14 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
     rows
 }
 
-/// Friction that A and B need: sqrt(F_t^2 + F_a^2)/F_n. The axial load goes from race to sprag to race, so each
-/// sprag hands F_a = load/n_s through both of its contacts.
-pub(super) fn grip(design: &Design, limits: &Limits, p: &StaticPoint) -> [f64; 2] {
-    let axial_n = limits.axial_load_n.unwrap_or(0.0) / design.clutch.sprags.count as f64;
-    let need = |tangential: f64, normal_n: f64| match axial_n > 0.0 {
-        true if normal_n > 0.0 => tangential.hypot(axial_n / normal_n),
-        true => f64::MAX,
-        false => tangential,
-    };
-    [need(p.tan_omega, p.normal_inner_n), need(p.tan_nu, p.normal_outer_n)]
-}
-
 /// States looked at between no load and the peak, beside the peak itself: a choice; demands are smooth but at
 /// junctions, which divide the curve into a few pieces.
 const LOOKS: usize = 24;
 
-/// The largest demand on friction up to `peak`: that of the torque alone on the way, with the axial load at `peak`
-/// (it grows without bound as the load goes to 0; `axial-from` says from where on it is carried).
-fn largest_grip(design: &Design, limits: &Limits, state: &LoadState, peak: &StaticPoint) -> [f64; 2] {
-    let on_the_way = below(state, peak).map(|p| [p.tan_omega, p.tan_nu]);
-    on_the_way.fold(grip(design, limits, peak), |m, d| [m[0].max(d[0]), m[1].max(d[1])])
-}
-
 /// States below `peak`, rising.
-fn below<'a>(state: &'a LoadState, peak: &StaticPoint) -> impl Iterator<Item = StaticPoint> + 'a {
+fn below(state: &LoadState, peak: &StaticPoint) -> Vec<StaticPoint> {
     let last_n = peak.normal_inner_n;
-    (1..LOOKS).filter_map(move |i| state.curve.at_normal(last_n * i as f64 / LOOKS as f64))
+    (1..LOOKS).filter_map(|i| state.curve.at_normal(last_n * i as f64 / LOOKS as f64)).collect()
 }
 
 /// Clearance between neighbouring sprags in a static state, m; `None` without flanks.
@@ -198,11 +161,15 @@ pub(super) fn clearance_at_m(design: &Design, state: &LoadState, p: &StaticPoint
     Some(clearance_m(outline, oc_e, rotation, design.clutch.sprags.count))
 }
 
-/// The smallest from no load to `peak`.
-fn clearance_up_to_m(design: &Design, state: &LoadState, peak: &StaticPoint) -> Option<f64> {
-    let ends = [StaticPoint::UNLOADED, *peak];
-    let all = ends.into_iter().chain(below(state, peak));
-    all.map(|p| clearance_at_m(design, state, &p)).reduce(|a, b| Some(a?.min(b?)))?
+/// The smallest from no load over the states `below` to `peak`.
+fn clearance_up_to_m(
+    design: &Design,
+    state: &LoadState,
+    peak: &StaticPoint,
+    below: &[StaticPoint],
+) -> Option<f64> {
+    let all = [&StaticPoint::UNLOADED, peak].into_iter().chain(below);
+    all.map(|p| clearance_at_m(design, state, p)).reduce(|a, b| Some(a?.min(b?)))?
 }
 
 /// Beyond the curve's end the stress rows continue as the torque shortfall, so that a search sees a slope.

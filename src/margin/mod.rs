@@ -12,6 +12,7 @@ mod load;
 mod overrun;
 mod run_out;
 mod scenes;
+mod sprag;
 mod subsurface;
 
 pub use capacity::{Course, courses, nominal_capacity};

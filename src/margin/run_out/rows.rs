@@ -2,89 +2,10 @@
 
 use super::{RunOut, SpragLoad, Survey};
 use crate::design::{Design, Limits};
-use crate::margin::load::{beyond, grip, said};
+use crate::margin::load::{beyond, said};
+use crate::margin::sprag::of_sprag;
 use crate::margin::{Margin, ratio};
 use crate::numeric::root;
-use crate::wedge::StaticPoint;
-
-/// One limit on the worst sprag.
-struct Limit {
-    code: &'static str,
-    name: &'static str,
-    unit: &'static str,
-    per_si: f64,
-    torque_nm: fn(&Limits) -> Option<f64>,
-    allowed: fn(&Design, &Limits) -> Option<f64>,
-    demand: fn(&Design, &Limits, &StaticPoint) -> f64,
-    /// What counts below that torque as well, where it does.
-    on_the_way: Option<fn(&StaticPoint) -> f64>,
-}
-
-const HERTZ: Limit = Limit {
-    code: "run-out-hertz-nominal-inner",
-    name: "Hertz pressure, inner contact, nominal torque, worst sprag off centre",
-    unit: "MPa",
-    per_si: 1e-6,
-    torque_nm: |l| l.nominal_torque_nm,
-    allowed: |_, l| l.hertz_nominal_pa,
-    demand: |_, _, p| p.hertz_inner_pa,
-    on_the_way: None,
-};
-
-const LIMITS: [Limit; 7] = [
-    HERTZ,
-    Limit {
-        code: "run-out-hertz-nominal-outer",
-        name: "Hertz pressure, outer contact, nominal torque, worst sprag off centre",
-        demand: |_, _, p| p.hertz_outer_pa,
-        ..HERTZ
-    },
-    Limit {
-        code: "run-out-hertz-peak-inner",
-        name: "Hertz pressure, inner contact, peak torque, worst sprag off centre",
-        torque_nm: |l| l.peak_torque_nm,
-        allowed: |_, l| l.hertz_peak_pa,
-        ..HERTZ
-    },
-    Limit {
-        code: "run-out-hertz-peak-outer",
-        name: "Hertz pressure, outer contact, peak torque, worst sprag off centre",
-        torque_nm: |l| l.peak_torque_nm,
-        allowed: |_, l| l.hertz_peak_pa,
-        demand: |_, _, p| p.hertz_outer_pa,
-        ..HERTZ
-    },
-    Limit {
-        code: "run-out-grip-inner",
-        name: "friction at A up to peak torque against mu_s, worst sprag off centre",
-        unit: "1",
-        per_si: 1.0,
-        torque_nm: |l| l.peak_torque_nm,
-        allowed: |d, _| Some(d.clutch.friction.static_),
-        demand: |d, l, p| grip(d, l, p)[0],
-        on_the_way: Some(|p| p.tan_omega),
-    },
-    Limit {
-        code: "run-out-grip-outer",
-        name: "friction at B up to peak torque against mu_s, worst sprag off centre",
-        unit: "1",
-        per_si: 1.0,
-        torque_nm: |l| l.peak_torque_nm,
-        allowed: |d, _| Some(d.clutch.friction.static_),
-        demand: |d, l, p| grip(d, l, p)[1],
-        on_the_way: Some(|p| p.tan_nu),
-    },
-    Limit {
-        code: "run-out-end-of-profile",
-        name: "contact turn on the profile, peak torque, worst sprag off centre",
-        unit: "rad",
-        per_si: 1.0,
-        torque_nm: |l| l.peak_torque_nm,
-        allowed: |d, _| d.clutch.sprags.inner_arcs.last().map(|a| a.until_rad),
-        demand: |_, _, p| p.contact_turn_rad,
-        on_the_way: None,
-    },
-];
 
 /// Torques looked at between none and the end, for what is reached on the way: a choice.
 const LOOKS: usize = 12;
@@ -110,8 +31,8 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
         rows.extend(share_row(limits, ring, &survey));
     }
     rows.extend(re_engagement_row(design, ring));
-    for limit in &LIMITS {
-        let (Some(torque), Some(allowed)) = ((limit.torque_nm)(limits), (limit.allowed)(design, limits))
+    for limit in of_sprag() {
+        let (Some(torque), Some(allowed)) = (limit.when.torque_nm(limits), (limit.allowed)(design, limits))
         else {
             continue;
         };
@@ -121,19 +42,21 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
             let below = surveys.iter().filter(|s| s.torque_nm < torque).filter_map(|s| s.worst(way));
             found = below.chain(found).max_by(|a, b| a.0.total_cmp(&b.0));
         }
-        let (value, name) = match found {
-            Some((value, sprag)) => (value, format!("{}: {}", limit.name, ring.words(&sprag))),
-            None => (0.0, format!("{}: no equilibrium of the sprags was found", limit.name)),
+        let (value, where_) = match found {
+            Some((value, sprag)) => (value, ring.words(&sprag)),
+            None => (0.0, "no equilibrium of the sprags was found".to_owned()),
         };
+        let name = format!("{}, worst sprag off centre: {where_}", (limit.name)(limits));
+        let (unit, per_si) = limit.unit;
         // What is not reached before the end has none: `run-out-end` is that of all.
         let over = |s: &Survey| worst(s).map_or(f64::NAN, |(value, _)| value - allowed);
         let capacity = capacities.then(|| reached(ring, &surveys, &over)).flatten();
         rows.push(Margin {
-            code: limit.code.into(),
+            code: format!("run-out-{}", limit.code),
             name: said(&name, torque, end),
-            demand: value * limit.per_si,
-            allowable: allowed * limit.per_si,
-            unit: limit.unit,
+            demand: value * per_si,
+            allowable: allowed * per_si,
+            unit,
             margin: if found.is_some() { beyond(ratio(value, allowed), torque, end) } else { -1.0 },
             torque_capacity_nm: capacity,
             required: true,
