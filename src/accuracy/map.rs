@@ -56,9 +56,10 @@ impl Outcome {
         }
     }
 
-    /// Whether the case met its limit of work.
+    /// Whether the case met its limit of work. Numbers that are none would be a fault of the program, not a matter of work:
+    /// they are counted apart ([`Judged::not_finite`]).
     pub fn met_a_limit(self) -> bool {
-        matches!(self, Self::Stopped(Stop::StepLimit | Stop::EventLimit))
+        matches!(self, Self::Stopped(stop) if stop.gave_up() && stop != Stop::NotFinite)
     }
 }
 

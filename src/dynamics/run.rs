@@ -61,6 +61,12 @@ impl Stop {
             Self::Interrupted => "interrupted",
         }
     }
+
+    /// Whether the run gave up: it met a limit of work or ceased to be finite, so it says nothing of what would have come
+    /// (an interrupted run was stopped from outside; the other ends are answers).
+    pub fn gave_up(self) -> bool {
+        matches!(self, Self::StepLimit | Self::EventLimit | Self::NotFinite)
+    }
 }
 
 /// Slip at one contact.

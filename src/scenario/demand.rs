@@ -132,7 +132,7 @@ pub(super) fn roll(
         contact_margin: contact_margin(prepared.static_normal_n, &r),
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished,
-        gave_up: matches!(r.stop, Stop::StepLimit | Stop::EventLimit | Stop::NotFinite).then_some(r.stop),
+        gave_up: r.stop.gave_up().then_some(r.stop),
         interrupted,
         rhs_evaluations: before + r.run.counters.rhs_evaluations,
     };

@@ -80,8 +80,8 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
             spread = [spread[0].min(theta), spread[1].max(theta)];
         }
         let s = conclude(prepared, settings, &fine, &coarse, before);
-        let gave_up = matches!(fine.run.stop, Stop::StepLimit | Stop::EventLimit | Stop::NotFinite);
-        let last = gave_up || tolerance < 9.0 * STEP_TOLERANCES[1] || s.stop == Stop::Interrupted;
+        let last =
+            fine.run.stop.gave_up() || tolerance < 9.0 * STEP_TOLERANCES[1] || s.stop == Stop::Interrupted;
         if last || s.tolerance_reached && before.is_some() {
             let (steps, rhs_evaluations) = (s.steps + steps, s.rhs_evaluations + rhs);
             return Simulation { steps, rhs_evaluations, spread_rad: spread, ..s };
