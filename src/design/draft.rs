@@ -42,10 +42,12 @@ pub struct Draft {
     pub torques_nm: [f64; 2],
     /// Race gap at nominal and peak torque, m.
     pub gaps_m: [f64; 2],
-    /// Overrun speed up to which contact is kept and mean speed of the excitation, rad/s; 0: none.
+    /// Overrun speed up to which contact is kept and mean speed of the scene with the torque step, rad/s; 0: none.
     pub speed_rad_s: f64,
-    /// Step of torque: a frequency whose period the scene lasts, Hz, and abutment, N m/rad.
-    pub excitation: [f64; 2],
+    /// How long the scene with the torque step lasts, s; the step comes after a tenth of it.
+    pub step_duration_s: f64,
+    /// Stiffness of the abutment that holds the outer race in that scene, N m/rad.
+    pub abutment_nm_per_rad: f64,
 }
 
 /// mu_c over mu_s of a draft.
@@ -73,13 +75,14 @@ impl Draft {
                 digits(1e-2 * self.length_m * 7850.0 * self.outer_radius_m.powi(4), 4)
             ),
         };
-        let (preload, amplitude) = (digits(0.6 * self.torques_nm[0], 6), digits(0.2 * self.torques_nm[0], 6));
+        // Without damping the step is felt twice, so that the crest is at nominal torque: 0.6 + 2 * 0.2.
+        let (preload, torque_step) =
+            (digits(0.6 * self.torques_nm[0], 6), digits(0.2 * self.torques_nm[0], 6));
         let rpm = digits(self.speed_rad_s * 30.0 / PI, 8);
         let keep = match self.speed_rad_s > 0.0 {
             true => format!("keep_contact_to_rpm = {rpm}    # asked for\n"),
             false => String::new(),
         };
-        let (frequency_hz, abutment) = (self.excitation[0], digits(self.excitation[1], 4));
         format!(
             r#"{why}schema = 1
 name = "{name}"
@@ -140,7 +143,7 @@ torque_nm = {nominal}
 name = "rated-step"
 kind = "transient"
 preload_nm = {preload}
-torque_step_nm = {amplitude}
+torque_step_nm = {torque_step}
 step_time_s = {step_time}
 abutment_stiffness_nm_per_rad = {abutment}
 duration_s = {duration}
@@ -163,8 +166,9 @@ seed = 1
             drag = digits(self.drag_nm, 4),
             friction = digits(self.friction, 6),
             kinetic = digits(KINETIC_SHARE * self.friction, 6),
-            step_time = digits(0.1 / frequency_hz, 4),
-            duration = digits(1.0 / frequency_hz, 4),
+            abutment = digits(self.abutment_nm_per_rad, 4),
+            step_time = digits(0.1 * self.step_duration_s, 4),
+            duration = digits(self.step_duration_s, 4),
             ri_min = mm(0.95 * self.inner_radius_m),
             ri_max = mm(1.05 * self.inner_radius_m),
             e_min = mm(0.9 * self.centre_distance_m),
@@ -178,13 +182,14 @@ fn mm(m: f64) -> String {
     float((m * 1e7).round() / 1e4)
 }
 
-/// So many significant digits.
-fn digits(value: f64, digits: i32) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return float(value);
-    }
-    // Through text, so that what is written is the shortest that reads back.
-    float(format!("{value:.*e}", (digits - 1).max(0) as usize).parse().unwrap_or(value))
+/// So many significant digits, as TOML.
+fn digits(value: f64, digits: usize) -> String {
+    float(rounded(value, digits))
+}
+
+/// `value` to so many significant digits: the double that this decimal reads as, whose shortest text has no more of them.
+pub fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
 /// A TOML float: always with a point or an exponent.

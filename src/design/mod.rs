@@ -35,7 +35,7 @@ pub use clutch::{
     Materials, Races, Running, Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem};
-pub use draft::{Draft, KINETIC_SHARE};
+pub use draft::{Draft, KINETIC_SHARE, rounded};
 pub use edit::{EditError, value_at, with_flanks, with_keys, with_limits, with_values, without_variables};
 pub use objective::Objective;
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};

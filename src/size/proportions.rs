@@ -63,7 +63,8 @@ pub(super) fn draft(ask: &Ask, space_m: f64) -> Draft {
         torques_nm: [ask.torque_nm, ask.safety * ask.torque_nm],
         gaps_m: [8.46, 8.60].map(|gap| gap / 8.33 * space_m),
         speed_rad_s: ask.speed_rad_s,
-        excitation: [50.0, 10.0 * ask.torque_nm],
+        step_duration_s: 0.02,
+        abutment_nm_per_rad: 10.0 * ask.torque_nm,
     };
     lengthen(&mut draft, LENGTHS.1 * space_m);
     spring(&mut draft, SPRING_N * (space_m / 8.33e-3).powi(2));

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::ask::{Ask, BadAsk};
 use super::proportions::{COUNTS, LENGTHS, SPACES_M, draft, lengthen, spring};
-use crate::design::{Design, Draft};
+use crate::design::{Design, Draft, rounded};
 use crate::margin::{LoadState, Margin, load_margins, load_state, margins};
 use crate::profile::Outline;
 use crate::scenario::{Settings, place_profile};
@@ -201,7 +201,7 @@ fn carries(draft: &Draft) -> f64 {
     let holds = |torque: f64| {
         let mut other = draft.clone();
         other.torques_nm = [torque, safety * torque];
-        other.excitation[1] = 10.0 * torque;
+        other.abutment_nm_per_rad = 10.0 * torque;
         least(&other).is_ok_and(|(margin, _)| margin >= KEPT)
     };
     let (mut a, mut b) = (0.0, draft.torques_nm[0]);
@@ -225,7 +225,7 @@ fn carries(draft: &Draft) -> f64 {
     a
 }
 
-/// Profile's end, flanks, spring and excitation; then every margin with the scenarios.
+/// Profile's end, flanks, spring and torque step; then every margin with the scenarios.
 fn finish(ask: &Ask, mut draft: Draft, settings: &Settings) -> Result<(Design, Vec<Margin>), String> {
     const ROUNDS: usize = 6;
     let mut why = String::new();
@@ -249,7 +249,8 @@ fn finish(ask: &Ask, mut draft: Draft, settings: &Settings) -> Result<(Design, V
         let stiffness = nominal.k_secant_nm_per_rad;
         let [inner, outer] = draft.inertias_kg_m2;
         let natural_hz = (stiffness / inner.min(outer)).sqrt() / std::f64::consts::TAU;
-        draft.excitation = [(natural_hz / 20.0).min(50.0), 10.0 * stiffness];
+        draft.step_duration_s = (20.0 / natural_hz).max(0.02);
+        draft.abutment_nm_per_rad = 10.0 * stiffness;
         draft.name = format!("sized: bore {} mm, {} Nm", short(ask.bore_m * 1e3), short(ask.torque_nm));
         draft.why = why_lines(ask, &draft);
         match built(&mut draft).and_then(|design| checked(&design, settings).map(|rows| (design, rows))) {
@@ -320,8 +321,9 @@ fn checked(design: &Design, settings: &Settings) -> Result<Vec<Margin>, Obstacle
     }
 }
 
+/// For names and comments.
 fn short(value: f64) -> f64 {
-    format!("{value:.6e}").parse().unwrap_or(value)
+    rounded(value, 7)
 }
 
 fn why_lines(ask: &Ask, draft: &Draft) -> Vec<String> {
