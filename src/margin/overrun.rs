@@ -70,8 +70,10 @@ pub fn overrun_curve(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Re
 }
 
 /// (opening moment of the centrifugal force, closing moment of the spring) on one sprag about G at first contact
-/// at overrun speed `speed_rad_s`, N m. Contact is kept while the first is smaller. Zero load at A:
-/// h_e N_be = h_e m_g OC_g Omega^2/cos gamma, which closes for gamma > 0 and opens for gamma < 0.
+/// at overrun speed `speed_rad_s`, N m. Contact is kept while the first is smaller. Zero load at A, and with it no
+/// friction there (|T_bi| <= mu N_bi) nor at B (T_be OB = T_bi OA): h_e N_be = h_e m_g OC_g Omega^2/cos gamma, which closes
+/// for gamma > 0 and opens for gamma < 0. The closure's own N_be is not that: it holds the sprag without a spring, by the
+/// T_bi at N_bi = 0 that this takes (its `t_offset_n`), which a contact without load does not have.
 pub(super) fn overrun_moments(design: &Design, state: &LoadState, speed_rad_s: f64) -> (f64, f64) {
     let spring = design.clutch.spring.stiffness_nm_per_rad;
     // First contact at speed: only the touch of the curve is needed, a closure at N -> 0.
@@ -79,13 +81,16 @@ pub(super) fn overrun_moments(design: &Design, state: &LoadState, speed_rad_s: f
     match statics.closure(0, FIRST_CONTACT_N, speed_rad_s, 0.0) {
         Ok(c) => {
             let l = levers(c.lengths.oa.v, c.lengths.ob.v, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v);
-            (-l.h_e * c.n_be.v, spring * (state.alpha_max_rad - c.alpha.v))
+            let centrifugal_n = design.clutch.sprags.mass_kg * c.oc_g.v * speed_rad_s * speed_rad_s;
+            let n_be = centrifugal_n / c.gamma.v.cos();
+            (-l.h_e * n_be, spring * (state.alpha_max_rad - c.alpha.v))
         }
         Err(_) => (1.0, 0.0),
     }
 }
 
-/// Lift-off speed of the outer race, rad/s: opening = closing moment; `None` where contact is kept to `up_to`.
+/// Lift-off speed of the outer race, rad/s: opening = closing moment, which is where [`overrun`] ends to find a normal
+/// force at A; `None` where contact is kept to `up_to`.
 pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Option<f64> {
     let left = |speed: f64| {
         let (opening, closing) = overrun_moments(design, state, speed);

@@ -61,6 +61,23 @@ fn table_1_lifts_off_near_5000_rpm() {
     close(keep.allowable, 1e3 * h.spring_nm, 4e-3);
 }
 
+/// One lift-off: the moments of a sprag without load say the same as the equilibrium of one that slides.
+#[test]
+fn sliding_sprags_lose_their_load_at_the_lift_off_speed() {
+    let d = design(&[]);
+    let (state, _) = rows(&d);
+    let lift_off = lift_off_rad_s(&d, &state, 2000.0).unwrap();
+    let force_n = |speed: f64| {
+        overrun_curve(&d, &state, speed).unwrap().outer_race.last().unwrap().state.normal_inner_n
+    };
+    assert_eq!(force_n(lift_off * (1.0 + 1e-7)), 0.0);
+    let [near, nearer] = [1e-4, 1e-5].map(|below| force_n(lift_off * (1.0 - below)));
+    println!("lift-off at {} rpm; N_bi {near} and {nearer} N 1e-4 and 1e-5 below", lift_off * 30.0 / PI);
+    // N_bi falls in proportion to what is left of Omega^2.
+    assert!(nearer > 0.0);
+    close(near / nearer, 10.0, 1e-2);
+}
+
 /// MODEL figures of the moment: -0.023 Nm per sprag at 20 000 rpm, and its sign on both sides of gamma = 0.
 #[test]
 fn the_centroid_opens_on_one_side_and_closes_on_the_other() {
