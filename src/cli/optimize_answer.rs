@@ -88,7 +88,7 @@ impl Told<'_> {
                 shown(self.found.aim, after),
                 self.found.objective_error.max(1e-16),
                 self.found.evaluations,
-                if self.found.wants_centroid() { "; its centroid is not yet realised" } else { "" }
+                if self.found.wants_centroid() { "; no flanks give its centroid yet" } else { "" }
             )
         } else {
             format!("no feasible design found: {why} after {} evaluations", self.found.evaluations)

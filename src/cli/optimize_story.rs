@@ -274,7 +274,7 @@ impl Story {
         let aim = self.found.aim;
         let (drawn, worst, [p01, p05, p50]) = made.objective;
         let mut lines = vec![format!(
-            "{}: {} as drawn, {} at the worst of {} corners; 1 %, 5 %, 50 % of {} draws (seed {}) lie below {}, {}, {}; \
+            "{}: {} at the nominal values, {} at the worst of {} corners; 1 %, 5 %, 50 % of {} draws (seed {}) lie below {}, {}, {}; \
              every limit holds in {} of them",
             aim.words(),
             shown(aim, drawn),
@@ -293,7 +293,7 @@ impl Story {
         let mut tables = vec![("Margins of the optimum within the tolerances", spread_table(made))];
         if let Some(robust) = &self.robust {
             lines.push(format!(
-                "robust design: {} as drawn instead of {}, and {} at the worst corner instead of {}: it gives up {} to \
+                "robust design: {} at the nominal values instead of {}, and {} at the worst corner instead of {}: it gives up {} to \
                  {} ({}, {} corners as limits)",
                 shown(aim, robust.made.objective.0),
                 shown(aim, drawn),
@@ -388,7 +388,7 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
         significant(n.given.1, 4)
     );
     let mut lines = vec![format!(
-        "the optimum above is not yet realised: its centroid {} was free, its mass given",
+        "the optimum above has no flanks yet that give it: its centroid {} was free, its mass given",
         at(n.wanted_m)
     )];
     lines.push(if n.reached() {

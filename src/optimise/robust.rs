@@ -44,7 +44,7 @@ pub struct Spread {
 pub struct Robust {
     /// Margin by margin: objectives first, then limits.
     pub spreads: Vec<Spread>,
-    /// The objective in its own unit: as drawn, at the worst corner, and its 1st, 5th, 50th percentile.
+    /// The objective in its own unit: at the nominal values, at the worst corner, and its 1st, 5th, 50th percentile.
     pub objective: (f64, f64, [f64; 3]),
     /// Corners looked at.
     pub corners: usize,
@@ -109,7 +109,7 @@ fn at_each(
 /// Margins of `problem` at `x` at every corner of the tolerances, and percentiles of `draws` seeded draws.
 ///
 /// # Errors
-/// [`NoSearch::Start`] where the design as drawn has no margins.
+/// [`NoSearch::Start`] where the design has no margins at its nominal values.
 pub fn spread(
     problem: &ClutchProblem,
     x: &[f64],

@@ -91,7 +91,7 @@ fn a_centroid_out_of_reach_has_a_nearest() {
 }
 
 /// Tolerances: the worst corner is no better than the drawing or any draw, and the robust design's worst corner is better
-/// than that of the optimum as drawn, at a price.
+/// than that of the optimum at its nominal values, at a price.
 #[test]
 fn a_robust_design_holds_at_every_corner() {
     let design = design(PEER_A);
@@ -106,17 +106,17 @@ fn a_robust_design_holds_at_every_corner() {
         assert!(s.worst <= s.nominal && s.percentiles[0] <= s.percentiles[1], "{s:?}");
         assert!(s.worst <= s.percentiles[0] + 1e-3, "{s:?}");
     }
-    assert!(!made.held(), "the optimum as drawn stands on its limits");
+    assert!(!made.held(), "the nominal optimum stands on its limits");
     let again = spread(&found.problem, &found.outcome.x, &of, (60, 7), &desk).unwrap();
     assert_eq!(made, again);
     let (lo, hi) = found.bounds();
     let best = robust(&found.problem, &found.outcome.x, (&lo, &hi), &of, (60, 7), &method, &desk).unwrap();
     println!(
-        "as drawn {:?}; robust {:?}, {} rounds, {} evaluations, at {:?}",
+        "nominal {:?}; robust {:?}, {} rounds, {} evaluations, at {:?}",
         made.objective, best.made.objective, best.rounds, best.evaluations, best.held_at
     );
     assert!(best.made.held(), "{:#?}", best.made.spreads);
-    assert!(best.made.objective.0 < made.objective.0, "robust costs something as drawn");
+    assert!(best.made.objective.0 < made.objective.0, "robust costs something at the nominal values");
     assert!(best.made.yield_share > made.yield_share);
 }
 

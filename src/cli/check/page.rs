@@ -50,8 +50,9 @@ pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, co
         page.heading("Radii as made and as run");
         page.paragraph(
             "Every other figure of this page is of the radii as run: fitted, and at the temperatures of [thermal], without \
-             load. A race that is joined with shaft or housing counts as one piece with it. To make: the radii with which \
-             the clutch runs as drawn, enlarged as the sprags are, so that the gap is right at every torque.",
+             load. A race that is joined with shaft or housing counts as one piece with it. As made: the radii of the \
+             design file. To make: those with which the radii as run become the ones of the design file, enlarged as the \
+             sprags are, so that the gap is right at every torque.",
         );
         page.table("", &running.table());
     }

@@ -12,7 +12,7 @@ struct Track {
     by_fit_um: f64,
     by_temperature_um: f64,
     as_run_mm: f64,
-    /// Radius to make for the gap drawn.
+    /// Radius to make so that the one as run is that of the design file, enlarged as the sprags are.
     to_make_mm: f64,
     joint_pressure_mpa: f64,
     fit_hoop_at_track_mpa: f64,
@@ -30,7 +30,7 @@ pub(super) struct Section {
     gap_as_run_mm: f64,
     /// Gap as run under nominal torque; null without one on the curve.
     gap_nominal_mm: Option<f64>,
-    /// The same for the radii as drawn, loose and at the reference temperature of the sprags' own growth.
+    /// Gap between the radii to make, loose and at the reference temperature.
     gap_to_make_mm: f64,
 }
 
@@ -89,7 +89,7 @@ impl Section {
                 self.gap_as_run_mm
             ),
             format!(
-                "Radii to make for a clutch that runs as drawn, at nominal torque too: {:.4}/{:.4} mm",
+                "Radii to make so that the clutch runs with those of the design file, at nominal torque too: {:.4}/{:.4} mm",
                 self.inner.to_make_mm, self.outer.to_make_mm
             ),
         ]
