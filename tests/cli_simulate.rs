@@ -216,7 +216,7 @@ fn a_preload_beyond_the_clutch_is_a_result() {
         Changed::new("beyond", "\n[[scenarios]]\nname = \"beyond\"\nkind = \"static\"\ntorque_nm = 5000.0\n");
     // The table after [optimize] is a scenario like the others.
     let answer = json(design.path(), "beyond", &[]);
-    assert_eq!((&answer["verdict"], &answer["stop"]), (&"disengages".into(), &"no-start".into()));
+    assert_eq!((&answer["verdict"], &answer["stop"]), (&"overloaded".into(), &"no-start".into()));
     assert!(answer["reason"].as_str().unwrap().contains("5000 Nm"));
     assert!(answer["slip_margin"].is_null());
 }

@@ -76,6 +76,25 @@ fn a_negative_number_is_a_value_and_refused_as_one() {
 }
 
 #[test]
+fn an_option_is_no_value_of_the_option_before_it() {
+    const DESIGN: &str = "designs/huang2017-multi-arc.toml";
+    for (args, flag) in [
+        (&["simulate", DESIGN, "--scenario", "high-6", "--step", "--json"][..], "--step"),
+        (&["simulate", DESIGN, "--scenario", "high-6", "--tolerance", "-q"], "--tolerance"),
+        (&["stiffness", DESIGN, "--torques", "--json"], "--torques"),
+        (&["size", "--bore", "--torque", "10", "-o", "never.toml"], "--bore"),
+        (&["optimize", DESIGN, "--tolerance", "--resume"], "--tolerance"),
+        (&["--quiet", "simulate", DESIGN, "--step", "--report=a.html", "--scenario", "high-6"], "--step"),
+    ] {
+        let output = run(args);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(output.stdout.is_empty(), "{args:?}");
+        assert!(said.contains(&format!("a value is required for '{flag} <")), "{args:?}: {said}");
+    }
+}
+
+#[test]
 fn options_without_meaning_are_refused_in_a_sentence() {
     const DESIGN: &str = "designs/huang2017-multi-arc.toml";
     for args in [

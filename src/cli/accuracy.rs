@@ -91,7 +91,7 @@ pub fn run(args: &AccuracyArgs, context: &Context) -> Result<Exit, Failure> {
     };
     context.outputs.write_csv(&tables::points(&study.scenes))?;
     context.outputs.write_report(|| page::page(&study, &answer, context))?;
-    context.answer(&tables::text(&study, context.colour))?;
+    context.answer(&tables::text(&study, context.screen))?;
     answer.print(context)?;
     Ok(if study.interrupted { Exit::Interrupted } else { Exit::Held })
 }

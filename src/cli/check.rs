@@ -17,10 +17,10 @@ use crate::margin::{
     LoadState, Margin, NoMargins, OverrunCurve, RunOut, lift_off_rad_s, load_margins, load_state,
     run_out_margins, scene_margins,
 };
-use crate::report::Unit;
+use crate::report::{Screen, Unit};
 use crate::scenario::Settings;
-use body::{Body, NONE_SUFFICES, Source, csv_table};
-pub(super) use body::{ends_first, people_table};
+use body::{Body, NONE_SUFFICES, OVERLOADED, Source, csv_table};
+pub(super) use body::{demand_cell, ends_first, margin_cell, people_table, unit_cell};
 use clap::Args;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -108,7 +108,7 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         output::write_table(path, &answer.body.overrun.table())?;
     }
     context.outputs.write_report(|| page::page(&design, &check, &answer, context))?;
-    context.answer(&text(&design, &check, &answer.body, context.colour))?;
+    context.answer(&text(&design, &check, &answer.body, context.screen))?;
     answer.print(context)?;
     Ok(match (held, unknown) {
         (true, _) => Exit::Held,
@@ -164,8 +164,8 @@ fn scene(
     Some((fine, error))
 }
 
-fn text(design: &Design, check: &Check, body: &Body, colour: bool) -> String {
-    let table = people_table(&check.rows, check.state.curve.end_torque_nm()).to_text(colour);
+fn text(design: &Design, check: &Check, body: &Body, screen: Screen) -> String {
+    let table = people_table(&check.rows, check.state.curve.end_torque_nm()).to_text(screen);
     let mut out = format!("{}  {}\n\n{table}\n", design.name, &design.hash.get(..12).unwrap_or(&design.hash));
     out.push_str(&body.verdict());
     out.push('\n');
@@ -175,9 +175,13 @@ fn text(design: &Design, check: &Check, body: &Body, colour: bool) -> String {
     }
     out.push_str(REACHED_AT);
     out.push('\n');
-    if check.rows.iter().any(|r| r.computed && r.demand == f64::MAX) {
+    let stands = |r: &&Margin| r.computed && r.demand == f64::MAX;
+    if check.rows.iter().filter(stands).any(|r| !r.overloaded) {
+        out.push_str(&format!("{NONE_SUFFICES}: contact would open, whatever the friction\n"));
+    }
+    if check.rows.iter().filter(stands).any(|r| r.overloaded) {
         out.push_str(&format!(
-            "{NONE_SUFFICES}: contact would open, or the clutch leaves its curve, whatever the friction\n"
+            "{OVERLOADED}: the scene's load goes beyond the end of the curve, where the sprag rolls over or leaves its profile\n"
         ));
     }
     out

@@ -10,6 +10,7 @@ use super::output::{VERSION, write_whole};
 use super::parts::{self, Answer};
 use crate::design::Design;
 use crate::identify::{Identified, NoFit, Settings, Unknown, identify, observations};
+use crate::report::Screen;
 use body::{Body, estimates, residuals, sentences};
 use clap::Args;
 use std::path::PathBuf;
@@ -128,7 +129,7 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
     };
     context.outputs.write_csv(&residuals(&found))?;
     context.outputs.write_report(|| page::page(&design, &found, &answer, context))?;
-    context.answer(&text_of(&design, &found, context.colour))?;
+    context.answer(&text_of(&design, &found, context.screen))?;
     answer.print(context)?;
     Ok(if determined { Exit::Held } else { Exit::NotHeld })
 }
@@ -151,13 +152,13 @@ fn new_file(design: &Design, found: &Identified, context: &Context) -> String {
     )
 }
 
-fn text_of(design: &Design, found: &Identified, colour: bool) -> String {
+fn text_of(design: &Design, found: &Identified, screen: Screen) -> String {
     let mut out = format!(
         "{}  {}\n\n{}\n{}\n",
         design.name,
         design.hash.get(..12).unwrap_or(&design.hash),
-        estimates(found).to_text(colour),
-        residuals(found).to_text(colour)
+        estimates(found).to_text(screen),
+        residuals(found).to_text(screen)
     );
     for line in sentences(found) {
         out.push_str(&line);

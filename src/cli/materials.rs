@@ -59,7 +59,7 @@ pub fn run(context: &Context) -> Result<Exit, Failure> {
         )?;
         return Ok(Exit::Held);
     }
-    let mut text = table.to_text(context.colour);
+    let mut text = table.to_text(context.screen);
     text.push_str("\nNamed in a design as material = { name = \"100Cr6\" } or [material.sprag] name = \"100Cr6\"; keys\n");
     text.push_str(
         "beside the name win over it. [limits] from_material = true takes the stresses as limits.\n\n",

@@ -26,6 +26,7 @@ pub mod simulate;
 pub mod size;
 pub mod stiffness;
 
+use crate::report::Screen;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use exit::{Exit, Failure};
 use interrupt::Interrupt;
@@ -121,8 +122,8 @@ pub struct Context {
     pub json: bool,
     /// No progress, no messages.
     pub quiet: bool,
-    /// Standard output is a terminal that wants colours.
-    pub colour: bool,
+    /// What the answer is printed on.
+    pub screen: Screen,
     /// Files to write.
     pub outputs: Outputs,
     /// The command line as typed, for the reports.
@@ -155,7 +156,7 @@ impl Context {
 
 /// Run the program.
 pub fn run() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let cli = match missing_value(&arguments()).map_or_else(Cli::try_parse, Err) {
         Ok(cli) => cli,
         Err(e) => {
             // Help and version come this way too, on standard output and with code 0.
@@ -235,14 +236,23 @@ fn context(common: Common) -> Result<Context, Failure> {
     }
     // NO_COLOR counts when set to anything but nothing (no-color.org).
     let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
+    let out = std::io::stdout();
+    let terminal = out.is_terminal();
+    // A pipe or a file takes lines of any length.
+    let columns = terminal_size::terminal_size_of(&out).filter(|_| terminal).map(|(w, _)| usize::from(w.0));
     Ok(Context {
         json: common.json,
         quiet: common.quiet,
-        colour: !refused && std::io::stdout().is_terminal(),
+        screen: Screen { colour: terminal && !refused, columns },
         outputs: Outputs { csv: common.csv, report: common.report },
-        command_line: command_line(std::env::args()),
+        command_line: command_line(arguments().into_iter()),
         interrupt,
     })
+}
+
+/// The arguments as typed; a path that is no Unicode loses what cannot be shown.
+fn arguments() -> Vec<String> {
+    std::env::args_os().map(|arg| arg.to_string_lossy().into_owned()).collect()
 }
 
 /// The command line as a shell would take it again; the program by its name, not by its path.
@@ -256,6 +266,30 @@ fn command_line(args: impl Iterator<Item = String>) -> String {
         }
     };
     std::iter::once(output::TOOL.to_owned()).chain(args.skip(1).map(quoted)).collect::<Vec<_>>().join(" ")
+}
+
+/// The refusal of an option without its value. Options for numbers take what begins with a hyphen, so that -1e-6 is
+/// refused as a number; they would take the next option too.
+fn missing_value(args: &[String]) -> Option<clap::Error> {
+    let mut root = Cli::command();
+    root.build();
+    let command = args.iter().skip(1).find_map(|arg| root.find_subcommand(arg)).cloned()?;
+    let option = |text: &str| {
+        let name = text.split('=').next().unwrap_or(text);
+        command.get_arguments().find(|a| {
+            a.get_long().is_some_and(|long| name.strip_prefix("--") == Some(long))
+                || a.get_short().is_some_and(|short| name == format!("-{short}"))
+        })
+    };
+    // Behind -- there are no options.
+    let until = args.iter().position(|arg| arg == "--").unwrap_or(args.len());
+    let pair = args[..until].windows(2).find(|pair| {
+        let greedy =
+            option(&pair[0]).is_some_and(|a| a.is_allow_hyphen_values_set() && !pair[0].contains('='));
+        greedy && option(&pair[1]).is_some()
+    })?;
+    let message = format!("a value is required for '{}' but none was supplied", option(&pair[0])?);
+    Some(command.clone().error(clap::error::ErrorKind::InvalidValue, message))
 }
 
 /// A finite number above zero, for flags.

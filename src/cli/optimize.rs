@@ -223,7 +223,7 @@ fn finish(
     }
     let journal = keep.then(|| file.path().to_path_buf());
     let answer = answer::Told { design, story, found, written, beside, journal, run_time_s, interrupted };
-    context.outputs.write_csv(&answer.margin_table())?;
+    context.outputs.write_csv(&answer.csv_table())?;
     context.outputs.write_report(|| answer.page(context))?;
     answer.json().print(context)?;
     context.answer(&answer.text(context))?;

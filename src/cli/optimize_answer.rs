@@ -1,6 +1,7 @@
 //! What `optimize` says: text, JSON, page, and the head of the new design file.
 
 use super::Context;
+use super::check::{demand_cell, margin_cell, unit_cell};
 use super::left_out::left_out;
 use super::optimize_story::{Story, shown, word};
 use super::output::{TOOL, VERSION};
@@ -58,6 +59,10 @@ pub fn file_text(design: &Design, found: &Search, written_by: &str, context: &Co
     )
 }
 
+fn held_cell(m: &Margin) -> Cell {
+    Cell::Verdict(m.held(), if m.held() { "held" } else { "NOT HELD" }.to_owned())
+}
+
 impl Told<'_> {
     /// How it ended, in one sentence.
     pub fn verdict(&self) -> String {
@@ -95,8 +100,35 @@ impl Told<'_> {
         }
     }
 
-    /// Margins before and after.
-    pub fn margin_table(&self) -> Table {
+    /// Margins before and after, as `check` shows them.
+    fn margin_table(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::text("code", "Limit"),
+            Column::number("demand_before", "Demand before", Unit::One, 4),
+            Column::number("demand_after", "Demand after", Unit::One, 4),
+            Column::number("allowable", "Allowable", Unit::One, 4),
+            Column::text("unit", "Unit"),
+            Column::number("margin_before", "Margin before", Unit::Percent, 3),
+            Column::number("margin_after", "Margin after", Unit::Percent, 3),
+            Column::text("held", "Held"),
+        ]);
+        for (a, b) in self.found.start.iter().zip(&self.found.best) {
+            table.row(vec![
+                b.code.as_str().into(),
+                demand_cell(a),
+                demand_cell(b),
+                b.allowable.into(),
+                unit_cell(b),
+                margin_cell(a),
+                margin_cell(b),
+                held_cell(b),
+            ]);
+        }
+        table
+    }
+
+    /// The same for programs: every number in full.
+    pub fn csv_table(&self) -> Table {
         let mut table = Table::new(vec![
             Column::text("code", "Limit"),
             Column::text("unit", "Unit"),
@@ -117,7 +149,7 @@ impl Told<'_> {
                 b.allowable.into(),
                 a.margin.into(),
                 b.margin.into(),
-                Cell::Verdict(b.held(), if b.held() { "held" } else { "NOT HELD" }.to_owned()),
+                held_cell(b),
             ]);
         }
         table
@@ -190,18 +222,18 @@ impl Told<'_> {
     /// The answer in the terminal.
     pub fn text(&self, context: &Context) -> String {
         let mut out =
-            format!("{}\n\nVariables\n{}", self.verdict(), self.variable_table().to_text(context.colour));
-        out += &format!("\nMargins\n{}", self.margin_table().to_text(context.colour));
+            format!("{}\n\nVariables\n{}", self.verdict(), self.variable_table().to_text(context.screen));
+        out += &format!("\nMargins\n{}", self.margin_table().to_text(context.screen));
         out += &format!(
             "\nInfluence at the start: change of each margin over the whole range of a variable\n{}",
-            self.influence_table().to_text(context.colour)
+            self.influence_table().to_text(context.screen)
         );
         out += &format!("\nActive: {}\n", self.active().join(", "));
         for part in self.story.parts() {
             out += &format!("\n{}\n", part.heading);
             out += &part.lines.iter().map(|l| format!("- {l}\n")).collect::<String>();
             for (caption, table) in &part.tables {
-                out += &format!("{caption}\n{}", table.to_text(context.colour));
+                out += &format!("{caption}\n{}", table.to_text(context.screen));
             }
         }
         out += &format!("{}\n", self.in_full());

@@ -28,7 +28,8 @@ Examples:
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --method published --step 2e-6
   sprag-design simulate designs/huang2017-bench.toml --scenario in-and-out --report in-and-out.html
 
-The verdict is the answer: sticks, slips-overrunning, slips-engaging, disengages and at-threshold all exit with 0.";
+The verdict is the answer: sticks, slips-overrunning, slips-engaging, disengages, overloaded and
+at-threshold all exit with 0.";
 
 /// The paper's step, s.
 const PUBLISHED_STEP_S: f64 = 1e-5;
@@ -179,7 +180,7 @@ fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Fai
     context.outputs.write_csv(&history::table(scene))?;
     context.outputs.write_report(|| page::page(scene, &answer, context))?;
     answer.print(context)?;
-    let facts = facts::table(scene).to_text(context.colour);
+    let facts = facts::table(scene).to_text(context.screen);
     context.answer(&format!("{}\n\n{facts}", scene.verdict_line()))?;
     for note in &scene.notes {
         context.message(&format!("note: {note}"));
@@ -322,10 +323,11 @@ impl Scene<'_> {
         self.outcome.as_ref().ok().map(|(_, s)| s)
     }
 
-    /// Verdict by its name; "disengages" where the clutch does not even carry the start.
+    /// Verdict by its name, also where the clutch has no start: it does not carry it, or has no curve.
     fn verdict(&self) -> Option<&'static str> {
         match &self.outcome {
             Ok((_, s)) => s.verdict.map(Verdict::name),
+            Err(NoScenario::NotCarried { .. }) => Some(Verdict::Overloaded.name()),
             Err(_) => Some(Verdict::Disengages.name()),
         }
     }

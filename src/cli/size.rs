@@ -8,7 +8,7 @@ use super::output::{print_json, write_whole};
 use super::parts::{self, Answer};
 use crate::design::Design;
 use crate::margin::{Margin, load_state};
-use crate::report::{Cell, Column, Table, Unit};
+use crate::report::{Cell, Column, Screen, Table, Unit};
 use crate::scenario::{Settings, place_profile};
 use crate::size::{Ask, NoSize, Sized, Tried, size};
 use clap::Args;
@@ -23,7 +23,7 @@ Examples:
   sprag-design optimize new.toml -o better.toml
 
 Every race space of one family of similar sprags is tried; the smallest ring from bore to outside is taken. The file that
-is written holds its limits, with a static and an excited scenario at nominal torque, and an optimize table.
+is written holds its limits, with a static scenario at nominal torque and a torque step up to it, and an optimize table.
 
 Exit codes: 0 written; 1 no clutch of the family does it, with the limit that prevents it and the nearest possible.";
 
@@ -82,7 +82,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
                 )?;
             }
             context.outputs.write_csv(&tried_table(tried, None))?;
-            context.answer(&format!("{}\n{why}\n", tried_table(tried, None).to_text(context.colour)))?;
+            context.answer(&format!("{}\n{why}\n", tried_table(tried, None).to_text(context.screen)))?;
             return Ok(Exit::NotHeld);
         }
     };
@@ -116,7 +116,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
         page
     })?;
     answer.print(context)?;
-    context.answer(&text(&sized, end_nm, &args.output, context.colour))?;
+    context.answer(&text(&sized, end_nm, &args.output, context.screen))?;
     Ok(Exit::Held)
 }
 
@@ -132,14 +132,14 @@ fn verdict(sized: &Sized) -> String {
     )
 }
 
-fn text(sized: &Sized, end_nm: f64, path: &Path, colour: bool) -> String {
+fn text(sized: &Sized, end_nm: f64, path: &Path, screen: Screen) -> String {
     let design: &Design = &sized.design;
     format!(
         "{}  {}\n\n{}\n{}\n{}\n{REACHED_AT}\nwritten to {}\n",
         design.name,
         design.hash.get(..12).unwrap_or(&design.hash),
-        tried_table(&sized.tried, Some(sized.taken)).to_text(colour),
-        people_table(&sized.margins, end_nm).to_text(colour),
+        tried_table(&sized.tried, Some(sized.taken)).to_text(screen),
+        people_table(&sized.margins, end_nm).to_text(screen),
         verdict(sized),
         path.display()
     )

@@ -119,7 +119,7 @@ pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
     }
     context.outputs.write_report(|| page::page(&studies, &answers, context))?;
     for (study, answer) in studies.iter().zip(&answers) {
-        context.answer(&tables::text(study))?;
+        context.answer(&tables::text(study, context.screen))?;
         answer.print(context)?;
     }
     Ok(Exit::Held)

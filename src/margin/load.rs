@@ -51,6 +51,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             torque_capacity_nm: None,
             required: true,
             computed: true,
+            overloaded: false,
         });
     };
     let curve = &state.curve;

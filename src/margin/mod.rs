@@ -47,6 +47,8 @@ pub struct Margin {
     pub required: bool,
     /// Whether demand and margin are known; else a run met its limit of work, and the margin is -1.
     pub computed: bool,
+    /// Whether the row's scene goes beyond the end of the curve, so that the margin is -1 whatever the friction.
+    pub overloaded: bool,
 }
 
 /// Resolution of a margin: what the optimiser leaves of a limit that it stops at. A margin above minus this is

@@ -48,11 +48,17 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
     let found = d.demand.as_ref().ok();
     let need = found.and_then(|d| d.required_friction);
     let gave_up = found.and_then(|d| d.gave_up);
+    let overload = match &d.demand {
+        Err(why @ NoScenario::NotCarried { .. }) => Some(why.to_string()),
+        Ok(d) if d.overloaded => Some("rolling goes beyond the end of the curve".to_owned()),
+        _ => None,
+    };
     let row = |kind: &str, what: String, unit, demand: f64, allowable: f64, margin: f64| Margin {
         code: format!("{kind}:{name}"),
-        name: match gave_up {
-            None => what,
-            Some(stop) => format!("{what}: not computed, {}", stop.name()),
+        name: match (gave_up, &overload) {
+            (Some(stop), _) => format!("{what}: not computed, {}", stop.name()),
+            (None, Some(why)) => format!("{what}: overloaded, {why}"),
+            (None, None) => what,
         },
         demand,
         allowable,
@@ -61,6 +67,7 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
         torque_capacity_nm: None,
         required,
         computed: gave_up.is_none(),
+        overloaded: overload.is_some(),
     };
     let mut rows = vec![
         row(

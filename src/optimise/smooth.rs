@@ -74,6 +74,7 @@ pub(super) fn flank_rows(design: &Design, state: &LoadState) -> Vec<Margin> {
         torque_capacity_nm: None,
         required: true,
         computed: true,
+        overloaded: false,
     })
     .collect()
 }

@@ -19,6 +19,6 @@ pub use number::{Unit, significant};
 pub use page::{Page, PageHead};
 pub use plot::{Curve, Dash, Marker, Plot};
 pub use strip::{Span, Strip};
-pub use table::{Cell, Column, Table};
+pub use table::{Cell, Column, Screen, Table};
 #[cfg(test)]
 mod tests;

@@ -102,10 +102,19 @@ impl Cell {
     }
 }
 
+/// What a table is printed on; by default paper: no colours, lines of any length.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Screen {
+    /// Whether verdicts are painted (ANSI).
+    pub colour: bool,
+    /// Characters in a line, where that is limited.
+    pub columns: Option<usize>,
+}
+
 /// From so many columns on a table is set closer, to fit the page.
 const WIDE_FROM: usize = 9;
 
-/// Columns and rows. A row shorter than the columns is filled with nothing; a longer one is cut.
+/// Columns and rows. A row shorter than the columns is filled with nothing; a longer one adds columns without a heading.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     /// Columns, left to right.
@@ -127,6 +136,10 @@ impl Table {
 
     /// Append a row.
     pub fn row(&mut self, cells: Vec<Cell>) -> &mut Self {
+        while self.columns.len() < cells.len() {
+            let key = format!("column_{}", self.columns.len() + 1);
+            self.columns.push(Column::text(&key, ""));
+        }
         self.rows.push(cells);
         self
     }
@@ -140,8 +153,9 @@ impl Table {
         row.get(index).unwrap_or(&Cell::Empty)
     }
 
-    /// Aligned columns for a terminal, units in the headings; `colour` paints verdicts (ANSI).
-    pub fn to_text(&self, colour: bool) -> String {
+    /// Aligned columns for a terminal, units in the headings. Columns that do not fit on the screen follow below, beside
+    /// the first column once more.
+    pub fn to_text(&self, screen: Screen) -> String {
         let shown: Vec<Vec<String>> = self
             .rows
             .iter()
@@ -154,13 +168,14 @@ impl Table {
         };
         let widths: Vec<usize> = headings.iter().enumerate().map(|(i, h)| width(i, h)).collect();
         let mut out = String::new();
-        let mut line = |cells: &[String], paint: &dyn Fn(usize) -> Option<bool>| {
+        let mut line = |block: &[usize], cells: &[String], paint: &dyn Fn(usize) -> Option<bool>| {
             let mut text = String::new();
-            for (i, (cell, &width)) in cells.iter().zip(&widths).enumerate() {
-                if i > 0 {
-                    text.push_str("  ");
+            for (k, &i) in block.iter().enumerate() {
+                if k > 0 {
+                    text.push_str(BETWEEN);
                 }
-                let padding = " ".repeat(width - cell.chars().count());
+                let cell = &cells[i];
+                let padding = " ".repeat(widths[i] - cell.chars().count());
                 let painted = match paint(i) {
                     Some(true) => format!("\u{1b}[32m{cell}\u{1b}[0m"),
                     Some(false) => format!("\u{1b}[31m{cell}\u{1b}[0m"),
@@ -177,13 +192,19 @@ impl Table {
             out.push_str(text.trim_end());
             out.push('\n');
         };
-        line(&headings, &|_| None);
-        line(&widths.iter().map(|&w| "─".repeat(w)).collect::<Vec<_>>(), &|_| None);
-        for (row, cells) in self.rows.iter().zip(&shown) {
-            line(cells, &|i| match Self::cell(row, i) {
-                Cell::Verdict(held, _) if colour => Some(*held),
-                _ => None,
-            });
+        let rule: Vec<String> = widths.iter().map(|&w| "─".repeat(w)).collect();
+        for (k, block) in blocks(&widths, screen.columns).iter().enumerate() {
+            if k > 0 {
+                line(&[], &[], &|_| None);
+            }
+            line(block, &headings, &|_| None);
+            line(block, &rule, &|_| None);
+            for (row, cells) in self.rows.iter().zip(&shown) {
+                line(block, cells, &|i| match Self::cell(row, i) {
+                    Cell::Verdict(held, _) if screen.colour => Some(*held),
+                    _ => None,
+                });
+            }
         }
         out
     }
@@ -233,6 +254,25 @@ impl Table {
     }
 }
 
+/// What stands between two columns.
+const BETWEEN: &str = "  ";
+
+/// Which columns stand side by side: as many as fit into `most` characters, but two at least; the first leads each block.
+fn blocks(widths: &[usize], most: Option<usize>) -> Vec<Vec<usize>> {
+    let mut blocks: Vec<Vec<usize>> = Vec::new();
+    for i in 0..widths.len() {
+        let taken = |block: &Vec<usize>| block.iter().map(|&j| widths[j] + BETWEEN.len()).sum::<usize>();
+        match blocks.last_mut() {
+            None => blocks.push(vec![i]),
+            Some(block) if block.len() < 2 || most.is_none_or(|most| taken(block) + widths[i] <= most) => {
+                block.push(i);
+            }
+            Some(_) => blocks.push(vec![0, i]),
+        }
+    }
+    blocks
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -261,7 +301,7 @@ mod tests {
 
     #[test]
     fn text_columns_line_up_and_end_without_blanks() {
-        let text = margins().to_text(false);
+        let text = margins().to_text(Screen::default());
         let lines: Vec<Vec<char>> = text.lines().map(|l| l.chars().collect()).collect();
         assert_eq!(
             text,
@@ -276,11 +316,42 @@ mod tests {
     #[test]
     fn colour_adds_nothing_but_escape_codes() {
         let table = margins();
-        let painted = table.to_text(true);
-        assert_ne!(painted, table.to_text(false));
+        let painted = table.to_text(Screen { colour: true, columns: None });
+        assert_ne!(painted, table.to_text(Screen::default()));
         let plain =
             ["\u{1b}[32m", "\u{1b}[31m", "\u{1b}[0m"].iter().fold(painted, |s, code| s.replace(code, ""));
-        assert_eq!(plain, table.to_text(false));
+        assert_eq!(plain, table.to_text(Screen::default()));
+    }
+
+    #[test]
+    fn a_narrow_screen_gets_every_column_below_one_another() {
+        let at = |columns: usize| margins().to_text(Screen { colour: false, columns: Some(columns) });
+        let text = at(45);
+        assert_eq!(
+            text,
+            "Limit                    Demand  Margin, %\n\
+                          ────────────────────  ─────────  ─────────\n\
+                          Hertz, nominal         3910 MPa       7.42\n\
+                          Hoop <outer>, \"mean\"  760.0 MPa      −1.30\n\
+                          \n\
+                          Limit                 Verdict\n\
+                          ────────────────────  ───────\n\
+                          Hertz, nominal        held\n\
+                          Hoop <outer>, \"mean\"  broken\n"
+        );
+        // Nothing is lost where not even two columns fit, nor where the whole table does.
+        let narrow = at(5);
+        assert!(["Demand", "Margin, %", "Verdict", "broken"].iter().all(|word| narrow.contains(word)));
+        assert_eq!(at(51), margins().to_text(Screen::default()));
+        assert!(at(50) != at(51));
+    }
+
+    #[test]
+    fn a_row_longer_than_the_columns_loses_nothing() {
+        let mut table = Table::new(vec![Column::text("name", "Limit")]);
+        table.row(vec!["a".into(), 2.5.into()]);
+        assert!(table.to_text(Screen::default()).contains("2"));
+        assert_eq!(String::from_utf8(table.to_csv().unwrap()).unwrap(), "name,column_2\na,2.5\n");
     }
 
     #[test]
@@ -301,7 +372,7 @@ mod tests {
         let mut table = Table::new(vec![Column::number("x_m", "x", Unit::Millimetre, 3)]);
         table.row(vec![f64::NAN.into()]).row(vec![None.into()]);
         let all =
-            table.to_text(false) + &table.to_html() + &String::from_utf8(table.to_csv().unwrap()).unwrap();
+            table.to_text(Screen::default()) + &table.to_html() + &String::from_utf8(table.to_csv().unwrap()).unwrap();
         assert!(!all.contains("NaN"), "{all}");
     }
 

@@ -13,8 +13,10 @@ pub enum Verdict {
     SlipsOverrunning,
     /// Net slip towards engaging.
     SlipsEngaging,
-    /// Contact open or without force at the end, open for more than 1 ms at a stretch, or the run left the curve.
+    /// Contact open or without force at the end, open for more than 1 ms at a stretch, or the open sprag fell away.
     Disengages,
+    /// The load goes beyond the end of the curve: the sprag rolls over or leaves its profile.
+    Overloaded,
     /// Closer to another verdict than the error estimate.
     AtThreshold,
 }
@@ -27,6 +29,7 @@ impl Verdict {
             Self::SlipsOverrunning => "slips-overrunning",
             Self::SlipsEngaging => "slips-engaging",
             Self::Disengages => "disengages",
+            Self::Overloaded => "overloaded",
             Self::AtThreshold => "at-threshold",
         }
     }

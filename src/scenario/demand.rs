@@ -21,8 +21,10 @@ pub struct Demand {
     pub contact_margin: f64,
     /// Largest N_bi and N_be of the rolling run, N.
     pub normal_max_n: [f64; 2],
-    /// Whether the rolling run reached its end; if not, it left the profile or rolled over.
+    /// Whether the rolling run reached its end.
     pub finished: bool,
+    /// Whether it went beyond the end of the curve instead: the sprag rolls over or leaves its profile.
+    pub overloaded: bool,
     /// Where it met a limit of work instead, or ceased to be finite: then nothing of it holds.
     pub gave_up: Option<Stop>,
     /// Whether it was interrupted from outside; then nothing of it holds.
@@ -78,6 +80,7 @@ pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, tolerance: f64
             contact_margin: 1.0,
             normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
             finished: true,
+            overloaded: false,
             gave_up: None,
             interrupted: false,
             rhs_evaluations: 0,
@@ -132,6 +135,7 @@ pub(super) fn roll(
         contact_margin: contact_margin(prepared.static_normal_n, &r),
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished,
+        overloaded: r.stop == Stop::CurveEnd,
         gave_up: r.stop.gave_up().then_some(r.stop),
         interrupted,
         rhs_evaluations: before + r.run.counters.rhs_evaluations,

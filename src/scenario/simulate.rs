@@ -271,9 +271,11 @@ const LOST_S: f64 = 1e-3;
 
 /// `None` where the run ended before it could be told. A sprag that touches without a force is open.
 pub(super) fn verdict(prepared: &Prepared, run: &Run, error: &ErrorEstimate) -> Option<Verdict> {
-    let left = matches!(run.stop, Stop::CurveEnd | Stop::FellAway);
-    if left || run.longest_open_s > LOST_S {
+    if run.stop == Stop::FellAway || run.longest_open_s > LOST_S {
         return Some(Verdict::Disengages);
+    }
+    if run.stop == Stop::CurveEnd {
+        return Some(Verdict::Overloaded);
     }
     if run.stop != Stop::Finished {
         return None;

@@ -5,11 +5,12 @@ use crate::accuracy::{Judged, Outcome, PARAMETERS};
 use crate::report::{Bar, Bars, Cell, Column, Curve, Plot, Table, Tone, Unit};
 
 /// Outcomes in the order in which they are listed.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 14] = [
     "sticks",
     "slips-overrunning",
     "slips-engaging",
     "disengages",
+    "overloaded",
     "at-threshold",
     "not-carried",
     "no-curve",

@@ -3,7 +3,7 @@
 use super::verdict::{name, sentence};
 use super::{Study, map};
 use crate::accuracy::{Method, Point, Precision};
-use crate::report::{Cell, Column, Table, Unit};
+use crate::report::{Cell, Column, Screen, Table, Unit};
 
 /// Every point of every scene, for programs.
 pub(super) fn points(scenes: &[Precision]) -> Table {
@@ -81,16 +81,16 @@ fn shown(method: Method, point: &Point) -> String {
 }
 
 /// The answer on a terminal.
-pub(super) fn text(study: &Study, colour: bool) -> String {
+pub(super) fn text(study: &Study, screen: Screen) -> String {
     let mut out = String::new();
     for s in &study.scenes {
-        out += &format!("{}\n\n{}\n", sentence(s), scene(s).to_text(colour));
+        out += &format!("{}\n\n{}\n", sentence(s), scene(s).to_text(screen));
     }
     for (name, why) in &study.without_start {
         out += &format!("{name}: {why}\n\n");
     }
     if !study.cases.is_empty() {
-        out += &format!("{}\n\n{}\n", map::summary(study), map::counts(study).to_text(colour));
+        out += &format!("{}\n\n{}\n", map::summary(study), map::counts(study).to_text(screen));
         for line in map::remarkable(study) {
             out += &format!("{line}\n");
         }

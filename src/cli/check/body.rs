@@ -9,6 +9,8 @@ use serde::Serialize;
 
 /// A demand that no friction meets, in words.
 pub(super) const NONE_SUFFICES: &str = "none suffices";
+/// A scene whose load goes beyond the end of the curve.
+pub(super) const OVERLOADED: &str = "overloaded";
 /// What stands for the demand of a run that met its limit of work.
 const NOT_COMPUTED: &str = "not computed";
 /// Margin that stands for "nothing is demanded" (`margin`).
@@ -30,6 +32,8 @@ struct Row {
     required: bool,
     /// False where a run met its limit of work: neither held nor broken.
     computed: bool,
+    /// Whether the scene goes beyond the end of the curve.
+    overloaded: bool,
     held: bool,
 }
 
@@ -219,6 +223,7 @@ fn row(r: &Margin, end_torque_nm: f64) -> Row {
         capacity_beyond_end: ends_first(r, end_torque_nm),
         required: r.required,
         computed: r.computed,
+        overloaded: r.overloaded,
         held: r.held(),
     }
 }
@@ -243,18 +248,35 @@ pub(in crate::cli) fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table
     for r in rows {
         table.row(vec![
             r.code.as_str().into(),
-            match demand(r) {
-                _ if !r.computed => NOT_COMPUTED.into(),
-                found => found.map_or(NONE_SUFFICES.into(), Cell::Si),
-            },
+            demand_cell(r),
             r.allowable.into(),
-            (if r.unit == "1" { "" } else { r.unit }).into(),
-            if r.margin >= NO_DEMAND { "no demand".into() } else { resolved(r.margin).into() },
+            unit_cell(r),
+            margin_cell(r),
             r.torque_capacity_nm.map_or(Cell::Empty, |c| capacity_cell(r, c, end_torque_nm)),
             verdict(r),
         ]);
     }
     table
+}
+
+/// The demand as people read it.
+pub(in crate::cli) fn demand_cell(r: &Margin) -> Cell {
+    match demand(r) {
+        _ if !r.computed => NOT_COMPUTED.into(),
+        Some(demand) => demand.into(),
+        None if r.overloaded => OVERLOADED.into(),
+        None => NONE_SUFFICES.into(),
+    }
+}
+
+/// The unit of demand and allowable as people read it.
+pub(in crate::cli) fn unit_cell(r: &Margin) -> Cell {
+    if r.unit == "1" { "".into() } else { r.unit.into() }
+}
+
+/// The margin as people read it, for a column in percent.
+pub(in crate::cli) fn margin_cell(r: &Margin) -> Cell {
+    if r.margin >= NO_DEMAND { "no demand".into() } else { resolved(r.margin).into() }
 }
 
 fn capacity_cell(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> Cell {
@@ -327,6 +349,7 @@ pub(super) fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
 mod tests {
     use super::*;
     use crate::margin::OverrunCurve;
+    use crate::report::Screen;
 
     fn margin(code: &str, demand: f64, margin: f64, capacity: Option<f64>, required: bool) -> Margin {
         Margin {
@@ -339,6 +362,7 @@ mod tests {
             torque_capacity_nm: capacity,
             required,
             computed: true,
+            overloaded: false,
         }
     }
 
@@ -383,7 +407,10 @@ mod tests {
         let rows = [margin("slip:x", f64::MAX, -1.0, None, true)];
         let json = serde_json::to_value(Body::new(&rows, source(None))).unwrap();
         assert!(json["margins"][0]["demand"].is_null() && json["margins"][0]["margin"] == -1.0);
-        assert!(people_table(&rows, 200.0).to_text(false).contains(NONE_SUFFICES));
+        let text = |rows: &[Margin]| people_table(rows, 200.0).to_text(Screen::default());
+        assert!(text(&rows).contains(NONE_SUFFICES) && !text(&rows).contains(OVERLOADED));
+        let beyond = [Margin { overloaded: true, ..rows[0].clone() }];
+        assert!(text(&beyond).contains(OVERLOADED) && !text(&beyond).contains(NONE_SUFFICES));
         let csv = String::from_utf8(csv_table(&rows, 200.0).to_csv().unwrap()).unwrap();
         assert!(csv.contains("slip:x,limit slip:x,,1,1,-1,,true,false,false"), "{csv}");
     }
@@ -406,7 +433,7 @@ mod tests {
         let [a, b] = [&json["margins"][0], &json["margins"][1]];
         assert!(a["held"] == true && a["capacity_beyond_end"] == true && a["margin"] == -5.77e-15);
         assert!(b["held"] == false && b["capacity_beyond_end"] == false);
-        let text = people_table(&rows, 50.0).to_text(false);
+        let text = people_table(&rows, 50.0).to_text(Screen::default());
         assert!(!text.contains("e-1") && text.contains("> 50.00"), "{text}");
         assert_eq!(super::super::margin_text(-5.77e-15), "0 %");
     }

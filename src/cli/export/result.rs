@@ -90,7 +90,7 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
         page
     })?;
     answer.print(context)?;
-    context.answer(&people.to_text(context.colour))?;
+    context.answer(&people.to_text(context.screen))?;
     Ok(Exit::Held)
 }
 

@@ -17,6 +17,15 @@ impl Scene<'_> {
         let Some(verdict) = self.verdict() else { return format!("{name}: no verdict") };
         let meaning = match &self.outcome {
             Err(why) => why.to_string(),
+            Ok((prepared, s)) if s.verdict == Some(Verdict::Overloaded) => {
+                let curve = &prepared.model.curve;
+                let end = Unit::NewtonMetre.show(curve.end_torque_nm(), 4);
+                let at = Unit::Second.show(s.t_s, 4);
+                format!(
+                    "the load goes beyond the end of the curve ({} at {end}) at {at}",
+                    curve.end().0.name()
+                )
+            }
             Ok((_, s)) => meaning(s, &self.scenario.kind),
         };
         format!("{name}: {verdict}: {meaning}")
@@ -65,6 +74,7 @@ fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
             let lost = Unit::Millisecond.show(s.contact_lost_s, 4);
             format!("contact lost for {lost}, run {} at {}", s.stop.name(), Unit::Second.show(s.t_s, 4))
         }
+        Some(Verdict::Overloaded) => "the load goes beyond the end of the curve".to_owned(),
         Some(Verdict::AtThreshold) | None => {
             "another verdict is nearer than the error estimate; a smaller tolerance or step decides"
                 .to_owned()
@@ -224,6 +234,9 @@ fn demand(f: &mut Facts, s: &Simulation) {
         }
         Some(needed) => {
             f.add("static friction needed to stick", needed, Unit::One, s.error.map(|e| e.required_friction))
+        }
+        None if d.overloaded => {
+            f.word("static friction needed to stick", "overloaded: rolling goes beyond the end of the curve")
         }
         None => f.word("static friction needed to stick", "none suffices"),
     }

@@ -3,7 +3,7 @@
 use super::laws::description;
 use super::{LawCurve, Study, end_text, fem};
 use crate::cli::parts;
-use crate::report::{Cell, Column, Table, Unit, significant};
+use crate::report::{Cell, Column, Screen, Table, Unit, significant};
 use crate::wedge::StaticPoint;
 
 /// The columns of a row, without the law's name.
@@ -129,7 +129,7 @@ pub(super) fn csv(laws: &[LawCurve]) -> Table {
 }
 
 /// The answer for a terminal.
-pub(super) fn text(study: &Study) -> String {
+pub(super) fn text(study: &Study, screen: Screen) -> String {
     let (design, laws) = (&study.design, study.laws.as_slice());
     let mut out = format!("{}  {}\n\n", design.name, design.hash.get(..12).unwrap_or(&design.hash));
     for law in laws {
@@ -137,11 +137,11 @@ pub(super) fn text(study: &Study) -> String {
     }
     out.push('\n');
     match laws {
-        [one] => out.push_str(&full(one).to_text(false)),
+        [one] => out.push_str(&full(one).to_text(screen)),
         _ => out.push_str(&format!(
             "Windup, and its difference to that of the first law\n{}\nTangent stiffness\n{}",
-            windups(laws).to_text(false),
-            tangents(laws).to_text(false)
+            windups(laws).to_text(screen),
+            tangents(laws).to_text(screen)
         )),
     }
     out.push('\n');
@@ -151,12 +151,12 @@ pub(super) fn text(study: &Study) -> String {
     if let Some(fem) = &study.fem {
         out.push_str(&format!(
             "\nAgainst finite elements\n{}\n{}\n",
-            fem::table(study, fem).to_text(false),
+            fem::table(study, fem).to_text(screen),
             fem::findings(study, fem).join("\n")
         ));
     }
     if let Some(map) = &study.pressure {
-        out.push_str(&format!("\nPressure along the length\n{}\n", map.table().to_text(false)));
+        out.push_str(&format!("\nPressure along the length\n{}\n", map.table().to_text(screen)));
     }
     if laws.len() > 1 {
         if laws.iter().flat_map(|l| &l.rows).any(|(_, p)| p.is_none()) {

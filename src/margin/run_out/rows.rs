@@ -61,6 +61,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
             torque_capacity_nm: capacity,
             required: true,
             computed: true,
+            overloaded: false,
         });
     }
     rows
@@ -93,6 +94,7 @@ fn end_row(ring: &RunOut, torque: f64, end: f64) -> Margin {
         torque_capacity_nm: Some(end),
         required: true,
         computed: true,
+        overloaded: false,
     }
 }
 
@@ -121,6 +123,7 @@ fn share_row(limits: &Limits, ring: &RunOut, survey: &Survey) -> Option<Margin> 
         torque_capacity_nm: None,
         required: false,
         computed: true,
+        overloaded: false,
     })
 }
 
@@ -142,6 +145,7 @@ fn re_engagement_row(design: &Design, ring: &RunOut) -> Option<Margin> {
         torque_capacity_nm: None,
         required: true,
         computed: true,
+        overloaded: false,
     })
 }
 
