@@ -180,6 +180,56 @@ fn senseless_questions_exit_with_2_and_write_nothing() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
+/// Histories are found from the new place, what the search changed says so once, and nothing else is lost.
+#[test]
+fn a_design_written_elsewhere_finds_its_histories_and_says_what_was_changed() {
+    let folder = folder("elsewhere");
+    let (here, there) = (folder.join("here"), folder.join("there"));
+    std::fs::create_dir_all(&here).unwrap();
+    std::fs::create_dir_all(&there).unwrap();
+    std::fs::write(here.join("pull.csv"), "time_s,torque_nm\n0,20\n0.05,40\n").unwrap();
+    let source = std::fs::read_to_string(DESIGN).unwrap();
+    let scene = "\n[[scenarios]]\nname = \"pull\"\nkind = \"transient\"\ntorque_history_csv = \"pull.csv\"   # measured\n\
+                 abutment_stiffness_nm_per_rad = 5000.0\nduration_s = 0.06\n";
+    let design = here.join("with-history.toml");
+    std::fs::write(&design, source.clone() + scene).unwrap();
+    let (new, again) = (there.join("new.toml"), folder.join("again.toml"));
+    let search = |from: &Path, to: &Path| {
+        let args =
+            ["optimize", from.to_str().unwrap(), "-o", to.to_str().unwrap(), "--starts", "1", "--quiet"];
+        let out = tool(&args);
+        assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+        std::fs::read_to_string(to).unwrap()
+    };
+    let text = search(&design, &new);
+    for file in [&new, &there.join("new.realised.toml")] {
+        let text = std::fs::read_to_string(file).unwrap();
+        assert!(text.contains("torque_history_csv = \"../here/pull.csv\"   # measured"), "{text}");
+        let checked = tool(&["check", file.to_str().unwrap(), "--quiet"]);
+        assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stderr));
+    }
+    let line = |text: &str, start: &str| text.lines().find(|l| l.starts_with(start)).unwrap().to_owned();
+    let keep = line(&text, "keep_contact_to_rpm");
+    assert!(keep.ends_with("changed by optimize from 4500") && keep.matches('#').count() == 1, "{keep}");
+    let centroid = line(&text, "centroid = {");
+    assert!(centroid.contains("changed by optimize: x_mm from 0.1935, y_mm from 0.5288"), "{centroid}");
+    for arc in [
+        "section 4; junction assumed; changed by optimize: radius_mm from 4.08",
+        "assumed; changed by optimize: radius_mm from 4.15",
+    ] {
+        assert!(text.contains(arc), "{text}");
+    }
+    // Every comment line of the input is still there.
+    for comment in source.lines().filter(|l| l.starts_with('#')) {
+        assert!(text.contains(comment), "{comment}");
+    }
+    let text = search(&new, &again);
+    assert!(text.contains("torque_history_csv = \"here/pull.csv\""), "{text}");
+    assert_eq!(text.matches("# Written by").count(), 1);
+    assert!(text.lines().all(|l| l.matches("by optimize").count() <= 1 || l.starts_with('#')), "{text}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
 /// A kept journal reads as CSV, names every evaluation, and answers a second search without computing anything anew.
 #[test]
 fn a_kept_journal_is_csv_and_spares_a_second_search_the_work() {
@@ -208,7 +258,11 @@ fn a_kept_journal_is_csv_and_spares_a_second_search_the_work() {
     assert!(rows.len() > 60 && rows.iter().all(|r| r.len() == 12), "{}", rows.len());
     let refused = rows.iter().filter(|r| &r[6] != "ok").count();
     println!("{} rows, {refused} without margins", rows.len());
-    let second = tool(&args);
+    // Another comment is no other design.
+    let remarked = folder.join("remarked.toml");
+    std::fs::write(&remarked, "# A remark.\n".to_owned() + &std::fs::read_to_string(DESIGN).unwrap())
+        .unwrap();
+    let second = tool(&[&["optimize", remarked.to_str().unwrap()], &args[2..]].concat());
     assert_eq!(std::fs::read_to_string(&record).unwrap(), text, "nothing new");
     let (first, second) = (json(&first), json(&second));
     assert_eq!(first["best"], second["best"]);

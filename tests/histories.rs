@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use sprag_design::design::{Design, DesignError, Scenario, ScenarioKind};
+use sprag_design::optimise::{ClutchProblem, Fidelity};
 
 const DESIGN: &str = include_str!("../designs/huang2017-multi-arc.toml");
 
@@ -37,10 +38,25 @@ fn the_bench_is_the_same_clutch_with_its_histories() {
     for file in ["engaging-in-and-out.csv", "speed-ramp.csv", "overrunning-torque.csv"] {
         std::fs::copy(Path::new("designs").join(file), folder.join(file)).expect("copy");
     }
-    let read = || Design::parse_in(&folder, &bench.source, "x.toml").unwrap_or_else(|e| panic!("{e}")).hash;
+    let again = || Design::parse_in(&folder, &bench.source, "x.toml").unwrap_or_else(|e| panic!("{e}"));
+    let read = || again().hash;
     assert_eq!(read(), bench.hash);
     std::fs::write(folder.join("speed-ramp.csv"), "time_s,speed_rpm\n0,3000\n1,3001\n").expect("write");
     assert_ne!(read(), bench.hash);
+    // What is said: a history's values belong to it, comments and layout do not; so do the entries of a search's journal.
+    let remarked = bench.source.replace("\n[races]\n", "\n[races]   # a remark\n\n");
+    let remarked = Design::parse(&remarked, "designs/x.toml").unwrap_or_else(|e| panic!("{e}"));
+    assert!(remarked.hash != bench.hash && remarked.content_hash() == bench.content_hash());
+    assert_ne!(again().content_hash(), bench.content_hash());
+    let problem = |design: &Design| {
+        let task = parse(DESIGN).optimize.expect("task");
+        let free = vec!["r_i2_mm".to_owned()];
+        ClutchProblem::new(design, &task, free, Fidelity::default()).identity()
+    };
+    assert_eq!(problem(&remarked), problem(&bench));
+    assert_ne!(problem(&again()), problem(&bench));
+    let moved = parse(&DESIGN.replace("duration_s = 0.3\n", "duration_s = 0.31\n"));
+    assert_ne!(problem(&moved), problem(&parse(DESIGN)));
     std::fs::write(folder.join("speed-ramp.csv"), "time_s,speed_rpm\n0,3000\n1,fast\n").expect("write");
     let error = Design::parse_in(&folder, &bench.source, "x.toml").map(|_| ()).expect_err("accepted");
     let said = error.to_string();

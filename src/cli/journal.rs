@@ -1,7 +1,7 @@
 //! The record of a search: one CSV row per evaluation, appended, so that a stop at any moment loses at most what is
 //! under way, and later searches of the same problem need not repeat it.
 //!
-//! Columns: `model` (tool and version), `design` (hash of the design file), `problem` (hash of everything that an
+//! Columns: `model` (tool and version), `design` (hash of what the design file says, comments apart), `problem` (hash of everything that an
 //! evaluation depends on but the variables), `hash` (of problem and inputs), `variables` and `x` (canonical inputs),
 //! `outcome` (`ok`, `refused`, `not-finite`, `shape`), `objectives`, `limits`, `tie_break`, `error` (tolerance of the
 //! evaluation), `detail` (why it failed). Lists within a cell are separated by semicolons; numbers read back exactly.
@@ -106,7 +106,7 @@ impl JournalFile {
         let out = Self::open(path, model, design)?;
         if out.of_design == 0 {
             return Err(Failure::malformed(format!(
-                "--resume: no row of {} belongs to this design file as it stands and to {model}; start without --resume",
+                "--resume: no row of {} belongs to what this design file says now and to {model}; start without --resume",
                 path.display()
             )));
         }

@@ -16,6 +16,7 @@ pub mod left_out;
 pub mod materials;
 pub mod optimize;
 pub mod optimize_answer;
+pub mod optimize_file;
 pub mod optimize_json;
 pub mod optimize_story;
 pub mod output;

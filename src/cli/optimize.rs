@@ -3,12 +3,13 @@
 use super::Context;
 use super::exit::{Exit, Failure};
 use super::journal::{self, JournalFile};
+use super::optimize_file::{WRITTEN_BY, file_text, further_text};
 use super::optimize_story::Story;
 use super::output::{TOOL, VERSION, write_whole};
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
 use super::{optimize_answer as answer, parts};
-use crate::design::{Design, Objective, Optimize};
+use crate::design::{Design, EditError, Objective, Optimize};
 use crate::optimise::{
     Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, front,
     realise, relief, robust, search, spread,
@@ -27,7 +28,9 @@ Examples:
 
 Every margin of `check` is a limit. Each evaluation goes into a journal at once: Ctrl-C stops the search and writes the
 best design found so far, --resume goes on from NEW.toml.journal and ends where an uninterrupted search ends; --journal
-keeps the record for later searches too, as a CSV file that only grows.";
+keeps the record for later searches too, as a CSV file that only grows. A journal belongs to what the design file says:
+comments and layout may change, a value or a history makes another problem. In NEW.toml each value that the search has
+changed says so behind it, with what it was; histories are named from there.";
 
 /// Arguments of `optimize`.
 #[derive(Debug, Clone, Args)]
@@ -81,9 +84,6 @@ const STARTS: usize = 8;
 /// The same at most.
 const MOST_STARTS: usize = 32;
 
-/// First line of every design file that this command writes.
-const WRITTEN_BY: &str = "# Written by sprag-design optimize";
-
 /// Run the command.
 ///
 /// # Errors
@@ -104,11 +104,11 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     if args.robust && design.tolerances.is_none() {
         return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
     }
-    let model = format!("{TOOL} {VERSION}");
+    let (model, said) = (format!("{TOOL} {VERSION}"), design.content_hash());
     let file = match (args.resume, args.journal.is_some()) {
-        (true, _) => JournalFile::resume(&record, &model, &design.hash)?,
-        (false, true) => JournalFile::open(&record, &model, &design.hash)?,
-        (false, false) => JournalFile::begin(&record, &model, &design.hash)?,
+        (true, _) => JournalFile::resume(&record, &model, &said)?,
+        (false, true) => JournalFile::open(&record, &model, &said)?,
+        (false, false) => JournalFile::begin(&record, &model, &said)?,
     };
     let known = file.entries();
     let drawn = args.starts != Some(1) || args.global.is_some() || args.robust;
@@ -214,10 +214,11 @@ fn finish(
     let written = (feasible && (better || !interrupted)).then_some(new);
     let mut beside = Vec::new();
     if let Some(path) = written {
-        write_whole(path, answer::file_text(design, found, WRITTEN_BY, context).as_bytes())?;
-        for (ending, text) in story.other_files(&format!("{WRITTEN_BY} {VERSION}")) {
+        let unwritten = |e: EditError| Failure::Failed(format!("{}: {e}", path.display()));
+        write_whole(path, file_text(design, found, path, context).map_err(unwritten)?.as_bytes())?;
+        for (ending, what, text) in story.other_files() {
             let path = path.with_extension(format!("{ending}.toml"));
-            write_whole(&path, text.as_bytes())?;
+            write_whole(&path, further_text(design, what, text, &path).map_err(unwritten)?.as_bytes())?;
             beside.push(path);
         }
     }

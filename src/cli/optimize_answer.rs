@@ -1,10 +1,10 @@
-//! What `optimize` says: text, JSON, page, and the head of the new design file.
+//! What `optimize` says: text, JSON, page.
 
 use super::Context;
 use super::check::{demand_cell, margin_cell, unit_cell};
 use super::left_out::left_out;
 use super::optimize_story::{Story, shown, word};
-use super::output::{TOOL, VERSION};
+use super::output::TOOL;
 use super::parts::{self, Answer};
 use crate::design::Design;
 use crate::margin::Margin;
@@ -32,31 +32,6 @@ pub struct Told<'a> {
     pub run_time_s: f64,
     /// Stopped by Ctrl-C.
     pub interrupted: bool,
-}
-
-/// The new design file: who wrote it, from what, then the old file with its comments and the new values.
-pub fn file_text(design: &Design, found: &Search, written_by: &str, context: &Context) -> String {
-    let changes: String = found
-        .variables
-        .iter()
-        .filter(|v| v.best != v.start)
-        .map(|v| format!("#   {}: {} -> {}\n", v.name, v.start, v.best))
-        .collect();
-    let not_real = match found.wants_centroid() {
-        true => "# The centroid was free and the mass given: not yet realised by flanks.\n",
-        false => "",
-    };
-    format!(
-        "{written_by} {VERSION} from {:?} (sha256 {})\n# by: {}\n# {} {:.6} -> {:.6} {}\n{not_real}{changes}#\n{}",
-        design.name,
-        design.hash,
-        context.command_line,
-        found.aim.words(),
-        found.objective.0,
-        found.objective.1,
-        found.aim.unit(),
-        found.file
-    )
 }
 
 fn held_cell(m: &Margin) -> Cell {

@@ -309,8 +309,8 @@ impl Story {
         Part { heading: "Within the tolerances", lines, tables, ..Part::default() }
     }
 
-    /// Further design files: ending and text.
-    pub fn other_files(&self, written_by: &str) -> Vec<(&'static str, String)> {
+    /// Further design files: ending, what it is, text.
+    pub fn other_files(&self) -> Vec<(&'static str, &'static str, &str)> {
         let mut files = Vec::new();
         if let Some(realised) = &self.realised {
             let best = realised.search.as_ref().filter(|s| s.feasible());
@@ -320,14 +320,14 @@ impl Story {
             } else {
                 "flanks nearest to the wanted centroid"
             };
-            files.push(("realised", format!("{written_by}: {what}\n{text}")));
+            files.push(("realised", what, text.as_str()));
         }
         if let Some(robust) = &self.robust {
             let what = match robust.made.held() {
                 true => "held at every corner of [tolerances]",
                 false => "as near as was found to holding every corner of [tolerances], not held at all",
             };
-            files.push(("robust", format!("{written_by}: {what}\n{}", robust.file)));
+            files.push(("robust", what, robust.file.as_str()));
         }
         files
     }

@@ -146,7 +146,8 @@ fn refused(path: &Path, why: &str) -> Failure {
     Failure::malformed(format!("{}: {why}", path.display()))
 }
 
-fn folder_of(path: &Path) -> PathBuf {
+/// The folder that a path lies in.
+pub fn folder_of(path: &Path) -> PathBuf {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_path_buf(),
         _ => PathBuf::from("."),

@@ -1,4 +1,4 @@
-//! Writes new values into the text of a design file and keeps its comments and its order.
+//! Writes new values into the text of a design file and keeps its comments and its order; what it says without them.
 //!
 //! In: text, variables or limits in the file's units. Out: text. Absent: checking the new design (parse
 //! it). Equations: none. Numbers are written in the shortest form that reads back as the same double.
@@ -180,7 +180,37 @@ pub fn with_limits(source: &str, limits: &[(&str, f64)]) -> Result<String, EditE
     Ok(document.to_string())
 }
 
-fn parse(source: &str) -> Result<DocumentMut, EditError> {
+/// The text with the CSV files of its scenarios named as `name` says.
+///
+/// # Errors
+/// [`EditError::Syntax`].
+pub fn with_history_names(source: &str, name: &dyn Fn(&str) -> String) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    let rows = document.get("scenarios").and_then(Item::as_array_of_tables).map_or(0, |rows| rows.len());
+    for i in 0..rows {
+        for key in ["torque_history_csv", "speed_history_csv"] {
+            let Some(item) = item_at(&mut document, &format!("scenarios[{i}].{key}")) else { continue };
+            if let Some(new) = item.as_str().map(name) {
+                replace(item, Value::from(new));
+            }
+        }
+    }
+    Ok(document.to_string())
+}
+
+/// What the text says without the tables `apart`: keys and values as TOML in one layout, no comments. Two texts that say
+/// the same have the same content.
+///
+/// # Errors
+/// [`EditError::Syntax`].
+pub fn content(source: &str, apart: &[&str]) -> Result<String, EditError> {
+    let syntax = |what: String| EditError::Syntax(what);
+    let mut all: toml::Table = toml::from_str(source).map_err(|e| syntax(e.message().to_owned()))?;
+    all.retain(|key, _| !apart.contains(&key));
+    toml::to_string(&all).map_err(|e| syntax(e.to_string()))
+}
+
+pub(super) fn parse(source: &str) -> Result<DocumentMut, EditError> {
     source.parse().map_err(|e: toml_edit::TomlError| EditError::Syntax(e.message().to_owned()))
 }
 

@@ -17,6 +17,7 @@ mod findings;
 mod geometry;
 mod history;
 mod limits_file;
+mod notes;
 mod objective;
 mod outline;
 mod question;
@@ -36,7 +37,11 @@ pub use clutch::{
 };
 pub use diagnostic::{DesignError, Place, Problem};
 pub use draft::{Draft, KINETIC_SHARE, rounded};
-pub use edit::{EditError, value_at, with_flanks, with_keys, with_limits, with_values, without_variables};
+pub use edit::{
+    EditError, content, value_at, with_flanks, with_history_names, with_keys, with_limits, with_values,
+    without_variables,
+};
+pub use notes::with_notes;
 pub use objective::Objective;
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
 pub use shape::schema;

@@ -10,6 +10,7 @@ use sha2::{Digest, Sha256};
 
 use super::diagnostic::{DesignError, Place, Problem};
 use super::document::Document;
+use super::edit::content;
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::history;
@@ -135,6 +136,19 @@ impl Design {
                 ))
             }
         }
+    }
+
+    /// SHA-256 (hex) of what the file says and of its histories' values: unlike `hash` the same for another comment or
+    /// layout.
+    pub fn content_hash(&self) -> String {
+        let said = content(&self.source, &[]).unwrap_or_else(|_| self.source.clone());
+        hash(&said, [self.histories()].iter())
+    }
+
+    /// Values of all histories, as text.
+    pub fn histories(&self) -> String {
+        let all = self.scenarios.iter().map(|s| (&s.torque_history, &s.speed_history));
+        format!("{:?}", all.collect::<Vec<_>>())
     }
 }
 

@@ -4,7 +4,7 @@ use super::corner::{Corner, perturbed};
 use super::evaluate::{Evaluate, Evaluation, Failure};
 use super::goal::{Goal, Measure, measures};
 use super::smooth;
-use crate::design::{Design, EditError, Limits, Objective, Optimize, with_limits, with_values};
+use crate::design::{Design, EditError, Limits, Objective, Optimize, content, with_limits, with_values};
 use crate::fidelity;
 use crate::margin::{Margin, SceneDemand, load_state, scene_margins, scene_rows};
 use crate::scenario::{Settings, demand};
@@ -42,6 +42,7 @@ impl Fidelity {
 pub struct ClutchProblem {
     source: String,
     folder: std::path::PathBuf,
+    histories: String,
     variables: Vec<String>,
     limits: Limits,
     target: Vec<[f64; 2]>,
@@ -75,6 +76,7 @@ impl ClutchProblem {
         Self {
             source: design.source.clone(),
             folder: design.folder.clone(),
+            histories: design.histories(),
             variables,
             limits: task.limits,
             target: task.target.clone(),
@@ -136,14 +138,15 @@ impl ClutchProblem {
     }
 
     /// Everything that an evaluation depends on but x, as text: what a journal's entries belong to. Values of the
-    /// variables are struck out, so that a file with other starts is the same problem.
+    /// variables are struck out, so that a file with other starts is the same problem; so is one with other comments.
     pub fn identity(&self) -> String {
         let zeros: Vec<(&str, f64)> = self.variables.iter().map(|v| (v.as_str(), 0.0)).collect();
         let source = with_values(&self.source, &zeros).unwrap_or_else(|_| self.source.clone());
-        // The task's own bounds, seed and comments do not enter a margin; what of it does follows.
-        let source = source.split("\n[optimize]").next().unwrap_or_default().to_owned();
+        // The task's own bounds and seed do not enter a margin; what of it does follows, and the values of the histories.
+        let said = content(&source, &["optimize"]).unwrap_or(source);
+        let histories = &self.histories;
         format!(
-            "{source}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}",
+            "{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}",
             self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners, self.fidelity
         )
     }
