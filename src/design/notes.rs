@@ -192,9 +192,13 @@ min = 1.0
             .replace("d = 3.0", "d = 3.0  # added by optimize");
         assert_eq!(noted, wanted);
         // Rows on one line, and a row that is new.
-        let (old, new) = ("list = [{ r = 1 }, { r = 2 }] # a\n", "list = [{ r = 1 }, { r = 3 }, { r = 4 }] # a\n");
+        let (old, new) =
+            ("list = [{ r = 1 }, { r = 2 }] # a\n", "list = [{ r = 1 }, { r = 3 }, { r = 4 }] # a\n");
         let noted_rows = with_notes(old, new).unwrap();
-        assert!(noted_rows.ends_with("] # a; changed by optimize: row 2 r from 2, row 3 from none\n"), "{noted_rows}");
+        assert!(
+            noted_rows.ends_with("] # a; changed by optimize: row 2 r from 2, row 3 from none\n"),
+            "{noted_rows}"
+        );
         // Again: what moves once more gets a new note in place of the old one, what stays keeps it.
         let newer = noted.replace("a = 1.25", "a = 1.5");
         let again = with_notes(&noted, &newer).unwrap();

@@ -371,8 +371,9 @@ mod tests {
     fn no_nan_reaches_a_reader() {
         let mut table = Table::new(vec![Column::number("x_m", "x", Unit::Millimetre, 3)]);
         table.row(vec![f64::NAN.into()]).row(vec![None.into()]);
-        let all =
-            table.to_text(Screen::default()) + &table.to_html() + &String::from_utf8(table.to_csv().unwrap()).unwrap();
+        let all = table.to_text(Screen::default())
+            + &table.to_html()
+            + &String::from_utf8(table.to_csv().unwrap()).unwrap();
         assert!(!all.contains("NaN"), "{all}");
     }
 

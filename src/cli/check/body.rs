@@ -21,7 +21,7 @@ pub(super) const NO_DEMAND: f64 = 1e6;
 struct Row {
     code: String,
     name: String,
-    /// `None` where no friction suffices.
+    /// `None` where no friction suffices, or the scene is overloaded.
     demand: Option<f64>,
     allowable: f64,
     unit: &'static str,
