@@ -114,7 +114,7 @@ fn the_published_scheme_agrees_where_nothing_slips_and_does_not_converge_where_i
     }
 }
 
-/// Counts, not times: by the clock it is 13 to 30 times, for locating changes of mode and peaks is no right-hand side.
+/// Counts, not times: by the clock it is 17 to 35 times, for locating changes of mode and peaks is no right-hand side.
 #[test]
 fn a_millionth_of_a_radian_takes_a_twentieth_of_the_right_hand_sides_of_the_published_step() {
     for name in ["high-6", "high-10", "low-10", "rated-45"] {
@@ -247,7 +247,7 @@ fn swinging(clutch: &Clutch, rule: InnerCurvature, held_nm: f64, load_nm: f64) -
 #[test]
 fn sticking_without_damping_keeps_the_energy_over_100_periods() {
     // The last three swing across the junction between the first two arcs; the elastic law feels it on the way. With
-    // the radius taken pointwise its shift of alpha costs energy at every crossing.
+    // the radius taken pointwise N(alpha) and the windup jump there; alpha does not, so no energy is lost.
     let (own, elastic) = (None, Some(ContactLaw::Elastic { state: StressState::Layer }));
     let (patch, pointwise) = (InnerCurvature::Patch, InnerCurvature::Pointwise);
     for (path, held_nm, load_nm, junction, law, rule) in [
@@ -289,7 +289,7 @@ fn sticking_without_damping_keeps_the_energy_over_100_periods() {
             r.events
         );
         assert!(periods >= 100, "{path}: {periods}");
-        assert!(exchanged > 1e-3 && (drift < 1e-7) == (rule == patch), "{path}: {drift:e} of {exchanged} J");
+        assert!(exchanged > 1e-3 && drift < 1e-7, "{path}: {drift:e} of {exchanged} J");
         assert_eq!(r.events > 0, junction, "{path}");
     }
 }

@@ -182,6 +182,27 @@ fn the_tabulated_curve_is_the_exact_one() {
 }
 
 /// Junctions: the paper's Figure 5 taken step by step gives the curve, whatever the step.
+/// The open sprag is a rigid body: its centroid turns about C_e, at OC_e from O, and gamma, OC_g and their slopes follow.
+#[test]
+fn the_open_sprag_turns_about_the_centre_of_its_outer_arc() {
+    let curve = curve(&common::MULTI, 0.0, |_| {});
+    let statics = curve.statics();
+    let ([gx, gy], touch) = (statics.centroid_m(), curve.touch());
+    assert!(gx.hypot(gy) > 1e-5, "a centroid off the centre: {}", gx.hypot(gy));
+    for alpha in [0.0, -1e-3, -0.1, -0.4] {
+        let p = curve.open(alpha);
+        let turned = alpha + statics.gamma0_rad() - p.gamma;
+        let (s, c) = turned.sin_cos();
+        let (x, y) = (gx * c + gy * s, touch.lengths.oc_e.v + gy * c - gx * s);
+        assert!((p.oc_g - x.hypot(y)).abs() < 1e-16, "{alpha}: {} {}", p.oc_g, x.hypot(y));
+        assert!((p.gamma + x.atan2(y)).abs() < 1e-15, "{alpha}: {} {}", p.gamma, x.atan2(y));
+        let (a, b, h) = (curve.open(alpha - 1e-5), curve.open(alpha + 1e-5), 2e-5);
+        assert!(((b.oc_g - a.oc_g) / h - p.oc_g_slope).abs() < 1e-11);
+        assert!(((b.rho_e - a.rho_e) / h - p.rho_e_slope).abs() < 1e-9 * p.rho_e_slope.abs().max(1.0));
+        assert_eq!((p.n_bi, p.windup), (0.0, 0.0));
+    }
+}
+
 #[test]
 fn figure_five_step_by_step_is_the_closed_march() {
     for law in [ContactLaw::Roller { coefficient: 3.944e-5 }, ContactLaw::Hertz] {

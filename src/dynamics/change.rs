@@ -6,23 +6,24 @@ use super::driver::Driver;
 use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER};
 use super::model::{Grip, Mode, Place, State};
 use super::run::Stop;
+use crate::wedge::WedgePoint;
 
 impl Driver<'_> {
     /// Change of mode at event `which`.
     pub(super) fn change(&mut self, which: usize, t: f64, mut y: State) -> bool {
         let model = self.model;
         let mode = self.run.mode;
-        self.hold(&mut y);
-        let f = model.forces(&mode, t, &y);
-        let known = |grip: Grip, here: bool, tangential: f64, outward: f64| match grip {
-            Grip::Stick if here => Known::Released(outward * tangential.signum()),
-            Grip::Stick | Grip::Slip(_) if here => Known::Still,
+        let p = self.hold(&mut y);
+        let forces = || model.forces_at(&mode, t, &y, &p, &model.rates(&mode, &p, &y));
+        let known = |grip: Grip, here: bool, slips: &dyn Fn() -> f64| match grip {
+            Grip::Stick if here => Known::Released(slips().signum()),
             Grip::Stick => Known::Still,
+            Grip::Slip(_) if here => Known::Still,
             Grip::Slip(s) => Known::Slips(s),
         };
         // T_bi = -sgn(v_A) mu N, T_be = +sgn(v_B) mu N.
-        let inner = known(mode.inner, which == INNER, f.t_bi, -1.0);
-        let outer = known(mode.outer, which == OUTER, f.t_be, 1.0);
+        let inner = known(mode.inner, which == INNER, &|| -forces().t_bi);
+        let outer = known(mode.outer, which == OUTER, &|| forces().t_be);
         let place = match which {
             LOWER => match mode.place {
                 Place::Arc(0) if self.settings.rolling => Place::Tension,
@@ -55,10 +56,13 @@ impl Driver<'_> {
 
     /// Put the rolling constraints of the present mode into the rates of `y`. The integrated rates of the sprag drift off
     /// them by the tolerance; a contact that leaves stick with that as its slip velocity would slip the wrong way.
-    fn hold(&self, y: &mut State) {
+    /// Returns the point of the curve there.
+    fn hold(&self, y: &mut State) -> WedgePoint {
         let mode = &self.run.mode;
-        let rates = self.model.rates(mode, &self.model.point(mode.place, y[0]), y);
+        let p = self.model.point(mode.place, y[0]);
+        let rates = self.model.rates(mode, &p, y);
         y[4..8].copy_from_slice(&rates);
+        p
     }
 
     /// Pass into another place; a closed contact that touches begins in slip unless v = 0.
@@ -144,7 +148,7 @@ impl Driver<'_> {
         y[4..8].copy_from_slice(&rates);
         let both = mode.inner == Grip::Stick && mode.outer == Grip::Stick;
         let closed = matches!(mode.place, Place::Arc(_));
-        self.phase = (both && closed).then(|| y[2] - y[3] + self.model.curve.windup_rad(y[0]));
+        self.phase = (both && closed).then(|| y[2] - y[3] + p.windup);
         match (mode.place == Place::Open, self.open_since) {
             (true, None) => self.open_since = Some(t),
             (false, Some(since)) => {

@@ -20,6 +20,7 @@
 //! goes on by `give_way`, bounded by the limit of events.
 
 use super::model::{Forces, Grip, Mode, Model, Place, State};
+use crate::wedge::WedgePoint;
 
 /// What is known of one contact before the choice.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +44,11 @@ pub(super) struct Choice {
 /// Violation up to which a candidate counts as consistent: rounding of forces that all but cancel.
 const CONSISTENT: f64 = 1e-9;
 
+/// What keeps a slip behind a stick that is as consistent.
+const LATER: f64 = 1e-300;
+/// Violation up to which nothing contradicts itself at all: no later candidate is better.
+const FREE: f64 = 2.0 * LATER;
+
 const STILL: [Grip; 3] = [Grip::Stick, Grip::Slip(1.0), Grip::Slip(-1.0)];
 
 /// Eq. (11) without a band of zero velocity: the mode at (t, y) by complementarity, |T| <= mu_s N and v' = 0 in
@@ -55,11 +61,12 @@ pub(super) fn choose(model: &Model, t: f64, y: &State, place: Place, inner: Know
         if violation < least {
             (best, least) = (mode, violation);
         }
+        least > FREE
     });
     Choice { mode: best, consistent: least < CONSISTENT }
 }
 
-/// Every candidate with how far it is from consistent.
+/// Every candidate with how far it is from consistent, while `go_on` says so.
 fn weigh(
     model: &Model,
     t: f64,
@@ -67,14 +74,16 @@ fn weigh(
     place: Place,
     inner: Known,
     outer: Known,
-    seen: &mut impl FnMut(Mode, f64),
+    go_on: &mut impl FnMut(Mode, f64) -> bool,
 ) {
+    let p = model.point(place, y[0]);
     for &a in candidates(if place == Place::Open { Known::Slips(1.0) } else { inner }).iter().flatten() {
         let at_b = if model.outer_holds { [Some(Grip::Stick), None, None] } else { candidates(outer) };
         for &b in at_b.iter().flatten() {
             let mode = Mode { place, inner: a, outer: b };
-            let f = model.forces(&mode, t, y);
-            let (da, db) = model.slip_accelerations(&mode, y, &f);
+            let rates = model.rates(&mode, &p, y);
+            let f = model.forces_at(&mode, t, y, &p, &rates);
+            let (da, db) = slip_accelerations(&p, rates[0], &f);
             let mu = model.friction.static_;
             let mut violation = 0.0;
             if place != Place::Open {
@@ -83,7 +92,9 @@ fn weigh(
             if !model.outer_holds {
                 violation += violation_of(b, outer, f.t_be, mu * f.n_be, db);
             }
-            seen(mode, violation);
+            if !go_on(mode, violation) {
+                return;
+            }
         }
     }
 }
@@ -103,23 +114,19 @@ fn violation_of(grip: Grip, known: Known, tangential: f64, limit: f64, (rate, sc
             let excess = tangential.abs() - limit;
             if excess <= 1e-9 * limit { 0.0 } else { excess / (tangential.abs() + limit) }
         }
-        (Grip::Slip(s), _) => (-s * rate).max(0.0) / scale + 1e-300,
+        (Grip::Slip(s), _) => (-s * rate).max(0.0) / scale + LATER,
     }
 }
 
-impl Model {
-    /// Rates of v_A/OA and v_B/OB (rad/s^2), each with the sum of the magnitudes of its terms.
-    pub(super) fn slip_accelerations(&self, mode: &Mode, y: &State, f: &Forces) -> ((f64, f64), (f64, f64)) {
-        let p = self.point(mode.place, y[0]);
-        let da = self.rates(mode, &p, y)[0];
-        let [a, ph, i, e] = f.acceleration;
-        let inner = [i, -ph, p.rho_i * a, p.rho_i_slope * da * da];
-        let outer = [e, -ph, -p.rho_e * a, -p.rho_e_slope * da * da];
-        let sum = |terms: [f64; 4]| {
-            (terms.iter().sum::<f64>(), terms.iter().map(|x| x.abs()).sum::<f64>() + f64::MIN_POSITIVE)
-        };
-        (sum(inner), sum(outer))
-    }
+/// Rates of v_A/OA and v_B/OB (rad/s^2), each with the sum of the magnitudes of its terms.
+fn slip_accelerations(p: &WedgePoint, alpha_rate: f64, f: &Forces) -> ((f64, f64), (f64, f64)) {
+    let [a, ph, i, e] = f.acceleration;
+    let inner = [i, -ph, p.rho_i * a, p.rho_i_slope * alpha_rate * alpha_rate];
+    let outer = [e, -ph, -p.rho_e * a, -p.rho_e_slope * alpha_rate * alpha_rate];
+    let sum = |terms: [f64; 4]| {
+        (terms.iter().sum::<f64>(), terms.iter().map(|x| x.abs()).sum::<f64>() + f64::MIN_POSITIVE)
+    };
+    (sum(inner), sum(outer))
 }
 
 #[cfg(test)]
@@ -195,7 +202,7 @@ mod tests {
             let seen = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)].map(|(a, b)| {
                 let mode = Mode { place, inner: Grip::Slip(a), outer: Grip::Slip(b) };
                 let f = model.forces(&mode, 0.01, &y);
-                let (a, b) = model.slip_accelerations(&mode, &y, &f);
+                let (a, b) = slip_accelerations(&p, model.rates(&mode, &p, &y)[0], &f);
                 ([n * f.t_bi * p.oa, -n * f.t_be * p.ob], [a.0, b.0], f.n_be)
             });
             if p.n_bi < 1.0 || seen.iter().any(|s| s.2 <= 0.0) {
@@ -220,6 +227,7 @@ mod tests {
                 if violation < CONSISTENT {
                     consistent.push(mode);
                 }
+                true
             });
             assert_eq!(consistent.len(), 1, "{consistent:?}");
             let chosen = choose(&model, 0.01, &y, place, Known::Still, Known::Still);

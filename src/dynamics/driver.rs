@@ -1,7 +1,7 @@
 //! Event-driven integration: smooth inside a mode, every change of mode located.
 
 use super::energy::Audit;
-use super::events::{EVENTS, Look, event, look};
+use super::events::{EVENTS, LOWER, Look, UPPER, event, look};
 use super::looks::{Looks, Trail};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{FastMotion, Run, RunSettings, Stop};
@@ -9,7 +9,7 @@ use super::watch::highest;
 use super::zeno::Zeno;
 use crate::numeric::root;
 use crate::ode::adaptive::Adaptive;
-use crate::ode::step::{Dense, Step, Tolerance};
+use crate::ode::step::{Dense, Room, Step, Tolerance};
 use std::sync::atomic::Ordering;
 
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
@@ -87,7 +87,7 @@ impl<'a> Driver<'a> {
     }
 
     fn integrate(&mut self) {
-        let trail = Trail::new();
+        let (trail, mut room, mut looks) = (Trail::new(), Room::new(), Looks::new());
         while self.run.t_s < self.settings.duration_s {
             if self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                 return self.stop(Stop::Interrupted);
@@ -116,11 +116,13 @@ impl<'a> Driver<'a> {
                 self.settings.duration_s.min(self.model.drive.next_break_s(t)) - t,
             );
             let counters = &mut self.run.counters;
-            let step = self.stepper.step(&mut rhs, t, &y, &slope, longest, rest, counters);
+            let useful = |h: f64| trail.useful(t, h, &first);
+            let step =
+                self.stepper.step(&mut room, &mut rhs, &useful, t, &y, &slope, longest, rest, counters);
             match step.filter(|_| work < self.settings.most_steps) {
                 Some(step) => {
                     let mode = self.run.mode;
-                    let looks = Looks::of(self.model, &mode, !self.settings.rolling, &step, first, &trail);
+                    looks.take(self.model, &mode, !self.settings.rolling, &step, &first, &trail);
                     if !self.advance(&step, &slope, &looks, &mut rhs) {
                         return;
                     }
@@ -155,7 +157,6 @@ impl<'a> Driver<'a> {
                 match self.first_event(d, step, looks.at(i - 1), theta, &looks.seen(i - 1).events) {
                     Found::Nothing => {}
                     Found::At(theta, which) => {
-                        let d = d.clone();
                         return self.land(step, looks, theta, which, d, rhs);
                     }
                     Found::TooCoarse => {
@@ -172,7 +173,7 @@ impl<'a> Driver<'a> {
             }
         }
         match self.crest(step, looks, dense, rhs) {
-            Ok(Some((theta, which, d))) => return self.land(step, looks, theta, which, d, rhs),
+            Ok(Some((theta, which, d))) => return self.land(step, looks, theta, which, &d, rhs),
             Ok(None) if self.watch(step, looks, rhs).is_ok() => {
                 self.audit_step(step, rhs);
                 self.accept(step, looks.end());
@@ -281,7 +282,7 @@ impl<'a> Driver<'a> {
         looks: &Looks,
         theta: f64,
         which: usize,
-        dense: Dense<N_STATE>,
+        dense: &Dense<N_STATE>,
         rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
     ) -> bool {
         let h = theta * step.h();
@@ -293,7 +294,11 @@ impl<'a> Driver<'a> {
             };
             let looks = looks.until(theta, sight, sight(theta));
             let part = step.until(h, dense);
-            self.stepper.h = step.h();
+            // A step that was short because the event was expected says little of how long the next in this mode may be.
+            // At the end of a place N has a kink or a cusp: there it says more.
+            let last = self.lengths[kind(&mode)].min(self.stepper.h);
+            let least = if which == LOWER || which == UPPER { 0.01 * last } else { last };
+            self.stepper.h = step.h().max(least);
             if self.watch(&part, &looks, rhs).is_err() {
                 self.stop(Stop::NotFinite);
                 return false;
@@ -345,7 +350,7 @@ impl<'a> Driver<'a> {
         self.run.counters.steps += 1;
         if let Some(phase) = self.phase {
             // Rolling keeps theta_bi - theta_be = -W(alpha): one Newton step removes the drift of the step.
-            let miss = y[2] - y[3] + self.model.curve.windup_rad(y[0]) - phase;
+            let miss = y[2] - y[3] + end.windup - phase;
             y[0] -= miss / end.rho;
         }
         let before = self.run.state;

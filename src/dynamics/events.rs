@@ -30,12 +30,14 @@ pub(super) struct Look {
     pub(super) figures: [f64; 5],
     /// rho_i + rho_e.
     pub(super) rho: f64,
+    /// Windup of the rolling clutch, rad.
+    pub(super) windup: f64,
 }
 
 impl Look {
     /// Before anything is seen.
     pub(super) const NOTHING: Self =
-        Self { events: [f64::NAN; EVENTS], figures: [f64::NAN; 5], rho: f64::NAN };
+        Self { events: [f64::NAN; EVENTS], figures: [f64::NAN; 5], rho: f64::NAN, windup: f64::NAN };
 }
 
 /// How far alpha (rad) lies from the ends of its place.
@@ -75,6 +77,7 @@ pub(super) fn seen(model: &Model, mode: &Mode, y: &State, p: &WedgePoint, f: &Fo
         events: [lower, upper, inner, outer],
         figures: [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be],
         rho: p.rho_i + p.rho_e,
+        windup: p.windup,
     }
 }
 

@@ -2,14 +2,20 @@
 //! from its sixth stage on are good to order 5, and an evaluation of the forces is all that a look takes.
 
 use super::events::{Look, look, seen};
-use super::model::{Mode, Model, N_STATE, State};
+use super::model::{Forces, Mode, Model, N_STATE, State};
+use crate::ode::dop853;
 use crate::ode::step::Step;
+use crate::wedge::WedgePoint;
 use std::cell::RefCell;
 
 /// Most looks at a step.
-const MOST: usize = crate::ode::dop853::LOOKS.len();
+const MOST: usize = dop853::LOOKS.len();
 /// Evaluations that are remembered: more than a step and a failed trial of an implicit one make.
 const KEPT: usize = 64;
+/// Up to here, as a part of a step, an event counts as at its start.
+const AT_START: f64 = 1e-3;
+/// How far beyond an event that is expected a step goes, in parts of the way there.
+const BEYOND: f64 = 1.25;
 
 /// The last evaluations of a right-hand side: when, and what was seen.
 pub(super) struct Trail {
@@ -33,6 +39,25 @@ impl Trail {
         (1..=KEPT).map(|back| &list[(next + KEPT - back) % KEPT]).find(|(when, _)| *when == t).map(|l| l.1)
     }
 
+    /// How much of an explicit trial step of length `h` (s) from `t` that has failed is worth another trial: beyond the
+    /// first event another right-hand side acts, and this one may be rough (N has no second derivative at first contact).
+    /// A little more than up to where the looks, `first` at its start, show the event.
+    pub(super) fn useful(&self, t: f64, h: f64, first: &Look) -> f64 {
+        let (mut from, mut before) = (0.0, first.events);
+        for &to in &dop853::LOOKS[1..] {
+            let Some(seen) = self.at(t + to * h) else { break };
+            let crossing = |(a, b): (f64, f64)| if a > 0.0 && b < 0.0 { a / (a - b) } else { f64::INFINITY };
+            let part = before.into_iter().zip(seen.events).map(crossing).fold(f64::INFINITY, f64::min);
+            if part.is_finite() {
+                let way = from + part * (to - from);
+                // One at the very start is no matter of the length.
+                return if way > AT_START { BEYOND * way * h } else { h };
+            }
+            (from, before) = (to, seen.events);
+        }
+        h
+    }
+
     /// The right-hand side in one mode, what it sees on its way kept.
     pub(super) fn slope_in<'a>(
         &'a self,
@@ -41,11 +66,11 @@ impl Trail {
         grips: bool,
     ) -> impl Fn(f64, &State) -> Result<State, ()> + 'a {
         move |t, y| {
-            let (slope, p, f) = model.slope_and_forces(&mode, t, y).ok_or(())?;
             let (list, next) = &mut *self.last.borrow_mut();
-            list[*next] = (t, seen(model, &mode, y, &p, &f, grips));
+            let place = &mut list[*next];
             *next = (*next + 1) % KEPT;
-            Ok(slope)
+            let note = |p: &WedgePoint, f: &Forces| *place = (t, seen(model, &mode, y, p, f, grips));
+            model.slope_noting(&mode, t, y, note).ok_or(())
         }
     }
 }
@@ -60,16 +85,23 @@ pub(super) struct Looks {
 }
 
 impl Looks {
+    /// At nothing yet.
+    pub(super) fn new() -> Self {
+        Self { at: [0.0; MOST], seen: [Look::NOTHING; MOST], count: 0 }
+    }
+
     /// At an accepted step in `mode` of which the start has been seen as `first`.
-    pub(super) fn of(
+    pub(super) fn take(
+        &mut self,
         model: &Model,
         mode: &Mode,
         grips: bool,
         step: &Step<N_STATE>,
-        first: Look,
+        first: &Look,
         trail: &Trail,
-    ) -> Self {
-        let mut looks = Self { at: [0.0; MOST], seen: [first; MOST], count: 1 };
+    ) {
+        self.count = 0;
+        self.push(0.0, *first);
         for &theta in &step.looks()[1..] {
             let t = step.t() + theta * step.h();
             let known = if step.is_explicit() { trail.at(t) } else { None };
@@ -77,9 +109,8 @@ impl Looks {
                 let y = if theta == 1.0 { *step.y1() } else { step.glance(theta) };
                 look(model, mode, t, &y, grips)
             });
-            looks.push(theta, seen);
+            self.push(theta, seen);
         }
-        looks
     }
 
     /// At the first `theta` of the step, at whose end `last` is seen; `inside` is what is seen half way where no look

@@ -386,17 +386,18 @@ impl Model {
 
     /// Right-hand side of the first-order system; `None` where it is not finite.
     pub fn slope(&self, mode: &Mode, t: f64, y: &State) -> Option<State> {
-        self.slope_and_forces(mode, t, y).map(|s| s.0)
+        self.slope_noting(mode, t, y, |_, _| ())
     }
 
-    /// The same with the point of the curve and the forces that it comes from.
+    /// The same; the point of the curve and the forces that it comes from are shown to `note`.
     #[inline]
-    pub(super) fn slope_and_forces(
+    pub(super) fn slope_noting(
         &self,
         mode: &Mode,
         t: f64,
         y: &State,
-    ) -> Option<(State, WedgePoint, Forces)> {
+        note: impl FnOnce(&WedgePoint, &Forces),
+    ) -> Option<State> {
         let p = self.point(mode.place, y[0]);
         let rates = self.rates(mode, &p, y);
         let f = self.forces_at(mode, t, y, &p, &rates);
@@ -415,7 +416,10 @@ impl Model {
             if slips_a { f.v_a } else { 0.0 },
             if slips_b { f.v_b } else { 0.0 },
         ];
-        out.iter().all(|v| v.is_finite()).then_some((out, p, f))
+        note(&p, &f);
+        // NaN where one is not finite.
+        let finite = out.iter().map(|v| 0.0 * v).sum::<f64>() == 0.0;
+        finite.then_some(out)
     }
 
     /// Kinetic and stored energy apart from the wedge (J): races, sprags, spring, abutment.

@@ -138,10 +138,12 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
             },
         ))
     };
+    // Nothing but the centrifugal force presses on B.
+    let f_c = clutch.sprags.mass_kg * touch.oc_g.v * speed * speed;
     let lifted = Overrun {
         alpha_rad: touch.alpha.v,
         normal_inner_n: 0.0,
-        normal_outer_n: touch.n_be.v,
+        normal_outer_n: f_c / touch.gamma.v.cos(),
         drag_torque_nm: 0.0,
         tan_inner: 0.0,
         tan_outer: 0.0,

@@ -25,17 +25,23 @@ impl Driver<'_> {
         let wants_sample =
             samples > 0 && self.next_sample < samples && self.sample_time(self.next_sample) <= t_end;
         let mut dense = None;
+        let bounds = self.bounds();
         for i in 0..best.len() {
             let value = |j: usize| looks.seen(j).figures[i];
+            let fine = 1e-3 * self.settings.tolerance;
             for (j, t) in [(0, start), (looks.count() - 1, t_end)] {
                 if value(j) > best[i] {
                     (best[i], at_s[i]) = (value(j), t);
                 }
             }
             for j in 0..looks.count() {
+                let enough = best[i] + fine * best[i].abs();
+                if enough >= bounds[i] {
+                    break;
+                }
                 let (left, right) = looks.beside(j);
                 let top = value(j) >= value(left) && value(j) >= value(right);
-                if top && value(j) + looks.overshoot(j, value) > best[i] {
+                if top && value(j) + looks.overshoot(j, value) > enough {
                     let d = match &dense {
                         Some(d) => d,
                         None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
@@ -44,9 +50,8 @@ impl Driver<'_> {
                         let t = start + theta * length;
                         look(model, &mode, t, &d.at(t), false).figures[i]
                     };
-                    let fine = 1e-3 * self.settings.tolerance * value(j).abs();
                     let (from, guess, until) = (looks.at(left), looks.extreme(j, value), looks.at(right));
-                    let (theta, found) = highest(from, guess, until, best[i], fine, inside);
+                    let (theta, found) = highest(from, guess, until, enough, fine * value(j).abs(), inside);
                     if found > best[i] {
                         (best[i], at_s[i]) = (found, start + theta * length);
                     }
@@ -76,6 +81,16 @@ impl Driver<'_> {
         Ok(())
     }
 
+    /// What no figure can exceed: a real clutch slips at mu_s and has no tension. Pure rolling knows no such bounds.
+    fn bounds(&self) -> [f64; 5] {
+        if self.settings.rolling {
+            return [f64::INFINITY; 5];
+        }
+        let mu = self.model.friction.static_;
+        let outer = if self.model.outer_holds { f64::INFINITY } else { mu };
+        [mu, outer, 0.0, f64::INFINITY, f64::INFINITY]
+    }
+
     fn sample_time(&self, i: usize) -> f64 {
         self.settings.duration_s * i as f64 / (self.settings.samples.max(2) - 1) as f64
     }
@@ -91,8 +106,8 @@ impl Driver<'_> {
 
 /// Place and value of the largest value of a smooth function with one hump on [a, b], looked for about `guess` first:
 /// parabolas through the last three points, golden sections where those leave the bracket; to 1e-5 of [a, b], so 1e-10
-/// in the value, or until what is left to climb is below `fine`. Given up as soon as `worth` cannot be reached any more:
-/// a hump that is no record is not climbed.
+/// in the value, or until what is left to climb is below `fine`, at most or by a second parabola. Given up as soon as
+/// `worth` cannot be reached any more: a hump that is no record is not climbed.
 pub(super) fn highest(
     mut a: f64,
     guess: f64,
@@ -133,9 +148,10 @@ pub(super) fn highest(
         let (p, q) = ((m - a) * (fm - fb), (m - b) * (fm - fa));
         let mut x = m - 0.5 * ((m - a) * p - (m - b) * q) / (p - q);
         // Every third step in the larger part, or a bracket might shrink from one side for ever.
-        if !(x > a && x < b) || i % 3 == 2 {
+        let nothing = i > 0 && bend.abs() * (x - m) * (x - m) < 0.1 * fine;
+        if !(x > a && x < b) || i % 3 == 2 && !nothing {
             x = if b - m > m - a { m + GOLDEN * (b - m) } else { m - GOLDEN * (m - a) };
-        } else if (x - m).abs() < enough {
+        } else if nothing || (x - m).abs() < enough {
             break;
         }
         let fx = f(x);

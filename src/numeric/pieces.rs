@@ -32,9 +32,13 @@ struct Span {
 }
 
 impl<const M: usize> Pieces<M> {
-    /// All lanes of `panels`, then those of `more`, which has the same breaks; lanes beyond are 0.
-    pub fn of<const A: usize, const B: usize>(panels: &Panels<A>, more: &Panels<B>) -> Self {
-        const { assert!(A + B <= M, "more lanes than there is room for") };
+    /// All lanes of `panels`, then those of `more` and `last`, which have the same breaks.
+    pub fn of<const A: usize, const B: usize, const C: usize>(
+        panels: &Panels<A>,
+        more: &Panels<B>,
+        last: &Panels<C>,
+    ) -> Self {
+        const { assert!(A + B + C == M, "a lane for each function") };
         let basis = Basis::new();
         let mut out = Self { panels: Vec::new(), powers: Vec::new() };
         for (i, (from, until, grade)) in panels.spans().enumerate() {
@@ -44,10 +48,12 @@ impl<const M: usize> Pieces<M> {
                 let centre = (2 * piece + 1) as f64 / PIECES as f64 - 1.0;
                 let values: [[f64; M]; POINTS] = std::array::from_fn(|j| {
                     let t = centre + basis.nodes[j] / PIECES as f64;
-                    let (a, b) = (panels.in_panel(i, t), more.in_panel(i, t));
-                    std::array::from_fn(|lane| {
-                        a.get(lane).or_else(|| b.get(lane.wrapping_sub(A))).copied().unwrap_or(0.0)
-                    })
+                    let (a, b, c) = (panels.in_panel(i, t), more.in_panel(i, t), last.in_panel(i, t));
+                    let mut value = [0.0; M];
+                    value[..A].copy_from_slice(&a);
+                    value[A..A + B].copy_from_slice(&b);
+                    value[A + B..].copy_from_slice(&c);
+                    value
                 });
                 out.powers.push(basis.powers(&values));
             }
@@ -143,7 +149,7 @@ mod tests {
         let p =
             Panels::<2>::build_graded(&[0.0, 1.0, 1.5, 2.0, 3.0], &grades, |x| Ok::<_, ()>(f(x))).unwrap();
         let d = p.derivative([1]);
-        let pieces = Pieces::<4>::of(&p, &d);
+        let pieces = Pieces::<4>::of(&p, &d, &p.derivative([0]));
         for i in 0..=3100 {
             let x = -0.05 + 1e-3 * f64::from(i);
             let (a, b) = (pieces.at(x), p.at(x));
@@ -155,7 +161,6 @@ mod tests {
                 assert!((a - b).abs() < (4e-14 + 2e-15 * grown) * b.abs(), "{x}: {a} {b}");
             }
             assert!((a[2] - d.at(x)[0]).abs() < 1e-13 + 1e-14 * grown, "{x}: {} {}", a[2], d.at(x)[0]);
-            assert_eq!(a[3], 0.0);
         }
         assert!(pieces.at(f64::NAN)[0].is_nan());
     }

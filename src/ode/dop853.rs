@@ -16,15 +16,24 @@ pub struct Step<const N: usize> {
     pub y0: [f64; N],
     /// State at the end.
     pub y1: [f64; N],
-    /// Weighted error; at most 1 for a step to be accepted.
+    /// Weighted error.
     pub error: f64,
     stages: [[f64; N]; 12],
     slope1: [f64; N],
 }
 
+impl<const N: usize> Default for Step<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// Where, as fractions of a step, its start, end and the stages between lie at which it is looked at. From the sixth stage
 /// on states are good to order 5, sum_j a_ij c_j^(q-1) = c_i^q/q for q up to 5; the fourth, near the start, to order 3.
 pub const LOOKS: [f64; 7] = [0.0, C[3], C[6], C[5], C[9], C[10], 1.0];
+
+/// Weighted error that the next length aims at.
+const AIM: f64 = 0.3;
 
 /// Dense output of one step, order 7.
 #[derive(Debug, Clone)]
@@ -34,60 +43,71 @@ pub struct Dense<const N: usize> {
     coefficients: [[f64; N]; 8],
 }
 
-/// Take one step. `slope0` is f(t, y); the right-hand side may fail (`Err` is passed on).
-pub fn step<const N: usize, X>(
-    rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
-    t: f64,
-    y: &[f64; N],
-    slope0: &[f64; N],
-    h: f64,
-    tolerance: &Tolerance<N>,
-    counters: &mut Counters,
-) -> Result<Step<N>, X> {
-    let mut k = [[0.0; N]; 12];
-    k[0] = *slope0;
-    for stage in 1..12 {
-        let row = A[stage - 1];
-        let mut z = *y;
-        for (j, &a) in row.iter().enumerate() {
-            if a != 0.0 {
-                let ha = h * a;
-                for i in 0..N {
-                    z[i] += ha * k[j][i];
+impl<const N: usize> Step<N> {
+    /// Room for one.
+    pub fn new() -> Self {
+        let zero = [0.0; N];
+        Self { t: 0.0, h: 0.0, y0: zero, y1: zero, error: f64::NAN, stages: [zero; 12], slope1: zero }
+    }
+
+    /// Take one step. `slope0` is f(t, y); the right-hand side may fail (`Err` is passed on). f at its end is known where
+    /// its error is at most `most`.
+    ///
+    /// # Errors
+    /// Those of the right-hand side; what is in `self` then is no step.
+    pub fn take<X>(
+        &mut self,
+        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        t: f64,
+        y: &[f64; N],
+        slope0: &[f64; N],
+        h: f64,
+        tolerance: &Tolerance<N>,
+        most: f64,
+        counters: &mut Counters,
+    ) -> Result<(), X> {
+        let k = &mut self.stages;
+        k[0] = *slope0;
+        for stage in 1..12 {
+            let mut z = *y;
+            for (j, &a) in A[stage - 1].iter().enumerate() {
+                if a != 0.0 {
+                    let ha = h * a;
+                    for i in 0..N {
+                        z[i] += ha * k[j][i];
+                    }
                 }
             }
+            k[stage] = rhs(t + C[stage] * h, &z)?;
         }
-        k[stage] = rhs(t + C[stage] * h, &z)?;
-    }
-    let mut y1 = *y;
-    let (mut err5, mut err3) = (0.0, 0.0);
-    let (mut increments, mut fifths) = ([0.0; N], [0.0; N]);
-    for j in 0..12 {
+        let mut y1 = *y;
+        let (mut err5, mut err3) = (0.0, 0.0);
+        let (mut increments, mut fifths) = ([0.0; N], [0.0; N]);
+        for (j, k) in k.iter().enumerate().filter(|(j, _)| B[*j] != 0.0) {
+            for i in 0..N {
+                increments[i] += B[j] * k[i];
+                fifths[i] += E[j] * k[i];
+            }
+        }
         for i in 0..N {
-            increments[i] += B[j] * k[j][i];
-            fifths[i] += E[j] * k[j][i];
+            let (increment, e5) = (increments[i], fifths[i]);
+            y1[i] += h * increment;
+            let e3 = increment - B_HAT[0] * k[0][i] - B_HAT[1] * k[8][i] - B_HAT[2] * k[11][i];
+            let scale = tolerance.scale(i, y[i], y1[i]);
+            err5 += (e5 / scale).powi(2);
+            err3 += (e3 / scale).powi(2);
         }
+        let blend = err5 + 0.01 * err3;
+        let error = if blend > 0.0 { h.abs() * err5 / (blend * N as f64).sqrt() } else { 0.0 };
+        counters.rhs_evaluations += 11;
+        if error <= most {
+            self.slope1 = rhs(t + h, &y1)?;
+            counters.rhs_evaluations += 1;
+        }
+        (self.t, self.h, self.y0, self.y1, self.error) = (t, h, *y, y1, error);
+        Ok(())
     }
-    for i in 0..N {
-        let (increment, e5) = (increments[i], fifths[i]);
-        y1[i] += h * increment;
-        let e3 = increment - B_HAT[0] * k[0][i] - B_HAT[1] * k[8][i] - B_HAT[2] * k[11][i];
-        let scale = tolerance.scale(i, y[i], y1[i]);
-        err5 += (e5 / scale).powi(2);
-        err3 += (e3 / scale).powi(2);
-    }
-    let blend = err5 + 0.01 * err3;
-    let error = if blend > 0.0 { h.abs() * err5 / (blend * N as f64).sqrt() } else { 0.0 };
-    counters.rhs_evaluations += 11;
-    let mut slope1 = [0.0; N];
-    if error <= 1.0 {
-        slope1 = rhs(t + h, &y1)?;
-        counters.rhs_evaluations += 1;
-    }
-    Ok(Step { t, h, y0: *y, y1, error, stages: k, slope1 })
-}
 
-impl<const N: usize> Step<N> {
     /// f at the end of an accepted step, the first stage of the next.
     pub fn slope1(&self) -> &[f64; N] {
         &self.slope1
@@ -96,7 +116,7 @@ impl<const N: usize> Step<N> {
     /// Next step length after this one, accepted or not.
     pub fn next_h(&self) -> f64 {
         let factor = if self.error > 0.0 && self.error.is_finite() {
-            (0.9 * self.error.powf(-1.0 / 8.0)).clamp(0.2, 5.0)
+            (AIM / self.error).sqrt().sqrt().sqrt().clamp(0.2, 5.0)
         } else if self.error == 0.0 {
             5.0
         } else {
@@ -121,32 +141,30 @@ impl<const N: usize> Step<N> {
         rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
         counters: &mut Counters,
     ) -> Result<Dense<N>, X> {
-        let mut k = [[0.0; N]; 16];
-        k[..12].copy_from_slice(&self.stages);
-        k[12] = self.slope1;
-        for extra in 13..16 {
+        let mut more = [self.slope1; 4];
+        for extra in 1..4 {
             let mut z = self.y0;
-            for (j, &a) in A[extra - 1].iter().enumerate() {
-                if a != 0.0 {
-                    for i in 0..N {
-                        z[i] += self.h * a * k[j][i];
-                    }
+            let known = self.stages.iter().chain(&more);
+            for (k, &a) in known.zip(A[11 + extra]).filter(|(_, a)| **a != 0.0) {
+                let ha = self.h * a;
+                for i in 0..N {
+                    z[i] += ha * k[i];
                 }
             }
-            k[extra] = rhs(self.t + C[extra] * self.h, &z)?;
+            more[extra] = rhs(self.t + C[12 + extra] * self.h, &z)?;
         }
         counters.rhs_evaluations += 3;
         let mut c = [[0.0; N]; 8];
         for i in 0..N {
             let difference = self.y1[i] - self.y0[i];
-            let bulge = self.h * k[0][i] - difference;
+            let bulge = self.h * self.stages[0][i] - difference;
             c[0][i] = self.y0[i];
             c[1][i] = difference;
             c[2][i] = bulge;
-            c[3][i] = difference - self.h * k[12][i] - bulge;
+            c[3][i] = difference - self.h * self.slope1[i] - bulge;
         }
         for (row, d) in D.iter().enumerate() {
-            for (weight, k) in d.iter().zip(&k) {
+            for (weight, k) in d.iter().zip(self.stages.iter().chain(&more)).filter(|(d, _)| **d != 0.0) {
                 let weight = self.h * weight;
                 for i in 0..N {
                     c[4 + row][i] += weight * k[i];
@@ -186,10 +204,10 @@ mod tests {
         let mut counters = Counters::default();
         let (mut t, mut y) = (0.0, [0.0, 1.0, 0.0]);
         let h = 2.0 / n as f64;
-        let mut dense_error: f64 = 0.0;
+        let (mut s, mut dense_error) = (Step::new(), 0.0_f64);
         for _ in 0..n {
             let slope = rhs(t, &y).unwrap();
-            let s = step(&mut rhs, t, &y, &slope, h, &tolerance, &mut counters).unwrap();
+            s.take(&mut rhs, t, &y, &slope, h, &tolerance, 1.0, &mut counters).unwrap();
             let d = s.dense(&mut rhs, &mut counters).unwrap();
             for theta in [0.0, 0.21, 0.5, 0.83, 1.0] {
                 let tt = t + theta * h;

@@ -53,6 +53,20 @@ pub struct Step<const N: usize> {
     powers: [[f64; N]; 3],
 }
 
+impl<const N: usize> Step<N> {
+    /// Room for one.
+    pub fn new() -> Self {
+        let zero = [0.0; N];
+        Self { t: 0.0, h: 0.0, y0: zero, y1: zero, error: f64::NAN, iterations: 0, powers: [zero; 3] }
+    }
+}
+
+impl<const N: usize> Default for Step<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// What is kept from step to step of one smooth right-hand side.
 #[derive(Debug, Clone)]
 pub struct Radau<const N: usize>

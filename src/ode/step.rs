@@ -38,25 +38,45 @@ impl<const N: usize> Tolerance<N> {
     }
 }
 
+/// Room for the steps of one integration, which are written there and not copied.
+#[derive(Debug, Clone)]
+pub struct Room<const N: usize> {
+    pub(super) explicit: dop853::Step<N>,
+    pub(super) implicit: radau5::Step<N>,
+}
+
+impl<const N: usize> Room<N> {
+    /// Nothing in it.
+    pub fn new() -> Self {
+        Self { explicit: dop853::Step::new(), implicit: radau5::Step::new() }
+    }
+}
+
+impl<const N: usize> Default for Room<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// An accepted step.
 #[derive(Debug, Clone)]
-pub enum Step<const N: usize> {
+pub enum Step<'a, const N: usize> {
     /// DOP853.
-    Explicit(dop853::Step<N>),
+    Explicit(&'a dop853::Step<N>),
     /// Radau IIA.
-    Implicit(radau5::Step<N>),
+    Implicit(&'a radau5::Step<N>),
     /// The beginning of either, up to an event, read off its dense output.
-    Part(Part<N>),
+    Part(Part<'a, N>),
 }
 
 /// The first `h` of a longer step.
 #[derive(Debug, Clone)]
-pub struct Part<const N: usize> {
+pub struct Part<'a, const N: usize> {
     h: f64,
     y0: [f64; N],
     y1: [f64; N],
     t: f64,
-    dense: Dense<N>,
+    dense: &'a Dense<N>,
 }
 
 /// Dense output of a step.
@@ -68,7 +88,7 @@ pub enum Dense<const N: usize> {
     Implicit(radau5::Step<N>),
 }
 
-impl<const N: usize> Step<N> {
+impl<const N: usize> Step<'_, N> {
     /// Start time.
     pub fn t(&self) -> f64 {
         match self {
@@ -125,9 +145,9 @@ impl<const N: usize> Step<N> {
     }
 
     /// Its first `h`, known by its dense output.
-    pub fn until(&self, h: f64, dense: Dense<N>) -> Self {
+    pub fn until<'d>(&self, h: f64, dense: &'d Dense<N>) -> Step<'d, N> {
         let (t, y0) = (self.t(), *self.y0());
-        Self::Part(Part { h, y0, y1: dense.at(t + h), t, dense })
+        Step::Part(Part { h, y0, y1: dense.at(t + h), t, dense })
     }
 
     /// Dense output.
@@ -141,7 +161,7 @@ impl<const N: usize> Step<N> {
     ) -> Result<Dense<N>, X> {
         Ok(match self {
             Self::Explicit(s) => Dense::Explicit(s.dense(rhs, counters)?),
-            Self::Implicit(s) => Dense::Implicit(s.clone()),
+            Self::Implicit(s) => Dense::Implicit((*s).clone()),
             Self::Part(s) => s.dense.clone(),
         })
     }

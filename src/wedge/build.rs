@@ -122,7 +122,7 @@ impl WedgeCurve {
                 end = EndReason::RollsOver;
                 break;
             };
-            let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, alpha0, exponent }
+            let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, exponent }
                 .build(n_from, n_until, windup_from, k == first)
                 .map_err(|_| NoCurve::NoConvergence)?;
             windup_from = arc.windup_rad(arc.alpha_until, (k == first).then_some((alpha0, exponent)));

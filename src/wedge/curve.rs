@@ -58,6 +58,8 @@ pub struct WedgePoint {
     pub n_bi: f64,
     /// T_bi that static equilibrium demands, N.
     pub t_static: f64,
+    /// Windup of the rolling clutch, rad.
+    pub windup: f64,
 }
 
 /// Wedge curve N(alpha), geometry, rolling ratios and windup, at one mean speed.
@@ -150,20 +152,20 @@ impl WedgeCurve {
         let arc = &self.arcs[k];
         if k > 0 {
             let v = arc.table.at(alpha);
-            return point(&v, v[8], 1.0);
+            return point(&v, v[8], 1.0, 1.0);
         }
         // s = (alpha - alpha_0)^(1/q); N = (s * z/s)^10.
         let x = alpha - self.alpha0;
         let s = x.max(0.0).powf(1.0 / self.exponent);
         if x > HELD_RAD {
             let v = arc.table.at(s);
-            return point(&v, (s * v[8]).powi(10), s / (self.exponent * x));
+            return point(&v, (s * v[8]).powi(10), s / (self.exponent * x), x);
         }
         // rho' is singular (integrably, as x^(1/q - 1)) at first contact: within 1e-9 rad rho moves by some 1e-4. It is
         // held there with slope 0, so that velocities and their constraints agree; the jump at first contact is
         // taken as every jump of rho is.
         let v = arc.table.at(HELD_RAD.powf(1.0 / self.exponent));
-        point(&v, (s * v[8]).powi(10), 0.0)
+        point(&v, (s * v[8]).powi(10), 0.0, x.max(0.0))
     }
 
     /// The curve continued below first contact by the tension that a bilateral contact would carry:
@@ -182,6 +184,7 @@ impl WedgeCurve {
             beta_gamma: odd(m.beta_gamma, t.beta.v + t.gamma.v),
             gamma: odd(m.gamma, t.gamma.v),
             n_bi: -m.n_bi,
+            windup: -m.windup,
             t_static: odd(m.t_static, offset),
             rho_i_slope: -m.rho_i_slope,
             rho_e_slope: -m.rho_e_slope,
@@ -194,31 +197,21 @@ impl WedgeCurve {
     pub fn open(&self, alpha: f64) -> WedgePoint {
         let oc_e = self.touch.lengths.oc_e.v;
         let [gx, gy] = self.statics.centroid_m();
-        let (reach, azimuth) = (gx.hypot(gy), gx.atan2(gy));
-        // alpha = Omega + gamma(Omega) - gamma_0; d gamma/d Omega = -(reach^2 + reach oc_e cos)/OC_g^2.
-        let mut rotation = alpha;
-        let (mut x, mut y) = (0.0, oc_e);
-        for _ in 0..30 {
-            let (s, c) = (rotation + azimuth).sin_cos();
-            (x, y) = (reach * s, oc_e + reach * c);
-            let slope = 1.0 - (reach * reach + reach * oc_e * c) / (x * x + y * y);
-            let miss = rotation - x.atan2(y) - self.statics.gamma0_rad() - alpha;
-            rotation -= miss / slope;
-            if miss.abs() < 1e-15 {
-                break;
-            }
-        }
-        let (oc_g, gamma) = (x.hypot(y), -x.atan2(y));
+        // G lies at chi = -gamma from the line O C_e; seen from there the body has turned by gamma_0 + alpha against
+        // OG. Across OG: OC_e sin chi = across; along it: OC_g = OC_e cos chi + along; chi' = along/(OC_e cos chi).
+        let (s, c) = (self.statics.gamma0_rad() + alpha).sin_cos();
+        let (across, along) = (gy * s + gx * c, gy * c - gx * s);
+        let sin_chi = across / oc_e;
+        let cos_chi = (1.0 - sin_chi * sin_chi).sqrt();
+        let (sin_g, cos_g, gamma) = (-sin_chi, cos_chi, -sin_chi.asin());
+        let oc_g = oc_e * cos_chi + along;
+        let gamma_slope = -along / (oc_e * cos_chi);
         let (oa, ob) = (self.touch.lengths.oa.v, self.touch.lengths.ob.v);
-        let (sin_g, cos_g) = gamma.sin_cos();
         let oc_g_slope = oc_g * sin_g / cos_g;
         let beta_gamma = self.touch.beta.v + gamma;
         let (rho_i, _) = crate::kinematics::rolling_ratios(oa, ob, oc_g, oc_g_slope, beta_gamma, gamma);
         let rho_e = (ob - oc_g / cos_g) / ob;
-        // d/dalpha (OC_g/cos gamma) with gamma' = dgamma/dOmega / (1 + dgamma/dOmega).
-        let (_, c) = (rotation + azimuth).sin_cos();
-        let gamma_by_rotation = -(reach * reach + reach * oc_e * c) / (oc_g * oc_g);
-        let gamma_slope = gamma_by_rotation / (1.0 + gamma_by_rotation);
+        // -d/dalpha (OC_g/cos gamma)/OB.
         let rho_e_slope = -(oc_g_slope + oc_g * gamma_slope * sin_g / cos_g) / (cos_g * ob);
         WedgePoint {
             oa,
@@ -233,6 +226,7 @@ impl WedgeCurve {
             gamma,
             n_bi: 0.0,
             t_static: 0.0,
+            windup: 0.0,
         }
     }
 

@@ -14,7 +14,8 @@ use crate::numeric::{
 };
 
 const LANES: usize = 11;
-/// Lanes of the table that is read: those of the panels, the slopes of rho_i and rho_e, one empty to make them even.
+/// Lanes of the table that is read: those of the panels, the slopes of rho_i and rho_e, and the windup, W/s^q on the
+/// first arc, W on the later ones.
 pub(super) const READ: usize = LANES + 3;
 
 /// Distance from first contact below which the geometry is held, rad.
@@ -39,10 +40,8 @@ pub(super) struct ArcTable {
     pub(super) n_until: f64,
     pub(super) shift: f64,
     pub(super) lanes: Panels<LANES>,
-    /// The lanes and the slopes of rho_i and rho_e by the variable of the table.
+    /// The lanes, the slopes of rho_i and rho_e by the variable of the table, the windup.
     pub(super) table: Pieces<READ>,
-    /// W/s^q on the first arc, W on the later ones.
-    windup: Panels<1>,
 }
 
 impl ArcTable {
@@ -51,16 +50,16 @@ impl ArcTable {
         match first {
             Some((alpha0, q)) => {
                 let x = (alpha - alpha0).max(0.0);
-                x * self.windup.at(x.powf(1.0 / q))[0]
+                x * self.table.at(x.powf(1.0 / q))[READ - 1]
             }
-            None => self.windup.at(alpha)[0],
+            None => self.table.at(alpha)[READ - 1],
         }
     }
 }
 
-/// `slope`: d(variable of the table)/d alpha.
+/// `slope`: d(variable of the table)/d alpha; `unit`: what the windup's lane is to be multiplied by.
 #[inline]
-pub(super) fn point(v: &[f64; READ], n_bi: f64, slope: f64) -> WedgePoint {
+pub(super) fn point(v: &[f64; READ], n_bi: f64, slope: f64, unit: f64) -> WedgePoint {
     WedgePoint {
         oa: v[0],
         ob: v[1],
@@ -74,6 +73,7 @@ pub(super) fn point(v: &[f64; READ], n_bi: f64, slope: f64) -> WedgePoint {
         t_static: n_bi * v[9] + v[10],
         rho_i_slope: v[LANES] * slope,
         rho_e_slope: v[LANES + 1] * slope,
+        windup: v[READ - 1] * unit,
     }
 }
 
@@ -157,7 +157,6 @@ pub(super) struct ArcBuilder<'a> {
     pub(super) k: usize,
     pub(super) speed: f64,
     pub(super) shift: f64,
-    pub(super) alpha0: f64,
     pub(super) exponent: f64,
 }
 
@@ -186,9 +185,8 @@ impl ArcBuilder<'_> {
         let alpha_until = end.alpha.v;
         let edges = self.edges(n_from, n_until);
         let (lanes, windup) = if first {
-            let (lanes, edges) = self.first(n_until, &edges)?;
-            let s_end = (alpha_until - self.alpha0).powf(1.0 / self.exponent);
-            let windup = first_windup(&lanes, &first_breaks(self.statics, s_end), &edges, self.exponent);
+            let (lanes, layout, edges) = self.first(n_until, &edges)?;
+            let windup = first_windup(&lanes, &layout, &edges, self.exponent);
             (lanes, windup)
         } else {
             let alpha_from = self.closure(n_from)?.alpha.v;
@@ -199,13 +197,13 @@ impl ArcBuilder<'_> {
             let windup = later_windup(&lanes, &layout, windup_from);
             (lanes, windup)
         };
-        let table = Pieces::of(&lanes, &lanes.derivative([2, 3]));
-        Ok(ArcTable { alpha_until, n_from, n_until, shift: self.shift, lanes, table, windup })
+        let table = Pieces::of(&lanes, &lanes.derivative([2, 3]), &windup);
+        Ok(ArcTable { alpha_until, n_from, n_until, shift: self.shift, lanes, table })
     }
 
     /// Arc 1, lanes over s. alpha - alpha_0 = 10 int_0^z (z alpha_N) z^8 dz with N = z^10 keeps relative
     /// accuracy down to N -> 0, which a difference of two alphas does not. Returns s at the `edges` (N) as well.
-    fn first(&self, n_until: f64, edges: &[Edge]) -> Result<(Panels<LANES>, Vec<Edge>), NoClosure> {
+    fn first(&self, n_until: f64, edges: &[Edge]) -> Result<(Panels<LANES>, Layout, Vec<Edge>), NoClosure> {
         let z_end = n_until.powf(0.1);
         let edges: Vec<Edge> = edges.iter().map(|e| Edge { at: e.at.powf(0.1), ..*e }).collect();
         let rate = Layout::new(&first_breaks(self.statics, z_end), &edges)
@@ -216,7 +214,8 @@ impl ArcBuilder<'_> {
         let of = |z: f64| (z.powi(9) * mean(z)).powf(1.0 / q);
         let s_end = of(z_end);
         let s_edges: Vec<Edge> = edges.iter().map(|e| Edge { at: of(e.at), ..*e }).collect();
-        let lanes = Layout::new(&first_breaks(self.statics, s_end), &s_edges).panels(|s| {
+        let layout = Layout::new(&first_breaks(self.statics, s_end), &s_edges);
+        let lanes = layout.panels(|s| {
             // q ln s = 9 ln z + ln A(z), by Newton in ln z.
             let mut z = z_end * s / s_end;
             for _ in 0..50 {
@@ -230,7 +229,7 @@ impl ArcBuilder<'_> {
             }
             Ok(lanes_of(&self.closure(z.powi(10).max(FIRST_CONTACT_N))?, z / s))
         })?;
-        Ok((lanes, s_edges))
+        Ok((lanes, layout, s_edges))
     }
 
     /// Later arcs, lanes over alpha.
@@ -262,7 +261,7 @@ fn unit_integral(z: f64, edges: &[Edge], f: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// W/s^q on arc 1 as a function of s.
-fn first_windup(lanes: &Panels<LANES>, breaks: &[f64], edges: &[Edge], q: f64) -> Panels<1> {
+fn first_windup(lanes: &Panels<LANES>, layout: &Layout, edges: &[Edge], q: f64) -> Panels<1> {
     let exponent = q as i32 - 1;
     let mean = |s: f64| {
         q * unit_integral(s, edges, |x| {
@@ -270,7 +269,6 @@ fn first_windup(lanes: &Panels<LANES>, breaks: &[f64], edges: &[Edge], q: f64) -
             (v[2] + v[3]) * x.powi(exponent)
         })
     };
-    let layout = Layout::new(breaks, edges);
     let build: Result<_, std::convert::Infallible> = layout.panels(|s| Ok([mean(s)]));
     match build {
         Ok(p) => p,
