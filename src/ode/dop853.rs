@@ -154,20 +154,16 @@ impl<const N: usize> Step<N> {
             more[extra] = rhs(self.t + C[12 + extra] * self.h, &z)?;
         }
         counters.rhs_evaluations += 3;
-        let mut c = [[0.0; N]; 8];
-        for i in 0..N {
-            let difference = self.y1[i] - self.y0[i];
-            let bulge = self.h * self.stages[0][i] - difference;
-            c[0][i] = self.y0[i];
-            c[1][i] = difference;
-            c[2][i] = bulge;
-            c[3][i] = difference - self.h * self.slope1[i] - bulge;
-        }
-        for (row, d) in D.iter().enumerate() {
+        let difference: [f64; N] = std::array::from_fn(|i| self.y1[i] - self.y0[i]);
+        let bulge: [f64; N] = std::array::from_fn(|i| self.h * self.stages[0][i] - difference[i]);
+        let end = std::array::from_fn(|i| difference[i] - self.h * self.slope1[i] - bulge[i]);
+        let zero = [0.0; N];
+        let mut c = [self.y0, difference, bulge, end, zero, zero, zero, zero];
+        for (c, d) in c[4..].iter_mut().zip(&D) {
             for (weight, k) in d.iter().zip(self.stages.iter().chain(&more)).filter(|(d, _)| **d != 0.0) {
                 let weight = self.h * weight;
                 for i in 0..N {
-                    c[4 + row][i] += weight * k[i];
+                    c[i] += weight * k[i];
                 }
             }
         }
