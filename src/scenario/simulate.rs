@@ -72,22 +72,31 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
     let mut tolerance = (100.0 * settings.tolerance).clamp(1000.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
     let mut coarse = go(tolerance, 0);
     let (mut steps, mut rhs, mut spread) = (0, 0, [f64::INFINITY, f64::NEG_INFINITY]);
-    let mut before = None;
+    let (mut before, mut doubts) = (None, [0.0; 2]);
+    let (mut told, mut contradicted) = (None, false);
     loop {
         tolerance *= 0.1;
         let fine = if coarse.interrupted() { coarse.clone() } else { go(tolerance, settings.samples) };
         for theta in [coarse.run.state[2], fine.run.state[2]] {
             spread = [spread[0].min(theta), spread[1].max(theta)];
         }
-        let s = conclude(prepared, settings, &fine, &coarse, before);
+        let s = conclude(prepared, settings, &fine, &coarse, before, doubts);
+        // Runs that do not converge may agree by chance in the end.
+        let definite = s.error.and_then(|e| verdict(prepared, &fine.run, &e));
+        let definite = definite.filter(|v| *v != Verdict::AtThreshold);
+        contradicted |= told.zip(definite).is_some_and(|(a, b)| a != b);
+        told = definite.or(told);
         let last =
             fine.run.stop.gave_up() || tolerance < 9.0 * STEP_TOLERANCES[1] || s.stop == Stop::Interrupted;
         if last || s.tolerance_reached && before.is_some() {
             let (steps, rhs_evaluations) = (s.steps + steps, s.rhs_evaluations + rhs);
-            return Simulation { steps, rhs_evaluations, spread_rad: spread, ..s };
+            let doubtful = contradicted && !s.tolerance_reached;
+            let verdict = s.verdict.map(|v| if doubtful { Verdict::AtThreshold } else { v });
+            return Simulation { verdict, steps, rhs_evaluations, spread_rad: spread, ..s };
         }
         (steps, rhs) = (steps + coarse.run.counters.steps, rhs + coarse.rhs_evaluations());
         before = s.error;
+        doubts = [doubts[1], s.error.map_or(0.0, |e| e.net_slip_m)];
         coarse = fine;
     }
 }
@@ -172,7 +181,7 @@ pub fn simulate_published(
     } else {
         go(0.5 * step_s, 0, before, 1e-2 * settings.tolerance)
     };
-    let s = conclude(&prepared, settings, &answer, &other, None);
+    let s = conclude(&prepared, settings, &answer, &other, None, [0.0; 2]);
     let (a, b) = (answer.run.state[2], other.run.state[2]);
     Ok(Simulation { spread_rad: [a.min(b), a.max(b)], ..s })
 }
@@ -183,24 +192,30 @@ pub fn published_steps(duration_s: f64, step_s: f64) -> u64 {
     steps(step_s) + steps(0.5 * step_s)
 }
 
-/// The answer `fine`, its error by `other` and, where there was one, by the difference `before`; the verdict of both.
+/// The answer `fine`, its error by `other` and, where there was one, by the difference `before`; the verdict of both. Where
+/// they do not agree to the tolerance two may lie near one another by chance: the verdict then is at least as doubtful as
+/// the errors of net slip before them, `doubts` (m).
 fn conclude(
     prepared: &Prepared,
     settings: &Settings,
     fine: &Try,
     other: &Try,
     before: Option<ErrorEstimate>,
+    doubts: [f64; 2],
 ) -> Simulation {
     let whole = !fine.interrupted() && !other.interrupted();
     let figures = |t: &Try| Figures::of(prepared, &t.run, t.demand);
     let difference = || figures(fine).difference(&figures(other));
     let error = whole.then(|| before.map_or_else(difference, |b| difference().at_least(LEFT, &b)));
-    let agreed = error.and_then(|error| {
+    let scales = Scales::of(prepared, &fine.run);
+    let tolerance_reached = error.is_some_and(|e| scales.worst(&e) <= settings.tolerance);
+    let agreed = error.and_then(|mut error| {
+        if !tolerance_reached {
+            error.net_slip_m = doubts.into_iter().fold(error.net_slip_m, f64::max);
+        }
         let (a, b) = (verdict(prepared, &fine.run, &error)?, verdict(prepared, &other.run, &error)?);
         Some(if a == b { a } else { Verdict::AtThreshold })
     });
-    let scales = Scales::of(prepared, &fine.run);
-    let tolerance_reached = error.is_some_and(|e| scales.worst(&e) <= settings.tolerance);
     let rhs_evaluations = fine.rhs_evaluations() + if whole { other.rhs_evaluations() } else { 0 };
     let steps = fine.run.counters.steps + if whole { other.run.counters.steps } else { 0 };
     let rolled = fine.rolled;
