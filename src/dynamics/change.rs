@@ -3,10 +3,23 @@
 use super::choose::{Known, choose};
 use super::crossing::cross;
 use super::driver::Driver;
-use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER};
-use super::model::{Grip, Mode, Place, State};
+use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER, seen};
+use super::model::{Forces, Grip, Mode, Place, State};
 use super::run::Stop;
 use crate::wedge::WedgePoint;
+
+/// A mode to enter, and the point of the curve and the forces in it where they are known at the present time and state.
+pub(super) struct Next {
+    mode: Mode,
+    seen: Option<(WedgePoint, Forces)>,
+}
+
+impl Next {
+    /// Nothing known but the mode.
+    pub(super) fn unseen(mode: Mode) -> Self {
+        Self { mode, seen: None }
+    }
+}
 
 impl Driver<'_> {
     /// Change of mode at event `which`.
@@ -45,9 +58,9 @@ impl Driver<'_> {
             _ => mode.place,
         };
         let next = if which == LOWER || which == UPPER {
-            self.pass(&mode, place, t, &mut y, inner, outer)
+            self.pass(&mode, &p, place, t, &mut y, inner, outer)
         } else {
-            self.chosen(t, &y, place, inner, outer)
+            self.chosen(t, &y, p, place, inner, outer)
         };
         self.run.state = y;
         self.enter(next);
@@ -66,17 +79,26 @@ impl Driver<'_> {
     }
 
     /// Pass into another place; a closed contact that touches begins in slip unless v = 0.
-    fn pass(&mut self, mode: &Mode, place: Place, t: f64, y: &mut State, inner: Known, outer: Known) -> Mode {
+    fn pass(
+        &mut self,
+        mode: &Mode,
+        p: &WedgePoint,
+        place: Place,
+        t: f64,
+        y: &mut State,
+        inner: Known,
+        outer: Known,
+    ) -> Next {
         let model = self.model;
-        let (p, q) = (model.point(mode.place, y[0]), model.point(place, y[0]));
-        let rates = model.rates(mode, &p, y);
+        let q = model.point(place, y[0]);
+        let rates = model.rates(mode, p, y);
         let touching = mode.place == Place::Open;
         let held =
             Mode { place, inner: if touching { Grip::Slip(1.0) } else { mode.inner }, outer: mode.outer };
-        let after = cross(model, &held, &p, &q, rates);
+        let after = cross(model, &held, p, &q, rates);
         y[4..8].copy_from_slice(&after);
         if self.settings.rolling {
-            return Mode { place, ..*mode };
+            return Next::unseen(Mode { place, ..*mode });
         }
         let (v_a, v_b) = model.slip_velocities(&q, &after);
         let inner = match inner {
@@ -85,14 +107,22 @@ impl Driver<'_> {
             other => other,
         };
         let outer = if matches!(outer, Known::Slips(_)) { moving(v_b) } else { outer };
-        self.chosen(t, y, place, inner, outer)
+        self.chosen(t, y, q, place, inner, outer)
     }
 
-    /// The next mode; one that contradicts itself is counted.
-    pub(super) fn chosen(&mut self, t: f64, y: &State, place: Place, inner: Known, outer: Known) -> Mode {
-        let choice = choose(self.model, t, y, place, inner, outer);
+    /// The next mode where the curve is `p`; one that contradicts itself is counted.
+    pub(super) fn chosen(
+        &mut self,
+        t: f64,
+        y: &State,
+        p: WedgePoint,
+        place: Place,
+        inner: Known,
+        outer: Known,
+    ) -> Next {
+        let choice = choose(self.model, t, y, &p, place, inner, outer);
         self.run.inconsistent_choices += u64::from(!choice.consistent);
-        choice.mode
+        Next { mode: choice.mode, seen: choice.forces.map(|f| (p, f)) }
     }
 
     /// An event function is negative right after a change although the choice was consistent to rounding:
@@ -103,7 +133,7 @@ impl Driver<'_> {
         }
         let mode = self.run.mode;
         let (t, mut y) = (self.run.t_s, self.run.state);
-        self.hold(&mut y);
+        let p = self.hold(&mut y);
         self.run.state = y;
         if let Some(limit) = self.zeno.note(t, now.map(|e| e < 0.0), self.resolution_s()) {
             self.close(&limit, t, y);
@@ -113,19 +143,13 @@ impl Driver<'_> {
             Grip::Slip(s) if !negative => Known::Slips(s),
             _ => Known::Still,
         };
-        let next = if now[LOWER] < 0.0 || now[UPPER] < 0.0 {
+        if now[LOWER] < 0.0 || now[UPPER] < 0.0 {
             let which = if now[LOWER] < 0.0 { LOWER } else { UPPER };
             return self.change(which, t, y);
-        } else {
-            self.chosen(
-                t,
-                &y,
-                mode.place,
-                again(mode.inner, now[INNER] < 0.0),
-                again(mode.outer, now[OUTER] < 0.0),
-            )
-        };
-        if next == mode {
+        }
+        let (inner, outer) = (again(mode.inner, now[INNER] < 0.0), again(mode.outer, now[OUTER] < 0.0));
+        let mut next = self.chosen(t, &y, p, mode.place, inner, outer);
+        if next.mode == mode {
             // Nothing better: go on in this mode for a step that rounding cannot undo.
             self.run.t_s = t + 1e-12;
             let rhs = |t: f64, y: &State| self.model.slope(&mode, t, y).ok_or(());
@@ -136,14 +160,17 @@ impl Driver<'_> {
             for (y, rate) in self.run.state.iter_mut().zip(slope) {
                 *y += 1e-12 * rate;
             }
+            next.seen = None;
         }
         self.enter(next);
         true
     }
 
-    pub(super) fn enter(&mut self, mode: Mode) {
+    /// Go on in `next` from the present time and state.
+    pub(super) fn enter(&mut self, next: Next) {
+        let mode = next.mode;
         let (t, y) = (self.run.t_s, &mut self.run.state);
-        let p = self.model.point(mode.place, y[0]);
+        let p = next.seen.map_or_else(|| self.model.point(mode.place, y[0]), |(p, _)| p);
         let rates = self.model.rates(&mode, &p, y);
         y[4..8].copy_from_slice(&rates);
         let both = mode.inner == Grip::Stick && mode.outer == Grip::Stick;
@@ -159,6 +186,10 @@ impl Driver<'_> {
             _ => {}
         }
         self.renew(mode);
+        if let Some((p, f)) = next.seen {
+            let look = seen(self.model, &mode, &self.run.state, &p, &f, !self.settings.rolling);
+            (self.slope, self.seen) = (self.model.slope_of(&mode, &rates, &f), Some(look));
+        }
         self.run.mode = mode;
         self.run.note_engagement();
         if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {

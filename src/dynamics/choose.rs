@@ -34,9 +34,11 @@ pub(super) enum Known {
 }
 
 /// What was chosen.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Choice {
     pub(super) mode: Mode,
+    /// Forces in it.
+    pub(super) forces: Option<Forces>,
     /// Whether nothing of it contradicts itself.
     pub(super) consistent: bool,
 }
@@ -51,19 +53,29 @@ const FREE: f64 = 2.0 * LATER;
 
 const STILL: [Grip; 3] = [Grip::Stick, Grip::Slip(1.0), Grip::Slip(-1.0)];
 
-/// Eq. (11) without a band of zero velocity: the mode at (t, y) by complementarity, |T| <= mu_s N and v' = 0 in
+/// Eq. (11) without a band of zero velocity: the mode at (t, y), where the curve is `p`, by complementarity, |T| <= mu_s N and v' = 0 in
 /// stick, T against v' in slip. Signs as in [`super::published()`], opposite at A and B.
 #[doc(alias = "Eq. (11)")]
-pub(super) fn choose(model: &Model, t: f64, y: &State, place: Place, inner: Known, outer: Known) -> Choice {
-    let mut best = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
+pub(super) fn choose(
+    model: &Model,
+    t: f64,
+    y: &State,
+    p: &WedgePoint,
+    place: Place,
+    inner: Known,
+    outer: Known,
+) -> Choice {
+    let mode = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
+    let mut best = Choice { mode, forces: None, consistent: false };
     let mut least = f64::INFINITY;
-    weigh(model, t, y, place, inner, outer, &mut |mode, violation| {
+    weigh(model, t, y, p, place, inner, outer, &mut |mode, forces, violation| {
         if violation < least {
-            (best, least) = (mode, violation);
+            (best.mode, best.forces, least) = (mode, Some(forces), violation);
         }
         least > FREE
     });
-    Choice { mode: best, consistent: least < CONSISTENT }
+    best.consistent = least < CONSISTENT;
+    best
 }
 
 /// Every candidate with how far it is from consistent, while `go_on` says so.
@@ -71,19 +83,19 @@ fn weigh(
     model: &Model,
     t: f64,
     y: &State,
+    p: &WedgePoint,
     place: Place,
     inner: Known,
     outer: Known,
-    go_on: &mut impl FnMut(Mode, f64) -> bool,
+    go_on: &mut impl FnMut(Mode, Forces, f64) -> bool,
 ) {
-    let p = model.point(place, y[0]);
     for &a in candidates(if place == Place::Open { Known::Slips(1.0) } else { inner }).iter().flatten() {
         let at_b = if model.outer_holds { [Some(Grip::Stick), None, None] } else { candidates(outer) };
         for &b in at_b.iter().flatten() {
             let mode = Mode { place, inner: a, outer: b };
-            let rates = model.rates(&mode, &p, y);
-            let f = model.forces_at(&mode, t, y, &p, &rates);
-            let (da, db) = slip_accelerations(&p, rates[0], &f);
+            let rates = model.rates(&mode, p, y);
+            let f = model.forces_at(&mode, t, y, p, &rates);
+            let (da, db) = slip_accelerations(p, rates[0], &f);
             let mu = model.friction.static_;
             let mut violation = 0.0;
             if place != Place::Open {
@@ -92,7 +104,7 @@ fn weigh(
             if !model.outer_holds {
                 violation += violation_of(b, outer, f.t_be, mu * f.n_be, db);
             }
-            if !go_on(mode, violation) {
+            if !go_on(mode, f, violation) {
                 return;
             }
         }
@@ -223,14 +235,14 @@ mod tests {
             let kappa = mu * p.beta_gamma.sin().abs() / (p.gamma.cos() - mu * p.gamma.sin().abs());
             room = room.min(g[(0, 0)] / (g[(0, 1)].abs() * p.ob / p.oa * kappa));
             let mut consistent = Vec::new();
-            weigh(&model, 0.01, &y, place, Known::Still, Known::Still, &mut |mode, violation| {
+            weigh(&model, 0.01, &y, &p, place, Known::Still, Known::Still, &mut |mode, _, violation| {
                 if violation < CONSISTENT {
                     consistent.push(mode);
                 }
                 true
             });
             assert_eq!(consistent.len(), 1, "{consistent:?}");
-            let chosen = choose(&model, 0.01, &y, place, Known::Still, Known::Still);
+            let chosen = choose(&model, 0.01, &y, &p, place, Known::Still, Known::Still);
             assert_eq!((chosen.mode, chosen.consistent), (consistent[0], true));
             let slips = |g: Grip| usize::from(g != Grip::Stick);
             modes[slips(chosen.mode.inner) + slips(chosen.mode.outer)] += 1;

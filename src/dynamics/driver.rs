@@ -1,8 +1,9 @@
 //! Event-driven integration: smooth inside a mode, every change of mode located.
 
+use super::change::Next;
 use super::energy::Audit;
-use super::events::{EVENTS, LOWER, Look, UPPER, event, look};
-use super::looks::{Looks, Trail};
+use super::events::{EVENTS, Look, event, look};
+use super::looks::{Looks, Trail, cusp};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{FastMotion, Run, RunSettings, Stop};
 use super::watch::highest;
@@ -29,8 +30,8 @@ pub(super) struct Driver<'a> {
     pub(super) zeno: Zeno,
     stepper: Adaptive<N_STATE>,
     /// Slope and look at the present state where the last step has left them.
-    slope: Option<State>,
-    seen: Option<Look>,
+    pub(super) slope: Option<State>,
+    pub(super) seen: Option<Look>,
     /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
     lengths: [f64; KINDS],
 }
@@ -67,12 +68,12 @@ impl<'a> Driver<'a> {
             next_sample: 0,
             audit: None,
             zeno: Zeno::new(),
-            stepper: Adaptive::new(tolerance, settings.longest_step_s * 0.01, SMALL),
+            stepper: Adaptive::new(tolerance, settings.longest_step_s * 0.1, SMALL),
             slope: None,
             seen: None,
             lengths: [f64::INFINITY; KINDS],
         };
-        driver.enter(mode);
+        driver.enter(Next::unseen(mode));
         driver.look(state, 0.0);
         if settings.energy {
             driver.audit();
@@ -116,9 +117,13 @@ impl<'a> Driver<'a> {
                 self.settings.duration_s.min(self.model.drive.next_break_s(t)) - t,
             );
             let counters = &mut self.run.counters;
-            let useful = |h: f64| trail.useful(t, h, &first);
-            let step =
-                self.stepper.step(&mut room, &mut rhs, &useful, t, &y, &slope, longest, rest, counters);
+            // Margins of single pure-rolling runs are differentiated: no step may look over the cusp. With slip, where
+            // further runs tell the error, that changes error over work by a hundredth or two, which is scatter.
+            let cusp = cusp(self.run.mode.place).filter(|_| self.settings.rolling);
+            let useful = |h: f64| trail.useful(t, h, &first, cusp);
+            let smooth = |h: f64| trail.smooth(t, h, &first, cusp);
+            let ahead = (&useful, &smooth);
+            let step = self.stepper.step(&mut room, &mut rhs, ahead, t, &y, &slope, longest, rest, counters);
             match step.filter(|_| work < self.settings.most_steps) {
                 Some(step) => {
                     let mode = self.run.mode;
@@ -154,7 +159,7 @@ impl<'a> Driver<'a> {
                     },
                 };
                 let theta = looks.at(i);
-                match self.first_event(d, step, looks.at(i - 1), theta, &looks.seen(i - 1).events) {
+                match self.first_event(d, step, looks, i - 1, theta, &looks.seen(i).events) {
                     Found::Nothing => {}
                     Found::At(theta, which) => {
                         return self.land(step, looks, theta, which, d, rhs);
@@ -207,7 +212,7 @@ impl<'a> Driver<'a> {
             for j in 1..looks.count() {
                 let (left, right) = looks.beside(j);
                 let bottom = e(j) <= e(left) && e(j) <= e(right);
-                if !bottom || e(j) >= looks.overshoot(j, e) {
+                if !bottom || e(j) >= looks.overshoot(j, |j| -e(j)) {
                     continue;
                 }
                 let d = match dense.take() {
@@ -220,11 +225,12 @@ impl<'a> Driver<'a> {
                 };
                 let (from, until) = (looks.at(left), looks.at(right));
                 let (theta, depth) = highest(from, looks.extreme(j, e), until, 0.0, 0.0, value);
-                if depth > 0.0
-                    && let Found::At(theta, which) =
-                        self.first_event(&d, step, from, theta, &looks.seen(left).events)
-                {
-                    return Ok(Some((theta, which, d)));
+                if depth > 0.0 {
+                    let t = step.t() + theta * step.h();
+                    let there = look(model, &mode, t, &d.at(t), grips).events;
+                    if let Found::At(theta, which) = self.first_event(&d, step, looks, left, theta, &there) {
+                        return Ok(Some((theta, which, d)));
+                    }
                 }
                 dense = Some(d);
             }
@@ -232,40 +238,43 @@ impl<'a> Driver<'a> {
         Ok(None)
     }
 
-    /// Earliest zero between the fractions `from` and `to` of the step.
+    /// Earliest zero between look `left` and the fraction `to` of the step, where `after` is seen.
     fn first_event(
         &self,
         dense: &Dense<N_STATE>,
         step: &Step<N_STATE>,
-        from: f64,
+        looks: &Looks,
+        left: usize,
         to: f64,
-        before: &[f64; EVENTS],
+        after: &[f64; EVENTS],
     ) -> Found {
         let (mode, grips) = (self.run.mode, !self.settings.rolling);
+        let from = looks.at(left);
         let mut first = Found::Nothing;
         let mut earliest = f64::INFINITY;
         let value = |theta: f64, i: usize| {
             let t = step.t() + theta * step.h();
             event(self.model, &mode, t, &dense.at(t), grips, i)
         };
-        let until = step.t() + to * step.h();
-        let ends = look(self.model, &mode, until, &dense.at(until), grips).events;
-        for (i, &known) in before.iter().enumerate() {
-            let end = ends[i];
+        for i in (0..EVENTS).filter(|&i| after[i] < 0.0) {
+            // Looks inside a step are a little off the dense output.
+            let end = if to == 1.0 { after[i] } else { value(to, i) };
             if end >= 0.0 {
                 continue;
             }
             let mut start = from;
-            let mut at_start = if from == 0.0 { known } else { value(from, i) };
+            let mut at_start = if left == 0 { looks.seen(0).events[i] } else { value(from, i) };
             if at_start <= 0.0 {
                 // Starts at zero (a contact just released): find where it has become positive.
                 let inside = [0.02, 0.1, 0.25, 0.5, 0.75].map(|f| from + f * (to - from));
-                match inside.into_iter().find(|&theta| value(theta, i) > 0.0) {
-                    Some(theta) => (start, at_start) = (theta, value(theta, i)),
+                let seen = inside.into_iter().map(|theta| (theta, value(theta, i)));
+                match seen.into_iter().find(|&(_, e)| e > 0.0) {
+                    Some(begins) => (start, at_start) = begins,
                     None => return Found::TooCoarse,
                 }
             }
-            if let Some(theta) = root::bracketed(start, to, at_start, end, 1e-13, |x| value(x, i))
+            let guess = looks.zero(left, |j| looks.seen(j).events[i]);
+            if let Some(theta) = root::bracketed_near(start, to, at_start, end, guess, 1e-13, |x| value(x, i))
                 && theta < earliest
             {
                 earliest = theta;
@@ -295,10 +304,7 @@ impl<'a> Driver<'a> {
             let looks = looks.until(theta, sight, sight(theta));
             let part = step.until(h, dense);
             // A step that was short because the event was expected says little of how long the next in this mode may be.
-            // At the end of a place N has a kink or a cusp: there it says more.
-            let last = self.lengths[kind(&mode)].min(self.stepper.h);
-            let least = if which == LOWER || which == UPPER { 0.01 * last } else { last };
-            self.stepper.h = step.h().max(least);
+            self.stepper.h = step.h().max(self.lengths[kind(&mode)].min(self.stepper.h));
             if self.watch(&part, &looks, rhs).is_err() {
                 self.stop(Stop::NotFinite);
                 return false;

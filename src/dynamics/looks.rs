@@ -1,8 +1,8 @@
 //! Where a step is looked at, mostly for nothing: the states at which an explicit step evaluates its right-hand side
 //! from its sixth stage on are good to order 5, and an evaluation of the forces is all that a look takes.
 
-use super::events::{Look, look, seen};
-use super::model::{Forces, Mode, Model, N_STATE, State};
+use super::events::{EVENTS, LOWER, Look, UPPER, look, seen};
+use super::model::{Forces, Mode, Model, N_STATE, Place, State};
 use crate::ode::dop853;
 use crate::ode::step::Step;
 use crate::wedge::WedgePoint;
@@ -16,6 +16,8 @@ const KEPT: usize = 64;
 const AT_START: f64 = 1e-3;
 /// How far beyond an event that is expected a step goes, in parts of the way there.
 const BEYOND: f64 = 1.25;
+/// The same where stages beyond it would be of no use.
+const BEYOND_A_CUSP: f64 = 1.02;
 
 /// The last evaluations of a right-hand side: when, and what was seen.
 pub(super) struct Trail {
@@ -39,23 +41,37 @@ impl Trail {
         (1..=KEPT).map(|back| &list[(next + KEPT - back) % KEPT]).find(|(when, _)| *when == t).map(|l| l.1)
     }
 
-    /// How much of an explicit trial step of length `h` (s) from `t` that has failed is worth another trial: beyond the
-    /// first event another right-hand side acts, and this one may be rough (N has no second derivative at first contact).
-    /// A little more than up to where the looks, `first` at its start, show the event.
-    pub(super) fn useful(&self, t: f64, h: f64, first: &Look) -> f64 {
+    /// Where the looks at an explicit trial step of length `h` (s) from `t`, `first` at its start, show the first event
+    /// that `counts`, as a fraction of the step, and which; one at the very start is none.
+    fn event(&self, t: f64, h: f64, first: &Look, counts: impl Fn(usize) -> bool) -> Option<(f64, usize)> {
         let (mut from, mut before) = (0.0, first.events);
         for &to in &dop853::LOOKS[1..] {
             let Some(seen) = self.at(t + to * h) else { break };
-            let crossing = |(a, b): (f64, f64)| if a > 0.0 && b < 0.0 { a / (a - b) } else { f64::INFINITY };
-            let part = before.into_iter().zip(seen.events).map(crossing).fold(f64::INFINITY, f64::min);
-            if part.is_finite() {
-                let way = from + part * (to - from);
-                // One at the very start is no matter of the length.
-                return if way > AT_START { BEYOND * way * h } else { h };
+            let crossing = |i: usize| {
+                let (a, b) = (before[i], seen.events[i]);
+                (counts(i) && a > 0.0 && b < 0.0).then(|| (from + a / (a - b) * (to - from), i))
+            };
+            let earliest = (0..EVENTS).filter_map(crossing).min_by(|a, b| a.0.total_cmp(&b.0));
+            if earliest.is_some() {
+                return earliest.filter(|(way, _)| *way > AT_START);
             }
             (from, before) = (to, seen.events);
         }
-        h
+        None
+    }
+
+    /// How much of an explicit trial step of length `h` (s) from `t` that has failed is worth another trial: a little more
+    /// than up to its first event, beyond which another right-hand side acts. `cusp`: the event beyond which this one is
+    /// rough.
+    pub(super) fn useful(&self, t: f64, h: f64, first: &Look, cusp: Option<usize>) -> f64 {
+        let beyond = |i: usize| if Some(i) == cusp { BEYOND_A_CUSP } else { BEYOND };
+        self.event(t, h, first, |_| true).map_or(h, |(way, i)| beyond(i) * way * h)
+    }
+
+    /// How much of such a step lies before the event `cusp`, and a little more.
+    pub(super) fn smooth(&self, t: f64, h: f64, first: &Look, cusp: Option<usize>) -> f64 {
+        let way = cusp.and_then(|cusp| self.event(t, h, first, |i| i == cusp));
+        way.map_or(h, |(way, _)| (BEYOND_A_CUSP * way * h).min(h))
     }
 
     /// The right-hand side in one mode, what it sees on its way kept.
@@ -72,6 +88,15 @@ impl Trail {
             let note = |p: &WedgePoint, f: &Forces| *place = (t, seen(model, &mode, y, p, f, grips));
             model.slope_noting(&mode, t, y, note).ok_or(())
         }
+    }
+}
+
+/// The event at which `place` ends at first contact, where rho and the slope of N have infinite slopes.
+pub(super) fn cusp(place: Place) -> Option<usize> {
+    match place {
+        Place::Arc(0) => Some(LOWER),
+        Place::Tension => Some(UPPER),
+        Place::Arc(_) | Place::Open => None,
     }
 }
 
@@ -162,19 +187,30 @@ impl Looks {
     /// The parabola through the looks about `j`: its second divided difference, the wider gap, where its top lies.
     fn parabola(&self, j: usize, value: impl Fn(usize) -> f64) -> (f64, f64, f64) {
         let m = j.clamp(1, self.count - 2);
-        let (before, after) = (self.at[m] - self.at[m - 1], self.at[m + 1] - self.at[m]);
-        let rise = (value(m) - value(m - 1)) / before;
-        let bend = ((value(m + 1) - value(m)) / after - rise) / (before + after);
-        (bend, before.max(after), self.at[m] - 0.5 * before - 0.5 * rise / bend)
+        let x = [self.at[m - 1], self.at[m], self.at[m + 1]];
+        let (bend, top) = parabola(x, [value(m - 1), value(m), value(m + 1)]);
+        (bend, (x[1] - x[0]).max(x[2] - x[1]), top)
     }
 
-    /// How far a function may rise between the looks beside `j` above all looks, or fall below them: the top of the
-    /// parabola lies above the nearest of three points by at most g^2/4 |second divided difference|, g the wider gap;
-    /// twice that is allowed for. 0 at an end that the parabola passes a quarter of a gap before its top.
+    /// How far a function may rise between the looks beside `j` above all looks: the top of the parabola lies above the
+    /// nearest of three points by at most g^2/4 |second divided difference|, g the wider gap; twice that is allowed for.
+    /// 0 at an end that the parabola passes a quarter of a gap before its top, or where it has none: a function that bends
+    /// upwards is largest at the end itself.
     pub(super) fn overshoot(&self, j: usize, value: impl Fn(usize) -> f64) -> f64 {
         let (bend, gap, top) = self.parabola(j, value);
         let beyond = j == 0 && top < -0.25 * gap || j + 1 == self.count && top > 1.0 + 0.25 * gap;
-        if beyond { 0.0 } else { 0.5 * bend.abs() * gap * gap }
+        if beyond { 0.0 } else { 0.5 * (-bend).max(0.0) * gap * gap }
+    }
+
+    /// Where a function is zero between look `left` and the next, by the parabola of the fraction over its values at those
+    /// and at a third beside them: a guess, no number where it has none.
+    pub(super) fn zero(&self, left: usize, value: impl Fn(usize) -> f64) -> f64 {
+        let (a, b) = (left, (left + 1).min(self.count - 1));
+        let c = if b + 1 < self.count { b + 1 } else { left.saturating_sub(1) };
+        let (fa, fb, fc) = (value(a), value(b), value(c));
+        let rise = (self.at[b] - self.at[a]) / (fb - fa);
+        let bend = ((self.at[c] - self.at[b]) / (fc - fb) - rise) / (fc - fa);
+        self.at[a] - rise * fa + bend * fa * fb
     }
 
     /// Where the extreme beside look `j` is to be looked for first.
@@ -183,4 +219,11 @@ impl Looks {
         let (.., top) = self.parabola(j, value);
         if top.is_finite() { top.clamp(self.at[left], self.at[right]) } else { self.at[j] }
     }
+}
+
+/// Second divided difference of three points, and where the parabola through them is level.
+pub(super) fn parabola([a, m, b]: [f64; 3], [fa, fm, fb]: [f64; 3]) -> (f64, f64) {
+    let rise = (fm - fa) / (m - a);
+    let bend = ((fb - fm) / (b - m) - rise) / (b - a);
+    (bend, 0.5 * (a + m) - 0.5 * rise / bend)
 }

@@ -401,6 +401,13 @@ impl Model {
         let p = self.point(mode.place, y[0]);
         let rates = self.rates(mode, &p, y);
         let f = self.forces_at(mode, t, y, &p, &rates);
+        note(&p, &f);
+        self.slope_of(mode, &rates, &f)
+    }
+
+    /// The right-hand side where rates and forces are known.
+    #[inline]
+    pub(super) fn slope_of(&self, mode: &Mode, rates: &[f64; 4], f: &Forces) -> Option<State> {
         let slips_a = matches!(mode.inner, Grip::Slip(_)) && mode.place != Place::Open;
         let slips_b = matches!(mode.outer, Grip::Slip(_));
         let a = f.acceleration;
@@ -416,7 +423,6 @@ impl Model {
             if slips_a { f.v_a } else { 0.0 },
             if slips_b { f.v_b } else { 0.0 },
         ];
-        note(&p, &f);
         // NaN where one is not finite.
         let finite = out.iter().map(|v| 0.0 * v).sum::<f64>() == 0.0;
         finite.then_some(out)

@@ -2,7 +2,7 @@
 
 use super::driver::Driver;
 use super::events::look;
-use super::looks::Looks;
+use super::looks::{Looks, parabola};
 use super::model::{N_STATE, State};
 use super::run::{Peaks, Sample};
 use crate::ode::step::Step;
@@ -118,35 +118,47 @@ pub(super) fn highest(
 ) -> (f64, f64) {
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
     let enough = 1e-5 * (b - a);
-    let mut m = guess;
-    let mut fm = f(m);
+    // Three points about the guess, or about the top of the parabola through those; the whole of [a, b] where neither holds it.
     let near = 0.1 * (b - a);
-    let (from, until) = ((m - near).max(a), (m + near).min(b));
-    let (mut fa, mut fb) = (f(from), f(until));
-    if fm >= fa && fm >= fb && from < m && m < until {
-        (a, b) = (from, until);
-    } else {
-        if from > a {
-            fa = f(a);
+    let (mut m, mut fa, mut fm, mut fb) = (guess, 0.0, 0.0, 0.0);
+    for tries in 0..3 {
+        let from = if tries < 2 { (m - near).clamp(a, b - 2.0 * near) } else { a };
+        let until = if tries < 2 { from + 2.0 * near } else { b };
+        if !(from < m && m < until) || tries == 2 {
+            m = 0.5 * (from + until);
         }
-        if until < b {
-            fb = f(b);
+        (fa, fm, fb) = (f(from), f(m), f(until));
+        if fm >= fa && fm >= fb || tries == 2 {
+            (a, b) = (from, until);
+            break;
         }
-        if m == a || m == b {
-            m = 0.5 * (a + b);
-            fm = f(m);
+        // Higher at one of them, which may be an end that the function does not turn before.
+        let (bend, top) = parabola([from, m, until], [fa, fm, fb]);
+        let rises = fb > fa;
+        let at_end = if rises { until >= b - enough } else { from <= a + enough };
+        if at_end && (bend >= 0.0 || top <= from || top >= until) {
+            return if rises { (until, fb) } else { (from, fa) };
         }
+        // No record, not even with its top half of [a, b] away.
+        if fa.max(fb) + 0.25 * bend.abs() * (b - a).powi(2) < worth {
+            return (m, fm);
+        }
+        m = if bend < 0.0 {
+            top.clamp(a, b)
+        } else if rises {
+            b
+        } else {
+            a
+        };
     }
     for i in 0..20 {
         // The parabola's top lies above the nearest of its points by at most g^2/4 |bend|, g the wider gap.
-        let bend = ((fb - fm) / (b - m) - (fm - fa) / (m - a)) / (b - a);
+        let (bend, mut x) = parabola([a, m, b], [fa, fm, fb]);
         let gap = (m - a).max(b - m);
         let left = 0.5 * bend.abs() * gap * gap;
         if left < fine || fm.max(fa).max(fb) + left < worth {
             break;
         }
-        let (p, q) = ((m - a) * (fm - fb), (m - b) * (fm - fa));
-        let mut x = m - 0.5 * ((m - a) * p - (m - b) * q) / (p - q);
         // Every third step in the larger part, or a bracket might shrink from one side for ever.
         let nothing = i > 0 && bend.abs() * (x - m) * (x - m) < 0.1 * fine;
         if !(x > a && x < b) || i % 3 == 2 && !nothing {

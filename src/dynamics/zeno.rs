@@ -91,9 +91,10 @@ impl Driver<'_> {
             }
         }
         let held = Mode { place, inner, outer };
-        let rates = model.rates(&held, &model.point(place, y[0]), &y);
+        let p = model.point(place, y[0]);
+        let rates = model.rates(&held, &p, &y);
         y[4..8].copy_from_slice(&rates);
-        let next = self.chosen(t, &y, place, known(inner), known(outer));
+        let next = self.chosen(t, &y, p, place, known(inner), known(outer));
         (self.run.t_s, self.run.state) = (t, y);
         self.run.zeno_closures += 1;
         self.enter(next);

@@ -2,12 +2,20 @@
 
 /// Root of `f` in [a, b] where f(a) and f(b) differ in sign (either may be zero), by inverse quadratic interpolation
 /// where that is safe and bisection elsewhere (Chandrupatla 1997), begun with a secant. `tolerance` is the width in x at
-/// which it stops. `None` where the ends do not bracket a root or a value is not finite.
-pub fn bracketed(
+/// which it stops; earlier, where f is next to nothing of what it is at either end and the secant through the last two
+/// points says that the root is nearer than a twentieth of that. `None` where the ends do not bracket a root or a value is
+/// not finite.
+pub fn bracketed(a: f64, b: f64, fa: f64, fb: f64, tolerance: f64, f: impl FnMut(f64) -> f64) -> Option<f64> {
+    bracketed_near(a, b, fa, fb, f64::NAN, tolerance, f)
+}
+
+/// The same, begun at `guess` where that lies inside.
+pub fn bracketed_near(
     a: f64,
     b: f64,
     fa: f64,
     fb: f64,
+    guess: f64,
     tolerance: f64,
     mut f: impl FnMut(f64) -> f64,
 ) -> Option<f64> {
@@ -22,12 +30,18 @@ pub fn bracketed(
     }
     // The root lies between x1, the newest point, and x2; x3 is the one that was given up last.
     let (mut x1, mut f1, mut x2, mut f2) = (b, fb, a, fa);
-    let mut part = fb / (fb - fa);
+    let guessed = (b - guess) / (b - a);
+    let mut part = if guessed > 0.0 && guessed < 1.0 { guessed } else { fb / (fb - fa) };
+    // A jump has no such value on either side.
+    let next_to_nothing = 1e-6 * fa.abs().min(fb.abs());
     for _ in 0..MOST {
         let x = x1 + part * (x2 - x1);
         let fx = f(x);
         if !fx.is_finite() {
             return None;
+        }
+        if fx.abs() < next_to_nothing && (fx * (x - x1)).abs() < 0.05 * tolerance * (fx - f1).abs() {
+            return Some(x);
         }
         let (x3, f3);
         if fx.signum() == f1.signum() {

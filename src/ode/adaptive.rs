@@ -61,12 +61,13 @@ where
     }
 
     /// An accepted step of at most `longest`, shortened to `rest`, in `room`; `None` where steps become too short.
-    /// `useful` tells how much of a step of length h that has just failed is worth another trial, h where all of it is.
+    /// Ahead lies, by a step of length h that has just been tried: how much of it is worth another trial where it has
+    /// failed, h where all of it is; and how much of it has a smooth right-hand side.
     pub fn step<'a, X>(
         &mut self,
         room: &'a mut Room<N>,
         rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
-        useful: &impl Fn(f64) -> f64,
+        (useful, smooth): (&impl Fn(f64) -> f64, &impl Fn(f64) -> f64),
         t: f64,
         y: &[f64; N],
         slope: &[f64; N],
@@ -93,7 +94,14 @@ where
                 }
             } else {
                 match room.explicit.take(rhs, t, y, slope, h, &self.tolerance, most, counters) {
-                    Ok(()) if room.explicit.error <= most => break,
+                    Ok(()) if room.explicit.error <= most => {
+                        // Stages beyond a rough place spoil more than the estimate sees.
+                        let before = if room.explicit.error > 1.0 { smooth(h) } else { h };
+                        if before > 0.9 * h {
+                            break;
+                        }
+                        (h, before)
+                    }
                     Ok(()) => (room.explicit.next_h().min(0.9 * h), useful(h)),
                     Err(_) => (0.25 * h, useful(h)),
                 }
