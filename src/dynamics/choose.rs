@@ -53,8 +53,8 @@ const FREE: f64 = 2.0 * LATER;
 
 const STILL: [Grip; 3] = [Grip::Stick, Grip::Slip(1.0), Grip::Slip(-1.0)];
 
-/// Eq. (11) without a band of zero velocity: the mode at (t, y), where the curve is `p`, by complementarity, |T| <= mu_s N and v' = 0 in
-/// stick, T against v' in slip. Signs as in [`super::published()`], opposite at A and B.
+/// Eq. (11) without a band of zero velocity: the mode at (t, y), where the curve is `p`, by complementarity,
+/// |T| <= mu_s N and v' = 0 in stick, T against v' in slip. Signs as in [`super::published()`], opposite at A and B.
 #[doc(alias = "Eq. (11)")]
 pub(super) fn choose(
     model: &Model,

@@ -26,9 +26,9 @@ impl Driver<'_> {
             samples > 0 && self.next_sample < samples && self.sample_time(self.next_sample) <= t_end;
         let mut dense = None;
         let bounds = self.bounds();
+        let fine = 1e-3 * self.settings.tolerance;
         for i in 0..best.len() {
             let value = |j: usize| looks.seen(j).figures[i];
-            let fine = 1e-3 * self.settings.tolerance;
             for (j, t) in [(0, start), (looks.count() - 1, t_end)] {
                 if value(j) > best[i] {
                     (best[i], at_s[i]) = (value(j), t);

@@ -96,11 +96,11 @@ where
                 match room.explicit.take(rhs, t, y, slope, h, &self.tolerance, most, counters) {
                     Ok(()) if room.explicit.error <= most => {
                         // Stages beyond a rough place spoil more than the estimate sees.
-                        let before = if room.explicit.error > 1.0 { smooth(h) } else { h };
-                        if before > 0.9 * h {
+                        let sound = if room.explicit.error > 1.0 { smooth(h) } else { h };
+                        if sound > 0.9 * h {
                             break;
                         }
-                        (h, before)
+                        (h, sound)
                     }
                     Ok(()) => (room.explicit.next_h().min(0.9 * h), useful(h)),
                     Err(_) => (0.25 * h, useful(h)),
