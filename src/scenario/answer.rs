@@ -1,7 +1,7 @@
 //! What a simulation says: the verdict and every figure.
 
 use super::demand::Demand;
-use super::error::ErrorEstimate;
+use super::error::{ErrorEstimate, Scales};
 use crate::dynamics::{EnergyBalance, Engaged, FastMotion, Mode, Overrun, Peaks, Sample, SlipRecord, Stop};
 
 /// What the clutch did.
@@ -79,6 +79,8 @@ pub struct Simulation {
     pub rhs_evaluations: u64,
     /// Error estimate; `None` for static kinds, which are exact to 1e-12, and where the run was interrupted.
     pub error: Option<ErrorEstimate>,
+    /// By what errors are divided before they are held against the tolerance.
+    pub scales: Scales,
     /// Whether every error is below the tolerance asked for.
     pub tolerance_reached: bool,
     /// Smallest and largest theta_bi at the end over all runs made, rad: what is left where no digit is sure.

@@ -1,9 +1,9 @@
 //! How far two runs of one scene lie apart, figure by figure.
 
-use super::demand::Demand;
+use super::answer::Simulation;
 use super::prepare::Prepared;
-use super::simulate::{hertz_peak, offset, slips};
-use crate::dynamics::Run;
+use super::simulate::hertz_peak;
+use crate::dynamics::Peaks;
 
 /// Differences between two runs of a simulation.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -41,81 +41,66 @@ pub struct ErrorEstimate {
 }
 
 impl ErrorEstimate {
-    /// Each figure's error, at least `share` of that in `other`: two runs may agree by chance.
-    pub(super) fn at_least(&self, share: f64, other: &Self) -> Self {
-        let more = |a: f64, b: f64| a.max(share * b);
-        let pair = |a: [f64; 2], b: [f64; 2]| [more(a[0], b[0]), more(a[1], b[1])];
+    /// `f` of each figure here and in `other`.
+    fn with(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let pair = |a: [f64; 2], b: [f64; 2]| [f(a[0], b[0]), f(a[1], b[1])];
         Self {
-            theta_inner_rad: more(self.theta_inner_rad, other.theta_inner_rad),
-            theta_outer_rad: more(self.theta_outer_rad, other.theta_outer_rad),
-            offset_rad: more(self.offset_rad, other.offset_rad),
-            net_slip_m: more(self.net_slip_m, other.net_slip_m),
-            net_slip_outer_m: more(self.net_slip_outer_m, other.net_slip_outer_m),
+            theta_inner_rad: f(self.theta_inner_rad, other.theta_inner_rad),
+            theta_outer_rad: f(self.theta_outer_rad, other.theta_outer_rad),
+            offset_rad: f(self.offset_rad, other.offset_rad),
+            net_slip_m: f(self.net_slip_m, other.net_slip_m),
+            net_slip_outer_m: f(self.net_slip_outer_m, other.net_slip_outer_m),
             slip_distance_m: pair(self.slip_distance_m, other.slip_distance_m),
             slip_time_s: pair(self.slip_time_s, other.slip_time_s),
-            contact_lost_s: more(self.contact_lost_s, other.contact_lost_s),
+            contact_lost_s: f(self.contact_lost_s, other.contact_lost_s),
             tan_demand: pair(self.tan_demand, other.tan_demand),
-            normal_min_n: more(self.normal_min_n, other.normal_min_n),
-            normal_max_n: more(self.normal_max_n, other.normal_max_n),
-            hertz_peak_pa: more(self.hertz_peak_pa, other.hertz_peak_pa),
-            required_friction: more(self.required_friction, other.required_friction),
-            slip_margin: more(self.slip_margin, other.slip_margin),
-            contact_margin: more(self.contact_margin, other.contact_margin),
+            normal_min_n: f(self.normal_min_n, other.normal_min_n),
+            normal_max_n: f(self.normal_max_n, other.normal_max_n),
+            hertz_peak_pa: f(self.hertz_peak_pa, other.hertz_peak_pa),
+            required_friction: f(self.required_friction, other.required_friction),
+            slip_margin: f(self.slip_margin, other.slip_margin),
+            contact_margin: f(self.contact_margin, other.contact_margin),
         }
+    }
+
+    /// Each figure's error, at least `share` of that in `other`: two runs may agree by chance.
+    pub(super) fn at_least(&self, share: f64, other: &Self) -> Self {
+        self.with(other, |own, other| own.max(share * other))
     }
 }
 
-/// The figures themselves.
-pub(super) struct Figures(ErrorEstimate);
+impl Simulation {
+    /// How far every figure lies from that of `other`.
+    pub fn off(&self, other: &Self) -> ErrorEstimate {
+        self.figures().with(&other.figures(), |a, b| (a - b).abs())
+    }
 
-impl Figures {
-    pub(super) fn of(prepared: &Prepared, run: &Run, demand: Option<Demand>) -> Self {
-        let [a, b] = slips(run);
-        let p = run.peaks;
-        Self(ErrorEstimate {
-            theta_inner_rad: run.state[2],
-            theta_outer_rad: run.state[3],
-            offset_rad: offset(prepared, run),
+    /// The figures that have an error; 0 where there is none.
+    fn figures(&self) -> ErrorEstimate {
+        let (a, b, p) = (self.inner, self.outer, self.peaks);
+        ErrorEstimate {
+            theta_inner_rad: self.theta_inner_rad,
+            theta_outer_rad: self.theta_outer_rad,
+            offset_rad: self.offset_rad,
             net_slip_m: a.net_m,
             net_slip_outer_m: b.net_m,
             slip_distance_m: [a.distance_m, b.distance_m],
             slip_time_s: [a.time_s, b.time_s],
-            contact_lost_s: run.open_s,
+            contact_lost_s: self.contact_lost_s,
             tan_demand: [p.tan_inner, p.tan_outer],
             normal_min_n: p.normal_min_n,
             normal_max_n: p.normal_max_n,
-            hertz_peak_pa: hertz_peak(prepared, p.normal_max_n, p.normal_outer_max_n),
-            required_friction: demand.and_then(|d| d.required_friction).unwrap_or(0.0),
-            slip_margin: demand.map_or(0.0, |d| d.slip_margin),
-            contact_margin: demand.map_or(0.0, |d| d.contact_margin),
-        })
-    }
-
-    pub(super) fn difference(&self, other: &Self) -> ErrorEstimate {
-        let (a, b) = (&self.0, &other.0);
-        let pair = |a: [f64; 2], b: [f64; 2]| [(a[0] - b[0]).abs(), (a[1] - b[1]).abs()];
-        ErrorEstimate {
-            theta_inner_rad: (a.theta_inner_rad - b.theta_inner_rad).abs(),
-            theta_outer_rad: (a.theta_outer_rad - b.theta_outer_rad).abs(),
-            offset_rad: (a.offset_rad - b.offset_rad).abs(),
-            net_slip_m: (a.net_slip_m - b.net_slip_m).abs(),
-            net_slip_outer_m: (a.net_slip_outer_m - b.net_slip_outer_m).abs(),
-            slip_distance_m: pair(a.slip_distance_m, b.slip_distance_m),
-            slip_time_s: pair(a.slip_time_s, b.slip_time_s),
-            contact_lost_s: (a.contact_lost_s - b.contact_lost_s).abs(),
-            tan_demand: pair(a.tan_demand, b.tan_demand),
-            normal_min_n: (a.normal_min_n - b.normal_min_n).abs(),
-            normal_max_n: (a.normal_max_n - b.normal_max_n).abs(),
-            hertz_peak_pa: (a.hertz_peak_pa - b.hertz_peak_pa).abs(),
-            required_friction: (a.required_friction - b.required_friction).abs(),
-            slip_margin: (a.slip_margin - b.slip_margin).abs(),
-            contact_margin: (a.contact_margin - b.contact_margin).abs(),
+            hertz_peak_pa: self.hertz_peak_pa,
+            required_friction: self.demand.and_then(|d| d.required_friction).unwrap_or(0.0),
+            slip_margin: self.demand.map_or(0.0, |d| d.slip_margin),
+            contact_margin: self.demand.map_or(0.0, |d| d.contact_margin),
         }
     }
 }
 
 /// By what an error is divided before it is held against the tolerance.
-pub(super) struct Scales {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
     length_m: f64,
     time_s: f64,
     force_n: f64,
@@ -126,8 +111,8 @@ pub(super) struct Scales {
 }
 
 impl Scales {
-    pub(super) fn of(prepared: &Prepared, run: &Run) -> Self {
-        let p = run.peaks;
+    /// Of a run with the extremes `p`.
+    pub(super) fn of(prepared: &Prepared, p: &Peaks) -> Self {
         let or_one = |v: f64| if v > 0.0 { v } else { 1.0 };
         let force_n = or_one(p.normal_max_n);
         Self {
@@ -142,7 +127,7 @@ impl Scales {
     }
 
     /// The largest error by its scale; infinite where one is no number.
-    pub(super) fn worst(&self, e: &ErrorEstimate) -> f64 {
+    pub fn worst(&self, e: &ErrorEstimate) -> f64 {
         [
             e.theta_inner_rad,
             e.theta_outer_rad,

@@ -11,7 +11,7 @@ mod simulate;
 
 pub use answer::{Simulation, Verdict};
 pub use demand::{Demand, demand};
-pub use error::ErrorEstimate;
+pub use error::{ErrorEstimate, Scales};
 pub use prepare::{
     NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced, sliding_friction,
 };

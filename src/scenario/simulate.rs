@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::answer::{Simulation, Verdict};
 use super::demand::{Demand, STEPS_PER_PERIOD, demand, demand_at, roll, run_settings};
-use super::error::{ErrorEstimate, Figures, Scales};
+use super::error::{ErrorEstimate, Scales};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
 use crate::dynamics::{Grip, Mode, Peaks, Place, PublishedSettings, Run, SlipRecord, Stop, published, run};
@@ -204,53 +204,67 @@ fn conclude(
     doubts: [f64; 2],
 ) -> Simulation {
     let whole = !fine.interrupted() && !other.interrupted();
-    let figures = |t: &Try| Figures::of(prepared, &t.run, t.demand);
-    let difference = || figures(fine).difference(&figures(other));
+    let (run, own) = (&fine.run, answer(prepared, fine));
+    let difference = || own.off(&answer(prepared, other));
     let error = whole.then(|| before.map_or_else(difference, |b| difference().at_least(LEFT, &b)));
-    let scales = Scales::of(prepared, &fine.run);
-    let tolerance_reached = error.is_some_and(|e| scales.worst(&e) <= settings.tolerance);
+    let tolerance_reached = error.is_some_and(|e| own.scales.worst(&e) <= settings.tolerance);
     let agreed = error.and_then(|mut error| {
         if !tolerance_reached {
             error.net_slip_m = doubts.into_iter().fold(error.net_slip_m, f64::max);
         }
-        let (a, b) = (verdict(prepared, &fine.run, &error)?, verdict(prepared, &other.run, &error)?);
+        let (a, b) = (verdict(prepared, run, &error)?, verdict(prepared, &other.run, &error)?);
         Some(if a == b { a } else { Verdict::AtThreshold })
     });
-    let rhs_evaluations = fine.rhs_evaluations() + if whole { other.rhs_evaluations() } else { 0 };
-    let steps = fine.run.counters.steps + if whole { other.run.counters.steps } else { 0 };
-    let rolled = fine.rolled;
-    let (fine_offset, fine_demand, fine) = (offset(prepared, &fine.run), fine.demand, &fine.run);
+    let (steps, rhs_evaluations) =
+        if whole { (other.run.counters.steps, other.rhs_evaluations()) } else { (0, 0) };
     Simulation {
         verdict: agreed,
         // No estimate means that one of the runs was interrupted.
-        stop: if error.is_none() { Stop::Interrupted } else { fine.stop },
-        t_s: fine.t_s,
-        theta_inner_rad: fine.state[2],
-        theta_outer_rad: fine.state[3],
-        offset_rad: fine_offset,
-        inner: slips(fine)[0],
-        outer: slips(fine)[1],
-        contact_lost_s: fine.open_s,
-        peaks: fine.peaks,
-        hertz_peak_pa: hertz_peak(prepared, fine.peaks.normal_max_n, fine.peaks.normal_outer_max_n),
-        hertz_static_pa: hertz_at(prepared, prepared.static_normal_n),
-        hertz_least_pa: hertz_at(prepared, fine.peaks.normal_min_n),
-        static_normal_n: prepared.static_normal_n,
-        demand: fine_demand.filter(|_| whole),
-        rolled,
-        events: fine.events,
-        steps,
-        rhs_evaluations,
+        stop: if error.is_none() { Stop::Interrupted } else { own.stop },
+        demand: own.demand.filter(|_| whole),
+        steps: own.steps + steps,
+        rhs_evaluations: own.rhs_evaluations + rhs_evaluations,
         error,
         tolerance_reached,
-        spread_rad: [fine.state[2]; 2],
-        zeno_closures: fine.zeno_closures,
-        inconsistent_choices: fine.inconsistent_choices,
-        fast_motion: fine.fast_motion,
-        energy: fine.energy,
-        samples: fine.samples.clone(),
-        engaged: fine.engaged,
-        modes: fine.modes.clone(),
+        ..own
+    }
+}
+
+/// What one run says, without an error or a verdict.
+fn answer(prepared: &Prepared, of: &Try) -> Simulation {
+    let (run, p) = (&of.run, of.run.peaks);
+    let [inner, outer] = slips(run);
+    Simulation {
+        verdict: None,
+        stop: run.stop,
+        t_s: run.t_s,
+        theta_inner_rad: run.state[2],
+        theta_outer_rad: run.state[3],
+        offset_rad: offset(prepared, run),
+        inner,
+        outer,
+        contact_lost_s: run.open_s,
+        peaks: p,
+        hertz_peak_pa: hertz_peak(prepared, p.normal_max_n, p.normal_outer_max_n),
+        hertz_static_pa: hertz_at(prepared, prepared.static_normal_n),
+        hertz_least_pa: hertz_at(prepared, p.normal_min_n),
+        static_normal_n: prepared.static_normal_n,
+        demand: of.demand,
+        rolled: of.rolled,
+        events: run.events,
+        steps: run.counters.steps,
+        rhs_evaluations: of.rhs_evaluations(),
+        error: None,
+        scales: Scales::of(prepared, &p),
+        tolerance_reached: false,
+        spread_rad: [run.state[2]; 2],
+        zeno_closures: run.zeno_closures,
+        inconsistent_choices: run.inconsistent_choices,
+        fast_motion: run.fast_motion,
+        energy: run.energy,
+        samples: run.samples.clone(),
+        engaged: run.engaged,
+        modes: run.modes.clone(),
         overrun: prepared.overrun,
     }
 }
@@ -325,6 +339,8 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         // A sprag whose demand exceeds mu_s is squeezed out backwards under torque.
         None => Verdict::SlipsEngaging,
     };
+    let (normal_min_n, normal_max_n, normal_outer_max_n) = (n_bi, n_bi, n_be);
+    let peaks = Peaks { tan_inner, tan_outer, normal_min_n, normal_max_n, normal_outer_max_n, ..Peaks::NONE };
     Simulation {
         verdict: Some(verdict),
         stop: Stop::Finished,
@@ -335,14 +351,7 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         inner: SlipRecord::default(),
         outer: SlipRecord::default(),
         contact_lost_s: 0.0,
-        peaks: Peaks {
-            tan_inner,
-            tan_outer,
-            normal_min_n: n_bi,
-            normal_max_n: n_bi,
-            normal_outer_max_n: n_be,
-            ..Peaks::NONE
-        },
+        peaks,
         hertz_peak_pa: hertz_peak(prepared, n_bi, n_be),
         hertz_static_pa: hertz_peak(prepared, n_bi, n_be),
         hertz_least_pa: hertz_at(prepared, n_bi),
@@ -353,6 +362,7 @@ fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         steps: 0,
         rhs_evaluations: 0,
         error: None,
+        scales: Scales::of(prepared, &peaks),
         tolerance_reached: true,
         spread_rad: [prepared.state[2]; 2],
         zeno_closures: 0,
