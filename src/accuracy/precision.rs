@@ -26,7 +26,7 @@ pub struct PrecisionSettings {
 impl Default for PrecisionSettings {
     fn default() -> Self {
         Self {
-            tolerances: vec![1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11],
+            tolerances: vec![2e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11],
             steps_s: vec![1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7],
             bands_m_s: vec![1e-3, 1e-4, 1e-5],
             repeat_s: 0.1,
@@ -203,8 +203,8 @@ impl Bench<'_> {
     /// A run and the slip margin at one tolerance.
     fn reference(&self, tolerance: f64, per_period: f64) -> (Run, f64) {
         let s = Settings {
-            // `demand` runs at a hundredth.
-            tolerance: 100.0 * tolerance,
+            // `demand` runs at a tenth.
+            tolerance: 10.0 * tolerance,
             longest_step_s: Some(self.longest_step_s(per_period)),
             most_steps: MOST,
             interrupt: self.settings.interrupt,

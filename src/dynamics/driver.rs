@@ -36,6 +36,25 @@ pub(super) struct Driver<'a> {
     lengths: [f64; KINDS],
 }
 
+impl RunSettings {
+    /// What the error of a step in `mode` may be. Where both contacts hold, the weighted error over work is least with a
+    /// tenth of it: what is wrong with the state there is wrong with the slip that follows.
+    /// Rates that follow from others have none: of alpha' the slope is infinite at first contact.
+    fn tolerance_in(&self, mode: &Mode) -> Tolerance<N_STATE> {
+        let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
+        let outer = mode.outer == Grip::Stick;
+        let relative = if inner && outer { 0.1 * self.tolerance } else { self.tolerance };
+        let (angle, rate, slip) = (1e-2 * relative, 10.0 * relative, 1e-3 * relative);
+        let unless = |follows: bool| if follows { f64::INFINITY } else { rate };
+        let (alpha, phi) = (unless(inner && outer), unless(inner || outer));
+        Tolerance {
+            relative,
+            absolute: [angle, angle, angle, angle, alpha, phi, rate, rate, slip, slip],
+            integrated: [0.0, 0.0, 0.0, 0.0, angle, angle, angle, angle, 0.0, 0.0],
+        }
+    }
+}
+
 /// Kinds of mode.
 const KINDS: usize = 8;
 
@@ -54,11 +73,6 @@ pub(super) fn slope_in(model: &Model, mode: Mode) -> impl Fn(f64, &State) -> Res
 impl<'a> Driver<'a> {
     /// At t = 0, looked at once, not yet moved.
     pub(super) fn new(model: &'a Model, state: State, mode: Mode, settings: &'a RunSettings) -> Self {
-        let tol = settings.tolerance;
-        let (angle, rate, slip) = (1e-2 * tol, 10.0 * tol, 1e-3 * tol);
-        let absolute = [angle, angle, angle, angle, rate, rate, rate, rate, slip, slip];
-        let integrated = [0.0, 0.0, 0.0, 0.0, angle, angle, angle, angle, 0.0, 0.0];
-        let tolerance = Tolerance { relative: tol, absolute, integrated };
         let mut driver = Self {
             model,
             settings,
@@ -68,7 +82,7 @@ impl<'a> Driver<'a> {
             next_sample: 0,
             audit: None,
             zeno: Zeno::new(),
-            stepper: Adaptive::new(tolerance, settings.longest_step_s * 0.1, SMALL),
+            stepper: Adaptive::new(settings.tolerance_in(&mode), settings.longest_step_s * 0.1, SMALL),
             slope: None,
             seen: None,
             lengths: [f64::INFINITY; KINDS],
@@ -117,9 +131,7 @@ impl<'a> Driver<'a> {
                 self.settings.duration_s.min(self.model.drive.next_break_s(t)) - t,
             );
             let counters = &mut self.run.counters;
-            // Margins of single pure-rolling runs are differentiated: no step may look over the cusp. With slip, where
-            // further runs tell the error, that changes error over work by a hundredth or two, which is scatter.
-            let cusp = cusp(self.run.mode.place).filter(|_| self.settings.rolling);
+            let cusp = cusp(self.run.mode.place);
             let useful = |h: f64| trail.useful(t, h, &first, cusp);
             let smooth = |h: f64| trail.smooth(t, h, &first, cusp);
             let ahead = (&useful, &smooth);
@@ -346,6 +358,7 @@ impl<'a> Driver<'a> {
             }
         }
         self.stepper.forget();
+        self.stepper.tolerance = self.settings.tolerance_in(&mode);
         (self.slope, self.seen) = (None, None);
     }
 

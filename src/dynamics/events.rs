@@ -55,8 +55,8 @@ fn within(model: &Model, place: Place, alpha: f64) -> (f64, f64) {
 }
 
 /// What is seen where the forces are `f`. `grips`: whether the friction limits count (the pure-rolling run ignores
-/// them).
-#[inline]
+/// them). Always inlined: written where it is kept, not copied there, which would wait for the writes.
+#[inline(always)]
 pub(super) fn seen(model: &Model, mode: &Mode, y: &State, p: &WedgePoint, f: &Forces, grips: bool) -> Look {
     let (lower, upper) = within(model, mode.place, y[0]);
     let mu = model.friction.static_;

@@ -17,7 +17,7 @@ const AT_START: f64 = 1e-3;
 /// How far beyond an event that is expected a step goes, in parts of the way there.
 const BEYOND: f64 = 1.25;
 /// The same where stages beyond it would be of no use.
-const BEYOND_A_CUSP: f64 = 1.02;
+const BEYOND_A_CUSP: f64 = 1.002;
 
 /// The last evaluations of a right-hand side: when, and what was seen.
 pub(super) struct Trail {
@@ -74,13 +74,15 @@ impl Trail {
         way.map_or(h, |(way, _)| (BEYOND_A_CUSP * way * h).min(h))
     }
 
-    /// The right-hand side in one mode, what it sees on its way kept.
+    /// The right-hand side in one mode, what it sees on its way kept. Always inlined: its slope is written into the step,
+    /// not copied there.
     pub(super) fn slope_in<'a>(
         &'a self,
         model: &'a Model,
         mode: Mode,
         grips: bool,
     ) -> impl Fn(f64, &State) -> Result<State, ()> + 'a {
+        #[inline(always)]
         move |t, y| {
             let (list, next) = &mut *self.last.borrow_mut();
             let place = &mut list[*next];

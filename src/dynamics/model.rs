@@ -390,7 +390,7 @@ impl Model {
     }
 
     /// The same; the point of the curve and the forces that it comes from are shown to `note`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn slope_noting(
         &self,
         mode: &Mode,
@@ -406,7 +406,7 @@ impl Model {
     }
 
     /// The right-hand side where rates and forces are known.
-    #[inline]
+    #[inline(always)]
     pub(super) fn slope_of(&self, mode: &Mode, rates: &[f64; 4], f: &Forces) -> Option<State> {
         let slips_a = matches!(mode.inner, Grip::Slip(_)) && mode.place != Place::Open;
         let slips_b = matches!(mode.outer, Grip::Slip(_));

@@ -33,7 +33,7 @@ impl<const N: usize> Default for Step<N> {
 pub const LOOKS: [f64; 7] = [0.0, C[3], C[6], C[5], C[9], C[10], 1.0];
 
 /// Weighted error that the next length aims at.
-const AIM: f64 = 0.3;
+const AIM: f64 = 0.15;
 
 /// Dense output of one step, order 7.
 #[derive(Debug, Clone)]

@@ -38,17 +38,33 @@ pub(super) const STEPS_PER_PERIOD: f64 = 4.0;
 /// The same where peaks of a single run must be good to a hundredth of the tolerance.
 const STEPS_PER_PERIOD_OF_DEMAND: f64 = 14.0;
 
+/// How fine a run is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fineness {
+    /// Relative tolerance of its steps.
+    pub(super) tolerance: f64,
+    /// Its longest step as a part of the one chosen.
+    pub(super) longest: f64,
+}
+
+impl Fineness {
+    /// Of a run that no other follows.
+    pub(super) fn single(tolerance: f64) -> Self {
+        Self { tolerance, longest: 1.0 }
+    }
+}
+
 pub(super) fn run_settings(
     prepared: &Prepared,
     settings: &Settings,
-    tolerance: f64,
+    fineness: Fineness,
     samples: usize,
     per_period: f64,
 ) -> RunSettings {
     let chosen = || prepared.period_s.map_or(prepared.duration_s / 200.0, |p| p / per_period);
-    let longest_step_s = settings.longest_step_s.unwrap_or_else(chosen);
+    let longest_step_s = fineness.longest * settings.longest_step_s.unwrap_or_else(chosen);
     RunSettings {
-        tolerance,
+        tolerance: fineness.tolerance,
         duration_s: prepared.duration_s,
         longest_step_s,
         most_events: settings.most_events,
@@ -64,11 +80,11 @@ pub(super) fn run_settings(
 /// the moment at which it has ceased to overrun. Where rolling would need tension, no peak of |T|/N says what
 /// friction suffices: then the smallest static friction with the verdict "sticks" is bisected.
 pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
-    demand_at(prepared, settings, 0.01 * settings.tolerance)
+    demand_at(prepared, settings, Fineness::single(0.1 * settings.tolerance))
 }
 
-/// The same at steps of relative tolerance `tolerance`.
-pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, tolerance: f64) -> Demand {
+/// The same at steps as fine as asked for.
+pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> Demand {
     let mu = prepared.model.friction.static_;
     if prepared.duration_s == 0.0 {
         let f = prepared.model.curve.at_normal(prepared.static_normal_n);
@@ -86,7 +102,7 @@ pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, tolerance: f64
             rhs_evaluations: 0,
         };
     }
-    roll(prepared, settings, tolerance, 0, STEPS_PER_PERIOD_OF_DEMAND).1
+    roll(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND).1
 }
 
 /// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.
@@ -100,11 +116,11 @@ const BISECTED: f64 = 1e-4;
 pub(super) fn roll(
     prepared: &Prepared,
     settings: &Settings,
-    tolerance: f64,
+    fineness: Fineness,
     samples: usize,
     per_period: f64,
 ) -> (Run, Demand) {
-    let mut s = run_settings(prepared, settings, tolerance, samples, per_period);
+    let mut s = run_settings(prepared, settings, fineness, samples, per_period);
     let (mut state, mut place) = (prepared.state, prepared.mode.place);
     let mut before = 0;
     let mut model = std::borrow::Cow::Borrowed(&prepared.model);
@@ -123,7 +139,7 @@ pub(super) fn roll(
     let mut interrupted = r.stop == Stop::Interrupted;
     let by_bisection = finished && required.is_none();
     if by_bisection {
-        let (found, work, stopped) = bisected(prepared, settings, tolerance);
+        let (found, work, stopped) = bisected(prepared, settings, fineness);
         required = found;
         before += work;
         interrupted |= stopped;
@@ -152,8 +168,8 @@ fn contact_margin(static_n: f64, rolling: &Rolling) -> f64 {
 
 /// Smallest static friction with which the scene has the verdict "sticks", the kinetic one lowered with it;
 /// right-hand sides; whether it was interrupted. `None` where even the largest does not do.
-fn bisected(prepared: &Prepared, settings: &Settings, tolerance: f64) -> (Option<f64>, u64, bool) {
-    let s = run_settings(prepared, settings, tolerance, 0, STEPS_PER_PERIOD_OF_DEMAND);
+fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Option<f64>, u64, bool) {
+    let s = run_settings(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
     let law = prepared.model.friction;
     let mut model = prepared.model.clone();
     let (mut work, mut interrupted) = (0, false);

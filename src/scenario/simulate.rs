@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::answer::{Simulation, Verdict};
-use super::demand::{Demand, STEPS_PER_PERIOD, demand, demand_at, roll, run_settings};
+use super::demand::{Demand, Fineness, STEPS_PER_PERIOD, demand, demand_at, roll, run_settings};
 use super::error::{ErrorEstimate, Scales};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
@@ -15,7 +15,7 @@ pub struct Settings {
     /// What the error of every figure of a simulation must stay below: angles in rad, slip as rad at the inner
     /// race, times by the duration, forces by the largest of the run, |T|/N, margins and pressure (by the largest)
     /// as pure numbers. Default 1e-6. Steps are tightened until two runs agree to it. [`demand`] alone runs once,
-    /// at steps of a hundredth of it.
+    /// at steps of a tenth of it.
     pub tolerance: f64,
     /// Longest step, s; `None`: a quarter of the excitation's period (a fourteenth where only the demand is asked for),
     /// or 1/200 of the duration without one.
@@ -50,6 +50,9 @@ impl Default for Settings {
 const STEP_TOLERANCES: [f64; 2] = [1e-3, 1e-13];
 /// What of the difference between two runs is left in the next, at least: their steps differ tenfold in tolerance.
 const LEFT: f64 = 0.1;
+/// Of the explicit steps: the longest step shrinks with the tolerance as if it were all that limits the error, or two runs
+/// of steps that nothing else limits would agree, and be wrong together.
+const ORDER: f64 = 8.0;
 
 /// Simulate `scenario` with the event-driven scheme. Three runs, whose steps differ tenfold in tolerance: the finest is
 /// the answer, its difference to the one before the error estimate, at least a tenth of the difference before that.
@@ -68,8 +71,12 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
     if prepared.duration_s == 0.0 {
         return steady(prepared, settings);
     }
-    let go = |tolerance: f64, samples: usize| attempt(prepared, settings, tolerance, samples, reduced);
-    let mut tolerance = (100.0 * settings.tolerance).clamp(1000.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
+    let coarsest = (100.0 * settings.tolerance).clamp(1000.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
+    let go = |tolerance: f64, samples: usize| {
+        let fineness = Fineness { tolerance, longest: (tolerance / coarsest).powf(1.0 / ORDER) };
+        attempt(prepared, settings, fineness, samples, reduced)
+    };
+    let mut tolerance = coarsest;
     let mut coarse = go(tolerance, 0);
     let (mut steps, mut rhs, mut spread) = (0, 0, [f64::INFINITY, f64::NEG_INFINITY]);
     let (mut before, mut doubts) = (None, [0.0; 2]);
@@ -132,17 +139,23 @@ impl Try {
 /// How many tolerances static friction must exceed what rolling needs before the friction law is left out.
 const RESERVE: f64 = 10.0;
 
-fn attempt(prepared: &Prepared, settings: &Settings, tolerance: f64, samples: usize, reduced: bool) -> Try {
+fn attempt(
+    prepared: &Prepared,
+    settings: &Settings,
+    fineness: Fineness,
+    samples: usize,
+    reduced: bool,
+) -> Try {
     let mode = prepared.mode;
     let stuck = mode.inner == Grip::Stick && mode.outer == Grip::Stick && mode.place != Place::Open;
     let go = || {
-        let s = run_settings(prepared, settings, tolerance, samples, STEPS_PER_PERIOD);
+        let s = run_settings(prepared, settings, fineness, samples, STEPS_PER_PERIOD);
         run(&prepared.model, prepared.state, mode, &s)
     };
     if !(reduced && stuck && prepared.overrun.is_none()) {
-        return Try::new(prepared, go(), || demand_at(prepared, settings, tolerance));
+        return Try::new(prepared, go(), || demand_at(prepared, settings, fineness));
     }
-    let (rolling, demand) = roll(prepared, settings, tolerance, samples, STEPS_PER_PERIOD);
+    let (rolling, demand) = roll(prepared, settings, fineness, samples, STEPS_PER_PERIOD);
     let suffices =
         demand.finished && !demand.by_bisection && demand.slip_margin > RESERVE * settings.tolerance;
     if suffices || demand.interrupted {
@@ -172,7 +185,7 @@ pub fn simulate_published(
     let mut go = |step_s: f64, samples: usize, before: u64, tolerance: f64| -> Try {
         let s = PublishedSettings { duration_s, step_s, band_m_s, samples };
         let run = published(&prepared.model, prepared.state, &s, &mut |steps| go_on(before + steps));
-        Try::new(&prepared, run, || demand_at(&prepared, settings, tolerance))
+        Try::new(&prepared, run, || demand_at(&prepared, settings, Fineness::single(tolerance)))
     };
     let answer = go(step_s, settings.samples, 0, 1e-3 * settings.tolerance);
     let before = answer.run.counters.steps;

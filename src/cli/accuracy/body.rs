@@ -1,6 +1,6 @@
 //! The keys of `accuracy --json`.
 
-use super::verdict::{WANTED_RAD, gain_over_published, winners};
+use super::verdict::{WANTED_RAD, gains_over_published, winners};
 use super::{Study, map};
 use crate::accuracy::{Judged, Method, Outcome, PARAMETERS, Point, Precision};
 use serde::Serialize;
@@ -46,7 +46,7 @@ fn scene(s: &Precision) -> Value {
         "reduced_without": s.left_out,
         "points": points.collect::<Vec<_>>(),
         "cheapest": cheapest.collect::<Vec<_>>(),
-        "published_step_over_one_run": gain_over_published(s),
+        "published_step_over_one_run": gains_over_published(s).map(|g| g[0]),
     })
 }
 

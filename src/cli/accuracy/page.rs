@@ -1,7 +1,7 @@
 //! The comparison and the map as a page.
 
 use super::body::Body;
-use super::verdict::{WANTED_RAD, cheapest, gain_over_published, name, sentence};
+use super::verdict::{WANTED_RAD, cheapest, gains_over_published, name, sentence};
 use super::{Study, map, tables};
 use crate::accuracy::{Method, PARAMETERS, Point, Precision};
 use crate::cli::Context;
@@ -61,8 +61,7 @@ fn verdict(study: &Study) -> (bool, String) {
     };
     let won = study.scenes.iter().filter(wins).count();
     let changed = study.cases.iter().filter(|c| c.verdict_changes || c.not_finite.is_some()).count();
-    let gains: Vec<f64> = study.scenes.iter().filter_map(gain_over_published).collect();
-    let least = gains.iter().copied().fold(f64::INFINITY, f64::min);
+    let least = study.scenes.iter().filter_map(gains_over_published).fold(f64::INFINITY, |l, g| l.min(g[0]));
     let gain = if least.is_finite() {
         format!(
             "; one run is at least {} times as fast as the published one at 1e-5 s",

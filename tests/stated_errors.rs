@@ -1,0 +1,91 @@
+//! What an error stated by `simulate` is worth: on all scenes of the test set every figure is held against a run whose
+//! steps are a thousand times finer.
+
+use sprag_design::design::{Design, Scenario};
+use sprag_design::scenario::{ErrorEstimate, Settings, Simulation, simulate};
+use std::path::Path;
+
+/// The scenes of the paper, the bench's (engagement, torque step, in and out), and a friction that falls within 0.1 mm/s.
+fn test_set() -> Vec<Scenario> {
+    let all = |file: &str, names: &[&str]| -> Vec<Scenario> {
+        let design = Design::read(Path::new(file)).unwrap();
+        names.iter().map(|name| design.scenario(name).unwrap().clone()).collect()
+    };
+    let clutch = "designs/huang2017-multi-arc.toml";
+    let mut set = all(
+        clutch,
+        &["high-6", "high-8", "high-10", "low-6", "low-8", "low-10", "low-8-mu082", "low-10-mu082"],
+    );
+    set.extend(all(clutch, &["rated-45", "rated-45-at-speed"]));
+    let transients =
+        ["engagement", "engagement-weak-spring", "engagement-hard", "step-up", "step-down", "in-and-out"];
+    set.extend(all("designs/huang2017-bench.toml", &transients));
+    let mut steep = all(clutch, &["high-10"]).remove(0);
+    (steep.name, steep.clutch.friction.decay_s_per_m) = ("high-10, steep friction".into(), 1e4);
+    set.push(steep);
+    set
+}
+
+fn at(scenario: &Scenario, tolerance: f64) -> Simulation {
+    simulate(scenario, &Settings { tolerance, ..Settings::default() }).unwrap()
+}
+
+fn figures(e: &ErrorEstimate) -> [(&'static str, f64); 18] {
+    [
+        ("theta_bi", e.theta_inner_rad),
+        ("theta_be", e.theta_outer_rad),
+        ("offset", e.offset_rad),
+        ("net slip", e.net_slip_m),
+        ("net slip at B", e.net_slip_outer_m),
+        ("path of slip", e.slip_distance_m[0]),
+        ("path of slip at B", e.slip_distance_m[1]),
+        ("time of slip", e.slip_time_s[0]),
+        ("time of slip at B", e.slip_time_s[1]),
+        ("time without contact", e.contact_lost_s),
+        ("|T|/N", e.tan_demand[0]),
+        ("|T|/N at B", e.tan_demand[1]),
+        ("N_min", e.normal_min_n),
+        ("N_max", e.normal_max_n),
+        ("Hertz pressure", e.hertz_peak_pa),
+        ("friction needed", e.required_friction),
+        ("slip margin", e.slip_margin),
+        ("contact margin", e.contact_margin),
+    ]
+}
+
+#[test]
+fn the_true_error_stays_below_the_tolerance_and_near_the_one_stated() {
+    let (mut count, mut beyond, mut worst) = (0, 0, (0.0, String::new()));
+    for scenario in test_set() {
+        let exact = at(&scenario, 1e-11);
+        let doubt = exact.error.unwrap();
+        for k in 0..9 {
+            let tolerance = 1e-4 * 10_f64.powf(-0.5 * f64::from(k));
+            let own = at(&scenario, tolerance);
+            let (stated, off) = (own.error.unwrap(), own.off(&exact));
+            let name = format!("{}, {tolerance:.1e}", scenario.name);
+            assert!(own.tolerance_reached, "{name}: {stated:?}");
+            let by_tolerance = own.scales.worst(&off) / tolerance;
+            assert!(by_tolerance < 1.0, "{name}: {by_tolerance} of the tolerance off, {off:?}");
+            if by_tolerance > worst.0 {
+                worst = (by_tolerance, name.clone());
+            }
+            for ((figure, off), (stated, doubt)) in figures(&off).into_iter().zip(
+                figures(&stated)
+                    .into_iter()
+                    .zip(figures(&doubt))
+                    .map(|((_, stated), (_, doubt))| (stated, doubt)),
+            ) {
+                // A reference knows its figures no better than to its own error, and no sum better than rounding.
+                let known = stated + 2.0 * doubt + 1e-13;
+                count += 1;
+                beyond += u32::from(off > 1.5 * known);
+                assert!(off < 20.0 * known, "{name}: {figure} {off:e} off, {stated:e} stated");
+            }
+        }
+    }
+    println!(
+        "{beyond} of {count} figures are more than 1.5 of their stated errors off; the worst of all is {worst:?} of the tolerance"
+    );
+    assert!(100 * beyond < count, "{beyond} of {count}");
+}
