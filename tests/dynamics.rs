@@ -114,7 +114,7 @@ fn the_published_scheme_agrees_where_nothing_slips_and_does_not_converge_where_i
     }
 }
 
-/// Counts, not times: by the clock it is 20 to 42 times, for locating changes of mode and peaks is no right-hand side.
+/// Counts, not times: by the clock it is 19 to 35 times, for locating changes of mode and peaks is no right-hand side.
 #[test]
 fn a_millionth_of_a_radian_takes_a_twentieth_of_the_right_hand_sides_of_the_published_step() {
     for name in ["high-6", "high-10", "low-10", "rated-45"] {
