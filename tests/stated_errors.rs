@@ -1,7 +1,7 @@
 //! What an error stated by `simulate` is worth: on all scenes of the test set every figure is held against a run whose
 //! steps are a thousand times finer.
 
-use sprag_design::design::{Design, Scenario};
+use sprag_design::design::{Design, Scenario, ScenarioKind};
 use sprag_design::scenario::{ErrorEstimate, Settings, Simulation, simulate};
 use std::path::Path;
 
@@ -59,7 +59,10 @@ fn the_true_error_stays_below_the_tolerance_and_near_the_one_stated() {
     for scenario in test_set() {
         let exact = at(&scenario, 1e-11);
         let doubt = exact.error.unwrap();
-        for k in 0..9 {
+        // Repeated loss of contact in an engagement leaves no ninth digit.
+        let swings = matches!(scenario.kind, ScenarioKind::TorsionalExcitation { .. });
+        let finest = if swings { 10 } else { 8 };
+        for k in 0..=finest {
             let tolerance = 1e-4 * 10_f64.powf(-0.5 * f64::from(k));
             let own = at(&scenario, tolerance);
             let (stated, off) = (own.error.unwrap(), own.off(&exact));

@@ -54,7 +54,8 @@ const LEFT: f64 = 0.1;
 /// of steps that nothing else limits would agree, and be wrong together.
 const ORDER: f64 = 8.0;
 
-/// Simulate `scenario` with the event-driven scheme. Three runs, whose steps differ tenfold in tolerance: the finest is
+/// Simulate `scenario` with the event-driven scheme. Three runs, whose steps differ tenfold in tolerance, the longest by
+/// its eighth root: the finest is
 /// the answer, its difference to the one before the error estimate, at least a tenth of the difference before that.
 /// Where that exceeds the tolerance asked for, a finer run follows, until they agree, a run meets its limit of work, or
 /// steps reach rounding.
