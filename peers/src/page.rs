@@ -115,14 +115,13 @@ pub fn page(head: PageHead, scenes: &[Scene], peers: &[String; 2], designs: &[De
 }
 
 const WHY: [&str; 5] = [
-    "Where a peer wins it is by doing less. differential-equations' dop853 has our formulas and, without slip, our errors to two \
-     digits with more right-hand sides (its dense output costs three a step, whether needed or not); each of ours takes longer \
-     because the time holds looks at events inside the step, at extremes of forces and at the windup. The row “four looks a \
-     step” gives it our way of looking at events, though not at extremes: a quarter to a half of the difference where nothing slips.",
-    "At coarse errors ours pays for its longest step, a quarter of a period, kept so that no event or extreme is jumped over: \
-     in high-6 and low-10 that, not the tolerance, sets its work, and it delivers up to some thousand times less error than \
-     asked for. Without that limit it is the row “steps of any length”. A method of order 5 (tsit45) has the cheaper step where \
-     so little is asked; towards 1e-8 rad order 8 catches up.",
+    "The nearest to ours is differential-equations' dop853: the same formulas. It pays three right-hand sides a step for its \
+     dense output, whether needed or not, and gives rates that follow from rolling a tolerance of their own; ours pays for looks \
+     at events inside the step, at extremes of forces and at the windup. Where nothing slips that nearly balances. The row \
+     “four looks a step” gives it our way of looking at events, though not at extremes, and costs it a sixth to a third there.",
+    "Every ladder of tolerances begins at 1e-1, so that a method which is better than asked can also be worse. The longest step \
+     of ours, a quarter of a period, kept so that no event or extreme is jumped over, costs up to a tenth of the time at \
+     1e-4 rad and none at 1e-6: the row “steps of any length” is without it, and loses more in in-and-out by what it jumps over.",
     "Where contacts slip and lift off, looking decides. An event function can dip below zero and rise again within one step; who \
      compares signs at the ends does not see it and takes a wrong branch. In high-10 that costs 1e-5 rad, at any tolerance, \
      until a step happens to end inside the dip (missed changes, below each scene). In engagement and in-and-out the peers miss \
@@ -131,8 +130,8 @@ const WHY: [&str; 5] = [
     "Nothing in these scenes is stiff: implicit steps of order 2 to 5 pay for Jacobians and iterations and get nothing back. \
      After an event BDF begins at order 1 again; near N = 0, where contact is made and lost every few microseconds, it also \
      flutters (changes of mode in the tables).",
-    "What follows for ours: looks are its dearest part, so they must cost no evaluations of their own; the longest step can grow \
-     once nothing depends on it.",
+    "What follows for ours: looks must cost no evaluations of their own, and a stage at which nobody looks needs the \
+     accelerations alone.",
 ];
 
 const OMISSIONS: [&str; 9] = [

@@ -68,7 +68,10 @@ impl Method {
     fn settings(self) -> Vec<f64> {
         match self {
             Self::Published => vec![1e-4, 3e-5, 1e-5, 3e-6, 1e-6],
-            _ => (3..=11).map(|i| 10f64.powi(-i)).collect(),
+            _ => [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4]
+                .into_iter()
+                .chain((4..=11).map(|i| 10f64.powi(-i)))
+                .collect(),
         }
     }
 }

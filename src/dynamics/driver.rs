@@ -2,19 +2,25 @@
 
 use super::change::Next;
 use super::energy::Audit;
-use super::events::{EVENTS, Look, event, look};
-use super::looks::{Looks, Trail, cusp};
+use super::events::{EVENTS, INNER, Look, OUTER, event, look};
+use super::looks::{Looks, NeverPositive, Observed, Trail, cusp};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{FastMotion, Run, RunSettings, Stop};
 use super::watch::highest;
 use super::zeno::Zeno;
-use crate::numeric::root;
 use crate::ode::adaptive::Adaptive;
+use crate::ode::rhs::RightHandSide;
 use crate::ode::step::{Dense, Room, Step, Tolerance};
 use std::sync::atomic::Ordering;
 
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
 const SMALL: f64 = 1e-3;
+
+/// How exactly the change of a grip is located, as a fraction of a step's length over the tolerance: v or |T| - mu N is
+/// nearly zero there in either mode, so what is late by this is wrong by far less than the tolerance.
+const WIDTH: f64 = 1e-5;
+/// The same for the ends of a place, which alpha must not miss, and at least, as a fraction of a step's length.
+const FINEST_WIDTH: f64 = 1e-13;
 
 pub(super) struct Driver<'a> {
     pub(super) model: &'a Model,
@@ -116,12 +122,15 @@ impl<'a> Driver<'a> {
             let work = self.run.counters.steps + self.run.counters.rejections;
             let (t, y) = (self.run.t_s, self.run.state);
             let mut rhs = trail.slope_in(self.model, self.run.mode, !self.settings.rolling);
-            let (slope, first) = match self.slope.take().zip(self.seen.take()) {
-                Some(known) => known,
+            let slope = match self.slope.take().zip(self.seen.take()) {
+                Some((slope, seen)) => {
+                    trail.begin(seen);
+                    slope
+                }
                 None => {
                     self.run.counters.rhs_evaluations += 1;
-                    match rhs(t, &y) {
-                        Ok(slope) => (slope, trail.newest()),
+                    match rhs.slope_at_look(0, t, &y) {
+                        Ok(slope) => slope,
                         Err(()) => return self.stop(Stop::NotFinite),
                     }
                 }
@@ -132,14 +141,14 @@ impl<'a> Driver<'a> {
             );
             let counters = &mut self.run.counters;
             let cusp = cusp(self.run.mode.place);
-            let useful = |h: f64| trail.useful(t, h, &first, cusp);
-            let smooth = |h: f64| trail.smooth(t, h, &first, cusp);
+            let useful = |h: f64| trail.useful(h, cusp);
+            let smooth = |h: f64| trail.smooth(h, cusp);
             let ahead = (&useful, &smooth);
             let step = self.stepper.step(&mut room, &mut rhs, ahead, t, &y, &slope, longest, rest, counters);
             match step.filter(|_| work < self.settings.most_steps) {
                 Some(step) => {
                     let mode = self.run.mode;
-                    looks.take(self.model, &mode, !self.settings.rolling, &step, &first, &trail);
+                    looks.take(self.model, &mode, !self.settings.rolling, &step, &trail);
                     if !self.advance(&step, &slope, &looks, &mut rhs) {
                         return;
                     }
@@ -150,13 +159,7 @@ impl<'a> Driver<'a> {
     }
 
     /// Take the step up to its first event, if any. False: the run has ended.
-    fn advance(
-        &mut self,
-        step: &Step<N_STATE>,
-        slope: &State,
-        looks: &Looks,
-        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
-    ) -> bool {
+    fn advance(&mut self, step: &Step<N_STATE>, slope: &State, looks: &Looks, rhs: &mut Observed) -> bool {
         let mut dense: Option<Dense<N_STATE>> = None;
         for i in 1..looks.count() {
             if looks.seen(i).events.iter().any(|&e| e < 0.0) {
@@ -215,7 +218,7 @@ impl<'a> Driver<'a> {
         step: &Step<N_STATE>,
         looks: &Looks,
         mut dense: Option<Dense<N_STATE>>,
-        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
+        rhs: &mut Observed,
     ) -> Result<Option<(f64, usize, Dense<N_STATE>)>, ()> {
         let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
         for i in 0..EVENTS {
@@ -261,36 +264,21 @@ impl<'a> Driver<'a> {
         after: &[f64; EVENTS],
     ) -> Found {
         let (mode, grips) = (self.run.mode, !self.settings.rolling);
-        let from = looks.at(left);
         let mut first = Found::Nothing;
         let mut earliest = f64::INFINITY;
-        let value = |theta: f64, i: usize| {
-            let t = step.t() + theta * step.h();
-            event(self.model, &mode, t, &dense.at(t), grips, i)
-        };
         for i in (0..EVENTS).filter(|&i| after[i] < 0.0) {
-            // Looks inside a step are a little off the dense output.
-            let end = if to == 1.0 { after[i] } else { value(to, i) };
-            if end >= 0.0 {
-                continue;
-            }
-            let mut start = from;
-            let mut at_start = if left == 0 { looks.seen(0).events[i] } else { value(from, i) };
-            if at_start <= 0.0 {
-                // Starts at zero (a contact just released): find where it has become positive.
-                let inside = [0.02, 0.1, 0.25, 0.5, 0.75].map(|f| from + f * (to - from));
-                let seen = inside.into_iter().map(|theta| (theta, value(theta, i)));
-                match seen.into_iter().find(|&(_, e)| e > 0.0) {
-                    Some(begins) => (start, at_start) = begins,
-                    None => return Found::TooCoarse,
+            let value = |theta: f64| {
+                let t = step.t() + theta * step.h();
+                event(self.model, &mode, t, &dense.at(t), grips, i)
+            };
+            let width = if i == INNER || i == OUTER { WIDTH * self.settings.tolerance } else { 0.0 };
+            match looks.crossing(left, to, after[i], |look| look.events[i], width.max(FINEST_WIDTH), value) {
+                Ok(Some(theta)) if theta < earliest => {
+                    earliest = theta;
+                    first = Found::At(theta, i);
                 }
-            }
-            let guess = looks.zero(left, |j| looks.seen(j).events[i]);
-            if let Some(theta) = root::bracketed_near(start, to, at_start, end, guess, 1e-13, |x| value(x, i))
-                && theta < earliest
-            {
-                earliest = theta;
-                first = Found::At(theta, i);
+                Ok(_) => {}
+                Err(NeverPositive) => return Found::TooCoarse,
             }
         }
         first
@@ -304,7 +292,7 @@ impl<'a> Driver<'a> {
         theta: f64,
         which: usize,
         dense: &Dense<N_STATE>,
-        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
+        rhs: &mut Observed,
     ) -> bool {
         let h = theta * step.h();
         if h > 0.0 {

@@ -12,6 +12,7 @@
 //! the projections at them have done wrong.
 
 use super::driver::Driver;
+use super::looks::Observed;
 use super::model::{Grip, Model, N_STATE, Place, State};
 use crate::numeric::quadrature;
 use crate::ode::step::{Counters, Step};
@@ -156,11 +157,7 @@ impl Driver<'_> {
     }
 
     /// Count the works of an accepted step, by quadrature over its dense output, whose evaluations are none of the run's.
-    pub(super) fn audit_step(
-        &mut self,
-        step: &Step<N_STATE>,
-        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
-    ) {
+    pub(super) fn audit_step(&mut self, step: &Step<N_STATE>, rhs: &mut Observed) {
         let (model, mode) = (self.model, self.run.mode);
         let Some(audit) = &mut self.audit else { return };
         let Ok(dense) = step.dense(rhs, &mut Counters::default()) else { return };

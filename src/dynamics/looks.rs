@@ -2,94 +2,105 @@
 //! from its sixth stage on are good to order 5, and an evaluation of the forces is all that a look takes.
 
 use super::events::{EVENTS, LOWER, Look, UPPER, look, seen};
-use super::model::{Forces, Mode, Model, N_STATE, Place, State};
+use super::model::{Mode, Model, N_STATE, Place, State};
+use crate::numeric::root;
 use crate::ode::dop853;
+use crate::ode::rhs::RightHandSide;
 use crate::ode::step::Step;
-use crate::wedge::WedgePoint;
 use std::cell::RefCell;
 
 /// Most looks at a step.
 const MOST: usize = dop853::LOOKS.len();
-/// Evaluations that are remembered: more than a step and a failed trial of an implicit one make.
-const KEPT: usize = 64;
 /// Up to here, as a part of a step, an event counts as at its start.
 const AT_START: f64 = 1e-3;
+/// Up to here, as a part of the way between two looks, their own values do not decide where a function is zero.
+const BESIDE_A_LOOK: f64 = 1e-2;
 /// How far beyond an event that is expected a step goes, in parts of the way there.
 const BEYOND: f64 = 1.25;
 /// The same where stages beyond it would be of no use.
 const BEYOND_A_CUSP: f64 = 1.002;
 
-/// The last evaluations of a right-hand side: when, and what was seen.
+/// What has been seen of the present step and the last trial of it: at its start and at [`dop853::LOOKS`] as far as that
+/// has gone.
 pub(super) struct Trail {
-    last: RefCell<([(f64, Look); KEPT], usize)>,
+    seen: RefCell<([Look; MOST], usize)>,
 }
 
 impl Trail {
     pub(super) fn new() -> Self {
-        Self { last: RefCell::new(([(f64::NAN, Look::NOTHING); KEPT], 0)) }
+        Self { seen: RefCell::new(([Look::NOTHING; MOST], 0)) }
     }
 
-    /// What the last evaluation saw.
-    pub(super) fn newest(&self) -> Look {
-        let (list, next) = &*self.last.borrow();
-        list[(next + KEPT - 1) % KEPT].1
+    /// A step begins where `first` is seen.
+    pub(super) fn begin(&self, first: Look) {
+        let (looks, count) = &mut *self.seen.borrow_mut();
+        (looks[0], *count) = (first, 1);
     }
 
-    /// What the last evaluation at exactly `t` (s) saw.
-    fn at(&self, t: f64) -> Option<Look> {
-        let (list, next) = &*self.last.borrow();
-        (1..=KEPT).map(|back| &list[(next + KEPT - back) % KEPT]).find(|(when, _)| *when == t).map(|l| l.1)
-    }
-
-    /// Where the looks at an explicit trial step of length `h` (s) from `t`, `first` at its start, show the first event
-    /// that `counts`, as a fraction of the step, and which; one at the very start is none.
-    fn event(&self, t: f64, h: f64, first: &Look, counts: impl Fn(usize) -> bool) -> Option<(f64, usize)> {
-        let (mut from, mut before) = (0.0, first.events);
-        for &to in &dop853::LOOKS[1..] {
-            let Some(seen) = self.at(t + to * h) else { break };
+    /// Where the last explicit trial shows the first event that `counts`, as a fraction of the step, and which; one at the
+    /// very start is none.
+    fn event(&self, counts: impl Fn(usize) -> bool) -> Option<(f64, usize)> {
+        let (looks, count) = &*self.seen.borrow();
+        for to in 1..*count {
+            let [from, until] = [to - 1, to].map(|j| dop853::LOOKS[j]);
             let crossing = |i: usize| {
-                let (a, b) = (before[i], seen.events[i]);
-                (counts(i) && a > 0.0 && b < 0.0).then(|| (from + a / (a - b) * (to - from), i))
+                let (a, b) = (looks[to - 1].events[i], looks[to].events[i]);
+                (counts(i) && a > 0.0 && b < 0.0).then(|| (from + a / (a - b) * (until - from), i))
             };
             let earliest = (0..EVENTS).filter_map(crossing).min_by(|a, b| a.0.total_cmp(&b.0));
             if earliest.is_some() {
                 return earliest.filter(|(way, _)| *way > AT_START);
             }
-            (from, before) = (to, seen.events);
         }
         None
     }
 
-    /// How much of an explicit trial step of length `h` (s) from `t` that has failed is worth another trial: a little more
-    /// than up to its first event, beyond which another right-hand side acts. `cusp`: the event beyond which this one is
-    /// rough.
-    pub(super) fn useful(&self, t: f64, h: f64, first: &Look, cusp: Option<usize>) -> f64 {
+    /// How much of an explicit trial step of length `h` (s) that has failed is worth another trial: a little more than up to
+    /// its first event, beyond which another right-hand side acts. `cusp`: the event beyond which this one is rough.
+    pub(super) fn useful(&self, h: f64, cusp: Option<usize>) -> f64 {
         let beyond = |i: usize| if Some(i) == cusp { BEYOND_A_CUSP } else { BEYOND };
-        self.event(t, h, first, |_| true).map_or(h, |(way, i)| beyond(i) * way * h)
+        self.event(|_| true).map_or(h, |(way, i)| beyond(i) * way * h)
     }
 
     /// How much of such a step lies before the event `cusp`, and a little more.
-    pub(super) fn smooth(&self, t: f64, h: f64, first: &Look, cusp: Option<usize>) -> f64 {
-        let way = cusp.and_then(|cusp| self.event(t, h, first, |i| i == cusp));
+    pub(super) fn smooth(&self, h: f64, cusp: Option<usize>) -> f64 {
+        let way = cusp.and_then(|cusp| self.event(|i| i == cusp));
         way.map_or(h, |(way, _)| (BEYOND_A_CUSP * way * h).min(h))
     }
 
-    /// The right-hand side in one mode, what it sees on its way kept. Always inlined: its slope is written into the step,
-    /// not copied there.
-    pub(super) fn slope_in<'a>(
-        &'a self,
-        model: &'a Model,
-        mode: Mode,
-        grips: bool,
-    ) -> impl Fn(f64, &State) -> Result<State, ()> + 'a {
-        #[inline(always)]
-        move |t, y| {
-            let (list, next) = &mut *self.last.borrow_mut();
-            let place = &mut list[*next];
-            *next = (*next + 1) % KEPT;
-            let note = |p: &WedgePoint, f: &Forces| *place = (t, seen(model, &mode, y, p, f, grips));
-            model.slope_noting(&mode, t, y, note).ok_or(())
-        }
+    /// The right-hand side in one mode, what it sees on its way kept.
+    pub(super) fn slope_in<'a>(&'a self, model: &'a Model, mode: Mode, grips: bool) -> Observed<'a> {
+        Observed { trail: self, model, mode, grips }
+    }
+}
+
+/// The right-hand side in one mode, which leaves a trail where it is looked at.
+pub(super) struct Observed<'a> {
+    trail: &'a Trail,
+    model: &'a Model,
+    mode: Mode,
+    grips: bool,
+}
+
+/// Always inlined: a slope is written into the step, not copied there.
+impl RightHandSide<N_STATE> for Observed<'_> {
+    type Failure = ();
+
+    #[inline(always)]
+    fn slope(&mut self, t: f64, y: &State) -> Result<State, ()> {
+        self.model.slope(&self.mode, t, y).ok_or(())
+    }
+
+    #[inline(always)]
+    fn slope_at_look(&mut self, look: usize, t: f64, y: &State) -> Result<State, ()> {
+        let (model, mode) = (self.model, &self.mode);
+        let (looks, count) = &mut *self.trail.seen.borrow_mut();
+        let p = model.point(mode.place, y[0]);
+        let rates = model.rates(mode, &p, y);
+        let f = model.forces_with::<true>(mode, t, y, &p, &rates);
+        looks[look] = seen(model, mode, y, &p, &f, self.grips);
+        *count = look + 1;
+        model.slope_of(mode, &rates, &f).ok_or(())
     }
 }
 
@@ -101,6 +112,9 @@ pub(super) fn cusp(place: Place) -> Option<usize> {
         Place::Arc(_) | Place::Open => None,
     }
 }
+
+/// An event function was nowhere seen to be positive before it was negative.
+pub(super) struct NeverPositive;
 
 /// A step looked at, from its start to its end.
 #[derive(Debug, Clone, Copy)]
@@ -117,25 +131,25 @@ impl Looks {
         Self { at: [0.0; MOST], seen: [Look::NOTHING; MOST], count: 0 }
     }
 
-    /// At an accepted step in `mode` of which the start has been seen as `first`.
+    /// At an accepted step in `mode` which has left `trail`.
     pub(super) fn take(
         &mut self,
         model: &Model,
         mode: &Mode,
         grips: bool,
         step: &Step<N_STATE>,
-        first: &Look,
         trail: &Trail,
     ) {
+        let (seen, _) = &*trail.seen.borrow();
         self.count = 0;
-        self.push(0.0, *first);
-        for &theta in &step.looks()[1..] {
-            let t = step.t() + theta * step.h();
-            let known = if step.is_explicit() { trail.at(t) } else { None };
-            let seen = known.unwrap_or_else(|| {
+        for (j, &theta) in step.looks().iter().enumerate() {
+            let known = j == 0 || step.is_explicit();
+            let seen = if known {
+                seen[j]
+            } else {
                 let y = if theta == 1.0 { *step.y1() } else { step.glance(theta) };
-                look(model, mode, t, &y, grips)
-            });
+                look(model, mode, step.t() + theta * step.h(), &y, grips)
+            };
             self.push(theta, seen);
         }
     }
@@ -204,9 +218,48 @@ impl Looks {
         if beyond { 0.0 } else { 0.5 * (-bend).max(0.0) * gap * gap }
     }
 
+    /// Where, as a fraction of the step, a function that is `after` < 0 at `to` falls through zero beyond look `left`, to
+    /// `width`. `of` reads it off a look, `value` knows it anywhere inside the step; `None` where by that it is not negative
+    /// at `to`.
+    pub(super) fn crossing(
+        &self,
+        left: usize,
+        to: f64,
+        after: f64,
+        of: impl Fn(&Look) -> f64,
+        width: f64,
+        value: impl Fn(f64) -> f64,
+    ) -> Result<Option<f64>, NeverPositive> {
+        let (from, before) = (self.at[left], of(&self.seen[left]));
+        let guess = self.zero(left, |j| of(&self.seen[j]));
+        let root = |from: f64, to: f64, at_from: f64, at_to: f64| {
+            root::bracketed_near(from, to, at_from, at_to, guess, width, &value)
+        };
+        // Looks inside a step are a little off `value`, which matters near them alone.
+        let near = BESIDE_A_LOOK * (to - from);
+        let inside = |theta: &f64| *theta > from + near && *theta < to - near;
+        if before > 0.0
+            && let Some(theta) = root(from, to, before, after).filter(inside)
+        {
+            return Ok(Some(theta));
+        }
+        let end = if to == 1.0 { after } else { value(to) };
+        if end >= 0.0 {
+            return Ok(None);
+        }
+        let mut start = (from, if left == 0 { before } else { value(from) });
+        if start.1 <= 0.0 {
+            // Starts at zero (a contact just released): find where it has become positive.
+            let inside = [0.02, 0.1, 0.25, 0.5, 0.75].map(|f| from + f * (to - from));
+            let mut seen = inside.into_iter().map(|theta| (theta, value(theta)));
+            start = seen.find(|&(_, e)| e > 0.0).ok_or(NeverPositive)?;
+        }
+        Ok(root(start.0, to, start.1, end))
+    }
+
     /// Where a function is zero between look `left` and the next, by the parabola of the fraction over its values at those
     /// and at a third beside them: a guess, no number where it has none.
-    pub(super) fn zero(&self, left: usize, value: impl Fn(usize) -> f64) -> f64 {
+    fn zero(&self, left: usize, value: impl Fn(usize) -> f64) -> f64 {
         let (a, b) = (left, (left + 1).min(self.count - 1));
         let c = if b + 1 < self.count { b + 1 } else { left.saturating_sub(1) };
         let (fa, fb, fc) = (value(a), value(b), value(c));

@@ -165,7 +165,7 @@ impl Model {
     }
 
     /// Geometry and normal force at `alpha` with the functions of `place`.
-    #[inline]
+    #[inline(always)]
     pub fn point(&self, place: Place, alpha: f64) -> WedgePoint {
         match place {
             Place::Arc(k) => self.curve.in_arc(k, alpha),
@@ -264,6 +264,19 @@ impl Model {
         p: &WedgePoint,
         rates: &[f64; 4],
     ) -> Forces {
+        self.forces_with::<true>(mode, t, y, p, rates)
+    }
+
+    /// The same; without `RADIAL` the radial equation is left out where B holds, which does not need it, and N_be is 0.
+    #[inline(always)]
+    pub(super) fn forces_with<const RADIAL: bool>(
+        &self,
+        mode: &Mode,
+        t: f64,
+        y: &State,
+        p: &WedgePoint,
+        rates: &[f64; 4],
+    ) -> Forces {
         let [da, dp, di, de] = *rates;
         let n = self.count;
         let (speed, spin) = self.mean_speed(t);
@@ -299,8 +312,9 @@ impl Model {
         // theta_be'' - phi'' - rho_e alpha'' - rho_e' alpha'^2 = 0 at B.
         let row_i = |v: &Vector2<f64>, race: f64| race - v[1] + p.rho_i * v[0];
         let row_e = |v: &Vector2<f64>, race: f64| race - v[1] - p.rho_e * v[0];
-        let (sin_bg, cos_bg) = p.beta_gamma.sin_cos();
-        let (sin_g, cos_g) = p.gamma.sin_cos();
+        let radial = RADIAL || mode.outer != Grip::Stick;
+        let of = |angle: f64| if radial { angle.sin_cos() } else { (0.0, 1.0) };
+        let ((sin_bg, cos_bg), (sin_g, cos_g)) = (of(p.beta_gamma), of(p.gamma));
         let press = n_bi * cos_bg + self.mass_kg * p.oc_g * phi_rate * phi_rate;
         // A x = b for x = (T_bi, T_be).
         let (mut a, mut b) = (Matrix2::zeros(), Vector2::zeros());
@@ -334,7 +348,7 @@ impl Model {
         let determinant = a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)];
         let mut t_bi = (b[0] * a[(1, 1)] - b[1] * a[(0, 1)]) / determinant;
         let mut t_be = (a[(0, 0)] * b[1] - a[(1, 0)] * b[0]) / determinant;
-        let mut n_be = (press + t_bi * sin_bg - t_be * sin_g) / cos_g;
+        let mut n_be = if radial { (press + t_bi * sin_bg - t_be * sin_g) / cos_g } else { 0.0 };
         if n_be < 0.0 && mode.outer != Grip::Stick {
             // B has let go: no force there.
             n_be = 0.0;
@@ -385,23 +399,11 @@ impl Model {
     }
 
     /// Right-hand side of the first-order system; `None` where it is not finite.
-    pub fn slope(&self, mode: &Mode, t: f64, y: &State) -> Option<State> {
-        self.slope_noting(mode, t, y, |_, _| ())
-    }
-
-    /// The same; the point of the curve and the forces that it comes from are shown to `note`.
     #[inline(always)]
-    pub(super) fn slope_noting(
-        &self,
-        mode: &Mode,
-        t: f64,
-        y: &State,
-        note: impl FnOnce(&WedgePoint, &Forces),
-    ) -> Option<State> {
+    pub fn slope(&self, mode: &Mode, t: f64, y: &State) -> Option<State> {
         let p = self.point(mode.place, y[0]);
         let rates = self.rates(mode, &p, y);
-        let f = self.forces_at(mode, t, y, &p, &rates);
-        note(&p, &f);
+        let f = self.forces_with::<false>(mode, t, y, &p, &rates);
         self.slope_of(mode, &rates, &f)
     }
 

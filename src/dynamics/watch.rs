@@ -2,7 +2,7 @@
 
 use super::driver::Driver;
 use super::events::look;
-use super::looks::{Looks, parabola};
+use super::looks::{Looks, Observed, parabola};
 use super::model::{N_STATE, State};
 use super::run::{Peaks, Sample};
 use crate::ode::step::Step;
@@ -13,7 +13,7 @@ impl Driver<'_> {
         &mut self,
         step: &Step<N_STATE>,
         looks: &Looks,
-        rhs: &mut impl FnMut(f64, &State) -> Result<State, ()>,
+        rhs: &mut Observed,
     ) -> Result<(), ()> {
         let (mode, model) = (self.run.mode, self.model);
         let (start, length) = (step.t(), step.h());

@@ -66,7 +66,7 @@ impl<const M: usize> Pieces<M> {
     #[inline]
     pub fn at(&self, x: f64) -> [f64; M] {
         let last = self.panels.len() - 1;
-        let i = self.panels[..last].partition_point(|p| p.until < x);
+        let i: usize = self.panels[..last].iter().map(|p| usize::from(p.until < x)).sum();
         let span = &self.panels[i];
         // In [0, PIECES] on the panel.
         let place = (0.5 * PIECES as f64)
@@ -76,7 +76,7 @@ impl<const M: usize> Pieces<M> {
                 Grade::Until => 2.0 - 2.0 * ((span.until - x) * span.scale).max(0.0).sqrt(),
             };
         // A float that is no number or negative becomes piece 0.
-        let piece = (place as usize).min(PIECES - 1);
+        let piece = (place as i32).clamp(0, PIECES as i32 - 1) as usize;
         let v = 2.0 * (place - piece as f64) - 1.0;
         let rows = &self.powers[i * PIECES + piece];
         let mut sum = rows[LOW];

@@ -7,6 +7,7 @@
 //! is above the tolerance, so it is followed.
 
 use super::radau5::Radau;
+use super::rhs::RightHandSide;
 use super::step::{Counters, Room, Step, Tolerance};
 use nalgebra::{Const, DimMin};
 
@@ -65,10 +66,10 @@ where
     /// An accepted step of at most `longest`, shortened to `rest`, in `room`; `None` where steps become too short.
     /// Ahead lies, by a step of length h that has just been tried: how much of it is worth another trial where it has
     /// failed, h where all of it is; and how much of it has a smooth right-hand side.
-    pub fn step<'a, X>(
+    pub fn step<'a, R: RightHandSide<N>>(
         &mut self,
         room: &'a mut Room<N>,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         (useful, smooth): (&impl Fn(f64) -> f64, &impl Fn(f64) -> f64),
         t: f64,
         y: &[f64; N],
@@ -108,7 +109,7 @@ where
                         (h, sound)
                     }
                     Ok(()) => (room.explicit.next_h().min(0.9 * h), useful(h)),
-                    Err(_) => (0.25 * h, useful(h)),
+                    Err(_) => (0.25 * h, h),
                 }
             };
             counters.rejections += 1;
@@ -141,10 +142,10 @@ where
 
     /// After an explicit step in `room`: the next length, and whether an implicit one of its beginning, then in `room`
     /// too, goes further.
-    fn maybe_implicit<X>(
+    fn maybe_implicit<R: RightHandSide<N>>(
         &mut self,
         room: &mut Room<N>,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         slope: &[f64; N],
         longest: f64,
         rest: f64,
@@ -180,14 +181,14 @@ where
     }
 
     /// Fastest rate of the right-hand side at (t, y), 1/s, and the part of the slope there that is as fast.
-    pub fn fastest<X>(
+    pub fn fastest<R: RightHandSide<N>>(
         &mut self,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         t: f64,
         y: &[f64; N],
         counters: &mut Counters,
     ) -> Option<(f64, [f64; N])> {
-        let slope = rhs(t, y).ok()?;
+        let slope = rhs.slope(t, y).ok()?;
         counters.rhs_evaluations += 1;
         self.radau.differentiate(rhs, t, y, &slope, self.floor, counters).ok()?;
         self.radau.fast_part(&slope)

@@ -3,6 +3,7 @@
 //! Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, II.5 and II.10.
 
 use super::coefficients::{A, B, B_HAT, C, D, E};
+use super::rhs::RightHandSide;
 use super::step::{Counters, Tolerance};
 
 /// One trial step from (t, y) over h.
@@ -32,6 +33,9 @@ impl<const N: usize> Default for Step<N> {
 /// on states are good to order 5, sum_j a_ij c_j^(q-1) = c_i^q/q for q up to 5; the fourth, near the start, to order 3.
 pub const LOOKS: [f64; 7] = [0.0, C[3], C[6], C[5], C[9], C[10], 1.0];
 
+/// Which of [`LOOKS`] a stage is; 0 where it is none.
+const LOOK_OF: [usize; 12] = [0, 0, 0, 1, 0, 3, 2, 0, 0, 4, 5, 0];
+
 /// Weighted error that the next length aims at.
 const AIM: f64 = 0.15;
 
@@ -55,9 +59,9 @@ impl<const N: usize> Step<N> {
     ///
     /// # Errors
     /// Those of the right-hand side; what is in `self` then is no step.
-    pub fn take<X>(
+    pub fn take<R: RightHandSide<N>>(
         &mut self,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         t: f64,
         y: &[f64; N],
         slope0: &[f64; N],
@@ -65,20 +69,22 @@ impl<const N: usize> Step<N> {
         tolerance: &Tolerance<N>,
         most: f64,
         counters: &mut Counters,
-    ) -> Result<(), X> {
+    ) -> Result<(), R::Failure> {
         let k = &mut self.stages;
         k[0] = *slope0;
         for stage in 1..12 {
             let mut z = *y;
-            for (j, &a) in A[stage - 1].iter().enumerate() {
-                if a != 0.0 {
-                    let ha = h * a;
-                    for i in 0..N {
-                        z[i] += ha * k[j][i];
-                    }
+            for (k, a) in k.iter().zip(A[stage - 1]) {
+                let ha = h * a;
+                for i in 0..N {
+                    z[i] += ha * k[i];
                 }
             }
-            k[stage] = rhs(t + C[stage] * h, &z)?;
+            let at = t + C[stage] * h;
+            k[stage] = match LOOK_OF[stage] {
+                0 => rhs.slope(at, &z)?,
+                look => rhs.slope_at_look(look, at, &z)?,
+            };
         }
         let mut y1 = *y;
         let (mut err5, mut err3) = (0.0, 0.0);
@@ -101,7 +107,7 @@ impl<const N: usize> Step<N> {
         let error = if blend > 0.0 { h.abs() * err5 / (blend * N as f64).sqrt() } else { 0.0 };
         counters.rhs_evaluations += 11;
         if error <= most {
-            self.slope1 = rhs(t + h, &y1)?;
+            self.slope1 = rhs.slope_at_look(LOOKS.len() - 1, t + h, &y1)?;
             counters.rhs_evaluations += 1;
         }
         (self.t, self.h, self.y0, self.y1, self.error) = (t, h, *y, y1, error);
@@ -136,11 +142,11 @@ impl<const N: usize> Step<N> {
     }
 
     /// Dense output of order 7 over the step (three more evaluations).
-    pub fn dense<X>(
+    pub fn dense<R: RightHandSide<N>>(
         &self,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         counters: &mut Counters,
-    ) -> Result<Dense<N>, X> {
+    ) -> Result<Dense<N>, R::Failure> {
         let mut more = [self.slope1; 4];
         for extra in 1..4 {
             let mut z = self.y0;
@@ -151,7 +157,7 @@ impl<const N: usize> Step<N> {
                     z[i] += ha * k[i];
                 }
             }
-            more[extra] = rhs(self.t + C[12 + extra] * self.h, &z)?;
+            more[extra] = rhs.slope(self.t + C[12 + extra] * self.h, &z)?;
         }
         counters.rhs_evaluations += 3;
         let difference: [f64; N] = std::array::from_fn(|i| self.y1[i] - self.y0[i]);

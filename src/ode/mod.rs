@@ -7,5 +7,6 @@ pub mod adaptive;
 pub mod coefficients;
 pub mod dop853;
 pub mod radau5;
+pub mod rhs;
 pub mod rk4;
 pub mod step;

@@ -3,6 +3,7 @@
 //! Hairer, Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8. L-stable: what is faster than the
 //! step and smaller than the tolerance is damped, not followed.
 
+use super::rhs::RightHandSide;
 use super::step::{Counters, Tolerance};
 use nalgebra::{Complex, Const, DimMin, LU, SMatrix, SVector};
 
@@ -117,20 +118,20 @@ where
     ///
     /// # Errors
     /// Those of the right-hand side.
-    pub fn differentiate<X>(
+    pub fn differentiate<R: RightHandSide<N>>(
         &mut self,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         t: f64,
         y: &[f64; N],
         slope: &[f64; N],
         floor: f64,
         counters: &mut Counters,
-    ) -> Result<(), X> {
+    ) -> Result<(), R::Failure> {
         let mut z = *y;
         for j in 0..N {
             z[j] = y[j] + f64::EPSILON.sqrt() * y[j].abs().max(floor);
             let step = z[j] - y[j];
-            let shifted = rhs(t, &z)?;
+            let shifted = rhs.slope(t, &z)?;
             counters.rhs_evaluations += 1;
             for i in 0..N {
                 self.jacobian[(i, j)] = (shifted[i] - slope[i]) / step;
@@ -185,9 +186,9 @@ where
     }
 
     /// One trial step; `None` where Newton's iteration does not converge or leaves the domain: shorten the step.
-    pub fn step<X>(
+    pub fn step<R: RightHandSide<N>>(
         &mut self,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         t: f64,
         y: &[f64; N],
         slope: &[f64; N],
@@ -233,9 +234,9 @@ where
     }
 
     /// Stage increments z, iterations, convergence rate.
-    fn solve<X>(
+    fn solve<R: RightHandSide<N>>(
         &self,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         t: f64,
         y: &[f64; N],
         h: f64,
@@ -261,7 +262,7 @@ where
             let mut f = [[0.0; N]; 3];
             for s in 0..3 {
                 let at: [f64; N] = std::array::from_fn(|i| y[i] + z[s][i]);
-                f[s] = rhs(t + C[s] * h, &at).ok()?;
+                f[s] = rhs.slope(t + C[s] * h, &at).ok()?;
                 counters.rhs_evaluations += 1;
             }
             let mixed = |row: usize, i: usize| (0..3).map(|s| T_INVERSE[row][s] * f[s][i]).sum::<f64>();
@@ -303,9 +304,9 @@ where
         None
     }
 
-    fn finish<X>(
+    fn finish<R: RightHandSide<N>>(
         &self,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         t: f64,
         y: &[f64; N],
         slope: &[f64; N],
@@ -330,7 +331,7 @@ where
         if error > 1.0 {
             // Filtered once more: bounded where h lambda is large.
             let at: [f64; N] = std::array::from_fn(|i| y[i] + e[i]);
-            let again = rhs(t, &at).ok()?;
+            let again = rhs.slope(t, &at).ok()?;
             counters.rhs_evaluations += 1;
             e = SVector::<f64, N>::from_fn(|i, _| again[i] + ze[i]);
             factors.real.solve_mut(&mut e);

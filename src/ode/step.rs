@@ -1,5 +1,6 @@
 //! What explicit and implicit steps have in common: tolerances, work done, the step taken and what lies inside it.
 
+use super::rhs::RightHandSide;
 use super::{dop853, radau5};
 
 /// Work done.
@@ -154,11 +155,11 @@ impl<const N: usize> Step<'_, N> {
     ///
     /// # Errors
     /// Those of the right-hand side.
-    pub fn dense<X>(
+    pub fn dense<R: RightHandSide<N>>(
         &self,
-        rhs: &mut impl FnMut(f64, &[f64; N]) -> Result<[f64; N], X>,
+        rhs: &mut R,
         counters: &mut Counters,
-    ) -> Result<Dense<N>, X> {
+    ) -> Result<Dense<N>, R::Failure> {
         Ok(match self {
             Self::Explicit(s) => Dense::Explicit(s.dense(rhs, counters)?),
             Self::Implicit(s) => Dense::Implicit((*s).clone()),

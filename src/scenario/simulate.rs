@@ -55,10 +55,9 @@ const LEFT: f64 = 0.1;
 const ORDER: f64 = 8.0;
 
 /// Simulate `scenario` with the event-driven scheme. Three runs, whose steps differ tenfold in tolerance, the longest by
-/// its eighth root: the finest is
-/// the answer, its difference to the one before the error estimate, at least a tenth of the difference before that.
-/// Where that exceeds the tolerance asked for, a finer run follows, until they agree, a run meets its limit of work, or
-/// steps reach rounding.
+/// its eighth root: the finest is the answer, its difference to the one before the error estimate, at least a tenth of the
+/// difference before that. Where that exceeds the tolerance asked for, a finer run follows, until they agree, a run meets
+/// its limit of work, or steps reach rounding.
 ///
 /// # Errors
 /// [`NoScenario`] where the scenario has no start; whatever happens afterwards is a result.

@@ -147,7 +147,7 @@ impl WedgeCurve {
 
     /// Everything at `alpha`, with the functions of arc `k`, which are continued smoothly a little past its
     /// ends so that a trial step sees no kink. Below first contact N stays 0.
-    #[inline]
+    #[inline(always)]
     pub fn in_arc(&self, k: usize, alpha: f64) -> WedgePoint {
         let arc = &self.arcs[k];
         if k > 0 {

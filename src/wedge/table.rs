@@ -58,7 +58,7 @@ impl ArcTable {
 }
 
 /// `slope`: d(variable of the table)/d alpha; `unit`: what the windup's lane is to be multiplied by.
-#[inline]
+#[inline(always)]
 pub(super) fn point(v: &[f64; READ], n_bi: f64, slope: f64, unit: f64) -> WedgePoint {
     WedgePoint {
         oa: v[0],
