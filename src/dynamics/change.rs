@@ -150,7 +150,8 @@ impl Driver<'_> {
         let (inner, outer) = (again(mode.inner, now[INNER] < 0.0), again(mode.outer, now[OUTER] < 0.0));
         let mut next = self.chosen(t, &y, p, mode.place, inner, outer);
         if next.mode == mode {
-            // Nothing better: go on in this mode for a step that rounding cannot undo.
+            // Nothing better: go on in this mode for a step that rounding cannot undo. A slip whose velocity is against its
+            // sign even then slips the other way.
             self.run.t_s = t + 1e-12;
             let rhs = |t: f64, y: &State| self.model.slope(&mode, t, y).ok_or(());
             let Ok(slope) = rhs(t, &y) else {
@@ -160,7 +161,14 @@ impl Driver<'_> {
             for (y, rate) in self.run.state.iter_mut().zip(slope) {
                 *y += 1e-12 * rate;
             }
-            next.seen = None;
+            let y = &self.run.state;
+            let p = self.model.point(mode.place, y[0]);
+            let (v_a, v_b) = self.model.slip_velocities(&p, &self.model.rates(&mode, &p, y));
+            let with = |grip: Grip, v: f64| match grip {
+                Grip::Slip(s) if s * v < 0.0 => Grip::Slip(-s),
+                _ => grip,
+            };
+            next = Next::unseen(Mode { inner: with(mode.inner, v_a), outer: with(mode.outer, v_b), ..mode });
         }
         self.enter(next);
         true

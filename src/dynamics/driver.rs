@@ -22,6 +22,9 @@ const WIDTH: f64 = 1e-5;
 /// The same for the ends of a place, which alpha must not miss, and at least, as a fraction of a step's length.
 const FINEST_WIDTH: f64 = 1e-13;
 
+/// From here on, as a fraction of the way to an event, another is at the same time.
+const TOGETHER: f64 = 1.0 - 1e-9;
+
 pub(super) struct Driver<'a> {
     pub(super) model: &'a Model,
     pub(super) settings: &'a RunSettings,
@@ -192,7 +195,7 @@ impl<'a> Driver<'a> {
                 }
             }
         }
-        match self.crest(step, looks, dense, rhs) {
+        match self.crest(step, looks, dense, None, rhs) {
             Ok(Some((theta, which, d))) => return self.land(step, looks, theta, which, &d, rhs),
             Ok(None) if self.watch(step, looks, rhs).is_ok() => {
                 self.audit_step(step, rhs);
@@ -212,12 +215,13 @@ impl<'a> Driver<'a> {
     }
 
     /// The first event of a function that dips below zero and rises again between two looks: where its lowest look
-    /// is nearer to zero than it can fall between looks.
+    /// is nearer to zero than it can fall between looks. A step may have been cut where event `landed` is.
     fn crest(
         &mut self,
         step: &Step<N_STATE>,
         looks: &Looks,
         mut dense: Option<Dense<N_STATE>>,
+        landed: Option<usize>,
         rhs: &mut Observed,
     ) -> Result<Option<(f64, usize, Dense<N_STATE>)>, ()> {
         let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
@@ -225,6 +229,9 @@ impl<'a> Driver<'a> {
             let e = |j: usize| looks.seen(j).events[i];
             // A contact just released starts at zero and rises: that is no dip.
             for j in 1..looks.count() {
+                if landed == Some(i) && j + 1 == looks.count() {
+                    continue;
+                }
                 let (left, right) = looks.beside(j);
                 let bottom = e(j) <= e(left) && e(j) <= e(right);
                 if !bottom || e(j) >= looks.overshoot(j, |j| -e(j)) {
@@ -243,7 +250,9 @@ impl<'a> Driver<'a> {
                 if depth > 0.0 {
                     let t = step.t() + theta * step.h();
                     let there = look(model, &mode, t, &d.at(t), grips).events;
-                    if let Found::At(theta, which) = self.first_event(&d, step, looks, left, theta, &there) {
+                    if let Found::At(theta, which) = self.first_event(&d, step, looks, left, theta, &there)
+                        && (landed.is_none() || theta < TOGETHER)
+                    {
                         return Ok(Some((theta, which, d)));
                     }
                 }
@@ -303,6 +312,17 @@ impl<'a> Driver<'a> {
             };
             let looks = looks.until(theta, sight, sight(theta));
             let part = step.until(h, dense);
+            // Another function may have dipped below zero on the way, or still be there.
+            match self.crest(&part, &looks, None, Some(which), rhs) {
+                Ok(None) => {}
+                Ok(Some((theta, which, dense))) => {
+                    return self.land(&part, &looks, theta, which, &dense, rhs);
+                }
+                Err(()) => {
+                    self.stop(Stop::NotFinite);
+                    return false;
+                }
+            }
             // A step that was short because the event was expected says little of how long the next in this mode may be.
             self.stepper.h = step.h().max(self.lengths[kind(&mode)].min(self.stepper.h));
             if self.watch(&part, &looks, rhs).is_err() {
