@@ -10,7 +10,8 @@ use super::watch::highest;
 use super::zeno::Zeno;
 use crate::ode::adaptive::Adaptive;
 use crate::ode::rhs::RightHandSide;
-use crate::ode::step::{Dense, Room, Step, Tolerance};
+use crate::ode::step::{Dense, Room, Step};
+use crate::wedge::HELD_RAD;
 use std::sync::atomic::Ordering;
 
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
@@ -43,25 +44,6 @@ pub(super) struct Driver<'a> {
     pub(super) seen: Option<Look>,
     /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
     lengths: [f64; KINDS],
-}
-
-impl RunSettings {
-    /// What the error of a step in `mode` may be. Where both contacts hold, the weighted error over work is least with a
-    /// tenth of it: what is wrong with the state there is wrong with the slip that follows.
-    /// Rates that follow from others have none: of alpha' the slope is infinite at first contact.
-    fn tolerance_in(&self, mode: &Mode) -> Tolerance<N_STATE> {
-        let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
-        let outer = mode.outer == Grip::Stick;
-        let relative = if inner && outer { 0.1 * self.tolerance } else { self.tolerance };
-        let (angle, rate, slip) = (1e-2 * relative, 10.0 * relative, 1e-3 * relative);
-        let unless = |follows: bool| if follows { f64::INFINITY } else { rate };
-        let (alpha, phi) = (unless(inner && outer), unless(inner || outer));
-        Tolerance {
-            relative,
-            absolute: [angle, angle, angle, angle, alpha, phi, rate, rate, slip, slip],
-            integrated: [0.0, 0.0, 0.0, 0.0, angle, angle, angle, angle, 0.0, 0.0],
-        }
-    }
 }
 
 /// Kinds of mode.
@@ -293,6 +275,27 @@ impl<'a> Driver<'a> {
         first
     }
 
+    /// The first event before the cusp at first contact, which lies at `theta`, that shows only near it: what rolling demands
+    /// grows there with the slope of rho, without bound but for the last [`HELD_RAD`], where rho is held.
+    fn before_the_cusp(
+        &self,
+        step: &Step<N_STATE>,
+        looks: &Looks,
+        theta: f64,
+        dense: &Dense<N_STATE>,
+    ) -> Option<(f64, usize)> {
+        let (mode, grips) = (self.run.mode, !self.settings.rolling);
+        let at = |theta: f64| step.t() + theta * step.h();
+        let beside = 2.0 * HELD_RAD / (dense.at(at(theta))[4] * step.h()).abs();
+        let near = theta - beside;
+        let left = looks.last_before(near)?;
+        let there = look(self.model, &mode, at(near), &dense.at(at(near)), grips).events;
+        match self.first_event(dense, step, looks, left, near, &there) {
+            Found::At(theta, which) => Some((theta, which)),
+            Found::Nothing | Found::TooCoarse => None,
+        }
+    }
+
     /// Take the step only up to the event and change the mode there.
     fn land(
         &mut self,
@@ -303,14 +306,21 @@ impl<'a> Driver<'a> {
         dense: &Dense<N_STATE>,
         rhs: &mut Observed,
     ) -> bool {
+        let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
+        let sight = |theta: f64| {
+            let t = step.t() + theta * step.h();
+            look(model, &mode, t, &dense.at(t), grips)
+        };
+        let mut there = sight(theta);
+        let theta = looks.beyond_a_jump(theta, which, &mut there, sight);
         let h = theta * step.h();
         if h > 0.0 {
-            let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
-            let sight = |theta: f64| {
-                let t = step.t() + theta * step.h();
-                look(model, &mode, t, &dense.at(t), grips)
-            };
-            let looks = looks.until(theta, sight, sight(theta));
+            if cusp(mode.place) == Some(which)
+                && let Some((theta, which)) = self.before_the_cusp(step, looks, theta, dense)
+            {
+                return self.land(step, looks, theta, which, dense, rhs);
+            }
+            let looks = looks.until(theta, sight, there);
             let part = step.until(h, dense);
             // Another function may have dipped below zero on the way, or still be there.
             match self.crest(&part, &looks, None, Some(which), rhs) {

@@ -13,6 +13,8 @@ use std::cell::RefCell;
 const MOST: usize = dop853::LOOKS.len();
 /// Up to here, as a part of a step, an event counts as at its start.
 const AT_START: f64 = 1e-3;
+/// A function that is still this part of what it is elsewhere in the step where it has been located jumps there.
+const JUMP: f64 = 1e-3;
 /// Up to here, as a part of the way between two looks, their own values do not decide where a function is zero.
 const BESIDE_A_LOOK: f64 = 1e-2;
 /// How far beyond an event that is expected a step goes, in parts of the way there.
@@ -168,6 +170,37 @@ impl Looks {
         }
         part.push(1.0, last);
         part
+    }
+
+    /// `theta`, where event `which` has been located and `there` is seen; where it jumps through zero, a place beyond, at which
+    /// what comes next can be told.
+    pub(super) fn beyond_a_jump(
+        &self,
+        theta: f64,
+        which: usize,
+        there: &mut Look,
+        sight: impl Fn(f64) -> Look,
+    ) -> f64 {
+        let size = self.seen[..self.count].iter().map(|l| l.events[which].abs()).fold(0.0, f64::max);
+        let jumps = |look: &Look| look.events[which] > JUMP * size;
+        if !jumps(there) {
+            return theta;
+        }
+        let mut beside = 1e-13;
+        while beside < 1e-6 && theta + beside < 1.0 {
+            let beyond = sight(theta + beside);
+            if beyond.events[which] < 0.0 {
+                *there = beyond;
+                return theta + beside;
+            }
+            beside *= 2.0;
+        }
+        theta
+    }
+
+    /// The last look before the fraction `theta`.
+    pub(super) fn last_before(&self, theta: f64) -> Option<usize> {
+        self.at[..self.count].iter().rposition(|&at| at < theta)
     }
 
     fn push(&mut self, at: f64, seen: Look) {

@@ -2,8 +2,8 @@
 
 use super::driver::Driver;
 use super::energy::EnergyBalance;
-use super::model::{Forces, Grip, Mode, Model, Place, State};
-use crate::ode::step::Counters;
+use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
+use crate::ode::step::{Counters, Tolerance};
 use std::sync::atomic::AtomicBool;
 
 /// Settings of a run.
@@ -203,6 +203,25 @@ pub struct Run {
     pub engaged: Option<Engaged>,
     /// Every mode with the time at which it began, s; empty where no samples were asked for.
     pub modes: Vec<(f64, Mode)>,
+}
+
+impl RunSettings {
+    /// What the error of a step in `mode` may be. Where both contacts hold, the weighted error over work is least with a
+    /// tenth of it: what is wrong with the state there is wrong with the slip that follows.
+    /// Rates that follow from others have none: of alpha' the slope is infinite at first contact.
+    pub(super) fn tolerance_in(&self, mode: &Mode) -> Tolerance<N_STATE> {
+        let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
+        let outer = mode.outer == Grip::Stick;
+        let relative = if inner && outer { 0.1 * self.tolerance } else { self.tolerance };
+        let (angle, rate, slip) = (1e-2 * relative, 10.0 * relative, 1e-3 * relative);
+        let unless = |follows: bool| if follows { f64::INFINITY } else { rate };
+        let (alpha, phi) = (unless(inner && outer), unless(inner || outer));
+        Tolerance {
+            relative,
+            absolute: [angle, angle, angle, angle, alpha, phi, rate, rate, slip, slip],
+            integrated: [0.0, 0.0, 0.0, 0.0, angle, angle, angle, angle, 0.0, 0.0],
+        }
+    }
 }
 
 impl Run {

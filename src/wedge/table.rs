@@ -19,7 +19,7 @@ const LANES: usize = 11;
 pub(super) const READ: usize = LANES + 3;
 
 /// Distance from first contact below which the geometry is held, rad.
-pub(super) const HELD_RAD: f64 = 1e-9;
+pub(crate) const HELD_RAD: f64 = 1e-9;
 
 /// Panels of the first arc in s, as fractions of its end. The lowest two hold N below 1e-10 of the end's and
 /// matter only for continuity.
