@@ -109,8 +109,8 @@ pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, fineness: Fine
 const MOST_FRICTION: f64 = 1.0;
 /// Smallest coefficient that is tried.
 const LEAST_FRICTION: f64 = 1e-3;
-/// Relative width at which the bisection ends.
-const BISECTED: f64 = 1e-4;
+/// Least relative width at which the bisection ends; else it is the tolerance of the runs.
+const NARROWEST: f64 = 1e-12;
 
 /// The pure-rolling run of a prepared scenario that is integrated, and its demand.
 pub(super) fn roll(
@@ -166,7 +166,8 @@ fn contact_margin(static_n: f64, rolling: &Rolling) -> f64 {
     if margin.is_finite() { margin } else { 0.0 }
 }
 
-/// Smallest static friction with which the scene has the verdict "sticks", the kinetic one lowered with it;
+/// Smallest static friction with which the scene has the verdict "sticks", the kinetic one lowered with it, in the middle of
+/// what is left: two bisections of different width never agree by chance;
 /// right-hand sides; whether it was interrupted. `None` where even the largest does not do.
 fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Option<f64>, u64, bool) {
     let s = run_settings(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
@@ -184,9 +185,10 @@ fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Op
     if !sticks(high) {
         return (None, work, interrupted);
     }
-    while high > low * (1.0 + BISECTED) {
+    let width = fineness.tolerance.max(NARROWEST);
+    while high > low * (1.0 + width) {
         let middle = (low * high).sqrt();
         if sticks(middle) { high = middle } else { low = middle }
     }
-    (Some(high), work, interrupted)
+    (Some((low * high).sqrt()), work, interrupted)
 }
