@@ -109,6 +109,15 @@ fn the_promised_keys_are_there_and_consistent() {
         assert!(a["error_estimates"][key].is_number(), "{key}");
     }
     assert_eq!(a["error_estimate"], a["error_estimates"]["theta_inner_rad"]);
+    for key in ["tan_inner", "tan_outer", "normal_min_n", "normal_max_n", "normal_outer_max_n"] {
+        let extreme = &a["extremes"][key];
+        assert!(number(extreme, "at_error_s") >= 0.0 && number(extreme, "at_s") > 0.0, "{key}");
+        assert!(number(&a["error_estimates"], key) <= 1e-6 * number(extreme, "value").max(1000.0), "{key}");
+    }
+    let larger =
+        number(&a["extremes"]["tan_inner"], "value").max(number(&a["extremes"]["tan_outer"], "value"));
+    assert_eq!(number(&a, "peak_tan_demand"), larger);
+    assert_eq!(a["required_static_friction_by"], "bisection");
     let inner = &a["slip"]["inner"];
     // Slip at 10 Nm lasts 2.77 ms with the time in which the contact is open.
     let slipping = number(inner, "time_s") + number(&a, "contact_lost_s");
@@ -126,6 +135,7 @@ fn the_promised_keys_are_there_and_consistent() {
     }
     let stuck = json(DESIGN, "low-6-mu082", &[]);
     let needed = number(&stuck, "required_static_friction");
+    assert_eq!(stuck["required_static_friction_by"], "rolling");
     // The paper's 0.082 lies between the demands at 6 and at 10 Nm.
     assert!((needed - 0.0818).abs() < 1e-4 && needed < 0.082, "{needed}");
     assert!((number(&stuck, "slip_margin") - (0.082 / needed - 1.0)).abs() < 1e-12);
@@ -236,10 +246,17 @@ fn equilibria_overrun_and_engagement_are_answered() {
     assert_eq!((&hold["verdict"], &hold["method"]), (&"sticks".into(), &"equilibrium".into()));
     // tan omega at 16.8 Nm, static_multi_arc.csv.
     assert!((number(&hold, "required_static_friction") - 0.0809).abs() < 1e-3);
+    let row = &hold["equilibrium"];
+    assert!(number(row, "relative_error") < 1e-11, "{row}");
+    assert!((number(row, "torque_nm") - 16.8).abs() < 1e-12 && number(row, "windup_rad") > 0.0, "{row}");
     let run = json(design.path(), "run", &[]);
     assert_eq!(run["verdict"], "slips-overrunning");
     // The drag torque from which alpha_max was found comes back at mu = 0.1.
     assert!((number(&run, "drag_torque_nm") - 0.0166).abs() < 2e-5, "{}", run["drag_torque_nm"]);
+    // mu N OA at each of the sprags is the drag torque.
+    let row = &run["equilibrium"];
+    assert!(number(row, "relative_error") < 1e-11 && number(row, "tan_inner") == 0.1, "{row}");
+    assert_eq!(row["torque_nm"], run["drag_torque_nm"]);
     let lift_off = number(&run, "lift_off_rpm");
     assert!((4500.0..5500.0).contains(&lift_off), "{lift_off}");
     let fast = json(design.path(), "fast", &[]);

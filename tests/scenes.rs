@@ -180,6 +180,7 @@ fn contact_damping_takes_the_energy_that_it_should() {
         period_s: None,
         static_normal_n: 1.0,
         overrun: None,
+        free_run: None,
     };
     let r = run_at(&prepared, 1e-11, 20_001);
     let model = &prepared.model;

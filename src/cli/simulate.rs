@@ -187,7 +187,7 @@ fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Fai
     }
     Ok(match scene.simulation() {
         Some(s) if s.stop == Stop::Interrupted => Exit::Interrupted,
-        Some(s) if s.verdict.is_none() => Exit::Failed,
+        Some(s) if s.verdict.is_none() || s.stop.gave_up() => Exit::Failed,
         _ => Exit::Held,
     })
 }
@@ -200,15 +200,12 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
             notes.push("an equilibrium: nothing is integrated, --method and --step say nothing".into());
         }
     } else if let Some(s) = simulation
-        && s.verdict.is_none()
+        && (s.verdict.is_none() || s.stop.gave_up())
     {
-        let why = match s.stop {
-            Stop::Interrupted => "interrupted",
-            Stop::EventLimit => "too many changes of mode",
-            Stop::StepLimit => "too many steps, or steps that became too short",
-            _ => "the equations ceased to be finite, or only one of the two runs came to its end",
-        };
-        notes.push(format!("no verdict: {why}; the figures hold up to {:.6} s", s.t_s));
+        let lead = if s.verdict.is_none() { "no verdict" } else { "not to the end" };
+        let why = given_up(s.stop);
+        notes
+            .push(format!("{lead}: {why}; the figures hold up to {:.6} s, without an error estimate", s.t_s));
     }
     notes.extend(scene.damping.as_ref().and_then(damping::Effect::note));
     if let Some(s) = simulation
@@ -232,9 +229,13 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
         simulation.filter(|s| scene.method == "event" && s.error.is_some() && !s.tolerance_reached)
     {
         let [low, high] = s.spread_rad;
+        let (figure, by) = s.error.map_or(("", 0.0), |e| s.scales.worst_figure(&e));
+        let finer = s
+            .finer_gave_up
+            .map_or(String::new(), |stop| format!("; a finer run gave up: {}", given_up(stop)));
         notes.push(format!(
-            "the tolerance is not reached: theta_inner_end lies between {low:.9} and {high:.9} rad over the runs made; \
-             the scene may be sensitive by nature"
+            "the tolerance is not reached: furthest from it is the {figure}, {by:.1e} of its natural size{finer}; \
+             theta_inner_end lies between {low:.9} and {high:.9} rad over the runs made"
         ));
     }
     let moved = simulation.and_then(|s| s.error).map_or(0.0, |e| e.theta_inner_rad);
@@ -245,6 +246,16 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// Why a run ended before its time.
+fn given_up(stop: Stop) -> &'static str {
+    match stop {
+        Stop::Interrupted => "interrupted",
+        Stop::EventLimit => "too many changes of mode",
+        Stop::StepLimit => "too many steps, or steps that became too short",
+        _ => "the equations ceased to be finite, or only one of two runs came to its end",
+    }
 }
 
 /// Duration of a scenario that is integrated, s.

@@ -193,6 +193,7 @@ impl Driver<'_> {
             }
             _ => {}
         }
+        self.note_slip(&mode, p.n_bi);
         self.renew(mode);
         if let Some((p, f)) = next.seen {
             let look = seen(self.model, &mode, &self.run.state, &p, &f, !self.settings.rolling);
@@ -202,6 +203,17 @@ impl Driver<'_> {
         self.run.note_engagement();
         if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {
             self.run.modes.push((t, mode));
+        }
+    }
+
+    /// Remember under what load a contact that held begins to slip on entering `next`.
+    fn note_slip(&mut self, next: &Mode, n_bi: f64) {
+        let closed = |mode: &Mode| matches!(mode.place, Place::Arc(_));
+        let run = &mut self.run;
+        let begins = |from: Grip, to: Grip| from == Grip::Stick && to != Grip::Stick;
+        let slips = begins(run.mode.inner, next.inner) || begins(run.mode.outer, next.outer);
+        if slips && closed(&run.mode) && closed(next) && run.engaged.is_some() {
+            run.slip_begins_n = run.slip_begins_n.max(n_bi);
         }
     }
 }

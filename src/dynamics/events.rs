@@ -14,6 +14,9 @@ pub(super) const INNER: usize = 2;
 /// Index: contact B changes its grip.
 pub(super) const OUTER: usize = 3;
 
+/// Number of figures of a [`Look`].
+pub(super) const FIGURES: usize = 5;
+
 /// How far below first contact alpha must fall before contact counts as lost, rad: N is 0 from first contact on,
 /// and a sprag that neither spring nor load moves does not flutter between the two places on rounding.
 const LEAVE_RAD: f64 = 1e-12;
@@ -26,8 +29,9 @@ pub(super) const OPEN_REACH_RAD: f64 = 0.5;
 pub(super) struct Look {
     /// Positive inside the mode.
     pub(super) events: [f64; EVENTS],
-    /// What a run keeps the largest of: |T_bi|/N_bi, |T_be|/N_be (0 without contact), -N_bi, N_bi, N_be.
-    pub(super) figures: [f64; 5],
+    /// What a run keeps the largest of: |T_bi|/N_bi, |T_be|/N_be (0 without contact; [`carried`] where B holds whatever that
+    /// takes), -N_bi, N_bi, N_be.
+    pub(super) figures: [f64; FIGURES],
     /// rho_i + rho_e.
     pub(super) rho: f64,
     /// Windup of the rolling clutch, rad.
@@ -37,7 +41,7 @@ pub(super) struct Look {
 impl Look {
     /// Before anything is seen.
     pub(super) const NOTHING: Self =
-        Self { events: [f64::NAN; EVENTS], figures: [f64::NAN; 5], rho: f64::NAN, windup: f64::NAN };
+        Self { events: [f64::NAN; EVENTS], figures: [f64::NAN; FIGURES], rho: f64::NAN, windup: f64::NAN };
 }
 
 /// How far alpha (rad) lies from the ends of its place.
@@ -52,6 +56,12 @@ fn within(model: &Model, place: Place, alpha: f64) -> (f64, f64) {
             (alpha - from, model.curve.arc_end_rad(k) - alpha)
         }
     }
+}
+
+/// How much a contact counts that carries `n` (N): 1 from `loaded` (N) on, smoothly less below, nothing without a force.
+fn carried(n: f64, loaded: f64) -> f64 {
+    let x = n / loaded;
+    if x >= 1.0 || loaded == 0.0 { 1.0 } else { x.max(0.0).powi(2) * (3.0 - 2.0 * x) }
 }
 
 /// What is seen where the forces are `f`. `grips`: whether the friction limits count (the pure-rolling run ignores
@@ -73,9 +83,11 @@ pub(super) fn seen(model: &Model, mode: &Mode, y: &State, p: &WedgePoint, f: &Fo
     };
     let closed = matches!(mode.place, Place::Arc(_));
     let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
+    // A contact that holds whatever that takes is asked for more without bound as it unloads.
+    let carried = if model.outer_holds { carried(f.n_be, model.loaded_n) } else { 1.0 };
     Look {
         events: [lower, upper, inner, outer],
-        figures: [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be],
+        figures: [ratio(f.t_bi, f.n_bi), carried * ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be],
         rho: p.rho_i + p.rho_e,
         windup: p.windup,
     }

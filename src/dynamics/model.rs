@@ -107,6 +107,8 @@ pub struct Model {
     pub drive: Drive,
     /// alpha_max of the spring, rad.
     pub alpha_max_rad: f64,
+    /// Normal force from which on a contact counts as loaded, N; 0: always.
+    pub loaded_n: f64,
     pub(super) count: f64,
     pub(super) mass_kg: f64,
     pub(super) inertia_kg_m2: f64,
@@ -153,6 +155,7 @@ impl Model {
             loads,
             drive: Drive::default(),
             alpha_max_rad,
+            loaded_n: 0.0,
             count: clutch.sprags.count as f64,
             mass_kg: clutch.sprags.mass_kg,
             inertia_kg_m2: clutch.sprags.inertia_kg_m2,

@@ -3,6 +3,7 @@
 //! It does not converge at the paper's step: inside the band the contact creeps, and once the restoring force is
 //! lost it runs away. Never the default.
 
+use super::events::FIGURES;
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{Run, Sample, Stop};
 use crate::ode::rk4;
@@ -138,16 +139,10 @@ fn note(run: &mut Run, t: f64, h: f64, mode: Mode, f: &Forces, band: f64) {
         run.outer.time_s += h;
     }
     let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
-    let p = &mut run.peaks;
     let seen = [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be];
-    let mut best = [p.tan_inner, p.tan_outer, -p.normal_min_n, p.normal_max_n, p.normal_outer_max_n];
-    for i in 0..best.len() {
-        if seen[i] > best[i] {
-            (best[i], p.at_s[i]) = (seen[i], t);
-        }
+    for i in 0..FIGURES {
+        run.peaks.note(i, t, &seen);
     }
-    [p.tan_inner, p.tan_outer, p.normal_min_n, p.normal_max_n, p.normal_outer_max_n] =
-        [best[0], best[1], -best[2], best[3], best[4]];
     run.events += u64::from(t > 0.0 && mode != run.mode);
     run.mode = mode;
     run.note_engagement();

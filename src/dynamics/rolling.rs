@@ -6,11 +6,10 @@ use super::run::{Run, RunSettings, Stop, run};
 /// What pure rolling demands.
 #[derive(Debug, Clone)]
 pub struct Rolling {
-    /// Smallest static friction with which the scene sticks throughout; `None`: none does, because rolling
-    /// would need tension (|T|/N grows without bound as N falls to 0 with T != 0).
+    /// Smallest static friction with which the scene sticks throughout: the peak of |T|/N. `None` where that says nothing:
+    /// rolling would need tension, or the peak is where the contact all but unloads, below [`Model::loaded_n`]
+    /// (|T|/N grows without bound as N falls to 0 with T != 0).
     pub required_friction: Option<f64>,
-    /// Peak of |T_be|/N_be, for the outer contact alone.
-    pub required_outer: f64,
     /// Smallest N_bi, N; negative: the tension that rolling would need.
     pub normal_min_n: f64,
     /// Whether the run reached its end; otherwise the figures hold up to where it stopped.
@@ -28,13 +27,9 @@ pub fn rolling(model: &Model, state: State, place: Place, settings: &RunSettings
     };
     let run = run(model, state, mode, &RunSettings { rolling: true, ..*settings });
     let p = run.peaks;
-    let asked = if model.outer_holds { p.tan_inner } else { p.tan_inner.max(p.tan_outer) };
-    let required = (p.normal_min_n > 0.0).then_some(asked);
-    Rolling {
-        required_friction: required,
-        required_outer: p.tan_outer,
-        normal_min_n: p.normal_min_n,
-        stop: run.stop,
-        run,
-    }
+    let outer_asks = !model.outer_holds && p.tan_outer > p.tan_inner;
+    let asked = if outer_asks { p.tan_outer } else { p.tan_inner };
+    let loaded = p.normal_at_tan_n[usize::from(outer_asks)] >= model.loaded_n;
+    let required = (p.normal_min_n > 0.0 && loaded).then_some(asked);
+    Rolling { required_friction: required, normal_min_n: p.normal_min_n, stop: run.stop, run }
 }

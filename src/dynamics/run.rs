@@ -2,6 +2,7 @@
 
 use super::driver::Driver;
 use super::energy::EnergyBalance;
+use super::events::FIGURES;
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 use crate::ode::step::{Counters, Tolerance};
 use std::sync::atomic::AtomicBool;
@@ -85,7 +86,8 @@ pub struct SlipRecord {
 pub struct Peaks {
     /// Largest |T_bi|/N_bi while A is in contact.
     pub tan_inner: f64,
-    /// Largest |T_be|/N_be while A is in contact.
+    /// Largest |T_be|/N_be while A is in contact; where B holds whatever that takes, it counts smoothly less below
+    /// [`Model::loaded_n`] and not at all without a force.
     pub tan_outer: f64,
     /// Smallest N_bi, N (negative: tension of the pure-rolling run).
     pub normal_min_n: f64,
@@ -95,6 +97,8 @@ pub struct Peaks {
     pub normal_outer_max_n: f64,
     /// When each was reached first, s, in the order above.
     pub at_s: [f64; 5],
+    /// N_bi where |T|/N at A and at B was largest, N.
+    pub normal_at_tan_n: [f64; 2],
 }
 
 impl Peaks {
@@ -106,7 +110,29 @@ impl Peaks {
         normal_max_n: 0.0,
         normal_outer_max_n: 0.0,
         at_s: [0.0; 5],
+        normal_at_tan_n: [0.0; 2],
     };
+
+    /// The largest so far of figure `i` of a look.
+    pub(super) fn figure(&self, i: usize) -> f64 {
+        [self.tan_inner, self.tan_outer, -self.normal_min_n, self.normal_max_n, self.normal_outer_max_n][i]
+    }
+
+    /// Keep figure `i` of those seen at `t` (s) if it is a record.
+    pub(super) fn note(&mut self, i: usize, t: f64, seen: &[f64; FIGURES]) {
+        if seen[i] <= self.figure(i) || seen[i].is_nan() {
+            return;
+        }
+        let [tan_inner, tan_outer, negative, n_bi, n_be] = *seen;
+        self.at_s[i] = t;
+        match i {
+            0 => (self.tan_inner, self.normal_at_tan_n[0]) = (tan_inner, n_bi),
+            1 => (self.tan_outer, self.normal_at_tan_n[1]) = (tan_outer, n_bi),
+            2 => self.normal_min_n = -negative,
+            3 => self.normal_max_n = n_bi,
+            _ => self.normal_outer_max_n = n_be,
+        }
+    }
 }
 
 /// One sample.
@@ -185,6 +211,8 @@ pub struct Run {
     pub longest_open_s: f64,
     /// Extremes.
     pub peaks: Peaks,
+    /// Largest N_bi at which a contact that held began to slip since the clutch engaged, N; 0: none did.
+    pub slip_begins_n: f64,
     /// Located mode changes.
     pub events: u64,
     /// Work of the integrator.
@@ -237,6 +265,7 @@ impl Run {
             open_s: 0.0,
             longest_open_s: 0.0,
             peaks: Peaks::NONE,
+            slip_begins_n: 0.0,
             events: 0,
             counters: Counters::default(),
             zeno_closures: 0,

@@ -97,7 +97,12 @@ pub struct Overrun {
     pub tan_inner: f64,
     /// |T_be|/N_be that B must hold to carry the sprags along.
     pub tan_outer: f64,
+    /// Relative error of the forces: what is left of the moments, and their rounding, by what a change of N_bi leaves over.
+    pub relative_error: f64,
 }
+
+/// How far beside the equilibrium, as a part of N_bi, the moments are taken again for their slope.
+const BESIDE: f64 = 1e-4;
 
 /// Equilibrium of the sprags in steady overrun at the mean speed of `curve` with friction coefficient `mu` at A.
 ///
@@ -108,8 +113,8 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
     let k_r = clutch.spring.stiffness_nm_per_rad;
     let speed = curve.speed_rad_s();
     let touch = curve.touch();
-    // Moment that is left over for more N_bi, N m: positive means the spring presses harder.
-    let balance = |n: f64| -> Option<(f64, Overrun)> {
+    // Moment that is left over for more N_bi, N m: positive means the spring presses harder; the size of its parts.
+    let balance = |n: f64| -> Option<(f64, f64, Overrun)> {
         let (alpha, oa, ob, oc_g, bg, g) = if n > 0.0 {
             let (_, c) = curve.closure_at_normal(n)?;
             (c.alpha.v, c.lengths.oa.v, c.lengths.ob.v, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v)
@@ -123,11 +128,14 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
         let f_c = clutch.sprags.mass_kg * oc_g * speed * speed;
         let n_be = (n * bg.cos() + t_bi * bg.sin() - t_be * g.sin() + f_c) / g.cos();
         let spring = k_r * (alpha_max - alpha);
-        let left = spring - (l.h_i * n - l.h_e * n_be - l.b_i * t_bi - l.b_e * t_be);
+        let parts = [l.h_i * n, -l.h_e * n_be, -l.b_i * t_bi, -l.b_e * t_be];
+        let left = spring - parts.iter().sum::<f64>();
+        let size = spring.abs() + parts.iter().map(|m| m.abs()).sum::<f64>();
         let drag_torque_nm = -t_bi * oa * clutch.sprags.count as f64;
         let tan_outer = if n_be > 0.0 { t_be.abs() / n_be } else { 0.0 };
         Some((
             left,
+            size,
             Overrun {
                 alpha_rad: alpha,
                 normal_inner_n: n,
@@ -135,6 +143,7 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
                 drag_torque_nm,
                 tan_inner: mu,
                 tan_outer,
+                relative_error: 0.0,
             },
         ))
     };
@@ -147,8 +156,9 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
         drag_torque_nm: 0.0,
         tan_inner: 0.0,
         tan_outer: 0.0,
+        relative_error: 0.0,
     };
-    let Some((at_touch, _)) = balance(0.0) else { return lifted };
+    let Some((at_touch, ..)) = balance(0.0) else { return lifted };
     if at_touch <= 0.0 {
         return lifted;
     }
@@ -156,12 +166,20 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
     let mut low = 0.0;
     let mut left_low = at_touch;
     for _ in 0..200 {
-        let Some((left, _)) = balance(high) else { return lifted };
+        let Some((left, ..)) = balance(high) else { return lifted };
         if left <= 0.0 {
             let n = root::bracketed(low, high, left_low, left, 1e-15 * high, |n| {
                 balance(n).map_or(f64::NAN, |b| b.0)
             });
-            return n.and_then(balance).map_or(lifted, |b| b.1);
+            let settled = |n: f64| {
+                let (left, size, overrun) = balance(n)?;
+                let more = n * (1.0 + BESIDE);
+                let slope = (balance(more)?.0 - left).abs() / (more - n);
+                let relative_error = (left.abs() + f64::EPSILON * size) / (slope * n);
+                let relative_error = if relative_error.is_finite() { relative_error } else { 1.0 };
+                Some(Overrun { relative_error, ..overrun })
+            };
+            return n.and_then(settled).unwrap_or(lifted);
         }
         (low, left_low) = (high, left);
         high *= 2.0;

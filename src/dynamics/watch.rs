@@ -1,10 +1,10 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
 use super::driver::Driver;
-use super::events::look;
+use super::events::{FIGURES, look};
 use super::looks::{Looks, Observed, parabola};
 use super::model::{N_STATE, State};
-use super::run::{Peaks, Sample};
+use super::run::Sample;
 use crate::ode::step::Step;
 
 impl Driver<'_> {
@@ -18,25 +18,21 @@ impl Driver<'_> {
         let (mode, model) = (self.run.mode, self.model);
         let (start, length) = (step.t(), step.h());
         let t_end = start + length;
-        let p = &mut self.run.peaks;
-        let mut best = [p.tan_inner, p.tan_outer, -p.normal_min_n, p.normal_max_n, p.normal_outer_max_n];
-        let mut at_s = p.at_s;
+        let mut peaks = self.run.peaks;
         let samples = self.settings.samples;
         let wants_sample =
             samples > 0 && self.next_sample < samples && self.sample_time(self.next_sample) <= t_end;
         let mut dense = None;
-        let bounds = self.bounds();
         let fine = 1e-3 * self.settings.tolerance;
-        for i in 0..best.len() {
+        for (i, &bound) in self.bounds().iter().enumerate() {
             let value = |j: usize| looks.seen(j).figures[i];
             for (j, t) in [(0, start), (looks.count() - 1, t_end)] {
-                if value(j) > best[i] {
-                    (best[i], at_s[i]) = (value(j), t);
-                }
+                peaks.note(i, t, &looks.seen(j).figures);
             }
             for j in 0..looks.count() {
-                let enough = best[i] + fine * best[i].abs();
-                if enough >= bounds[i] {
+                let best = peaks.figure(i);
+                let enough = best + fine * best.abs();
+                if enough >= bound {
                     break;
                 }
                 let (left, right) = looks.beside(j);
@@ -46,14 +42,15 @@ impl Driver<'_> {
                         Some(d) => d,
                         None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
                     };
-                    let inside = |theta: f64| {
+                    let figures = |theta: f64| {
                         let t = start + theta * length;
-                        look(model, &mode, t, &d.at(t), false).figures[i]
+                        look(model, &mode, t, &d.at(t), false).figures
                     };
+                    let inside = |theta: f64| figures(theta)[i];
                     let (from, guess, until) = (looks.at(left), looks.extreme(j, value), looks.at(right));
                     let (theta, found) = highest(from, guess, until, enough, fine * value(j).abs(), inside);
-                    if found > best[i] {
-                        (best[i], at_s[i]) = (found, start + theta * length);
+                    if found > best {
+                        peaks.note(i, start + theta * length, &figures(theta));
                     }
                 }
             }
@@ -70,21 +67,14 @@ impl Driver<'_> {
                 self.next_sample += 1;
             }
         }
-        self.run.peaks = Peaks {
-            tan_inner: best[0],
-            tan_outer: best[1],
-            normal_min_n: -best[2],
-            normal_max_n: best[3],
-            normal_outer_max_n: best[4],
-            at_s,
-        };
+        self.run.peaks = peaks;
         Ok(())
     }
 
     /// What no figure can exceed: a real clutch slips at mu_s and has no tension. Pure rolling knows no such bounds.
-    fn bounds(&self) -> [f64; 5] {
+    fn bounds(&self) -> [f64; FIGURES] {
         if self.settings.rolling {
-            return [f64::INFINITY; 5];
+            return [f64::INFINITY; FIGURES];
         }
         let mu = self.model.friction.static_;
         let outer = if self.model.outer_holds { f64::INFINITY } else { mu };

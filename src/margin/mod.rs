@@ -18,7 +18,7 @@ mod subsurface;
 pub use capacity::{Course, courses, nominal_capacity};
 pub use held::at_nominal_torque;
 pub use load::{LoadState, load_state};
-pub use overrun::{OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
+pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
 pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
 

@@ -89,6 +89,9 @@ pub(super) fn overrun_moments(design: &Design, state: &LoadState, speed_rad_s: f
     }
 }
 
+/// How exactly the speed of lift-off is located, by the range in which it is looked for.
+pub const LIFT_OFF_ERROR: f64 = 1e-12;
+
 /// Lift-off speed of the outer race, rad/s: opening = closing moment, which is where [`overrun`] ends to find a normal
 /// force at A; `None` where contact is kept to `up_to`.
 pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Option<f64> {
@@ -103,5 +106,5 @@ pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> O
     if b > 0.0 {
         return None;
     }
-    root::bracketed(0.0, up_to_rad_s, a, b, 1e-9 * up_to_rad_s, left)
+    root::bracketed(0.0, up_to_rad_s, a, b, LIFT_OFF_ERROR * up_to_rad_s, left)
 }

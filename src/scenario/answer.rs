@@ -2,7 +2,9 @@
 
 use super::demand::Demand;
 use super::error::{ErrorEstimate, Scales};
-use crate::dynamics::{EnergyBalance, Engaged, FastMotion, Mode, Overrun, Peaks, Sample, SlipRecord, Stop};
+use crate::dynamics::{
+    EnergyBalance, Engaged, FastMotion, Grip, Mode, Overrun, Peaks, Place, Sample, SlipRecord, Stop,
+};
 
 /// What the clutch did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,12 +79,17 @@ pub struct Simulation {
     pub steps: u64,
     /// Right-hand sides of all runs.
     pub rhs_evaluations: u64,
-    /// Error estimate; `None` for static kinds, which are exact to 1e-12, and where the run was interrupted.
+    /// Error estimate; `None` for an equilibrium ([`Self::equilibrium_error`]), and where a run was interrupted or gave up,
+    /// whose figures hold up to [`Self::t_s`].
     pub error: Option<ErrorEstimate>,
+    /// Relative error of every figure of an equilibrium; `None` where something is integrated.
+    pub equilibrium_error: Option<f64>,
     /// By what errors are divided before they are held against the tolerance.
     pub scales: Scales,
     /// Whether every error is below the tolerance asked for.
     pub tolerance_reached: bool,
+    /// Where the answer is that of the finest runs which came to their end: why a finer one did not.
+    pub finer_gave_up: Option<Stop>,
     /// Smallest and largest theta_bi at the end over all runs made, rad: what is left where no digit is sure.
     pub spread_rad: [f64; 2],
     /// Sequences of mode changes that accumulated and were closed at their limit.
@@ -101,4 +108,22 @@ pub struct Simulation {
     pub modes: Vec<(f64, Mode)>,
     /// Steady overrun: the whole of that scenario, the start of an engagement.
     pub overrun: Option<Overrun>,
+}
+
+impl Simulation {
+    /// How long A slips after an overrun has been reversed, s: from the instant at which v_A has fallen to 0 under
+    /// load to the beginning of the stick that holds when N_bi reaches its largest value, or of the first after it. What
+    /// holds for a moment and slips on while the load builds up has not ended the slip. The paper: about 0.5 ms.
+    /// `None` without an overrun, samples or such a stick.
+    pub fn initial_slip_s(&self) -> Option<f64> {
+        self.overrun?;
+        let from = self.engaged?.t_s;
+        let sticks = |m: &Mode| matches!(m.place, Place::Arc(_)) && m.inner == Grip::Stick;
+        let largest = self.peaks.at_s[3].max(from);
+        let then = self.modes.iter().rposition(|(t, _)| *t <= largest)?;
+        let holds = then + self.modes[then..].iter().position(|(_, m)| sticks(m))?;
+        let slips = self.modes[..holds].iter().rposition(|(_, m)| !sticks(m));
+        let since = self.modes[slips.map_or(0, |i| i + 1)].0;
+        Some((since - from).max(0.0))
+    }
 }

@@ -10,9 +10,11 @@ use crate::friction::Stribeck;
 /// What pure rolling would demand: the basis of slip margin and contact margin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
-    /// mu_req; `None`: no friction up to 1 suffices, contact would open.
+    /// mu_req: the static friction from which on the scene sticks, that is, no contact begins to slip while A carries
+    /// [`Model::loaded_n`](crate::dynamics::Model::loaded_n) (1 % of the static load) and A slips by no more than 1 um in the
+    /// end. Where the rolling run asks for most while A is loaded, its peak of |T|/N. `None`: no friction up to 1 suffices.
     pub required_friction: Option<f64>,
-    /// Whether mu_req was found by bisection, because the contact of the rolling run would open.
+    /// Whether mu_req was bisected by runs with slip, because the contact of the rolling run all but opens.
     pub by_bisection: bool,
     /// mu_s/mu_req - 1; -1 where no friction suffices.
     pub slip_margin: f64,
@@ -77,8 +79,8 @@ pub(super) fn run_settings(
 }
 
 /// Pure-rolling demand of a prepared scenario; static kinds read it off the curve. An engagement is rolled from
-/// the moment at which it has ceased to overrun. Where rolling would need tension, no peak of |T|/N says what
-/// friction suffices: then the smallest static friction with the verdict "sticks" is bisected.
+/// the moment at which it has ceased to overrun. Where rolling would need tension, or unloads the contact and asks for most
+/// there, no peak of |T|/N says what friction suffices: then that is bisected.
 pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
     demand_at(prepared, settings, Fineness::single(0.1 * settings.tolerance))
 }
@@ -87,7 +89,7 @@ pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
 pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> Demand {
     let mu = prepared.model.friction.static_;
     if prepared.duration_s == 0.0 {
-        let f = prepared.model.curve.at_normal(prepared.static_normal_n);
+        let f = prepared.at_rest();
         let required = f.map(|f| f.tan_omega.max(f.tan_nu));
         return Demand {
             required_friction: required,
@@ -107,8 +109,10 @@ pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, fineness: Fine
 
 /// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.
 const MOST_FRICTION: f64 = 1.0;
-/// Smallest coefficient that is tried.
+/// Smallest coefficient that is tried, about.
 const LEAST_FRICTION: f64 = 1e-3;
+/// Ratio of one coefficient that is tried to the next, away from mu_s, until two lie on either side of the answer.
+const LADDER: f64 = 2.0;
 /// Least relative width at which the bisection ends; else it is the tolerance of the runs.
 const NARROWEST: f64 = 1e-12;
 
@@ -166,9 +170,10 @@ fn contact_margin(static_n: f64, rolling: &Rolling) -> f64 {
     if margin.is_finite() { margin } else { 0.0 }
 }
 
-/// Smallest static friction with which the scene has the verdict "sticks", the kinetic one lowered with it, in the middle of
-/// what is left: two bisections of different width never agree by chance;
-/// right-hand sides; whether it was interrupted. `None` where even the largest does not do.
+/// The static friction from which on the scene sticks, the kinetic one lowered with it, in the middle of what is left: two
+/// bisections of different width never agree by chance; right-hand sides; whether it was interrupted. Where more friction is
+/// not better throughout it is the limit next to mu_s, below it where the scene sticks, above it where not; `None` where
+/// nothing up to the largest does.
 fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Option<f64>, u64, bool) {
     let s = run_settings(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
     let law = prepared.model.friction;
@@ -176,14 +181,29 @@ fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Op
     let (mut work, mut interrupted) = (0, false);
     let mut sticks = |mu: f64| {
         model.friction = Stribeck { static_: mu, kinetic: law.kinetic.min(mu), ..law };
-        let r = run(&model, prepared.state, prepared.mode, &s);
+        let (state, mode) = prepared.start_under(&model.friction);
+        let r = run(&model, state, mode, &s);
         work += r.counters.rhs_evaluations;
         interrupted |= r.stop == Stop::Interrupted;
         verdict(prepared, &r, &ErrorEstimate::default()) == Some(Verdict::Sticks)
+            && r.slip_begins_n < prepared.model.loaded_n.max(f64::MIN_POSITIVE)
     };
-    let (mut low, mut high) = (LEAST_FRICTION, MOST_FRICTION);
-    if !sticks(high) {
-        return (None, work, interrupted);
+    let (mut low, mut high) = (law.static_, law.static_);
+    if sticks(law.static_) {
+        while low >= LEAST_FRICTION && sticks(low / LADDER) {
+            low /= LADDER;
+        }
+        (low, high) = (low / LADDER, low);
+    } else {
+        loop {
+            if high >= MOST_FRICTION {
+                return (None, work, interrupted);
+            }
+            (low, high) = (high, (high * LADDER).min(MOST_FRICTION));
+            if sticks(high) {
+                break;
+            }
+        }
     }
     let width = fineness.tolerance.max(NARROWEST);
     while high > low * (1.0 + width) {

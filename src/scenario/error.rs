@@ -30,8 +30,17 @@ pub struct ErrorEstimate {
     pub normal_min_n: f64,
     /// Largest N_bi, N.
     pub normal_max_n: f64,
+    /// Largest N_be, N.
+    pub normal_outer_max_n: f64,
     /// Largest Hertz pressure, Pa.
     pub hertz_peak_pa: f64,
+    /// Hertz pressure at A at the smallest N_bi, Pa.
+    pub hertz_least_pa: f64,
+    /// How long A slips after an overrun has been reversed, s.
+    pub initial_slip_s: f64,
+    /// When the extremes were reached, s, in the order of [`Peaks::at_s`]. Held against no tolerance: an extreme is flat, and
+    /// of two that are nearly equal either may be the larger.
+    pub extremes_at_s: [f64; 5],
     /// Friction that rolling would need; 0 where none suffices in either run.
     pub required_friction: f64,
     /// Slip margin.
@@ -56,7 +65,11 @@ impl ErrorEstimate {
             tan_demand: pair(self.tan_demand, other.tan_demand),
             normal_min_n: f(self.normal_min_n, other.normal_min_n),
             normal_max_n: f(self.normal_max_n, other.normal_max_n),
+            normal_outer_max_n: f(self.normal_outer_max_n, other.normal_outer_max_n),
             hertz_peak_pa: f(self.hertz_peak_pa, other.hertz_peak_pa),
+            hertz_least_pa: f(self.hertz_least_pa, other.hertz_least_pa),
+            initial_slip_s: f(self.initial_slip_s, other.initial_slip_s),
+            extremes_at_s: std::array::from_fn(|i| f(self.extremes_at_s[i], other.extremes_at_s[i])),
             required_friction: f(self.required_friction, other.required_friction),
             slip_margin: f(self.slip_margin, other.slip_margin),
             contact_margin: f(self.contact_margin, other.contact_margin),
@@ -90,7 +103,11 @@ impl Simulation {
             tan_demand: [p.tan_inner, p.tan_outer],
             normal_min_n: p.normal_min_n,
             normal_max_n: p.normal_max_n,
+            normal_outer_max_n: p.normal_outer_max_n,
             hertz_peak_pa: self.hertz_peak_pa,
+            hertz_least_pa: self.hertz_least_pa,
+            initial_slip_s: self.initial_slip_s().unwrap_or(0.0),
+            extremes_at_s: p.at_s,
             required_friction: self.demand.and_then(|d| d.required_friction).unwrap_or(0.0),
             slip_margin: self.demand.map_or(0.0, |d| d.slip_margin),
             contact_margin: self.demand.map_or(0.0, |d| d.contact_margin),
@@ -106,8 +123,6 @@ pub struct Scales {
     force_n: f64,
     pressure_pa: f64,
     contact: f64,
-    /// Infinite where B holds whatever that takes: its |T|/N then grows without bound as N_be falls to 0 at a touch.
-    tan_outer: f64,
 }
 
 impl Scales {
@@ -122,33 +137,45 @@ impl Scales {
             pressure_pa: or_one(hertz_peak(prepared, p.normal_max_n, p.normal_outer_max_n)),
             // Without a static load the contact margin is one of the largest already.
             contact: if prepared.static_normal_n > 0.0 { force_n / prepared.static_normal_n } else { 1.0 },
-            tan_outer: if prepared.model.outer_holds { f64::INFINITY } else { 1.0 },
         }
+    }
+
+    /// Every error by its scale, with the name of its figure.
+    fn each(&self, e: &ErrorEstimate) -> [(&'static str, f64); 21] {
+        [
+            ("angle of the inner race at the end", e.theta_inner_rad),
+            ("angle of the outer race at the end", e.theta_outer_rad),
+            ("offset", e.offset_rad),
+            ("net slip at the inner contact", e.net_slip_m / self.length_m),
+            ("net slip at the outer contact", e.net_slip_outer_m / self.length_m),
+            ("slip path at the inner contact", e.slip_distance_m[0] / self.length_m),
+            ("slip path at the outer contact", e.slip_distance_m[1] / self.length_m),
+            ("slip time at the inner contact", e.slip_time_s[0] / self.time_s),
+            ("slip time at the outer contact", e.slip_time_s[1] / self.time_s),
+            ("time without contact", e.contact_lost_s / self.time_s),
+            ("largest |T|/N at the inner contact", e.tan_demand[0]),
+            ("largest |T|/N at the outer contact", e.tan_demand[1]),
+            ("smallest normal force", e.normal_min_n / self.force_n),
+            ("largest normal force", e.normal_max_n / self.force_n),
+            ("largest normal force at the outer contact", e.normal_outer_max_n / self.force_n),
+            ("largest Hertz pressure", e.hertz_peak_pa / self.pressure_pa),
+            ("smallest Hertz pressure", e.hertz_least_pa / self.pressure_pa),
+            ("initial slip", e.initial_slip_s / self.time_s),
+            ("static friction needed to stick", e.required_friction),
+            ("slip margin", e.slip_margin),
+            ("contact margin", e.contact_margin / self.contact),
+        ]
+        .map(|(name, v)| (name, if v.is_nan() { f64::INFINITY } else { v }))
     }
 
     /// The largest error by its scale; infinite where one is no number.
     pub fn worst(&self, e: &ErrorEstimate) -> f64 {
-        [
-            e.theta_inner_rad,
-            e.theta_outer_rad,
-            e.offset_rad,
-            e.net_slip_m / self.length_m,
-            e.net_slip_outer_m / self.length_m,
-            e.slip_distance_m[0] / self.length_m,
-            e.slip_distance_m[1] / self.length_m,
-            e.slip_time_s[0] / self.time_s,
-            e.slip_time_s[1] / self.time_s,
-            e.contact_lost_s / self.time_s,
-            e.tan_demand[0],
-            e.tan_demand[1] / self.tan_outer,
-            e.normal_min_n / self.force_n,
-            e.normal_max_n / self.force_n,
-            e.hertz_peak_pa / self.pressure_pa,
-            e.required_friction,
-            e.slip_margin,
-            e.contact_margin / self.contact,
-        ]
-        .into_iter()
-        .fold(0.0, |worst, v| if v.is_nan() { f64::INFINITY } else { v.max(worst) })
+        self.worst_figure(e).1
+    }
+
+    /// The same with the name of the figure.
+    pub fn worst_figure(&self, e: &ErrorEstimate) -> (&'static str, f64) {
+        let [first, others @ ..] = self.each(e);
+        others.into_iter().fold(first, |worst, one| if one.1 > worst.1 { one } else { worst })
     }
 }

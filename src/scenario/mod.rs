@@ -5,6 +5,7 @@
 
 mod answer;
 mod demand;
+mod equilibrium;
 mod error;
 mod prepare;
 mod simulate;
@@ -13,6 +14,6 @@ pub use answer::{Simulation, Verdict};
 pub use demand::{Demand, demand};
 pub use error::{ErrorEstimate, Scales};
 pub use prepare::{
-    NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced, sliding_friction,
+    FreeRun, NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced, sliding_friction,
 };
 pub use simulate::{Settings, published_steps, simulate, simulate_prepared, simulate_published};

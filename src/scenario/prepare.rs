@@ -8,7 +8,7 @@ use crate::dynamics::{
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
 use crate::profile::{Profile, ProfileError};
-use crate::wedge::{NoCurve, WedgeCurve};
+use crate::wedge::{NoCurve, StaticPoint, WedgeCurve};
 
 /// Why a scenario has no start. A named outcome, not a fault of the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,6 +60,44 @@ pub struct Prepared {
     pub static_normal_n: f64,
     /// Steady overrun, for that kind of scenario and as the start of an engagement.
     pub overrun: Option<Overrun>,
+    /// What that start follows from, where something happens after it.
+    pub free_run: Option<FreeRun>,
+}
+
+/// A start in steady overrun, which depends on friction.
+#[derive(Debug, Clone)]
+pub struct FreeRun {
+    clutch: Clutch,
+    /// Curve at the speed of the start where that is not the model's.
+    curve: Option<WedgeCurve>,
+    /// How much the inner race is ahead, rad/s.
+    speed_rad_s: f64,
+}
+
+impl FreeRun {
+    /// The steady overrun of the sprags of `model` under the friction law `law`, alpha as of the model's curve.
+    fn steady(&self, model: &Model, law: &Stribeck) -> Overrun {
+        let curve = self.curve.as_ref().unwrap_or(&model.curve);
+        let mu = law.coefficient(self.speed_rad_s * self.clutch.races.inner_radius_m);
+        let free = overrun(&self.clutch, curve, model.alpha_max_rad, mu);
+        let moved = model.curve.first_contact_rad() - curve.first_contact_rad();
+        Overrun { alpha_rad: free.alpha_rad + moved, ..free }
+    }
+}
+
+impl Prepared {
+    /// Start under another friction law: the same but for an overrun.
+    pub(super) fn start_under(&self, law: &Stribeck) -> (State, Mode) {
+        self.free_run.as_ref().map_or((self.state, self.mode), |f| {
+            overrunning(&f.steady(&self.model, law), &self.model.curve, f.speed_rad_s)
+        })
+    }
+
+    /// The equilibrium at the start of a static scenario, exact; `None` without a load.
+    pub fn at_rest(&self) -> Option<StaticPoint> {
+        let (curve, torque_nm) = (&self.model.curve, -self.model.loads.inner_nm);
+        if torque_nm > 0.0 { curve.at_torque(torque_nm) } else { curve.at_normal(self.static_normal_n) }
+    }
 }
 
 /// The profile of a clutch.
@@ -100,6 +138,19 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
 /// # Errors
 /// As [`prepare`].
 pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoScenario> {
+    let mut prepared = at_start(scenario, reduction)?;
+    let model = &mut prepared.model;
+    let excited = || model.curve.at_torque(model.loads.amplitude_nm).map_or(0.0, |p| p.normal_inner_n);
+    let scale = if prepared.static_normal_n > 0.0 { prepared.static_normal_n } else { excited() };
+    model.loaded_n = LOADED * scale;
+    Ok(prepared)
+}
+
+/// What part of the static load a contact must carry to count as loaded, of that under the amplitude where there is no
+/// static load: a choice.
+const LOADED: f64 = 0.01;
+
+fn at_start(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoScenario> {
     let clutch = &scenario.clutch;
     let profile = place_profile(clutch).map_err(NoScenario::Profile)?;
     let build = |speed: f64| {
@@ -149,17 +200,19 @@ pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Pre
             bench_inertia_kg_m2,
             duration_s,
         } => {
-            let free = overrun(clutch, &at_rest, alpha_max, sliding_friction(clutch, free_run_rad_s));
-            let (state, mode) = overrunning(&free, &at_rest, free_run_rad_s);
             let loads = Loads {
                 inner_nm: -reversing_torque_nm,
                 abutment_nm_per_rad: stop_stiffness_nm_per_rad,
                 ..still
             };
             let model = Model::new(clutch, at_rest, loads, alpha_max, bench_inertia_kg_m2);
+            let start = FreeRun { clutch: clutch.clone(), curve: None, speed_rad_s: free_run_rad_s };
+            let free = start.steady(&model, &model.friction);
+            let (state, mode) = overrunning(&free, &model.curve, free_run_rad_s);
             let held = model.curve.at_torque(reversing_torque_nm).map(|p| p.normal_inner_n);
             let prepared = finish(model, state, mode, duration_s, None, Some(free));
-            Ok(Prepared { static_normal_n: held.unwrap_or(prepared.static_normal_n), ..prepared })
+            let static_normal_n = held.unwrap_or(prepared.static_normal_n);
+            Ok(Prepared { static_normal_n, free_run: Some(start), ..prepared })
         }
         ScenarioKind::Transient {
             preload_nm,
@@ -182,20 +235,16 @@ pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Pre
             });
             let curve = if of_curve == 0.0 { at_rest } else { build(of_curve)? };
             let loads = Loads { abutment_nm_per_rad: abutment_stiffness_nm_per_rad, ..still };
-            let free = if overrun_rad_s > 0.0 {
-                let curve = if at_start == of_curve { curve.clone() } else { build(at_start)? };
-                let mu = sliding_friction(clutch, overrun_rad_s);
-                let mut free = overrun(clutch, &curve, alpha_max, mu);
-                free.alpha_rad -= curve.first_contact_rad();
-                Some(free)
+            let free_run = if overrun_rad_s > 0.0 {
+                let curve = if at_start == of_curve { None } else { Some(build(at_start)?) };
+                Some(FreeRun { clutch: clutch.clone(), curve, speed_rad_s: overrun_rad_s })
             } else {
                 None
             };
-            let first_contact = curve.first_contact_rad();
-            let free = free.map(|f| Overrun { alpha_rad: f.alpha_rad + first_contact, ..f });
             let largest = drive.torque_nm.as_ref().map_or(0.0, |c| c.extremes()[1]);
             let mut model = Model::new(clutch, curve, loads, alpha_max, 0.0);
             model.drive = drive;
+            let free = free_run.as_ref().map(|f| f.steady(&model, &model.friction));
             let (state, mode) = match &free {
                 Some(free) => overrunning(free, &model.curve, overrun_rad_s),
                 None => {
@@ -212,7 +261,7 @@ pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Pre
             let held = model.curve.at_torque(largest).map(|p| p.normal_inner_n);
             let prepared = finish(model, state, mode, duration_s, None, free);
             let static_normal_n = held.unwrap_or(0.0).max(prepared.static_normal_n);
-            Ok(Prepared { static_normal_n, ..prepared })
+            Ok(Prepared { static_normal_n, free_run, ..prepared })
         }
         ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
             let curve = build(speed_rad_s)?;
@@ -251,5 +300,5 @@ fn finish(
     overrun: Option<Overrun>,
 ) -> Prepared {
     let static_normal_n = model.point(mode.place, state[0]).n_bi;
-    Prepared { model, state, mode, duration_s, period_s, static_normal_n, overrun }
+    Prepared { model, state, mode, duration_s, period_s, static_normal_n, overrun, free_run: None }
 }

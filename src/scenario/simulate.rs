@@ -3,18 +3,19 @@
 use std::sync::atomic::AtomicBool;
 
 use super::answer::{Simulation, Verdict};
-use super::demand::{Demand, Fineness, STEPS_PER_PERIOD, demand, demand_at, roll, run_settings};
+use super::demand::{Demand, Fineness, STEPS_PER_PERIOD, demand_at, roll, run_settings};
+use super::equilibrium::steady;
 use super::error::{ErrorEstimate, Scales};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
-use crate::dynamics::{Grip, Mode, Peaks, Place, PublishedSettings, Run, SlipRecord, Stop, published, run};
+use crate::dynamics::{Grip, Place, PublishedSettings, Run, SlipRecord, Stop, published, run};
 
 /// Settings of a simulation.
 #[derive(Debug, Clone, Copy)]
 pub struct Settings {
     /// What the error of every figure of a simulation must stay below: angles in rad, slip as rad at the inner
     /// race, times by the duration, forces by the largest of the run, |T|/N, margins and pressure (by the largest)
-    /// as pure numbers. Default 1e-6. Steps are tightened until two runs agree to it. [`demand`] alone runs once,
+    /// as pure numbers. Default 1e-6. Steps are tightened until two runs agree to it. [`demand`](super::demand()) alone runs once,
     /// at steps of a tenth of it.
     pub tolerance: f64,
     /// Longest step, s; `None`: a quarter of the excitation's period (a fourteenth where only the demand is asked for),
@@ -77,33 +78,42 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         attempt(prepared, settings, fineness, samples, reduced)
     };
     let mut tolerance = coarsest;
-    let mut coarse = go(tolerance, 0);
+    // One sample keeps the modes, from which the initial slip follows.
+    let mut coarse = go(tolerance, settings.samples.min(1));
     let (mut steps, mut rhs, mut spread) = (0, 0, [f64::INFINITY, f64::NEG_INFINITY]);
     let (mut before, mut doubts) = (None, [0.0; 2]);
     let (mut told, mut contradicted) = (None, false);
+    let mut finished: Option<Simulation> = None;
     loop {
         tolerance *= 0.1;
         let fine = if coarse.interrupted() { coarse.clone() } else { go(tolerance, settings.samples) };
-        for theta in [coarse.run.state[2], fine.run.state[2]] {
+        for theta in [&coarse.run, &fine.run].into_iter().filter(|r| !r.stop.gave_up()).map(|r| r.state[2]) {
             spread = [spread[0].min(theta), spread[1].max(theta)];
         }
         let s = conclude(prepared, settings, &fine, &coarse, before, doubts);
         // Runs that do not converge may agree by chance in the end.
-        let definite = s.error.and_then(|e| verdict(prepared, &fine.run, &e));
+        let definite = verdict(prepared, &fine.run, &s.error.unwrap_or_default());
         let definite = definite.filter(|v| *v != Verdict::AtThreshold);
         contradicted |= told.zip(definite).is_some_and(|(a, b)| a != b);
         told = definite.or(told);
-        let last =
-            fine.run.stop.gave_up() || tolerance < 9.0 * STEP_TOLERANCES[1] || s.stop == Stop::Interrupted;
+        let gave_up = fine.run.stop.gave_up();
+        let last = gave_up || tolerance < 9.0 * STEP_TOLERANCES[1] || s.stop == Stop::Interrupted;
         if last || s.tolerance_reached && before.is_some() {
             let (steps, rhs_evaluations) = (s.steps + steps, s.rhs_evaluations + rhs);
+            // Runs that came to the end say more than a finer one that did not.
+            let s = match finished {
+                Some(earlier) if gave_up => Simulation { finer_gave_up: Some(s.stop), ..earlier },
+                _ => s,
+            };
             let doubtful = contradicted && !s.tolerance_reached;
             let verdict = s.verdict.map(|v| if doubtful { Verdict::AtThreshold } else { v });
-            return Simulation { verdict, steps, rhs_evaluations, spread_rad: spread, ..s };
+            let spread_rad = if spread[0] <= spread[1] { spread } else { s.spread_rad };
+            return Simulation { verdict, steps, rhs_evaluations, spread_rad, ..s };
         }
         (steps, rhs) = (steps + coarse.run.counters.steps, rhs + coarse.rhs_evaluations());
-        before = s.error;
         doubts = [doubts[1], s.error.map_or(0.0, |e| e.net_slip_m)];
+        before = s.error;
+        finished = Some(s).filter(|s| s.error.is_some() && s.stop == Stop::Finished);
         coarse = fine;
     }
 }
@@ -207,7 +217,8 @@ pub fn published_steps(duration_s: f64, step_s: f64) -> u64 {
 
 /// The answer `fine`, its error by `other` and, where there was one, by the difference `before`; the verdict of both. Where
 /// they do not agree to the tolerance two may lie near one another by chance: the verdict then is at least as doubtful as
-/// the errors of net slip before them, `doubts` (m).
+/// the errors of net slip before them, `doubts` (m). Runs that gave up have ended at different times: that is no error, yet
+/// a contact that was lost for long before is a verdict. What the energy balance leaves over was seen by no run.
 fn conclude(
     prepared: &Prepared,
     settings: &Settings,
@@ -217,23 +228,26 @@ fn conclude(
     doubts: [f64; 2],
 ) -> Simulation {
     let whole = !fine.interrupted() && !other.interrupted();
+    let gave_up = fine.run.stop.gave_up() || other.run.stop.gave_up();
     let (run, own) = (&fine.run, answer(prepared, fine));
     let difference = || own.off(&answer(prepared, other));
-    let error = whole.then(|| before.map_or_else(difference, |b| difference().at_least(LEFT, &b)));
-    let tolerance_reached = error.is_some_and(|e| own.scales.worst(&e) <= settings.tolerance);
-    let agreed = error.and_then(|mut error| {
+    let error =
+        (whole && !gave_up).then(|| before.map_or_else(difference, |b| difference().at_least(LEFT, &b)));
+    let balanced = run.energy.is_none_or(|e| e.relative().abs() <= settings.tolerance);
+    let tolerance_reached = balanced && error.is_some_and(|e| own.scales.worst(&e) <= settings.tolerance);
+    let agreed = || {
+        let mut error = error.unwrap_or_default();
         if !tolerance_reached {
             error.net_slip_m = doubts.into_iter().fold(error.net_slip_m, f64::max);
         }
         let (a, b) = (verdict(prepared, run, &error)?, verdict(prepared, &other.run, &error)?);
         Some(if a == b { a } else { Verdict::AtThreshold })
-    });
+    };
     let (steps, rhs_evaluations) =
         if whole { (other.run.counters.steps, other.rhs_evaluations()) } else { (0, 0) };
     Simulation {
-        verdict: agreed,
-        // No estimate means that one of the runs was interrupted.
-        stop: if error.is_none() { Stop::Interrupted } else { own.stop },
+        verdict: if whole { agreed() } else { None },
+        stop: if whole { own.stop } else { Stop::Interrupted },
         demand: own.demand.filter(|_| whole),
         steps: own.steps + steps,
         rhs_evaluations: own.rhs_evaluations + rhs_evaluations,
@@ -268,8 +282,10 @@ fn answer(prepared: &Prepared, of: &Try) -> Simulation {
         steps: run.counters.steps,
         rhs_evaluations: of.rhs_evaluations(),
         error: None,
+        equilibrium_error: None,
         scales: Scales::of(prepared, &p),
         tolerance_reached: false,
+        finer_gave_up: None,
         spread_rad: [run.state[2]; 2],
         zeno_closures: run.zeno_closures,
         inconsistent_choices: run.inconsistent_choices,
@@ -301,7 +317,7 @@ pub(super) fn hertz_peak(prepared: &Prepared, n_bi: f64, n_be: f64) -> f64 {
 }
 
 /// p_0 at A at static equilibrium with `n_bi`, Pa; 0 without load.
-fn hertz_at(prepared: &Prepared, n_bi: f64) -> f64 {
+pub(super) fn hertz_at(prepared: &Prepared, n_bi: f64) -> f64 {
     let row = (n_bi > 0.0).then(|| prepared.model.curve.at_normal(n_bi)).flatten();
     row.map_or(0.0, |p| p.hertz_inner_pa)
 }
@@ -334,75 +350,4 @@ pub(super) fn verdict(prepared: &Prepared, run: &Run, error: &ErrorEstimate) -> 
     } else {
         Verdict::Sticks
     })
-}
-
-/// Static and overrunning scenarios: equilibrium, no integration.
-fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
-    let demand = prepared.overrun.is_none().then(|| demand(prepared, settings));
-    let row = prepared.model.curve.at_normal(prepared.static_normal_n);
-    let (n_bi, n_be, tan_inner, tan_outer) = match (prepared.overrun, row) {
-        (Some(o), _) => (o.normal_inner_n, o.normal_outer_n, o.tan_inner, o.tan_outer),
-        (None, Some(r)) => (r.normal_inner_n, r.normal_outer_n, r.tan_omega, r.tan_nu),
-        (None, None) => (0.0, 0.0, 0.0, 0.0),
-    };
-    let verdict = match prepared.overrun {
-        Some(o) if o.normal_inner_n > 0.0 => Verdict::SlipsOverrunning,
-        Some(_) => Verdict::Disengages,
-        None if demand.is_some_and(|d| d.slip_margin > 0.0) => Verdict::Sticks,
-        // A sprag whose demand exceeds mu_s is squeezed out backwards under torque.
-        None => Verdict::SlipsEngaging,
-    };
-    let (normal_min_n, normal_max_n, normal_outer_max_n) = (n_bi, n_bi, n_be);
-    let peaks = Peaks { tan_inner, tan_outer, normal_min_n, normal_max_n, normal_outer_max_n, ..Peaks::NONE };
-    Simulation {
-        verdict: Some(verdict),
-        stop: Stop::Finished,
-        t_s: 0.0,
-        theta_inner_rad: prepared.state[2],
-        theta_outer_rad: prepared.state[3],
-        offset_rad: 0.0,
-        inner: SlipRecord::default(),
-        outer: SlipRecord::default(),
-        contact_lost_s: 0.0,
-        peaks,
-        hertz_peak_pa: hertz_peak(prepared, n_bi, n_be),
-        hertz_static_pa: hertz_peak(prepared, n_bi, n_be),
-        hertz_least_pa: hertz_at(prepared, n_bi),
-        static_normal_n: n_bi,
-        demand,
-        rolled: false,
-        events: 0,
-        steps: 0,
-        rhs_evaluations: 0,
-        error: None,
-        scales: Scales::of(prepared, &peaks),
-        tolerance_reached: true,
-        spread_rad: [prepared.state[2]; 2],
-        zeno_closures: 0,
-        inconsistent_choices: 0,
-        fast_motion: None,
-        energy: None,
-        samples: Vec::new(),
-        engaged: None,
-        modes: Vec::new(),
-        overrun: prepared.overrun,
-    }
-}
-
-impl Simulation {
-    /// How long A slips after an overrun has been reversed, s: from the instant at which v_A has fallen to 0 under
-    /// load to the beginning of the stick that holds when N_bi reaches its largest value, or of the first after it. What
-    /// holds for a moment and slips on while the load builds up has not ended the slip. The paper: about 0.5 ms.
-    /// `None` without an overrun, samples or such a stick.
-    pub fn initial_slip_s(&self) -> Option<f64> {
-        self.overrun?;
-        let from = self.engaged?.t_s;
-        let sticks = |m: &Mode| matches!(m.place, Place::Arc(_)) && m.inner == Grip::Stick;
-        let largest = self.peaks.at_s[3].max(from);
-        let then = self.modes.iter().rposition(|(t, _)| *t <= largest)?;
-        let holds = then + self.modes[then..].iter().position(|(_, m)| sticks(m))?;
-        let slips = self.modes[..holds].iter().rposition(|(_, m)| !sticks(m));
-        let since = self.modes[slips.map_or(0, |i| i + 1)].0;
-        Some((since - from).max(0.0))
-    }
 }

@@ -4,7 +4,7 @@ use super::Scene;
 use crate::cli::left_out::LeftOut;
 use crate::design::ScenarioKind;
 use crate::dynamics::{EnergyBalance, SlipRecord, Stop};
-use crate::scenario::ErrorEstimate;
+use crate::scenario::{ErrorEstimate, Prepared, Simulation};
 use serde::Serialize;
 
 /// Slip at one contact.
@@ -33,10 +33,16 @@ struct Errors {
     slip_distance_mm: [f64; 2],
     slip_time_s: [f64; 2],
     contact_lost_s: f64,
+    /// The larger of the two below.
     peak_tan_demand: f64,
+    tan_inner: f64,
+    tan_outer: f64,
     normal_min_n: f64,
     normal_max_n: f64,
+    normal_outer_max_n: f64,
     hertz_peak_mpa: f64,
+    hertz_least_mpa: f64,
+    initial_slip_s: f64,
     required_static_friction: f64,
     slip_margin: f64,
     contact_margin: f64,
@@ -68,6 +74,42 @@ struct Fast {
     of: &'static str,
 }
 
+/// A figure that is the largest or smallest of a run.
+#[derive(Debug, Serialize)]
+struct Extreme {
+    value: f64,
+    /// When it was reached first.
+    at_s: f64,
+    /// Error of that time; null without an estimate.
+    at_error_s: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+struct Extremes {
+    tan_inner: Extreme,
+    tan_outer: Extreme,
+    normal_min_n: Extreme,
+    normal_max_n: Extreme,
+    normal_outer_max_n: Extreme,
+}
+
+/// The state of a static scenario or of a steady overrun.
+#[derive(Debug, Serialize)]
+struct Equilibrium {
+    alpha_rad: f64,
+    torque_nm: f64,
+    normal_inner_n: f64,
+    normal_outer_n: f64,
+    tan_inner: f64,
+    tan_outer: f64,
+    /// Null in overrun, as are the stiffnesses.
+    windup_rad: Option<f64>,
+    k_secant_nm_per_rad: Option<f64>,
+    k_tangent_nm_per_rad: Option<f64>,
+    /// Error of each figure, also of margins and pressure, by its own size.
+    relative_error: f64,
+}
+
 /// Keys of `simulate`; null where a figure does not exist for the scenario.
 #[derive(Debug, Default, Serialize)]
 pub(super) struct Body {
@@ -86,10 +128,14 @@ pub(super) struct Body {
     contact_lost_s: Option<f64>,
     peak_tan_demand: Option<f64>,
     required_static_friction: Option<f64>,
+    /// `rolling`: the peak of |T|/N in pure rolling; `bisection`: by runs with slip, where rolling unloads the contact.
+    required_static_friction_by: Option<&'static str>,
     slip_margin: Option<f64>,
     contact_margin: Option<f64>,
     normal_min_n: Option<f64>,
     normal_max_n: Option<f64>,
+    extremes: Option<Extremes>,
+    equilibrium: Option<Equilibrium>,
     hertz_peak_mpa: Option<f64>,
     hertz_static_mpa: Option<f64>,
     hertz_least_mpa: Option<f64>,
@@ -110,6 +156,12 @@ pub(super) struct Body {
     assumptions: Vec<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerance_reached: Option<bool>,
+    /// The figure whose error is largest by its natural size, where the tolerance is not reached, and that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    worst_figure: Option<(&'static str, f64)>,
+    /// Why a run with finer steps than those that answer did not come to its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    finer_gave_up: Option<&'static str>,
     /// Smallest and largest theta_inner_end over the runs made, where the tolerance is not reached.
     #[serde(skip_serializing_if = "Option::is_none")]
     spread_rad: Option<[f64; 2]>,
@@ -165,13 +217,70 @@ impl Errors {
             slip_time_s: e.slip_time_s,
             contact_lost_s: e.contact_lost_s,
             peak_tan_demand: e.tan_demand[0].max(e.tan_demand[1]),
+            tan_inner: e.tan_demand[0],
+            tan_outer: e.tan_demand[1],
             normal_min_n: e.normal_min_n,
             normal_max_n: e.normal_max_n,
+            normal_outer_max_n: e.normal_outer_max_n,
             hertz_peak_mpa: e.hertz_peak_pa / 1e6,
+            hertz_least_mpa: e.hertz_least_pa / 1e6,
+            initial_slip_s: e.initial_slip_s,
             required_static_friction: e.required_friction,
             slip_margin: e.slip_margin,
             contact_margin: e.contact_margin,
         }
+    }
+}
+
+impl Extremes {
+    fn of(s: &Simulation) -> Self {
+        let p = s.peaks;
+        let one = |value: f64, i: usize| Extreme {
+            value,
+            at_s: p.at_s[i],
+            at_error_s: s.error.map(|e| e.extremes_at_s[i]),
+        };
+        Self {
+            tan_inner: one(p.tan_inner, 0),
+            tan_outer: one(p.tan_outer, 1),
+            normal_min_n: one(p.normal_min_n, 2),
+            normal_max_n: one(p.normal_max_n, 3),
+            normal_outer_max_n: one(p.normal_outer_max_n, 4),
+        }
+    }
+}
+
+impl Equilibrium {
+    fn of(prepared: &Prepared, s: &Simulation) -> Option<Self> {
+        let relative_error = s.equilibrium_error?;
+        let alpha_rad = prepared.state[0];
+        if let Some(o) = s.overrun {
+            return Some(Self {
+                alpha_rad,
+                torque_nm: o.drag_torque_nm,
+                normal_inner_n: o.normal_inner_n,
+                normal_outer_n: o.normal_outer_n,
+                tan_inner: o.tan_inner,
+                tan_outer: o.tan_outer,
+                windup_rad: None,
+                k_secant_nm_per_rad: None,
+                k_tangent_nm_per_rad: None,
+                relative_error,
+            });
+        }
+        let row = prepared.at_rest()?;
+        Some(Self {
+            alpha_rad,
+            torque_nm: row.torque_nm,
+            normal_inner_n: row.normal_inner_n,
+            normal_outer_n: row.normal_outer_n,
+            tan_inner: row.tan_omega,
+            tan_outer: row.tan_nu,
+            windup_rad: Some(row.windup_rad),
+            k_secant_nm_per_rad: Some(row.k_secant_nm_per_rad),
+            k_tangent_nm_per_rad: Some(row.k_tangent_nm_per_rad),
+            relative_error,
+        })
     }
 }
 
@@ -193,9 +302,9 @@ impl Body {
             notes: scene.notes.clone(),
             ..Self::default()
         };
-        let s = match &scene.outcome {
+        let (prepared, s) = match &scene.outcome {
             Err(why) => return Self { stop: "no-start", reason: Some(why.to_string()), ..base },
-            Ok((_, s)) => s,
+            Ok((prepared, s)) => (prepared, s),
         };
         let overruns = matches!(scene.scenario.kind, ScenarioKind::Overrun { .. });
         let known = s.demand.filter(|d| d.gave_up.is_none());
@@ -209,10 +318,13 @@ impl Body {
             contact_lost_s: Some(s.contact_lost_s),
             peak_tan_demand: Some(s.peaks.tan_inner.max(s.peaks.tan_outer)),
             required_static_friction: known.and_then(|d| d.required_friction),
+            required_static_friction_by: known.filter(|d| d.finished).map(|d| if d.by_bisection { "bisection" } else { "rolling" }),
             slip_margin: known.map(|d| d.slip_margin),
             contact_margin: known.map(|d| d.contact_margin),
             normal_min_n: Some(s.peaks.normal_min_n),
             normal_max_n: Some(s.peaks.normal_max_n),
+            extremes: s.equilibrium_error.is_none().then(|| Extremes::of(s)),
+            equilibrium: Equilibrium::of(prepared, s),
             hertz_peak_mpa: Some(s.hertz_peak_pa / 1e6),
             hertz_static_mpa: Some(s.hertz_static_pa / 1e6),
             hertz_least_mpa: Some(s.hertz_least_pa / 1e6),
@@ -235,7 +347,10 @@ impl Body {
                 }
                 _ => Vec::new(),
             },
-            tolerance_reached: s.error.filter(|_| scene.method == "event").map(|_| s.tolerance_reached),
+            tolerance_reached: (scene.method != "published" && s.stop != Stop::Interrupted)
+                .then_some(s.tolerance_reached),
+            worst_figure: s.error.filter(|_| !s.tolerance_reached).map(|e| s.scales.worst_figure(&e)),
+            finer_gave_up: s.finer_gave_up.map(Stop::name),
             spread_rad: s.error.filter(|_| !s.tolerance_reached).map(|_| s.spread_rad),
             initial_slip_s: s.initial_slip_s(),
             drag_torque_nm: s.overrun.filter(|_| overruns).map(|o| o.drag_torque_nm),

@@ -2,8 +2,7 @@
 
 use super::Scene;
 use crate::design::ScenarioKind;
-use crate::dynamics::Peaks;
-use crate::margin::{lift_off_rad_s as lift_off, load_state};
+use crate::margin::{LIFT_OFF_ERROR, lift_off_rad_s as lift_off, load_state};
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::scenario::{ErrorEstimate, Prepared, Simulation, Verdict};
 
@@ -92,6 +91,11 @@ pub(super) fn lift_off_rad_s(scene: &Scene) -> Option<f64> {
     lift_off(&scene.own, &state, LIFT_OFF_SEARCH_RAD_S)
 }
 
+/// To what part figures read off the wedge curve are right: what its iterations stop at.
+const EXACT: f64 = 1e-13;
+/// The time of an extreme is shown to five digits; an error below this part of it is not.
+const TOLD: f64 = 1e-5;
+
 struct Facts(Table);
 
 impl Facts {
@@ -130,7 +134,7 @@ pub(super) fn table(scene: &Scene) -> Table {
     match &scene.outcome {
         Err(why) => facts.word("no start", &why.to_string()),
         Ok((prepared, s)) if scene.method == "equilibrium" => equilibrium(&mut facts, scene, prepared, s),
-        Ok((_, s)) => motion(&mut facts, scene, s),
+        Ok((prepared, s)) => motion(&mut facts, scene, prepared, s),
     }
     facts.0
 }
@@ -160,7 +164,7 @@ fn assumed(f: &mut Facts, scene: &Scene) {
     f.add("input: inertia of the bench, kg m²", bench_inertia_kg_m2, Unit::One, None);
 }
 
-fn motion(f: &mut Facts, scene: &Scene, s: &Simulation) {
+fn motion(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {
     let e = s.error;
     f.add("inner race at the end", s.theta_inner_rad, Unit::Radian, e.map(|e| e.theta_inner_rad));
     f.add("outer race at the end", s.theta_outer_rad, Unit::Radian, e.map(|e| e.theta_outer_rad));
@@ -177,15 +181,16 @@ fn motion(f: &mut Facts, scene: &Scene, s: &Simulation) {
     }
     assumed(f, scene);
     if let Some(initial) = s.initial_slip_s() {
-        f.add("initial slip after the reversal", initial, Unit::Millisecond, None);
+        f.add("initial slip after the reversal", initial, Unit::Millisecond, e.map(|e| e.initial_slip_s));
     }
     f.add("time without contact", s.contact_lost_s, Unit::Millisecond, e.map(|e| e.contact_lost_s));
-    peaks(f, &s.peaks, e);
+    peaks(f, s);
     f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, e.map(|e| e.hertz_peak_pa));
-    f.add("smallest Hertz pressure, inner", s.hertz_least_pa, Unit::Megapascal, None);
-    f.add("Hertz pressure, static load", s.hertz_static_pa, Unit::Megapascal, None);
+    f.add("smallest Hertz pressure, inner", s.hertz_least_pa, Unit::Megapascal, e.map(|e| e.hertz_least_pa));
+    let exact = |value: f64| Some((EXACT + prepared.model.curve.truncation()) * value);
+    f.add("Hertz pressure, static load", s.hertz_static_pa, Unit::Megapascal, exact(s.hertz_static_pa));
     if let Some(rated) = rated_pa(scene) {
-        f.add("Hertz pressure, nominal torque", rated, Unit::Megapascal, None);
+        f.add("Hertz pressure, nominal torque", rated, Unit::Megapascal, exact(rated));
     }
     demand(f, s);
     if let Some(b) = s.energy {
@@ -202,20 +207,22 @@ fn motion(f: &mut Facts, scene: &Scene, s: &Simulation) {
     f.count("right-hand sides, all runs", s.rhs_evaluations);
 }
 
-fn peaks(f: &mut Facts, p: &Peaks, e: Option<ErrorEstimate>) {
-    let at = |name: &str, i: usize| {
-        format!("{name} (at {})", Unit::Millisecond.show(p.at_s.get(i).copied().unwrap_or(0.0), 5))
+fn peaks(f: &mut Facts, s: &Simulation) {
+    let (p, e) = (&s.peaks, s.error);
+    let mut add = |i: usize, name: &str, value: f64, unit: Unit, error: fn(&ErrorEstimate) -> f64| {
+        let at = Unit::Millisecond.show(p.at_s[i], 5);
+        let off = e.map_or(0.0, |e| e.extremes_at_s[i]);
+        let off = if off > TOLD * p.at_s[i] {
+            format!(" ± {}", Unit::Millisecond.show(off, 2))
+        } else {
+            String::new()
+        };
+        f.add(&format!("{name} (at {at}{off})"), value, unit, e.as_ref().map(error));
     };
-    f.add(&at("smallest normal force, inner", 2), p.normal_min_n, Unit::Newton, e.map(|e| e.normal_min_n));
-    f.add(&at("largest normal force, inner", 3), p.normal_max_n, Unit::Newton, e.map(|e| e.normal_max_n));
-    f.add(&at("largest |T|/N, inner", 0), p.tan_inner, Unit::One, e.map(|e| e.tan_demand[0]));
-    let outer = at("largest |T|/N, outer", 1);
-    match e {
-        Some(e) if e.tan_demand[1] > 0.01 * p.tan_outer => {
-            f.word(&outer, "no bound: N falls to 0 while it holds")
-        }
-        _ => f.add(&outer, p.tan_outer, Unit::One, e.map(|e| e.tan_demand[1])),
-    }
+    add(2, "smallest normal force, inner", p.normal_min_n, Unit::Newton, |e| e.normal_min_n);
+    add(3, "largest normal force, inner", p.normal_max_n, Unit::Newton, |e| e.normal_max_n);
+    add(0, "largest |T|/N, inner", p.tan_inner, Unit::One, |e| e.tan_demand[0]);
+    add(1, "largest |T|/N, outer", p.tan_outer, Unit::One, |e| e.tan_demand[1]);
 }
 
 fn demand(f: &mut Facts, s: &Simulation) {
@@ -223,51 +230,60 @@ fn demand(f: &mut Facts, s: &Simulation) {
     if let Some(stop) = d.gave_up {
         return f.word("static friction needed to stick", &format!("not computed: {}", stop.name()));
     }
+    // An equilibrium has one relative error for all.
+    let exact = |value: f64| s.equilibrium_error.map(|e| e * value.abs());
     match d.required_friction {
         Some(needed) if d.by_bisection => {
             f.add(
-                "static friction needed to stick (bisected: rolling would open)",
+                "static friction needed to stick (bisected: rolling unloads the contact)",
                 needed,
                 Unit::One,
                 s.error.map(|e| e.required_friction),
             );
         }
         Some(needed) => {
-            f.add("static friction needed to stick", needed, Unit::One, s.error.map(|e| e.required_friction))
+            let error = s.error.map(|e| e.required_friction).or(exact(needed));
+            f.add("static friction needed to stick", needed, Unit::One, error)
         }
         None if d.overloaded => {
             f.word("static friction needed to stick", "overloaded: rolling goes beyond the end of the curve")
         }
         None => f.word("static friction needed to stick", "none suffices"),
     }
-    f.add("slip margin", d.slip_margin, Unit::Percent, s.error.map(|e| e.slip_margin));
-    f.add("contact margin", d.contact_margin, Unit::Percent, s.error.map(|e| e.contact_margin));
+    let slip_error = s.error.map(|e| e.slip_margin).or(exact(d.slip_margin + 1.0));
+    f.add("slip margin", d.slip_margin, Unit::Percent, slip_error);
+    let contact_error = s.error.map(|e| e.contact_margin).or(exact(d.contact_margin));
+    f.add("contact margin", d.contact_margin, Unit::Percent, contact_error);
 }
 
 fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {
-    f.add("sprag rotation alpha", prepared.state[0], Unit::Degree, None);
+    let mut add = |name: &str, value: f64, unit: Unit| {
+        f.add(name, value, unit, s.equilibrium_error.map(|e| e * value.abs()));
+    };
+    add("sprag rotation alpha", prepared.state[0], Unit::Degree);
     if let Some(o) = s.overrun {
-        f.add("drag torque", o.drag_torque_nm, Unit::NewtonMetre, None);
-        f.add("normal force, inner", o.normal_inner_n, Unit::Newton, None);
-        f.add("normal force, outer", o.normal_outer_n, Unit::Newton, None);
-        f.add("|T|/N, inner (sliding friction)", o.tan_inner, Unit::One, None);
-        f.add("|T|/N, outer (must hold)", o.tan_outer, Unit::One, None);
+        add("drag torque", o.drag_torque_nm, Unit::NewtonMetre);
+        add("normal force, inner", o.normal_inner_n, Unit::Newton);
+        add("normal force, outer", o.normal_outer_n, Unit::Newton);
+        add("|T|/N, inner (sliding friction)", o.tan_inner, Unit::One);
+        add("|T|/N, outer (must hold)", o.tan_outer, Unit::One);
+        let error = Some(LIFT_OFF_ERROR * LIFT_OFF_SEARCH_RAD_S);
         match lift_off_rad_s(scene) {
-            Some(speed) => f.add("lift-off at an outer race speed of", speed, Unit::Rpm, None),
+            Some(speed) => f.add("lift-off at an outer race speed of", speed, Unit::Rpm, error),
             None => f.word("lift-off at an outer race speed of", "none up to 60 000 rpm"),
         }
         return;
     }
-    let Some(row) = prepared.model.curve.at_normal(s.static_normal_n) else { return };
-    f.add("torque", row.torque_nm, Unit::NewtonMetre, None);
-    f.add("windup", row.windup_rad, Unit::Degree, None);
-    f.add("normal force, inner", row.normal_inner_n, Unit::Newton, None);
-    f.add("normal force, outer", row.normal_outer_n, Unit::Newton, None);
-    f.add("|T|/N, inner", row.tan_omega, Unit::One, None);
-    f.add("|T|/N, outer", row.tan_nu, Unit::One, None);
-    f.add("secant stiffness", row.k_secant_nm_per_rad, Unit::NewtonMetrePerRadian, None);
-    f.add("tangent stiffness", row.k_tangent_nm_per_rad, Unit::NewtonMetrePerRadian, None);
-    f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, None);
+    let Some(row) = prepared.at_rest() else { return };
+    add("torque", row.torque_nm, Unit::NewtonMetre);
+    add("windup", row.windup_rad, Unit::Degree);
+    add("normal force, inner", row.normal_inner_n, Unit::Newton);
+    add("normal force, outer", row.normal_outer_n, Unit::Newton);
+    add("|T|/N, inner", row.tan_omega, Unit::One);
+    add("|T|/N, outer", row.tan_nu, Unit::One);
+    add("secant stiffness", row.k_secant_nm_per_rad, Unit::NewtonMetrePerRadian);
+    add("tangent stiffness", row.k_tangent_nm_per_rad, Unit::NewtonMetrePerRadian);
+    add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal);
     demand(f, s);
 }
 

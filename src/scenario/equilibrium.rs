@@ -1,0 +1,78 @@
+//! Scenes in which nothing moves: static load and steady overrun.
+
+use super::answer::{Simulation, Verdict};
+use super::demand::demand;
+use super::error::Scales;
+use super::prepare::Prepared;
+use super::simulate::{Settings, hertz_at, hertz_peak};
+use crate::dynamics::{Peaks, SlipRecord, Stop};
+use crate::wedge::StaticPoint;
+
+/// Static and overrunning scenarios: equilibrium, no integration.
+pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
+    let demand = prepared.overrun.is_none().then(|| demand(prepared, settings));
+    let row = prepared.at_rest();
+    let (n_bi, n_be, tan_inner, tan_outer) = match (prepared.overrun, row) {
+        (Some(o), _) => (o.normal_inner_n, o.normal_outer_n, o.tan_inner, o.tan_outer),
+        (None, Some(r)) => (r.normal_inner_n, r.normal_outer_n, r.tan_omega, r.tan_nu),
+        (None, None) => (0.0, 0.0, 0.0, 0.0),
+    };
+    let verdict = match prepared.overrun {
+        Some(o) if o.normal_inner_n > 0.0 => Verdict::SlipsOverrunning,
+        Some(_) => Verdict::Disengages,
+        None if demand.is_some_and(|d| d.slip_margin > 0.0) => Verdict::Sticks,
+        // A sprag whose demand exceeds mu_s is squeezed out backwards under torque.
+        None => Verdict::SlipsEngaging,
+    };
+    let (normal_min_n, normal_max_n, normal_outer_max_n) = (n_bi, n_bi, n_be);
+    let peaks = Peaks { tan_inner, tan_outer, normal_min_n, normal_max_n, normal_outer_max_n, ..Peaks::NONE };
+    Simulation {
+        verdict: Some(verdict),
+        stop: Stop::Finished,
+        t_s: 0.0,
+        theta_inner_rad: prepared.state[2],
+        theta_outer_rad: prepared.state[3],
+        offset_rad: 0.0,
+        inner: SlipRecord::default(),
+        outer: SlipRecord::default(),
+        contact_lost_s: 0.0,
+        peaks,
+        hertz_peak_pa: hertz_peak(prepared, n_bi, n_be),
+        hertz_static_pa: hertz_peak(prepared, n_bi, n_be),
+        hertz_least_pa: hertz_at(prepared, n_bi),
+        static_normal_n: n_bi,
+        demand,
+        rolled: false,
+        events: 0,
+        steps: 0,
+        rhs_evaluations: 0,
+        error: None,
+        equilibrium_error: Some(equilibrium_error(prepared, row.as_ref())),
+        scales: Scales::of(prepared, &peaks),
+        tolerance_reached: true,
+        finer_gave_up: None,
+        spread_rad: [prepared.state[2]; 2],
+        zeno_closures: 0,
+        inconsistent_choices: 0,
+        fast_motion: None,
+        energy: None,
+        samples: Vec::new(),
+        engaged: None,
+        modes: Vec::new(),
+        overrun: prepared.overrun,
+    }
+}
+
+/// To what part every figure of an equilibrium is right: what of the torque is left over, what the windup's interpolation
+/// leaves out, and what the curve's iterations stop at; in overrun what of the moments is.
+fn equilibrium_error(prepared: &Prepared, row: Option<&StaticPoint>) -> f64 {
+    const SETTLED: f64 = 1e-13;
+    let torque_nm = -prepared.model.loads.inner_nm;
+    match (prepared.overrun, row) {
+        (Some(overrun), _) => SETTLED + overrun.relative_error,
+        (None, Some(row)) if torque_nm > 0.0 => {
+            SETTLED + prepared.model.curve.truncation() + (row.torque_nm / torque_nm - 1.0).abs()
+        }
+        _ => SETTLED,
+    }
+}
