@@ -3,7 +3,6 @@
 //! It does not converge at the paper's step: inside the band the contact creeps, and once the restoring force is
 //! lost it runs away. Never the default.
 
-use super::events::FIGURES;
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{Run, Sample, Stop};
 use crate::ode::rk4;
@@ -140,8 +139,10 @@ fn note(run: &mut Run, t: f64, h: f64, mode: Mode, f: &Forces, band: f64) {
     }
     let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
     let seen = [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be];
-    for i in 0..FIGURES {
-        run.peaks.note(i, t, &seen);
+    for (i, best) in run.peaks.figures().into_iter().enumerate() {
+        if seen[i] > best {
+            run.peaks.keep(i, t, &seen);
+        }
     }
     run.events += u64::from(t > 0.0 && mode != run.mode);
     run.mode = mode;

@@ -113,16 +113,13 @@ impl Peaks {
         normal_at_tan_n: [0.0; 2],
     };
 
-    /// The largest so far of figure `i` of a look.
-    pub(super) fn figure(&self, i: usize) -> f64 {
-        [self.tan_inner, self.tan_outer, -self.normal_min_n, self.normal_max_n, self.normal_outer_max_n][i]
+    /// The largest so far of each figure of a look.
+    pub(super) fn figures(&self) -> [f64; FIGURES] {
+        [self.tan_inner, self.tan_outer, -self.normal_min_n, self.normal_max_n, self.normal_outer_max_n]
     }
 
-    /// Keep figure `i` of those seen at `t` (s) if it is a record.
-    pub(super) fn note(&mut self, i: usize, t: f64, seen: &[f64; FIGURES]) {
-        if seen[i] <= self.figure(i) || seen[i].is_nan() {
-            return;
-        }
+    /// Figure `i` of those seen at `t` (s) is a record.
+    pub(super) fn keep(&mut self, i: usize, t: f64, seen: &[f64; FIGURES]) {
         let [tan_inner, tan_outer, negative, n_bi, n_be] = *seen;
         self.at_s[i] = t;
         match i {

@@ -24,13 +24,15 @@ impl Driver<'_> {
             samples > 0 && self.next_sample < samples && self.sample_time(self.next_sample) <= t_end;
         let mut dense = None;
         let fine = 1e-3 * self.settings.tolerance;
-        for (i, &bound) in self.bounds().iter().enumerate() {
+        for (i, (&bound, mut best)) in self.bounds().iter().zip(peaks.figures()).enumerate() {
             let value = |j: usize| looks.seen(j).figures[i];
             for (j, t) in [(0, start), (looks.count() - 1, t_end)] {
-                peaks.note(i, t, &looks.seen(j).figures);
+                if value(j) > best {
+                    best = value(j);
+                    peaks.keep(i, t, &looks.seen(j).figures);
+                }
             }
             for j in 0..looks.count() {
-                let best = peaks.figure(i);
                 let enough = best + fine * best.abs();
                 if enough >= bound {
                     break;
@@ -50,7 +52,8 @@ impl Driver<'_> {
                     let (from, guess, until) = (looks.at(left), looks.extreme(j, value), looks.at(right));
                     let (theta, found) = highest(from, guess, until, enough, fine * value(j).abs(), inside);
                     if found > best {
-                        peaks.note(i, start + theta * length, &figures(theta));
+                        best = found;
+                        peaks.keep(i, start + theta * length, &figures(theta));
                     }
                 }
             }
