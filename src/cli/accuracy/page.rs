@@ -72,7 +72,12 @@ fn verdict(study: &Study) -> (bool, String) {
     let map = if study.cases.is_empty() {
         String::new()
     } else {
-        format!("; in the map {changed} of {} cases change verdict or hold no number", study.cases.len())
+        let limit = study.cases.iter().filter(|c| c.outcomes[0].met_a_limit()).count();
+        format!(
+            "; in the map {changed} of {} cases change verdict or hold no number, {limit} end without one at their limit \
+             of work",
+            study.cases.len()
+        )
     };
     let line = format!(
         "The event method is the cheapest below {WANTED_RAD:.0e} rad in {won} of {} scenes{gain}{map}",
