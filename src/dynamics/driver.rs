@@ -11,7 +11,7 @@ use super::zeno::Zeno;
 use crate::ode::adaptive::Adaptive;
 use crate::ode::rhs::RightHandSide;
 use crate::ode::step::{Dense, Room, Step};
-use crate::wedge::HELD_RAD;
+use crate::wedge::RHO_STEEPEST_RAD;
 use std::sync::atomic::Ordering;
 
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
@@ -38,6 +38,8 @@ pub(super) struct Driver<'a> {
     /// Works so far, where they are counted.
     pub(super) audit: Option<Audit>,
     pub(super) zeno: Zeno,
+    /// When the mode has changed last, s, and at which event.
+    landed: (f64, usize),
     stepper: Adaptive<N_STATE>,
     /// Slope and look at the present state where the last step has left them.
     pub(super) slope: Option<State>,
@@ -73,6 +75,7 @@ impl<'a> Driver<'a> {
             next_sample: 0,
             audit: None,
             zeno: Zeno::new(),
+            landed: (f64::NAN, EVENTS),
             stepper: Adaptive::new(settings.tolerance_in(&mode), settings.longest_step_s * 0.1, SMALL),
             slope: None,
             seen: None,
@@ -161,10 +164,10 @@ impl<'a> Driver<'a> {
                 let theta = looks.at(i);
                 match self.first_event(d, step, looks, i - 1, theta, &looks.seen(i).events) {
                     Found::Nothing => {}
-                    Found::At(theta, which) => {
+                    Found::At(theta, which) if !self.stays(step, theta, which) => {
                         return self.land(step, looks, theta, which, d, rhs);
                     }
-                    Found::TooCoarse => {
+                    Found::At(..) | Found::TooCoarse => {
                         // The event function is negative from the start: look closer, then give way.
                         let h = step.h() * 0.125 * theta;
                         if h > 1e-13 {
@@ -196,6 +199,13 @@ impl<'a> Driver<'a> {
         true
     }
 
+    /// Whether event `which` at `theta` is that at which the mode has just changed: what is zero there is no more than
+    /// rounding above zero, and in a step as long as this one it may have risen and fallen again unseen.
+    fn stays(&self, step: &Step<N_STATE>, theta: f64, which: usize) -> bool {
+        let t = step.t();
+        t + theta * step.h() == t && self.landed == (t, which)
+    }
+
     /// The first event of a function that dips below zero and rises again between two looks: where its lowest look
     /// is nearer to zero than it can fall between looks. A step may have been cut where event `landed` is.
     fn crest(
@@ -223,15 +233,16 @@ impl<'a> Driver<'a> {
                     Some(d) => d,
                     None => step.dense(rhs, &mut self.run.counters)?,
                 };
+                let (start, length) = (step.t(), step.h());
                 let value = |theta: f64| {
-                    let t = step.t() + theta * step.h();
-                    -event(model, &mode, t, &d.at(t), grips, i)
+                    let elapsed = theta * length;
+                    -event(model, &mode, start + elapsed, &d.after(elapsed), grips, i)
                 };
                 let (from, until) = (looks.at(left), looks.at(right));
                 let (theta, depth) = highest(from, looks.extreme(j, e), until, 0.0, 0.0, value);
                 if depth > 0.0 {
-                    let t = step.t() + theta * step.h();
-                    let there = look(model, &mode, t, &d.at(t), grips).events;
+                    let elapsed = theta * length;
+                    let there = look(model, &mode, start + elapsed, &d.after(elapsed), grips).events;
                     if let Found::At(theta, which) = self.first_event(&d, step, looks, left, theta, &there)
                         && (landed.is_none() || theta < TOGETHER)
                     {
@@ -259,8 +270,8 @@ impl<'a> Driver<'a> {
         let mut earliest = f64::INFINITY;
         for i in (0..EVENTS).filter(|&i| after[i] < 0.0) {
             let value = |theta: f64| {
-                let t = step.t() + theta * step.h();
-                event(self.model, &mode, t, &dense.at(t), grips, i)
+                let elapsed = theta * step.h();
+                event(self.model, &mode, step.t() + elapsed, &dense.after(elapsed), grips, i)
             };
             let width = if i == INNER || i == OUTER { WIDTH * self.settings.tolerance } else { 0.0 };
             match looks.crossing(left, to, after[i], |look| look.events[i], width.max(FINEST_WIDTH), value) {
@@ -276,7 +287,7 @@ impl<'a> Driver<'a> {
     }
 
     /// The first event before the cusp at first contact, which lies at `theta`, that shows only near it: what rolling demands
-    /// grows there with the slope of rho, without bound but for the last [`HELD_RAD`], where rho is held.
+    /// grows there with the slope of rho, as far as [`RHO_STEEPEST_RAD`] from it.
     fn before_the_cusp(
         &self,
         step: &Step<N_STATE>,
@@ -285,11 +296,10 @@ impl<'a> Driver<'a> {
         dense: &Dense<N_STATE>,
     ) -> Option<(f64, usize)> {
         let (mode, grips) = (self.run.mode, !self.settings.rolling);
-        let at = |theta: f64| step.t() + theta * step.h();
-        let beside = 2.0 * HELD_RAD / (dense.at(at(theta))[4] * step.h()).abs();
-        let near = theta - beside;
+        let near = theta - RHO_STEEPEST_RAD / (dense.after(theta * step.h())[4] * step.h()).abs();
         let left = looks.last_before(near)?;
-        let there = look(self.model, &mode, at(near), &dense.at(at(near)), grips).events;
+        let elapsed = near * step.h();
+        let there = look(self.model, &mode, step.t() + elapsed, &dense.after(elapsed), grips).events;
         match self.first_event(dense, step, looks, left, near, &there) {
             Found::At(theta, which) => Some((theta, which)),
             Found::Nothing | Found::TooCoarse => None,
@@ -308,8 +318,8 @@ impl<'a> Driver<'a> {
     ) -> bool {
         let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
         let sight = |theta: f64| {
-            let t = step.t() + theta * step.h();
-            look(model, &mode, t, &dense.at(t), grips)
+            let elapsed = theta * step.h();
+            look(model, &mode, step.t() + elapsed, &dense.after(elapsed), grips)
         };
         let mut there = sight(theta);
         let theta = looks.beyond_a_jump(theta, which, &mut there, sight);
@@ -343,6 +353,7 @@ impl<'a> Driver<'a> {
             self.accept(&part, looks.end());
         }
         let (t, y) = (step.t() + h, self.run.state);
+        self.landed = (t, which);
         if !self.count_event() {
             return false;
         }

@@ -180,7 +180,12 @@ impl<const N: usize> Step<N> {
 impl<const N: usize> Dense<N> {
     /// State at time `t` inside the step.
     pub fn at(&self, t: f64) -> [f64; N] {
-        let s = (t - self.t) / self.h;
+        self.after(t - self.t)
+    }
+
+    /// State `elapsed` (s) after the start of the step.
+    pub fn after(&self, elapsed: f64) -> [f64; N] {
+        let s = elapsed / self.h;
         let s1 = 1.0 - s;
         let c = &self.coefficients;
         let mut y = [0.0; N];

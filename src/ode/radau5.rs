@@ -364,7 +364,12 @@ impl<const N: usize> Step<N> {
 
     /// The collocation polynomial at time `t`.
     pub fn at(&self, t: f64) -> [f64; N] {
-        let x = (t - self.t) / self.h;
+        self.after(t - self.t)
+    }
+
+    /// The collocation polynomial `elapsed` (s) after the start.
+    pub fn after(&self, elapsed: f64) -> [f64; N] {
+        let x = elapsed / self.h;
         let p = &self.powers;
         std::array::from_fn(|i| self.y0[i] + x * (p[0][i] + x * (p[1][i] + x * p[2][i])))
     }

@@ -140,15 +140,15 @@ impl<const N: usize> Step<'_, N> {
     pub fn glance(&self, theta: f64) -> [f64; N] {
         match self {
             Self::Explicit(s) => s.glance(theta),
-            Self::Implicit(s) => s.at(s.t + theta * s.h),
-            Self::Part(s) => s.dense.at(s.t + theta * s.h),
+            Self::Implicit(s) => s.after(theta * s.h),
+            Self::Part(s) => s.dense.after(theta * s.h),
         }
     }
 
     /// Its first `h`, known by its dense output.
     pub fn until<'d>(&self, h: f64, dense: &'d Dense<N>) -> Step<'d, N> {
         let (t, y0) = (self.t(), *self.y0());
-        Step::Part(Part { h, y0, y1: dense.at(t + h), t, dense })
+        Step::Part(Part { h, y0, y1: dense.after(h), t, dense })
     }
 
     /// Dense output.
@@ -174,6 +174,15 @@ impl<const N: usize> Dense<N> {
         match self {
             Self::Explicit(d) => d.at(t),
             Self::Implicit(d) => d.at(t),
+        }
+    }
+
+    /// State `elapsed` (s) after the start of the step: where a step is so short that its start swallows parts of it, time
+    /// itself does not tell them apart.
+    pub fn after(&self, elapsed: f64) -> [f64; N] {
+        match self {
+            Self::Explicit(d) => d.after(elapsed),
+            Self::Implicit(d) => d.after(elapsed),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::build::arc_end;
 use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::elastic::NoElastic;
-use super::table::{ArcTable, HELD_RAD, point};
+use super::table::{ArcTable, held, point};
 use crate::numeric::root;
 
 /// Why the curve ends.
@@ -155,17 +155,11 @@ impl WedgeCurve {
             return point(&v, v[8], 1.0, 1.0);
         }
         // s = (alpha - alpha_0)^(1/q); N = (s * z/s)^10.
-        let x = alpha - self.alpha0;
-        let s = x.max(0.0).powf(1.0 / self.exponent);
-        if x > HELD_RAD {
-            let v = arc.table.at(s);
-            return point(&v, (s * v[8]).powi(10), s / (self.exponent * x), x);
-        }
-        // rho' is singular (integrably, as x^(1/q - 1)) at first contact: within 1e-9 rad rho moves by some 1e-4. It is
-        // held there with slope 0, so that velocities and their constraints agree; the jump at first contact is
-        // taken as every jump of rho is.
-        let v = arc.table.at(HELD_RAD.powf(1.0 / self.exponent));
-        point(&v, (s * v[8]).powi(10), 0.0, x.max(0.0))
+        let x = (alpha - self.alpha0).max(0.0);
+        let (held, slope) = held(x);
+        let s = held.powf(1.0 / self.exponent);
+        let v = arc.table.at(s);
+        point(&v, (s * v[8]).powi(10) * (x / held), slope * s / (self.exponent * held), x)
     }
 
     /// The curve continued below first contact by the tension that a bilateral contact would carry:

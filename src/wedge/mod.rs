@@ -23,4 +23,4 @@ pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};
 pub use patch::{InnerCurvature, Straddle};
 pub use stiffness::StaticPoint;
-pub(crate) use table::HELD_RAD;
+pub(crate) use table::RHO_STEEPEST_RAD;

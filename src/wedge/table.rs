@@ -19,7 +19,24 @@ const LANES: usize = 11;
 pub(super) const READ: usize = LANES + 3;
 
 /// Distance from first contact below which the geometry is held, rad.
-pub(crate) const HELD_RAD: f64 = 1e-9;
+const HELD_RAD: f64 = 1e-9;
+/// Where by that the slopes of rho are largest, rad.
+pub(crate) const RHO_STEEPEST_RAD: f64 = 1.23 * HELD_RAD;
+/// From here on, in parts of [`HELD_RAD`], nothing is held: e^-40 is less than rounding.
+const FREE: f64 = 40.0;
+
+/// Where the geometry `x` >= 0 (rad) from first contact is read, and the slope of that. rho' is singular (integrably, as
+/// x^(1/q - 1)) at first contact: within 1e-9 rad rho moves by some 1e-4. There x + H e^(-x/H) is read for x, level at
+/// x = 0, so that velocities and their constraints agree and nothing jumps: alpha'' holds rho' alpha'^2, and a step of high
+/// order would have to end where rho' jumps. The jump at first contact is taken as every jump of rho is.
+#[inline(always)]
+pub(super) fn held(x: f64) -> (f64, f64) {
+    if x > FREE * HELD_RAD {
+        return (x, 1.0);
+    }
+    let rest = (-x / HELD_RAD).exp();
+    (x + HELD_RAD * rest, 1.0 - rest)
+}
 
 /// Panels of the first arc in s, as fractions of its end. The lowest two hold N below 1e-10 of the end's and
 /// matter only for continuity.
