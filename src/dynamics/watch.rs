@@ -45,8 +45,8 @@ impl Driver<'_> {
                         None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
                     };
                     let figures = |theta: f64| {
-                        let t = start + theta * length;
-                        look(model, &mode, t, &d.at(t), false).figures
+                        let elapsed = theta * length;
+                        look(model, &mode, start + elapsed, &d.after(elapsed), false).figures
                     };
                     let inside = |theta: f64| figures(theta)[i];
                     let (from, guess, until) = (looks.at(left), looks.extreme(j, value), looks.at(right));
