@@ -29,8 +29,8 @@ fn a_scene_and_a_few_cases_are_compared_and_written() {
     // theta_bi by an independent script, -0.010152.
     assert!((scene["reference"]["theta_inner_end_rad"].as_f64().unwrap() + 0.010152).abs() < 1e-6);
     let points = scene["points"].as_array().unwrap();
-    // Twelve tolerances three ways; two steps in three bands.
-    assert_eq!(points.len(), 3 * 12 + 2 * 3);
+    // 17 tolerances three ways; two steps in three bands.
+    assert_eq!(points.len(), 3 * 17 + 2 * 3);
     for p in points.iter().filter(|p| p["method"] == "event-full") {
         let (tolerance, error) =
             (p["tolerance"].as_f64().unwrap(), p["theta_inner_error_rad"].as_f64().unwrap());

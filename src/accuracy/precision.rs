@@ -26,7 +26,10 @@ pub struct PrecisionSettings {
 impl Default for PrecisionSettings {
     fn default() -> Self {
         Self {
-            tolerances: vec![2e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11],
+            tolerances: vec![
+                2e-3, 1.5e-3, 1e-3, 7e-4, 5e-4, 3e-4, 2e-4, 1e-4, 5e-5, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9,
+                1e-10, 1e-11,
+            ],
             steps_s: vec![1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7],
             bands_m_s: vec![1e-3, 1e-4, 1e-5],
             repeat_s: 0.1,

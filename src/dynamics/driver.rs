@@ -1,9 +1,10 @@
 //! Event-driven integration: smooth inside a mode, every change of mode located.
 
 use super::change::Next;
+use super::cusp::cusp;
 use super::energy::Audit;
 use super::events::{EVENTS, INNER, Look, OUTER, event, look};
-use super::looks::{Looks, NeverPositive, Observed, Trail, cusp};
+use super::looks::{Looks, NeverPositive, Observed, Trail};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{FastMotion, Run, RunSettings, Stop};
 use super::watch::highest;
@@ -11,7 +12,6 @@ use super::zeno::Zeno;
 use crate::ode::adaptive::Adaptive;
 use crate::ode::rhs::RightHandSide;
 use crate::ode::step::{Dense, Room, Step};
-use crate::wedge::RHO_STEEPEST_RAD;
 use std::sync::atomic::Ordering;
 
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
@@ -123,10 +123,9 @@ impl<'a> Driver<'a> {
                     }
                 }
             };
-            let (longest, rest) = (
-                self.settings.longest_step_s,
-                self.settings.duration_s.min(self.model.drive.next_break_s(t)) - t,
-            );
+            let longest = self.settings.longest_step_s;
+            let rest = self.settings.duration_s.min(self.model.drive.next_break_s(t)) - t;
+            let rest = rest.min(self.towards_the_cusp_s());
             let counters = &mut self.run.counters;
             let cusp = cusp(self.run.mode.place);
             let useful = |h: f64| trail.useful(h, cusp);
@@ -256,7 +255,7 @@ impl<'a> Driver<'a> {
     }
 
     /// Earliest zero between look `left` and the fraction `to` of the step, where `after` is seen.
-    fn first_event(
+    pub(super) fn first_event(
         &self,
         dense: &Dense<N_STATE>,
         step: &Step<N_STATE>,
@@ -284,26 +283,6 @@ impl<'a> Driver<'a> {
             }
         }
         first
-    }
-
-    /// The first event before the cusp at first contact, which lies at `theta`, that shows only near it: what rolling demands
-    /// grows there with the slope of rho, as far as [`RHO_STEEPEST_RAD`] from it.
-    fn before_the_cusp(
-        &self,
-        step: &Step<N_STATE>,
-        looks: &Looks,
-        theta: f64,
-        dense: &Dense<N_STATE>,
-    ) -> Option<(f64, usize)> {
-        let (mode, grips) = (self.run.mode, !self.settings.rolling);
-        let near = theta - RHO_STEEPEST_RAD / (dense.after(theta * step.h())[4] * step.h()).abs();
-        let left = looks.last_before(near)?;
-        let elapsed = near * step.h();
-        let there = look(self.model, &mode, step.t() + elapsed, &dense.after(elapsed), grips).events;
-        match self.first_event(dense, step, looks, left, near, &there) {
-            Found::At(theta, which) => Some((theta, which)),
-            Found::Nothing | Found::TooCoarse => None,
-        }
     }
 
     /// Take the step only up to the event and change the mode there.
@@ -438,7 +417,7 @@ impl<'a> Driver<'a> {
     }
 }
 
-enum Found {
+pub(super) enum Found {
     Nothing,
     At(f64, usize),
     TooCoarse,

@@ -1,8 +1,8 @@
 //! Where a step is looked at, mostly for nothing: the states at which an explicit step evaluates its right-hand side
 //! from its sixth stage on are good to order 5, and an evaluation of the forces is all that a look takes.
 
-use super::events::{EVENTS, LOWER, Look, UPPER, look, seen};
-use super::model::{Mode, Model, N_STATE, Place, State};
+use super::events::{EVENTS, Look, look, seen};
+use super::model::{Mode, Model, N_STATE, State};
 use crate::numeric::root;
 use crate::ode::dop853;
 use crate::ode::rhs::RightHandSide;
@@ -103,15 +103,6 @@ impl RightHandSide<N_STATE> for Observed<'_> {
         looks[look] = seen(model, mode, y, &p, &f, self.grips);
         *count = look + 1;
         model.slope_of(mode, &rates, &f).ok_or(())
-    }
-}
-
-/// The event at which `place` ends at first contact, where rho and the slope of N have infinite slopes.
-pub(super) fn cusp(place: Place) -> Option<usize> {
-    match place {
-        Place::Arc(0) => Some(LOWER),
-        Place::Tension => Some(UPPER),
-        Place::Arc(_) | Place::Open => None,
     }
 }
 

@@ -11,6 +11,7 @@
 mod change;
 mod choose;
 mod crossing;
+mod cusp;
 mod driver;
 mod energy;
 mod events;

@@ -1,0 +1,57 @@
+//! First contact, the cusp of every curve: N ~ x^(10/9) and rho - rho_0 ~ x^(1/9), x its distance in alpha.
+
+use super::driver::{Driver, Found};
+use super::events::{LOWER, UPPER, look};
+use super::looks::Looks;
+use super::model::{Grip, N_STATE, Place};
+use crate::ode::step::{Dense, Step};
+use crate::wedge::RHO_STEEPEST_RAD;
+
+/// How much of the way to the cusp one step may go.
+const PART: f64 = 0.8;
+/// From here on, rad, the rest is one step: rho' grows no more.
+const NEAR_RAD: f64 = 2.0 * RHO_STEEPEST_RAD;
+
+/// The event at which `place` ends at first contact, where rho and the slope of N have infinite slopes.
+pub(super) fn cusp(place: Place) -> Option<usize> {
+    match place {
+        Place::Arc(0) => Some(LOWER),
+        Place::Tension => Some(UPPER),
+        Place::Arc(_) | Place::Open => None,
+    }
+}
+
+impl Driver<'_> {
+    /// How long a step may be that does not spoil the loss of contact, s. Where one contact holds and the other slips,
+    /// alpha'' holds rho' alpha'^2 ~ x^(-8/9): of a step that begins at x and ends at the cusp the estimate sees nothing,
+    /// however short, and three runs that do the same agree and are wrong together.
+    pub(super) fn towards_the_cusp_s(&self) -> f64 {
+        let (mode, y) = (self.run.mode, &self.run.state);
+        let one_holds = (mode.inner == Grip::Stick) != (mode.outer == Grip::Stick);
+        let x = y[0] - self.model.curve.first_contact_rad();
+        if mode.place == Place::Arc(0) && one_holds && y[4] < 0.0 && x > NEAR_RAD {
+            return PART * x / -y[4];
+        }
+        f64::INFINITY
+    }
+
+    /// The first event before the cusp at first contact, which lies at `theta`, that shows only near it: what rolling demands
+    /// grows there with the slope of rho, as far as [`RHO_STEEPEST_RAD`] from it.
+    pub(super) fn before_the_cusp(
+        &self,
+        step: &Step<N_STATE>,
+        looks: &Looks,
+        theta: f64,
+        dense: &Dense<N_STATE>,
+    ) -> Option<(f64, usize)> {
+        let (mode, grips) = (self.run.mode, !self.settings.rolling);
+        let near = theta - RHO_STEEPEST_RAD / (dense.after(theta * step.h())[4] * step.h()).abs();
+        let left = looks.last_before(near)?;
+        let elapsed = near * step.h();
+        let there = look(self.model, &mode, step.t() + elapsed, &dense.after(elapsed), grips).events;
+        match self.first_event(dense, step, looks, left, near, &there) {
+            Found::At(theta, which) => Some((theta, which)),
+            Found::Nothing | Found::TooCoarse => None,
+        }
+    }
+}
