@@ -111,7 +111,7 @@ fn the_promised_keys_are_there_and_consistent() {
     assert_eq!(a["error_estimate"], a["error_estimates"]["theta_inner_rad"]);
     for key in ["tan_inner", "tan_outer", "normal_min_n", "normal_max_n", "normal_outer_max_n"] {
         let extreme = &a["extremes"][key];
-        assert!(number(extreme, "at_error_s") >= 0.0 && number(extreme, "at_s") > 0.0, "{key}");
+        assert!(number(extreme, "at_moved_s") >= 0.0 && number(extreme, "at_s") > 0.0, "{key}");
         assert!(number(&a["error_estimates"], key) <= 1e-6 * number(extreme, "value").max(1000.0), "{key}");
     }
     let larger =

@@ -43,7 +43,7 @@ fn the_friction_needed_grows_smoothly_past_the_opening_of_the_contact() {
     assert!(opened[0] && opened[1]);
 }
 
-/// A margin above zero is a clutch that sticks, and one below does not.
+/// A margin above zero is a clutch that sticks. One below need not slip by 1 um, which is what the verdict says, but here does.
 #[test]
 fn the_slip_margin_has_the_sign_of_the_verdict() {
     let bench = "designs/huang2017-bench.toml";

@@ -229,12 +229,12 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
         simulation.filter(|s| scene.method == "event" && s.error.is_some() && !s.tolerance_reached)
     {
         let [low, high] = s.spread_rad;
-        let (figure, by) = s.error.map_or(("", 0.0), |e| s.scales.worst_figure(&e));
+        let (figure, by) = worst(s);
         let finer = s
             .finer_gave_up
             .map_or(String::new(), |stop| format!("; a finer run gave up: {}", given_up(stop)));
         notes.push(format!(
-            "the tolerance is not reached: furthest from it is the {figure}, {by:.1e} of its natural size{finer}; \
+            "the tolerance is not reached: furthest from it is the {figure}, off by {by:.1e} of its natural size{finer}; \
              theta_inner_end lies between {low:.9} and {high:.9} rad over the runs made"
         ));
     }
@@ -246,6 +246,13 @@ fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// The figure furthest from the tolerance, and its error by its natural size; what the energy balance leaves over is one.
+fn worst(s: &Simulation) -> (&'static str, f64) {
+    let left = s.energy.map_or(0.0, |e| e.relative().abs());
+    let figure = s.error.map_or(("", 0.0), |e| s.scales.worst_figure(&e));
+    if figure.1 < left { ("energy left over", left) } else { figure }
 }
 
 /// Why a run ended before its time.

@@ -16,6 +16,8 @@ pub(super) const OUTER: usize = 3;
 
 /// Number of figures of a [`Look`].
 pub(super) const FIGURES: usize = 5;
+/// Index of N_bi among them.
+pub(super) const N_BI: usize = 3;
 
 /// How far below first contact alpha must fall before contact counts as lost, rad: N is 0 from first contact on,
 /// and a sprag that neither spring nor load moves does not flutter between the two places on rounding.
@@ -58,7 +60,7 @@ fn within(model: &Model, place: Place, alpha: f64) -> (f64, f64) {
     }
 }
 
-/// How much a contact counts that carries `n` (N): 1 from `loaded` (N) on, smoothly less below, nothing without a force.
+/// How much of what a contact is asked for counts that carries `n` (N): 1 from `loaded` (N) on, smoothly less below, nothing without a force.
 fn carried(n: f64, loaded: f64) -> f64 {
     let x = n / loaded;
     if x >= 1.0 || loaded == 0.0 { 1.0 } else { x.max(0.0).powi(2) * (3.0 - 2.0 * x) }
@@ -84,7 +86,7 @@ pub(super) fn seen(model: &Model, mode: &Mode, y: &State, p: &WedgePoint, f: &Fo
     let closed = matches!(mode.place, Place::Arc(_));
     let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
     // A contact that holds whatever that takes is asked for more without bound as it unloads.
-    let carried = if model.outer_holds { carried(f.n_be, model.loaded_n) } else { 1.0 };
+    let carried = if model.outer_holds { carried(f.n_bi.min(f.n_be), model.loaded_n) } else { 1.0 };
     Look {
         events: [lower, upper, inner, outer],
         figures: [ratio(f.t_bi, f.n_bi), carried * ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be],

@@ -141,7 +141,7 @@ fn note(run: &mut Run, t: f64, h: f64, mode: Mode, f: &Forces, band: f64) {
     let seen = [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be];
     for (i, best) in run.peaks.figures().into_iter().enumerate() {
         if seen[i] > best {
-            run.peaks.keep(i, t, &seen);
+            run.peaks.keep(i, t, seen[i], f.n_bi);
         }
     }
     run.events += u64::from(t > 0.0 && mode != run.mode);

@@ -118,16 +118,15 @@ impl Peaks {
         [self.tan_inner, self.tan_outer, -self.normal_min_n, self.normal_max_n, self.normal_outer_max_n]
     }
 
-    /// Figure `i` of those seen at `t` (s) is a record.
-    pub(super) fn keep(&mut self, i: usize, t: f64, seen: &[f64; FIGURES]) {
-        let [tan_inner, tan_outer, negative, n_bi, n_be] = *seen;
+    /// Figure `i` of a look at `t` (s) with a normal force of `n_bi` (N) is a record.
+    pub(super) fn keep(&mut self, i: usize, t: f64, value: f64, n_bi: f64) {
         self.at_s[i] = t;
         match i {
-            0 => (self.tan_inner, self.normal_at_tan_n[0]) = (tan_inner, n_bi),
-            1 => (self.tan_outer, self.normal_at_tan_n[1]) = (tan_outer, n_bi),
-            2 => self.normal_min_n = -negative,
-            3 => self.normal_max_n = n_bi,
-            _ => self.normal_outer_max_n = n_be,
+            0 => (self.tan_inner, self.normal_at_tan_n[0]) = (value, n_bi),
+            1 => (self.tan_outer, self.normal_at_tan_n[1]) = (value, n_bi),
+            2 => self.normal_min_n = -value,
+            3 => self.normal_max_n = value,
+            _ => self.normal_outer_max_n = value,
         }
     }
 }
@@ -233,12 +232,13 @@ pub struct Run {
 impl RunSettings {
     /// What the error of a step in `mode` may be. Where both contacts hold, the weighted error over work is least with a
     /// tenth of it: what is wrong with the state there is wrong with the slip that follows.
-    /// Rates that follow from others have none: of alpha' the slope is infinite at first contact.
+    /// Rates that follow from others have none: of alpha' the slope is infinite at first contact. Slip has next to no absolute
+    /// one: where friction falls with speed what begins to slip runs away from 0, and its first steps decide when.
     pub(super) fn tolerance_in(&self, mode: &Mode) -> Tolerance<N_STATE> {
         let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
         let outer = mode.outer == Grip::Stick;
         let relative = if inner && outer { 0.1 * self.tolerance } else { self.tolerance };
-        let (angle, rate, slip) = (1e-2 * relative, 10.0 * relative, 1e-3 * relative);
+        let (angle, rate, slip) = (1e-2 * relative, 10.0 * relative, 1e-9 * relative);
         let unless = |follows: bool| if follows { f64::INFINITY } else { rate };
         let (alpha, phi) = (unless(inner && outer), unless(inner || outer));
         Tolerance {

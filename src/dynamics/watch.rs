@@ -1,7 +1,7 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
 use super::driver::Driver;
-use super::events::{FIGURES, look};
+use super::events::{FIGURES, N_BI, look};
 use super::looks::{Looks, Observed, parabola};
 use super::model::{N_STATE, State};
 use super::run::Sample;
@@ -25,11 +25,11 @@ impl Driver<'_> {
         let mut dense = None;
         let fine = 1e-3 * self.settings.tolerance;
         for (i, (&bound, mut best)) in self.bounds().iter().zip(peaks.figures()).enumerate() {
-            let value = |j: usize| looks.seen(j).figures[i];
+            let value = |j: usize| looks.seen(j).figures[i].min(bound);
             for (j, t) in [(0, start), (looks.count() - 1, t_end)] {
                 if value(j) > best {
                     best = value(j);
-                    peaks.keep(i, t, &looks.seen(j).figures);
+                    peaks.keep(i, t, best, looks.seen(j).figures[N_BI]);
                 }
             }
             for j in 0..looks.count() {
@@ -52,8 +52,8 @@ impl Driver<'_> {
                     let (from, guess, until) = (looks.at(left), looks.extreme(j, value), looks.at(right));
                     let (theta, found) = highest(from, guess, until, enough, fine * value(j).abs(), inside);
                     if found > best {
-                        best = found;
-                        peaks.keep(i, start + theta * length, &figures(theta));
+                        best = found.min(bound);
+                        peaks.keep(i, start + theta * length, best, figures(theta)[N_BI]);
                     }
                 }
             }

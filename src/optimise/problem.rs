@@ -215,11 +215,7 @@ impl ClutchProblem {
             return scene_margins(scenario, &self.limits, true, &settings);
         }
         let whole = || scene_margins(scenario, &self.limits, true, &settings);
-        let Ok((plan, prepared)) = fidelity::plan(scenario, &settings) else { return whole() };
-        // Taking a slow speed for rest costs up to the tolerance, and whether it does may change with x: a jump.
-        if plan.reduction.at_rest {
-            return whole();
-        }
+        let Ok((plan, prepared)) = fidelity::plan(scenario) else { return whole() };
         let found = demand(&prepared, &settings);
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {

@@ -3,7 +3,7 @@
 use super::answer::Verdict;
 use super::error::ErrorEstimate;
 use super::prepare::Prepared;
-use super::simulate::{Settings, verdict};
+use super::simulate::{SLIPPED_M, Settings, slips, verdict};
 use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, run};
 use crate::friction::Stribeck;
 
@@ -11,8 +11,9 @@ use crate::friction::Stribeck;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
     /// mu_req: the static friction from which on the scene sticks, that is, no contact begins to slip while A carries
-    /// [`Model::loaded_n`](crate::dynamics::Model::loaded_n) (1 % of the static load) and A slips by no more than 1 um in the
-    /// end. Where the rolling run asks for most while A is loaded, its peak of |T|/N. `None`: no friction up to 1 suffices.
+    /// [`Model::loaded_n`](crate::dynamics::Model::loaded_n) (1 % of the load of the largest torque) and the path of slip at A
+    /// is no more than 1 um. Where the rolling run asks for most while A is loaded, its peak of |T|/N. `None`: no friction up
+    /// to 1 suffices.
     pub required_friction: Option<f64>,
     /// Whether mu_req was bisected by runs with slip, because the contact of the rolling run all but opens.
     pub by_bisection: bool,
@@ -109,10 +110,11 @@ pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, fineness: Fine
 
 /// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.
 const MOST_FRICTION: f64 = 1.0;
-/// Smallest coefficient that is tried, about.
+/// Smallest coefficient that is tried, about; where even that suffices it is the answer.
 const LEAST_FRICTION: f64 = 1e-3;
-/// Ratio of one coefficient that is tried to the next, away from mu_s, until two lie on either side of the answer.
-const LADDER: f64 = 2.0;
+/// Ratio of one coefficient that is tried to the next, down from mu_s where the scene sticks, until two lie on either side of
+/// the answer: small, because below a friction that does not suffice another may.
+const DOWN: f64 = 1.2;
 /// Least relative width at which the bisection ends; else it is the tolerance of the runs.
 const NARROWEST: f64 = 1e-12;
 
@@ -142,6 +144,7 @@ pub(super) fn roll(
     let mut required = r.required_friction.filter(|_| finished);
     let mut interrupted = r.stop == Stop::Interrupted;
     let by_bisection = finished && required.is_none();
+    required = required.filter(|&mu| mu <= MOST_FRICTION);
     if by_bisection {
         let (found, work, stopped) = bisected(prepared, settings, fineness);
         required = found;
@@ -173,7 +176,7 @@ fn contact_margin(static_n: f64, rolling: &Rolling) -> f64 {
 /// The static friction from which on the scene sticks, the kinetic one lowered with it, in the middle of what is left: two
 /// bisections of different width never agree by chance; right-hand sides; whether it was interrupted. Where more friction is
 /// not better throughout it is the limit next to mu_s, below it where the scene sticks, above it where not; `None` where
-/// nothing up to the largest does.
+/// neither the largest nor one half way there does.
 fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Option<f64>, u64, bool) {
     let s = run_settings(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
     let law = prepared.model.friction;
@@ -186,23 +189,25 @@ fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Op
         work += r.counters.rhs_evaluations;
         interrupted |= r.stop == Stop::Interrupted;
         verdict(prepared, &r, &ErrorEstimate::default()) == Some(Verdict::Sticks)
+            && slips(&r)[0].distance_m <= SLIPPED_M
             && r.slip_begins_n < prepared.model.loaded_n.max(f64::MIN_POSITIVE)
     };
     let (mut low, mut high) = (law.static_, law.static_);
     if sticks(law.static_) {
-        while low >= LEAST_FRICTION && sticks(low / LADDER) {
-            low /= LADDER;
-        }
-        (low, high) = (low / LADDER, low);
-    } else {
         loop {
-            if high >= MOST_FRICTION {
-                return (None, work, interrupted);
+            if low < LEAST_FRICTION {
+                return (Some(high), work, interrupted);
             }
-            (low, high) = (high, (high * LADDER).min(MOST_FRICTION));
-            if sticks(high) {
+            (low, high) = (low / DOWN, low);
+            if !sticks(low) {
                 break;
             }
+        }
+    } else {
+        let more = [MOST_FRICTION, (low * MOST_FRICTION).sqrt()].into_iter().filter(|&mu| mu > low);
+        match more.into_iter().find(|&mu| sticks(mu)) {
+            Some(mu) => high = mu,
+            None => return (None, work, interrupted),
         }
     }
     let width = fineness.tolerance.max(NARROWEST);

@@ -38,8 +38,8 @@ pub struct ErrorEstimate {
     pub hertz_least_pa: f64,
     /// How long A slips after an overrun has been reversed, s.
     pub initial_slip_s: f64,
-    /// When the extremes were reached, s, in the order of [`Peaks::at_s`]. Held against no tolerance: an extreme is flat, and
-    /// of two that are nearly equal either may be the larger.
+    /// By how much the times of the extremes moved between the runs, s, in the order of [`Peaks::at_s`]. That is no bound, and
+    /// held against no tolerance: an extreme is flat, and of several that are equal within their error any may be named.
     pub extremes_at_s: [f64; 5],
     /// Friction that rolling would need; 0 where none suffices in either run.
     pub required_friction: f64,

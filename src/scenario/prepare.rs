@@ -121,8 +121,6 @@ pub fn place_profile(clutch: &Clutch) -> Result<Profile, ProfileError> {
 pub struct Reduction {
     /// Torque beyond which no further arc of the curve is built, N m.
     pub reach_nm: Option<f64>,
-    /// Whether a constant mean speed is taken for rest.
-    pub at_rest: bool,
 }
 
 /// Build model and initial state.
@@ -140,21 +138,21 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
 pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoScenario> {
     let mut prepared = at_start(scenario, reduction)?;
     let model = &mut prepared.model;
-    let excited = || model.curve.at_torque(model.loads.amplitude_nm).map_or(0.0, |p| p.normal_inner_n);
-    let scale = if prepared.static_normal_n > 0.0 { prepared.static_normal_n } else { excited() };
-    model.loaded_n = LOADED * scale;
+    // A curve that ends before is one that the scene meets the end of.
+    let largest_nm = model.loads.amplitude_nm - model.loads.inner_nm;
+    let held =
+        model.curve.at_torque(largest_nm).or_else(|| model.curve.at_torque(model.curve.end_torque_nm()));
+    model.loaded_n = LOADED * held.map_or(0.0, |p| p.normal_inner_n).max(prepared.static_normal_n);
     Ok(prepared)
 }
 
-/// What part of the static load a contact must carry to count as loaded, of that under the amplitude where there is no
-/// static load: a choice.
+/// What part of the load that a scene's largest torque gives at rest a contact must carry to count as loaded: a choice.
 const LOADED: f64 = 0.01;
 
 fn at_start(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoScenario> {
     let clutch = &scenario.clutch;
     let profile = place_profile(clutch).map_err(NoScenario::Profile)?;
     let build = |speed: f64| {
-        let speed = if reduction.at_rest { 0.0 } else { speed };
         WedgeCurve::build_reaching(clutch, &profile, speed, reduction.reach_nm).map_err(NoScenario::Curve)
     };
     let at_rest = build(0.0)?;

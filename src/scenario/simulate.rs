@@ -239,7 +239,9 @@ fn conclude(
     let difference = || own.off(&answer(prepared, other));
     let error =
         (whole && !gave_up).then(|| before.map_or_else(difference, |b| difference().at_least(LEFT, &b)));
-    let balanced = run.energy.is_none_or(|e| e.relative().abs() <= settings.tolerance);
+    let balanced = run
+        .energy
+        .is_none_or(|e| e.residual_j().abs() <= settings.tolerance * e.through_j + rounding_j(prepared, run));
     let tolerance_reached = balanced && error.is_some_and(|e| own.scales.worst(&e) <= settings.tolerance);
     let agreed = || {
         let mut error = error.unwrap_or_default();
@@ -261,6 +263,15 @@ fn conclude(
         tolerance_reached,
         ..own
     }
+}
+
+/// What rounding may leave over of an energy balance, J: of what moves and is stored at the end.
+fn rounding_j(prepared: &Prepared, run: &Run) -> f64 {
+    const ROUNDING: f64 = 1e-13;
+    let (model, y) = (&prepared.model, &run.state);
+    let p = model.point(run.mode.place, y[0]);
+    let there = model.energy_without_wedge(&p, &model.rates(&run.mode, &p, y), y).abs();
+    ROUNDING * (there + model.wedge_energy_j(model.curve.first_contact_rad(), y[0]).abs())
 }
 
 /// What one run says, without an error or a verdict.
@@ -329,7 +340,7 @@ pub(super) fn hertz_at(prepared: &Prepared, n_bi: f64) -> f64 {
 }
 
 /// Net slip beyond which a scene counts as slipped, m (INTERFACE: 1 um).
-const SLIPPED_M: f64 = 1e-6;
+pub(super) const SLIPPED_M: f64 = 1e-6;
 /// Stretch without contact beyond which a scene counts as disengaged, s (INTERFACE: 1 ms).
 const LOST_S: f64 = 1e-3;
 

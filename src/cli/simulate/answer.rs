@@ -80,8 +80,8 @@ struct Extreme {
     value: f64,
     /// When it was reached first.
     at_s: f64,
-    /// Error of that time; null without an estimate.
-    at_error_s: Option<f64>,
+    /// By how much that moved between the last runs: of extremes that are equal within their error any may be named.
+    at_moved_s: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -238,7 +238,7 @@ impl Extremes {
         let one = |value: f64, i: usize| Extreme {
             value,
             at_s: p.at_s[i],
-            at_error_s: s.error.map(|e| e.extremes_at_s[i]),
+            at_moved_s: s.error.map(|e| e.extremes_at_s[i]),
         };
         Self {
             tan_inner: one(p.tan_inner, 0),
@@ -318,7 +318,9 @@ impl Body {
             contact_lost_s: Some(s.contact_lost_s),
             peak_tan_demand: Some(s.peaks.tan_inner.max(s.peaks.tan_outer)),
             required_static_friction: known.and_then(|d| d.required_friction),
-            required_static_friction_by: known.filter(|d| d.finished).map(|d| if d.by_bisection { "bisection" } else { "rolling" }),
+            required_static_friction_by: known
+                .filter(|d| d.finished)
+                .map(|d| if d.by_bisection { "bisection" } else { "rolling" }),
             slip_margin: known.map(|d| d.slip_margin),
             contact_margin: known.map(|d| d.contact_margin),
             normal_min_n: Some(s.peaks.normal_min_n),
@@ -349,7 +351,7 @@ impl Body {
             },
             tolerance_reached: (scene.method != "published" && s.stop != Stop::Interrupted)
                 .then_some(s.tolerance_reached),
-            worst_figure: s.error.filter(|_| !s.tolerance_reached).map(|e| s.scales.worst_figure(&e)),
+            worst_figure: s.error.filter(|_| !s.tolerance_reached).map(|_| super::worst(s)),
             finer_gave_up: s.finer_gave_up.map(Stop::name),
             spread_rad: s.error.filter(|_| !s.tolerance_reached).map(|_| s.spread_rad),
             initial_slip_s: s.initial_slip_s(),

@@ -40,7 +40,10 @@ fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
         _ if s.demand.is_some_and(|d| d.gave_up.is_some()) => {
             "what friction would suffice is not known".to_owned()
         }
-        Some((None, _)) => "no friction would suffice to stick, the contact would open".to_owned(),
+        Some((None, _)) if s.demand.is_some_and(|d| d.contact_margin < 0.0) => {
+            "no friction would suffice to stick, the contact would open".to_owned()
+        }
+        Some((None, _)) => "no friction up to 1 would suffice to stick".to_owned(),
         None => String::new(),
     };
     let overruns = matches!(kind, ScenarioKind::Overrun { .. });
