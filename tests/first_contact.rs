@@ -144,8 +144,8 @@ fn a_slip_that_has_just_begun_is_not_found_at_an_end_for_ever() {
 #[test]
 fn no_step_goes_all_the_way_to_the_loss_of_contact() {
     let mut turns = scene("designs/huang2017-single-arc.toml", "high-10");
-    let friction = &scene("designs/huang2017-bench.toml", "high-10-vernay").clutch.friction;
-    turns.clutch.friction = friction.clone();
+    let friction = scene("designs/huang2017-bench.toml", "high-10-vernay").clutch.friction;
+    turns.clutch.friction = friction;
     turns.clutch.spring.stiffness_nm_per_rad = 0.0;
     turns.kind = ScenarioKind::Transient {
         preload_nm: 0.0,
