@@ -157,14 +157,17 @@ fn a_dip_before_another_change_of_mode_is_not_jumped_over() {
         *abutment_stiffness_nm_per_rad *= 0.198;
     }
     let p = prepare(&soft).unwrap();
-    let runs = [1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-8].map(|tolerance| {
+    let tolerances = [1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-8];
+    let runs = tolerances.map(|tolerance| {
         let s = RunSettings { longest_step_s: 2.5e-3, ..settings(tolerance, p.duration_s, 0) };
         run(&p.model, p.state, p.mode, &s)
     });
-    for r in &runs {
-        println!("{} changes of mode, {:.9} rad", r.events, r.state[2]);
+    for (r, tolerance) in runs.iter().zip(tolerances) {
+        let off = (r.state[2] - runs[5].state[2]).abs();
+        println!("{tolerance:e}: {} changes of mode, {off:.1e} rad off", r.events);
         assert_eq!(r.stop, Stop::Finished);
-        assert!(r.events < 2_000 && (r.state[2] - runs[5].state[2]).abs() < 1e-5, "{}", r.events);
+        // Single runs, whose errors grow over 1936 changes of mode.
+        assert!(r.events < 2_000 && off < tolerance.min(2e-5), "{} {off:e}", r.events);
     }
 }
 

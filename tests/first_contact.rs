@@ -172,3 +172,30 @@ fn no_step_goes_all_the_way_to_the_loss_of_contact() {
         assert!(own.tolerance_reached && off < 1e-6 && off < 4.0 * stated, "{off:e} {stated:e}");
     }
 }
+
+/// From overrun under a torque that comes at once B cannot hold. Begun as if it did, runs missed two changes of mode or not, by
+/// their steps: the smallest N 1.1e-4 of itself off where the tolerance was reached.
+#[test]
+fn a_contact_that_cannot_hold_at_the_start_lets_go_at_once() {
+    let mut scene = scene("designs/huang2017-multi-arc.toml", "high-10");
+    let friction = &mut scene.clutch.friction;
+    (friction.static_, friction.kinetic, friction.decay_s_per_m) = (0.1, 0.1, 225.84);
+    scene.clutch.races.viscous_damping_nm_s_per_rad = 6.2982;
+    scene.kind = ScenarioKind::Transient {
+        preload_nm: 1.0674,
+        torque_step_nm: 1.0251736559999998,
+        step_time_s: 0.00072096,
+        abutment_stiffness_nm_per_rad: 39573.0,
+        duration_s: 0.16901,
+        speed_rad_s: 0.0,
+        overrun_rad_s: 44.861 * std::f64::consts::PI / 30.0,
+    };
+    let at = |tolerance: f64| simulate(&scene, &Settings { tolerance, ..Settings::default() }).unwrap();
+    let fine = at(1e-9);
+    for tolerance in [1e-5, 1e-6, 1e-7] {
+        let s = at(tolerance);
+        let worst = s.scales.worst(&s.off(&fine)) / tolerance;
+        println!("{tolerance:e}: {} changes of mode, at most {worst:.2} of the tolerance off", s.events);
+        assert!(s.tolerance_reached && worst < 1.0 && s.events == fine.events, "{worst}");
+    }
+}

@@ -3,7 +3,7 @@
 use super::change::Next;
 use super::cusp::cusp;
 use super::energy::Audit;
-use super::events::{EVENTS, INNER, Look, OUTER, event, look};
+use super::events::{EVENTS, INNER, LOWER, Look, OUTER, UPPER, event, look};
 use super::looks::{Looks, NeverPositive, Observed, Trail};
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{FastMotion, Run, RunSettings, Stop};
@@ -91,8 +91,18 @@ impl<'a> Driver<'a> {
 
     /// Integrate to the end, whatever that is.
     pub(super) fn run(mut self) -> Run {
+        self.begin();
         self.integrate();
         self.finish()
+    }
+
+    /// A contact that cannot hold where the run begins lets go at once.
+    fn begin(&mut self) {
+        let mut now = look(self.model, &self.run.mode, 0.0, &self.run.state, !self.settings.rolling).events;
+        (now[LOWER], now[UPPER]) = (1.0, 1.0);
+        if now[INNER] < 0.0 || now[OUTER] < 0.0 {
+            self.give_way(&now);
+        }
     }
 
     fn integrate(&mut self) {
