@@ -83,11 +83,16 @@ pub(super) fn run_settings(
 /// the moment at which it has ceased to overrun. Where rolling would need tension, or unloads the contact and asks for most
 /// there, no peak of |T|/N says what friction suffices: then that is bisected.
 pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
-    demand_at(prepared, settings, Fineness::single(0.1 * settings.tolerance))
+    demand_at(prepared, settings, Fineness::single(0.1 * settings.tolerance), None)
 }
 
-/// The same at steps as fine as asked for.
-pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> Demand {
+/// The same at steps as fine as asked for; `near`: the mu_req that was bisected at coarser ones.
+pub(super) fn demand_at(
+    prepared: &Prepared,
+    settings: &Settings,
+    fineness: Fineness,
+    near: Option<f64>,
+) -> Demand {
     let mu = prepared.model.friction.static_;
     if prepared.duration_s == 0.0 {
         let f = prepared.at_rest();
@@ -105,7 +110,7 @@ pub(super) fn demand_at(prepared: &Prepared, settings: &Settings, fineness: Fine
             rhs_evaluations: 0,
         };
     }
-    roll(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND).1
+    roll(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND, near).1
 }
 
 /// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.
@@ -125,6 +130,7 @@ pub(super) fn roll(
     fineness: Fineness,
     samples: usize,
     per_period: f64,
+    near: Option<f64>,
 ) -> (Run, Demand) {
     let mut s = run_settings(prepared, settings, fineness, samples, per_period);
     let (mut state, mut place) = (prepared.state, prepared.mode.place);
@@ -146,7 +152,7 @@ pub(super) fn roll(
     let by_bisection = finished && required.is_none();
     required = required.filter(|&mu| mu <= MOST_FRICTION);
     if by_bisection {
-        let (found, work, stopped) = bisected(prepared, settings, fineness);
+        let (found, work, stopped) = bisected(prepared, settings, fineness, near);
         required = found;
         before += work;
         interrupted |= stopped;
@@ -176,8 +182,13 @@ fn contact_margin(static_n: f64, rolling: &Rolling) -> f64 {
 /// The static friction from which on the scene sticks, the kinetic one lowered with it, in the middle of what is left: two
 /// bisections of different width never agree by chance; right-hand sides; whether it was interrupted. Where more friction is
 /// not better throughout it is the limit next to mu_s, below it where the scene sticks, above it where not; `None` where
-/// neither the largest nor one half way there does.
-fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Option<f64>, u64, bool) {
+/// neither the largest nor one half way there does. Looked for beside `near` first, where a coarser search has ended.
+fn bisected(
+    prepared: &Prepared,
+    settings: &Settings,
+    fineness: Fineness,
+    near: Option<f64>,
+) -> (Option<f64>, u64, bool) {
     let s = run_settings(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
     let law = prepared.model.friction;
     let mut model = prepared.model.clone();
@@ -192,8 +203,15 @@ fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Op
             && slips(&r)[0].distance_m <= SLIPPED_M
             && r.slip_begins_n < prepared.model.loaded_n.max(f64::MIN_POSITIVE)
     };
+    let width = fineness.tolerance.max(NARROWEST);
     let (mut low, mut high) = (law.static_, law.static_);
-    if sticks(law.static_) {
+    let mut about = |by: f64| {
+        let (low, high) = near.map(|mu| (mu / (1.0 + by), mu * (1.0 + by)))?;
+        (sticks(high) && !sticks(low)).then_some((low, high))
+    };
+    if let Some(found) = about(30.0 * width).or_else(|| about(1e3 * width)) {
+        (low, high) = found;
+    } else if sticks(law.static_) {
         loop {
             if low < LEAST_FRICTION {
                 return (Some(high), work, interrupted);
@@ -210,7 +228,6 @@ fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness) -> (Op
             None => return (None, work, interrupted),
         }
     }
-    let width = fineness.tolerance.max(NARROWEST);
     while high > low * (1.0 + width) {
         let middle = (low * high).sqrt();
         if sticks(middle) { high = middle } else { low = middle }

@@ -76,20 +76,24 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         return steady(prepared, settings);
     }
     let coarsest = (100.0 * settings.tolerance).clamp(1000.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
-    let go = |tolerance: f64, samples: usize| {
+    let go = |tolerance: f64, samples: usize, before: Option<&Try>| {
         let fineness = Fineness { tolerance, longest: (tolerance / coarsest).powf(1.0 / ORDER) };
-        attempt(prepared, settings, fineness, samples, reduced)
+        attempt(prepared, settings, fineness, samples, reduced, before.and_then(Try::bisected))
     };
     let mut tolerance = coarsest;
     // One sample keeps the modes, from which the initial slip follows.
-    let mut coarse = go(tolerance, settings.samples.min(1));
+    let mut coarse = go(tolerance, settings.samples.min(1), None);
     let (mut steps, mut rhs, mut spread) = (0, 0, [f64::INFINITY, f64::NEG_INFINITY]);
     let (mut before, mut doubts) = (None, [0.0; 2]);
     let (mut told, mut contradicted) = (None, false);
     let mut finished: Option<Simulation> = None;
     loop {
         tolerance *= 0.1;
-        let fine = if coarse.interrupted() { coarse.clone() } else { go(tolerance, settings.samples) };
+        let fine = if coarse.interrupted() {
+            coarse.clone()
+        } else {
+            go(tolerance, settings.samples, Some(&coarse))
+        };
         for theta in [&coarse.run, &fine.run].into_iter().filter(|r| !r.stop.gave_up()).map(|r| r.state[2]) {
             spread = [spread[0].min(theta), spread[1].max(theta)];
         }
@@ -142,6 +146,11 @@ impl Try {
         Self { run, demand, rolled: false }
     }
 
+    /// mu_req where it was bisected.
+    fn bisected(&self) -> Option<f64> {
+        self.demand.filter(|d| d.by_bisection)?.required_friction
+    }
+
     fn interrupted(&self) -> bool {
         self.run.stop == Stop::Interrupted || self.demand.is_some_and(|d| d.interrupted)
     }
@@ -161,6 +170,7 @@ fn attempt(
     fineness: Fineness,
     samples: usize,
     reduced: bool,
+    near: Option<f64>,
 ) -> Try {
     let mode = prepared.mode;
     let stuck = mode.inner == Grip::Stick && mode.outer == Grip::Stick && mode.place != Place::Open;
@@ -169,9 +179,9 @@ fn attempt(
         run(&prepared.model, prepared.state, mode, &s)
     };
     if !(reduced && stuck && prepared.overrun.is_none()) {
-        return Try::new(prepared, go(), || demand_at(prepared, settings, fineness));
+        return Try::new(prepared, go(), || demand_at(prepared, settings, fineness, near));
     }
-    let (rolling, demand) = roll(prepared, settings, fineness, samples, STEPS_PER_PERIOD);
+    let (rolling, demand) = roll(prepared, settings, fineness, samples, STEPS_PER_PERIOD, near);
     let suffices =
         demand.finished && !demand.by_bisection && demand.slip_margin > RESERVE * settings.tolerance;
     if suffices || demand.interrupted {
@@ -201,7 +211,7 @@ pub fn simulate_published(
     let mut go = |step_s: f64, samples: usize, before: u64, tolerance: f64| -> Try {
         let s = PublishedSettings { duration_s, step_s, band_m_s, samples };
         let run = published(&prepared.model, prepared.state, &s, &mut |steps| go_on(before + steps));
-        Try::new(&prepared, run, || demand_at(&prepared, settings, Fineness::single(tolerance)))
+        Try::new(&prepared, run, || demand_at(&prepared, settings, Fineness::single(tolerance), None))
     };
     let answer = go(step_s, settings.samples, 0, 1e-3 * settings.tolerance);
     let before = answer.run.counters.steps;
