@@ -77,7 +77,7 @@ pub(super) fn scene(scene: &Precision) -> Table {
 
 fn shown(method: Method, point: &Point) -> String {
     let unit = if method.band_m_s().is_some() { " s" } else { "" };
-    format!("{:.0e}{unit}", point.setting)
+    format!("{:e}{unit}", point.setting)
 }
 
 /// The answer on a terminal.

@@ -41,8 +41,8 @@ pub(super) fn winners(scene: &Precision) -> Vec<(Method, Option<&Point>)> {
 /// Setting in words.
 pub(super) fn setting(method: Method, point: &Point) -> String {
     match method {
-        Method::Published(band) => format!("step {:.0e} s, band {band:.0e} m/s", point.setting),
-        _ => format!("tolerance {:.0e}", point.setting),
+        Method::Published(band) => format!("step {:e} s, band {band:.0e} m/s", point.setting),
+        _ => format!("tolerance {:e}", point.setting),
     }
 }
 
