@@ -29,7 +29,7 @@ Examples:
   sprag-design simulate designs/huang2017-bench.toml --scenario in-and-out --report in-and-out.html
 
 The verdict is the answer: sticks, slips-overrunning, slips-engaging, disengages, overloaded and
-at-threshold all exit with 0.";
+at-threshold all exit with 0. A run that meets a limit of work exits with 3, with or without a verdict.";
 
 /// The paper's step, s.
 const PUBLISHED_STEP_S: f64 = 1e-5;

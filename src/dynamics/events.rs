@@ -60,6 +60,13 @@ fn within(model: &Model, place: Place, alpha: f64) -> (f64, f64) {
     }
 }
 
+/// Figures of a [`Look`]. `closed`: whether there is contact; `share`: how much of what B is asked for counts.
+#[inline(always)]
+pub(super) fn figures(closed: bool, f: &Forces, share: f64) -> [f64; FIGURES] {
+    let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
+    [ratio(f.t_bi, f.n_bi), share * ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be]
+}
+
 /// How much of what a contact is asked for counts that carries `n` (N): 1 from `loaded` (N) on, smoothly less below, nothing without a force.
 fn carried(n: f64, loaded: f64) -> f64 {
     let x = n / loaded;
@@ -83,13 +90,11 @@ pub(super) fn seen(model: &Model, mode: &Mode, y: &State, p: &WedgePoint, f: &Fo
         Grip::Stick if model.outer_holds => 1.0,
         Grip::Stick => mu * f.n_be - f.t_be.abs(),
     };
-    let closed = matches!(mode.place, Place::Arc(_));
-    let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
     // A contact that holds whatever that takes is asked for more without bound as it unloads.
-    let carried = if model.outer_holds { carried(f.n_bi.min(f.n_be), model.loaded_n) } else { 1.0 };
+    let share = if model.outer_holds { carried(f.n_bi.min(f.n_be), model.loaded_n) } else { 1.0 };
     Look {
         events: [lower, upper, inner, outer],
-        figures: [ratio(f.t_bi, f.n_bi), carried * ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be],
+        figures: figures(matches!(mode.place, Place::Arc(_)), f, share),
         rho: p.rho_i + p.rho_e,
         windup: p.windup,
     }

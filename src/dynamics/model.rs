@@ -147,11 +147,10 @@ impl Model {
         alpha_max_rad: f64,
         bench_inertia_kg_m2: f64,
     ) -> Self {
-        let f = &clutch.friction;
         Self {
             curve,
-            friction: Stribeck { static_: f.static_, kinetic: f.kinetic, decay_s_per_m: f.decay_s_per_m },
-            outer_holds: f.outer_holds,
+            friction: clutch.friction.law(),
+            outer_holds: clutch.friction.outer_holds,
             loads,
             drive: Drive::default(),
             alpha_max_rad,

@@ -3,6 +3,7 @@
 //! It does not converge at the paper's step: inside the band the contact creeps, and once the restoring force is
 //! lost it runs away. Never the default.
 
+use super::events::figures;
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{Run, Sample, Stop};
 use crate::ode::rk4;
@@ -137,8 +138,7 @@ fn note(run: &mut Run, t: f64, h: f64, mode: Mode, f: &Forces, band: f64) {
     if closed && f.v_b.abs() > band {
         run.outer.time_s += h;
     }
-    let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
-    let seen = [ratio(f.t_bi, f.n_bi), ratio(f.t_be, f.n_be), -f.n_bi, f.n_bi, f.n_be];
+    let seen = figures(closed, f, 1.0);
     for (i, best) in run.peaks.figures().into_iter().enumerate() {
         if seen[i] > best {
             run.peaks.keep(i, t, seen[i], f.n_bi);

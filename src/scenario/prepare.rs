@@ -1,6 +1,6 @@
 //! From a scenario of the design to a model with an initial state.
 
-use crate::design::{Clutch, Friction, Scenario, ScenarioKind};
+use crate::design::{Clutch, Scenario, ScenarioKind};
 use crate::dynamics::{
     Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
     settled,
@@ -78,7 +78,7 @@ impl FreeRun {
     /// The steady overrun of the sprags of `model` under the friction law `law`, alpha as of the model's curve.
     fn steady(&self, model: &Model, law: &Stribeck) -> Overrun {
         let curve = self.curve.as_ref().unwrap_or(&model.curve);
-        let mu = law.coefficient(self.speed_rad_s * self.clutch.races.inner_radius_m);
+        let mu = sliding(&self.clutch, law, self.speed_rad_s);
         let free = overrun(&self.clutch, curve, model.alpha_max_rad, mu);
         let moved = model.curve.first_contact_rad() - curve.first_contact_rad();
         Overrun { alpha_rad: free.alpha_rad + moved, ..free }
@@ -275,8 +275,11 @@ fn at_start(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoSc
 
 /// mu at A, where the inner race runs ahead of the sprags by `overrun_rad_s`.
 pub fn sliding_friction(clutch: &Clutch, overrun_rad_s: f64) -> f64 {
-    let Friction { static_, kinetic, decay_s_per_m, .. } = clutch.friction;
-    Stribeck { static_, kinetic, decay_s_per_m }.coefficient(overrun_rad_s * clutch.races.inner_radius_m)
+    sliding(clutch, &clutch.friction.law(), overrun_rad_s)
+}
+
+fn sliding(clutch: &Clutch, law: &Stribeck, overrun_rad_s: f64) -> f64 {
+    law.coefficient(overrun_rad_s * clutch.races.inner_radius_m)
 }
 
 /// Start in steady overrun: the sprags ride with the outer race, the inner race runs ahead by `speed_rad_s`.
