@@ -18,7 +18,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Strangers to one another: no law of row 2 knows another law, a design or a sprag's profile.
     ("kinematics", &["numeric"]),
     ("contact", &["material", "numeric"]),
-    ("friction", &["numeric"]),
+    ("friction", &["numeric", "design"]),
     ("wedge", &["numeric", "material", "profile", "design", "kinematics", "contact", "race"]),
     ("dynamics", &["numeric", "ode", "design", "kinematics", "friction", "wedge"]),
     // A scenario may be given another friction law, so it names that law.

@@ -2,7 +2,6 @@
 //!
 //! In: nothing. Out: [`Clutch`] and its parts, SI. Absent: limits and questions. Equations: none.
 
-use crate::friction::Stribeck;
 use crate::material::Material;
 pub use crate::profile::Flanks;
 
@@ -167,13 +166,6 @@ pub struct Friction {
     pub decay_s_per_m: f64,
     /// Whether B never slips (model "vernay": Coulomb friction inside, no slip outside).
     pub outer_holds: bool,
-}
-
-impl Friction {
-    /// The law (12) of its coefficients.
-    pub fn law(&self) -> Stribeck {
-        Stribeck { static_: self.static_, kinetic: self.kinetic, decay_s_per_m: self.decay_s_per_m }
-    }
 }
 
 /// Stress state along the axis for the elastic law.

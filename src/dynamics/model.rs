@@ -149,7 +149,7 @@ impl Model {
     ) -> Self {
         Self {
             curve,
-            friction: clutch.friction.law(),
+            friction: Stribeck::of(&clutch.friction),
             outer_holds: clutch.friction.outer_holds,
             loads,
             drive: Drive::default(),

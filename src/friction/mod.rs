@@ -1,7 +1,9 @@
 //! Friction coefficient of a dry or boundary-lubricated contact.
 //!
-//! In: sliding speed. Out: coefficient and its slope. Absent: forces, directions, memory, any notion of
+//! In: sliding speed, coefficients of a design. Out: coefficient and its slope. Absent: forces, directions, memory, any notion of
 //! sticking (the room that holds the state decides that). Equations: (12).
+
+use crate::design::Friction;
 
 /// Exponentially decaying friction law.
 ///
@@ -19,6 +21,11 @@ pub struct Stribeck {
 }
 
 impl Stribeck {
+    /// The law of a design's coefficients.
+    pub fn of(f: &Friction) -> Self {
+        Self { static_: f.static_, kinetic: f.kinetic, decay_s_per_m: f.decay_s_per_m }
+    }
+
     /// Eq. (12): mu(v) = mu_c + (mu_s - mu_c) e^(-gamma_b |v|), pure number.
     ///
     /// Valid down to v = 0 included, where it is mu_s: the largest coefficient a stick can demand.

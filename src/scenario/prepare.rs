@@ -275,7 +275,7 @@ fn at_start(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoSc
 
 /// mu at A, where the inner race runs ahead of the sprags by `overrun_rad_s`.
 pub fn sliding_friction(clutch: &Clutch, overrun_rad_s: f64) -> f64 {
-    sliding(clutch, &clutch.friction.law(), overrun_rad_s)
+    sliding(clutch, &Stribeck::of(&clutch.friction), overrun_rad_s)
 }
 
 fn sliding(clutch: &Clutch, law: &Stribeck, overrun_rad_s: f64) -> f64 {
