@@ -232,15 +232,17 @@ impl Scene {
         self.points.iter().filter(move |p| p.method == method)
     }
 
-    /// Time at the error `wanted` (rad): between the coarsest setting from which on all finer ones stay below it and the next
-    /// coarser one, logarithms interpolated. A point that is right by chance does not count, nor does one that failed.
+    /// Least time at the error `wanted` (rad): of the settings at which it and all finer ones stay below, or between the
+    /// coarsest of them and the next coarser one, logarithms interpolated. A point that is right by chance does not count,
+    /// nor does one that failed.
     pub fn at_error(&self, method: Method, wanted: f64) -> Option<AtError> {
         let points: Vec<&Point> = self.of(method).collect();
         let good = |p: &&Point| p.error_rad.is_some_and(|e| e <= wanted);
         let from = points.iter().rposition(|p| !good(p)).map_or(0, |i| i + 1);
         let fine = points.get(from)?;
         let rhs = |p: &Point| p.found.as_ref().map_or(f64::NAN, |a| a.rhs as f64);
-        let plain = AtError { seconds: fine.seconds, rhs: rhs(fine), better: from == 0 };
+        let fastest = points[from..].iter().min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
+        let plain = AtError { seconds: fastest.seconds, rhs: rhs(fastest), better: from == 0 };
         let Some(coarse) = from.checked_sub(1).and_then(|i| points[i].error_rad.map(|e| (points[i], e)))
         else {
             return Some(plain);
@@ -248,11 +250,12 @@ impl Scene {
         let (log_fine, log_coarse) = (fine.error_rad?.max(1e-16).ln(), coarse.1.ln());
         let share = (log_coarse - wanted.ln()) / (log_coarse - log_fine);
         let between = |a: f64, b: f64| (a.ln() + share * (b.ln() - a.ln())).exp();
-        Some(AtError {
+        let interpolated = AtError {
             seconds: between(coarse.0.seconds, fine.seconds),
             rhs: between(rhs(coarse.0), rhs(fine)),
             better: false,
-        })
+        };
+        Some(if interpolated.seconds < plain.seconds { interpolated } else { plain })
     }
 
     /// The tightest setting of a method that gave an answer, with its difference to the reference, rad.
