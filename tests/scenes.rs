@@ -50,6 +50,20 @@ fn a_step_at_the_start_is_the_other_torque_from_the_start() {
 }
 
 #[test]
+fn a_history_may_end_where_the_scene_does() {
+    // Beyond its last knot a history goes on, a few roundings later, which may be beyond the end.
+    let mut scene = scene("step-up");
+    for k in 1..=200 {
+        let end_s = 5e-4 * f64::from(k) / 3.0;
+        let ScenarioKind::Transient { duration_s, .. } = &mut scene.kind else { unreachable!() };
+        *duration_s = end_s;
+        scene.torque_history = Some(vec![[0.0, 3.34], [0.3 * end_s, 5.0], [end_s, 10.0], [end_s, 0.0]]);
+        let r = run_at(&prepare(&scene).unwrap(), 1e-6, 0);
+        assert_eq!((r.stop, r.t_s), (Stop::Finished, end_s));
+    }
+}
+
+#[test]
 fn knots_cost_no_accuracy() {
     // Jump, ramps and plateaus: the tolerance alone decides.
     for name in ["step-up", "step-down", "in-and-out"] {

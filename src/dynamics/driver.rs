@@ -44,6 +44,8 @@ pub(super) struct Driver<'a> {
     /// Slope and look at the present state where the last step has left them.
     pub(super) slope: Option<State>,
     pub(super) seen: Option<Look>,
+    /// Path of slip at A that ends the run, as slip under load does, m.
+    pub(super) most_slip_m: Option<f64>,
     /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
     lengths: [f64; KINDS],
 }
@@ -79,6 +81,7 @@ impl<'a> Driver<'a> {
             stepper: Adaptive::new(settings.tolerance_in(&mode), settings.longest_step_s * 0.1, SMALL),
             slope: None,
             seen: None,
+            most_slip_m: None,
             lengths: [f64::INFINITY; KINDS],
         };
         driver.enter(Next::unseen(mode));
@@ -111,7 +114,14 @@ impl<'a> Driver<'a> {
             if self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                 return self.stop(Stop::Interrupted);
             }
+            if self.most_slip_m.is_some_and(|path| self.run.has_slipped(self.model.loaded_n, path)) {
+                return self.stop(Stop::Slipped);
+            }
             let past = self.model.drive.past_break_s(self.run.t_s);
+            if past >= self.settings.duration_s {
+                self.run.t_s = self.settings.duration_s;
+                return;
+            }
             if past != self.run.t_s {
                 // Beyond a knot other forces act: nothing of the last step serves the next.
                 (self.slope, self.seen) = (None, None);

@@ -45,6 +45,8 @@ pub enum Stop {
     StepLimit,
     /// The right-hand side ceased to be finite.
     NotFinite,
+    /// Slip began under load or went too far, where that was to end the run ([`run_while_it_sticks`]).
+    Slipped,
     /// Asked to stop from outside.
     Interrupted,
 }
@@ -59,6 +61,7 @@ impl Stop {
             Self::EventLimit => "event-limit",
             Self::StepLimit => "step-limit",
             Self::NotFinite => "not-finite",
+            Self::Slipped => "slipped",
             Self::Interrupted => "interrupted",
         }
     }
@@ -280,6 +283,12 @@ impl Run {
         }
     }
 
+    /// Whether a contact began to slip under `loaded_n` (N) or more, or A has slipped by more than `path_m` since it engaged.
+    pub fn has_slipped(&self, loaded_n: f64, path_m: f64) -> bool {
+        let path = self.engaged.map_or(0.0, |e| self.inner.since(&e.inner).distance_m);
+        path > path_m || self.slip_begins_n >= loaded_n.max(f64::MIN_POSITIVE)
+    }
+
     /// Remember the first moment at which A carries load without overrunning.
     pub(super) fn note_engagement(&mut self) {
         let holds = matches!(self.mode.place, Place::Arc(_)) && self.mode.inner != Grip::Slip(1.0);
@@ -309,4 +318,18 @@ impl SlipRecord {
 /// Integrate from `state` at t = 0 in `mode`.
 pub fn run(model: &Model, state: State, mode: Mode, settings: &RunSettings) -> Run {
     Driver::new(model, state, mode, settings).run()
+}
+
+/// As [`run`], but ended, as [`Stop::Slipped`], once a contact begins to slip while A carries [`Model::loaded_n`] or the path
+/// of slip at A since it engaged exceeds `path_m`.
+pub fn run_while_it_sticks(
+    model: &Model,
+    state: State,
+    mode: Mode,
+    settings: &RunSettings,
+    path_m: f64,
+) -> Run {
+    let mut driver = Driver::new(model, state, mode, settings);
+    driver.most_slip_m = Some(path_m);
+    driver.run()
 }

@@ -84,7 +84,7 @@ where
         let mut cuts = 0;
         let mut most = AT_ONCE;
         loop {
-            if h < SHORTEST_STEP && h < rest {
+            if h < SHORTEST_STEP && (h < rest || rest <= 0.0) {
                 return None;
             }
             let (shorter, worth) = if self.implicit {

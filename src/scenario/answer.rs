@@ -75,8 +75,10 @@ pub struct Simulation {
     pub rolled: bool,
     /// Mode changes.
     pub events: u64,
-    /// Steps of both runs.
+    /// Steps of all runs.
     pub steps: u64,
+    /// Steps refused and tried again, of all runs.
+    pub rejections: u64,
     /// Right-hand sides of all runs.
     pub rhs_evaluations: u64,
     /// Error estimate; `None` for an equilibrium ([`Self::equilibrium_error`]), and where a run was interrupted or gave up,

@@ -3,8 +3,8 @@
 use super::answer::Verdict;
 use super::error::ErrorEstimate;
 use super::prepare::Prepared;
-use super::simulate::{SLIPPED_M, Settings, slips, verdict};
-use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, run};
+use super::simulate::{SLIPPED_M, Settings, verdict};
+use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, run, run_while_it_sticks};
 use crate::friction::Stribeck;
 
 /// What pure rolling would demand: the basis of slip margin and contact margin.
@@ -110,7 +110,12 @@ pub(super) fn demand_at(
             rhs_evaluations: 0,
         };
     }
-    roll(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND, near).1
+    roll(prepared, &unaudited(settings), fineness, 0, STEPS_PER_PERIOD_OF_DEMAND, near).1
+}
+
+/// Without an energy balance, which costs some fifteen evaluations a step and of these runs is not asked for.
+fn unaudited(settings: &Settings) -> Settings {
+    Settings { energy: false, ..*settings }
 }
 
 /// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.
@@ -189,19 +194,18 @@ fn bisected(
     fineness: Fineness,
     near: Option<f64>,
 ) -> (Option<f64>, u64, bool) {
-    let s = run_settings(prepared, settings, fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
+    let s = run_settings(prepared, &unaudited(settings), fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
     let law = prepared.model.friction;
     let mut model = prepared.model.clone();
     let (mut work, mut interrupted) = (0, false);
     let mut sticks = |mu: f64| {
         model.friction = Stribeck { static_: mu, kinetic: law.kinetic.min(mu), ..law };
         let (state, mode) = prepared.start_under(&model.friction);
-        let r = run(&model, state, mode, &s);
+        let r = run_while_it_sticks(&model, state, mode, &s, SLIPPED_M);
         work += r.counters.rhs_evaluations;
         interrupted |= r.stop == Stop::Interrupted;
         verdict(prepared, &r, &ErrorEstimate::default()) == Some(Verdict::Sticks)
-            && slips(&r)[0].distance_m <= SLIPPED_M
-            && r.slip_begins_n < prepared.model.loaded_n.max(f64::MIN_POSITIVE)
+            && !r.has_slipped(prepared.model.loaded_n, SLIPPED_M)
     };
     let width = fineness.tolerance.max(NARROWEST);
     let (mut low, mut high) = (law.static_, law.static_);

@@ -45,6 +45,7 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         rolled: false,
         events: 0,
         steps: 0,
+        rejections: 0,
         rhs_evaluations: 0,
         error: None,
         equilibrium_error: Some(equilibrium_error(prepared, row.as_ref())),

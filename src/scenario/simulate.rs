@@ -78,12 +78,14 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
     let coarsest = (100.0 * settings.tolerance).clamp(1000.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
     let go = |tolerance: f64, samples: usize, before: Option<&Try>| {
         let fineness = Fineness { tolerance, longest: (tolerance / coarsest).powf(1.0 / ORDER) };
+        // The coarsest run is never the answer: its energy is not asked for.
+        let settings = &Settings { energy: settings.energy && before.is_some(), ..*settings };
         attempt(prepared, settings, fineness, samples, reduced, before.and_then(Try::bisected))
     };
     let mut tolerance = coarsest;
     // One sample keeps the modes, from which the initial slip follows.
     let mut coarse = go(tolerance, settings.samples.min(1), None);
-    let (mut steps, mut rhs, mut spread) = (0, 0, [f64::INFINITY, f64::NEG_INFINITY]);
+    let (mut work, mut spread) = ([0; 3], [f64::INFINITY, f64::NEG_INFINITY]);
     let (mut before, mut doubts) = (None, [0.0; 2]);
     let (mut told, mut contradicted) = (None, false);
     let mut finished: Option<Simulation> = None;
@@ -106,7 +108,7 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         let gave_up = fine.run.stop.gave_up();
         let last = gave_up || tolerance < 9.0 * STEP_TOLERANCES[1] || s.stop == Stop::Interrupted;
         if last || s.tolerance_reached && before.is_some() {
-            let (steps, rhs_evaluations) = (s.steps + steps, s.rhs_evaluations + rhs);
+            let [steps, rejections, rhs_evaluations] = sum([s.steps, s.rejections, s.rhs_evaluations], work);
             // Runs that came to the end say more than a finer one that did not.
             let s = match finished {
                 Some(earlier) if gave_up => {
@@ -117,9 +119,9 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
             let doubtful = contradicted && !s.tolerance_reached;
             let verdict = s.verdict.map(|v| if doubtful { Verdict::AtThreshold } else { v });
             let spread_rad = if spread[0] <= spread[1] { spread } else { s.spread_rad };
-            return Simulation { verdict, steps, rhs_evaluations, spread_rad, ..s };
+            return Simulation { verdict, steps, rejections, rhs_evaluations, spread_rad, ..s };
         }
-        (steps, rhs) = (steps + coarse.run.counters.steps, rhs + coarse.rhs_evaluations());
+        work = sum(work, coarse.work());
         doubts = [doubts[1], s.error.map_or(0.0, |e| e.net_slip_m)];
         let difference = s.off(&answer(prepared, &coarse));
         before = s.error.map(|_| before.map_or(difference, |b| difference.at_least(FALLS, &b)));
@@ -155,10 +157,16 @@ impl Try {
         self.run.stop == Stop::Interrupted || self.demand.is_some_and(|d| d.interrupted)
     }
 
-    fn rhs_evaluations(&self) -> u64 {
-        let own = if self.rolled { 0 } else { self.run.counters.rhs_evaluations };
-        own + self.demand.map_or(0, |d| d.rhs_evaluations)
+    /// Steps and steps refused, right-hand sides, those of the demand too.
+    fn work(&self) -> [u64; 3] {
+        let c = &self.run.counters;
+        let own = if self.rolled { 0 } else { c.rhs_evaluations };
+        [c.steps, c.rejections, own + self.demand.map_or(0, |d| d.rhs_evaluations)]
     }
+}
+
+fn sum(a: [u64; 3], b: [u64; 3]) -> [u64; 3] {
+    std::array::from_fn(|i| a[i] + b[i])
 }
 
 /// How many tolerances static friction must exceed what rolling needs before the friction law is left out.
@@ -261,14 +269,14 @@ fn conclude(
         let (a, b) = (verdict(prepared, run, &error)?, verdict(prepared, &other.run, &error)?);
         Some(if a == b { a } else { Verdict::AtThreshold })
     };
-    let (steps, rhs_evaluations) =
-        if whole { (other.run.counters.steps, other.rhs_evaluations()) } else { (0, 0) };
+    let [steps, rejections, rhs_evaluations] = sum(fine.work(), if whole { other.work() } else { [0; 3] });
     Simulation {
         verdict: if whole { agreed() } else { None },
         stop: if whole { own.stop } else { Stop::Interrupted },
         demand: own.demand.filter(|_| whole),
-        steps: own.steps + steps,
-        rhs_evaluations: own.rhs_evaluations + rhs_evaluations,
+        steps,
+        rejections,
+        rhs_evaluations,
         error,
         tolerance_reached,
         ..own
@@ -287,6 +295,7 @@ fn rounding_j(prepared: &Prepared, run: &Run) -> f64 {
 /// What one run says, without an error or a verdict.
 fn answer(prepared: &Prepared, of: &Try) -> Simulation {
     let (run, p) = (&of.run, of.run.peaks);
+    let [steps, rejections, rhs_evaluations] = of.work();
     let [inner, outer] = slips(run);
     Simulation {
         verdict: None,
@@ -306,8 +315,9 @@ fn answer(prepared: &Prepared, of: &Try) -> Simulation {
         demand: of.demand,
         rolled: of.rolled,
         events: run.events,
-        steps: run.counters.steps,
-        rhs_evaluations: of.rhs_evaluations(),
+        steps,
+        rejections,
+        rhs_evaluations,
         error: None,
         equilibrium_error: None,
         scales: Scales::of(prepared, &p),

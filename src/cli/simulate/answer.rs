@@ -147,6 +147,7 @@ pub(super) struct Body {
     #[serde(skip_serializing_if = "Option::is_none")]
     fast_motion: Option<Fast>,
     steps: Option<u64>,
+    rejections: Option<u64>,
     rhs_evaluations: Option<u64>,
     error_estimates: Option<Errors>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -322,7 +323,7 @@ impl Body {
                 .filter(|d| d.finished)
                 .map(|d| if d.by_bisection { "bisection" } else { "rolling" }),
             slip_margin: known.map(|d| d.slip_margin),
-            contact_margin: known.map(|d| d.contact_margin),
+            contact_margin: known.filter(|d| d.finished).map(|d| d.contact_margin),
             normal_min_n: Some(s.peaks.normal_min_n),
             normal_max_n: Some(s.peaks.normal_max_n),
             extremes: s.equilibrium_error.is_none().then(|| Extremes::of(s)),
@@ -340,6 +341,7 @@ impl Body {
                 of: f.of,
             }),
             steps: Some(s.steps),
+            rejections: Some(s.rejections),
             rhs_evaluations: Some(s.rhs_evaluations),
             error_estimates: s.error.as_ref().filter(|_| s.stop != Stop::Interrupted).map(Errors::of),
             energy_balance: s.energy.as_ref().map(Energy::of),

@@ -2,7 +2,6 @@
 
 use super::Scene;
 use crate::design::Scenario;
-use crate::dynamics::Stop;
 use crate::report::Unit;
 use crate::scenario::{Settings, Verdict, prepare, simulate_prepared};
 
@@ -20,27 +19,27 @@ pub(super) struct Effect {
     error_rad: f64,
     verdict: &'static str,
     same: bool,
+    /// Whether the scene has none, and its contacts only roll: damping then takes from the swing and nothing else.
+    rolls: bool,
 }
 
-/// Run `scene` with the damping taken out, or, where it has none and its contact opened, with some. `None` where
-/// there is nothing to ask.
+/// Run `scene` with the damping taken out, or, where it has none, with some. `None` where a run came to no answer.
 pub(super) fn effect(scene: &Scene, settings: &Settings) -> Option<Effect> {
-    let own = scene.simulation().filter(|s| scene.method == "event" && s.stop == Stop::Finished)?;
+    let own = scene.simulation().filter(|_| scene.method == "event")?;
+    let own_error = own.error?;
     let given = scene.scenario.clutch.hunt_crossley_s_per_m;
-    if given == 0.0 && own.contact_lost_s == 0.0 {
-        return None;
-    }
     let mut other = Scenario::clone(scene.scenario);
     other.clutch.hunt_crossley_s_per_m = if given == 0.0 { TRIED_S_PER_M } else { 0.0 };
     let settings = Settings { samples: 0, ..*settings };
     let s = simulate_prepared(&prepare(&other).ok()?, &settings, true);
-    let error_rad = own.error?.theta_inner_rad + s.error?.theta_inner_rad;
+    let error_rad = own_error.theta_inner_rad + s.error?.theta_inner_rad;
     Some(Effect {
         other_s_per_m: other.clutch.hunt_crossley_s_per_m,
         moved_rad: s.theta_inner_rad - own.theta_inner_rad,
         error_rad,
         verdict: s.verdict.map_or("no verdict", Verdict::name),
         same: s.verdict == own.verdict,
+        rolls: given == 0.0 && own.contact_lost_s == 0.0 && own.verdict == Some(Verdict::Sticks),
     })
 }
 
@@ -57,9 +56,9 @@ impl Effect {
         format!("{other} the inner race ends {moved} elsewhere, {verdict}")
     }
 
-    /// A warning where the result depends on it by more than its error.
+    /// A warning where the result depends on it by more than its error, and by more than how fast a swing dies away.
     pub(super) fn note(&self) -> Option<String> {
-        let depends = !self.same || self.moved_rad.abs() > self.error_rad;
+        let depends = !self.same || !self.rolls && self.moved_rad.abs() > self.error_rad;
         depends.then(|| format!("the result depends on contact damping: {}", self.words()))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Scene;
 use crate::design::ScenarioKind;
+use crate::dynamics::Stop;
 use crate::margin::{LIFT_OFF_ERROR, lift_off_rad_s as lift_off, load_state};
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::scenario::{ErrorEstimate, Prepared, Simulation, Verdict};
@@ -32,7 +33,6 @@ impl Scene<'_> {
 }
 
 fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
-    let offset = Unit::Milliradian.show(s.offset_rad.abs(), 4);
     let margin = match s.demand.map(|d| (d.required_friction, d.slip_margin)) {
         Some((Some(needed), margin)) => {
             format!("slip margin {} (needs {})", Unit::Percent.show(margin, 3), Unit::One.show(needed, 4))
@@ -60,21 +60,22 @@ fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
             format!("slips by less than 1 um, which counts as sticking; {margin}")
         }
         Some(Verdict::Sticks) => margin,
-        Some(Verdict::SlipsOverrunning) => {
-            format!("slip has shifted the inner race by {offset} towards overrunning; {margin}")
-        }
         Some(Verdict::SlipsEngaging) if matches!(kind, ScenarioKind::Static { .. }) => margin,
-        Some(Verdict::SlipsEngaging) => {
-            // The offset holds the slip of the outer contact too, which may turn it round.
-            let way = if s.offset_rad > 0.0 { "overrunning" } else { "engaging" };
-            format!("slip has shifted the inner race by {offset} towards {way}; {margin}")
-        }
+        Some(Verdict::SlipsOverrunning | Verdict::SlipsEngaging) => format!("{}; {margin}", shifted(s)),
         Some(Verdict::Disengages) => {
             if s.peaks.normal_max_n <= 0.0 {
                 return "the sprags touch without a force".to_owned();
             }
             let lost = Unit::Millisecond.show(s.contact_lost_s, 4);
-            format!("contact lost for {lost}, run {} at {}", s.stop.name(), Unit::Second.show(s.t_s, 4))
+            let at = Unit::Second.show(s.t_s, 4);
+            match s.stop {
+                Stop::CurveEnd => {
+                    format!(
+                        "contact lost for {lost}, and beyond the end of the curve when it closed, at {at}"
+                    )
+                }
+                stop => format!("contact lost for {lost}, run {} at {at}", stop.name()),
+            }
         }
         Some(Verdict::Overloaded) => "the load goes beyond the end of the curve".to_owned(),
         Some(Verdict::AtThreshold) | None => {
@@ -82,6 +83,23 @@ fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
                 .to_owned()
         }
     }
+}
+
+/// Which way the inner contact has slipped and the inner race gone: with slip at the outer contact and what turns without
+/// contact the race may have gone the other way.
+fn shifted(s: &Simulation) -> String {
+    let way = |towards: f64| if towards > 0.0 { "overrunning" } else { "engaging" };
+    let offset = Unit::Milliradian.show(s.offset_rad.abs(), 4);
+    let (slip, race) = (way(s.inner.net_m), way(s.offset_rad));
+    if slip == race {
+        return format!("slip has shifted the inner race by {offset} towards {race}");
+    }
+    let net = Unit::Micrometre.show(s.inner.net_m.abs(), 4);
+    let by = if s.contact_lost_s > 0.0 { " and while contact was lost" } else { "" };
+    format!(
+        "the inner contact has slipped by {net} towards {slip}, yet the inner race has gone {offset} towards {race}, by slip \
+         at the outer contact{by}"
+    )
 }
 
 /// Speed of the outer race at which the sprags lift off the inner one, rad/s, for an overrun; `None` where they
@@ -99,31 +117,42 @@ const EXACT: f64 = 1e-13;
 /// The time of an extreme is shown to five digits; an error below this part of it is not.
 const TOLD: f64 = 1e-5;
 
-struct Facts(Table);
+/// Where the tolerance is not reached, a figure with an error above this part of it is shown as the span that it may lie in.
+const SURE: f64 = 0.01;
+
+struct Facts {
+    table: Table,
+    /// Whether figures may be shown as spans.
+    spans: bool,
+}
 
 impl Facts {
-    fn new() -> Self {
+    fn new(spans: bool) -> Self {
         let columns = vec![
             Column::text("quantity", "Quantity"),
             Column::number("value", "Value", Unit::One, 6),
             Column::number("error", "± error", Unit::One, 2),
         ];
-        Self(Table::new(columns))
+        Self { table: Table::new(columns), spans }
     }
 
     fn add(&mut self, name: &str, value: f64, unit: Unit, error: Option<f64>) {
         // Differences of angles below the rounding of the angles themselves.
         let value = if unit == Unit::Radian && value.abs() < 1e-15 { 0.0 } else { value };
+        let shown = match error.filter(|&e| self.spans && e > SURE * value.abs()) {
+            Some(e) => Cell::Text(span(value, e, unit)),
+            None => Cell::In(value, unit),
+        };
         let error = error.map_or(Cell::Text(String::new()), |e| Cell::In(e, unit));
-        self.0.row(vec![name.into(), Cell::In(value, unit), error]);
+        self.table.row(vec![name.into(), shown, error]);
     }
 
     fn word(&mut self, name: &str, value: &str) {
-        self.0.row(vec![name.into(), value.into(), Cell::Text(String::new())]);
+        self.table.row(vec![name.into(), value.into(), Cell::Text(String::new())]);
     }
 
     fn count(&mut self, name: &str, value: u64) {
-        self.0.row(vec![
+        self.table.row(vec![
             name.into(),
             Cell::Count(usize::try_from(value).unwrap_or(usize::MAX)),
             Cell::Text(String::new()),
@@ -133,13 +162,21 @@ impl Facts {
 
 /// What happened, with error estimates.
 pub(super) fn table(scene: &Scene) -> Table {
-    let mut facts = Facts::new();
+    let unsure = |s: &Simulation| scene.method == "event" && s.error.is_some() && !s.tolerance_reached;
+    let mut facts = Facts::new(scene.simulation().is_some_and(unsure));
     match &scene.outcome {
         Err(why) => facts.word("no start", &why.to_string()),
         Ok((prepared, s)) if scene.method == "equilibrium" => equilibrium(&mut facts, scene, prepared, s),
         Ok((prepared, s)) => motion(&mut facts, scene, prepared, s),
     }
-    facts.0
+    facts.table
+}
+
+/// From `value` - `error` to `value` + `error`; what cannot be negative begins at 0.
+fn span(value: f64, error: f64, unit: Unit) -> String {
+    let signed = matches!(unit, Unit::Radian | Unit::Percent | Unit::Micrometre) || value < 0.0;
+    let low = if signed { value - error } else { (value - error).max(0.0) };
+    format!("{} to {}", unit.show(low, 3), unit.show(value + error, 3))
 }
 
 /// Hertz pressure at A at the nominal torque of `[limits]`, Pa: what the paper's 4.1.2 compares with.
@@ -207,6 +244,7 @@ fn motion(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {
     }
     f.count("changes of mode", s.events);
     f.count("steps, all runs", s.steps);
+    f.count("steps refused, all runs", s.rejections);
     f.count("right-hand sides, all runs", s.rhs_evaluations);
 }
 
@@ -256,7 +294,11 @@ fn demand(f: &mut Facts, s: &Simulation) {
     let slip_error = s.error.map(|e| e.slip_margin).or(exact(d.slip_margin + 1.0));
     f.add("slip margin", d.slip_margin, Unit::Percent, slip_error);
     let contact_error = s.error.map(|e| e.contact_margin).or(exact(d.contact_margin));
-    f.add("contact margin", d.contact_margin, Unit::Percent, contact_error);
+    if d.finished {
+        f.add("contact margin", d.contact_margin, Unit::Percent, contact_error);
+    } else {
+        f.word("contact margin", "none: rolling does not come to the end");
+    }
 }
 
 fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {

@@ -30,13 +30,7 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
         return list;
     }
     if scene.own.clutch.hunt_crossley_s_per_m == 0.0 {
-        let cost = scene.damping.as_ref().map_or_else(
-            || {
-                "not estimated; the contact stays closed, it would only take energy out of oscillations"
-                    .to_owned()
-            },
-            super::damping::Effect::words,
-        );
+        let cost = scene.damping.as_ref().map_or("not estimated".to_owned(), super::damping::Effect::words);
         add(
             "contact damping",
             "the contacts are elastic, as in the paper; damped are only the races against one another",
