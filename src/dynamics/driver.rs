@@ -367,9 +367,10 @@ impl<'a> Driver<'a> {
 
     /// False where there have been too many.
     pub(super) fn count_event(&mut self) -> bool {
-        self.run.events += 1;
-        let go_on = self.run.events <= self.settings.most_events;
-        if !go_on {
+        let go_on = self.run.events < self.settings.most_events;
+        if go_on {
+            self.run.events += 1;
+        } else {
             self.stop(Stop::EventLimit);
         }
         go_on

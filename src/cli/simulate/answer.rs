@@ -323,7 +323,7 @@ impl Body {
                 .filter(|d| d.finished)
                 .map(|d| if d.by_bisection { "bisection" } else { "rolling" }),
             slip_margin: known.map(|d| d.slip_margin),
-            contact_margin: known.filter(|d| d.finished).map(|d| d.contact_margin),
+            contact_margin: known.filter(|d| d.finished || d.contact_margin < 0.0).map(|d| d.contact_margin),
             normal_min_n: Some(s.peaks.normal_min_n),
             normal_max_n: Some(s.peaks.normal_max_n),
             extremes: s.equilibrium_error.is_none().then(|| Extremes::of(s)),

@@ -296,8 +296,11 @@ fn demand(f: &mut Facts, s: &Simulation) {
     let contact_error = s.error.map(|e| e.contact_margin).or(exact(d.contact_margin));
     if d.finished {
         f.add("contact margin", d.contact_margin, Unit::Percent, contact_error);
+    } else if d.contact_margin < 0.0 {
+        let most = Unit::Percent.show(d.contact_margin, 4);
+        f.word("contact margin", &format!("at most {most}: rolling does not come to the end"));
     } else {
-        f.word("contact margin", "none: rolling does not come to the end");
+        f.word("contact margin", "not known: rolling does not come to the end");
     }
 }
 
