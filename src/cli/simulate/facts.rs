@@ -248,17 +248,22 @@ fn motion(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {
     f.count("right-hand sides, all runs", s.rhs_evaluations);
 }
 
+/// When; the run's first instant is 0, however it is rounded.
+pub(super) fn at(t_s: f64) -> String {
+    format!("at {}", Unit::Millisecond.show(if t_s < 1e-12 { 0.0 } else { t_s }, 5))
+}
+
 fn peaks(f: &mut Facts, s: &Simulation) {
     let (p, e) = (&s.peaks, s.error);
     let mut add = |i: usize, name: &str, value: f64, unit: Unit, error: fn(&ErrorEstimate) -> f64| {
-        let at = Unit::Millisecond.show(p.at_s[i], 5);
+        let at = at(p.at_s[i]);
         let off = e.map_or(0.0, |e| e.extremes_at_s[i]);
         let off = if off > TOLD * p.at_s[i] {
             format!(" ± {}", Unit::Millisecond.show(off, 2))
         } else {
             String::new()
         };
-        f.add(&format!("{name} (at {at}{off})"), value, unit, e.as_ref().map(error));
+        f.add(&format!("{name} ({at}{off})"), value, unit, e.as_ref().map(error));
     };
     add(2, "smallest normal force, inner", p.normal_min_n, Unit::Newton, |e| e.normal_min_n);
     add(3, "largest normal force, inner", p.normal_max_n, Unit::Newton, |e| e.normal_max_n);
