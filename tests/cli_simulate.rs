@@ -154,6 +154,7 @@ fn files_hold_the_history_and_a_page() {
     let column = |name: &str| header.iter().position(|h| h == name).unwrap_or_else(|| panic!("{name}"));
     let [time, n, mode, theta, slip] =
         ["time_s", "normal_inner_n", "mode_inner", "theta_inner_rad", "slip_inner_mm"].map(column);
+    let [t, tan] = ["tangential_inner_n", "tan_inner"].map(column);
     for name in ["alpha_rad", "tan_outer", "slip_velocity_inner_m_per_s", "hertz_inner_mpa", "torque_nm"] {
         column(name);
     }
@@ -162,6 +163,10 @@ fn files_hold_the_history_and_a_page() {
     assert_eq!(rows.len(), 1200);
     assert!(rows.windows(2).all(|w| value(&w[0], time) < value(&w[1], time)));
     assert!(rows.iter().all(|r| value(r, n) >= 0.0));
+    // |T|/N beside T, whose sign turns where the inner race runs ahead.
+    let closed = rows.iter().filter(|r| !r[tan].is_empty());
+    assert!(closed.clone().all(|r| (value(r, tan) * value(r, n) - value(r, t).abs()).abs() < 1e-6));
+    assert!(closed.filter(|r| &r[mode] == "slip+").all(|r| value(r, t) < 0.0));
     assert!(["stick", "slip+", "open"].iter().all(|m| rows.iter().any(|r| &r[mode] == *m)));
     let answer = json(DESIGN, "high-10", &[]);
     let last = rows.last().unwrap();
@@ -170,7 +175,35 @@ fn files_hold_the_history_and_a_page() {
     assert!((value(last, slip) - number(&answer["slip"]["inner"], "net_mm")).abs() < 1e-12);
     let page = std::fs::read_to_string(&html).unwrap();
     assert!(page.matches("<svg").count() >= 8 && page.contains("id=\"results\"") && !page.contains("NaN"));
+    assert!(page.contains(">T/N<") && page.contains("±μ static") && page.contains("Net slip, µm"));
+    assert!(!page.contains("Angular speed"), "a swing has its angles");
     let _ = (std::fs::remove_file(csv), std::fs::remove_file(html));
+}
+
+#[test]
+fn pages_say_what_they_do_not_draw_and_keep_short_ticks() {
+    let html = std::env::temp_dir().join(format!("sprag-simulate-pages-{}.html", std::process::id()));
+    for (scenario, words) in [
+        (
+            "engagement",
+            &["Angular speed, rpm", "Angle, mrad", "Neither contact has slipped since the clutch engaged at"]
+                [..],
+        ),
+        (
+            "engagement-without-spring",
+            &["Angle, rad", "The inner contact is open throughout", "does not engage"],
+        ),
+        ("speed-ramp", &["relative to the mean speed", "Net slip, mm", "largest at 0 ms"]),
+        ("high-10-vernay", &["Beyond ±0.240 nothing is drawn"]),
+    ] {
+        json(BENCH, scenario, &["--report", html.to_str().unwrap()]);
+        let page = std::fs::read_to_string(&html).unwrap();
+        for word in words {
+            assert!(page.contains(word), "{scenario}: {word}");
+        }
+        assert!(!page.contains("NaN"), "{scenario}");
+    }
+    let _ = std::fs::remove_file(html);
 }
 
 #[test]

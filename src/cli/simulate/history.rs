@@ -12,7 +12,7 @@ pub(super) struct Row {
     pub(super) sample: Sample,
     /// alpha', phi', theta_bi', theta_be' with the rolling constraints put in.
     pub(super) rates: [f64; 4],
-    /// |T|/N at A and B; none where the contact is open.
+    /// T/N at A and B, positive as in a clutch that carries; none where the contact is open.
     pub(super) tan: [Option<f64>; 2],
     /// Torque of the clutch on the inner race n_s T_bi OA, N m.
     pub(super) torque_nm: f64,
@@ -98,7 +98,7 @@ fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePe
     let p = model.point(sample.mode.place, sample.state[0]);
     let f = &sample.forces;
     let closed = sample.mode.place != Place::Open;
-    let tan = |t: f64, n: f64| (closed && n > 0.0).then(|| t.abs() / n);
+    let tan = |t: f64, n: f64| (closed && n > 0.0).then(|| t / n);
     let elastic = &model.curve.statics().elastic;
     let arc = match sample.mode.place {
         Place::Arc(k) => model.curve.first_arc() + k,
@@ -202,7 +202,7 @@ fn cells(row: &Row) -> Vec<Cell> {
     let numbers = |values: &[f64]| values.iter().map(|&v| Cell::Si(v)).collect::<Vec<_>>();
     let mut cells = numbers(&[sample.t, y[2], y[3], y[0], y[1], rates[2], rates[3], rates[0], rates[1]]);
     cells.extend(numbers(&[f.n_bi, f.n_be]));
-    cells.extend(tan.map(Cell::from));
+    cells.extend(tan.map(|q| Cell::from(q.map(f64::abs))));
     cells.extend(numbers(&[f.t_bi, f.t_be, f.v_a, f.v_b, y[8], y[9]]));
     cells.extend([word(&sample.mode, true).into(), word(&sample.mode, false).into(), arc]);
     cells.extend(numbers(&[hertz_pa[0], hertz_pa[1], *torque_nm, row.acting[0], row.acting[1]]));

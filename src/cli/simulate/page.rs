@@ -13,6 +13,11 @@ use crate::scenario::{Prepared, Simulation, place_profile};
 use crate::wedge::{Lengthwise, Side, along};
 
 const TIME: &str = "Time, ms";
+/// From here on ticks run into the title of the axis, which is then in the next larger unit.
+const FOUR_DIGITS: f64 = 9000.0;
+/// Friction is drawn up to this many times the static one: Vernay's outer contact, which holds whatever that takes, has
+/// no bound where it is all but unloaded.
+const DRAWN_FRICTION: f64 = 2.0;
 
 /// The page.
 pub(super) fn page(scene: &Scene, answer: &Answer<Body>, context: &Context) -> Page {
@@ -133,16 +138,27 @@ fn courses(scene: &Scene) -> [String; 2] {
 
 fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation) {
     let rows = rows(scene);
-    let curve = |value: &dyn Fn(&Row) -> f64| -> Vec<[f64; 2]> {
-        rows.iter().map(|r| [r.sample.t * 1e3, value(r)]).collect()
-    };
-    let plot = |y: &str| Plot::new(TIME, y).sized(720.0, 300.0);
-    let [tan_at, _, least_at, ..] = s.peaks.at_s.map(|t| t * 1e3);
+    let curve = |value: &dyn Fn(&Row) -> f64| over_time(&rows, value);
+    let least_at = s.peaks.at_s[2] * 1e3;
     page.heading("Histories");
-    let angles = plot("Angle, mrad")
-        .curve("inner race", curve(&|r| r.sample.state[2] * 1e3))
-        .curve("outer race", curve(&|r| r.sample.state[3] * 1e3));
-    page.figure(&angles.to_svg(), "Angles of the races; rolling would keep their distance at the windup.");
+    let turning = if rows.iter().any(|r| r.acting[1] != 0.0) { ", relative to the mean speed" } else { "" };
+    let largest_rad = largest(&rows, &|r| r.sample.state[2].abs().max(r.sample.state[3].abs()));
+    let (unit, per_rad) = if largest_rad < FOUR_DIGITS * 1e-3 { ("mrad", 1e3) } else { ("rad", 1.0) };
+    let angles = plot(&format!("Angle, {unit}"))
+        .curve("inner race", curve(&|r| r.sample.state[2] * per_rad))
+        .curve("outer race", curve(&|r| r.sample.state[3] * per_rad));
+    let caption = format!("Angles of the races{turning}; rolling would keep their distance at the windup.");
+    page.figure(&angles.to_svg(), &caption);
+    // Under a torsional excitation the speeds only repeat what the angles show.
+    if !matches!(scene.scenario.kind, ScenarioKind::TorsionalExcitation { .. }) {
+        let rpm = |rad_s: f64| Unit::Rpm.from_si(rad_s);
+        let speeds = plot("Angular speed, rpm")
+            .curve("inner race", curve(&|r| rpm(r.rates[2])))
+            .curve("outer race", curve(&|r| rpm(r.rates[3])));
+        let caption =
+            format!("Angular speeds of the races{turning}; + is the sense in which the inner race overruns.");
+        page.figure(&speeds.to_svg(), &caption);
+    }
     // At rest both forces differ by parts in a thousand: the second is dashed so that the first is seen.
     let mut normal = plot("Normal force per sprag, N")
         .curve("inner contact", curve(&|r| r.sample.forces.n_bi))
@@ -150,47 +166,107 @@ fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
     let outer = Curve::new("outer contact", curve(&|r| r.sample.forces.n_be));
     normal.curves.push(Curve { dash: Dash::Dashed, ..outer });
     page.figure(&normal.to_svg(), &format!("Normal forces; the smallest {}.", phase(scene, s.peaks.at_s[2])));
-    let friction = &prepared.model.friction;
-    let mut tan = plot("|T|/N")
-        .curve("inner contact", curve(&|r| r.tan[0].unwrap_or(f64::NAN)))
-        .curve("outer contact", curve(&|r| r.tan[1].unwrap_or(f64::NAN)))
-        .marker(tan_at, "largest")
-        .level(friction.static_, "μ static");
-    if friction.kinetic < friction.static_ {
-        tan = tan.level(friction.kinetic, "μ kinetic");
-    }
-    let caption = format!(
-        "Friction demanded, with gaps where the contact is open; the largest at the inner contact {}.",
-        phase(scene, s.peaks.at_s[0])
-    );
-    page.figure(&tan.to_svg(), &caption);
+    friction(page, scene, prepared, s, &rows);
     page.figure(&strip(s).to_svg(), "What each contact does, from the located changes of mode.");
-    let base = s.engaged.map_or([0.0; 2], |e| [e.state[8], e.state[9]]);
-    let slip = plot("Net slip, µm")
-        .curve("inner contact", curve(&|r| (r.sample.state[8] - base[0]) * 1e6))
-        .curve("outer contact", curve(&|r| (r.sample.state[9] - base[1]) * 1e6));
-    page.figure(
-        &slip.to_svg(),
-        "Signed slip distance since the clutch engaged; at the inner contact + is towards overrunning.",
-    );
+    slip(page, s, &rows);
     pressures(page, scene, prepared, s, &rows);
     let torque = plot("Torque of the clutch, Nm").curve("", curve(&|r| r.torque_nm));
     page.figure(&torque.to_svg(), "Torque on the inner race, positive in the sense that the clutch carries.");
 }
 
+fn plot(y_title: &str) -> Plot {
+    Plot::new(TIME, y_title).sized(720.0, 300.0)
+}
+
+fn over_time(rows: &[Row], value: &dyn Fn(&Row) -> f64) -> Vec<[f64; 2]> {
+    rows.iter().map(|r| [r.sample.t * 1e3, value(r)]).collect()
+}
+
+fn largest(rows: &[Row], value: &dyn Fn(&Row) -> f64) -> f64 {
+    rows.iter().map(value).fold(0.0, f64::max)
+}
+
+/// Levels over the whole run as a curve: their name stands in the legend, where it covers no other curve.
+fn levels(name: &str, at: &[f64], s: &Simulation) -> Curve {
+    let line = |&y: &f64| [[0.0, y], [s.t_s * 1e3, y], [f64::NAN, y]];
+    let points = at.iter().flat_map(line).collect();
+    Curve { dash: Dash::Dashed, ..Curve::new(name, points).coloured(5) }
+}
+
+/// Friction over normal force with its sign (the paper's Figure 9c).
+fn friction(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
+    let found = || rows.iter().flat_map(|r| r.tan).flatten();
+    if found().next().is_none() {
+        page.paragraph(
+            "The inner contact is open throughout: there is no friction over normal force to draw.",
+        );
+        return;
+    }
+    let law = &prepared.model.friction;
+    let number = |mu: f64| Unit::One.show(mu, 3);
+    let most = DRAWN_FRICTION * law.static_;
+    let drawn = |q: Option<f64>| q.filter(|q| q.abs() <= most).unwrap_or(f64::NAN);
+    let mut plot = plot("T/N").marker(s.peaks.at_s[0] * 1e3, "largest");
+    // The outer contact first: where it trembles it would hide the inner one.
+    plot.curves = vec![
+        Curve::new("outer contact", over_time(rows, &|r| drawn(r.tan[1]))).coloured(1),
+        Curve::new("inner contact", over_time(rows, &|r| drawn(r.tan[0]))).coloured(0),
+        levels("±μ static", &[law.static_, -law.static_], s),
+    ];
+    let slipping = if law.kinetic < law.static_ {
+        format!("±μ(v), from {} at rest down to {}", number(law.static_), number(law.kinetic))
+    } else {
+        format!("±{}", number(law.static_))
+    };
+    let cut = if found().any(|q| q.abs() > most) {
+        format!(" Beyond ±{} nothing is drawn.", number(most))
+    } else {
+        String::new()
+    };
+    let caption = format!(
+        "Friction T over normal force N, positive in the sense in which the clutch carries, with gaps where the inner \
+         contact is open; a contact that slips is at {slipping}. |T|/N at the inner contact is largest {}.{cut}",
+        phase(scene, s.peaks.at_s[0])
+    );
+    page.figure(&plot.to_svg(), &caption);
+}
+
+/// Slip since the clutch engaged: the overrun before would hide it.
+fn slip(page: &mut Page, s: &Simulation, rows: &[Row]) {
+    let (from_s, base) = s.engaged.map_or((0.0, [0.0; 2]), |e| (e.t_s, [e.state[8], e.state[9]]));
+    let slipped = |r: &Row| -> [f64; 2] {
+        let y = &r.sample.state;
+        if r.sample.t < from_s { [0.0; 2] } else { [y[8] - base[0], y[9] - base[1]] }
+    };
+    let from = match s.engaged {
+        Some(e) if e.t_s > 0.0 => format!("the clutch engaged {}", facts::at(e.t_s)),
+        Some(_) => "the clutch engaged".to_owned(),
+        None => "the start, as the clutch does not engage".to_owned(),
+    };
+    let largest_m = largest(rows, &|r| slipped(r).map(f64::abs).into_iter().fold(0.0, f64::max));
+    if largest_m == 0.0 {
+        page.paragraph(&format!("Neither contact has slipped since {from}."));
+        return;
+    }
+    let (unit, per_m) = if largest_m < FOUR_DIGITS * 1e-6 { ("µm", 1e6) } else { ("mm", 1e3) };
+    let plot = plot(&format!("Net slip, {unit}"))
+        .curve("inner contact", over_time(rows, &|r| slipped(r)[0] * per_m))
+        .curve("outer contact", over_time(rows, &|r| slipped(r)[1] * per_m));
+    let caption =
+        format!("Signed slip distance since {from}; at the inner contact + is towards overrunning.");
+    page.figure(&plot.to_svg(), &caption);
+}
+
 /// Contact pressure over time (the paper's Figures 9 and 10) and, with slices, along the length.
 fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
-    let mega = |value: &dyn Fn(&Row) -> f64| -> Vec<[f64; 2]> {
-        rows.iter().map(|r| [r.sample.t * 1e3, value(r) / 1e6]).collect()
-    };
-    let mut plot = Plot::new(TIME, "Contact pressure, MPa")
-        .sized(720.0, 300.0)
+    let mega = |value: &dyn Fn(&Row) -> f64| over_time(rows, &|r| value(r) / 1e6);
+    let mut plot = plot("Contact pressure, MPa")
         .curve("inner contact", mega(&|r| r.hertz_pa[0]))
-        .curve("outer contact", mega(&|r| r.hertz_pa[1]))
-        .level(s.hertz_static_pa / 1e6, "static load");
+        .curve("outer contact", mega(&|r| r.hertz_pa[1]));
     if rows.iter().any(|r| r.slice_pa.is_some()) {
         plot = plot.curve("inner contact, end slice", mega(&|r| r.slice_pa.map_or(f64::NAN, |p| p[0])));
     }
+    plot.curves.push(levels("static load", &[s.hertz_static_pa / 1e6], s));
     let rated = match facts::rated_pa(scene) {
         Some(p) => {
             let share = Unit::Percent.show(s.hertz_peak_pa / p, 3);
@@ -236,7 +312,7 @@ fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
 
 /// When, and where in the excitation's period.
 fn phase(scene: &Scene, t_s: f64) -> String {
-    let when = format!("at {}", Unit::Millisecond.show(t_s, 5));
+    let when = facts::at(t_s);
     match scene.scenario.kind {
         ScenarioKind::TorsionalExcitation { frequency_hz, .. } => {
             format!("{when}, {:.0}° after the excitation's zero", 360.0 * (t_s * frequency_hz).fract())
