@@ -266,9 +266,37 @@ fn the_initial_slip_lasts_half_a_millisecond_where_the_spring_is_weak() {
     assert_eq!(slip(&table_1), 0.0, "Table 1's spring holds at once");
     assert!((0.4..0.6).contains(&slip(&weak)), "{}", slip(&weak));
     assert!((0.05..0.2).contains(&slip(&hard)), "{}", slip(&hard));
+    // A part of all slip, and of the time to the stick: contact is lost for 0.03 ms on the way.
+    for s in [&table_1, &weak, &hard] {
+        let waited = s.held.unwrap().t_s - s.engaged.unwrap().t_s;
+        assert!(slip(s) <= 1e3 * s.inner.time_s + 1e-9 && slip(s) <= 1e3 * waited + 1e-9);
+    }
     let change = weak.peaks.normal_max_n / table_1.peaks.normal_max_n - 1.0;
     println!("largest force {:.3} % higher", 100.0 * change);
     assert!(change.abs() < 0.005, "little effect: {change}");
+}
+
+/// A stick from which the contact slips on while the load builds up has not ended the initial slip; what slips after a bounce
+/// off the stop does not belong to it.
+#[test]
+fn the_initial_slip_ends_with_the_stick_that_carries_the_load_to_its_peak() {
+    let with = |reversing: f64, drag: f64| {
+        let mut scene = scene("engagement");
+        scene.clutch.spring.drag_torque_nm = drag;
+        if let ScenarioKind::Engagement { reversing_torque_nm, .. } = &mut scene.kind {
+            *reversing_torque_nm = reversing;
+        }
+        simulate(&scene, &Settings::default()).unwrap()
+    };
+    // Sticks at once for 0.03 ms, then slips.
+    let moment = with(20.0, 0.00508);
+    assert!(moment.held.unwrap().t_s - moment.engaged.unwrap().t_s > 1e-4);
+    assert_eq!(moment.initial_slip_s(), Some(moment.inner.time_s));
+    // Holds for 10 ms, bounces, holds a larger load later.
+    let bounced = with(20.0, 0.001);
+    let [initial, all] = [bounced.initial_slip_s().unwrap(), bounced.inner.time_s];
+    assert!((3.5e-3..3.6e-3).contains(&initial) && all > 4e-3, "{initial} of {all}");
+    assert!(bounced.peaks.at_s[3] > bounced.held.unwrap().t_s + 10e-3);
 }
 
 /// "T_bi is always larger than T_be during engagement" (2.2): true of the forces and of the friction asked for as

@@ -27,8 +27,7 @@ fn test_set() -> Vec<Scenario> {
 }
 
 fn at(scenario: &Scenario, tolerance: f64) -> Simulation {
-    // A sample keeps the modes, from which the initial slip follows.
-    simulate(scenario, &Settings { tolerance, samples: 1, ..Settings::default() }).unwrap()
+    simulate(scenario, &Settings { tolerance, ..Settings::default() }).unwrap()
 }
 
 fn figures(e: &ErrorEstimate) -> [(&'static str, f64); 21] {

@@ -66,13 +66,13 @@ fn initial_slip(page: &mut Page, bench: &Design) -> Anyhow<()> {
     let tasks: Vec<(f64, f64)> =
         REVERSING_NM.iter().flat_map(|c| drags.iter().map(move |d| (*c, *d))).collect();
     let found: Vec<Reversal> = tasks.par_iter().map(|&(c, d)| reversal(base, c, d)).collect::<Anyhow<_>>()?;
-    let mut slip = Plot::new("drag torque of the spring, Nm", "time in slip inside, ms").sized(720.0, 340.0);
-    let mut ratio =
-        Plot::new("reversing torque over drag torque", "time in slip inside, ms").sized(720.0, 340.0);
+    let mut slip = Plot::new("drag torque of the spring, Nm", "initial slip, ms").sized(720.0, 340.0);
+    let mut ratio = Plot::new("reversing torque over drag torque", "initial slip, ms").sized(720.0, 340.0);
     (slip.log_x, slip.log_y, ratio.log_x, ratio.log_y) = (true, true, true, true);
     for (reversing, rows) in REVERSING_NM.iter().zip(found.chunks(drags.len())) {
         let name = format!("{reversing} Nm reverse the race");
-        let over = |x: fn(&Reversal) -> f64| rows.iter().map(|r| [x(r), 1e3 * r.run.inner.time_s]).collect();
+        let over =
+            |x: fn(&Reversal) -> f64| rows.iter().map(|r| [x(r), 1e3 * r.slip_s.unwrap_or(0.0)]).collect();
         slip.curves.push(Curve::new(&name, over(|r| r.drag_nm)));
         ratio.curves.push(Curve::new(&name, over(|r| r.reversing_nm / r.drag_nm)));
     }
@@ -84,7 +84,8 @@ fn initial_slip(page: &mut Page, bench: &Design) -> Anyhow<()> {
         Column::text("outer", "Outer contact then"),
         Column::number("slip_ms", "Initial slip", Unit::Millisecond, 3),
         Column::number("time_ms", "All slip inside", Unit::Millisecond, 3),
-        Column::number("slip_um", "Slip path inside", Unit::Micrometre, 3),
+        Column::number("slip_um", "Path of all slip inside", Unit::Micrometre, 3),
+        Column::number("open_ms", "Lost contact, free run too", Unit::Millisecond, 3),
         Column::number("n_max", "Largest N", Unit::Newton, 5),
         Column::number("moved", "against Table 1's spring", Unit::Percent, 2),
     ]);
@@ -107,6 +108,7 @@ fn initial_slip(page: &mut Page, bench: &Design) -> Anyhow<()> {
             r.slip_s.into(),
             r.run.inner.time_s.into(),
             r.run.inner.distance_m.into(),
+            r.run.contact_lost_s.into(),
             r.run.peaks.normal_max_n.into(),
             (r.run.peaks.normal_max_n / own.run.peaks.normal_max_n - 1.0).into(),
         ]);
@@ -115,35 +117,55 @@ fn initial_slip(page: &mut Page, bench: &Design) -> Anyhow<()> {
         "The scene: free run of 300 rpm, reversal, elastic stop (values assumed, designs/huang2017-bench.toml). The instant \
          at which the race ceases to run ahead of the sprags is the reversal. From there on the sprags must keep up \
          with a race that is accelerated by C/(I_bi + I_1), and all that presses them on at first is the spring: N there \
-         is some C_f/(n_s R_i mu). So slip grows with the ratio of reversing to drag torque, but the ratio alone does not decide (second figure): the sprags swing in the free run, N at the reversal depends on the phase, and the \
-         lighter the spring, the less the sprags follow the outer race in the free run, so that both contacts slip when \
-         the race reverses. Initial slip lasts to the first stick; where A sticks for an instant and slips again, only \
-         all slip has it.",
+         is some C_f/(n_s R_i mu). So slip grows with the ratio of reversing to drag torque, but the ratio alone does not \
+         decide (second figure): the sprags swing in the free run, N at the reversal depends on the phase, so that slip may end \
+         and come back as the spring grows stronger; and the lighter the spring, the less the sprags follow the outer race in the \
+         free run, so that both contacts slip when the race reverses. Initial slip is the time of slip under load at the inner \
+         contact, without that of lost contact, from the reversal to the first stick under which the load comes to a peak; a \
+         stick from which it slips on while the load builds up does not end it. All slip is that of the whole scene: it is more \
+         where the sprags slip again later, as where the race bounces off its stop and they let go, which moves the largest N \
+         too.",
     );
     page.table("At the reversal", &table);
     page.figure(
         &slip.marker(TABLE_1_NM, "Table 1").level(0.5, "the paper's half millisecond").to_svg(),
-        "Time in slip at the inner contact from the reversal on; no point: none.",
+        "Initial slip over the drag torque; no point: none.",
     );
     page.figure(&ratio.to_svg(), "The same over the ratio of the torques.");
-    // Onset by the sweep: the largest drag torque that still slips.
     let onset: Vec<String> = REVERSING_NM
         .iter()
-        .map(|c| {
-            let rows = || found.iter().filter(|r| r.reversing_nm == *c);
-            let last = rows().filter(|r| r.run.inner.time_s > 0.0).map(|r| r.drag_nm).fold(0.0, f64::max);
-            let half = rows().filter(|r| (4e-4..6e-4).contains(&r.run.inner.time_s));
-            let half: Vec<String> = half.map(|r| significant(r.drag_nm, 2)).collect();
-            format!(
-                "{c} Nm: slips up to a drag torque of {} Nm, a ratio of {:.0}; for 0.4 to 0.6 ms at {}",
-                significant(last, 2),
-                c / last,
-                if half.is_empty() { "none".to_owned() } else { format!("{} Nm", half.join(", ")) }
-            )
+        .zip(found.chunks(drags.len()))
+        .map(|(c, rows)| {
+            let some = ranges(rows, |slip_s| slip_s > 0.0);
+            let half = ranges(rows, |slip_s| (4e-4..=6e-4).contains(&slip_s));
+            format!("{c} Nm: initial slip with drag torques of {some}; it lasts 0.4 to 0.6 ms with {half}")
         })
         .collect();
+    let [first, last] =
+        [drags.first(), drags.last()].map(|d| d.map_or(String::new(), |&d| significant(d, 3)));
+    page.paragraph(&format!(
+        "Of the {} drag torques tried, from {first} to {last} Nm, by the first and last of those next to one another:",
+        drags.len()
+    ));
     page.list(&onset);
     Ok(())
+}
+
+/// The drag torques of `rows` whose initial slip `counts`, Nm: first and last of those that follow one another.
+fn ranges(rows: &[Reversal], counts: impl Fn(f64) -> bool) -> String {
+    let both = |a: &Reversal, b: &Reversal| counts_in(a, &counts) == counts_in(b, &counts);
+    let runs = rows.chunk_by(both).filter(|run| counts_in(&run[0], &counts));
+    let said = runs.map(|run| match run {
+        [one] => significant(one.drag_nm, 3),
+        [first, .., last] => format!("{} to {}", significant(first.drag_nm, 3), significant(last.drag_nm, 3)),
+        [] => String::new(),
+    });
+    let said: Vec<String> = said.collect();
+    if said.is_empty() { "none".to_owned() } else { format!("{} Nm", said.join(", ")) }
+}
+
+fn counts_in(of: &Reversal, counts: impl Fn(f64) -> bool) -> bool {
+    of.slip_s.is_some_and(counts)
 }
 
 /// Where the outer contact is asked for more than the inner: share of the samples, largest N_bi, largest |T_be|/N_be.

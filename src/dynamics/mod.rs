@@ -31,6 +31,6 @@ pub use outside::{events, next_mode};
 pub use published::{PublishedSettings, published};
 pub use rolling::{Rolling, rolling};
 pub use run::{
-    Engaged, FastMotion, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run, run_while_it_sticks,
+    Engaged, FastMotion, Held, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run, run_while_it_sticks,
 };
 pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled};

@@ -2,7 +2,7 @@
 
 use super::driver::Driver;
 use super::energy::EnergyBalance;
-use super::events::FIGURES;
+use super::events::{FIGURES, N_BI};
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 use crate::ode::step::{Counters, Tolerance};
 use std::sync::atomic::AtomicBool;
@@ -163,6 +163,16 @@ pub struct Engaged {
     pub outer: SlipRecord,
 }
 
+/// A stick of A under which the load comes to a peak: N_bi reaches its largest value so far and falls again, or the run
+/// ends. From a stick that is none A slips on while the load builds up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Held {
+    /// When it began, s.
+    pub t_s: f64,
+    /// Slip at A up to it.
+    pub inner: SlipRecord,
+}
+
 /// The fastest motion where a run gave up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FastMotion {
@@ -228,6 +238,10 @@ pub struct Run {
     pub samples: Vec<Sample>,
     /// When the clutch began to be one; `None`: it overran or was open to the end.
     pub engaged: Option<Engaged>,
+    /// The first hold of the load since then that has ended.
+    pub(super) held: Option<Held>,
+    /// The stick of A that lasts.
+    pub(super) stick: Option<Held>,
     /// Every mode with the time at which it began, s; empty where no samples were asked for.
     pub modes: Vec<(f64, Mode)>,
 }
@@ -279,6 +293,8 @@ impl Run {
             energy: None,
             samples: Vec::with_capacity(samples),
             engaged: None,
+            held: None,
+            stick: None,
             modes: Vec::new(),
         }
     }
@@ -301,6 +317,28 @@ impl Run {
                 outer: self.outer,
             });
         }
+        self.note_stick();
+    }
+
+    /// Remember the first stick of A since then under which the load came to a peak.
+    fn note_stick(&mut self) {
+        let sticks = matches!(self.mode.place, Place::Arc(_)) && self.mode.inner == Grip::Stick;
+        match self.stick {
+            None if sticks && self.engaged.is_some() => {
+                self.stick = Some(Held { t_s: self.t_s, inner: self.inner });
+            }
+            Some(stick) if !sticks => {
+                let peak_s = self.peaks.at_s[N_BI];
+                self.held = self.held.or((stick.t_s < peak_s && peak_s < self.t_s).then_some(stick));
+                self.stick = None;
+            }
+            _ => {}
+        }
+    }
+
+    /// The first hold of the load since the clutch engaged; a stick that lasts to the end is one.
+    pub fn first_hold(&self) -> Option<Held> {
+        self.held.or(self.stick)
     }
 }
 

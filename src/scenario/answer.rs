@@ -3,7 +3,7 @@
 use super::demand::Demand;
 use super::error::{ErrorEstimate, Scales};
 use crate::dynamics::{
-    EnergyBalance, Engaged, FastMotion, Grip, Mode, Overrun, Peaks, Place, Sample, SlipRecord, Stop,
+    EnergyBalance, Engaged, FastMotion, Held, Mode, Overrun, Peaks, Sample, SlipRecord, Stop,
 };
 
 /// What the clutch did.
@@ -106,6 +106,8 @@ pub struct Simulation {
     pub samples: Vec<Sample>,
     /// When A first carried load without overrunning; `None`: never, or an equilibrium.
     pub engaged: Option<Engaged>,
+    /// The first stick of A since then under which the load comes to a peak.
+    pub held: Option<Held>,
     /// Modes with the times at which they began, s; empty without samples.
     pub modes: Vec<(f64, Mode)>,
     /// Steady overrun: the whole of that scenario, the start of an engagement.
@@ -113,19 +115,12 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// How long A slips after an overrun has been reversed, s: from the instant at which v_A has fallen to 0 under
-    /// load to the beginning of the stick that holds when N_bi reaches its largest value, or of the first after it. What
-    /// holds for a moment and slips on while the load builds up has not ended the slip. The paper: about 0.5 ms.
-    /// `None` without an overrun, samples or such a stick.
+    /// Initial slip: how long A slips under load after an overrun has been reversed, s. From the instant at which v_A has
+    /// fallen to 0 under load to the first stick under which the load comes to a peak ([`Held`]); time without contact in
+    /// between is not counted, so it is a part of the time of slip of [`Self::inner`]. The paper: about 0.5 ms. `None` without an
+    /// overrun or such a stick.
     pub fn initial_slip_s(&self) -> Option<f64> {
         self.overrun?;
-        let from = self.engaged?.t_s;
-        let sticks = |m: &Mode| matches!(m.place, Place::Arc(_)) && m.inner == Grip::Stick;
-        let largest = self.peaks.at_s[3].max(from);
-        let then = self.modes.iter().rposition(|(t, _)| *t <= largest)?;
-        let holds = then + self.modes[then..].iter().position(|(_, m)| sticks(m))?;
-        let slips = self.modes[..holds].iter().rposition(|(_, m)| !sticks(m));
-        let since = self.modes[slips.map_or(0, |i| i + 1)].0;
-        Some((since - from).max(0.0))
+        Some(self.held?.inner.since(&self.engaged?.inner).time_s)
     }
 }

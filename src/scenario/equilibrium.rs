@@ -59,6 +59,7 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         energy: None,
         samples: Vec::new(),
         engaged: None,
+        held: None,
         modes: Vec::new(),
         overrun: prepared.overrun,
     }

@@ -83,8 +83,7 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         attempt(prepared, settings, fineness, samples, reduced, before.and_then(Try::bisected))
     };
     let mut tolerance = coarsest;
-    // One sample keeps the modes, from which the initial slip follows.
-    let mut coarse = go(tolerance, settings.samples.min(1), None);
+    let mut coarse = go(tolerance, 0, None);
     let (mut work, mut spread) = ([0; 3], [f64::INFINITY, f64::NEG_INFINITY]);
     let (mut before, mut doubts) = (None, [0.0; 2]);
     let (mut told, mut contradicted) = (None, false);
@@ -330,6 +329,7 @@ fn answer(prepared: &Prepared, of: &Try) -> Simulation {
         energy: run.energy,
         samples: run.samples.clone(),
         engaged: run.engaged,
+        held: run.first_hold(),
         modes: run.modes.clone(),
         overrun: prepared.overrun,
     }
