@@ -63,7 +63,7 @@ fn reached_the_end(s: &Simulation) -> bool {
 fn friction_law(s: &Simulation, prepared: &Prepared) -> Term {
     let needs = s.demand.and_then(|d| d.required_friction).unwrap_or(0.0);
     let why = format!(
-        "stick needs {needs:.4} of the static friction of {:.4}: the run is the pure-rolling run, not integrated twice",
+        "stick needs {needs:.4} of the static friction of {:.4}: the pure-rolling run is itself the run",
         prepared.model.friction.static_
     );
     Term { cost: "none: the same equations".to_owned(), ..Term::free("friction law (12) in slip", &why) }

@@ -69,8 +69,9 @@ pub fn simulate(scenario: &Scenario, settings: &Settings) -> Result<Simulation, 
     Ok(simulate_prepared(&prepare(scenario)?, settings, false))
 }
 
-/// As [`simulate`], from a prepared scenario. `reduced`: where the pure-rolling run never asks for as much friction
-/// as there is, it is the run, and the scene is not integrated twice.
+/// As [`simulate`], from a prepared scenario. Each of the runs has a pure-rolling run beside it, for the demand, and runs that
+/// bisect that where rolling unloads the contact. `reduced`: where the pure-rolling run never asks for as much friction as
+/// there is, it is the run itself.
 pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool) -> Simulation {
     if prepared.duration_s == 0.0 {
         return steady(prepared, settings);
