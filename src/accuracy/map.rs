@@ -56,10 +56,52 @@ impl Outcome {
         }
     }
 
+    /// The verdict, where it is one.
+    pub fn verdict(self) -> Option<Verdict> {
+        match self {
+            Self::Verdict(v) => Some(v),
+            _ => None,
+        }
+    }
+
     /// Whether the case met its limit of work. Numbers that are none would be a fault of the program, not a matter of work:
     /// they are counted apart ([`Judged::not_finite`]).
     pub fn met_a_limit(self) -> bool {
         matches!(self, Self::Stopped(stop) if stop.gave_up() && stop != Stop::NotFinite)
+    }
+}
+
+/// What half the tolerance makes of the verdicts of a map.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Halved {
+    /// Verdicts at the tolerance.
+    pub verdicts: usize,
+    /// Those of them that become another, neither being `at-threshold`.
+    pub changed: usize,
+    /// Those that become `at-threshold`, or were it.
+    pub at_threshold: usize,
+    /// Those that end without a verdict instead: at a limit of work, or undecided.
+    pub lost: usize,
+    /// Cases without a verdict that have one there.
+    pub gained: usize,
+    /// Verdicts whose tolerance was not reached, at it or at half of it.
+    pub not_reached: usize,
+}
+
+impl Halved {
+    /// Count `cases`.
+    pub fn of(cases: &[Judged]) -> Self {
+        let mut found = Self::default();
+        for case in cases {
+            let [a, b] = case.verdicts();
+            found.verdicts += usize::from(a.is_some());
+            found.changed += usize::from(case.verdict_changes);
+            found.at_threshold += usize::from(a.zip(b).is_some_and(|(a, b)| a != b && !case.verdict_changes));
+            found.lost += usize::from(a.is_some() && b.is_none());
+            found.gained += usize::from(a.is_none() && b.is_some());
+            found.not_reached += usize::from(a.is_some() && !case.converged);
+        }
+        found
     }
 }
 
@@ -88,6 +130,13 @@ pub struct Judged {
     pub rhs_evaluations: u64,
     /// Fastest rate in the motion where the limit of steps was met, rad/s.
     pub fastest_rad_s: Option<f64>,
+}
+
+impl Judged {
+    /// Verdict at the tolerance, and at half of it.
+    pub fn verdicts(&self) -> [Option<Verdict>; 2] {
+        self.outcomes.map(Outcome::verdict)
+    }
 }
 
 /// All `cases` on `clutch`, in parallel; the results are in their order, the same for any number of threads.
@@ -119,21 +168,13 @@ pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
     };
     let answers = [go(limit.tolerance), go(0.5 * limit.tolerance)];
     let outcomes = [outcome(&answers[0]), outcome(&answers[1])];
-    let verdicts = outcomes.map(|o| match o {
-        Outcome::Verdict(v) => Some(v),
-        _ => None,
-    });
-    let verdict_changes = match verdicts {
-        [Some(a), Some(b)] => a != b && a != Verdict::AtThreshold && b != Verdict::AtThreshold,
-        _ => false,
-    };
     let [a, b] = &answers;
     let found = || a.iter().chain(b);
     let first = a.as_ref().ok();
     Judged {
         case: *case,
         outcomes,
-        verdict_changes,
+        verdict_changes: changes(outcomes),
         not_finite: found().find_map(not_finite),
         converged: found().all(|s| s.tolerance_reached),
         theta_inner_rad: [a, b].map(|s| s.as_ref().map_or(0.0, |s| s.theta_inner_rad)),
@@ -142,6 +183,14 @@ pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
         steps: found().map(|s| s.steps).sum(),
         rhs_evaluations: found().map(|s| s.rhs_evaluations).sum(),
         fastest_rad_s: first.and_then(|s| s.fast_motion).map(|f| f.rate_rad_s),
+    }
+}
+
+/// Whether one verdict has become another, neither being `at-threshold`.
+fn changes(outcomes: [Outcome; 2]) -> bool {
+    match outcomes.map(Outcome::verdict) {
+        [Some(a), Some(b)] => a != b && a != Verdict::AtThreshold && b != Verdict::AtThreshold,
+        _ => false,
     }
 }
 
@@ -188,4 +237,42 @@ fn not_finite(s: &Simulation) -> Option<&'static str> {
     .into_iter()
     .find(|(_, value)| !value.is_finite())
     .map(|(name, _)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::cases;
+
+    #[test]
+    fn what_half_the_tolerance_does_to_a_verdict_is_counted_once() {
+        let made = |outcomes: [Outcome; 2], converged: bool| Judged {
+            case: cases(1, 1)[0],
+            verdict_changes: changes(outcomes),
+            outcomes,
+            not_finite: None,
+            converged,
+            theta_inner_rad: [0.0; 2],
+            t_s: 0.0,
+            events: 0,
+            steps: 0,
+            rhs_evaluations: 0,
+            fastest_rad_s: None,
+        };
+        let [sticks, slips, near] =
+            [Verdict::Sticks, Verdict::SlipsEngaging, Verdict::AtThreshold].map(Outcome::Verdict);
+        let limit = Outcome::Stopped(Stop::StepLimit);
+        let all = [
+            made([sticks, sticks], true),
+            made([sticks, sticks], false),
+            made([sticks, slips], true),
+            made([near, slips], false),
+            made([slips, limit], false),
+            made([limit, sticks], false),
+            made([limit, limit], false),
+            made([Outcome::NotCarried, Outcome::NotCarried], true),
+        ];
+        let wanted = Halved { verdicts: 5, changed: 1, at_threshold: 1, lost: 1, gained: 1, not_reached: 3 };
+        assert_eq!(Halved::of(&all), wanted);
+    }
 }

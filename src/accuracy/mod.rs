@@ -8,5 +8,5 @@ mod map;
 mod precision;
 
 pub use cases::{Case, PARAMETERS, Parameter, cases};
-pub use map::{Judged, Outcome, WorkLimit, judge, map};
+pub use map::{Halved, Judged, Outcome, WorkLimit, judge, map};
 pub use precision::{Method, Point, Precision, PrecisionSettings, precision};

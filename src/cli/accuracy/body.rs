@@ -2,7 +2,7 @@
 
 use super::verdict::{WANTED_RAD, gains_over_published, winners};
 use super::{Study, map};
-use crate::accuracy::{Judged, Method, Outcome, PARAMETERS, Point, Precision};
+use crate::accuracy::{Halved, Judged, Method, Outcome, PARAMETERS, Point, Precision};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -84,6 +84,7 @@ fn stability(study: &Study) -> Value {
         "outcomes": outcomes,
         "not_converged": study.cases.iter().filter(|c| !c.converged).count(),
         "worst": { "events": most(|c| c.events), "steps": most(|c| c.steps), "rhs_evaluations": most(|c| c.rhs_evaluations) },
+        "at_half_the_tolerance": Halved::of(&study.cases),
         "verdict_changes": pick(|c| c.verdict_changes),
         "not_finite": pick(|c| c.not_finite.is_some()),
         "limits": pick(|c| c.outcomes.iter().any(|o| o.met_a_limit())),

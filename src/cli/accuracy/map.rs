@@ -1,7 +1,7 @@
 //! The stability map in words, counts and plots.
 
 use super::Study;
-use crate::accuracy::{Judged, Outcome, PARAMETERS};
+use crate::accuracy::{Halved, Judged, Outcome, PARAMETERS};
 use crate::report::{Bar, Bars, Cell, Column, Curve, Plot, Table, Tone, Unit};
 
 /// Outcomes in the order in which they are listed.
@@ -31,21 +31,31 @@ pub(super) fn by_outcome(study: &Study) -> Vec<(&'static str, Vec<&Judged>)> {
 /// What the map says, in one sentence or two.
 pub(super) fn summary(study: &Study) -> String {
     let count = |f: fn(&Judged) -> bool| study.cases.iter().filter(|c| f(c)).count();
-    let verdicts = count(|c| matches!(c.outcomes[0], Outcome::Verdict(_)));
+    let halved = Halved::of(&study.cases);
     let ran = count(|c| !matches!(c.outcomes[0], Outcome::NotCarried | Outcome::NoCurve));
     format!(
         "{} cases (seed {}), each run at a tolerance of {:.0e} and at half of it within {} steps and {} changes of mode \
-         a run: {ran} start, of which {verdicts} end with a verdict, {} at a limit; {} have reached their tolerance. \
-         Half the tolerance changes {} verdicts outside at-threshold; {} answers hold a number that is not finite.",
+         a run: {ran} start, of which {} end with a verdict, {} at a limit. {}; {} verdicts become at-threshold there, or were \
+         it. {} answers hold a number that is not finite.",
         study.cases.len(),
         study.seed,
         study.limit.tolerance,
         study.limit.most_steps,
         study.limit.most_events,
+        halved.verdicts,
         count(|c| c.outcomes[0].met_a_limit()),
-        count(|c| c.converged && !matches!(c.outcomes[0], Outcome::NotCarried | Outcome::NoCurve)),
-        count(|c| c.verdict_changes),
+        at_half(&halved),
+        halved.at_threshold,
         count(|c| c.not_finite.is_some()),
+    )
+}
+
+/// What half the tolerance does to the verdicts.
+pub(super) fn at_half(h: &Halved) -> String {
+    format!(
+        "{} of {} verdicts change to another at half the tolerance; {} are lost there (to a limit of work, or undecided), {} \
+         gained; {} have not reached the tolerance",
+        h.changed, h.verdicts, h.lost, h.gained, h.not_reached
     )
 }
 
@@ -76,7 +86,7 @@ pub(super) fn counts(study: &Study) -> Table {
     table
 }
 
-/// Cases that a reader must see: changed verdicts, numbers that are none, limits met.
+/// Cases that a reader must see: verdicts changed, lost or gained, numbers that are none, limits met.
 pub(super) fn remarkable(study: &Study) -> Vec<String> {
     let mut lines = Vec::new();
     for c in study.cases.iter().filter(|c| c.verdict_changes) {
@@ -88,7 +98,11 @@ pub(super) fn remarkable(study: &Study) -> Vec<String> {
             lines.push(format!("{what} is not finite: {}", described(c)));
         }
     }
-    for c in study.cases.iter().filter(|c| c.outcomes.iter().any(|o| o.met_a_limit())) {
+    let stopped = |c: &&Judged| {
+        let [a, b] = c.verdicts();
+        a.is_some() != b.is_some() || c.outcomes.iter().any(|o| o.met_a_limit())
+    };
+    for c in study.cases.iter().filter(stopped) {
         let rate = c.fastest_rad_s.map_or(String::new(), |r| format!(", fastest motion {r:.1e} rad/s"));
         let [a, b] = c.outcomes.map(Outcome::name);
         let both = if a == b { a.to_owned() } else { format!("{a}, at half the tolerance {b},") };

@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::verdict::{WANTED_RAD, cheapest, gains_over_published, name, sentence};
 use super::{Study, map, tables};
-use crate::accuracy::{Method, PARAMETERS, Point, Precision};
+use crate::accuracy::{Halved, Judged, Method, PARAMETERS, Point, Precision};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
 use crate::report::plot::Dash;
@@ -74,11 +74,13 @@ fn verdict(study: &Study) -> (bool, String) {
     let map = if study.cases.is_empty() {
         String::new()
     } else {
-        let limit = study.cases.iter().filter(|c| c.outcomes[0].met_a_limit()).count();
+        let count = |f: fn(&Judged) -> bool| study.cases.iter().filter(|c| f(c)).count();
         format!(
-            "; in the map {changed} of {} cases change verdict or hold no number, {limit} end without one at their limit \
-             of work",
-            study.cases.len()
+            "; in the map of {} cases {}; {} hold a number that is not finite, {} end without a verdict at their limit of work",
+            study.cases.len(),
+            map::at_half(&Halved::of(&study.cases)),
+            count(|c| c.not_finite.is_some()),
+            count(|c| c.outcomes[0].met_a_limit()),
         )
     };
     let line = format!(
@@ -145,7 +147,8 @@ fn stability(page: &mut Page, study: &Study) {
         page.paragraph("No case met a limit, changed its verdict or gave a number that is not finite.");
     } else {
         page.paragraph(
-            "Cases that changed their verdict, gave a number that is not finite, or met a limit, SI:",
+            "Cases whose verdict changes, is lost or is gained at half the tolerance, that gave a number that is not finite, \
+             or met a limit at either, SI:",
         )
         .list(&lines);
     }
