@@ -53,6 +53,26 @@ fn the_design_file_is_never_an_output() {
     assert_eq!(std::fs::read("Cargo.toml").unwrap(), before);
 }
 
+/// Nor is any other design, or a history that the design names, the place of a table or page.
+#[test]
+fn what_a_slip_of_the_hand_would_destroy_is_refused() {
+    const BENCH: &str = "designs/huang2017-bench.toml";
+    let simulate = ["simulate", BENCH, "--scenario", "in-and-out"];
+    for (flags, target, word) in [
+        (&["--csv"][..], "designs/huang2017-multi-arc.toml", "is a design file already"),
+        (&["--report"], "designs/huang2017-multi-arc.toml", "is a design file already"),
+        (&["--csv"], "designs/engaging-in-and-out.csv", "is read by this command"),
+        (&["--report"], "designs/speed-ramp.csv", "is a table already"),
+    ] {
+        let before = std::fs::read(target).unwrap();
+        let output = run(&[&simulate, flags, &[target]].concat());
+        assert_eq!(output.status.code(), Some(2), "{target}");
+        let said = text(&output.stderr);
+        assert!(said.contains(word) && output.stdout.is_empty(), "{target}: {said}");
+        assert_eq!(std::fs::read(target).unwrap(), before);
+    }
+}
+
 #[test]
 fn a_negative_number_is_a_value_and_refused_as_one() {
     const DESIGN: &str = "designs/huang2017-multi-arc.toml";

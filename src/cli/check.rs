@@ -9,7 +9,7 @@ mod running;
 
 use super::exit::{Exit, Failure};
 use super::left_out::{left_out, off_centre};
-use super::output;
+use super::output::{self, Kind};
 use super::parts::{self, Answer};
 use super::{Context, interrupt::Interrupt, progress::Progress};
 use crate::design::{Design, Scenario, ScenarioKind};
@@ -24,7 +24,7 @@ pub(super) use body::{demand_cell, ends_first, margin_cell, people_table, unit_c
 use clap::Args;
 use rayon::prelude::*;
 use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -68,7 +68,7 @@ struct Check {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
-    let others: Vec<&Path> = args.overrun_csv.iter().map(PathBuf::as_path).collect();
+    let others: Vec<_> = args.overrun_csv.iter().map(|path| (path.as_path(), Kind::Table)).collect();
     context.outputs.check(&[&args.file], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let started = Instant::now();

@@ -3,6 +3,7 @@
 mod result;
 
 use super::exit::{Exit, Failure};
+use super::output::Kind;
 use super::{Context, output, parts, positive};
 use crate::design::Design;
 use crate::export::calculix::{Options, Variant, deck};
@@ -85,7 +86,7 @@ pub struct ExportArgs {
 /// [`Failure`].
 pub fn run(args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
     let inputs: Vec<_> = std::iter::once(&args.file).chain(&args.read).map(PathBuf::as_path).collect();
-    let others: Vec<_> = args.output.iter().map(PathBuf::as_path).collect();
+    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), Kind::Deck)).collect();
     context.outputs.check(&inputs, &others)?;
     let design = parts::read_design(&args.file, context)?;
     if let Some(dat) = &args.read {

@@ -6,7 +6,7 @@ mod page;
 use super::Context;
 use super::exit::{Exit, Failure};
 use super::left_out::left_out;
-use super::output::{VERSION, write_whole};
+use super::output::{Kind, VERSION, write_whole};
 use super::parts::{self, Answer};
 use crate::design::Design;
 use crate::identify::{Identified, NoFit, Settings, Unknown, identify, observations};
@@ -81,8 +81,7 @@ const WRITTEN_BY: &str = "# Written by sprag-design identify";
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
-    let mut others: Vec<&std::path::Path> = Vec::new();
-    others.extend(args.output.as_deref());
+    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), Kind::Design)).collect();
     context.outputs.check(&[&args.file, &args.data], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let named = |why: String| Failure::malformed(format!("{}: {why}", args.data.display()));

@@ -5,7 +5,7 @@ use super::exit::{Exit, Failure};
 use super::journal::{self, JournalFile};
 use super::optimize_file::{WRITTEN_BY, file_text, further_text};
 use super::optimize_story::Story;
-use super::output::{TOOL, VERSION, write_whole};
+use super::output::{Kind, TOOL, VERSION, write_whole};
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
 use super::{optimize_answer as answer, parts};
@@ -92,7 +92,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     refuse_tolerance(args.tolerance)?;
     let new = output_path(args)?;
     let record = args.journal.clone().unwrap_or_else(|| journal::path_for(&new));
-    context.outputs.check(&[&args.file], &[&new, &record])?;
+    context.outputs.check(&[&args.file], &[(&new, Kind::Design), (&record, Kind::Table)])?;
     let design = parts::read_design(&args.file, context)?;
     let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
     let Some(task) = design.optimize.clone() else {

@@ -69,6 +69,41 @@ pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     print(&(text + "\n"))
 }
 
+/// What is written into a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A table or journal, CSV.
+    Table,
+    /// A page.
+    Page,
+    /// A design file.
+    Design,
+    /// A finite-element deck.
+    Deck,
+}
+
+impl Kind {
+    /// The kind that a file is of by its name; `None` where that says nothing.
+    fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "csv" => Some(Self::Table),
+            "html" | "htm" => Some(Self::Page),
+            "toml" => Some(Self::Design),
+            "inp" => Some(Self::Deck),
+            _ => None,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Table => "a table",
+            Self::Page => "a page",
+            Self::Design => "a design file",
+            Self::Deck => "a deck",
+        }
+    }
+}
+
 /// Files that may be written, checked before any computing begins.
 #[derive(Debug, Clone, Default)]
 pub struct Outputs {
@@ -80,16 +115,16 @@ pub struct Outputs {
 
 impl Outputs {
     /// Refuse what would only fail, or do harm, after the work is done: the input as an output, one file
-    /// for two outputs, a folder that is not there. `inputs`: files that the command reads, the design first; `others`:
-    /// further outputs of the command.
+    /// for two outputs, a folder that is not there, a file that is of another kind by its name. `inputs`: files that the
+    /// command reads, the design first; `others`: further outputs of the command.
     ///
     /// # Errors
     /// [`Failure::Malformed`] naming the path.
-    pub fn check(&self, inputs: &[&Path], others: &[&Path]) -> Result<(), Failure> {
-        let all: Vec<&Path> =
-            self.csv.iter().chain(&self.report).map(PathBuf::as_path).chain(others.iter().copied()).collect();
+    pub fn check(&self, inputs: &[&Path], others: &[(&Path, Kind)]) -> Result<(), Failure> {
+        let csv = self.csv.iter().map(|path| (path.as_path(), Kind::Table));
+        let report = self.report.iter().map(|path| (path.as_path(), Kind::Page));
         let mut seen: Vec<PathBuf> = Vec::new();
-        for path in all {
+        for (path, kind) in csv.chain(report).chain(others.iter().copied()) {
             if path.is_dir() {
                 return Err(refused(path, "is a folder, a file is needed"));
             }
@@ -109,6 +144,10 @@ impl Outputs {
             }
             if seen.contains(&here) {
                 return Err(refused(path, "is named for two outputs"));
+            }
+            if let Some(there) = Kind::of(path).filter(|there| *there != kind && path.exists()) {
+                let (there, new) = (there.name(), kind.name());
+                return Err(refused(path, &format!("is {there} already; {new} does not overwrite it")));
             }
             seen.push(here);
         }

@@ -10,7 +10,7 @@ use crate::report::{Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Uni
 use crate::wedge::{Closure, StaticPoint, WedgeCurve};
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Chords of a drawn outline leave its arcs by no more than this, m.
 const OUTLINE_M: f64 = 1e-6;
@@ -19,14 +19,18 @@ const OUTLINE_M: f64 = 1e-6;
 /// command) and, with `--json`, also to standard output as `{"error": {"file", "problems": [..]}}`.
 ///
 /// # Errors
-/// [`Failure::Malformed`] with every fault of the file.
+/// [`Failure::Malformed`] with every fault of the file, or where an output is one of its histories.
 pub fn read_design(path: &Path, context: &Context) -> Result<Design, Failure> {
-    Design::read(path).or_else(|refused| {
+    let design = Design::read(path).or_else(|refused| {
         if context.json {
             output::print_json(&json!({ "error": refused.to_json() }))?;
         }
         Err(Failure::Malformed(miette::Report::new(refused)))
-    })
+    })?;
+    let histories = design.histories.iter().map(PathBuf::as_path);
+    let read: Vec<&Path> = std::iter::once(path).chain(histories).collect();
+    context.outputs.check(&read, &[])?;
+    Ok(design)
 }
 
 /// An answer for programs: the common keys and the command's own in `body`.

@@ -4,7 +4,7 @@ use super::Context;
 use super::check::{REACHED_AT, ends_first, people_table};
 use super::exit::{Exit, Failure};
 use super::left_out::left_out;
-use super::output::{print_json, write_whole};
+use super::output::{Kind, print_json, write_whole};
 use super::parts::{self, Answer};
 use crate::design::Design;
 use crate::margin::{Margin, load_state};
@@ -56,7 +56,7 @@ pub struct SizeArgs {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
-    context.outputs.check(&[], &[&args.output])?;
+    context.outputs.check(&[], &[(&args.output, Kind::Design)])?;
     let ask = Ask {
         bore_m: args.bore / 1e3,
         torque_nm: args.torque,

@@ -71,6 +71,8 @@ pub struct Design {
     pub source: String,
     /// Where the file lies: its histories are named from there.
     pub folder: std::path::PathBuf,
+    /// The files of its histories.
+    pub histories: Vec<std::path::PathBuf>,
 }
 
 impl Design {

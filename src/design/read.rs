@@ -122,6 +122,7 @@ impl Design {
                 hash: hash(source, texts.values()),
                 source: source.to_owned(),
                 folder: folder.to_owned(),
+                histories: texts.into_keys().collect(),
             }),
             (_, _, problems) if !problems.is_empty() => Err(refuse(problems)),
             _ => {

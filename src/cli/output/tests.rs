@@ -92,7 +92,7 @@ fn harmful_outputs_are_refused_before_the_work() {
         (outputs(&same, &html), vec![], "never overwritten"),
         (outputs(&fem, &html), vec![], "is read by this command"),
         (outputs(&csv, &csv), vec![], "two outputs"),
-        (outputs(&csv, &html), vec![csv.as_path()], "two outputs"),
+        (outputs(&csv, &html), vec![(csv.as_path(), Kind::Table)], "two outputs"),
         (outputs(&folder.0, &html), vec![], "folder"),
         (outputs(&folder.0.join("none").join("a.csv"), &html), vec![], "does not exist"),
     ] {
@@ -102,6 +102,36 @@ fn harmful_outputs_are_refused_before_the_work() {
         assert!(text.contains(want), "{text} should say {want}");
     }
     assert_eq!(fs::read(&design).unwrap(), b"schema = 1");
+}
+
+#[test]
+fn a_file_of_another_kind_is_not_overwritten() {
+    let folder = Folder::new();
+    let make = |name: &str| {
+        let path = folder.0.join(name);
+        fs::write(&path, b"old").unwrap();
+        path
+    };
+    let (design, table, page) = (make("other.TOML"), make("old.csv"), make("old.html"));
+    let none = Outputs::default();
+    let csv = |path: &Path| Outputs { csv: Some(path.into()), ..Outputs::default() };
+    let report = |path: &Path| Outputs { report: Some(path.into()), ..Outputs::default() };
+    for (bad, others, want) in [
+        (csv(&design), vec![], "is a design file already; a table does not"),
+        (csv(&page), vec![], "is a page already"),
+        (report(&design), vec![], "a page does not overwrite it"),
+        (report(&table), vec![], "is a table already"),
+        (none.clone(), vec![(design.as_path(), Kind::Deck)], "is a design file already"),
+        (none.clone(), vec![(table.as_path(), Kind::Design)], "is a table already"),
+    ] {
+        let text = message(bad.check(&[], &others).unwrap_err());
+        assert!(text.contains(want), "{text} should say {want}");
+    }
+    // One of its own kind, one whose name says nothing, and one that is not there yet are written.
+    assert!(csv(&table).check(&[], &[(&design, Kind::Design)]).is_ok());
+    assert!(report(&page).check(&[], &[]).is_ok());
+    assert!(csv(&make("notes.txt")).check(&[], &[]).is_ok());
+    assert!(csv(&folder.0.join("new.toml")).check(&[], &[]).is_ok());
 }
 
 #[test]
