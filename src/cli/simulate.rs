@@ -6,6 +6,7 @@ mod facts;
 mod history;
 mod left_out;
 mod page;
+mod unfelt;
 
 use super::exit::{Exit, Failure};
 use super::parts::{self, Answer};
@@ -193,7 +194,7 @@ fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Fai
 }
 
 fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
-    let mut notes = Vec::new();
+    let mut notes = unfelt::notes(scene.scenario);
     let simulation = scene.simulation();
     if scene.method == "equilibrium" {
         if args.method == Method::Published || args.step.is_some() {
