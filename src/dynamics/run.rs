@@ -251,16 +251,16 @@ const COARSE: f64 = 2e-3;
 
 impl RunSettings {
     /// What the error of a step in `mode` may be. Where both contacts hold, the weighted error over work is least with a
-    /// tenth of it: what is wrong with the state there is wrong with the slip that follows.
+    /// fifth of it: what is wrong with the state there is wrong with the slip that follows.
     /// Rates that follow from others have none: of alpha' the slope is infinite at first contact. Slip has next to no absolute
     /// one, but for coarse steps: where friction falls with speed what begins to slip runs away from 0, and its first steps
     /// decide when.
     pub(super) fn tolerance_in(&self, mode: &Mode) -> Tolerance<N_STATE> {
         let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
         let outer = mode.outer == Grip::Stick;
-        let relative = if inner && outer { 0.1 * self.tolerance } else { self.tolerance };
+        let relative = if inner && outer { 0.2 * self.tolerance } else { self.tolerance };
         let slip = if self.tolerance > COARSE { 1e-2 * relative } else { 1e-9 * relative };
-        let (angle, rate) = (1e-2 * relative, 10.0 * relative);
+        let (angle, rate) = (1e-2 * relative, 5.0 * relative);
         let unless = |follows: bool| if follows { f64::INFINITY } else { rate };
         let (alpha, phi) = (unless(inner && outer), unless(inner || outer));
         Tolerance {
