@@ -28,6 +28,24 @@ fn runs(scene: &Scenario, tolerances: &[f64]) -> Vec<Run> {
     tolerances.iter().map(at).collect()
 }
 
+/// Preload and step, N m, and the time of the step, s; stiffness of the abutment, N m/rad; duration, s; overrun, rad/s.
+fn transient(
+    [preload_nm, torque_step_nm, step_time_s]: [f64; 3],
+    abutment_stiffness_nm_per_rad: f64,
+    duration_s: f64,
+    overrun_rad_s: f64,
+) -> ScenarioKind {
+    ScenarioKind::Transient {
+        preload_nm,
+        torque_step_nm,
+        step_time_s,
+        abutment_stiffness_nm_per_rad,
+        duration_s,
+        speed_rad_s: 0.0,
+        overrun_rad_s,
+    }
+}
+
 /// Squeezed out at mu = 0.07, A slides open in 0.2 ms; B lets go 70 ns before first contact ends. Runs that saw it and runs
 /// that did not agreed among themselves: theta_bi 4.5e-6 apart, |T|/N outside 0.053 in place of 0.07.
 #[test]
@@ -147,15 +165,7 @@ fn no_step_goes_all_the_way_to_the_loss_of_contact() {
     let friction = scene("designs/huang2017-bench.toml", "high-10-vernay").clutch.friction;
     turns.clutch.friction = friction;
     turns.clutch.spring.stiffness_nm_per_rad = 0.0;
-    turns.kind = ScenarioKind::Transient {
-        preload_nm: 0.0,
-        torque_step_nm: 0.0,
-        step_time_s: 0.0,
-        abutment_stiffness_nm_per_rad: 33490.1,
-        duration_s: 0.0808503,
-        speed_rad_s: 0.0,
-        overrun_rad_s: 0.0,
-    };
+    turns.kind = transient([0.0; 3], 33490.1, 0.0808503, 0.0);
     for factor in [1.0, 0.8, 0.7] {
         let course = [
             [0.0149354656, 24.2894],
@@ -181,15 +191,8 @@ fn a_contact_that_cannot_hold_at_the_start_lets_go_at_once() {
     let friction = &mut scene.clutch.friction;
     (friction.static_, friction.kinetic, friction.decay_s_per_m) = (0.1, 0.1, 225.84);
     scene.clutch.races.viscous_damping_nm_s_per_rad = 6.2982;
-    scene.kind = ScenarioKind::Transient {
-        preload_nm: 1.0674,
-        torque_step_nm: 1.0251736559999998,
-        step_time_s: 0.00072096,
-        abutment_stiffness_nm_per_rad: 39573.0,
-        duration_s: 0.16901,
-        speed_rad_s: 0.0,
-        overrun_rad_s: 44.861 * std::f64::consts::PI / 30.0,
-    };
+    let overrun_rad_s = 44.861 * std::f64::consts::PI / 30.0;
+    scene.kind = transient([1.0674, 1.0251736559999998, 0.00072096], 39573.0, 0.16901, overrun_rad_s);
     let at = |tolerance: f64| simulate(&scene, &Settings { tolerance, ..Settings::default() }).unwrap();
     let fine = at(1e-9);
     for tolerance in [1e-5, 1e-6, 1e-7] {
