@@ -84,7 +84,7 @@ fn transients() {
             ["speed_rpm", "no speed_rpm beside speed_history_csv"],
         ),
         ("overrun_rpm = 5\nstep_time_s = 0.1\n", ["step_time_s", "only with torque_step_nm"]),
-        ("torque_history_csv = \"not-there.csv\"\n", ["torque_history_csv", "not-there.csv: No such file"]),
+        ("torque_history_csv = \"not-there.csv\"\n", ["torque_history_csv", "not-there.csv: no such file"]),
         ("torque_step_nm = 1\nfrequency_hz = 3\n", ["frequency_hz", "for kind transient"]),
     ] {
         let said = of(keys);

@@ -89,8 +89,8 @@ pub fn run(args: &AccuracyArgs, context: &Context) -> Result<Exit, Failure> {
         error_estimate: Some(json!(worst)),
         body: Body::of(&study),
     };
-    context.outputs.write_csv(&tables::points(&study.scenes))?;
-    context.outputs.write_report(|| page::page(&study, &answer, context))?;
+    context.outputs.write_csv(&tables::points(&study.scenes));
+    context.outputs.write_report(|| page::page(&study, &answer, context));
     context.answer(&tables::text(&study, context.screen))?;
     answer.print(context)?;
     Ok(if study.interrupted { Exit::Interrupted } else { Exit::Held })

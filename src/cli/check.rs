@@ -9,7 +9,7 @@ mod running;
 
 use super::exit::{Exit, Failure};
 use super::left_out::{left_out, off_centre};
-use super::output::{self, Kind};
+use super::origin::Kind;
 use super::parts::{self, Answer};
 use super::{Context, interrupt::Interrupt, progress::Progress};
 use crate::design::{Design, Scenario, ScenarioKind};
@@ -103,11 +103,11 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         })),
         body,
     };
-    context.outputs.write_csv(&csv_table(&check.rows, check.state.curve.end_torque_nm()))?;
+    context.outputs.write_csv(&csv_table(&check.rows, check.state.curve.end_torque_nm()));
     if let Some(path) = &args.overrun_csv {
-        output::write_table(path, &answer.body.overrun.table())?;
+        context.outputs.write_table(path, &answer.body.overrun.table());
     }
-    context.outputs.write_report(|| page::page(&design, &check, &answer, context))?;
+    context.outputs.write_report(|| page::page(&design, &check, &answer, context));
     context.answer(&text(&design, &check, &answer.body, context.screen))?;
     answer.print(context)?;
     Ok(match (held, unknown) {

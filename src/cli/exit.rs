@@ -1,5 +1,7 @@
 //! Exit codes, promised to scripts.
 
+use crate::design::{DesignError, shown};
+use serde_json::{Value, json};
 use std::process::ExitCode;
 
 /// How the program ends.
@@ -48,9 +50,29 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// A malformed question in one sentence, without a place in a file.
-    pub fn malformed(message: impl Into<String>) -> Self {
-        Self::Malformed(miette::Report::msg(message.into()))
+    /// A malformed question in one sentence, without a place in a file; control characters in it are shown, not sent.
+    pub fn malformed(message: impl AsRef<str>) -> Self {
+        Self::Malformed(miette::Report::msg(shown(message.as_ref())))
+    }
+
+    /// For programs: `message`; of a refused design file also `file` and `problems`.
+    pub fn to_json(&self) -> Value {
+        let mut out = json!({ "message": self.message() });
+        if let Self::Malformed(report) = self
+            && let Some(refused) = report.downcast_ref::<DesignError>()
+            && let (Some(out), Value::Object(more)) = (out.as_object_mut(), refused.to_json())
+        {
+            out.extend(more);
+        }
+        out
+    }
+
+    fn message(&self) -> String {
+        match self {
+            Self::Malformed(report) => report.to_string(),
+            Self::Failed(text) => text.clone(),
+            Self::Interrupted => "stopped".to_owned(),
+        }
     }
 
     /// The code that goes with it.

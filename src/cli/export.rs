@@ -3,7 +3,7 @@
 mod result;
 
 use super::exit::{Exit, Failure};
-use super::output::Kind;
+use super::origin::Kind;
 use super::{Context, output, parts, positive};
 use crate::design::Design;
 use crate::export::calculix::{Options, Variant, deck};
@@ -98,14 +98,15 @@ pub fn run(args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
     let text = text(&design, args)?;
     match &args.output {
         Some(path) => {
-            output::write_whole(path, text.as_bytes())?;
-            context.message(&format!(
-                "{}: {} variant, {:.1} MB; next: ccx -i {}",
-                path.display(),
-                variant(args.variant).name(),
-                text.len() as f64 * 1e-6,
-                path.with_extension("").display()
-            ));
+            if context.outputs.write(path, Kind::Deck, text.as_bytes()) {
+                context.message(&format!(
+                    "{}: {} variant, {:.1} MB; next: ccx -i {}",
+                    path.display(),
+                    variant(args.variant).name(),
+                    text.len() as f64 * 1e-6,
+                    path.with_extension("").display()
+                ));
+            }
         }
         None => output::print(&text)?,
     }

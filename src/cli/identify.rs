@@ -6,9 +6,11 @@ mod page;
 use super::Context;
 use super::exit::{Exit, Failure};
 use super::left_out::left_out;
-use super::output::{Kind, VERSION, write_whole};
+use super::origin::{Kind, WRITTEN_BY};
+use super::histories::Histories;
+use super::output::{TOOL, VERSION};
 use super::parts::{self, Answer};
-use crate::design::Design;
+use crate::design::{Design, MOST_TABLE, read_text};
 use crate::identify::{Identified, NoFit, Settings, Unknown, identify, observations};
 use crate::report::Screen;
 use body::{Body, estimates, residuals, sentences};
@@ -73,9 +75,6 @@ fn unknown(text: &str) -> Result<Unknown, String> {
     Ok(Unknown { name: (*name).to_owned(), min, max })
 }
 
-/// First line of every design file that this command writes.
-const WRITTEN_BY: &str = "# Written by sprag-design identify";
-
 /// Run the command.
 ///
 /// # Errors
@@ -85,7 +84,8 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&[&args.file, &args.data], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let named = |why: String| Failure::malformed(format!("{}: {why}", args.data.display()));
-    let text = std::fs::read_to_string(&args.data).map_err(|e| named(e.to_string()))?;
+    let histories = args.output.as_deref().map(|new| Histories::beside(&design, new)).transpose()?.unwrap_or_default();
+    let text = read_text(&args.data, MOST_TABLE).map_err(|e| named(e.to_string()))?;
     let data = observations(&text).map_err(|fault| named(fault.to_string()))?;
     let settings = Settings {
         starts: usize::from(args.starts),
@@ -108,16 +108,17 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
         Err(why @ NoFit::Nowhere { .. }) => {
             context.answer(&format!("{why}\n"))?;
             if context.json {
-                super::output::print_json(&serde_json::json!({ "error": why.to_string() }))?;
+                super::output::print_json(&serde_json::json!({ "tool": TOOL, "version": VERSION, "error": why.to_string() }))?;
             }
             return Ok(Exit::NotHeld);
         }
         Err(why) => return Err(Failure::malformed(format!("{}: {why}", args.file.display()))),
     };
-    if let Some(path) = &args.output {
-        write_whole(path, new_file(&design, &found, context).as_bytes())?;
-    }
-    let body = Body::new(&found, args.output.as_deref());
+    let write = |path: &&std::path::Path| {
+        let text = new_file(&design, &found, context);
+        histories.write(&context.outputs) && context.outputs.write(path, Kind::Design, text.as_bytes())
+    };
+    let body = Body::new(&found, args.output.as_deref().filter(write));
     let determined = body.determined;
     let answer = Answer {
         design: &design,
@@ -126,8 +127,8 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
         error_estimate: Some(serde_json::json!({ "residual_sigma": found.knowledge.residual_sigma })),
         body,
     };
-    context.outputs.write_csv(&residuals(&found))?;
-    context.outputs.write_report(|| page::page(&design, &found, &answer, context))?;
+    context.outputs.write_csv(&residuals(&found));
+    context.outputs.write_report(|| page::page(&design, &found, &answer, context));
     context.answer(&text_of(&design, &found, context.screen))?;
     answer.print(context)?;
     Ok(if determined { Exit::Held } else { Exit::NotHeld })
@@ -146,7 +147,7 @@ fn new_file(design: &Design, found: &Identified, context: &Context) -> String {
         })
         .collect();
     format!(
-        "{WRITTEN_BY} {VERSION} from {:?} (sha256 {})\n# by: {}\n{changes}#\n{}",
+        "{WRITTEN_BY} identify {VERSION} from {:?} (sha256 {})\n# by: {}\n{changes}#\n{}",
         design.name, design.hash, context.command_line, found.source
     )
 }

@@ -35,7 +35,7 @@ pub fn run(context: &Context) -> Result<Exit, Failure> {
             s.hertz_peak_pa.into(),
         ]);
     }
-    context.outputs.write_csv(&table)?;
+    context.outputs.write_csv(&table);
     if context.json {
         let steels: Vec<_> = STEELS
             .iter()

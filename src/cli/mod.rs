@@ -9,6 +9,7 @@ pub mod check;
 pub mod evaluate;
 pub mod exit;
 pub mod export;
+pub mod histories;
 pub mod identify;
 pub mod interrupt;
 pub mod journal;
@@ -19,6 +20,7 @@ pub mod optimize_answer;
 pub mod optimize_file;
 pub mod optimize_json;
 pub mod optimize_story;
+pub mod origin;
 pub mod output;
 pub mod parts;
 pub mod progress;
@@ -27,12 +29,14 @@ pub mod simulate;
 pub mod size;
 pub mod stiffness;
 
+use crate::design::unprintable;
 use crate::report::Screen;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use exit::{Exit, Failure};
 use interrupt::Interrupt;
 use output::Outputs;
 use progress::Progress;
+use serde_json::json;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -48,7 +52,11 @@ Examples:
 Exit codes:
   0 done, all margins held     1 a margin is not held, or no feasible design found
   2 malformed command line or design file     3 answer not computed or not written
-  130 stopped by Ctrl-C; what had been found is written";
+  130 stopped by Ctrl-C; what had been found is written
+
+A file that is there already is replaced only if this tool has written it (its first lines say so; of a table: the names of
+its columns); --force replaces any. What cannot be written costs no answer: it is printed, with exit code 3.
+With --json a refusal or failure is one JSON object too: tool, version, error.";
 
 #[derive(Debug, Parser)]
 #[command(
@@ -108,6 +116,9 @@ struct Common {
     /// Write a self-contained HTML page with drawing, curves and tables
     #[arg(long, global = true, value_name = "PATH.html")]
     report: Option<PathBuf>,
+    /// Replace files that this tool has not written, too
+    #[arg(long, global = true)]
+    force: bool,
     /// Number of threads [default: all cores]
     #[arg(long, global = true, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -157,19 +168,32 @@ impl Context {
 
 /// Run the program.
 pub fn run() -> ExitCode {
-    let cli = match missing_value(&arguments()).map_or_else(Cli::try_parse, Err) {
+    let args = arguments();
+    let parsed = missing_value(&args).map_or_else(|| command().try_get_matches(), Err);
+    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
-        Err(e) => {
-            // Help and version come this way too, on standard output and with code 0.
-            let _ = e.print();
-            return if e.use_stderr() { Exit::Malformed } else { Exit::Held }.into();
+        Err(e) if e.use_stderr() => {
+            // The message repeats what was typed.
+            output::note(e.render().to_string().trim_end());
+            return Exit::Malformed.into();
+        }
+        Err(help_or_version) => {
+            let _ = help_or_version.print();
+            return Exit::Held.into();
         }
     };
+    let json = cli.common.json && takes(name_of(&cli.command), "json");
     match dispatch(cli) {
         Ok(exit) => exit.into(),
         Err(failure) => {
+            if json {
+                // Standard output may be what has failed; standard error says it in words.
+                let _ = output::print_json(&json!({
+                    "tool": output::TOOL, "version": output::VERSION, "error": failure.to_json(),
+                }));
+            }
             match &failure {
-                Failure::Malformed(report) => output::note(&format!("{report:?}")),
+                Failure::Malformed(report) => output::note_painted(&format!("{report:?}")),
                 Failure::Failed(text) => output::note(&format!("error: {text}")),
                 Failure::Interrupted => output::note("stopped"),
             }
@@ -178,10 +202,21 @@ pub fn run() -> ExitCode {
     }
 }
 
+/// The command line with its help: each command shows only the options that mean something to it.
+fn command() -> clap::Command {
+    let root = Cli::command();
+    let common: Vec<clap::Arg> = root.get_arguments().filter(|a| a.is_global_set()).cloned().collect();
+    MEANINGLESS.iter().fold(root, |root, (name, _, without)| {
+        let hidden = common.iter().filter(|a| without.contains(&a.get_id().as_str()));
+        let hidden: Vec<clap::Arg> = hidden.map(|a| a.clone().hide(true)).collect();
+        root.mut_subcommand(name, |command| command.args(hidden))
+    })
+}
+
 fn dispatch(cli: Cli) -> Result<Exit, Failure> {
     refuse_meaningless(&cli.command, &cli.common)?;
     let context = context(cli.common)?;
-    match cli.command {
+    let exit = match cli.command {
         Command::Check(args) => check::run(&args, &context),
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
@@ -195,31 +230,58 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();
-            clap_complete::generate(shell, &mut Cli::command(), output::TOOL, &mut script);
+            clap_complete::generate(shell, &mut command(), output::TOOL, &mut script);
             output::print(&String::from_utf8_lossy(&script))?;
             Ok(Exit::Held)
         }
+    }?;
+    Ok(if context.outputs.unwritten().is_empty() { exit } else { Exit::Failed })
+}
+
+/// Commands, why common options mean nothing to them, and which.
+const MEANINGLESS: [(&str, &str, &[&str]); 4] = [
+    ("materials", "steels are a table, they have no page", &["report", "threads", "quiet"]),
+    ("schema", "its answer is one JSON object", &["csv", "report", "force", "threads", "quiet"]),
+    ("completions", "its answer is a script", &["json", "csv", "report", "force", "threads", "quiet"]),
+    (
+        "evaluate",
+        "its answer is a JSON object for each line that it reads",
+        &["json", "csv", "report", "force", "quiet"],
+    ),
+];
+
+fn takes(command: &str, option: &str) -> bool {
+    MEANINGLESS.iter().all(|(name, _, without)| *name != command || !without.contains(&option))
+}
+
+fn name_of(command: &Command) -> &'static str {
+    match command {
+        Command::Check(_) => "check",
+        Command::Stiffness(_) => "stiffness",
+        Command::Simulate(_) => "simulate",
+        Command::Optimize(_) => "optimize",
+        Command::Evaluate(_) => "evaluate",
+        Command::Accuracy(_) => "accuracy",
+        Command::Size(_) => "size",
+        Command::Identify(_) => "identify",
+        Command::Export(_) => "export",
+        Command::Materials => "materials",
+        Command::Schema => "schema",
+        Command::Completions { .. } => "completions",
     }
 }
 
-/// Refuse `--json`, `--csv` and `--report` where a command has no such answer.
+/// Refuse `--json`, `--csv` and `--report` where a command has no such answer; --force, --threads and --quiet, which then
+/// change nothing, are let pass.
 fn refuse_meaningless(command: &Command, common: &Common) -> Result<(), Failure> {
-    let (name, why, [json, csv, report]) = match command {
-        Command::Materials => ("materials", "steels are a table, they have no page", [true, true, false]),
-        Command::Schema => ("schema", "its answer is one JSON object", [true, false, false]),
-        Command::Completions { .. } => ("completions", "its answer is a script", [false; 3]),
-        Command::Evaluate(_) => {
-            ("evaluate", "its answer is a JSON object for each line that it reads", [false; 3])
-        }
-        _ => return Ok(()),
+    let given =
+        [("json", common.json), ("csv", common.csv.is_some()), ("report", common.report.is_some())];
+    let command = name_of(command);
+    let Some((name, why, without)) = MEANINGLESS.iter().find(|(name, ..)| *name == command) else {
+        return Ok(());
     };
-    let given = [
-        ("--json", common.json && !json),
-        ("--csv", common.csv.is_some() && !csv),
-        ("--report", common.report.is_some() && !report),
-    ];
-    match given.into_iter().find(|(_, refused)| *refused) {
-        Some((flag, _)) => Err(Failure::malformed(format!("{flag} has no meaning with {name}: {why}"))),
+    match given.into_iter().find(|(flag, given)| *given && without.contains(flag)) {
+        Some((flag, _)) => Err(Failure::malformed(format!("--{flag} has no meaning with {name}: {why}"))),
         None => Ok(()),
     }
 }
@@ -245,7 +307,7 @@ fn context(common: Common) -> Result<Context, Failure> {
         json: common.json,
         quiet: common.quiet,
         screen: Screen { colour: terminal && !refused, columns },
-        outputs: Outputs { csv: common.csv, report: common.report },
+        outputs: Outputs::new(common.csv, common.report, common.force),
         command_line: command_line(arguments().into_iter()),
         interrupt,
     })
@@ -256,12 +318,21 @@ fn arguments() -> Vec<String> {
     std::env::args_os().map(|arg| arg.to_string_lossy().into_owned()).collect()
 }
 
-/// The command line as a shell would take it again; the program by its name, not by its path.
+/// The command line as a shell would take it again, on one line; the program by its name, not by its path.
 fn command_line(args: impl Iterator<Item = String>) -> String {
     let quoted = |arg: String| {
         let plain = |c: char| c.is_alphanumeric() || "-_./=,:+@%".contains(c);
         if !arg.is_empty() && arg.chars().all(plain) {
             arg
+        } else if arg.chars().any(unprintable) {
+            // What bash, zsh and ksh read back as these characters.
+            let escaped = |c: char| match c {
+                '\\' | '\'' => format!("\\{c}"),
+                '\n' => "\\n".to_owned(),
+                c if unprintable(c) => format!("\\u{:04x}", u32::from(c)),
+                c => c.to_string(),
+            };
+            format!("$'{}'", arg.chars().map(escaped).collect::<String>())
         } else {
             format!("'{}'", arg.replace('\'', "'\\''"))
         }
@@ -272,7 +343,7 @@ fn command_line(args: impl Iterator<Item = String>) -> String {
 /// The refusal of an option without its value. Options for numbers take what begins with a hyphen, so that -1e-6 is
 /// refused as a number; they would take the next option too.
 fn missing_value(args: &[String]) -> Option<clap::Error> {
-    let mut root = Cli::command();
+    let mut root = command();
     root.build();
     let command = args.iter().skip(1).find_map(|arg| root.find_subcommand(arg)).cloned()?;
     let option = |text: &str| {

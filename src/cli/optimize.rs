@@ -3,11 +3,13 @@
 use super::Context;
 use super::exit::{Exit, Failure};
 use super::journal::{self, JournalFile};
-use super::optimize_file::{WRITTEN_BY, file_text, further_text};
+use super::optimize_file::{file_text, further_text};
+use super::origin::Kind;
 use super::optimize_story::Story;
-use super::output::{Kind, TOOL, VERSION, write_whole};
+use super::output::{TOOL, VERSION};
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
+use super::histories::Histories;
 use super::{optimize_answer as answer, parts};
 use crate::design::{Design, EditError, Objective, Optimize};
 use crate::optimise::{
@@ -30,7 +32,7 @@ Every margin of `check` is a limit. Each evaluation goes into a journal at once:
 best design found so far, --resume goes on from NEW.toml.journal and ends where an uninterrupted search ends; --journal
 keeps the record for later searches too, as a CSV file that only grows. A journal belongs to what the design file says:
 comments and layout may change, a value or a history makes another problem. In NEW.toml each value that the search has
-changed says so behind it, with what it was; histories are named from there.";
+changed says so behind it, with what it was; the design's histories are copied beside it.";
 
 /// Arguments of `optimize`.
 #[derive(Debug, Clone, Args)]
@@ -90,10 +92,11 @@ const MOST_STARTS: usize = 32;
 /// [`Failure`].
 pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     refuse_tolerance(args.tolerance)?;
-    let new = output_path(args)?;
+    let new = output_path(args);
     let record = args.journal.clone().unwrap_or_else(|| journal::path_for(&new));
     context.outputs.check(&[&args.file], &[(&new, Kind::Design), (&record, Kind::Table)])?;
     let design = parts::read_design(&args.file, context)?;
+    let histories = Histories::beside(&design, &new)?;
     let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
     let Some(task) = design.optimize.clone() else {
         return Err(at(
@@ -141,7 +144,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         Err(NoSearch::Stopped) => return Err(Failure::Interrupted),
         Err(why) => return Err(at(why.to_string())),
     };
-    finish(&design, &story, &new, (file, args.journal.is_some()), run_time_s, context)
+    finish(&design, &story, (&new, &histories), (file, args.journal.is_some()), run_time_s, context)
 }
 
 /// Objectives of `--pareto`, two or three different ones, or none.
@@ -202,7 +205,7 @@ fn tell(
 fn finish(
     design: &Design,
     story: &Story,
-    new: &Path,
+    (new, histories): (&Path, &Histories),
     (file, keep): (JournalFile, bool),
     run_time_s: f64,
     context: &Context,
@@ -211,25 +214,32 @@ fn finish(
     let interrupted = found.outcome.status == Status::Interrupted || context.interrupt.requested();
     let feasible = found.feasible();
     let better = feasible && (found.improved() || !found.start_feasible());
-    let written = (feasible && (better || !interrupted)).then_some(new);
+    let mut written = None;
     let mut beside = Vec::new();
-    if let Some(path) = written {
-        let unwritten = |e: EditError| Failure::Failed(format!("{}: {e}", path.display()));
-        write_whole(path, file_text(design, found, path, context).map_err(unwritten)?.as_bytes())?;
+    if feasible && (better || !interrupted) && histories.write(&context.outputs) {
+        let write = |path: &Path, text: Result<String, EditError>| match text {
+            Ok(text) => context.outputs.write(path, Kind::Design, text.as_bytes()),
+            Err(why) => {
+                context.outputs.lost(format!("{}: {why}", path.display()));
+                false
+            }
+        };
+        written = write(new, file_text(design, found, context)).then_some(new);
         for (ending, what, text) in story.other_files() {
-            let path = path.with_extension(format!("{ending}.toml"));
-            write_whole(&path, further_text(design, what, text, &path).map_err(unwritten)?.as_bytes())?;
-            beside.push(path);
+            let path = new.with_extension(format!("{ending}.toml"));
+            if write(&path, further_text(design, what, text)) {
+                beside.push(path);
+            }
         }
     }
     let journal = keep.then(|| file.path().to_path_buf());
     let answer = answer::Told { design, story, found, written, beside, journal, run_time_s, interrupted };
-    context.outputs.write_csv(&answer.csv_table())?;
-    context.outputs.write_report(|| answer.page(context))?;
+    context.outputs.write_csv(&answer.csv_table());
+    context.outputs.write_report(|| answer.page(context));
     answer.json().print(context)?;
     context.answer(&answer.text(context))?;
-    if !interrupted && !keep && file.failed.is_none() {
-        // The search is over: nothing is left to resume.
+    if !interrupted && !keep && file.failed.is_none() && context.outputs.unwritten().is_empty() {
+        // The search is over and its answer is safe: nothing is left to resume.
         let _ = std::fs::remove_file(file.path());
     }
     Ok(if interrupted {
@@ -241,20 +251,12 @@ fn finish(
     })
 }
 
-/// `-o`, or a name of our own that never replaces somebody else's file.
-fn output_path(args: &OptimizeArgs) -> Result<PathBuf, Failure> {
-    if let Some(path) = &args.output {
-        return Ok(path.clone());
-    }
-    let stem = args.file.file_stem().map_or_else(|| "design".into(), |s| s.to_string_lossy());
-    let path = PathBuf::from(format!("{stem}-optimized.toml"));
-    match std::fs::read_to_string(&path) {
-        Ok(text) if !text.starts_with(WRITTEN_BY) => Err(Failure::malformed(format!(
-            "{} exists and was not written by this command; name the new file with -o",
-            path.display()
-        ))),
-        _ => Ok(path),
-    }
+/// `-o`, or a name of our own.
+fn output_path(args: &OptimizeArgs) -> PathBuf {
+    args.output.clone().unwrap_or_else(|| {
+        let stem = args.file.file_stem().map_or_else(|| "design".into(), |s| s.to_string_lossy());
+        PathBuf::from(format!("{stem}-optimized.toml"))
+    })
 }
 
 /// Progress and journal.

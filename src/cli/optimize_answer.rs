@@ -1,5 +1,6 @@
 //! What `optimize` says: text, JSON, page.
 
+use super::output::path_text;
 use super::Context;
 use super::check::{demand_cell, margin_cell, unit_cell};
 use super::left_out::left_out;
@@ -213,10 +214,10 @@ impl Told<'_> {
         }
         out += &format!("{}\n", self.in_full());
         out += &match self.written {
-            Some(path) => format!("Written: {}\n", path.display()),
+            Some(path) => format!("Written: {}\n", path_text(path)),
             None => "No design written.\n".to_owned(),
         };
-        out += &self.beside.iter().map(|p| format!("Written: {}\n", p.display())).collect::<String>();
+        out += &self.beside.iter().map(|p| format!("Written: {}\n", path_text(p))).collect::<String>();
         out
     }
 

@@ -2,22 +2,20 @@
 //! new values, and what these were.
 
 use super::Context;
-use super::output::{VERSION, folder_of};
-use crate::design::{Design, EditError, with_history_names, with_notes};
+use super::output::VERSION;
+use crate::design::{Design, EditError, with_notes};
 use crate::optimise::Search;
-use std::path::{Path, PathBuf};
 
 /// First line of every design file that this command writes.
-pub const WRITTEN_BY: &str = "# Written by sprag-design optimize";
+const WRITTEN_BY: &str = "# Written by sprag-design optimize";
 
-/// The new design file, to lie at `path`.
+/// The new design file.
 ///
 /// # Errors
 /// [`EditError`] where the text found is no design file.
 pub fn file_text(
     design: &Design,
     found: &Search,
-    path: &Path,
     context: &Context,
 ) -> Result<String, EditError> {
     let changes: String = found
@@ -40,43 +38,24 @@ pub fn file_text(
         found.objective.1,
         found.aim.unit(),
     );
-    Ok(head + &body(design, &found.file, path)?)
+    Ok(head + &body(design, &found.file)?)
 }
 
-/// A further design file, to lie at `path`: `what` it is in a few words.
+/// A further design file: `what` it is in a few words.
 ///
 /// # Errors
 /// As [`file_text`].
-pub fn further_text(design: &Design, what: &str, text: &str, path: &Path) -> Result<String, EditError> {
-    Ok(format!("{WRITTEN_BY} {VERSION}: {what}\n{END}\n{}", body(design, text, path)?))
+pub fn further_text(design: &Design, what: &str, text: &str) -> Result<String, EditError> {
+    Ok(format!("{WRITTEN_BY} {VERSION}: {what}\n{END}\n{}", body(design, text)?))
 }
 
 /// Last line of a head.
 const END: &str = "#";
 
 /// `text` without the head of an earlier search, whose figures are not those of this file; with a note on each value that
-/// is not that of `design`, and histories named from where `path` lies.
-fn body(design: &Design, text: &str, path: &Path) -> Result<String, EditError> {
-    let noted = with_notes(&design.source, without_head(text))?;
-    let here = |folder: &Path| match folder.as_os_str().is_empty() {
-        true => std::fs::canonicalize("."),
-        false => std::fs::canonicalize(folder),
-    };
-    match (here(&design.folder), here(&folder_of(path))) {
-        (Ok(from), Ok(to)) if from != to => with_history_names(&noted, &|name| moved(name, &from, &to)),
-        _ => Ok(noted),
-    }
-}
-
-/// The file that a design in `from` calls `name`, as one in `to` does, the shortest way; whole paths stay.
-fn moved(name: &str, from: &Path, to: &Path) -> String {
-    let there: PathBuf = from.join(name);
-    let folder = there.parent().and_then(|folder| std::fs::canonicalize(folder).ok());
-    let there = folder.zip(there.file_name()).map_or(there.clone(), |(folder, file)| folder.join(file));
-    match Path::new(name).is_absolute() {
-        true => name.to_owned(),
-        false => pathdiff::diff_paths(&there, to).unwrap_or(there).display().to_string(),
-    }
+/// is not that of `design`.
+fn body(design: &Design, text: &str) -> Result<String, EditError> {
+    with_notes(&design.source, without_head(text))
 }
 
 fn without_head(text: &str) -> &str {
@@ -112,13 +91,5 @@ mod tests {
         for (end, rest) in [("", "# Why.\n#\nschema = 1\n"), ("#\n", "# Why.\n#\nschema = 1\n")] {
             assert_eq!(without_head(&format!("{WRITTEN_BY} 0.1.0: z\n{end}{rest}")), rest);
         }
-    }
-
-    #[test]
-    fn a_history_is_named_from_the_new_place() {
-        let (from, to) = (Path::new("/a/designs"), Path::new("/a/out/new"));
-        assert_eq!(Path::new(&moved("t.csv", from, to)), Path::new("../../designs/t.csv"));
-        assert_eq!(Path::new(&moved("../data/t.csv", from, to)), Path::new("../../designs/../data/t.csv"));
-        assert_eq!(moved("/t.csv", from, to), "/t.csv");
     }
 }

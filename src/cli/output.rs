@@ -1,12 +1,16 @@
 //! Where answers go: standard output, or files written whole or not at all.
 
 use super::exit::Failure;
+use super::origin::Kind;
+use crate::design::shown;
 use crate::report::{Page, Table};
 use serde::Serialize;
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Program name in every output.
 pub const TOOL: &str = env!("CARGO_PKG_NAME");
@@ -24,22 +28,27 @@ pub struct Envelope<'a, L: Serialize, B: Serialize> {
     left_out: &'a L,
     #[serde(skip_serializing_if = "Option::is_none")]
     error_estimate: Option<Value>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unwritten: Vec<String>,
     #[serde(flatten)]
     body: &'a B,
 }
 
 impl<'a, L: Serialize, B: Serialize> Envelope<'a, L, B> {
     /// `run_time_s`: wall time of the computation alone. `left_out`: a list of the terms left out, each
-    /// with its reason and cost. `error_estimate`: a number or an object of numbers. `body`: a struct or map with the command's own keys.
+    /// with its reason and cost. `error_estimate`: a number or an object of numbers. `unwritten`: files that could not be
+    /// written, each with the reason. `body`: a struct or map with the command's own keys.
     pub fn new(
         design: &'a str,
         design_hash: &'a str,
         run_time_s: f64,
         left_out: &'a L,
         error_estimate: Option<Value>,
+        unwritten: Vec<String>,
         body: &'a B,
     ) -> Self {
-        Self { tool: TOOL, version: VERSION, design, design_hash, run_time_s, left_out, error_estimate, body }
+        let (tool, version) = (TOOL, VERSION);
+        Self { tool, version, design, design_hash, run_time_s, left_out, error_estimate, unwritten, body }
     }
 }
 
@@ -55,9 +64,19 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// One line on standard error. A reader that has gone is nobody to complain to.
+/// Lines on standard error; control characters are shown, not sent. A reader that has gone is nobody to complain to.
 pub fn note(text: &str) {
+    note_painted(&shown(text));
+}
+
+/// The same of a text whose colours are ours.
+pub fn note_painted(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+/// A path as it is shown on a terminal.
+pub fn path_text(path: &Path) -> String {
+    shown(&path.display().to_string())
 }
 
 /// One JSON object on one line of standard output.
@@ -69,41 +88,6 @@ pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     print(&(text + "\n"))
 }
 
-/// What is written into a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// A table or journal, CSV.
-    Table,
-    /// A page.
-    Page,
-    /// A design file.
-    Design,
-    /// A finite-element deck.
-    Deck,
-}
-
-impl Kind {
-    /// The kind that a file is of by its name; `None` where that says nothing.
-    fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "csv" => Some(Self::Table),
-            "html" | "htm" => Some(Self::Page),
-            "toml" => Some(Self::Design),
-            "inp" => Some(Self::Deck),
-            _ => None,
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Table => "a table",
-            Self::Page => "a page",
-            Self::Design => "a design file",
-            Self::Deck => "a deck",
-        }
-    }
-}
-
 /// Files that may be written, checked before any computing begins.
 #[derive(Debug, Clone, Default)]
 pub struct Outputs {
@@ -111,12 +95,21 @@ pub struct Outputs {
     pub csv: Option<PathBuf>,
     /// `--report`.
     pub report: Option<PathBuf>,
+    /// `--force`: files that this tool has not written may be replaced too.
+    pub force: bool,
+    /// Why files could not be written, one entry each.
+    unwritten: Arc<Mutex<Vec<String>>>,
 }
 
 impl Outputs {
+    /// Those of the command line.
+    pub fn new(csv: Option<PathBuf>, report: Option<PathBuf>, force: bool) -> Self {
+        Self { csv, report, force, unwritten: Arc::default() }
+    }
+
     /// Refuse what would only fail, or do harm, after the work is done: the input as an output, one file
-    /// for two outputs, a folder that is not there, a file that is of another kind by its name. `inputs`: files that the
-    /// command reads, the design first; `others`: further outputs of the command.
+    /// for two outputs, a folder that is not there, a name that says another kind of file, a file that somebody else has
+    /// made. `inputs`: files that the command reads, the design first; `others`: further outputs of the command.
     ///
     /// # Errors
     /// [`Failure::Malformed`] naming the path.
@@ -145,40 +138,70 @@ impl Outputs {
             if seen.contains(&here) {
                 return Err(refused(path, "is named for two outputs"));
             }
-            if let Some(there) = Kind::of(path).filter(|there| *there != kind && path.exists()) {
-                let (there, new) = (there.name(), kind.name());
-                return Err(refused(path, &format!("is {there} already; {new} does not overwrite it")));
-            }
+            kind.fits(path).and_then(|()| self.may_replace(path, kind)).map_err(|why| refused(path, &why))?;
             seen.push(here);
         }
         Ok(())
     }
 
+    /// Whether what stands at `path` may be replaced by a file of this kind; why not.
+    fn may_replace(&self, path: &Path, kind: Kind) -> Result<(), String> {
+        if self.force || is_special(path) || !path.exists() || kind.is_ours(path) {
+            return Ok(());
+        }
+        Err(format!(
+            "exists, and it is no {} that {TOOL} has written; name another file, or replace it with --force",
+            kind.noun()
+        ))
+    }
+
+    /// Write a file. What fails is said at once, kept for the answer, and makes the exit code 3; the answer itself does not
+    /// wait for a disk. `false`: not written.
+    pub fn write(&self, path: &Path, kind: Kind, bytes: &[u8]) -> bool {
+        let written = self
+            .may_replace(path, kind)
+            .map_err(|why| format!("cannot write {}: {why}", path.display()))
+            .and_then(|()| write_whole(path, bytes));
+        written.map_err(|why| self.lost(why)).is_ok()
+    }
+
+    /// Write a file that is not there yet, with its folders.
+    pub fn write_new(&self, path: &Path, bytes: &[u8]) -> bool {
+        let named = |e: io::Error| format!("cannot write {}: {e}", path.display());
+        let made = fs::create_dir_all(folder_of(path)).map_err(named);
+        made.and_then(|()| write_whole(path, bytes)).map_err(|why| self.lost(why)).is_ok()
+    }
+
+    /// Take note of a file that could not be written.
+    pub fn lost(&self, why: String) {
+        note(&format!("error: {why}"));
+        self.unwritten.lock().unwrap_or_else(PoisonError::into_inner).push(why);
+    }
+
+    /// Why files could not be written, one entry each.
+    pub fn unwritten(&self) -> Vec<String> {
+        self.unwritten.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Write a table as CSV.
+    pub fn write_table(&self, path: &Path, table: &Table) {
+        match table.to_csv() {
+            Ok(bytes) => drop(self.write(path, Kind::Table, &bytes)),
+            Err(why) => self.lost(format!("{}: {why}", path.display())),
+        }
+    }
+
     /// Write the table if `--csv` was given.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the path.
-    pub fn write_csv(&self, table: &Table) -> Result<(), Failure> {
-        self.csv.as_deref().map_or(Ok(()), |path| write_table(path, table))
+    pub fn write_csv(&self, table: &Table) {
+        self.csv.iter().for_each(|path| self.write_table(path, table));
     }
 
     /// Write the page if `--report` was given; it is only made then.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the path.
-    pub fn write_report(&self, page: impl FnOnce() -> Page) -> Result<(), Failure> {
-        let Some(path) = &self.report else { return Ok(()) };
-        write_whole(path, page().to_html().as_bytes())
+    pub fn write_report(&self, page: impl FnOnce() -> Page) {
+        if let Some(path) = &self.report {
+            self.write(path, Kind::Page, page().to_html().as_bytes());
+        }
     }
-}
-
-/// Write a table as CSV.
-///
-/// # Errors
-/// [`Failure::Failed`] naming the path.
-pub fn write_table(path: &Path, table: &Table) -> Result<(), Failure> {
-    let bytes = table.to_csv().map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
-    write_whole(path, &bytes)
 }
 
 fn refused(path: &Path, why: &str) -> Failure {
@@ -210,20 +233,17 @@ fn is_special(path: &Path) -> bool {
 /// between: a temporary file beside it, flushed to disk, then renamed over it.
 ///
 /// # Errors
-/// [`Failure::Failed`] naming the path; the temporary file is removed.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let named = |e: io::Error| Failure::Failed(format!("cannot write {}: {e}", path.display()));
+/// What failed, naming the path; the temporary file is removed.
+fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    let named = |e: io::Error| format!("cannot write {}: {e}", path.display());
     if is_special(path) {
         let mut device = OpenOptions::new().write(true).open(path).map_err(named)?;
         return device.write_all(bytes).map_err(named);
     }
     // Behind a link the linked file is replaced, not the link.
     let target = resolved(path);
-    let name =
-        target.file_name().ok_or_else(|| refused(path, "names no file"))?.to_string_lossy().into_owned();
     let folder = folder_of(&target);
-    let temporary = Temporary(folder.join(format!(".{name}.{}.tmp", std::process::id())));
-    let mut file = OpenOptions::new().write(true).create_new(true).open(&temporary.0).map_err(named)?;
+    let (temporary, mut file) = Temporary::create(&folder).map_err(named)?;
     file.write_all(bytes).map_err(named)?;
     if let Ok(old) = fs::metadata(&target) {
         file.set_permissions(old.permissions()).map_err(named)?;
@@ -238,8 +258,29 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Removed when dropped; after the rename there is nothing left to remove.
+/// A file of our own making: removed when dropped; after the rename there is nothing left to remove.
 struct Temporary(PathBuf);
+
+/// Names that are tried: one that is taken belongs to somebody else, or to a run that was killed.
+const MOST_NAMES: u32 = 10_000;
+
+impl Temporary {
+    /// A new file in `folder`, under a name that nobody has.
+    fn create(folder: &Path) -> io::Result<(Self, File)> {
+        static NEXT: AtomicU32 = AtomicU32::new(0);
+        let mut taken = io::Error::from(ErrorKind::AlreadyExists);
+        for _ in 0..MOST_NAMES {
+            let number = NEXT.fetch_add(1, Ordering::Relaxed);
+            let path = folder.join(format!(".{TOOL}-{}-{number}.tmp", std::process::id()));
+            match OpenOptions::new().write(true).create_new(true).open(&path) {
+                Ok(file) => return Ok((Self(path), file)),
+                Err(e) if e.kind() == ErrorKind::AlreadyExists => taken = e,
+                Err(e) => return Err(e),
+            }
+        }
+        Err(taken)
+    }
+}
 
 impl Drop for Temporary {
     fn drop(&mut self) {

@@ -9,24 +9,18 @@ use crate::profile::{Outline, Profile};
 use crate::report::{Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Unit};
 use crate::wedge::{Closure, StaticPoint, WedgeCurve};
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Chords of a drawn outline leave its arcs by no more than this, m.
 const OUTLINE_M: f64 = 1e-6;
 
-/// The checked design in `path`. A refused file goes to standard error in words (by the caller of the
-/// command) and, with `--json`, also to standard output as `{"error": {"file", "problems": [..]}}`.
+/// The checked design in `path`.
 ///
 /// # Errors
 /// [`Failure::Malformed`] with every fault of the file, or where an output is one of its histories.
 pub fn read_design(path: &Path, context: &Context) -> Result<Design, Failure> {
-    let design = Design::read(path).or_else(|refused| {
-        if context.json {
-            output::print_json(&json!({ "error": refused.to_json() }))?;
-        }
-        Err(Failure::Malformed(miette::Report::new(refused)))
-    })?;
+    let design = Design::read(path).map_err(|refused| Failure::Malformed(miette::Report::new(refused)))?;
     let histories = design.histories.iter().map(PathBuf::as_path);
     let read: Vec<&Path> = std::iter::once(path).chain(histories).collect();
     context.outputs.check(&read, &[])?;
@@ -49,23 +43,27 @@ pub struct Answer<'a, B: Serialize> {
 }
 
 impl<B: Serialize> Answer<'_, B> {
-    fn envelope(&self) -> Envelope<'_, Vec<LeftOut>, B> {
+    fn envelope(&self, unwritten: Vec<String>) -> Envelope<'_, Vec<LeftOut>, B> {
         Envelope::new(
             &self.design.name,
             &self.design.hash,
             self.run_time_s,
             &self.left_out,
             self.error_estimate.clone(),
+            unwritten,
             &self.body,
         )
     }
 
-    /// The one JSON object of `--json`; nothing without it.
+    /// The one JSON object of `--json`, with what could not be written until now; nothing without it.
     ///
     /// # Errors
     /// [`Failure::Failed`] where standard output cannot be written.
     pub fn print(&self, context: &Context) -> Result<(), Failure> {
-        if context.json { output::print_json(&self.envelope()) } else { Ok(()) }
+        match context.json {
+            true => output::print_json(&self.envelope(context.outputs.unwritten())),
+            false => Ok(()),
+        }
     }
 
     /// End of a page: what was left out, the results for programs, the design file.
@@ -84,7 +82,7 @@ impl<B: Serialize> Answer<'_, B> {
         }
         page.heading("What the model leaves out").table("", &table);
         // Numbers that are none become null; the object holds nothing else that has no JSON form.
-        page.results("results", &serde_json::to_value(self.envelope()).unwrap_or_default());
+        page.results("results", &serde_json::to_value(self.envelope(Vec::new())).unwrap_or_default());
         page.source("Design file", &self.design.source);
     }
 }

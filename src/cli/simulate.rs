@@ -178,8 +178,8 @@ fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Fai
         error_estimate: scene.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
         body: answer::Body::of(scene),
     };
-    context.outputs.write_csv(&history::table(scene))?;
-    context.outputs.write_report(|| page::page(scene, &answer, context))?;
+    context.outputs.write_csv(&history::table(scene));
+    context.outputs.write_report(|| page::page(scene, &answer, context));
     answer.print(context)?;
     let facts = facts::table(scene).to_text(context.screen);
     context.answer(&format!("{}\n\n{facts}", scene.verdict_line()))?;

@@ -4,7 +4,8 @@ use super::Context;
 use super::check::{REACHED_AT, ends_first, people_table};
 use super::exit::{Exit, Failure};
 use super::left_out::left_out;
-use super::output::{Kind, print_json, write_whole};
+use super::origin::Kind;
+use super::output::{TOOL, VERSION, path_text, print_json};
 use super::parts::{self, Answer};
 use crate::design::Design;
 use crate::margin::{Margin, load_state};
@@ -78,16 +79,17 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
             let NoSize::None { tried } = &why else { return Ok(Exit::NotHeld) };
             if context.json {
                 print_json(
-                    &json!({ "sized": false, "why": why.to_string(), "tried": rows_of(tried, None) }),
+                    &json!({ "tool": TOOL, "version": VERSION, "sized": false, "why": why.to_string(), "tried": rows_of(tried, None) }),
                 )?;
             }
-            context.outputs.write_csv(&tried_table(tried, None))?;
+            context.outputs.write_csv(&tried_table(tried, None));
             context.answer(&format!("{}\n{why}\n", tried_table(tried, None).to_text(context.screen)))?;
             return Ok(Exit::NotHeld);
         }
     };
-    write_whole(&args.output, sized.design.source.as_bytes())?;
     let design = &sized.design;
+    let written = context.outputs.write(&args.output, Kind::Design, design.source.as_bytes());
+    let written = written.then_some(args.output.as_path());
     // Of a design whose margins are known there is a curve.
     let end_nm = load_state(design).map_or(f64::INFINITY, |state| state.curve.end_torque_nm());
     let answer = Answer {
@@ -97,12 +99,12 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
         error_estimate: None,
         body: json!({
             "sized": true,
-            "written": args.output.display().to_string(),
+            "written": written.map(|path| path.display().to_string()),
             "tried": rows_of(&sized.tried, Some(sized.taken)),
             "margins": sized.margins.iter().map(|r| margin_json(r, end_nm)).collect::<Vec<_>>(),
         }),
     };
-    context.outputs.write_csv(&tried_table(&sized.tried, Some(sized.taken)))?;
+    context.outputs.write_csv(&tried_table(&sized.tried, Some(sized.taken)));
     context.outputs.write_report(|| {
         let mut page = parts::page("First design", design, context);
         page.verdict(true, &verdict(&sized));
@@ -114,9 +116,9 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
         page.heading("Margins").table(REACHED_AT, &people_table(&sized.margins, end_nm));
         answer.close(&mut page);
         page
-    })?;
+    });
     answer.print(context)?;
-    context.answer(&text(&sized, end_nm, &args.output, context.screen))?;
+    context.answer(&text(&sized, end_nm, written, context.screen))?;
     Ok(Exit::Held)
 }
 
@@ -132,16 +134,16 @@ fn verdict(sized: &Sized) -> String {
     )
 }
 
-fn text(sized: &Sized, end_nm: f64, path: &Path, screen: Screen) -> String {
+fn text(sized: &Sized, end_nm: f64, written: Option<&Path>, screen: Screen) -> String {
     let design: &Design = &sized.design;
     format!(
-        "{}  {}\n\n{}\n{}\n{}\n{REACHED_AT}\nwritten to {}\n",
+        "{}  {}\n\n{}\n{}\n{}\n{REACHED_AT}\n{}\n",
         design.name,
         design.hash.get(..12).unwrap_or(&design.hash),
         tried_table(&sized.tried, Some(sized.taken)).to_text(screen),
         people_table(&sized.margins, end_nm).to_text(screen),
         verdict(sized),
-        path.display()
+        written.map_or("no design written".to_owned(), |path| format!("written to {}", path_text(path)))
     )
 }
 

@@ -115,9 +115,9 @@ pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
     let studies = (0..args.files.len()).map(|i| study(args, i, context)).collect::<Result<Vec<_>, _>>()?;
     let answers: Vec<_> = studies.iter().map(answer).collect();
     if let [study] = studies.as_slice() {
-        context.outputs.write_csv(&tables::csv(&study.laws))?;
+        context.outputs.write_csv(&tables::csv(&study.laws));
     }
-    context.outputs.write_report(|| page::page(&studies, &answers, context))?;
+    context.outputs.write_report(|| page::page(&studies, &answers, context));
     for (study, answer) in studies.iter().zip(&answers) {
         context.answer(&tables::text(study, context.screen))?;
         answer.print(context)?;

@@ -1,18 +1,18 @@
 use super::*;
 
 fn parse(line: &str) -> Result<Cli, clap::Error> {
-    Cli::try_parse_from(line.split_whitespace())
+    Cli::from_arg_matches(&command().try_get_matches_from(line.split_whitespace())?)
 }
 
 #[test]
 fn the_commands_are_consistent() {
-    Cli::command().debug_assert();
+    command().debug_assert();
 }
 
 #[test]
 fn every_worked_example_of_the_help_parses() {
     // The raw texts: printed help is wrapped to the terminal.
-    let command = Cli::command();
+    let command = command();
     let after = |c: &clap::Command| c.get_after_help().map(ToString::to_string).unwrap_or_default();
     let texts: Vec<String> = command.get_subcommands().map(after).chain([after(&command)]).collect();
     let mut count = 0;
@@ -66,4 +66,33 @@ fn the_command_line_can_be_pasted_back() {
         command_line(args.into_iter()),
         r#"sprag-design check 'my design.toml' --csv 'it'\''s.csv' ''"#
     );
+}
+
+/// A comment of a written design holds the command line: a line break in it would end the comment.
+#[test]
+fn the_command_line_is_one_line_of_printable_text() {
+    let args = ["x", "check", "a\nb it's\u{1b}[31m\\.toml", "\u{202e}"].map(String::from);
+    assert_eq!(
+        command_line(args.into_iter()),
+        r"sprag-design check $'a\nb it\'s\u001b[31m\\.toml' $'\u202e'"
+    );
+}
+
+#[test]
+fn the_help_of_a_command_shows_only_what_it_takes() {
+    for (name, without) in [
+        ("materials", &["--report"][..]),
+        ("schema", &["--csv", "--report"]),
+        ("completions", &["--json", "--csv", "--report"]),
+        ("evaluate", &["--json", "--csv", "--report"]),
+        ("check", &[]),
+        ("size", &[]),
+    ] {
+        let mut root = command();
+        root.build();
+        let help = root.find_subcommand(name).unwrap().clone().render_long_help().to_string();
+        for flag in ["--json", "--csv", "--report"] {
+            assert_eq!(help.contains(&format!("{flag} ")) || help.contains(&format!("{flag}\n")), !without.contains(&flag), "{name} {flag}: {help}");
+        }
+    }
 }

@@ -10,6 +10,40 @@ use std::ops::Range;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use serde_json::{Value, json};
 
+/// Whether a character may not go to a terminal or into a comment as it is: control characters, and marks that turn the
+/// direction of writing, so that a text reads otherwise than it says.
+pub fn unprintable(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A text as it may be shown on a terminal: what is [`unprintable`] as its escape, but line breaks and tabs.
+pub fn shown(text: &str) -> String {
+    let escaped = |c: char| match c {
+        '\n' | '\t' => c.to_string(),
+        c if unprintable(c) => c.escape_unicode().to_string(),
+        c => c.to_string(),
+    };
+    text.chars().map(escaped).collect()
+}
+
+/// The same with as many bytes as before, so that places in it hold.
+fn masked(text: &str) -> String {
+    let mask = |c: char| match (c, c.len_utf8()) {
+        ('\n' | '\t' | '\r', _) => c,
+        (c, 1) if unprintable(c) => '?',
+        (c, 2) if unprintable(c) => '\u{bf}',
+        (c, _) if unprintable(c) => '\u{fffd}',
+        (c, _) => c,
+    };
+    text.chars().map(mask).collect()
+}
+
+/// Most problems that are collected of one file, and most that are told in words.
+pub(super) const MOST_COLLECTED: usize = 200;
+const MOST_TOLD: usize = 20;
+/// Longest line that is shown beside its problem, bytes.
+const LONGEST_SHOWN: usize = 1000;
+
 /// A place in a design file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
@@ -65,7 +99,8 @@ impl fmt::Display for Problem {
 
 /// A refused design file with everything found wrong in it, in the order of the file.
 ///
-/// Displays as one line per problem, `file:line:column: key: found ...; allowed: ...; to mend: ...`.
+/// Displays as one line per problem, `file:line:column: key: found ...; allowed: ...; to mend: ...`; of many the first 20,
+/// and how many more there are. No more than the first 200 found are kept.
 #[derive(Debug)]
 pub struct DesignError {
     file: String,
@@ -74,11 +109,14 @@ pub struct DesignError {
 }
 
 impl DesignError {
-    /// Problems of a text that could be read.
+    /// Problems of a text that could be read; an empty `source` is not shown beside them.
     pub(super) fn in_source(file: &str, source: &str, mut problems: Vec<Problem>) -> Self {
         problems.sort_by_key(|p| p.place.as_ref().map_or(0, |place| place.span.start));
-        let source = NamedSource::new(file, source.to_owned()).with_language("TOML");
-        Self { file: file.to_owned(), source: Some(Box::new(source)), problems }
+        problems.iter_mut().for_each(|p| p.key = shown(&p.key));
+        let file = shown(file);
+        let short = !source.is_empty() && source.lines().all(|line| line.len() <= LONGEST_SHOWN);
+        let source = short.then(|| Box::new(NamedSource::new(&file, masked(source)).with_language("TOML")));
+        Self { file, source, problems }
     }
 
     /// A file that could not be read.
@@ -91,7 +129,7 @@ impl DesignError {
             help: help.to_owned(),
             also: Vec::new(),
         };
-        Self { file: file.to_owned(), source: None, problems: vec![problem] }
+        Self { file: shown(file), source: None, problems: vec![problem] }
     }
 
     /// Name of the file.
@@ -99,7 +137,7 @@ impl DesignError {
         &self.file
     }
 
-    /// What is wrong, at least one entry, in the order of the file.
+    /// What is wrong, at least one entry and at most 200, in the order of the file.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
     }
@@ -129,7 +167,7 @@ impl DesignError {
 
 impl fmt::Display for DesignError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, problem) in self.problems.iter().enumerate() {
+        for (i, problem) in self.problems.iter().take(MOST_TOLD).enumerate() {
             let line_break = if i == 0 { "" } else { "\n" };
             write!(f, "{line_break}{}:", self.file)?;
             if let Some(place) = &problem.place {
@@ -137,7 +175,11 @@ impl fmt::Display for DesignError {
             }
             write!(f, " {problem}")?;
         }
-        Ok(())
+        match self.problems.len() {
+            n if n >= MOST_COLLECTED => write!(f, "\n{}: and {} more or still more", self.file, n - MOST_TOLD),
+            n if n > MOST_TOLD => write!(f, "\n{}: and {} more", self.file, n - MOST_TOLD),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -153,7 +195,7 @@ impl Diagnostic for DesignError {
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let labels = self.problems.iter().flat_map(|p| {
+        let labels = self.problems.iter().take(MOST_TOLD).flat_map(|p| {
             let first = p.place.iter().map(|place| {
                 LabeledSpan::new_primary_with_span(
                     Some(format!("allowed: {}", p.allowed)),
@@ -183,5 +225,13 @@ mod tests {
         assert_eq!(Place::of(text, 7..7).span, 6..6, "inside the µ");
         assert_eq!(Place::of(text, 900..1000).span, text.len()..text.len());
         assert_eq!(Place::of("", 0..5), Place { line: 1, column: 1, span: 0..0 });
+    }
+
+    #[test]
+    fn what_is_masked_keeps_its_length_and_what_is_shown_its_meaning() {
+        let text = "a\u{1b}[31m\u{9b}\u{202e}\u{7f}\r\n\tb µ";
+        assert_eq!(masked(text).len(), text.len());
+        assert_eq!(masked(text), "a?[31m\u{bf}\u{fffd}?\r\n\tb µ");
+        assert_eq!(shown(text), "a\\u{1b}[31m\\u{9b}\\u{202e}\\u{7f}\\u{d}\n\tb µ");
     }
 }

@@ -8,7 +8,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::diagnostic::{Place, Problem};
+use super::diagnostic::{MOST_COLLECTED, Place, Problem};
 
 /// Text and tree of a design file.
 pub(super) struct Document<'a> {
@@ -30,7 +30,8 @@ impl<'a> Document<'a> {
         if errors.is_empty() {
             return Ok(Self { source, root: root.into_inner() });
         }
-        let mut problems: Vec<Problem> = errors.iter().map(|e| syntax_problem(source, e)).collect();
+        let first = errors.iter().take(MOST_COLLECTED);
+        let mut problems: Vec<Problem> = first.map(|e| syntax_problem(source, e)).collect();
         // What follows the first fault of a line is mostly its echo.
         problems.dedup_by_key(|p| p.place.as_ref().map(|place| place.line));
         Err(problems)

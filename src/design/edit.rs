@@ -180,24 +180,6 @@ pub fn with_limits(source: &str, limits: &[(&str, f64)]) -> Result<String, EditE
     Ok(document.to_string())
 }
 
-/// The text with the CSV files of its scenarios named as `name` says.
-///
-/// # Errors
-/// [`EditError::Syntax`].
-pub fn with_history_names(source: &str, name: &dyn Fn(&str) -> String) -> Result<String, EditError> {
-    let mut document = parse(source)?;
-    let rows = document.get("scenarios").and_then(Item::as_array_of_tables).map_or(0, |rows| rows.len());
-    for i in 0..rows {
-        for key in ["torque_history_csv", "speed_history_csv"] {
-            let Some(item) = item_at(&mut document, &format!("scenarios[{i}].{key}")) else { continue };
-            if let Some(new) = item.as_str().map(name) {
-                replace(item, Value::from(new));
-            }
-        }
-    }
-    Ok(document.to_string())
-}
-
 /// What the text says without the tables `apart`: keys and values as TOML in one layout, no comments. Two texts that say
 /// the same have the same content.
 ///

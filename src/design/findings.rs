@@ -5,7 +5,7 @@
 
 use toml::de::DeValue;
 
-use super::diagnostic::Problem;
+use super::diagnostic::{MOST_COLLECTED, Problem};
 use super::document::Document;
 
 /// Problems of one document; `scope` is the path of the table whose overrides are being checked, or empty.
@@ -32,6 +32,9 @@ impl<'d, 'a> Findings<'d, 'a> {
     /// first. Where none is overridden, the base table has been refused for it already; should it not have
     /// been, the whole override is at fault, so that nothing is let through in silence.
     pub fn refuse(&mut self, keys: &[&str], allowed: String, help: String) {
+        if self.problems.len() >= MOST_COLLECTED {
+            return;
+        }
         let scoped = |key: &str| match self.scope.as_str() {
             "" => Some(key.to_owned()),
             scope => Some(format!("{scope}.{key}")).filter(|path| self.doc.entry(path).is_some()),

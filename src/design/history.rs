@@ -21,6 +21,10 @@ const MOST_ROWS: usize = 100_000;
 const MOST_PROBLEMS: usize = 20;
 
 impl HistoryKind {
+    fn header(self) -> String {
+        format!("time_s,{}", self.column())
+    }
+
     fn column(self) -> &'static str {
         match self {
             Self::Torque => "torque_nm",
@@ -44,6 +48,13 @@ impl HistoryKind {
     }
 }
 
+/// Whether a text begins as a history does, comments apart.
+pub fn is_history(text: &str) -> bool {
+    let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'));
+    let first: String = first.unwrap_or("").split(',').map(str::trim).collect::<Vec<_>>().join(",");
+    [HistoryKind::Torque, HistoryKind::Speed].iter().any(|kind| first == kind.header())
+}
+
 /// Rows (time in s, value in N m or rad/s) of a CSV text with the header `time_s,torque_nm` or `time_s,speed_rpm`;
 /// lines that begin with # are comments.
 pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<Problem>> {
@@ -55,7 +66,7 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
         .from_reader(text.as_bytes());
     let mut faults = Faults { text, problems: Vec::new() };
     let mut rows: Vec<[f64; 2]> = Vec::new();
-    let header = format!("time_s,{}", kind.column());
+    let header = kind.header();
     let mut named = false;
     for record in reader.records() {
         let record = match record {
@@ -74,7 +85,8 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
         if !named {
             named = true;
             if whole != header {
-                let found = format!("the header {whole:?}");
+                // Not repeated: it may be the first line of any file.
+                let found = "another first line".to_owned();
                 let help = format!("begin the file with the line {header}");
                 faults.add("", start..start + whole.len().max(1), found, &header, &help);
                 break;

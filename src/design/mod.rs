@@ -19,6 +19,7 @@ mod history;
 mod limits_file;
 mod notes;
 mod objective;
+mod open;
 mod outline;
 mod question;
 mod read;
@@ -35,14 +36,16 @@ pub use clutch::{
     Axial, Carrier, Clutch, ContactLaw, Eccentricity, EndProfile, Flanks, Friction, InnerArc, MassSource,
     Materials, Races, Running, Sprags, Spring, StressState, TrackRun,
 };
-pub use diagnostic::{DesignError, Place, Problem};
+pub use diagnostic::{DesignError, Place, Problem, shown, unprintable};
 pub use draft::{Draft, KINETIC_SHARE, rounded};
 pub use edit::{
-    EditError, content, value_at, with_flanks, with_history_names, with_keys, with_limits, with_values,
+    EditError, content, value_at, with_flanks, with_keys, with_limits, with_values,
     without_variables,
 };
+pub use history::is_history;
 pub use notes::with_notes;
 pub use objective::Objective;
+pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
 pub use shape::schema;
 pub use tolerances_file::Tolerances;

@@ -14,6 +14,7 @@ use super::edit::content;
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::history;
+use super::open;
 use super::tolerances_file::TolerancesFile;
 use super::{Design, Limits, check, scenarios, shape, task};
 
@@ -26,29 +27,12 @@ impl Design {
     /// [`DesignError`] where the file cannot be read, is no UTF-8 or no TOML, or is refused by a rule.
     pub fn read(path: &Path) -> Result<Self, DesignError> {
         let name = path.display().to_string();
-        if path.is_dir() {
-            return Err(DesignError::unreadable(&name, "a directory".to_owned(), WHAT, "name a file in it"));
-        }
-        let bytes = std::fs::read(path).map_err(|error| {
-            let (found, help) = match error.kind() {
-                std::io::ErrorKind::NotFound => ("no such file".to_owned(), "check the path"),
-                std::io::ErrorKind::PermissionDenied => {
-                    ("a file that may not be read".to_owned(), "allow reading it")
-                }
-                _ => (format!("an error while reading: {error}"), "check the path and the disk"),
-            };
-            DesignError::unreadable(&name, found, WHAT, help)
-        })?;
-        match String::from_utf8(bytes) {
+        match open::read_text(path, open::MOST_DESIGN) {
             Ok(source) => Self::parse(&source, &name),
-            Err(error) => {
-                let at = error.utf8_error().valid_up_to();
-                let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
-                let found = format!("a byte that is not UTF-8 (byte {} of the file)", at + 1);
-                let help =
-                    "save the file as UTF-8; umlauts of an older encoding in a comment are the usual cause";
-                Err(one_problem(&name, &text, at, found, WHAT, help))
+            Err(why) if why.text.is_empty() => {
+                Err(DesignError::unreadable(&name, why.found, WHAT, why.help))
             }
+            Err(why) => Err(one_problem(&name, &why.text, why.at, why.found, WHAT, why.help)),
         }
     }
 
@@ -94,11 +78,13 @@ impl Design {
         let mut texts: BTreeMap<PathBuf, String> = BTreeMap::new();
         let mut refused = None;
         let mut load = |name: &str, kind| {
-            let path = folder.join(name);
-            let text =
-                std::fs::read_to_string(&path).map_err(|e| Some(format!("{}: {e}", path.display())))?;
+            let at = |what: String| Some(format!("{}: {what}", folder.join(name).display()));
+            let path = open::history_path(folder, name).map_err(at)?;
+            let text = open::read_text(&path, open::MOST_TABLE).map_err(|why| at(why.found))?;
             let rows = history::rows(&text, kind).map_err(|problems| {
-                refused.get_or_insert(DesignError::in_source(&path.display().to_string(), &text, problems));
+                // What is no history is not shown: it may be any file.
+                let shown = if history::is_history(&text) { text.as_str() } else { "" };
+                refused.get_or_insert(DesignError::in_source(&path.display().to_string(), shown, problems));
                 None
             });
             texts.insert(path, text);

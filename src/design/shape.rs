@@ -15,7 +15,7 @@ use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::diagnostic::Problem;
+use super::diagnostic::{MOST_COLLECTED, Problem, unprintable};
 use super::document::{Document, number_of};
 use super::file::DesignFile;
 
@@ -116,6 +116,10 @@ impl<'a> Walk<'_, 'a> {
         allowed: String,
         help: String,
     ) {
+        // A file that is all faults is told of the first.
+        if self.problems.len() >= MOST_COLLECTED {
+            return;
+        }
         let place = Some(self.doc.place(span));
         self.problems.push(Problem { key: key.to_owned(), place, found, allowed, help, also: Vec::new() });
     }
@@ -178,7 +182,7 @@ impl<'a> Walk<'_, 'a> {
                 let constant = schema.get("const").and_then(Value::as_str);
                 listed.is_none_or(|l| l.iter().any(|v| v.as_str() == Some(s.as_ref())))
                     && constant.is_none_or(|c| c == s.as_ref())
-                    && !s.chars().any(char::is_control)
+                    && !s.chars().any(unprintable)
                     && s.trim().chars().count() as f64 >= bound(schema, "minLength").unwrap_or(0.0)
             }
             (Some("boolean"), DeValue::Boolean(_)) => true,
@@ -198,7 +202,7 @@ impl<'a> Walk<'_, 'a> {
         let span = if is_table { key_span } else { value.span() };
         let allowed = match value.get_ref() {
             v @ (DeValue::Float(_) | DeValue::Integer(_)) => allowed_for(schema, number_of(v)),
-            DeValue::String(s) if s.chars().any(char::is_control) => {
+            DeValue::String(s) if s.chars().any(unprintable) => {
                 format!("{} and without line breaks or other control characters", allowed(schema))
             }
             _ => allowed(schema),

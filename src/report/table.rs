@@ -93,12 +93,20 @@ impl Cell {
     fn csv(&self, column: &Column) -> String {
         let full = |value: f64| if value.is_finite() { value.to_string() } else { String::new() };
         match self {
-            Self::Text(text) | Self::Verdict(_, text) => text.clone(),
+            Self::Text(text) | Self::Verdict(_, text) => no_formula(text),
             Self::Si(si) => full(column.unit.from_si(*si)),
             Self::In(si, unit) => full(unit.from_si(*si)),
             Self::Count(count) => count.to_string(),
             Self::Empty => String::new(),
         }
+    }
+}
+
+/// A text that a spreadsheet would take for a formula, behind an apostrophe (OWASP, CSV injection); a number stays one.
+fn no_formula(text: &str) -> String {
+    match text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.parse::<f64>().is_err() {
+        true => format!("'{text}"),
+        false => text.to_owned(),
     }
 }
 
@@ -215,7 +223,7 @@ impl Table {
     /// What the `csv` crate says; writing into memory gives it no cause.
     pub fn to_csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(self.columns.iter().map(|c| c.key.as_str()))?;
+        writer.write_record(self.columns.iter().map(|c| no_formula(&c.key)))?;
         for row in &self.rows {
             writer.write_record(self.columns.iter().enumerate().map(|(i, c)| Self::cell(row, i).csv(c)))?;
         }
@@ -365,6 +373,17 @@ mod tests {
         assert_eq!(&rows[1][0], "Hoop <outer>, \"mean\"");
         assert_eq!(rows[1][2].parse::<f64>().unwrap(), -0.013 * 100.0);
         assert_eq!(&rows[2], &csv::StringRecord::from(vec!["short row", "", "", ""]));
+    }
+
+    #[test]
+    fn no_text_is_a_formula_to_a_spreadsheet() {
+        let mut table = Table::new(vec![Column::text("name", "Name"), Column::text("value", "Value")]);
+        for text in ["=1+1", "+a", "-a", "@a", "\ta", "a=1", "-1.5"] {
+            table.row(vec![text.into(), (-2.5).into()]);
+        }
+        let csv = String::from_utf8(table.to_csv().unwrap()).unwrap();
+        let wanted = "name,value\n'=1+1,-2.5\n'+a,-2.5\n'-a,-2.5\n'@a,-2.5\n'\ta,-2.5\na=1,-2.5\n-1.5,-2.5\n";
+        assert_eq!(csv, wanted);
     }
 
     #[test]

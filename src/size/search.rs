@@ -329,6 +329,7 @@ fn short(value: f64) -> f64 {
 fn why_lines(ask: &Ask, draft: &Draft) -> Vec<String> {
     let rpm = ask.speed_rad_s * 30.0 / std::f64::consts::PI;
     vec![
+        format!("Written by sprag-design size {}", env!("CARGO_PKG_VERSION")),
         format!(
             "Why this file exists: a first design for a bore of {} mm, {} Nm nominal, safety {}, friction {}{}.",
             short(ask.bore_m * 1e3),

@@ -4,7 +4,7 @@ use crate::cli::Context;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::left_out::LeftOut;
 use crate::cli::parts::{self, Answer};
-use crate::design::Design;
+use crate::design::{Design, MOST_RESULT, read_text};
 use crate::export::calculix::{Facts, Row, at_torque, read};
 use crate::report::{Cell, Column, Table, Unit};
 use crate::scenario::place_profile;
@@ -38,7 +38,7 @@ struct Point {
 pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Context) -> Result<Exit, Failure> {
     let deck = dat.with_extension("inp");
     let text = |path: &Path, what: &str| {
-        std::fs::read_to_string(path)
+        read_text(path, MOST_RESULT)
             .map_err(|e| Failure::malformed(format!("{}: {what}: {e}", path.display())))
     };
     let dat_text = text(dat, "the result to be read")?;
@@ -75,7 +75,7 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
     let run_time_s = started.elapsed().as_secs_f64();
 
     let people = table(&rows, &law);
-    context.outputs.write_csv(&people)?;
+    context.outputs.write_csv(&people);
     let answer = Answer {
         design,
         run_time_s,
@@ -88,7 +88,7 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
         page.heading("CalculiX beside the design's contact law").table("", &people);
         answer.close(&mut page);
         page
-    })?;
+    });
     answer.print(context)?;
     context.answer(&people.to_text(context.screen))?;
     Ok(Exit::Held)

@@ -2,6 +2,7 @@
 
 use super::{LawCurve, Study};
 use crate::cli::exit::Failure;
+use crate::design::{MOST_TABLE, read_text};
 use crate::report::{Cell, Column, Table, Unit};
 use crate::wedge::WedgeCurve;
 use serde::Serialize;
@@ -27,8 +28,9 @@ impl Fem {
     pub(super) fn read(path: &Path, model: Option<&str>) -> Result<Self, Failure> {
         let name = path.display().to_string();
         let fault = |line: u64, what: &str| Failure::malformed(format!("{name}:{line}: {what}"));
-        let mut reader =
-            csv::Reader::from_path(path).map_err(|e| Failure::malformed(format!("--fem {name}: {e}")))?;
+        let text =
+            read_text(path, MOST_TABLE).map_err(|why| Failure::malformed(format!("--fem {name}: {why}")))?;
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
         let headers = reader.headers().map_err(|e| fault(1, &e.to_string()))?.clone();
         let column = |wanted: &[&str]| headers.iter().position(|h| wanted.contains(&h.trim()));
         let missing = |what: &str| {

@@ -1,0 +1,153 @@
+//! What a file is by its name, and whether this tool has written it: somebody else's file is not replaced in silence.
+
+use crate::design::is_history;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// First words of every design file that this tool writes.
+pub const WRITTEN_BY: &str = "# Written by sprag-design";
+
+/// First words of the facts in a deck.
+const DECK_FACT: &str = "** sprag-design ";
+/// First words of a page.
+const PAGE: &str = "<!-- sprag-design ";
+/// As much of a file as is looked at, bytes.
+const HEAD: u64 = 65_536;
+
+/// What is written into a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A table or journal, CSV.
+    Table,
+    /// A page.
+    Page,
+    /// A design file.
+    Design,
+    /// A finite-element deck.
+    Deck,
+}
+
+/// Endings that name a kind, and endings of files that this tool never writes.
+const ENDINGS: [(&str, Option<Kind>); 16] = [
+    ("csv", Some(Kind::Table)),
+    ("html", Some(Kind::Page)),
+    ("htm", Some(Kind::Page)),
+    ("toml", Some(Kind::Design)),
+    ("inp", Some(Kind::Deck)),
+    ("json", None),
+    ("pdf", None),
+    ("svg", None),
+    ("png", None),
+    ("jpg", None),
+    ("xls", None),
+    ("xlsx", None),
+    ("ods", None),
+    ("doc", None),
+    ("docx", None),
+    ("zip", None),
+];
+
+impl Kind {
+    /// The kind in one word.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Table => "table",
+            Self::Page => "page",
+            Self::Design => "design file",
+            Self::Deck => "deck",
+        }
+    }
+
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Table => ".csv",
+            Self::Page => ".html or .htm",
+            Self::Design => ".toml",
+            Self::Deck => ".inp",
+        }
+    }
+
+    /// Refuse a name whose ending says another kind of file; a page says by its ending that it is one, since programs open
+    /// it by that.
+    ///
+    /// # Errors
+    /// What is wrong with the name, in words.
+    pub fn fits(self, path: &Path) -> Result<(), String> {
+        let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+        let known = ENDINGS.iter().find(|(e, _)| *e == ending);
+        let noun = self.noun();
+        match known {
+            Some((_, Some(there))) if *there == self => Ok(()),
+            Some((_, Some(there))) if path.exists() => {
+                Err(format!("is a {} already; a {noun} does not overwrite it", there.noun()))
+            }
+            None if self != Self::Page => Ok(()),
+            _ => Err(format!("a {noun} is written there; let its name end in {}", self.ending())),
+        }
+    }
+
+    /// Whether the file at `path` is of this kind and written by this tool, or empty.
+    pub fn is_ours(self, path: &Path) -> bool {
+        let mut head = Vec::new();
+        let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+        // What cannot be read is not ours.
+        read.is_ok() && (head.is_empty() || self.wrote(&String::from_utf8_lossy(&head)))
+    }
+
+    fn wrote(self, head: &str) -> bool {
+        match self {
+            Self::Design => head.starts_with(WRITTEN_BY),
+            Self::Page => head.starts_with(PAGE),
+            Self::Deck => head.lines().take(8).any(|line| line.starts_with(DECK_FACT)),
+            Self::Table => !is_history(head) && head.lines().next().is_some_and(is_our_header),
+        }
+    }
+}
+
+/// Names of columns as this tool writes them: two or more, lower case, unit behind an underscore.
+fn is_our_header(line: &str) -> bool {
+    let ours = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "_.[]".contains(c);
+    line.contains(',') && line.split(',').all(|name| !name.is_empty() && name.chars().all(ours))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_we_wrote_is_known_by_its_first_lines() {
+        for (kind, ours, theirs) in [
+            (Kind::Design, "# Written by sprag-design size 1\nschema = 1\n", "schema = 1\n"),
+            (Kind::Page, "<!-- sprag-design 1; -->\n", "<!DOCTYPE html>\n"),
+            (Kind::Deck, "** a\n** b\n** sprag-design design = 0\n", "*NODE\n"),
+            (Kind::Table, "code,name,demand\n1,2,3\n", "Time [s];Torque\n"),
+            (Kind::Table, "label,races.inner_radius_mm,torque_nm\n", "time_s,torque_nm\n0,1\n"),
+            (Kind::Table, "model,design\n", "notes\n"),
+        ] {
+            assert!(kind.wrote(ours) && !kind.wrote(theirs), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn a_name_says_what_may_be_written_there() {
+        for (kind, name, fits) in [
+            (Kind::Page, "a.html", true),
+            (Kind::Page, "a.HTM", true),
+            (Kind::Page, "a.pdf", false),
+            (Kind::Page, "a", false),
+            (Kind::Page, "a.txt", false),
+            (Kind::Table, "a.csv", true),
+            (Kind::Table, "a.txt", true),
+            (Kind::Table, "a.toml.journal", true),
+            (Kind::Table, "a.json", false),
+            (Kind::Table, "a.html", false),
+            (Kind::Design, "a.toml", true),
+            (Kind::Design, "a.csv", false),
+            (Kind::Deck, "a", true),
+            (Kind::Deck, "a.pdf", false),
+        ] {
+            assert_eq!(kind.fits(Path::new(name)).is_ok(), fits, "{kind:?} {name}");
+        }
+    }
+}
