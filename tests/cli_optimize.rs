@@ -180,7 +180,7 @@ fn senseless_questions_exit_with_2_and_write_nothing() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Histories are found from the new place, what the search changed says so once, and nothing else is lost.
+/// Histories are copied to the new place, what the search changed says so once, and nothing else is lost.
 #[test]
 fn a_design_written_elsewhere_finds_its_histories_and_says_what_was_changed() {
     let folder = folder("elsewhere");
@@ -204,7 +204,7 @@ fn a_design_written_elsewhere_finds_its_histories_and_says_what_was_changed() {
     let text = search(&design, &new);
     for file in [&new, &there.join("new.realised.toml")] {
         let text = std::fs::read_to_string(file).unwrap();
-        assert!(text.contains("torque_history_csv = \"../here/pull.csv\"   # measured"), "{text}");
+        assert!(text.contains("torque_history_csv = \"pull.csv\"   # measured"), "{text}");
         let checked = tool(&["check", file.to_str().unwrap(), "--quiet"]);
         assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stderr));
     }
@@ -224,7 +224,9 @@ fn a_design_written_elsewhere_finds_its_histories_and_says_what_was_changed() {
         assert!(text.contains(comment), "{comment}");
     }
     let text = search(&new, &again);
-    assert!(text.contains("torque_history_csv = \"here/pull.csv\""), "{text}");
+    assert!(text.contains("torque_history_csv = \"pull.csv\""), "{text}");
+    let pull = |of: &Path| std::fs::read(of.join("pull.csv")).unwrap();
+    assert!(pull(&there) == pull(&here) && pull(&folder) == pull(&here));
     assert_eq!(text.matches("# Written by").count(), 1);
     assert!(text.lines().all(|l| l.matches("by optimize").count() <= 1 || l.starts_with('#')), "{text}");
     std::fs::remove_dir_all(&folder).unwrap();

@@ -24,7 +24,7 @@ pub(super) use body::{demand_cell, ends_first, margin_cell, people_table, unit_c
 use clap::Args;
 use rayon::prelude::*;
 use std::f64::consts::PI;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -72,7 +72,7 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&[&args.file], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let started = Instant::now();
-    let check = compute(&design, context)?;
+    let check = compute(&design, &args.file, context)?;
     let run_time_s = started.elapsed().as_secs_f64();
     let limits = &design.limits;
     let curve = &check.state.curve;
@@ -118,8 +118,8 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
 }
 
 /// All margins; the scenarios in parallel, each at two tolerances.
-fn compute(design: &Design, context: &Context) -> Result<Check, Failure> {
-    let state = load_state(design).map_err(|e: NoMargins| Failure::malformed(e.to_string()))?;
+fn compute(design: &Design, file: &Path, context: &Context) -> Result<Check, Failure> {
+    let state = load_state(design).map_err(|why| parts::no_clutch(file, &why))?;
     let mut rows = load_margins(design, &design.limits, true, &state);
     let run_out = RunOut::new(design, &state);
     if let Some(ring) = &run_out {
@@ -141,7 +141,7 @@ fn compute(design: &Design, context: &Context) -> Result<Check, Failure> {
     let track_m = design.clutch.races.outer_radius_m;
     let up_to = overrun::up_to_rad_s(&design.limits, lift_off_rad_s, track_m);
     let overrun = overrun::curve(design, &state, up_to, lift_off_rad_s)
-        .map_err(|e| Failure::malformed(format!("no wedge curve: {e}")))?;
+        .map_err(|why| parts::no_clutch(file, &NoMargins::Curve(why)))?;
     Ok(Check { state, rows, scene_error, lift_off_rad_s, overrun, run_out })
 }
 

@@ -7,6 +7,7 @@ use super::origin::Kind;
 use super::{Context, output, parts, positive};
 use crate::design::Design;
 use crate::export::calculix::{Options, Variant, deck};
+use crate::margin::NoMargins;
 use crate::profile::Outline;
 use crate::scenario::place_profile;
 use clap::{Args, ValueEnum};
@@ -128,13 +129,12 @@ fn text(design: &Design, args: &ExportArgs) -> Result<String, Failure> {
         .torque
         .or(design.limits.nominal_torque_nm)
         .ok_or_else(|| Failure::malformed("--torque is needed: the design names no nominal torque"))?;
-    let profile = place_profile(clutch)
-        .map_err(|e| Failure::malformed(format!("the profile cannot be placed: {e:?}")))?;
+    let profile = place_profile(clutch).map_err(|e| parts::no_clutch(&args.file, &NoMargins::Profile(e)))?;
     let outline = match clutch.sprags.flanks {
         Some(flanks) => Outline::closed(&profile, &flanks),
         None => Outline::narrowest(&profile),
     }
-    .map_err(|e| Failure::malformed(format!("the outline does not close: {e:?}")))?;
+    .map_err(|e| parts::no_clutch(&args.file, &NoMargins::Outline(e)))?;
     let options = Options {
         variant: variant(args.variant),
         mesh_m: 1e-3 * args.mesh,
@@ -144,5 +144,5 @@ fn text(design: &Design, args: &ExportArgs) -> Result<String, Failure> {
         ..Options::default()
     };
     deck(clutch, &profile, &outline, &options, &design.hash)
-        .map_err(|e| Failure::malformed(format!("no deck: {e}")))
+        .map_err(|e| Failure::malformed(format!("{}: no deck: {e}", args.file.display())))
 }

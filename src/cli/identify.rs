@@ -5,9 +5,9 @@ mod page;
 
 use super::Context;
 use super::exit::{Exit, Failure};
+use super::histories::Histories;
 use super::left_out::left_out;
 use super::origin::{Kind, WRITTEN_BY};
-use super::histories::Histories;
 use super::output::{TOOL, VERSION};
 use super::parts::{self, Answer};
 use crate::design::{Design, MOST_TABLE, read_text};
@@ -84,7 +84,8 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&[&args.file, &args.data], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let named = |why: String| Failure::malformed(format!("{}: {why}", args.data.display()));
-    let histories = args.output.as_deref().map(|new| Histories::beside(&design, new)).transpose()?.unwrap_or_default();
+    let histories =
+        args.output.as_deref().map(|new| Histories::beside(&design, new)).transpose()?.unwrap_or_default();
     let text = read_text(&args.data, MOST_TABLE).map_err(|e| named(e.to_string()))?;
     let data = observations(&text).map_err(|fault| named(fault.to_string()))?;
     let settings = Settings {
@@ -108,7 +109,9 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
         Err(why @ NoFit::Nowhere { .. }) => {
             context.answer(&format!("{why}\n"))?;
             if context.json {
-                super::output::print_json(&serde_json::json!({ "tool": TOOL, "version": VERSION, "error": why.to_string() }))?;
+                super::output::print_json(
+                    &serde_json::json!({ "tool": TOOL, "version": VERSION, "error": why.to_string() }),
+                )?;
             }
             return Ok(Exit::NotHeld);
         }

@@ -274,8 +274,7 @@ fn name_of(command: &Command) -> &'static str {
 /// Refuse `--json`, `--csv` and `--report` where a command has no such answer; --force, --threads and --quiet, which then
 /// change nothing, are let pass.
 fn refuse_meaningless(command: &Command, common: &Common) -> Result<(), Failure> {
-    let given =
-        [("json", common.json), ("csv", common.csv.is_some()), ("report", common.report.is_some())];
+    let given = [("json", common.json), ("csv", common.csv.is_some()), ("report", common.report.is_some())];
     let command = name_of(command);
     let Some((name, why, without)) = MEANINGLESS.iter().find(|(name, ..)| *name == command) else {
         return Ok(());

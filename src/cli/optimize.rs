@@ -2,14 +2,14 @@
 
 use super::Context;
 use super::exit::{Exit, Failure};
+use super::histories::Histories;
 use super::journal::{self, JournalFile};
 use super::optimize_file::{file_text, further_text};
-use super::origin::Kind;
 use super::optimize_story::Story;
+use super::origin::Kind;
 use super::output::{TOOL, VERSION};
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
-use super::histories::Histories;
 use super::{optimize_answer as answer, parts};
 use crate::design::{Design, EditError, Objective, Optimize};
 use crate::optimise::{

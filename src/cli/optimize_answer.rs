@@ -1,11 +1,11 @@
 //! What `optimize` says: text, JSON, page.
 
-use super::output::path_text;
 use super::Context;
 use super::check::{demand_cell, margin_cell, unit_cell};
 use super::left_out::left_out;
 use super::optimize_story::{Story, shown, word};
 use super::output::TOOL;
+use super::output::path_text;
 use super::parts::{self, Answer};
 use crate::design::Design;
 use crate::margin::Margin;

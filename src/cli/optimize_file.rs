@@ -13,11 +13,7 @@ const WRITTEN_BY: &str = "# Written by sprag-design optimize";
 ///
 /// # Errors
 /// [`EditError`] where the text found is no design file.
-pub fn file_text(
-    design: &Design,
-    found: &Search,
-    context: &Context,
-) -> Result<String, EditError> {
+pub fn file_text(design: &Design, found: &Search, context: &Context) -> Result<String, EditError> {
     let changes: String = found
         .variables
         .iter()

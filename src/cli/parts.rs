@@ -5,9 +5,10 @@ use super::exit::Failure;
 use super::left_out::LeftOut;
 use super::output::{self, Envelope, TOOL, VERSION};
 use crate::design::Design;
+use crate::margin::NoMargins;
 use crate::profile::{Outline, Profile};
 use crate::report::{Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Unit};
-use crate::wedge::{Closure, StaticPoint, WedgeCurve};
+use crate::wedge::{Closure, NoCurve, NoElastic, StaticPoint, WedgeCurve};
 use serde::Serialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -25,6 +26,23 @@ pub fn read_design(path: &Path, context: &Context) -> Result<Design, Failure> {
     let read: Vec<&Path> = std::iter::once(path).chain(histories).collect();
     context.outputs.check(&read, &[])?;
     Ok(design)
+}
+
+/// The refusal of a clutch that has no curve: file, reason, and the keys that decide it.
+pub fn no_clutch(file: &Path, why: &NoMargins) -> Failure {
+    let keys = match why {
+        NoMargins::Outline(_) => "sprags.flanks, sprags.inner_arcs",
+        NoMargins::Curve(NoCurve::NoElastic(NoElastic::Race(_))) => "races, material",
+        NoMargins::Curve(NoCurve::NoElastic(NoElastic::Contact(_))) => "contact, material, sprags.length_mm",
+        NoMargins::Curve(NoCurve::NoConvergence) => {
+            "contact, material, sprags.length_mm, sprags.inner_arcs, races"
+        }
+        NoMargins::Profile(_) | NoMargins::Curve(NoCurve::NoFirstContact) => {
+            "sprags.outer_radius_mm, sprags.centre_distance_mm, sprags.inner_arcs, races.inner_radius_mm, \
+             races.outer_radius_mm"
+        }
+    };
+    Failure::malformed(format!("{}: {why}; keys that decide it: {keys}", file.display()))
 }
 
 /// An answer for programs: the common keys and the command's own in `body`.
@@ -220,4 +238,18 @@ pub fn draw(page: &mut Page, drawing: &Drawing) {
 /// A plot at the size it has beside another on a page, so that its letters keep theirs.
 pub fn half(plot: Plot) -> String {
     plot.sized(500.0, 320.0).to_svg()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clutch_without_a_curve_is_told_with_file_and_keys() {
+        let why = NoMargins::Curve(NoCurve::NoConvergence);
+        let text = no_clutch(Path::new("a.toml"), &why).to_json()["message"].to_string();
+        for word in ["a.toml", "did not converge", "contact, material", "sprags.inner_arcs"] {
+            assert!(text.contains(word), "{text}");
+        }
+    }
 }

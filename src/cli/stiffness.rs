@@ -12,6 +12,7 @@ use super::left_out::{LeftOut, at_rest, left_out};
 use super::parts::{self, Answer};
 use super::{Context, positive};
 use crate::design::{Clutch, Design};
+use crate::margin::NoMargins;
 use crate::profile::Profile;
 use crate::report::Unit;
 use crate::scenario::place_profile;
@@ -129,10 +130,10 @@ pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
 fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<Study, Failure> {
     let design = parts::read_design(&args.files[i], context)?;
     let fem = args.fem.get(i).map(|path| Fem::read(path, args.fem_model.as_deref())).transpose()?;
-    let profile =
-        place_profile(&design.clutch).map_err(|e| Failure::malformed(format!("no profile: {e:?}")))?;
+    let profile = place_profile(&design.clutch)
+        .map_err(|e| parts::no_clutch(&args.files[i], &NoMargins::Profile(e)))?;
     let started = Instant::now();
-    let laws = compute(args, &design, &profile, context)?;
+    let laws = compute(args, &args.files[i], (&design, &profile), context)?;
     let shaped = (!design.clutch.axial.is_straight()).then_some(PressureName::Slices);
     let pressure = match (laws.first(), args.pressure.or(shaped)) {
         (Some(law), Some(how)) => Some(PressureMap::of(law, how)?),
@@ -173,8 +174,8 @@ fn refuse_tiny(args: &StiffnessArgs) -> Result<(), Failure> {
 /// Curves of the laws asked for, in parallel, and their rows at the torques asked for.
 fn compute(
     args: &StiffnessArgs,
-    design: &Design,
-    profile: &Profile,
+    file: &Path,
+    (design, profile): (&Design, &Profile),
     context: &Context,
 ) -> Result<Vec<LawCurve>, Failure> {
     let names = laws::asked(&args.contact, &design.clutch.contact);
@@ -187,7 +188,7 @@ fn compute(
             }
             let contact = name.law(&design.clutch.contact);
             let clutch = Clutch { contact, ..design.clutch.clone() };
-            let none = |e| Failure::malformed(format!("no curve with the {} law: {e}", name.key()));
+            let none = |e| parts::no_clutch(file, &NoMargins::Curve(e));
             let curve = WedgeCurve::build(&clutch, profile, 0.0).map_err(none)?;
             let local = WedgeCurve::build_local(&clutch, profile).map_err(none)?;
             progress.advance(1);

@@ -92,7 +92,11 @@ fn the_help_of_a_command_shows_only_what_it_takes() {
         root.build();
         let help = root.find_subcommand(name).unwrap().clone().render_long_help().to_string();
         for flag in ["--json", "--csv", "--report"] {
-            assert_eq!(help.contains(&format!("{flag} ")) || help.contains(&format!("{flag}\n")), !without.contains(&flag), "{name} {flag}: {help}");
+            assert_eq!(
+                help.contains(&format!("{flag} ")) || help.contains(&format!("{flag}\n")),
+                !without.contains(&flag),
+                "{name} {flag}: {help}"
+            );
         }
     }
 }

@@ -112,7 +112,11 @@ impl DesignError {
     /// Problems of a text that could be read; an empty `source` is not shown beside them.
     pub(super) fn in_source(file: &str, source: &str, mut problems: Vec<Problem>) -> Self {
         problems.sort_by_key(|p| p.place.as_ref().map_or(0, |place| place.span.start));
-        problems.iter_mut().for_each(|p| p.key = shown(&p.key));
+        for p in &mut problems {
+            for words in [&mut p.key, &mut p.found, &mut p.allowed, &mut p.help] {
+                *words = shown(words);
+            }
+        }
         let file = shown(file);
         let short = !source.is_empty() && source.lines().all(|line| line.len() <= LONGEST_SHOWN);
         let source = short.then(|| Box::new(NamedSource::new(&file, masked(source)).with_language("TOML")));
@@ -176,7 +180,9 @@ impl fmt::Display for DesignError {
             write!(f, " {problem}")?;
         }
         match self.problems.len() {
-            n if n >= MOST_COLLECTED => write!(f, "\n{}: and {} more or still more", self.file, n - MOST_TOLD),
+            n if n >= MOST_COLLECTED => {
+                write!(f, "\n{}: and {} more or still more", self.file, n - MOST_TOLD)
+            }
             n if n > MOST_TOLD => write!(f, "\n{}: and {} more", self.file, n - MOST_TOLD),
             _ => Ok(()),
         }

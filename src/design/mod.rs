@@ -39,8 +39,7 @@ pub use clutch::{
 pub use diagnostic::{DesignError, Place, Problem, shown, unprintable};
 pub use draft::{Draft, KINETIC_SHARE, rounded};
 pub use edit::{
-    EditError, content, value_at, with_flanks, with_keys, with_limits, with_values,
-    without_variables,
+    EditError, content, value_at, with_flanks, with_keys, with_limits, with_values, without_variables,
 };
 pub use history::is_history;
 pub use notes::with_notes;

@@ -29,9 +29,7 @@ impl Design {
         let name = path.display().to_string();
         match open::read_text(path, open::MOST_DESIGN) {
             Ok(source) => Self::parse(&source, &name),
-            Err(why) if why.text.is_empty() => {
-                Err(DesignError::unreadable(&name, why.found, WHAT, why.help))
-            }
+            Err(why) if why.text.is_empty() => Err(DesignError::unreadable(&name, why.found, WHAT, why.help)),
             Err(why) => Err(one_problem(&name, &why.text, why.at, why.found, WHAT, why.help)),
         }
     }

@@ -98,8 +98,12 @@ pub(super) fn scenarios(
                 Ok(rows) => Some(Some(rows)),
                 Err(found) => {
                     if let Some(found) = found {
-                        let help = format!("{found}; name a CSV file from the folder of the design file");
-                        out.refuse(&[&format!("{path}.{name}")], "a file that can be read".to_owned(), help);
+                        let allowed = "a CSV file in the folder of the design file, or below it".to_owned();
+                        out.refuse(
+                            &[&format!("{path}.{name}")],
+                            allowed,
+                            format!("{found}; name such a file"),
+                        );
                     }
                     None
                 }

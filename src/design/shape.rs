@@ -128,6 +128,9 @@ impl<'a> Walk<'_, 'a> {
         let Some(properties) = schema.get("properties").and_then(Value::as_object) else { return };
         let dotted = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
         for (key, value) in table.iter() {
+            if self.problems.len() >= MOST_COLLECTED {
+                return;
+            }
             let name = key.get_ref().as_ref();
             if let Some(property) = properties.get(name) {
                 self.value(property, value, &dotted(name), key.span());

@@ -1,5 +1,5 @@
 use super::*;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::AtomicUsize;
 
 /// A folder of its own per test, removed at the end.
 struct Folder(PathBuf);
@@ -56,9 +56,9 @@ fn a_write_that_fails_leaves_the_old_file_and_no_other() {
     let blocked = folder.0.join("blocked");
     fs::create_dir(&blocked).unwrap();
     fs::write(blocked.join("kept"), b"").unwrap();
-    let text = message(write_whole(&blocked, b"new").unwrap_err());
+    let text = write_whole(&blocked, b"new").unwrap_err();
     assert!(text.contains("blocked"), "{text}");
-    let text = message(write_whole(&folder.0.join("missing").join("out.csv"), b"new").unwrap_err());
+    let text = write_whole(&folder.0.join("missing").join("out.csv"), b"new").unwrap_err();
     assert!(text.contains("missing"), "{text}");
     assert_eq!(fs::read(&path).unwrap(), b"old");
     assert_eq!(folder.names(), ["blocked", "out.csv"]);
@@ -83,7 +83,7 @@ fn harmful_outputs_are_refused_before_the_work() {
     let folder = Folder::new();
     let design = folder.0.join("design.toml");
     fs::write(&design, b"schema = 1").unwrap();
-    let outputs = |csv: &Path, report: &Path| Outputs { csv: Some(csv.into()), report: Some(report.into()) };
+    let outputs = |csv: &Path, report: &Path| Outputs::new(Some(csv.into()), Some(report.into()), false);
     let (csv, html) = (folder.0.join("a.csv"), folder.0.join("a.html"));
     let fem = folder.0.join("fem.csv");
     assert!(outputs(&csv, &html).check(&[&design], &[]).is_ok());
@@ -127,11 +127,37 @@ fn a_file_of_another_kind_is_not_overwritten() {
         let text = message(bad.check(&[], &others).unwrap_err());
         assert!(text.contains(want), "{text} should say {want}");
     }
-    // One of its own kind, one whose name says nothing, and one that is not there yet are written.
+    assert!(message(csv(&folder.0.join("new.toml")).check(&[], &[]).unwrap_err()).contains(".csv"));
+    // Nor is one of its own kind that somebody else has made; with --force it is.
+    for mut theirs in [csv(&table), report(&page), csv(&make("notes.txt"))] {
+        let text = message(theirs.check(&[], &[]).unwrap_err());
+        assert!(text.contains("--force"), "{text}");
+        theirs.force = true;
+        assert!(theirs.check(&[], &[]).is_ok());
+    }
+    // What this tool has made gives way, as does an empty file.
+    fs::write(&table, "code,name\n1,2\n").unwrap();
+    fs::write(&page, "<!-- sprag-design 1 -->\n").unwrap();
+    fs::write(&design, "").unwrap();
     assert!(csv(&table).check(&[], &[(&design, Kind::Design)]).is_ok());
     assert!(report(&page).check(&[], &[]).is_ok());
-    assert!(csv(&make("notes.txt")).check(&[], &[]).is_ok());
-    assert!(csv(&folder.0.join("new.toml")).check(&[], &[]).is_ok());
+}
+
+/// A temporary of a killed run whose process id has come round again, or a file of that name by somebody else.
+#[test]
+fn a_name_that_is_taken_is_left_alone_and_the_next_one_used() {
+    let folder = Folder::new();
+    let (taken, file) = Temporary::create(&folder.0).unwrap();
+    drop(file);
+    let name = taken.0.file_name().unwrap().to_str().unwrap();
+    let number: u32 = name.rsplit(['-', '.']).nth(1).unwrap().parse().unwrap();
+    let stale: Vec<PathBuf> = (number + 1..number + 40)
+        .map(|n| folder.0.join(format!(".{TOOL}-{}-{n}.tmp", std::process::id())))
+        .collect();
+    stale.iter().for_each(|path| fs::write(path, b"stale").unwrap());
+    write_whole(&folder.0.join("out.csv"), b"new").unwrap();
+    assert_eq!(fs::read(folder.0.join("out.csv")).unwrap(), b"new");
+    assert!(stale.iter().all(|path| fs::read(path).unwrap() == b"stale"));
 }
 
 #[test]
@@ -143,7 +169,8 @@ fn the_envelope_comes_first_and_holds_the_body() {
     }
     let left_out = ["nothing"];
     let body = Body { pass: true, margins: vec![0.1, f64::NAN] };
-    let text = serde_json::to_string(&Envelope::new("a", "0f", 0.5, &left_out, None, &body)).unwrap();
+    let text =
+        serde_json::to_string(&Envelope::new("a", "0f", 0.5, &left_out, None, Vec::new(), &body)).unwrap();
     assert!(text.starts_with("{\"tool\":\"sprag-design\",\"version\":"), "{text}");
     let value: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(value["design_hash"], "0f");
