@@ -9,10 +9,11 @@ use super::left_out::left_out;
 use super::output::{Kind, VERSION, write_whole};
 use super::parts::{self, Answer};
 use crate::design::Design;
-use crate::identify::{Identified, NoFit, Settings, Unknown, identify, observations};
+use crate::identify::{Identified, NoFit, Settings, SoFar, Unknown, identify, observations};
 use crate::report::Screen;
 use body::{Body, estimates, residuals, sentences};
 use clap::Args;
+use serde_json::json;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -27,7 +28,8 @@ nominal_torque_nm (where the first limit on nominal torque is reached), end_torq
 its standard error as <column>_sigma, without which all count in proportion; dotted keys that a row changes in the
 design, such as races.inner_radius_mm; label; use = fit, check (compared only) or skip.
 
-Exit codes: 0 found; 1 the data leave a direction of the unknowns undetermined, or no design fits between the bounds.";
+Exit codes: 0 found; 1 the data leave a direction of the unknowns undetermined, or no design fits between the bounds; 130
+stopped by Ctrl-C, the best design so far is told, and written where -o names a file.";
 
 /// Arguments of `identify`.
 #[derive(Debug, Clone, Args)]
@@ -104,11 +106,12 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
     let run_time_s = started.elapsed().as_secs_f64();
     let found = match found {
         Ok(found) => found,
-        Err(NoFit::Stopped) => return Err(Failure::Interrupted),
+        Err(NoFit::Stopped(None)) => return Err(Failure::Interrupted),
+        Err(NoFit::Stopped(Some(so_far))) => return stopped(args, &design, &so_far, run_time_s, context),
         Err(why @ NoFit::Nowhere { .. }) => {
             context.answer(&format!("{why}\n"))?;
             if context.json {
-                super::output::print_json(&serde_json::json!({ "error": why.to_string() }))?;
+                super::output::print_json(&json!({ "error": why.to_string() }))?;
             }
             return Ok(Exit::NotHeld);
         }
@@ -133,6 +136,50 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
     Ok(if determined { Exit::Held } else { Exit::NotHeld })
 }
 
+/// What a search that was stopped had found: its best design, without error bars.
+fn stopped(
+    args: &IdentifyArgs,
+    design: &Design,
+    so_far: &SoFar,
+    run_time_s: f64,
+    context: &Context,
+) -> Result<Exit, Failure> {
+    let named = || args.unknown.iter().zip(&so_far.values);
+    if let Some(path) = &args.output {
+        let values: String = named().map(|(u, value)| format!("#   {}: {value}\n", u.name)).collect();
+        let remark = format!(
+            "# stopped by Ctrl-C: the best of {} designs, not the end of the search\n",
+            so_far.evaluations
+        );
+        write_whole(path, (head(design, context) + &remark + &values + "#\n" + &so_far.source).as_bytes())?;
+    }
+    let values: Vec<String> = named().map(|(u, value)| format!("  {} = {value}\n", u.name)).collect();
+    context.answer(&format!(
+        "stopped by Ctrl-C: the best of {} designs so far, sum of squared scaled residuals {:.6e}; the search has not ended, and how \
+         well the values are known was not looked at\n{}{}",
+        so_far.evaluations,
+        so_far.sum,
+        values.concat(),
+        args.output.as_ref().map_or(String::new(), |path| format!("Written: {}\n", path.display())),
+    ))?;
+    let unknowns: Vec<_> = named()
+        .map(|(u, value)| json!({ "name": u.name, "min": u.min, "max": u.max, "value": value }))
+        .collect();
+    let body = json!({
+        "interrupted": true, "converged": false, "unknowns": unknowns, "sum_of_squares": so_far.sum,
+        "evaluations": so_far.evaluations, "written": args.output.as_ref().map(|path| path.display().to_string()),
+    });
+    let left_out = left_out(&design.clutch);
+    Answer { design, run_time_s, left_out, error_estimate: None, body }.print(context)?;
+    Ok(Exit::Interrupted)
+}
+
+/// First lines of a file written by this command.
+fn head(design: &Design, context: &Context) -> String {
+    let (name, hash) = (&design.name, &design.hash);
+    format!("{WRITTEN_BY} {VERSION} from {name:?} (sha256 {hash})\n# by: {}\n", context.command_line)
+}
+
 /// The old file with its comments, the values found, and who found them.
 fn new_file(design: &Design, found: &Identified, context: &Context) -> String {
     let changes: String = found
@@ -145,10 +192,7 @@ fn new_file(design: &Design, found: &Identified, context: &Context) -> String {
             format!("#   {}: {} -> {} {width}\n", u.name, before, e.value)
         })
         .collect();
-    format!(
-        "{WRITTEN_BY} {VERSION} from {:?} (sha256 {})\n# by: {}\n{changes}#\n{}",
-        design.name, design.hash, context.command_line, found.source
-    )
+    head(design, context) + &changes + "#\n" + &found.source
 }
 
 fn text_of(design: &Design, found: &Identified, screen: Screen) -> String {
