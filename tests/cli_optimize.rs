@@ -257,7 +257,7 @@ fn a_kept_journal_is_csv_and_spares_a_second_search_the_work() {
         ["model", "design", "problem", "hash"]
     );
     let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
-    assert!(rows.len() > 60 && rows.iter().all(|r| r.len() == 12), "{}", rows.len());
+    assert!(rows.len() > 60 && rows.iter().all(|r| r.len() == 13), "{}", rows.len());
     let refused = rows.iter().filter(|r| &r[6] != "ok").count();
     println!("{} rows, {refused} without margins", rows.len());
     // Another comment is no other design.

@@ -8,6 +8,9 @@ use clap::Args;
 use serde_json::{Value, json};
 use std::io::BufRead;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, channel, sync_channel};
+use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -15,10 +18,12 @@ Examples:
   sprag-design evaluate designs/huang2017-multi-arc.toml --describe
 
 Each line on standard input is a JSON array: the values of the variables of [optimize], in the file's order and units.
-Each gets one line on standard output, in order and at once: x; objectives (the least of them is what `optimize`
+Each gets one line on standard output, in the order of the lines and as soon as it is known; several lines are evaluated
+side by side, as --threads says, with the same answers for any number of threads. An answer: x; objectives (the least of them is what `optimize`
 maximises); limits (each must be 0 or more); least, the least objective; violation, the largest -limit or 0; feasible.
 Where x is out of bounds or there is no clutch at it: x and refused, the reason. A line that is no such array: malformed, and exit code 2 at
-the end. --describe tells names, bounds and start first.";
+the end. --describe tells names, bounds and start first. Ctrl-C ends at once (exit code 130), and so does a reader that
+goes away.";
 
 /// Arguments of `evaluate`.
 #[derive(Debug, Clone, Args)]
@@ -51,36 +56,77 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
     let fidelity = Fidelity { reduced: !args.full, ..Fidelity::default() };
     let problem = ClutchProblem::new(&design, task, variables, fidelity);
     if args.describe {
-        line(&description(&design, &problem))?;
+        output::print_json(&description(&design, &problem))?;
     }
+    // Lines in the order in which they came, each with the place where its answer will appear; as many as keep every thread
+    // at work, no more of the input is read ahead.
+    let (queue, places) = sync_channel(2 * rayon::current_num_threads());
+    let asked = Arc::new((problem, task.clone()));
+    std::thread::spawn(move || read_lines(&asked, &queue));
     let mut malformed = false;
-    for (at, text) in std::io::stdin().lock().split(b'\n').enumerate() {
-        if context.interrupt.requested() {
-            return Err(Failure::Interrupted);
-        }
-        let text = text.map_err(|e| Failure::Failed(format!("standard input: {e}")))?;
-        if text.trim_ascii().is_empty() {
-            continue;
-        }
-        let count = problem.variables().len();
-        let read: Result<Vec<f64>, String> = match std::str::from_utf8(&text) {
-            Ok(text) => serde_json::from_str(text).map_err(|e| e.to_string()),
-            Err(e) => Err(format!("no UTF-8 text: {e}")),
-        };
-        match read.and_then(|x| {
-            if x.len() == count { Ok(x) } else { Err(format!("{} numbers, not {count}", x.len())) }
-        }) {
-            Ok(x) => line(&match outside(task, &x) {
-                Some(why) => json!({ "x": x, "refused": why }),
-                None => answer(&problem, &x),
-            })?,
-            Err(why) => {
-                malformed = true;
-                line(&json!({ "malformed": format!("line {}: {why}", at + 1) }))?;
-            }
+    while let Some(place) = next(&places, context)? {
+        let Some(said) = next(&place, context)? else { break };
+        let (value, is_malformed) = said?;
+        malformed |= is_malformed;
+        if !output::heard(&format!("{value}\n"))? {
+            break;
         }
     }
     Ok(if malformed { Exit::Malformed } else { Exit::Held })
+}
+
+/// The answer to a line, and whether the line was no vector.
+type Said = Result<(Value, bool), Failure>;
+
+/// Hands out the lines of standard input to the threads, until there are none or nobody wants the answers.
+fn read_lines(asked: &Arc<(ClutchProblem, Optimize)>, queue: &SyncSender<Receiver<Said>>) {
+    for (at, text) in std::io::stdin().lock().split(b'\n').enumerate() {
+        if text.as_ref().is_ok_and(|text| text.trim_ascii().is_empty()) {
+            continue;
+        }
+        let (say, place) = channel();
+        if queue.send(place).is_err() {
+            return;
+        }
+        let asked = Arc::clone(asked);
+        // Where the answer is no longer wanted there is nobody to tell.
+        rayon::spawn(move || {
+            let said = text.map_err(|e| Failure::Failed(format!("standard input: {e}")));
+            let _ = say.send(said.map(|text| reply(&asked.0, &asked.1, at + 1, &text)));
+        });
+    }
+}
+
+/// What comes next, looked for often enough that Ctrl-C is heard; `None` where nothing more comes.
+fn next<T>(from: &Receiver<T>, context: &Context) -> Result<Option<T>, Failure> {
+    loop {
+        if context.interrupt.requested() {
+            return Err(Failure::Interrupted);
+        }
+        match from.recv_timeout(Duration::from_millis(20)) {
+            Ok(it) => return Ok(Some(it)),
+            Err(RecvTimeoutError::Disconnected) => return Ok(None),
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+    }
+}
+
+/// The answer to line number `at`, and whether it was no vector.
+fn reply(problem: &ClutchProblem, task: &Optimize, at: usize, text: &[u8]) -> (Value, bool) {
+    let count = problem.variables().len();
+    let read: Result<Vec<f64>, String> = match std::str::from_utf8(text) {
+        Ok(text) => serde_json::from_str(text).map_err(|e| e.to_string()),
+        Err(e) => Err(format!("no UTF-8 text: {e}")),
+    };
+    match read
+        .and_then(|x| if x.len() == count { Ok(x) } else { Err(format!("{} numbers, not {count}", x.len())) })
+    {
+        Ok(x) => match outside(task, &x) {
+            Some(why) => (json!({ "x": x, "refused": why }), false),
+            None => (answer(problem, &x), false),
+        },
+        Err(why) => (json!({ "malformed": format!("line {at}: {why}") }), true),
+    }
 }
 
 /// The first value beyond its bounds, in words.
@@ -117,8 +163,4 @@ fn description(design: &Design, problem: &ClutchProblem) -> Value {
         "aim": task.objective.name(), "variables": variables,
         "objectives": names.as_ref().map(|n| &n.objectives), "limits": names.as_ref().map(|n| &n.limits),
     })
-}
-
-fn line(value: &Value) -> Result<(), Failure> {
-    output::print(&format!("{value}\n"))
 }

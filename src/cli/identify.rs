@@ -11,10 +11,11 @@ use super::origin::{Kind, WRITTEN_BY};
 use super::output::{TOOL, VERSION};
 use super::parts::{self, Answer};
 use crate::design::{Design, MOST_TABLE, read_text};
-use crate::identify::{Identified, NoFit, Settings, Unknown, identify, observations};
+use crate::identify::{Identified, NoFit, Settings, SoFar, Unknown, identify, observations};
 use crate::report::Screen;
 use body::{Body, estimates, residuals, sentences};
 use clap::Args;
+use serde_json::json;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -29,7 +30,8 @@ nominal_torque_nm (where the first limit on nominal torque is reached), end_torq
 its standard error as <column>_sigma, without which all count in proportion; dotted keys that a row changes in the
 design, such as races.inner_radius_mm; label; use = fit, check (compared only) or skip.
 
-Exit codes: 0 found; 1 the data leave a direction of the unknowns undetermined, or no design fits between the bounds.";
+Exit codes: 0 found; 1 the data leave a direction of the unknowns undetermined, or no design fits between the bounds; 130
+stopped by Ctrl-C, the best design so far is told, and written where -o names a file.";
 
 /// Arguments of `identify`.
 #[derive(Debug, Clone, Args)]
@@ -105,12 +107,15 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
     let run_time_s = started.elapsed().as_secs_f64();
     let found = match found {
         Ok(found) => found,
-        Err(NoFit::Stopped) => return Err(Failure::Interrupted),
+        Err(NoFit::Stopped(None)) => return Err(Failure::Interrupted),
+        Err(NoFit::Stopped(Some(so_far))) => {
+            return stopped(args, (&design, &histories), &so_far, run_time_s, context);
+        }
         Err(why @ NoFit::Nowhere { .. }) => {
             context.answer(&format!("{why}\n"))?;
             if context.json {
                 super::output::print_json(
-                    &serde_json::json!({ "tool": TOOL, "version": VERSION, "error": why.to_string() }),
+                    &json!({ "tool": TOOL, "version": VERSION, "error": why.to_string() }),
                 )?;
             }
             return Ok(Exit::NotHeld);
@@ -127,7 +132,7 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
         design: &design,
         run_time_s,
         left_out: left_out(&design.clutch),
-        error_estimate: Some(serde_json::json!({ "residual_sigma": found.knowledge.residual_sigma })),
+        error_estimate: Some(json!({ "residual_sigma": found.knowledge.residual_sigma })),
         body,
     };
     context.outputs.write_csv(&residuals(&found));
@@ -135,6 +140,52 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
     context.answer(&text_of(&design, &found, context.screen))?;
     answer.print(context)?;
     Ok(if determined { Exit::Held } else { Exit::NotHeld })
+}
+
+/// What a search that was stopped had found: its best design, without error bars.
+fn stopped(
+    args: &IdentifyArgs,
+    (design, histories): (&Design, &Histories),
+    so_far: &SoFar,
+    run_time_s: f64,
+    context: &Context,
+) -> Result<Exit, Failure> {
+    let named = || args.unknown.iter().zip(&so_far.values);
+    let write = |path: &&std::path::PathBuf| {
+        let values: String = named().map(|(u, value)| format!("#   {}: {value}\n", u.name)).collect();
+        let remark = format!(
+            "# stopped by Ctrl-C: the best of {} designs, not the end of the search\n",
+            so_far.evaluations
+        );
+        let text = head(design, context) + &remark + &values + "#\n" + &so_far.source;
+        histories.write(&context.outputs) && context.outputs.write(path, Kind::Design, text.as_bytes())
+    };
+    let written = args.output.as_ref().filter(write).map(|path| path.display().to_string());
+    let values: Vec<String> = named().map(|(u, value)| format!("  {} = {value}\n", u.name)).collect();
+    context.answer(&format!(
+        "stopped by Ctrl-C: the best of {} designs so far, sum of squared scaled residuals {:.6e}; the search has not ended, and how \
+         well the values are known was not looked at\n{}{}",
+        so_far.evaluations,
+        so_far.sum,
+        values.concat(),
+        written.as_ref().map_or(String::new(), |path| format!("Written: {path}\n")),
+    ))?;
+    let unknowns: Vec<_> = named()
+        .map(|(u, value)| json!({ "name": u.name, "min": u.min, "max": u.max, "value": value }))
+        .collect();
+    let body = json!({
+        "interrupted": true, "converged": false, "unknowns": unknowns, "sum_of_squares": so_far.sum,
+        "evaluations": so_far.evaluations, "written": written,
+    });
+    let left_out = left_out(&design.clutch);
+    Answer { design, run_time_s, left_out, error_estimate: None, body }.print(context)?;
+    Ok(Exit::Interrupted)
+}
+
+/// First lines of a file written by this command.
+fn head(design: &Design, context: &Context) -> String {
+    let (name, hash) = (&design.name, &design.hash);
+    format!("{WRITTEN_BY} identify {VERSION} from {name:?} (sha256 {hash})\n# by: {}\n", context.command_line)
 }
 
 /// The old file with its comments, the values found, and who found them.
@@ -149,10 +200,7 @@ fn new_file(design: &Design, found: &Identified, context: &Context) -> String {
             format!("#   {}: {} -> {} {width}\n", u.name, before, e.value)
         })
         .collect();
-    format!(
-        "{WRITTEN_BY} identify {VERSION} from {:?} (sha256 {})\n# by: {}\n{changes}#\n{}",
-        design.name, design.hash, context.command_line, found.source
-    )
+    head(design, context) + &changes + "#\n" + &found.source
 }
 
 fn text_of(design: &Design, found: &Identified, screen: Screen) -> String {

@@ -1,21 +1,29 @@
 //! The record of a search: one CSV row per evaluation, appended, so that a stop at any moment loses at most what is
 //! under way, and later searches of the same problem need not repeat it.
 //!
-//! Columns: `model` (tool and version), `design` (hash of what the design file says, comments apart), `problem` (hash of everything that an
-//! evaluation depends on but the variables), `hash` (of problem and inputs), `variables` and `x` (canonical inputs),
-//! `outcome` (`ok`, `refused`, `not-finite`, `shape`), `objectives`, `limits`, `tie_break`, `error` (tolerance of the
-//! evaluation), `detail` (why it failed). Lists within a cell are separated by semicolons; numbers read back exactly.
+//! Columns: `model` (tool, version, and a hash of the sources that compute a margin, made by `build.rs`), `design` (hash of what the design
+//! file says, comments apart), `problem` (hash of everything that an evaluation depends on but the variables), `hash` (of problem and
+//! inputs), `variables` and `x` (canonical inputs), `outcome` (`ok`, `refused`, `not-finite`, `shape`), `objectives`, `limits`,
+//! `tie_break`, `error` (tolerance of the evaluation), `detail` (why it failed), `check` (of all cells before it). Lists within
+//! a cell are separated by semicolons; numbers read back exactly; a row is one line.
+//!
+//! What is believed: a row of this very model whose `check` agrees. All others stay in the file and are not used. `check`
+//! tells a damaged or edited row from a whole one; it does not prove that the numbers were computed. The optimum found is
+//! computed anew in every search, whatever a journal says of it.
+//!
+//! One search at a time: the file is locked as long as it is written. It is changed only after its header was read.
 
 use super::exit::Failure;
+use super::output::{TOOL, VERSION};
 use crate::optimise::{Entry, Evaluation, Failure as NoMargins, Journal, Part, ProblemId};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
-use std::fs::{File, OpenOptions};
-use std::io::{ErrorKind, Write};
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Names of the columns.
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 13] = [
     "model",
     "design",
     "problem",
@@ -28,7 +36,15 @@ const COLUMNS: [&str; 12] = [
     "tie_break",
     "error",
     "detail",
+    "check",
 ];
+/// Where `check` stands: behind everything that it is of.
+const CHECK: usize = COLUMNS.len() - 1;
+
+/// What computes a margin: tool, version, hash of its sources.
+pub fn model() -> String {
+    format!("{TOOL} {VERSION} {}", env!("SPRAG_DESIGN_MODEL"))
+}
 
 /// An open journal file with what it held when it was opened.
 #[derive(Debug)]
@@ -41,8 +57,43 @@ pub struct JournalFile {
     known: HashMap<String, Vec<Entry>>,
     /// Entries of this design among them.
     of_design: usize,
-    /// First failure to write; the search goes on, the end reports it.
+    /// Rows of other models, and rows that are no whole ones; neither is used.
+    foreign: usize,
+    damaged: usize,
+    /// First failure to write; the search goes on without the journal, the end reports it.
     pub failed: Option<String>,
+}
+
+/// What a file is by its first line.
+enum Found {
+    /// Nothing yet, or the beginning of a first line that a kill cut short.
+    Nothing,
+    Journal,
+    /// A journal by a version that wrote no `check`.
+    Earlier,
+    Foreign,
+}
+
+impl Found {
+    fn of(text: &[u8]) -> Self {
+        let header = COLUMNS.join(",") + "\n";
+        if header.as_bytes().starts_with(text) && text.len() < header.len() {
+            return Self::Nothing;
+        }
+        let first = text.split(|b| *b == b'\n').next().and_then(cells).unwrap_or_default();
+        if first == COLUMNS[..] {
+            Self::Journal
+        } else if first == COLUMNS[..CHECK] {
+            Self::Earlier
+        } else {
+            Self::Foreign
+        }
+    }
+}
+
+/// One line as cells; `None` where it is none of a CSV table.
+fn cells(line: &[u8]) -> Option<csv::StringRecord> {
+    csv::ReaderBuilder::new().has_headers(false).from_reader(line).into_records().next()?.ok()
 }
 
 fn named(path: &Path, e: &dyn std::fmt::Display) -> Failure {
@@ -50,46 +101,36 @@ fn named(path: &Path, e: &dyn std::fmt::Display) -> Failure {
 }
 
 impl JournalFile {
-    /// Begin a journal at `path`; an old one is replaced.
+    /// Begin a journal at `path`. A journal that is there already keeps its rows under the name given back.
     ///
     /// # Errors
-    /// [`Failure::Failed`] naming the path.
-    pub fn begin(path: &Path, model: &str, design: &str) -> Result<Self, Failure> {
-        let file = File::create(path).map_err(|e| named(path, &e))?;
-        let mut out = Self::around(path, file, model, design);
-        out.row(&COLUMNS.map(str::to_owned));
-        match out.failed.take() {
-            Some(why) => Err(named(path, &why)),
-            None => Ok(out),
+    /// As [`Self::open`].
+    pub fn begin(path: &Path, model: &str, design: &str) -> Result<(Self, Option<PathBuf>), Failure> {
+        let (file, text) = locked(path)?;
+        let old = match Found::of(&text) {
+            Found::Journal => text.iter().filter(|b| **b == b'\n').count() > 1,
+            Found::Earlier => true,
+            Found::Nothing | Found::Foreign => false,
+        };
+        if !old {
+            return Ok((Self::around(path, file, &text, model, design)?, None));
         }
+        let kept = free_name(path);
+        std::fs::rename(path, &kept).map_err(|e| named(path, &e))?;
+        // The old file stays locked until there is a new one.
+        let begun = Self::open(path, model, design)?;
+        drop(file);
+        Ok((begun, Some(kept)))
     }
 
-    /// Take up the journal at `path`, or begin it where there is none. A last line cut short by a kill is dropped;
-    /// rows of another version of the program are kept and not used.
+    /// Take up the journal at `path`, or begin it where there is none. A last line cut short by a kill is dropped.
     ///
     /// # Errors
-    /// [`Failure::Malformed`] where the file is no journal; [`Failure::Failed`] where it cannot be read.
+    /// [`Failure::Malformed`] where the file is no journal, or one of a version without `check`; it is left as it is.
+    /// [`Failure::Failed`] where another search is writing it, or it cannot be read.
     pub fn open(path: &Path, model: &str, design: &str) -> Result<Self, Failure> {
-        let text = match std::fs::read(path) {
-            Ok(text) => text,
-            Err(e) if e.kind() == ErrorKind::NotFound => return Self::begin(path, model, design),
-            Err(e) => return Err(named(path, &e)),
-        };
-        let whole = text.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
-        let mut rows = csv::ReaderBuilder::new().flexible(true).from_reader(&text[..whole]);
-        if rows.headers().is_ok_and(|h| !h.iter().eq(COLUMNS)) {
-            return Err(Failure::malformed(format!("{} is no journal of a search", path.display())));
-        }
-        let file = OpenOptions::new().append(true).open(path).map_err(|e| named(path, &e))?;
-        file.set_len(whole as u64).map_err(|e| named(path, &e))?;
-        let mut out = Self::around(path, file, model, design);
-        for row in rows.records().flatten() {
-            if let Some((problem, entry)) = entry_of(&row).filter(|_| row.get(0) == Some(model)) {
-                out.of_design += usize::from(row.get(1) == Some(design));
-                out.known.entry(problem).or_default().push(entry);
-            }
-        }
-        Ok(out)
+        let (file, text) = locked(path)?;
+        Self::around(path, file, &text, model, design)
     }
 
     /// As [`Self::open`], for `--resume`: there must be something to go on with.
@@ -113,16 +154,78 @@ impl JournalFile {
         Ok(out)
     }
 
-    fn around(path: &Path, file: File, model: &str, design: &str) -> Self {
-        Self {
+    /// The rows of `text`, which `file` holds; only now is the file changed.
+    fn around(path: &Path, file: File, text: &[u8], model: &str, design: &str) -> Result<Self, Failure> {
+        let refused =
+            |why: &str| Failure::malformed(format!("{} {why}; it is left as it is", path.display()));
+        let mut out = Self {
             path: path.to_path_buf(),
             file,
             model: model.to_owned(),
             design: design.to_owned(),
             known: HashMap::new(),
             of_design: 0,
+            foreign: 0,
+            damaged: 0,
             failed: None,
+        };
+        let whole = match Found::of(text) {
+            Found::Nothing => 0,
+            Found::Journal => text.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1),
+            Found::Earlier => {
+                return Err(refused(
+                    "is a journal by an earlier version of the program, whose rows cannot be checked; name another file with --journal",
+                ));
+            }
+            Found::Foreign => {
+                return Err(refused("is no journal of a search; name another file with --journal"));
+            }
+        };
+        if whole < text.len() {
+            out.file.set_len(whole as u64).map_err(|e| named(path, &e))?;
         }
+        if whole == 0 {
+            out.row(&COLUMNS.map(str::to_owned));
+            return out.failed.as_ref().map_or(Ok(()), |why| Err(named(path, why))).map(|()| out);
+        }
+        for line in text[..whole].split(|b| *b == b'\n').skip(1).filter(|line| !line.is_empty()) {
+            out.learn(line);
+        }
+        Ok(out)
+    }
+
+    fn learn(&mut self, line: &[u8]) {
+        let row = cells(line).filter(|row| row.len() == COLUMNS.len() && row[CHECK] == check(row));
+        let Some(row) = row else {
+            self.damaged += 1;
+            return;
+        };
+        match entry_of(&row).filter(|_| row[0] == self.model) {
+            Some((problem, entry)) => {
+                self.of_design += usize::from(row[1] == self.design);
+                self.known.entry(problem).or_default().push(entry);
+            }
+            None => self.foreign += 1,
+        }
+    }
+
+    /// What of the file is not used, in words.
+    pub fn unused(&self) -> Option<String> {
+        let rows = |n: usize, what: &str| {
+            (n > 0).then(|| format!("{n} {} {what}", if n == 1 { "row" } else { "rows" }))
+        };
+        let kinds = [
+            rows(self.foreign, "by another version of the program"),
+            rows(self.damaged, "whose check disagrees (damaged or edited)"),
+        ];
+        let kinds: Vec<String> = kinds.into_iter().flatten().collect();
+        let list = kinds.join(" and ");
+        (!kinds.is_empty()).then(|| format!("{}: {list}: kept there, not used", self.path.display()))
+    }
+
+    /// Delete the file: the search is over, nothing is left to resume.
+    pub fn discard(self) {
+        let _ = std::fs::remove_file(&self.path);
     }
 
     /// Entries of a problem.
@@ -147,7 +250,7 @@ impl JournalFile {
                 (kind, String::new(), String::new(), String::new(), detail)
             }
         };
-        self.row(&[
+        let cells = [
             self.model.clone(),
             self.design.clone(),
             problem.hash.clone(),
@@ -160,10 +263,16 @@ impl JournalFile {
             tie_break,
             problem.error.clone(),
             detail,
-        ]);
+        ];
+        let check = check(&csv::StringRecord::from(&cells[..]));
+        self.row(&std::array::from_fn(|i| cells.get(i).unwrap_or(&check).clone()));
     }
 
-    fn row(&mut self, cells: &[String; 12]) {
+    /// Nothing is written behind a row that failed: what is left of it would be glued to the next.
+    fn row(&mut self, cells: &[String; COLUMNS.len()]) {
+        if self.failed.is_some() {
+            return;
+        }
         let mut line = csv::Writer::from_writer(Vec::new());
         let written = line.write_record(cells).map_err(|e| e.to_string()).and_then(|()| {
             let bytes = line.into_inner().map_err(|e| e.to_string())?;
@@ -171,7 +280,7 @@ impl JournalFile {
             self.file.write_all(&bytes).map_err(|e| e.to_string())
         });
         if let Err(why) = written {
-            self.failed.get_or_insert(why);
+            self.failed = Some(why);
         }
     }
 
@@ -179,6 +288,52 @@ impl JournalFile {
     pub fn path(&self) -> &Path {
         &self.path
     }
+}
+
+/// The file at `path` and what it holds; there, if it was not, and locked for as long as it is open.
+fn locked(path: &Path) -> Result<(File, Vec<u8>), Failure> {
+    let options = OpenOptions::new().read(true).append(true).create(true).to_owned();
+    let mut file = options.open(path).map_err(|e| named(path, &e))?;
+    match file.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => {
+            let why = "another search is writing this journal; wait until it has ended, or name another file with --journal";
+            return Err(named(path, &why));
+        }
+        // A file system that knows no locks still keeps a journal.
+        Err(TryLockError::Error(e)) if e.kind() == ErrorKind::Unsupported => {}
+        Err(TryLockError::Error(e)) => return Err(named(path, &e)),
+    }
+    let mut text = Vec::new();
+    file.read_to_end(&mut text).map_err(|e| named(path, &e))?;
+    Ok((file, text))
+}
+
+/// `path` with the first number behind it that no file has.
+fn free_name(path: &Path) -> PathBuf {
+    let numbered = |n: u32| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(format!(".{n}"));
+        PathBuf::from(name)
+    };
+    (1..).map(numbered).find(|name| !name.exists()).unwrap_or_else(|| numbered(0))
+}
+
+/// Of all cells before `check`: the first 16 hex digits of their SHA-256, each cell with a line end behind it.
+fn check(row: &csv::StringRecord) -> String {
+    let digest =
+        row.iter().take(CHECK).fold(Sha256::new(), |sum, cell| sum.chain_update(cell).chain_update("\n"));
+    digest.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Text without line ends, as in JSON, so that a row is one line.
+fn one_line(text: &str) -> String {
+    let quoted = serde_json::Value::from(text).to_string();
+    quoted[1..quoted.len() - 1].to_owned()
+}
+
+fn as_written(cell: &str) -> Option<String> {
+    serde_json::from_str(&format!("\"{cell}\"")).ok()
 }
 
 /// Shortest text that reads back as the same double.
@@ -196,7 +351,7 @@ fn numbers(cell: &str) -> Option<Vec<f64>> {
 
 fn typed(why: &NoMargins) -> (&'static str, String) {
     match why {
-        NoMargins::Refused(why) => ("refused", why.clone()),
+        NoMargins::Refused(why) => ("refused", one_line(why)),
         NoMargins::NotFinite { part, index } => ("not-finite", format!("{part:?};{index}")),
         NoMargins::Shape { expected, found } => {
             ("shape", format!("{};{};{};{}", expected.0, expected.1, found.0, found.1))
@@ -213,7 +368,7 @@ fn entry_of(row: &csv::StringRecord) -> Option<(String, Entry)> {
             limits: numbers(cell(8)?)?,
             tie_break: cell(9)?.parse().ok()?,
         }),
-        "refused" => Err(NoMargins::Refused(cell(11)?.to_owned())),
+        "refused" => Err(NoMargins::Refused(as_written(cell(11)?)?)),
         "not-finite" => {
             let (part, index) = cell(11)?.split_once(';')?;
             let part = [Part::Objective, Part::Limit, Part::TieBreak]
@@ -255,7 +410,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("sprag-journal-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let path = folder.join("a.toml.journal");
-        let mut file = JournalFile::begin(&path, "t 1", "d").unwrap();
+        let mut file = JournalFile::open(&path, "t 1", "d").unwrap();
         let good =
             Evaluation { objectives: vec![0.1 + 0.2, -1e-300], limits: vec![1.0 / 3.0], tie_break: 4.2 };
         let entries = [
@@ -277,11 +432,12 @@ mod tests {
         drop(file);
         let file = JournalFile::open(&path, "t 1", "d").unwrap();
         assert_eq!(file.known(&problem()).entries().last(), Some(&more));
+        let other = ProblemId { hash: "q".into(), ..problem() };
+        assert!(file.known(&other).entries().is_empty());
+        drop(file);
         // Another version knows nothing of it, another design has nothing to resume, another problem no entries.
         assert_eq!(JournalFile::open(&path, "t 2", "d").unwrap().entries(), 0);
         assert!(matches!(JournalFile::resume(&path, "t 1", "e"), Err(Failure::Malformed(_))));
-        let other = ProblemId { hash: "q".into(), ..problem() };
-        assert!(file.known(&other).entries().is_empty());
         std::fs::write(&path, "a,b\n1,2\n").unwrap();
         assert!(matches!(JournalFile::open(&path, "t 1", "d"), Err(Failure::Malformed(_))));
         std::fs::remove_dir_all(&folder).unwrap();

@@ -5,16 +5,15 @@ use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
 use super::optimize_file::{file_text, further_text};
-use super::optimize_story::Story;
+use super::optimize_story::{REALISED, ROBUST, Story};
 use super::origin::Kind;
-use super::output::{TOOL, VERSION};
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
 use super::{optimize_answer as answer, parts};
 use crate::design::{Design, EditError, Objective, Optimize};
 use crate::optimise::{
     Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, front,
-    realise, relief, robust, search, spread,
+    is_centroid, realise, relief, robust, search, spread,
 };
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -29,10 +28,18 @@ Examples:
   sprag-design optimize designs/huang2017-multi-arc.toml --pareto slip-margin,torque-capacity --report front.html
 
 Every margin of `check` is a limit. Each evaluation goes into a journal at once: Ctrl-C stops the search and writes the
-best design found so far, --resume goes on from NEW.toml.journal and ends where an uninterrupted search ends; --journal
-keeps the record for later searches too, as a CSV file that only grows. A journal belongs to what the design file says:
-comments and layout may change, a value or a history makes another problem. In NEW.toml each value that the search has
-changed says so behind it, with what it was; the design's histories are copied beside it.";
+best design found so far, --resume goes on from NEW.toml.journal and ends where an uninterrupted search ends; without
+--resume a journal that is there is kept under another name, which is told. --journal keeps the record for later searches
+too, as a CSV file that only grows. A journal belongs to what the design file says: comments and layout may change, a
+value or a history makes another problem. Rows by another version of the program, and rows that were edited or damaged,
+are kept and not used. One search at a time writes a journal; a second is refused.
+
+In NEW.toml each value that the search has changed says so behind it, with what it was; the design's histories are copied
+beside it. A design with a free centroid is written once more with flanks that give it, as NEW.realised.toml; the design of
+--robust is NEW.robust.toml. No output replaces FILE, nor without --force a file that this tool did not write.
+
+Exit codes: 0 every limit held, with --robust at every corner of the tolerances too; 1 no such design found; 130 stopped by
+Ctrl-C, the best design so far is written if it is better than FILE.";
 
 /// Arguments of `optimize`.
 #[derive(Debug, Clone, Args)]
@@ -94,7 +101,6 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     refuse_tolerance(args.tolerance)?;
     let new = output_path(args);
     let record = args.journal.clone().unwrap_or_else(|| journal::path_for(&new));
-    context.outputs.check(&[&args.file], &[(&new, Kind::Design), (&record, Kind::Table)])?;
     let design = parts::read_design(&args.file, context)?;
     let histories = Histories::beside(&design, &new)?;
     let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
@@ -107,12 +113,31 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     if args.robust && design.tolerances.is_none() {
         return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
     }
-    let (model, said) = (format!("{TOOL} {VERSION}"), design.content_hash());
+    let beside = beside(&new, &task, args);
+    let others: Vec<_> = [(new.as_path(), Kind::Design), (&record, Kind::Table)]
+        .into_iter()
+        .chain(beside.iter().map(|path| (path.as_path(), Kind::Design)))
+        .collect();
+    context.outputs.check(&[&args.file], &others)?;
+    let (model, said) = (journal::model(), design.content_hash());
     let file = match (args.resume, args.journal.is_some()) {
         (true, _) => JournalFile::resume(&record, &model, &said)?,
         (false, true) => JournalFile::open(&record, &model, &said)?,
-        (false, false) => JournalFile::begin(&record, &model, &said)?,
+        (false, false) => {
+            let (file, kept) = JournalFile::begin(&record, &model, &said)?;
+            if let Some(kept) = kept {
+                context.message(&format!(
+                    "{} held the record of an earlier search; it is kept as {}, and --resume --journal with that name goes on from it",
+                    record.display(),
+                    kept.display()
+                ));
+            }
+            file
+        }
     };
+    if let Some(what) = file.unused() {
+        context.message(&format!("warning: {what}"));
+    }
     let known = file.entries();
     let drawn = args.starts != Some(1) || args.global.is_some() || args.robust;
     context.message(&format!(
@@ -137,12 +162,20 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     let Keeper { progress, file, .. } = keeper;
     drop(progress);
     if let Some(why) = &file.failed {
-        context.message(&format!("warning: {}: {why}; --resume will not work", file.path().display()));
+        context.message(&format!(
+            "warning: {}: {why}; evaluations from there on are not in the journal",
+            file.path().display()
+        ));
     }
     let story = match story {
         Ok(story) => story,
         Err(NoSearch::Stopped) => return Err(Failure::Interrupted),
-        Err(why) => return Err(at(why.to_string())),
+        Err(why) => {
+            if args.journal.is_none() && !args.resume {
+                file.discard();
+            }
+            return Err(at(why.to_string()));
+        }
     };
     finish(&design, &story, (&new, &histories), (file, args.journal.is_some()), run_time_s, context)
 }
@@ -167,8 +200,16 @@ fn tell(
     desk: &Desk,
 ) -> Result<Story, NoSearch> {
     let found = search(design, method, fidelity, desk)?;
-    let mut story =
-        Story { found, realised: None, relief: None, front: None, made: None, robust: None, why: Vec::new() };
+    let mut story = Story {
+        found,
+        realised: None,
+        relief: None,
+        front: None,
+        made: None,
+        robust: None,
+        wants_robust: args.robust,
+        why: Vec::new(),
+    };
     if matches!(story.found.outcome.status, Status::Infeasible { .. }) {
         let (problem, outcome) = (&story.found.problem, &story.found.outcome);
         story.relief = Some(relief(design, problem, outcome, desk));
@@ -197,6 +238,13 @@ fn tell(
             Ok(robust) => story.robust = Some(robust),
             Err(why) => story.why.push(format!("no robust design: {why}")),
         }
+        // Corners and draws that were not looked at are none at which the clutch is impossible.
+        if desk.stopped() {
+            (story.made, story.robust) = (None, None);
+        }
+    }
+    if desk.stopped() {
+        story.why.push("stopped by Ctrl-C; what was not reached is left out".to_owned());
     }
     Ok(story)
 }
@@ -240,11 +288,11 @@ fn finish(
     context.answer(&answer.text(context))?;
     if !interrupted && !keep && file.failed.is_none() && context.outputs.unwritten().is_empty() {
         // The search is over and its answer is safe: nothing is left to resume.
-        let _ = std::fs::remove_file(file.path());
+        file.discard();
     }
     Ok(if interrupted {
         Exit::Interrupted
-    } else if feasible {
+    } else if feasible && answer.not_robust().is_none() {
         Exit::Held
     } else {
         Exit::NotHeld
@@ -257,6 +305,13 @@ fn output_path(args: &OptimizeArgs) -> PathBuf {
         let stem = args.file.file_stem().map_or_else(|| "design".into(), |s| s.to_string_lossy());
         PathBuf::from(format!("{stem}-optimized.toml"))
     })
+}
+
+/// Names of the further designs that this search may write.
+fn beside(new: &Path, task: &Optimize, args: &OptimizeArgs) -> Vec<PathBuf> {
+    let realised = task.variables.iter().any(|v| is_centroid(&v.name)).then_some(REALISED);
+    let robust = args.robust.then_some(ROBUST);
+    realised.into_iter().chain(robust).map(|ending| new.with_extension(format!("{ending}.toml"))).collect()
 }
 
 /// Progress and journal.

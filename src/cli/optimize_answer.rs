@@ -40,10 +40,25 @@ fn held_cell(m: &Margin) -> Cell {
 }
 
 impl Told<'_> {
+    /// How it ended. A climb may have converged before others were stopped; the search has not.
+    fn status(&self) -> &Status {
+        if self.interrupted { &Status::Interrupted } else { &self.found.outcome.status }
+    }
+
+    /// Why the robust design that was asked for is not there; `None` where it is, or none was asked for.
+    pub fn not_robust(&self) -> Option<&'static str> {
+        match (&self.story.robust, self.story.wants_robust) {
+            (_, false) => None,
+            (None, true) => Some("no robust design found"),
+            (Some(robust), true) => (!robust.made.held())
+                .then_some("no design found that holds every limit at every corner of the tolerances"),
+        }
+    }
+
     /// How it ended, in one sentence.
     pub fn verdict(&self) -> String {
         let (before, after) = self.found.objective;
-        let why = match &self.found.outcome.status {
+        let why = match self.status() {
             Status::Converged => "converged".to_owned(),
             Status::Infeasible { least_violation, fighting } => {
                 let names: Vec<&str> = fighting
@@ -63,13 +78,14 @@ impl Told<'_> {
         };
         if self.found.feasible() {
             format!(
-                "{} {} -> {} (+- {:.0e}), every limit held; {why} after {} evaluations{}",
+                "{} {} -> {} (+- {:.0e}), every limit held; {why} after {} evaluations{}{}",
                 self.found.aim.words(),
                 shown(self.found.aim, before),
                 shown(self.found.aim, after),
                 self.found.objective_error.max(1e-16),
                 self.found.evaluations,
-                if self.found.wants_centroid() { "; no flanks give its centroid yet" } else { "" }
+                if self.found.wants_centroid() { "; no flanks give its centroid yet" } else { "" },
+                self.not_robust().map_or(String::new(), |why| format!("; {why}"))
             )
         } else {
             format!("no feasible design found: {why} after {} evaluations", self.found.evaluations)
@@ -249,8 +265,8 @@ impl Told<'_> {
         let rows = |list: &[Margin]| list.iter().map(row).collect::<Vec<_>>();
         let dropped: Vec<&str> =
             found.variables.iter().filter(|v| v.dropped).map(|v| v.name.as_str()).collect();
-        let status = word(&found.outcome.status);
-        let fighting: Vec<&String> = match &found.outcome.status {
+        let status = word(self.status());
+        let fighting: Vec<&String> = match self.status() {
             Status::Infeasible { fighting, .. } => {
                 fighting.iter().filter_map(|&i| found.names.limits.get(i)).collect()
             }
@@ -292,7 +308,7 @@ impl Told<'_> {
     /// The page.
     pub fn page(&self, context: &Context) -> Page {
         let mut page = parts::page("Optimisation", self.design, context);
-        page.verdict(self.found.feasible(), &self.verdict());
+        page.verdict(self.found.feasible() && self.not_robust().is_none(), &self.verdict());
         if let Some(path) = self.written {
             page.paragraph(&format!("New design: {}", path.display()));
         }

@@ -21,9 +21,16 @@ pub struct Story {
     pub made: Option<Robust>,
     /// The optimum that holds at every corner.
     pub robust: Option<RobustSearch>,
+    /// Whether a robust design was asked for.
+    pub wants_robust: bool,
     /// What was asked and could not be done.
     pub why: Vec<String>,
 }
+
+/// Middle of the name of the design with flanks for a centroid that was free.
+pub const REALISED: &str = "realised";
+/// Middle of the name of the robust design.
+pub const ROBUST: &str = "robust";
 
 /// A status in one word.
 pub fn word(status: &Status) -> &'static str {
@@ -320,14 +327,14 @@ impl Story {
             } else {
                 "flanks nearest to the wanted centroid"
             };
-            files.push(("realised", what, text.as_str()));
+            files.push((REALISED, what, text.as_str()));
         }
         if let Some(robust) = &self.robust {
             let what = match robust.made.held() {
                 true => "held at every corner of [tolerances]",
                 false => "as near as was found to holding every corner of [tolerances], not held at all",
             };
-            files.push(("robust", what, robust.file.as_str()));
+            files.push((ROBUST, what, robust.file.as_str()));
         }
         files
     }

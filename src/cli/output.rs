@@ -57,10 +57,19 @@ impl<'a, L: Serialize, B: Serialize> Envelope<'a, L, B> {
 /// # Errors
 /// [`Failure::Failed`] where standard output cannot be written for another reason (full disk).
 pub fn print(text: &str) -> Result<(), Failure> {
+    heard(text).map(|_| ())
+}
+
+/// As [`print()`]; `false` where the reader has gone, so that nothing more need be computed.
+///
+/// # Errors
+/// As [`print()`].
+pub fn heard(text: &str) -> Result<bool, Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Failed(format!("standard output: {e}"))),
-        _ => Ok(()),
+        Ok(()) => Ok(true),
+        Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(false),
+        Err(e) => Err(Failure::Failed(format!("standard output: {e}"))),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The fit: Nelder-Mead of argmin from several starts, finished by Levenberg and Marquardt.
 
-use std::fmt;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use argmin::core::{CostFunction, Executor, State};
@@ -8,6 +8,7 @@ use argmin::solver::neldermead::NelderMead;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::no_fit::{NoFit, SoFar};
 use super::observation::{Observation, Use};
 use super::predict::{NoPrediction, Prediction, design_with, predict};
 use super::statistics::{Knowledge, knowledge};
@@ -40,48 +41,6 @@ impl Default for Settings {
         Self { starts: 4, seed: 1, evaluations: 200 }
     }
 }
-
-/// Why nothing can be fitted.
-#[derive(Debug, Clone, PartialEq)]
-pub enum NoFit {
-    /// No unknown, or one twice.
-    Unknowns(String),
-    /// An unknown that the design does not have, or bounds that are none.
-    Unknown {
-        /// Its name.
-        name: String,
-        /// What is wrong.
-        why: String,
-    },
-    /// No observation takes part in the fit.
-    NothingToFit,
-    /// No design between the bounds answers every observation.
-    Nowhere {
-        /// Designs tried.
-        tried: usize,
-        /// The last reason and the label of its row.
-        why: String,
-    },
-    /// Stopped from outside.
-    Stopped,
-}
-
-impl fmt::Display for NoFit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unknowns(why) => f.write_str(why),
-            Self::Unknown { name, why } => write!(f, "unknown {name:?}: {why}"),
-            Self::NothingToFit => f.write_str("no row of the data is there for the fit"),
-            Self::Nowhere { tried, why } => write!(
-                f,
-                "none of {tried} designs between the bounds can be held against every row of the fit; {why}"
-            ),
-            Self::Stopped => f.write_str("stopped"),
-        }
-    }
-}
-
-impl std::error::Error for NoFit {}
 
 /// An observation and what the fitted design says.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,6 +90,8 @@ struct Problem<'a> {
     low: Vec<f64>,
     range: Vec<f64>,
     count: AtomicUsize,
+    /// Shares and sum of the best design so far.
+    best: Mutex<Option<(Vec<f64>, f64)>>,
     stop: Option<&'a AtomicBool>,
 }
 
@@ -178,7 +139,27 @@ impl Problem<'_> {
                     .collect()
             })
             .collect();
-        Ok(DVector::from_vec(rows?.concat()))
+        let residuals = DVector::from_vec(rows?.concat());
+        let sum = residuals.norm_squared();
+        let mut best = self.best.lock().unwrap_or_else(|e| e.into_inner());
+        if best.as_ref().is_none_or(|(_, least)| sum < *least) {
+            *best = Some((t.to_vec(), sum));
+        }
+        Ok(residuals)
+    }
+
+    /// The end of a search that was stopped.
+    fn stopped(&self) -> NoFit {
+        let best = self.best.lock().unwrap_or_else(|e| e.into_inner()).take();
+        NoFit::Stopped(best.and_then(|(t, sum)| {
+            let source = design_with(self.design, &[], &self.named(&t)).ok()?.source;
+            Some(SoFar {
+                values: self.values(&t),
+                sum,
+                evaluations: self.count.load(Ordering::Relaxed),
+                source,
+            })
+        }))
     }
 
     fn sum(&self, t: &[f64]) -> f64 {
@@ -248,20 +229,21 @@ pub fn identify(
         low: unknowns.iter().map(|u| u.min).collect(),
         range: unknowns.iter().map(|u| u.max - u.min).collect(),
         count: AtomicUsize::new(0),
+        best: Mutex::new(None),
         stop,
     };
     if problem.groups.is_empty() {
         return Err(NoFit::NothingToFit);
     }
     let starts = starts(&problem, unknowns, &before, settings)
-        .map_err(|e| if stopped() { NoFit::Stopped } else { e })?;
+        .map_err(|e| if stopped() { problem.stopped() } else { e })?;
     let mut sums = Vec::new();
     let mut best: Option<(Vec<f64>, f64, bool)> = None;
     for start in starts {
         let simplex = simplex_search(&problem, &start, settings.evaluations);
         let (t, sum, converged) = finish(&problem, simplex);
         if stopped() {
-            return Err(NoFit::Stopped);
+            return Err(problem.stopped());
         }
         sums.push(sum);
         if best.as_ref().is_none_or(|b| sum < b.1) {
@@ -270,8 +252,9 @@ pub fn identify(
     }
     let nowhere = |why: String| NoFit::Nowhere { tried: problem.count.load(Ordering::Relaxed), why };
     let (t, sum, converged) = best.ok_or_else(|| nowhere("no start".to_owned()))?;
-    let residuals = problem.residuals(&t).map_err(nowhere)?;
-    let jacobian = problem.jacobian(&t).map_err(nowhere)?;
+    let last = problem.residuals(&t).and_then(|r| Ok((r, problem.jacobian(&t)?)));
+    let (residuals, jacobian) =
+        last.map_err(|why| if stopped() { problem.stopped() } else { nowhere(why) })?;
     let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &problem.range);
     let mut named = problem.named(&t);
     // What the data say nothing of stays as it was.

@@ -5,11 +5,13 @@
 //! Equations: none; least squares after Bates & Watts, *Nonlinear Regression Analysis*, ch. 2.
 
 mod fit;
+mod no_fit;
 mod observation;
 mod predict;
 mod statistics;
 
-pub use fit::{Identified, NoFit, Point, Settings, Unknown, identify};
+pub use fit::{Identified, Point, Settings, Unknown, identify};
+pub use no_fit::{NoFit, SoFar};
 pub use observation::{Fault, Kind, Observation, Use, observations};
 pub use predict::{NoPrediction, Prediction, predict};
 pub use statistics::{Estimate, Knowledge, STRONG, Tied};

@@ -9,6 +9,7 @@ use super::poll;
 use super::settings::Settings;
 use super::space::Space;
 use super::sqp::{Climb, End, Tally};
+use super::starts::rank;
 use super::view::{Phase, View};
 
 /// Restorations, and restarts from a better point that the poll found, before giving up.
@@ -239,15 +240,8 @@ impl Driver<'_, '_> {
 
     /// Best point this run asked for: feasible with the largest least margin, or else with the least violation.
     fn best_seen(&self, fallback: &Point) -> Point {
-        let tolerance = self.settings.violation_tolerance;
-        let rank = |e: &Evaluation| {
-            let violation = e.violation();
-            if violation <= tolerance { (0.0, -e.least_margin()) } else { (violation, 0.0) }
-        };
-        let known = self
-            .memo
-            .asked_entries()
-            .filter_map(|entry| entry.outcome.as_ref().ok().map(|e| (rank(e), &entry.x, e)));
+        let rank = |e: &Evaluation| rank(e, self.settings.violation_tolerance);
+        let known = self.memo.known().map(|(x, e)| (rank(e), x, e));
         let best = known.min_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1)));
         match best {
             Some((found, x, evaluation)) if found < rank(&fallback.evaluation) => {

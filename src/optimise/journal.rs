@@ -86,6 +86,8 @@ pub struct Run<'a> {
 pub(super) struct Memo<'a> {
     problem: &'a dyn Evaluate,
     pub run: Run<'a>,
+    /// Entries known beforehand; they may lie outside this run's box.
+    given: usize,
     shape: Option<(usize, usize)>,
     asked: HashSet<usize>,
     limit: usize,
@@ -94,7 +96,8 @@ pub(super) struct Memo<'a> {
 
 impl<'a> Memo<'a> {
     pub fn new(problem: &'a dyn Evaluate, run: Run<'a>, limit: usize) -> Self {
-        Memo { problem, run, shape: None, asked: HashSet::new(), limit, failures: 0 }
+        let given = run.journal.entries.len();
+        Memo { problem, run, given, shape: None, asked: HashSet::new(), limit, failures: 0 }
     }
 
     /// Distinct points asked for so far in this run, computed or remembered.
@@ -107,9 +110,18 @@ impl<'a> Memo<'a> {
         self.shape.unwrap_or((0, 0))
     }
 
-    /// Entries this run asked for, in the journal's order.
-    pub fn asked_entries(&self) -> impl Iterator<Item = &Entry> {
-        self.run.journal.entries.iter().enumerate().filter(|(i, _)| self.asked.contains(i)).map(|(_, e)| e)
+    /// Whether the caller wants an end.
+    pub fn stopped(&self) -> bool {
+        self.run.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+
+    /// Points with margins that this run asked for; where it was stopped, those of the batch cut short too.
+    pub fn known(&self) -> impl Iterator<Item = (&Vec<f64>, &Evaluation)> {
+        let entries = self.run.journal.entries.iter().enumerate();
+        let stopped = self.stopped();
+        entries
+            .filter(move |(i, _)| self.asked.contains(i) || stopped && *i >= self.given)
+            .filter_map(|(_, entry)| entry.outcome.as_ref().ok().map(|e| (&entry.x, e)))
     }
 
     /// Outcome at one point.

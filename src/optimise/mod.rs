@@ -46,7 +46,7 @@ pub use outcome::{Active, Cause, Iteration, Outcome, Refusal, Residuals, Status,
 pub use pareto::{Front, FrontPoint, front};
 pub use price::{Price, PriceKind};
 pub use problem::{ClutchProblem, Fidelity, Looked, Names};
-pub use realise::{Nearest, Realised, realise};
+pub use realise::{Nearest, Realised, is_centroid, realise};
 pub use relief::{Freed, Relief, relief};
 pub use robust::{Robust, RobustSearch, Spread, robust, spread};
 pub use search::{NoSearch, Search, Variable, search, search_problem};

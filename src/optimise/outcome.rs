@@ -141,6 +141,25 @@ pub struct Outcome {
     pub journal: Journal,
 }
 
+impl Outcome {
+    /// A run that was stopped before its start, whose margins were known beforehand, had been asked for.
+    pub(super) fn stopped_at(x: Vec<f64>, evaluation: Evaluation) -> Self {
+        Self {
+            status: Status::Interrupted,
+            x,
+            evaluation,
+            objective_multipliers: Vec::new(),
+            limit_multipliers: Vec::new(),
+            active: Active::default(),
+            residuals: Residuals::default(),
+            evaluations: 0,
+            failures: 0,
+            history: Vec::new(),
+            journal: Journal::default(),
+        }
+    }
+}
+
 /// A malformed question.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Refusal {

@@ -159,7 +159,8 @@ pub fn realise(
     Ok(Some(Realised { nearest, looked, objective, file: text, search }))
 }
 
-fn is_centroid(name: &str) -> bool {
+/// Whether a variable is a coordinate of the sprag's centroid.
+pub fn is_centroid(name: &str) -> bool {
     name.starts_with("centroid_") || name.starts_with("sprags.centroid.")
 }
 

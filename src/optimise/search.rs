@@ -8,6 +8,7 @@ use super::influence::{Influence, influence};
 use super::outcome::{Outcome, Refusal, Status};
 use super::price::{Price, prices};
 use super::problem::{ClutchProblem, Fidelity, Looked, Names};
+use super::realise::is_centroid;
 use super::starts::{Climbed, Method, Optima, Start, climb_all, rank, rescued};
 use crate::design::{Design, Objective, Optimize};
 use crate::margin::Margin;
@@ -92,9 +93,7 @@ impl Search {
 
     /// Whether the centroid was a free variable, so that no flanks are known that give it.
     pub fn wants_centroid(&self) -> bool {
-        self.variables
-            .iter()
-            .any(|v| v.name.starts_with("centroid_") || v.name.starts_with("sprags.centroid."))
+        self.variables.iter().any(|v| is_centroid(&v.name))
     }
 
     /// Bounds of the variables of `outcome`.
@@ -114,7 +113,7 @@ pub enum NoSearch {
     Refused(Refusal),
     /// No variable is left that moves a margin.
     NothingMoves(Vec<String>),
-    /// Stopped before anything was known.
+    /// Stopped before anything was found.
     Stopped,
 }
 
@@ -127,7 +126,7 @@ impl std::fmt::Display for NoSearch {
             Self::NothingMoves(names) => {
                 write!(f, "no variable moves any margin, so there is nothing to search: {}", names.join(", "))
             }
-            Self::Stopped => write!(f, "stopped before the given design was evaluated"),
+            Self::Stopped => write!(f, "stopped before anything was found"),
         }
     }
 }

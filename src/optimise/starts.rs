@@ -1,5 +1,7 @@
 //! Several climbs side by side from a low-discrepancy set of starts, and the best of them.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 
 use super::desk::Desk;
@@ -121,7 +123,8 @@ pub(super) fn climb_all(
     let tolerance = method.climb.violation_tolerance;
     let mut from_box = Points { next: 0, spent: 0 };
     let mut spent_on_swarm = 0;
-    let mut named = vec![("design".to_owned(), x0.to_vec())];
+    // Margins go along where they are known: a climb that is stopped before it begins still has its start.
+    let mut named = vec![("design".to_owned(), x0.to_vec(), None)];
     if let Some(evaluations) = method.swarm {
         desk.begins("particle swarm");
         let settings = &method.climb;
@@ -130,7 +133,7 @@ pub(super) fn climb_all(
         });
         if let Some(found) = found {
             spent_on_swarm = found.evaluations;
-            named.push(("swarm".to_owned(), found.x));
+            named.push(("swarm".to_owned(), found.x, Some(found.evaluation)));
         }
     }
     let mut found = Found { tolerance, starts: Vec::new(), best: None, refusal: None };
@@ -140,12 +143,20 @@ pub(super) fn climb_all(
             .min(method.most_starts.max(method.starts) - 1 - drawn);
         let points = from_box.draw(desk, problem, (lo, hi), wanted, method);
         let none_left = points.is_empty() && wanted > 0;
-        named.extend(points.into_iter().enumerate().map(|(i, x)| (format!("point {}", drawn + i + 1), x)));
+        let name = |i: usize| format!("point {}", drawn + i + 1);
+        named.extend(points.into_iter().enumerate().map(|(i, (x, e))| (name(i), x, Some(e))));
         drawn += wanted;
         desk.begins("search");
         let outcomes: Vec<(String, Result<Outcome, Refusal>)> = std::mem::take(&mut named)
             .into_par_iter()
-            .map(|(from, x)| (from, desk.climb(problem, &x, (lo, hi), &method.climb)))
+            .map(|(from, x, known)| {
+                let outcome = desk.climb(problem, &x, (lo, hi), &method.climb);
+                let outcome = match (outcome, known) {
+                    (Err(Refusal::StoppedAtStart), Some(known)) => Ok(Outcome::stopped_at(x, known)),
+                    (outcome, _) => outcome,
+                };
+                (from, outcome)
+            })
             .collect();
         outcomes.into_iter().for_each(|(from, outcome)| found.add(from, outcome));
         let optima = Optima::of(&found.starts, tolerance);
@@ -158,7 +169,11 @@ pub(super) fn climb_all(
     let spent_on_points = from_box.spent + spent_on_swarm;
     let evaluations = spent_on_points + starts.iter().map(|s| s.evaluations).sum::<usize>();
     match (best, refusal) {
-        (Some(best), _) => Ok(Climbed { best, starts, optima, evaluations }),
+        (Some(best), _) => {
+            // The best climb may have come to its end; the search of the box has not.
+            let status = if desk.stopped() { Status::Interrupted } else { best.status.clone() };
+            Ok(Climbed { best: Outcome { status, ..best }, starts, optima, evaluations })
+        }
         (None, Some(why)) => Err(why),
         (None, None) => Err(Refusal::StoppedAtStart),
     }
@@ -221,7 +236,7 @@ impl Points {
         (lo, hi): (&[f64], &[f64]),
         wanted: usize,
         method: &Method,
-    ) -> Vec<Vec<f64>> {
+    ) -> Vec<(Vec<f64>, Evaluation)> {
         let mut found = Vec::new();
         if wanted == 0 {
             return found;
@@ -239,8 +254,15 @@ impl Points {
                     })
                     .collect();
                 self.next += wanted as u32;
-                let Ok(outcomes) = memo.batch(some.clone()) else { break };
-                found.extend(some.into_iter().zip(outcomes).filter(|(_, o)| o.is_ok()).map(|(x, _)| x));
+                let Ok(outcomes) = memo.batch(some.clone()) else {
+                    // Stopped: what is known of the batch is given all the same.
+                    found = memo.known().map(|(x, e)| (x.clone(), e.clone())).collect();
+                    found.sort_by(|a, b| {
+                        rank(&a.1, 0.0).partial_cmp(&rank(&b.1, 0.0)).unwrap_or(Ordering::Equal)
+                    });
+                    break;
+                };
+                found.extend(some.into_iter().zip(outcomes).filter_map(|(x, o)| Some((x, o.ok()?))));
             }
             self.spent += memo.evaluations();
         });
@@ -261,5 +283,5 @@ pub(super) fn rescued(
     if problem.evaluate(x0).is_ok() {
         return Some(x0.to_vec());
     }
-    Points { next: 0, spent: 0 }.draw(desk, problem, bounds, 4, method).into_iter().next()
+    Points { next: 0, spent: 0 }.draw(desk, problem, bounds, 4, method).into_iter().next().map(|(x, _)| x)
 }

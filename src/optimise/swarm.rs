@@ -15,6 +15,7 @@ use super::evaluate::{Evaluate, Evaluation, Failure};
 use super::journal::{Halt, Memo, Run};
 use super::settings::Settings;
 use super::space::Space;
+use super::starts::rank;
 
 /// Particles: argmin's own example and the usual choice.
 const PARTICLES: usize = 40;
@@ -72,7 +73,7 @@ impl CostFunction for Flock<'_, '_> {
 }
 
 /// Best of some `evaluations` points of a swarm in the box, its draws fixed by `seed`; `None` where no point has margins
-/// or the run was stopped before one.
+/// or the run was stopped before one; a run that was stopped gives the best so far.
 pub fn swarm<'a>(
     problem: &'a dyn Evaluate,
     (x0, lo, hi): (&[f64], &[f64], &[f64]),
@@ -94,14 +95,9 @@ pub fn swarm<'a>(
     let rounds = (evaluations / PARTICLES).max(2) as u64 - 1;
     // What was found is in the memo, whether the swarm ended or was stopped.
     drop(Executor::new(flock, solver).configure(|s| s.max_iters(rounds)).timer(false).run());
-    let tolerance = settings.violation_tolerance;
-    let rank = |e: &Evaluation| {
-        let violation = e.violation();
-        if violation <= tolerance { (0.0, -e.least_margin()) } else { (violation, 0.0) }
-    };
+    let rank = |e: &Evaluation| rank(e, settings.violation_tolerance);
     let evaluations = memo.evaluations();
-    let known = memo.asked_entries().filter_map(|entry| entry.outcome.as_ref().ok().map(|e| (&entry.x, e)));
-    let best = known.min_by(|a, b| {
+    let best = memo.known().min_by(|a, b| {
         let (a, b) = (rank(a.1), rank(b.1));
         a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
     });
