@@ -272,7 +272,8 @@ pub fn identify(
     let (t, sum, converged) = best.ok_or_else(|| nowhere("no start".to_owned()))?;
     let residuals = problem.residuals(&t).map_err(nowhere)?;
     let jacobian = problem.jacobian(&t).map_err(nowhere)?;
-    let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &problem.range);
+    let bounds: Vec<(f64, f64)> = unknowns.iter().map(|u| (u.min, u.max)).collect();
+    let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &bounds);
     let mut named = problem.named(&t);
     // What the data say nothing of stays as it was.
     for j in knowledge.without_influence() {

@@ -12,4 +12,4 @@ mod statistics;
 pub use fit::{Identified, NoFit, Point, Settings, Unknown, identify};
 pub use observation::{Fault, Kind, Observation, Use, observations};
 pub use predict::{NoPrediction, Prediction, predict};
-pub use statistics::{Estimate, Knowledge, STRONG, Tied};
+pub use statistics::{Doubt, Estimate, INSEPARABLE, Knowledge, STRONG, Tied};
