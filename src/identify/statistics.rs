@@ -225,7 +225,7 @@ mod tests {
             // t(0.975, 3) = 3.182
             assert!((e.half_width.unwrap() / want - 3.182).abs() < 1e-3);
         }
-        let rho = k.correlation.unwrap()[0][1];
+        let rho = k.correlation.as_ref().unwrap()[0][1];
         assert!((rho + mx / (square / 5.0).sqrt()).abs() < 1e-12, "{rho}");
         assert!(k.tied.is_empty());
         // 0.06 +- 0.6 in a range of 10, 0.99 +- 0.18 in one of 2.

@@ -174,11 +174,11 @@ fn doubt_sentence(found: &Identified, j: usize, doubt: Doubt) -> Option<String> 
     Some(match doubt {
         Doubt::NoInterval => return None,
         Doubt::WiderThanBounds => format!(
-            "{interval} says no more than its bounds {} to {} did: add data that feel it, or leave it out",
+            "{interval} says no more than its bounds {} to {} did: add data that feel it, or leave it out of the unknowns",
             u.min, u.max
         ),
         Doubt::WiderThanValue => format!(
-            "{interval} is uncertain by more than half its value: add data that feel it, or leave it out"
+            "{interval} is uncertain by more than half its value: add data that feel it, or leave it out of the unknowns"
         ),
         Doubt::Inseparable(other) => format!(
             "{interval} holds only if the model is exact: with {} it forms one unknown; fix one of the two",
