@@ -6,7 +6,7 @@ mod program;
 use program::*;
 
 const DATA: &str =
-    "label,use,torque_nm,windup_deg\na,,10,1.2345\nb,fit,16.8,1.94\nc,,50,5.1\nd,check,90,8.5\n";
+    "label,use,torque_nm,windup_deg\na,,10,1.2215\nb,fit,16.8,1.975\nc,,80,7.56\nd,check,90,8.5\n";
 
 fn data(folder: &Folder, text: &str) -> String {
     let path = folder.path("data.csv");
@@ -76,6 +76,28 @@ fn what_is_not_determined_is_exit_code_1_and_a_plain_word() {
     ]);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     assert!(stdout(&output).contains("the data say nothing of centroid_y_mm"), "{}", stdout(&output));
+}
+
+#[test]
+fn an_interval_wider_than_the_bounds_determines_nothing() {
+    let folder = Folder::new();
+    let data = data(&folder, "torque_nm,windup_deg\n10,1.2345\n20,2.24\n30,3.17\n50,5.1\n70,6.75\n");
+    // A radius and where it begins, and two radii in series, act as one.
+    for (unknown, named) in [
+        ("r_i2_mm:3.9:4.3,junction_1_rad:0.05:0.08", "the data do not determine r_i2_mm, junction_1_rad\n"),
+        (
+            "r_i1_mm:3.9:4.1,races.inner_radius_mm:11.0:11.2",
+            "the data do not determine r_i1_mm, races.inner_radius_mm\n",
+        ),
+    ] {
+        let new = folder.path("new.toml");
+        let output =
+            run(&["identify", MULTI, "--data", &data, "--unknown", unknown, "--starts", "1", "-o", &new]);
+        let text = stdout(&output);
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.contains(named) && text.contains("says no more than its bounds"), "{text}");
+        assert!(std::fs::read_to_string(&new).unwrap().contains("(95 %), not determined\n"));
+    }
 }
 
 #[test]

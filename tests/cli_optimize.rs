@@ -305,3 +305,37 @@ fn evaluate_answers_line_by_line() {
     assert!(told[4]["malformed"].as_str().unwrap().starts_with("line 5: no UTF-8"));
     assert_eq!(told[5], told[1]);
 }
+
+#[test]
+fn a_design_outside_the_bounds_is_searched_from_the_nearest_point_inside_and_says_so() {
+    let folder = folder("outside");
+    let source = std::fs::read_to_string(DESIGN).unwrap();
+    let design = folder.join("outside.toml");
+    let text = source
+        .replace("min = 3.6, max = 4.8", "min = 3.6, max = 4.0")
+        .replace("\"high-6\", \"low-10\", \"rated-45\", \"rated-45-at-speed\"]", "\"rated-45\"]");
+    assert_ne!(text, source);
+    std::fs::write(&design, text).unwrap();
+    let (new, page) = (folder.join("new.toml"), folder.join("new.html"));
+    let [design, new, page] = [&design, &new, &page].map(|p| p.to_str().unwrap());
+    let out = tool(&[
+        "optimize",
+        design,
+        "-o",
+        new,
+        "--report",
+        page,
+        "--json",
+        "--starts",
+        "1",
+        "--evaluations",
+        "30",
+    ]);
+    let told = json(&out);
+    assert_eq!(told["in_file"]["r_i2_mm"], 4.08, "{}", String::from_utf8_lossy(&out.stderr));
+    assert_eq!(told["start"]["variables"]["r_i2_mm"], 4.0);
+    let said =
+        "r_i2_mm is 4.08 in the file, outside its bounds 3.6 to 4 in [optimize]: the search started from 4.";
+    assert!(std::fs::read_to_string(page).unwrap().contains(said));
+    std::fs::remove_dir_all(&folder).unwrap();
+}

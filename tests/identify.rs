@@ -56,6 +56,19 @@ fn a_planted_answer_is_found_to_the_last_digits_without_noise() {
 }
 
 #[test]
+fn bounds_of_the_optimiser_bind_the_optimiser_alone() {
+    // The design's own 4.08 and the planted 3.95 lie on either side of these bounds.
+    let text = MULTI.replacen("min = 3.6, max = 4.8", "min = 4.0, max = 4.05", 1);
+    assert_ne!(text, MULTI);
+    let design = Design::parse(&text, "x.toml").unwrap();
+    let csv = bench(&PLANTED[..1], 0.0);
+    let settings = Settings { starts: 1, seed: 7, evaluations: 120 };
+    let unknowns = [unknown("r_i2_mm", 3.7, 4.4)];
+    let found = identify(&design, &observations(&csv).unwrap(), &unknowns, &settings, None).unwrap();
+    assert!((found.knowledge.estimates[0].value - 3.95).abs() < 1e-6, "{:?}", found.knowledge);
+}
+
+#[test]
 fn with_noise_the_planted_answer_lies_in_the_interval_which_is_as_wide_as_the_noise_makes_it() {
     let noisy = |noise| found(&bench(&PLANTED, noise), &radii(), 1).unwrap().knowledge;
     let (small, large) = (noisy(1e-4), noisy(1e-3));

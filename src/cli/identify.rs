@@ -13,7 +13,7 @@ use super::parts::{self, Answer};
 use crate::design::{Design, MOST_TABLE, read_text};
 use crate::identify::{Identified, NoFit, Settings, SoFar, Unknown, identify, observations};
 use crate::report::Screen;
-use body::{Body, estimates, residuals, sentences};
+use body::{Body, estimates, residuals, sentences, verdict};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -30,7 +30,10 @@ nominal_torque_nm (where the first limit on nominal torque is reached), end_torq
 its standard error as <column>_sigma, without which all count in proportion; dotted keys that a row changes in the
 design, such as races.inner_radius_mm; label; use = fit, check (compared only) or skip.
 
-Exit codes: 0 found; 1 the data leave a direction of the unknowns undetermined, or no design fits between the bounds; 130
+An unknown counts as determined where its 95 % interval is narrower than its bounds and, within bounds of one sign, than its
+value, and no correlation with another exceeds 0.9999. Bounds are those of --unknown; those in [optimize] bind optimize alone.
+
+Exit codes: 0 every unknown is determined; 1 the data leave one undetermined, or no design fits between the bounds; 130
 stopped by Ctrl-C, the best design so far is told, and written where -o names a file.";
 
 /// Arguments of `identify`.
@@ -196,8 +199,9 @@ fn new_file(design: &Design, found: &Identified, context: &Context) -> String {
         .zip(&found.before)
         .zip(&found.knowledge.estimates)
         .map(|((u, before), e)| {
-            let width = e.half_width.map_or("undetermined".to_owned(), |w| format!("+- {w:.3e} (95 %)"));
-            format!("#   {}: {} -> {} {width}\n", u.name, before, e.value)
+            let width = e.half_width.map_or(String::new(), |w| format!(" +- {w:.3e} (95 %)"));
+            let doubt = if e.doubt.is_some() { ", not determined" } else { "" };
+            format!("#   {}: {} -> {}{width}{doubt}\n", u.name, before, e.value)
         })
         .collect();
     head(design, context) + &changes + "#\n" + &found.source
@@ -211,7 +215,7 @@ fn text_of(design: &Design, found: &Identified, screen: Screen) -> String {
         estimates(found).to_text(screen),
         residuals(found).to_text(screen)
     );
-    for line in sentences(found) {
+    for line in std::iter::once(verdict(found)).chain(sentences(found)) {
         out.push_str(&line);
         out.push('\n');
     }

@@ -215,6 +215,7 @@ impl Told<'_> {
     pub fn text(&self, context: &Context) -> String {
         let mut out =
             format!("{}\n\nVariables\n{}", self.verdict(), self.variable_table().to_text(context.screen));
+        out += &self.moved_inside().iter().map(|line| format!("{line}\n")).collect::<String>();
         out += &format!("\nMargins\n{}", self.margin_table().to_text(context.screen));
         out += &format!(
             "\nInfluence at the start: change of each margin over the whole range of a variable\n{}",
@@ -235,6 +236,18 @@ impl Told<'_> {
         };
         out += &self.beside.iter().map(|p| format!("Written: {}\n", path_text(p))).collect::<String>();
         out
+    }
+
+    /// Variables whose value in the file lies outside their bounds.
+    fn moved_inside(&self) -> Vec<String> {
+        let outside = self.found.variables.iter().filter(|v| v.start != v.given);
+        let line = |v: &crate::optimise::Variable| {
+            format!(
+                "{} is {} in the file, outside its bounds {} to {} in [optimize]: the search started from {}.",
+                v.name, v.given, v.min, v.max, v.start
+            )
+        };
+        outside.map(line).collect()
     }
 
     /// What the optimum gained or lost when it was looked at with everything.
@@ -277,6 +290,7 @@ impl Told<'_> {
             "aim": found.aim.name(),
             "feasible": found.feasible(),
             "best": { "variables": values(|v| v.best), "objective": found.objective.1, "margins": rows(&found.best) },
+            "in_file": values(|v| v.given),
             "start": { "variables": values(|v| v.start), "objective": found.objective.0, "margins": rows(&found.start) },
             "evaluations": found.evaluations,
             "failed_evaluations": found.outcome.failures,
@@ -313,6 +327,9 @@ impl Told<'_> {
             page.paragraph(&format!("New design: {}", path.display()));
         }
         page.table("Variables before and after, with their bounds", &self.variable_table());
+        self.moved_inside().iter().for_each(|line| {
+            page.paragraph(line);
+        });
         self.draw(&mut page);
         page.heading("Margins");
         page.table(

@@ -17,8 +17,8 @@ pub fn file_text(design: &Design, found: &Search, context: &Context) -> Result<S
     let changes: String = found
         .variables
         .iter()
-        .filter(|v| v.best != v.start)
-        .map(|v| format!("#   {}: {} -> {}\n", v.name, v.start, v.best))
+        .filter(|v| v.best != v.given)
+        .map(|v| format!("#   {}: {} -> {}\n", v.name, v.given, v.best))
         .collect();
     let not_real = match found.wants_centroid() {
         true => "# The centroid was free and the mass given: no flanks that give them are in this file.\n",

@@ -88,10 +88,18 @@ pub struct Problem {
     pub also: Vec<(String, Place)>,
 }
 
+/// Paths count rows from 0, variables and plots the arcs from 1: behind `sprags.inner_arcs[0].radius_mm` the number of the arc
+/// for people; nothing behind the path of another key.
+fn arc_in_words(key: &str) -> String {
+    let row = key.split_once("sprags.inner_arcs[").and_then(|(_, rest)| rest.split_once(']'));
+    row.and_then(|(k, _)| k.parse::<usize>().ok())
+        .map_or(String::new(), |k| format!(" (inner arc {})", k + 1))
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.key.is_empty() {
-            write!(f, "{}: ", self.key)?;
+            write!(f, "{}{}: ", self.key, arc_in_words(&self.key))?;
         }
         write!(f, "found {}; allowed: {}; to mend: {}", self.found, self.allowed, self.help)
     }
@@ -221,6 +229,17 @@ impl Diagnostic for DesignError {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_arc_is_named_by_its_path_and_by_its_number() {
+        let said = |key: &str| {
+            let [found, allowed, help] = ["-1", "above 0", "give a length"].map(str::to_owned);
+            Problem { key: key.to_owned(), place: None, found, allowed, help, also: Vec::new() }.to_string()
+        };
+        let arc = said("sprags.inner_arcs[1].radius_mm");
+        assert!(arc.starts_with("sprags.inner_arcs[1].radius_mm (inner arc 2): found -1; allowed"), "{arc}");
+        assert!(said("sprags.count").starts_with("sprags.count: found"));
+    }
 
     #[test]
     fn columns_count_characters_and_spans_never_leave_the_text() {

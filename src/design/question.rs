@@ -141,6 +141,8 @@ pub struct OptimizeVariable {
     /// Upper bound in the name's unit.
     pub max: f64,
     /// Value in the file, in the name's unit.
+    pub given: f64,
+    /// Where the search starts: the value in the file, or the bound nearest to it where it lies outside.
     pub start: f64,
     /// Whether it takes whole numbers only.
     pub whole: bool,

@@ -34,14 +34,14 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
             );
         }
     }
-    let mut starts = Vec::with_capacity(task.variables.len());
+    let mut given = Vec::with_capacity(task.variables.len());
     for (i, variable) in task.variables.iter().enumerate() {
         let path = format!("optimize.variables[{i}]");
         if let Some(first) = task.variables.iter().take(i).position(|v| v.name == variable.name) {
             let (name, other) = (format!("{path}.name"), format!("optimize.variables[{first}].name"));
             out.refuse(&[&name, &other], "each variable once".to_owned(), "remove one of the two".to_owned());
         }
-        starts.push(check_variable(variable, &path, file, out));
+        given.push(check_variable(variable, &path, file, out));
     }
     let limits = out.within("optimize", |out| check::limits(&task.limits, base, out));
     objective(task, &limits, out);
@@ -52,12 +52,14 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
         variables: task
             .variables
             .iter()
-            .zip(starts)
-            .map(|(v, start)| OptimizeVariable {
+            .zip(given)
+            .map(|(v, given)| OptimizeVariable {
                 name: v.name.clone(),
                 min: v.min,
                 max: v.max,
-                start,
+                given,
+                // Bounds bind the search alone: a refused file may have them the wrong way round.
+                start: given.max(v.min).min(v.max),
                 whole: is_whole(&v.name, file.sprags.inner_arcs.len()),
             })
             .collect(),
@@ -106,7 +108,7 @@ fn objective(task: &OptimizeFile, limits: &Limits, out: &mut Findings) {
     }
 }
 
-/// The value in the file from which the search starts; 0 where something was refused.
+/// The variable's value in the file, which may lie outside the bounds; 0 where something was refused.
 fn check_variable(v: &VariableFile, path: &str, file: &DesignFile, out: &mut Findings) -> f64 {
     let (name_key, min_key, max_key) = (format!("{path}.name"), format!("{path}.min"), format!("{path}.max"));
     let arcs = file.sprags.inner_arcs.len();
@@ -136,24 +138,15 @@ fn check_variable(v: &VariableFile, path: &str, file: &DesignFile, out: &mut Fin
         out.refuse(&[&min_key, &max_key], "less than max".to_owned(), "give min < max".to_owned());
         return 0.0;
     }
-    let start = out.doc.number(&target);
-    match start {
-        None => out.refuse(
+    let given = out.doc.number(&target);
+    if given.is_none() {
+        out.refuse(
             &[&name_key],
             format!("a variable whose key is in the file; {target} is not"),
             format!("add {target} = ..., the value from which the search starts, or remove the variable"),
-        ),
-        Some(start) if start < v.min || start > v.max => {
-            let bound = if start < v.min { &min_key } else { &max_key };
-            out.refuse(
-                &[bound, &target],
-                format!("bounds around the value in the file, {start}"),
-                format!("widen the bounds of {} or change {target}", v.name),
-            );
-        }
-        Some(_) => {}
+        );
     }
-    start.unwrap_or(0.0)
+    given.unwrap_or(0.0)
 }
 
 fn named_scenarios(key: &str, names: &[String], file: &DesignFile, out: &mut Findings) {

@@ -255,7 +255,8 @@ pub fn identify(
     let last = problem.residuals(&t).and_then(|r| Ok((r, problem.jacobian(&t)?)));
     let (residuals, jacobian) =
         last.map_err(|why| if stopped() { problem.stopped() } else { nowhere(why) })?;
-    let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &problem.range);
+    let bounds: Vec<(f64, f64)> = unknowns.iter().map(|u| (u.min, u.max)).collect();
+    let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &bounds);
     let mut named = problem.named(&t);
     // What the data say nothing of stays as it was.
     for j in knowledge.without_influence() {

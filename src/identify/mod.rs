@@ -14,4 +14,4 @@ pub use fit::{Identified, Point, Settings, Unknown, identify};
 pub use no_fit::{NoFit, SoFar};
 pub use observation::{Fault, Kind, Observation, Use, observations};
 pub use predict::{NoPrediction, Prediction, predict};
-pub use statistics::{Estimate, Knowledge, STRONG, Tied};
+pub use statistics::{Doubt, Estimate, INSEPARABLE, Knowledge, STRONG, Tied};

@@ -7,6 +7,14 @@ use crate::numeric::student;
 /// Correlation from which two parameters count as hardly told apart.
 pub const STRONG: f64 = 0.95;
 
+/// Correlation from which neither of two parameters counts as determined: an error of the model of 1 % moves each by up to
+/// 70 %, 1/sqrt(1 - correlation^2), however small the scatter.
+pub const INSEPARABLE: f64 = 0.9999;
+
+/// Half width of an interval over the range of the bounds, or over the value, from which the value does not count as
+/// determined: the interval is then as wide as what was known before. A choice.
+const TOO_WIDE: f64 = 0.5;
+
 /// Smallest singular value over the largest, with columns of equal length, below which the data are blind in a
 /// direction: derivatives by differences are good to 1e-6 or so.
 const BLIND: f64 = 1e-5;
@@ -27,6 +35,21 @@ pub struct Estimate {
     pub sigma: Option<f64>,
     /// Half width of the 95 % interval (Student's t); `None` as above.
     pub half_width: Option<f64>,
+    /// Why the data do not determine the value; `None` where they do.
+    pub doubt: Option<Doubt>,
+}
+
+/// Why the data do not determine an unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Doubt {
+    /// No interval can be stated: a blind direction, or no more observations than unknowns.
+    NoInterval,
+    /// The interval is as wide as the range of the bounds.
+    WiderThanBounds,
+    /// The half width of the interval is more than half the value, within bounds of one sign.
+    WiderThanValue,
+    /// The correlation with this other unknown (its index) is above [`INSEPARABLE`] in magnitude.
+    Inseparable(usize),
 }
 
 /// Two or more unknowns that the data hardly tell apart, or not at all.
@@ -67,6 +90,11 @@ pub struct Knowledge {
 }
 
 impl Knowledge {
+    /// Unknowns that the data do not determine.
+    pub fn undetermined(&self) -> impl Iterator<Item = (usize, Doubt)> {
+        self.estimates.iter().enumerate().filter_map(|(j, e)| Some((j, e.doubt?)))
+    }
+
     /// Unknowns that alone make up a blind direction.
     pub fn without_influence(&self) -> Vec<usize> {
         let alone = |tied: &Tied| {
@@ -78,12 +106,13 @@ impl Knowledge {
     }
 }
 
-/// From the Jacobian of the scaled residuals by the unknowns over their ranges, and the residuals at the solution.
+/// From the Jacobian of the scaled residuals by the unknowns over their ranges, and the residuals at the solution; `bounds`
+/// are (least, most) of each.
 pub(super) fn knowledge(
     jacobian: &DMatrix<f64>,
     residuals: &DVector<f64>,
     values: &[f64],
-    ranges: &[f64],
+    bounds: &[(f64, f64)],
 ) -> Knowledge {
     let (m, p) = jacobian.shape();
     let freedom = m.saturating_sub(p);
@@ -123,15 +152,17 @@ pub(super) fn knowledge(
         }
         inner
     });
-    let estimates = (0..p)
+    let mut estimates = (0..p)
         .map(|j| {
             let sigma = covariance
                 .as_ref()
                 .zip(residual_sigma)
-                .map(|(c, r)| r * c[(j, j)].max(0.0).sqrt() / lengths[j] * ranges[j]);
-            Estimate { value: values[j], sigma, half_width: sigma.zip(t).map(|(s, t)| s * t) }
+                .map(|(c, r)| r * c[(j, j)].max(0.0).sqrt() / lengths[j] * (bounds[j].1 - bounds[j].0));
+            let half_width = sigma.zip(t).map(|(s, t)| s * t);
+            let doubt = width_doubt(values[j], half_width, bounds[j]);
+            Estimate { value: values[j], sigma, half_width, doubt }
         })
-        .collect();
+        .collect::<Vec<_>>();
     let correlation = covariance.map(|c| {
         let of = |i: usize, j: usize| if i == j { 1.0 } else { c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt() };
         (0..p).map(|i| (0..p).map(|j| of(i, j)).collect::<Vec<f64>>()).collect::<Vec<_>>()
@@ -139,6 +170,10 @@ pub(super) fn knowledge(
     if let Some(c) = &correlation {
         for (first, row) in c.iter().enumerate() {
             for (second, &correlation) in row.iter().enumerate().skip(first + 1) {
+                if correlation.abs() > INSEPARABLE {
+                    estimates[first].doubt.get_or_insert(Doubt::Inseparable(second));
+                    estimates[second].doubt.get_or_insert(Doubt::Inseparable(first));
+                }
                 if correlation.abs() > STRONG {
                     tied.push(Tied::Strongly { first, second, correlation });
                 }
@@ -146,6 +181,18 @@ pub(super) fn knowledge(
         }
     }
     Knowledge { estimates, correlation, residual_sigma, freedom, tied, singular_ratio }
+}
+
+/// What the interval alone says against `value` between the bounds `(least, most)`.
+fn width_doubt(value: f64, half_width: Option<f64>, (least, most): (f64, f64)) -> Option<Doubt> {
+    let wide = |known: f64| half_width.is_some_and(|w| w >= TOO_WIDE * known);
+    match half_width {
+        None => Some(Doubt::NoInterval),
+        Some(_) if wide(most - least) => Some(Doubt::WiderThanBounds),
+        // Between bounds of both signs a value near 0 is as good as any other.
+        Some(_) if least * most > 0.0 && wide(value.abs()) => Some(Doubt::WiderThanValue),
+        Some(_) => None,
+    }
 }
 
 /// A component of a direction in units of ranges: columns were divided by their lengths.
@@ -169,7 +216,7 @@ mod tests {
         let residuals = DVector::from_fn(5, |i, _| intercept + slope * x[i] - y[i]);
         // Ranges 10 and 2: derivatives by the share of the range.
         let jacobian = DMatrix::from_fn(5, 2, |i, j| if j == 0 { 10.0 } else { 2.0 * x[i] });
-        let k = knowledge(&jacobian, &residuals, &[intercept, slope], &[10.0, 2.0]);
+        let k = knowledge(&jacobian, &residuals, &[intercept, slope], &[(-5.0, 5.0), (0.5, 2.5)]);
         let s2 = residuals.norm_squared() / 3.0;
         let square: f64 = x.iter().map(|x| x * x).sum();
         let want = [(s2 * square / (5.0 * sxx)).sqrt(), (s2 / sxx).sqrt()];
@@ -178,9 +225,38 @@ mod tests {
             // t(0.975, 3) = 3.182
             assert!((e.half_width.unwrap() / want - 3.182).abs() < 1e-3);
         }
-        let rho = k.correlation.unwrap()[0][1];
+        let rho = k.correlation.as_ref().unwrap()[0][1];
         assert!((rho + mx / (square / 5.0).sqrt()).abs() < 1e-12, "{rho}");
         assert!(k.tied.is_empty());
+        // 0.06 +- 0.6 in a range of 10, 0.99 +- 0.18 in one of 2.
+        assert_eq!(k.undetermined().count(), 0, "{k:?}");
+    }
+
+    /// y = a + b x + c, with a second regressor that is nearly the first: both are seen, but not apart.
+    #[test]
+    fn an_interval_as_wide_as_the_bounds_or_the_value_determines_nothing() {
+        let with = |apart: f64, scatter: f64, bounds: [(f64, f64); 2]| {
+            let x = |i: usize| 1.0 + i as f64;
+            let near = |i: usize| x(i) + apart * if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let jacobian = DMatrix::from_fn(6, 2, |i, j| {
+                let range = bounds[j].1 - bounds[j].0;
+                range * if j == 0 { x(i) } else { near(i) }
+            });
+            let residuals = DVector::from_fn(6, |i, _| scatter * [1.0, -1.0, -1.0, 1.0, 1.0, -1.0][i]);
+            knowledge(&jacobian, &residuals, &[2.0, 0.1], &bounds)
+        };
+        let doubts = |k: &Knowledge| k.undetermined().map(|(_, doubt)| doubt).collect::<Vec<_>>();
+        let narrow = [(1.9, 2.1), (0.0, 0.2)];
+        let blurred = with(1e-3, 1e-2, narrow);
+        assert!(blurred.correlation.as_ref().unwrap()[0][1] < -0.9999, "{blurred:?}");
+        assert_eq!(doubts(&blurred), [Doubt::WiderThanBounds; 2], "{blurred:?}");
+        // Without scatter the intervals are narrow, and the two are inseparable all the same.
+        let sharp = with(1e-3, 1e-9, narrow);
+        assert_eq!(doubts(&sharp), [Doubt::Inseparable(1), Doubt::Inseparable(0)], "{sharp:?}");
+        // Wide bounds of one sign: 0.1 +- 0.06 or more is known to half its value only.
+        let wide = with(1.0, 0.05, [(1.0, 3.0), (0.01, 10.0)]);
+        assert_eq!(wide.undetermined().collect::<Vec<_>>(), [(1, Doubt::WiderThanValue)], "{wide:?}");
+        assert_eq!(doubts(&with(1.0, 0.05, [(1.0, 3.0), (-5.0, 5.0)])), [], "both signs");
     }
 
     #[test]
@@ -190,7 +266,7 @@ mod tests {
             let x = 1.0 + i as f64;
             [x, 2.0 * x, x * x, 0.0][j]
         });
-        let k = knowledge(&jacobian, &DVector::from_element(6, 0.1), &[1.0; 4], &[1.0; 4]);
+        let k = knowledge(&jacobian, &DVector::from_element(6, 0.1), &[1.0; 4], &[(0.5, 1.5); 4]);
         assert_eq!(k.correlation, None);
         assert!(k.estimates.iter().all(|e| e.sigma.is_none()));
         let directions: Vec<&Vec<f64>> = k

@@ -72,7 +72,15 @@ pub(super) fn held<'a>(design: &'a Design, limits: &'a Limits, state: &'a LoadSt
     for hoop in &HOOPS {
         if let Some(allowed) = (hoop.allowed)(limits) {
             let demand = Box::new(move |p: &StaticPoint| hoop.demand_pa(clutch, elastic, p));
-            list.push(one(hoop.code, hoop.name, MPA, When::Peak, allowed, demand));
+            let name = move |_: &StaticPoint| match allowed.1 {
+                true => hoop.name.to_owned(),
+                false => {
+                    let own = hoop.code.replace('-', "_");
+                    format!("{}, beside the limit on the mean; limits.{own}_mpa would be its own", hoop.name)
+                }
+            };
+            let row = one(hoop.code, hoop.name, MPA, When::Peak, allowed, demand);
+            list.push(Held { name: Box::new(name), ..row });
         }
     }
     if let Some(allowed) = limits.body_yield_pa {

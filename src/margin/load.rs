@@ -56,7 +56,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
     };
     let curve = &state.curve;
     let end = curve.end_torque_nm();
-    let mut shown_only = Vec::new();
+    let (mut shown_only, mut not_reached) = (Vec::new(), Vec::new());
     for h in held(design, limits, state) {
         let Some(torque) = h.when.torque_nm(limits) else { continue };
         let p = at(curve, torque);
@@ -67,16 +67,21 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
         if !h.required {
             shown_only.push(h.code);
         }
+        if end < torque {
+            not_reached.push(h.code);
+        }
     }
     if let Some(torque) = limits.peak_torque_nm {
         let p = at(curve, torque);
         let over = curve.roll_over_torque_nm();
-        push("roll-over", "peak torque against roll-over torque", torque, over, "Nm", over / torque - 1.0);
+        let name = said("peak torque against roll-over torque", torque, end);
+        push("roll-over", &name, torque, over, "Nm", beyond(over / torque - 1.0, torque, end));
         let below = below(state, &p);
         for limit in &GRIP {
             let Some(mu) = (limit.allowed)(design, limits) else { continue };
             let need = limit.largest(design, limits, &p, &below);
-            push(limit.code, (limit.name)(limits), need, mu, limit.unit.0, ratio(need, mu));
+            let name = said((limit.name)(limits), torque, end);
+            push(limit.code, &name, need, mu, limit.unit.0, beyond(ratio(need, mu), torque, end));
         }
         if limits.axial_load_n.is_some_and(|n| n > 0.0) {
             let wanted = limits.nominal_torque_nm.unwrap_or(torque);
@@ -96,12 +101,15 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
             let height = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
             push(
                 "neighbours",
-                "clearance between neighbouring sprags up to peak torque",
+                &said("clearance between neighbouring sprags up to peak torque", torque, end),
                 0.0,
                 gap * 1e3,
                 "mm",
-                gap / height,
+                beyond(gap / height, torque, end),
             );
+        }
+        if end < torque {
+            not_reached.extend(["roll-over", "grip-inner", "grip-outer", "neighbours"]);
         }
     }
     let kinetic = design.clutch.friction.kinetic;
@@ -138,6 +146,7 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
     }
     for row in &mut rows {
         row.required = !shown_only.contains(&row.code.as_str());
+        row.overloaded = not_reached.contains(&row.code.as_str());
     }
     rows
 }
@@ -173,7 +182,7 @@ fn clearance_up_to_m(
     all.map(|p| clearance_at_m(design, state, p)).reduce(|a, b| Some(a?.min(b?)))?
 }
 
-/// Beyond the curve's end the stress rows continue as the torque shortfall, so that a search sees a slope.
+/// Beyond the curve's end the rows of a torque continue as its shortfall, so that a search sees a slope.
 pub(super) fn beyond(margin: f64, torque: f64, end: f64) -> f64 {
     if end >= torque { margin } else { margin.min(end / torque - 1.0) }
 }
@@ -183,7 +192,8 @@ pub(super) fn said(name: &str, torque_nm: f64, end_nm: f64) -> String {
     match end_nm >= torque_nm {
         true => name.to_owned(),
         false => format!(
-            "{name}: not carried, the demand is that at the end of the curve, {end_nm:.4} Nm, the margin at most the torque's"
+            "{name}: not carried, demand and clearance are those at the end of the curve, {end_nm:.4} Nm, the margin is at most \
+             what the torque lacks"
         ),
     }
 }

@@ -47,7 +47,8 @@ pub struct Margin {
     pub required: bool,
     /// Whether demand and margin are known; else a run met its limit of work, and the margin is -1.
     pub computed: bool,
-    /// Whether the row's scene goes beyond the end of the curve, so that the margin is -1 whatever the friction.
+    /// Whether the row goes beyond the end of the curve: its scene, so that the margin is -1 whatever the friction, or its
+    /// torque, so that the margin is at most what the torque lacks, end/torque - 1, and the demand that at the end.
     pub overloaded: bool,
 }
 

@@ -257,7 +257,7 @@ fn joint_task(task: &Optimize, found: &Search, flanks: &Flanks, ranges: &[(f64, 
         .cloned()
         .map(|v| {
             let start = found.variables.iter().find(|f| f.name == v.name).map_or(v.start, |f| f.best);
-            OptimizeVariable { start, ..v }
+            OptimizeVariable { given: start, start, ..v }
         })
         .collect();
     let starts = [flanks.rear_m * 1e3, flanks.front_m * 1e3, flanks.rear_tilt_rad, flanks.front_tilt_rad];
@@ -268,6 +268,7 @@ fn joint_task(task: &Optimize, found: &Search, flanks: &Flanks, ranges: &[(f64, 
             name: name.to_owned(),
             min: least,
             max: most,
+            given: start,
             start,
             whole: false,
         });

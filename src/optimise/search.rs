@@ -23,6 +23,8 @@ pub struct Variable {
     /// Upper bound.
     pub max: f64,
     /// Value in the given design.
+    pub given: f64,
+    /// Where the search started: that value, or the bound nearest to it where it lies outside.
     pub start: f64,
     /// Value found.
     pub best: f64,
@@ -148,6 +150,12 @@ pub fn search(design: &Design, method: &Method, fidelity: Fidelity, desk: &Desk)
     let task = design.optimize.as_ref().ok_or(NoSearch::NoTask)?;
     let all: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
     let problem = ClutchProblem::new(design, task, all, fidelity);
+    // What the search leaves as it is lies inside the bounds too.
+    let inside: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
+    let outside = task.variables.iter().any(|v| v.start != v.given);
+    let moved = outside.then(|| problem.file_at(&inside)).transpose();
+    let moved = moved.map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
+    let problem = moved.map_or(problem.clone(), |text| problem.on(text));
     search_problem(&problem, task, method, desk)
 }
 
@@ -168,6 +176,7 @@ pub fn search_problem(
             name: v.name.clone(),
             min: v.min,
             max: v.max,
+            given: v.given,
             start: v.start,
             best: v.start,
             dropped: false,

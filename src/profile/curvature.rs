@@ -57,14 +57,19 @@ impl Profile {
     /// `junction` (from 0) ends, m, positive in the sense of engagement.
     pub fn junction_distance_m(&self, arc: usize, turn_rad: f64, junction: usize) -> f64 {
         let here = &self.arcs[arc];
-        let length = |k: usize| self.arcs[k].radius_m * (self.arcs[k].until_rad - self.arcs[k].from_rad);
         if junction >= arc {
             let ahead = here.radius_m * (here.until_rad - turn_rad);
-            (arc + 1..=junction).fold(ahead, |x, k| x + length(k))
+            (arc + 1..=junction).fold(ahead, |x, k| x + self.length_m(k))
         } else {
             let behind = here.radius_m * (here.from_rad - turn_rad);
-            (junction + 1..arc).rev().fold(behind, |x, k| x - length(k))
+            (junction + 1..arc).rev().fold(behind, |x, k| x - self.length_m(k))
         }
+    }
+
+    /// Length of arc `k`, m.
+    fn length_m(&self, k: usize) -> f64 {
+        let arc = &self.arcs[k];
+        arc.radius_m * (arc.until_rad - arc.from_rad)
     }
 
     /// Mean with the weight whose share to the left of x = u a, and its slope by u, `share` gives for |u| <= 1.
@@ -84,21 +89,44 @@ impl Profile {
             by_half_width_per_m2: 0.0,
             straddles: false,
         };
-        // Share up to the end of arc k, with its derivatives: x falls by the radius in contact per turn.
-        let up_to = |k: usize| {
-            let u = (self.junction_distance_m(arc, turn_rad, k) / a).clamp(-1.0, 1.0);
+        // Share up to the junction at x, with its derivatives: x falls by the radius in contact per turn.
+        let up_to = |x: f64| {
+            let u = (x / a).clamp(-1.0, 1.0);
             let (part, slope) = share(u);
             (part, -slope * here_m / a, -slope * u / a)
         };
-        for k in std::iter::once(arc).chain(arc + 1..=last).chain((0..arc).rev()) {
-            let end = if k == last { (1.0, 0.0, 0.0) } else { up_to(k) };
-            let start = if k == 0 { (0.0, 0.0, 0.0) } else { up_to(k - 1) };
+        let mut add = |k: usize, start: (f64, f64, f64), end: (f64, f64, f64)| {
             let radius_m = self.arcs[k].radius_m;
             let part = end.0 - start.0;
             mean.curvature_per_m += part / radius_m;
             mean.by_turn_per_m_rad += (end.1 - start.1) / radius_m;
             mean.by_half_width_per_m2 += (end.2 - start.2) / radius_m;
             mean.straddles |= k != arc && part > 0.0;
+        };
+        // From the arc in contact outwards, no further than the patch.
+        let (nothing, all) = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0));
+        let mut ahead_m = self.junction_distance_m(arc, turn_rad, arc);
+        let mut behind_m = self.arcs[arc].radius_m * (self.arcs[arc].from_rad - turn_rad);
+        let mut until = if arc == last { all } else { up_to(ahead_m) };
+        let mut from = if arc == 0 { nothing } else { up_to(behind_m) };
+        add(arc, from, until);
+        for k in arc + 1..=last {
+            if ahead_m >= a {
+                break;
+            }
+            ahead_m += self.length_m(k);
+            let end = if k == last { all } else { up_to(ahead_m) };
+            add(k, until, end);
+            until = end;
+        }
+        for k in (0..arc).rev() {
+            if behind_m <= -a {
+                break;
+            }
+            behind_m -= self.length_m(k);
+            let start = if k == 0 { nothing } else { up_to(behind_m) };
+            add(k, start, from);
+            from = start;
         }
         mean
     }
@@ -121,6 +149,24 @@ mod tests {
         let at = p.patch_curvature(0, 0.06, 1e-6);
         let mean = 0.5 * (1.0 / 4.02e-3 + 1.0 / 4.08e-3);
         assert!(at.straddles && (at.curvature_per_m / mean - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn only_junctions_under_the_patch_are_work() {
+        let asked = |arcs: usize, arc: usize| {
+            let each: Vec<(f64, f64)> =
+                (1..=arcs).map(|k| (4e-3 + 1e-6 * k as f64, 0.01 * k as f64)).collect();
+            let p = Profile::new(4.68e-3, 0.62e-3, &each, 11.11e-3, 19.44e-3).unwrap();
+            let count = std::cell::Cell::new(0);
+            let share = |u: f64| {
+                count.set(count.get() + 1);
+                (0.5 + 0.5 * u, 0.5)
+            };
+            // A patch of 2.5 arcs either way.
+            p.mean_curvature(arc, p.arcs[arc].from_rad + 0.005, 1e-4, share);
+            count.get()
+        };
+        assert_eq!((asked(11, 5), asked(81, 40)), (8, 8));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! One self-contained HTML page: no script runs, nothing is fetched.
 
+use super::bars::Tone;
 use super::table::Table;
 
 const STYLE: &str = include_str!("page.css");
@@ -52,7 +53,16 @@ impl Page {
 
     /// The answer in one line, painted as held or broken.
     pub fn verdict(&mut self, held: bool, text: &str) -> &mut Self {
-        let class = if held { "held" } else { "broken" };
+        self.verdict_in(if held { Tone::Good } else { Tone::Bad }, text)
+    }
+
+    /// The answer in one line, painted as held, as broken or as neither.
+    pub fn verdict_in(&mut self, tone: Tone, text: &str) -> &mut Self {
+        let class = match tone {
+            Tone::Good => "held",
+            Tone::Bad => "broken",
+            Tone::Soft | Tone::Plain => "mixed",
+        };
         self.push(&format!("<p class=\"verdict {class}\">{}</p>\n", escape(text)))
     }
 

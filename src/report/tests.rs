@@ -33,11 +33,6 @@ fn a_full_page_fetches_nothing_runs_nothing_and_repeats_no_id() {
 }
 
 #[test]
-fn a_full_page_is_the_same_every_time() {
-    assert_eq!(full_page(), full_page());
-}
-
-#[test]
 fn elements_are_closed() {
     let html = full_page();
     for name in

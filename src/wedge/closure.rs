@@ -12,6 +12,12 @@ use crate::profile::Profile;
 /// slope is infinite.
 pub const FIRST_CONTACT_N: f64 = 1e-120;
 
+#[cfg(test)]
+thread_local! {
+    /// Closures of this thread.
+    pub(super) static CLOSURES: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
+
 /// Why there is no equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NoClosure {
@@ -204,6 +210,8 @@ impl Statics {
         speed_rad_s: f64,
         shift_rad: f64,
     ) -> Result<Closure, NoClosure> {
+        #[cfg(test)]
+        CLOSURES.with(|count| count.set(count.get() + 1));
         let (distance, azimuth) = self.centres[arc];
         let radii = Radii { inner_arc_m: self.profile.arcs[arc].radius_m, ..self.radii };
         let mut apart = self.offset_m.map(Dual::constant);

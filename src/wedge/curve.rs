@@ -252,8 +252,12 @@ impl WedgeCurve {
         for (k, arc) in self.arcs.iter().enumerate() {
             let miss = |n: f64| self.closure_in(k, n).map_or(f64::NAN, |c| c.torque_nm(count).v - torque_nm);
             let (a, b) = (arc.n_from.max(FIRST_CONTACT_N), arc.n_until);
-            let (fa, fb) = (miss(a), miss(b));
-            if fb < 0.0 || fa > 0.0 && k == 0 {
+            let fb = arc.torque_until_nm - torque_nm;
+            if fb < 0.0 {
+                continue;
+            }
+            let fa = miss(a);
+            if fa > 0.0 && k == 0 {
                 continue;
             }
             let n = if fa >= 0.0 { a } else { root::bracketed(a, b, fa, fb, 1e-15 * b, miss)? };
@@ -269,8 +273,7 @@ impl WedgeCurve {
 
     /// Torque at the end of the curve, N m.
     pub fn end_torque_nm(&self) -> f64 {
-        let k = self.arcs.len() - 1;
-        self.closure_in(k, self.arcs[k].n_until).map_or(0.0, |c| c.torque_nm(self.statics.count).v)
+        self.arcs[self.arcs.len() - 1].torque_until_nm
     }
 
     /// Torque at which the sprag would roll over if its last arc went on, N m; the curve's own end where it

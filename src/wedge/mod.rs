@@ -9,6 +9,8 @@
 mod axial;
 mod build;
 mod closure;
+#[cfg(test)]
+mod cost;
 mod curve;
 mod elastic;
 mod off_centre;

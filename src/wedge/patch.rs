@@ -141,28 +141,37 @@ impl Statics {
         // which costs accuracy of the table and shows in its truncation.
         const PIECES: usize = 4;
         let contact = &self.elastic.inner_contact[arc];
-        // Distance of the junction from the edge; positive while it lies outside the patch.
-        let outside = |junction: usize, n: f64| {
-            self.closure(arc, n, speed_rad_s, shift_rad).map_or(f64::NAN, |c| {
+        // Turn and half width of the patch.
+        let seat = |n: f64| {
+            self.closure(arc, n, speed_rad_s, shift_rad).ok().map(|c| {
                 let half = at_curvature(contact, c.curvature_inner_per_m).half_width_m(n);
-                let turn = c.turn_rad(self.profile.beta0_rad);
+                (c.turn_rad(self.profile.beta0_rad), half)
+            })
+        };
+        // Distance of the junction from the edge; positive while it lies outside the patch.
+        let outside = |junction: usize, seat: Option<(f64, f64)>| {
+            seat.map_or(f64::NAN, |(turn, half)| {
                 self.profile.junction_distance_m(arc, turn, junction).abs() - half
             })
         };
+        let force = |i: usize| {
+            (n_from + (n_until - n_from) * i as f64 / PIECES as f64).max(super::closure::FIRST_CONTACT_N)
+        };
+        let looks: Vec<_> = (0..=PIECES).map(|i| (force(i), seat(force(i)))).collect();
+        // A junction beyond one that stays outside the patch stays outside too.
+        let meets = |junction: &usize| looks.iter().any(|l| outside(*junction, l.1) <= 0.0);
+        let first = (0..arc).rev().take_while(meets).last().unwrap_or(arc);
+        let end = (arc..self.profile.arcs.len() - 1).take_while(meets).last().map_or(arc, |last| last + 1);
         let mut found = Vec::new();
-        for junction in 0..self.profile.arcs.len() - 1 {
-            let force = |i: usize| {
-                (n_from + (n_until - n_from) * i as f64 / PIECES as f64).max(super::closure::FIRST_CONTACT_N)
-            };
-            let (mut a, mut fa) = (force(0), outside(junction, force(0)));
-            for i in 1..=PIECES {
-                let (b, fb) = (force(i), outside(junction, force(i)));
+        for junction in first..end {
+            for pair in looks.windows(2) {
+                let (a, b) = (pair[0].0, pair[1].0);
+                let (fa, fb) = (outside(junction, pair[0].1), outside(junction, pair[1].1));
                 if fa * fb < 0.0
-                    && let Some(n) = root::bracketed(a, b, fa, fb, 1e-13 * b, |n| outside(junction, n))
+                    && let Some(n) = root::bracketed(a, b, fa, fb, 1e-13 * b, |n| outside(junction, seat(n)))
                 {
                     found.push((n, junction, fb < 0.0));
                 }
-                (a, fa) = (b, fb);
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -55,6 +55,8 @@ pub(super) struct ArcTable {
     pub(super) alpha_until: f64,
     pub(super) n_from: f64,
     pub(super) n_until: f64,
+    /// Torque at n_until, N m.
+    pub(super) torque_until_nm: f64,
     pub(super) shift: f64,
     pub(super) lanes: Panels<LANES>,
     /// The lanes, the slopes of rho_i and rho_e by the variable of the table, the windup.
@@ -215,7 +217,8 @@ impl ArcBuilder<'_> {
             (lanes, windup)
         };
         let table = Pieces::of(&lanes, &lanes.derivative([2, 3]), &windup);
-        Ok(ArcTable { alpha_until, n_from, n_until, shift: self.shift, lanes, table })
+        let torque_until_nm = end.torque_nm(self.statics.count).v;
+        Ok(ArcTable { alpha_until, n_from, n_until, torque_until_nm, shift: self.shift, lanes, table })
     }
 
     /// Arc 1, lanes over s. alpha - alpha_0 = 10 int_0^z (z alpha_N) z^8 dz with N = z^10 keeps relative

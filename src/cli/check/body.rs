@@ -1,5 +1,8 @@
 //! The margins as table and as JSON.
 
+#[cfg(test)]
+mod tests;
+
 use super::overrun::Section;
 use super::{run_out, running};
 use crate::margin::{Margin, RESOLUTION, at_nominal_torque};
@@ -11,6 +14,8 @@ use serde::Serialize;
 pub(super) const NONE_SUFFICES: &str = "none suffices";
 /// A scene whose load goes beyond the end of the curve.
 pub(super) const OVERLOADED: &str = "overloaded";
+/// What stands for the demand of a row whose torque lies beyond the end of the curve.
+const NOT_REACHED: &str = "not reached";
 /// What stands for the demand of a run that met its limit of work.
 const NOT_COMPUTED: &str = "not computed";
 /// Margin that stands for "nothing is demanded" (`margin`).
@@ -21,7 +26,7 @@ pub(super) const NO_DEMAND: f64 = 1e6;
 struct Row {
     code: String,
     name: String,
-    /// `None` where no friction suffices, or the scene is overloaded.
+    /// `None` where no friction suffices, the scene is overloaded or the curve ends below the row's torque.
     demand: Option<f64>,
     allowable: f64,
     unit: &'static str,
@@ -32,7 +37,7 @@ struct Row {
     required: bool,
     /// False where a run met its limit of work: neither held nor broken.
     computed: bool,
-    /// Whether the scene goes beyond the end of the curve.
+    /// Whether the row's scene or torque goes beyond the end of the curve.
     overloaded: bool,
     held: bool,
 }
@@ -156,18 +161,41 @@ impl Body {
         self.margins.iter().any(|r| r.required && !r.computed)
     }
 
+    /// Codes of the rows that are shown only and would not hold.
+    pub(super) fn shown_broken(&self) -> Vec<&str> {
+        let broken = self.margins.iter().filter(|r| !r.required && r.computed && !r.held);
+        broken.map(|r| r.code.as_str()).collect()
+    }
+
+    /// The same in words, behind a banner that says that all is held.
+    fn but_shown(&self) -> String {
+        /// Codes that a line has room for.
+        const NAMED: usize = 4;
+        let codes = self.shown_broken();
+        let named = codes.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ");
+        match codes.len() {
+            0 => String::new(),
+            n if n > NAMED => {
+                format!("; {n} rows shown only would not hold: {named} and {} more", n - NAMED)
+            }
+            1 => format!("; 1 row shown only would not hold: {named}"),
+            n => format!("; {n} rows shown only would not hold: {named}"),
+        }
+    }
+
     /// The answer in one line.
     pub(super) fn verdict(&self) -> String {
         let required: Vec<&Row> = self.margins.iter().filter(|r| r.required).collect();
         let broken = required.iter().filter(|r| !r.held).count();
         let unknown = required.iter().filter(|r| !r.computed).count();
         match &self.deciding {
-            None => "HELD: the design names no limit that could be broken".to_owned(),
+            None => format!("HELD: the design names no limit that could be broken{}", self.but_shown()),
             Some(d) if self.pass => format!(
-                "HELD: all {} required limits; {} decides, margin {}",
+                "HELD: all {} required limits; {} decides, margin {}{}",
                 required.len(),
                 d.code,
-                super::margin_text(d.margin)
+                super::margin_text(d.margin),
+                self.but_shown()
             ),
             Some(_) if unknown > 0 => format!(
                 "NOT COMPUTED: {unknown} of {} required rows, whose runs met their limit of work; {} others not held",
@@ -193,8 +221,8 @@ impl Body {
         });
         let early = (self.end.torque_nm < self.asked_nm).then(|| {
             format!(
-                "The curve ends ({}) at {}, below {}: a limit held beyond shows its demand at that end, and no margin \
-                 above end/torque − 1",
+                "The curve ends ({}) at {}, below {}: a limit held beyond is not reached, and its margin is what the \
+                 torque lacks, end/torque − 1, or less",
                 self.end.reason,
                 Unit::NewtonMetre.show(self.end.torque_nm, 4),
                 Unit::NewtonMetre.show_plain(self.asked_nm, 4)
@@ -228,9 +256,9 @@ fn row(r: &Margin, end_torque_nm: f64) -> Row {
     }
 }
 
-/// Demand as a number; none where no friction suffices.
+/// Demand as a number; none where no friction suffices or the torque is not reached.
 fn demand(r: &Margin) -> Option<f64> {
-    (r.demand < f64::MAX).then_some(r.demand)
+    (r.demand < f64::MAX && !r.overloaded).then_some(r.demand)
 }
 
 /// The table for people: codes, not sentences, so that it fits a terminal. A limit that is not reached before the
@@ -264,6 +292,8 @@ pub(in crate::cli) fn demand_cell(r: &Margin) -> Cell {
     match demand(r) {
         _ if !r.computed => NOT_COMPUTED.into(),
         Some(demand) => demand.into(),
+        // A scene has no demand at all then, a torque one at the end of the curve.
+        None if r.overloaded && r.demand < f64::MAX => NOT_REACHED.into(),
         None if r.overloaded => OVERLOADED.into(),
         None => NONE_SUFFICES.into(),
     }
@@ -343,104 +373,4 @@ pub(super) fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
         ]);
     }
     table
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::margin::OverrunCurve;
-    use crate::report::Screen;
-
-    fn margin(code: &str, demand: f64, margin: f64, capacity: Option<f64>, required: bool) -> Margin {
-        Margin {
-            code: code.into(),
-            name: format!("limit {code}"),
-            demand,
-            allowable: 1.0,
-            unit: "1",
-            margin,
-            torque_capacity_nm: capacity,
-            required,
-            computed: true,
-            overloaded: false,
-        }
-    }
-
-    fn source(lift_off_rad_s: Option<f64>) -> Source {
-        Source {
-            end: EndReason::OffProfile,
-            end_torque_nm: 50.0,
-            asked_nm: 110.0,
-            lift_off_rad_s,
-            searched_to_rad_s: 100.0,
-            overrun: Section::new(&OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 }),
-            running: None,
-            run_out: None,
-        }
-    }
-
-    #[test]
-    fn a_curve_that_ends_too_early_is_said() {
-        let early = Body::new(&[], source(None));
-        assert!(early.remarks().iter().any(|r| r.contains("off-profile") && r.contains("110 Nm")));
-        let late = Body::new(&[], Source { end_torque_nm: 120.0, ..source(None) });
-        assert!(late.remarks().iter().all(|r| !r.contains("off-profile")));
-    }
-
-    #[test]
-    fn only_required_limits_decide() {
-        let rows = [
-            margin("a", 1.0, 0.2, Some(40.0), true),
-            margin("b", 2.0, 0.1, Some(45.0), true),
-            margin("c", f64::MAX, -1.0, None, false),
-        ];
-        let body = Body::new(&rows, source(None));
-        assert!(body.pass && body.deciding.as_ref().unwrap().code == "b");
-        assert_eq!(body.lowest_torque_capacity.as_ref().unwrap().code, "a");
-        assert!(body.verdict().starts_with("HELD: all 2"), "{}", body.verdict());
-        let broken = Body::new(&[rows[0].clone(), margin("d", 1.0, -0.01, None, true)], source(Some(1.0)));
-        assert!(!broken.pass && broken.verdict().starts_with("NOT HELD: 1 of 2"), "{}", broken.verdict());
-    }
-
-    #[test]
-    fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
-        let rows = [margin("slip:x", f64::MAX, -1.0, None, true)];
-        let json = serde_json::to_value(Body::new(&rows, source(None))).unwrap();
-        assert!(json["margins"][0]["demand"].is_null() && json["margins"][0]["margin"] == -1.0);
-        let text = |rows: &[Margin]| people_table(rows, 200.0).to_text(Screen::default());
-        assert!(text(&rows).contains(NONE_SUFFICES) && !text(&rows).contains(OVERLOADED));
-        let beyond = [Margin { overloaded: true, ..rows[0].clone() }];
-        assert!(text(&beyond).contains(OVERLOADED) && !text(&beyond).contains(NONE_SUFFICES));
-        let csv = String::from_utf8(csv_table(&rows, 200.0).to_csv().unwrap()).unwrap();
-        assert!(csv.contains("slip:x,limit slip:x,,1,1,-1,,true,false,false"), "{csv}");
-    }
-
-    #[test]
-    fn what_the_curve_never_reaches_sets_no_capacity() {
-        let rows = [
-            margin("hertz-peak-inner", 1.0, 0.2, Some(50.0), true),
-            margin("end-of-profile", 1.0, 0.2, Some(50.0), true),
-        ];
-        let body = Body::new(&rows, source(None));
-        assert_eq!(body.lowest_torque_capacity.unwrap().code, "end-of-profile");
-        assert!(body.nominal_torque_capacity.is_none());
-    }
-
-    #[test]
-    fn rounding_is_no_margin_and_a_capacity_beyond_the_end_is_said() {
-        let rows = [margin("a", 1.0, -5.77e-15, Some(50.0), true), margin("b", 1.0, -0.1, Some(40.0), true)];
-        let json = serde_json::to_value(Body::new(&rows, source(None))).unwrap();
-        let [a, b] = [&json["margins"][0], &json["margins"][1]];
-        assert!(a["held"] == true && a["capacity_beyond_end"] == true && a["margin"] == -5.77e-15);
-        assert!(b["held"] == false && b["capacity_beyond_end"] == false);
-        let text = people_table(&rows, 50.0).to_text(Screen::default());
-        assert!(!text.contains("e-1") && text.contains("> 50.00"), "{text}");
-        assert_eq!(super::super::margin_text(-5.77e-15), "0 %");
-    }
-
-    #[test]
-    fn a_design_without_limits_holds() {
-        let body = Body::new(&[], source(None));
-        assert!(body.pass && body.deciding.is_none() && body.verdict().starts_with("HELD"));
-    }
 }

@@ -10,7 +10,12 @@ use crate::report::{Bar, Bars, Column, Page, Table, Tone, Unit};
 
 pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, context: &Context) -> Page {
     let mut page = parts::page("Margin check", design, context);
-    page.verdict(answer.body.pass, &answer.body.verdict());
+    let tone = match (answer.body.pass, answer.body.shown_broken().as_slice()) {
+        (true, []) => Tone::Good,
+        (true, _) => Tone::Soft,
+        (false, _) => Tone::Bad,
+    };
+    page.verdict_in(tone, &answer.body.verdict());
     page.list(answer.body.remarks().into_iter().chain(overrunning(design)));
     let end_nm = check.state.curve.end_torque_nm();
     page.heading("Margins");

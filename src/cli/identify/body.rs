@@ -1,6 +1,6 @@
 //! What `identify` says: JSON, tables, sentences.
 
-use crate::identify::{Identified, Point, Tied, Use};
+use crate::identify::{Doubt, Identified, Point, Tied, Use};
 use crate::report::{Cell, Column, Table, Unit, significant};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -32,7 +32,7 @@ impl Body {
                 .map(|((u, before), e)| {
                     json!({
                         "name": u.name, "min": u.min, "max": u.max, "before": before, "value": e.value,
-                        "sigma": e.sigma, "half_width_95": e.half_width,
+                        "sigma": e.sigma, "half_width_95": e.half_width, "determined": e.doubt.is_none(),
                     })
                 })
                 .collect(),
@@ -57,7 +57,7 @@ impl Body {
             sums_of_squares: found.sums.0.clone(),
             evaluations: found.evaluations,
             converged: found.converged,
-            determined: k.correlation.is_some() && k.freedom > 0,
+            determined: k.undetermined().next().is_none(),
             remarks: sentences(found),
             written: written.map(|p| p.display().to_string()),
         }
@@ -84,15 +84,15 @@ pub(super) fn estimates(found: &Identified) -> Table {
     ]);
     for ((u, before), e) in found.unknowns.iter().zip(&found.before).zip(&found.knowledge.estimates) {
         let range = u.max - u.min;
-        let note = if e.value - u.min < 1e-6 * range {
-            "at its lower bound"
+        let bound = if e.value - u.min < 1e-6 * range {
+            Some("at its lower bound")
         } else if u.max - e.value < 1e-6 * range {
-            "at its upper bound"
-        } else if e.half_width.is_none() {
-            "not determined"
+            Some("at its upper bound")
         } else {
-            ""
+            None
         };
+        let doubt = e.doubt.map(|_| "not determined");
+        let note = bound.into_iter().chain(doubt).collect::<Vec<_>>().join(", ");
         table.row(vec![
             u.name.as_str().into(),
             u.min.into(),
@@ -152,6 +152,41 @@ pub(super) fn correlation(found: &Identified) -> Option<Table> {
     Some(table)
 }
 
+/// Whether the data determine the unknowns, in one line.
+pub(super) fn verdict(found: &Identified) -> String {
+    let not: Vec<&str> =
+        found.knowledge.undetermined().map(|(j, _)| found.unknowns[j].name.as_str()).collect();
+    match not.as_slice() {
+        [] => "every unknown is determined".to_owned(),
+        names => format!("the data do not determine {}", names.join(", ")),
+    }
+}
+
+/// Why the data do not determine the unknown `j`; a blind direction and too few observations have sentences of their own.
+fn doubt_sentence(found: &Identified, j: usize, doubt: Doubt) -> Option<String> {
+    let (u, e) = (&found.unknowns[j], &found.knowledge.estimates[j]);
+    let interval = format!(
+        "{} = {} +- {}",
+        u.name,
+        significant(e.value, 4),
+        significant(e.half_width.unwrap_or(f64::INFINITY), 3)
+    );
+    Some(match doubt {
+        Doubt::NoInterval => return None,
+        Doubt::WiderThanBounds => format!(
+            "{interval} says no more than its bounds {} to {} did: add data that feel it, or leave it out of the unknowns",
+            u.min, u.max
+        ),
+        Doubt::WiderThanValue => format!(
+            "{interval} is uncertain by more than half its value: add data that feel it, or leave it out of the unknowns"
+        ),
+        Doubt::Inseparable(other) => format!(
+            "{interval} holds only if the model is exact: with {} it forms one unknown; fix one of the two",
+            found.unknowns[other].name
+        ),
+    })
+}
+
 /// How good it is and what cannot be told apart.
 pub(super) fn sentences(found: &Identified) -> Vec<String> {
     let k = &found.knowledge;
@@ -187,6 +222,7 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
             found.unknowns.len()
         ));
     }
+    out.extend(k.undetermined().filter_map(|(j, doubt)| doubt_sentence(found, j, doubt)));
     let name = |i: usize| found.unknowns[i].name.as_str();
     for tied in &k.tied {
         out.push(match tied {

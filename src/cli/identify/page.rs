@@ -2,7 +2,7 @@
 
 use super::super::Context;
 use super::super::parts::{self, Answer};
-use super::body::{Body, correlation, estimates, residuals, sentences};
+use super::body::{Body, correlation, estimates, residuals, sentences, verdict};
 use crate::design::Design;
 use crate::identify::{Identified, Use};
 use crate::report::plot::Dash;
@@ -15,12 +15,7 @@ pub(super) fn page(
     context: &Context,
 ) -> Page {
     let mut page = parts::page("Identification", design, context);
-    let words = if answer.body.determined {
-        "every unknown is determined"
-    } else {
-        "not every unknown is determined"
-    };
-    page.verdict(answer.body.determined, words).list(sentences(found));
+    page.verdict(answer.body.determined, &verdict(found)).list(sentences(found));
     page.heading("Unknowns").table("Each in the unit of its name.", &estimates(found));
     if let Some(table) = correlation(found) {
         page.table("Correlation of what was found.", &table);

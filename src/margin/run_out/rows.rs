@@ -61,7 +61,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
             torque_capacity_nm: capacity,
             required: true,
             computed: true,
-            overloaded: false,
+            overloaded: end < torque,
         });
     }
     rows
