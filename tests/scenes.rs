@@ -26,6 +26,8 @@ fn run_at(p: &Prepared, tolerance: f64, samples: usize) -> Run {
         rolling: false,
         energy: false,
         interrupt: None,
+        history: Default::default(),
+        clock: None,
     };
     run(&p.model, p.state, p.mode, &settings)
 }
@@ -195,6 +197,7 @@ fn contact_damping_takes_the_energy_that_it_should() {
         static_normal_n: 1.0,
         overrun: None,
         free_run: None,
+        start: Default::default(),
     };
     let r = run_at(&prepared, 1e-11, 20_001);
     let model = &prepared.model;

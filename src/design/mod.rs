@@ -43,7 +43,7 @@ pub use edit::{
 };
 pub use notes::with_notes;
 pub use objective::Objective;
-pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
+pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind, Start};
 pub use shape::schema;
 pub use tolerances_file::Tolerances;
 pub use variables::{VARIABLES, is_whole, variable_names, variable_path};
