@@ -115,7 +115,9 @@ fn a_change_of_speed_asks_the_clutch_for_the_inertia_behind_it() {
     scene.speed_history = Some(vec![[0.0, 0.0], [0.1, 0.0], [0.5, 400.0]]);
     let p = prepare(&scene).unwrap();
     let r = run_at(&p, 1e-9, 4001);
-    assert_eq!((r.stop, r.events), (Stop::Finished, r.events));
+    // Nothing slips: every change of mode is one of arc.
+    let arcs = r.modes.windows(2).filter(|two| two[0].1.place != two[1].1.place).count() as u64;
+    assert_eq!((r.stop, r.events, r.inner.time_s, r.outer.time_s), (Stop::Finished, arcs, 0.0, 0.0));
     let torques = r.samples.iter().filter(|s| s.t > 0.3).map(|s| {
         let point = p.model.point(s.mode.place, s.state[0]);
         12.0 * s.forces.t_bi * point.oa
