@@ -1,9 +1,8 @@
 //! `simulate` from outside on scenes that are long: limits, histories, progress, Ctrl-C.
 
-mod common {
-    pub mod program;
-}
-use common::program::{Folder, MULTI, json, run, stdout};
+#[path = "common/program.rs"]
+mod program;
+use program::{Folder, MULTI, json, run, stdout};
 
 /// Rows of a CSV as text, the head apart.
 fn rows(path: &str) -> (Vec<String>, Vec<Vec<String>>) {
@@ -59,7 +58,8 @@ fn a_history_has_the_rows_that_show_the_scene() {
     assert_eq!((times.len(), times[0], times[49]), (50, 0.0, 1.0));
     let times = history(&long, &["--window", "0.9:1"]);
     assert_eq!((times.len(), times[0]), (1200, 0.9));
-    for (window, said) in [("0.5:1.5", "end of the scene at 1 s"), ("0.2", "0.1:0.2"), ("0.3:0.2", "0.1:0.2")] {
+    for (window, said) in [("0.5:1.5", "end of the scene at 1 s"), ("0.2", "0.1:0.2"), ("0.3:0.2", "0.1:0.2")]
+    {
         let out = run(&["simulate", &long, "--scenario", "high-10", "--window", window]);
         assert_eq!(out.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&out.stderr).contains(said), "{window}");

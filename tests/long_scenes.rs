@@ -77,9 +77,8 @@ fn marks_are_the_located_changes_of_mode_and_extremes_within_the_window() {
 /// Two hundred samples a period miss little of a smooth scene; twelve hundred of sixty seconds miss most.
 #[test]
 fn what_is_left_out_is_seen_by_the_steps_and_not_by_the_samples() {
-    let at = |samples: usize| {
-        simulate(&scene("high-6"), &Settings { samples, ..Settings::default() }).unwrap()
-    };
+    let at =
+        |samples: usize| simulate(&scene("high-6"), &Settings { samples, ..Settings::default() }).unwrap();
     let (coarse, fine) = (at(3), at(6001));
     assert_eq!(coarse.neglected, fine.neglected);
     let model = prepare(&scene("high-6")).unwrap().model;

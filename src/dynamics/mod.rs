@@ -36,6 +36,4 @@ pub use run::{
     Engaged, FastMotion, Held, History, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,
     run_while_it_sticks,
 };
-pub use start::{
-    Overrun, alpha_max_rad, overrun, preloaded, settled, settled_end_torque_nm, settled_point,
-};
+pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled, settled_end_torque_nm, settled_point};

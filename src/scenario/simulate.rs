@@ -8,7 +8,9 @@ use super::equilibrium::steady;
 use super::error::{ErrorEstimate, Scales};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
-use crate::dynamics::{Clock, Grip, History, Place, PublishedSettings, Run, SlipRecord, Stop, published, run};
+use crate::dynamics::{
+    Clock, Grip, History, Place, PublishedSettings, Run, SlipRecord, Stop, published, run,
+};
 
 /// Settings of a simulation.
 #[derive(Debug, Clone, Copy)]

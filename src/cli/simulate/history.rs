@@ -52,8 +52,11 @@ pub(super) fn asked(args: &SimulateArgs, scenario: &Scenario) -> (usize, History
 /// A sentence where the scene is so long that its history has fewer rows than show it well.
 pub(super) fn fewer(args: &SimulateArgs, scenario: &Scenario) -> Option<String> {
     let (rows, history) = asked(args, scenario);
-    (history.marks && rows == MOST_ROWS)
-        .then(|| format!("the history has {rows} rows, too few to show every swing; --window A:B shows a part of it finely"))
+    (history.marks && rows == MOST_ROWS).then(|| {
+        format!(
+            "the history has {rows} rows, too few to show every swing; --window A:B shows a part of it finely"
+        )
+    })
 }
 
 /// All rows of the history; none for an equilibrium.
@@ -139,7 +142,10 @@ fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePe
         torque_nm: count * f.t_bi * p.oa,
         hertz_pa: [
             // The mean over the patch, as everywhere.
-            Some(f.n_bi).filter(|&n| n > 0.0).and_then(|n| model.curve.at_normal(n)).map_or(0.0, |p| p.hertz_inner_pa),
+            Some(f.n_bi)
+                .filter(|&n| n > 0.0)
+                .and_then(|n| model.curve.at_normal(n))
+                .map_or(0.0, |p| p.hertz_inner_pa),
             elastic.outer_contact.peak_pressure_pa(f.n_be.max(0.0)),
         ],
         slice_pa: slices.map(|s| s.at(arc, f.n_bi, f.n_be)),

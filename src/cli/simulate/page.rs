@@ -198,7 +198,8 @@ fn envelope(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let seen = |all: &[[f64; 2]]| {
         let there: Vec<[f64; 2]> = all.iter().copied().filter(|p| p[1].is_finite()).collect();
         let by_height = |a: &&[f64; 2], b: &&[f64; 2]| a[1].total_cmp(&b[1]);
-        let marks = [there.first(), there.iter().min_by(by_height), there.iter().max_by(by_height), there.last()];
+        let marks =
+            [there.first(), there.iter().min_by(by_height), there.iter().max_by(by_height), there.last()];
         let mut kept: Vec<[f64; 2]> = marks.into_iter().flatten().copied().collect();
         kept.sort_by(|a, b| a[0].total_cmp(&b[0]));
         kept.dedup();
