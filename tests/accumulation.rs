@@ -37,6 +37,8 @@ fn a_sequence_without_end_is_closed_at_its_limit() {
         rolling: false,
         energy: false,
         interrupt: None,
+        history: Default::default(),
+        clock: None,
     };
     let r = run(&p.model, p.state, p.mode, &settings);
     let times: Vec<f64> = r.modes.iter().map(|m| m.0).collect();
@@ -64,7 +66,7 @@ fn a_run_that_gives_up_names_the_fast_motion() {
     if let ScenarioKind::TorsionalExcitation { abutment_stiffness_nm_per_rad, .. } = &mut scene.kind {
         *abutment_stiffness_nm_per_rad = 1e9;
     }
-    let s = simulate(&scene, &Settings { most_steps: 40, ..Settings::default() }).unwrap();
+    let s = simulate(&scene, &Settings { most_steps: Some(40), ..Settings::default() }).unwrap();
     let fast = s.fast_motion.unwrap();
     println!("{fast:?} at {:e} s", s.t_s);
     assert_eq!((s.stop, s.verdict), (Stop::StepLimit, None));

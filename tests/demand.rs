@@ -88,6 +88,8 @@ fn below_the_friction_that_was_bisected_the_scene_does_not_stick() {
                     rolling: false,
                     energy: false,
                     interrupt: None,
+                    history: Default::default(),
+                    clock: None,
                 },
             );
             let slipped = r.inner.net_m - r.engaged.unwrap().inner.net_m;
@@ -130,12 +132,12 @@ fn what_a_contact_that_holds_is_asked_for_converges() {
 #[test]
 fn figures_of_a_run_that_gave_up_have_no_error() {
     let lost = huang(10.0);
-    let s = simulate(&lost, &Settings { most_events: 20, ..Settings::default() }).unwrap();
+    let s = simulate(&lost, &Settings { most_events: Some(20), ..Settings::default() }).unwrap();
     println!("{:?} {:?} at {} s", s.verdict, s.stop, s.t_s);
     assert!(s.stop.gave_up() && s.error.is_none() && !s.tolerance_reached && s.t_s < 0.2);
     // Coarser runs that came to the end are the better answer.
     let whole = at(&lost);
-    let most_steps = 2000;
+    let most_steps = Some(2000);
     let s = simulate(&lost, &Settings { most_steps, tolerance: 1e-10, ..Settings::default() }).unwrap();
     println!("{:?} {:?} {:?}", s.verdict, s.finer_gave_up, s.error);
     assert!(s.finer_gave_up.is_some() && !s.stop.gave_up() && !s.tolerance_reached);

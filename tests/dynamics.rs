@@ -32,6 +32,8 @@ fn settings(tolerance: f64, duration_s: f64, samples: usize) -> RunSettings {
         rolling: false,
         energy: false,
         interrupt: None,
+        history: Default::default(),
+        clock: None,
     }
 }
 

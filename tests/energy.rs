@@ -44,6 +44,8 @@ fn changed(
         rolling: false,
         energy: true,
         interrupt: None,
+        history: Default::default(),
+        clock: None,
     };
     let r = run(&p.model, p.state, p.mode, &settings);
     (r.energy.unwrap(), r.open_s, r.outer.distance_m)

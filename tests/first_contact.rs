@@ -22,6 +22,8 @@ fn runs(scene: &Scenario, tolerances: &[f64]) -> Vec<Run> {
             rolling: false,
             energy: false,
             interrupt: None,
+            history: Default::default(),
+            clock: None,
         };
         run(&p.model, p.state, p.mode, &settings)
     };

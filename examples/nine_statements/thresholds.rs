@@ -196,7 +196,10 @@ fn contradicts(design: &Design, statement: &Statement, unknown: &Unknown, factor
     let mut scene = scene.clone();
     (unknown.scale)(&mut scene, factor);
     // Verdicts differ by a µm of slip; 1e-5 rad is a tenth of that at the inner race.
-    match simulate(&scene, &Settings { tolerance: 1e-5, most_events: MOST_EVENTS, ..Settings::default() }) {
+    match simulate(
+        &scene,
+        &Settings { tolerance: 1e-5, most_events: Some(MOST_EVENTS), ..Settings::default() },
+    ) {
         Ok(s) if statement.agrees(s.verdict) => None,
         Ok(s) => Some(s.verdict.map_or(s.stop.name(), |v| v.name()).to_owned()),
         Err(e) => Some(e.to_string()),

@@ -126,6 +126,8 @@ fn ours(p: &Prepared, tolerance: f64, per_period: f64) -> Result<Answer, String>
         rolling: false,
         energy: false,
         interrupt: None,
+        history: Default::default(),
+        clock: None,
     };
     let r = run(&p.model, p.state, p.mode, &settings);
     let answer = Answer { theta_rad: r.state[2], rhs: r.counters.rhs_evaluations, changes: r.events };

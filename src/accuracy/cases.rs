@@ -1,6 +1,6 @@
 //! The cases of the stability map: corners and random places of a wide box, from a seed.
 
-use crate::design::{Clutch, Friction, Scenario, ScenarioKind};
+use crate::design::{Clutch, Friction, Scenario, ScenarioKind, Start};
 
 /// One axis of the box.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,6 +113,8 @@ impl Case {
                 duration_s: (PERIODS / frequency).min(LONGEST_S),
                 speed_rad_s: speed,
             },
+            // As the paper's scenes, on which the study stands.
+            start: Start::WithoutSpring,
             clutch,
             overrides: Vec::new(),
             torque_history: None,

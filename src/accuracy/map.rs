@@ -159,8 +159,8 @@ pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
     let go = |tolerance: f64| {
         let settings = Settings {
             tolerance,
-            most_steps: limit.most_steps,
-            most_events: limit.most_events,
+            most_steps: Some(limit.most_steps),
+            most_events: Some(limit.most_events),
             interrupt: limit.interrupt,
             ..Settings::default()
         };

@@ -199,6 +199,8 @@ impl Bench<'_> {
             samples: 0,
             rolling: false,
             interrupt: self.settings.interrupt,
+            history: Default::default(),
+            clock: None,
         };
         run(&p.model, p.state, p.mode, &s)
     }
@@ -209,7 +211,7 @@ impl Bench<'_> {
             // `demand` runs at a tenth.
             tolerance: 10.0 * tolerance,
             longest_step_s: Some(self.longest_step_s(per_period)),
-            most_steps: MOST,
+            most_steps: Some(MOST),
             interrupt: self.settings.interrupt,
             ..Settings::default()
         };

@@ -5,7 +5,9 @@ mod damping;
 mod facts;
 mod history;
 mod left_out;
+mod notes;
 mod page;
+mod told;
 mod unfelt;
 
 use super::exit::{Exit, Failure};
@@ -36,16 +38,14 @@ at-threshold all exit with 0. A run that meets a limit of work exits with 3, wit
 const PUBLISHED_STEP_S: f64 = 1e-5;
 /// Half width of the published scheme's band; the paper gives none, a choice.
 const PUBLISHED_BAND_M_S: f64 = 1e-4;
-/// A published run whose angle moves by more than this when its step is halved has not converged, rad.
-const CONVERGED_RAD: f64 = 1e-4;
 /// Tolerances that make sense: below, rounding rules; above, events are missed.
 const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
 /// Shortest step that makes sense, s: below, rounding of the time rules.
 const SHORTEST_STEP_S: f64 = 1e-9;
 /// Steps of the published scheme that one command takes on: some hours.
 const MOST_STEPS: u64 = 1_000_000_000;
-/// Rows of the history; peaks never come from them.
-const SAMPLES: usize = 1200;
+/// Most rows of a history that can be asked for: more than any program reads.
+const MOST_SAMPLES: u64 = 10_000_000;
 
 /// How the equations of motion are integrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -79,6 +79,20 @@ pub struct SimulateArgs {
     /// Half width of the band of zero velocity of the published method, m/s [default: 1e-4]
     #[arg(long, value_name = "M_PER_S", allow_hyphen_values = true, value_parser = positive)]
     pub band: Option<f64>,
+    /// Most steps of one run, refused ones included; a run that meets the limit gives up [default: 50000 for a second of the
+    /// scene or 500 for a period, 200000 at least]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(1..))]
+    pub max_steps: Option<u64>,
+    /// Most changes of mode of one run; a run that meets the limit gives up [default: half as many as steps]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(1..))]
+    pub max_changes: Option<u64>,
+    /// Rows of the history, at equal distances [default: 1200; where that is less than 24 for a period or 1000 for a second,
+    /// as many as that and a row for each change of mode and each extreme]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(2..=MOST_SAMPLES))]
+    pub samples: Option<u64>,
+    /// Part of the scene that the history shows, from A to B in seconds, as 59.5:60 [default: all of it]
+    #[arg(long, value_name = "A:B", allow_hyphen_values = true, value_parser = window)]
+    pub window: Option<[f64; 2]>,
     /// Run everything, also what the scene cannot feel (arcs never touched, the friction law where nothing slips)
     #[arg(long)]
     pub full: bool,
@@ -117,8 +131,11 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
         return Err(refused("--step", step, &format!("at most the duration of the scenario, {duration} s")));
     }
     refuse_endless(args, duration)?;
+    refuse_outside(args, duration)?;
     let start = Instant::now();
-    let (outcome, planned) = match computed(args, context, scenario) {
+    let event = duration.filter(|_| args.method == Method::Event);
+    let run = || computed(args, context, scenario);
+    let (outcome, planned) = match told::while_told(&scenario.name, event, context, run) {
         Ok((prepared, simulation, planned)) => (Ok((prepared, simulation)), planned),
         Err(why) => (Err(why), Default::default()),
     };
@@ -131,17 +148,29 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     let own = Design { clutch: scenario.clutch.clone(), ..design.clone() };
     let mut scene =
         Scene { scenario, own, method, outcome, planned, damping: None, notes: Vec::new(), run_time_s };
-    scene.damping = damping::effect(&scene, &settings_of(args, context));
-    scene.notes = notes(&scene, args);
+    let other = format!("{}, contact damping changed", scenario.name);
+    scene.damping = told::while_told(&other, event, context, || {
+        damping::effect(&scene, &settings_of(args, context, scenario))
+    });
+    scene.notes = notes::of(&scene, args);
     report(&design, &scene, context)
 }
 
-fn settings_of(args: &SimulateArgs, context: &Context) -> Settings {
-    let interrupt = Some(context.interrupt.flag());
-    let chosen = Settings { samples: SAMPLES, energy: true, interrupt, ..Settings::default() };
-    // The published scheme has a step of its own.
-    let longest_step_s = args.step.filter(|_| args.method == Method::Event);
-    Settings { tolerance: args.tolerance.unwrap_or(chosen.tolerance), longest_step_s, ..chosen }
+fn settings_of(args: &SimulateArgs, context: &Context, scenario: &Scenario) -> Settings {
+    let (samples, history) = history::asked(args, scenario);
+    let chosen = Settings::default();
+    Settings {
+        tolerance: args.tolerance.unwrap_or(chosen.tolerance),
+        // The published scheme has a step of its own.
+        longest_step_s: args.step.filter(|_| args.method == Method::Event),
+        samples,
+        history,
+        most_steps: args.max_steps,
+        most_events: args.max_changes,
+        energy: true,
+        interrupt: Some(context.interrupt.flag()),
+        clock: Some(&told::CLOCK),
+    }
 }
 
 fn computed(
@@ -149,7 +178,7 @@ fn computed(
     context: &Context,
     scenario: &Scenario,
 ) -> Result<(Prepared, Simulation, [Vec<Term>; 2]), NoScenario> {
-    let settings = settings_of(args, context);
+    let settings = settings_of(args, context, scenario);
     match args.method {
         Method::Event => {
             let planned = fidelity::simulate(scenario, &settings, args.full)?;
@@ -178,7 +207,9 @@ fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Fai
         error_estimate: scene.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
         body: answer::Body::of(scene),
     };
-    context.outputs.write_csv(&history::table(scene));
+    if context.outputs.csv.is_some() {
+        context.outputs.write_csv(&history::table(scene));
+    }
     context.outputs.write_report(|| page::page(scene, &answer, context));
     answer.print(context)?;
     let facts = facts::table(scene).to_text(context.screen);
@@ -187,83 +218,12 @@ fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Fai
         context.message(&format!("note: {note}"));
     }
     Ok(match scene.simulation() {
-        Some(s) if s.stop == Stop::Interrupted => Exit::Interrupted,
+        Some(s) if s.stop == Stop::Interrupted || s.finer_gave_up == Some(Stop::Interrupted) => {
+            Exit::Interrupted
+        }
         Some(s) if s.verdict.is_none() || s.stop.gave_up() => Exit::Failed,
         _ => Exit::Held,
     })
-}
-
-fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
-    let mut notes = unfelt::notes(scene.scenario);
-    let simulation = scene.simulation();
-    if scene.method == "equilibrium" {
-        if args.method == Method::Published || args.step.is_some() {
-            notes.push("an equilibrium: nothing is integrated, --method and --step say nothing".into());
-        }
-    } else if let Some(s) = simulation
-        && (s.verdict.is_none() || s.stop.gave_up())
-    {
-        let lead = if s.verdict.is_none() { "no verdict" } else { "not to the end" };
-        let why = given_up(s.stop);
-        notes
-            .push(format!("{lead}: {why}; the figures hold up to {:.6} s, without an error estimate", s.t_s));
-    }
-    notes.extend(scene.damping.as_ref().and_then(damping::Effect::note));
-    if let Some(s) = simulation
-        && let Some(fast) = s.fast_motion
-    {
-        notes.push(format!(
-            "the fastest motion where the run gave up: the {} at {:.2e} rad/s with an amplitude of {:.1e} rad",
-            fast.of, fast.rate_rad_s, fast.amplitude_rad
-        ));
-    }
-    if let Some(s) = simulation.filter(|s| s.zeno_closures > 0) {
-        notes.push(format!("accumulating changes of mode were closed at their limit: {}", s.zeno_closures));
-    }
-    if let Some(s) = simulation.filter(|s| s.inconsistent_choices > 0) {
-        notes.push(format!(
-            "no choice of stick and slip was consistent at {} changes of mode; the nearest was taken",
-            s.inconsistent_choices
-        ));
-    }
-    if let Some(s) =
-        simulation.filter(|s| scene.method == "event" && s.error.is_some() && !s.tolerance_reached)
-    {
-        let [low, high] = s.spread_rad;
-        let (figure, by) = worst(s);
-        let finer = s
-            .finer_gave_up
-            .map_or(String::new(), |stop| format!("; a finer run gave up: {}", given_up(stop)));
-        notes.push(format!(
-            "the tolerance is not reached: furthest from it is the {figure}, off by {by:.1e} of its natural size{finer}; \
-             theta_inner_end lies between {low:.9} and {high:.9} rad over the runs made"
-        ));
-    }
-    let moved = simulation.and_then(|s| s.error).map_or(0.0, |e| e.theta_inner_rad);
-    if scene.method == "published" && moved > CONVERGED_RAD {
-        notes.push(format!(
-            "the published scheme has not converged: half the step moves theta_inner_end by {moved:.2e} rad; \
-             --method event does converge"
-        ));
-    }
-    notes
-}
-
-/// The figure furthest from the tolerance, and its error by its natural size; what the energy balance leaves over is one.
-fn worst(s: &Simulation) -> (&'static str, f64) {
-    let left = s.energy.map_or(0.0, |e| e.relative().abs());
-    let figure = s.error.map_or(("", 0.0), |e| s.scales.worst_figure(&e));
-    if figure.1 < left { ("energy left over", left) } else { figure }
-}
-
-/// Why a run ended before its time.
-fn given_up(stop: Stop) -> &'static str {
-    match stop {
-        Stop::Interrupted => "interrupted",
-        Stop::EventLimit => "too many changes of mode",
-        Stop::StepLimit => "too many steps, or steps that became too short",
-        _ => "the equations ceased to be finite, or only one of two runs came to its end",
-    }
 }
 
 /// Duration of a scenario that is integrated, s.
@@ -316,6 +276,35 @@ fn refuse_endless(args: &SimulateArgs, duration_s: Option<f64>) -> Result<(), Fa
         MOST_STEPS as f64
     );
     Err(refused("--step", step_s, &why))
+}
+
+/// Two times, s, with a colon between them.
+fn window(text: &str) -> Result<[f64; 2], String> {
+    let time = |text: &str| text.trim().parse::<f64>().ok().filter(|t| t.is_finite() && *t >= 0.0);
+    match text.split_once(':').map(|(a, b)| (time(a), time(b))) {
+        Some((Some(a), Some(b))) if a < b => Ok([a, b]),
+        _ => Err("two times in seconds are needed, the earlier one first, as in 0.1:0.2".to_owned()),
+    }
+}
+
+/// Refuse a part of the scene that it does not have, and limits that the published scheme does not know.
+fn refuse_outside(args: &SimulateArgs, duration_s: Option<f64>) -> Result<(), Failure> {
+    if args.method == Method::Published {
+        let given = [
+            ("--window", args.window.is_some()),
+            ("--max-steps", args.max_steps.is_some()),
+            ("--max-changes", args.max_changes.is_some()),
+        ];
+        if let Some((flag, _)) = given.into_iter().find(|(_, given)| *given) {
+            return Err(Failure::malformed(format!("{flag}: only with --method event")));
+        }
+    }
+    match (args.window, duration_s) {
+        (Some([_, until]), Some(end)) if until > end => {
+            Err(refused("--window", until, &format!("up to the end of the scene at {end} s")))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn refused(flag: &str, found: f64, allowed: &str) -> Failure {

@@ -45,7 +45,7 @@ pub use history::is_history;
 pub use notes::with_notes;
 pub use objective::Objective;
 pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
-pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
+pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind, Start};
 pub use shape::schema;
 pub use tolerances_file::Tolerances;
 pub use variables::{VARIABLES, is_whole, variable_names, variable_path};

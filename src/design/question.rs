@@ -114,6 +114,16 @@ pub enum ScenarioKind {
     },
 }
 
+/// The equilibrium that a scene under load starts from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Start {
+    /// With the energizing spring, which presses the sprags further in than the torque alone.
+    #[default]
+    Settled,
+    /// Of the torque alone, as in the paper: the spring begins to act when the scene does.
+    WithoutSpring,
+}
+
 /// One named scenario with the clutch it acts on (per-scenario overrides applied).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {
@@ -121,6 +131,8 @@ pub struct Scenario {
     pub name: String,
     /// Kind and its data.
     pub kind: ScenarioKind,
+    /// Where it starts; means nothing to what starts in overrun.
+    pub start: Start,
     /// The clutch with this scenario's overrides.
     pub clutch: Clutch,
     /// Dotted names of the tables that the scenario overrides, for the reports.

@@ -8,11 +8,11 @@ use super::file::{FrictionFile, MaterialFile, RacesFile, SpragsFile, SpringFile}
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-/// One scenario. Keys belong to kinds: static: torque_nm; torsional-excitation: preload_nm, amplitude_nm,
-/// frequency_hz, abutment_stiffness_nm_per_rad, duration_s, speed_rpm; engagement: free_run_rpm,
+/// One scenario. Keys belong to kinds: static: torque_nm, start; torsional-excitation: preload_nm, amplitude_nm,
+/// frequency_hz, abutment_stiffness_nm_per_rad, duration_s, speed_rpm, start; engagement: free_run_rpm,
 /// reversing_torque_nm, stop_stiffness_nm_per_rad, bench_inertia_kg_m2, duration_s; overrun: speed_rpm,
 /// overrun_rpm; transient: abutment_stiffness_nm_per_rad, duration_s, preload_nm, torque_step_nm, step_time_s,
-/// torque_history_csv, speed_rpm, speed_history_csv, overrun_rpm. Any of the clutch's tables may be overridden in part.
+/// torque_history_csv, speed_rpm, speed_history_csv, overrun_rpm, start. Any of the clutch's tables may be overridden in part.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ScenarioFile {
@@ -71,6 +71,9 @@ pub(super) struct ScenarioFile {
     /// rev/min.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub overrun_rpm: Option<f64>,
+    /// static, torsional-excitation and transient: the equilibrium at the start: settled (with the energizing spring,
+    /// absent: this one) or without-spring (of the torque alone, as in the paper).
+    pub start: Option<StartFile>,
     /// Keys of sprags that differ in this scenario.
     #[serde(default)]
     #[schemars(schema_with = "part_of::<SpragsFile>")]
@@ -105,6 +108,13 @@ pub(super) enum KindFile {
     Engagement,
     Overrun,
     Transient,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum StartFile {
+    Settled,
+    WithoutSpring,
 }
 
 /// The schema of a table of which any key may be left out (tables within it as well; rows of arrays stay whole).

@@ -9,20 +9,20 @@ use super::check::{self, rad_s};
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::history::HistoryKind;
-use super::scenario_file::{KindFile, ScenarioFile};
+use super::scenario_file::{KindFile, ScenarioFile, StartFile};
 use super::steels::{self, BODIES, MATERIAL_KEYS};
-use super::{Clutch, Scenario, ScenarioKind, shape};
+use super::{Clutch, Scenario, ScenarioKind, Start, shape};
 
 /// Kind, its name, the keys it must have, those it may have.
 type KindKeys = (KindFile, &'static str, &'static [&'static str], &'static [&'static str]);
 
 const KINDS: [KindKeys; 5] = [
-    (KindFile::Static, "static", &["torque_nm"], &[]),
+    (KindFile::Static, "static", &["torque_nm"], &["start"]),
     (
         KindFile::TorsionalExcitation,
         "torsional-excitation",
         &["preload_nm", "amplitude_nm", "frequency_hz", "abutment_stiffness_nm_per_rad", "duration_s"],
-        &["speed_rpm"],
+        &["speed_rpm", "start"],
     ),
     (
         KindFile::Engagement,
@@ -49,6 +49,7 @@ const KINDS: [KindKeys; 5] = [
             "speed_rpm",
             "speed_history_csv",
             "overrun_rpm",
+            "start",
         ],
     ),
 ];
@@ -56,12 +57,13 @@ const KINDS: [KindKeys; 5] = [
 /// Keys of a transient of which at least one is needed.
 const CHANGES: [&str; 4] = ["torque_step_nm", "torque_history_csv", "speed_history_csv", "overrun_rpm"];
 
-/// Keys of a transient that give one thing twice.
-const EITHER: [[&str; 2]; 4] = [
+/// Keys of a transient that give one thing twice: the one, and the other that is then to go.
+const EITHER: [[&str; 2]; 5] = [
     ["torque_history_csv", "preload_nm"],
     ["torque_history_csv", "torque_step_nm"],
     ["torque_history_csv", "step_time_s"],
     ["speed_history_csv", "speed_rpm"],
+    ["overrun_rpm", "start"],
 ];
 
 /// Reads a history named in a file; the error is what was found instead of a file.
@@ -133,6 +135,10 @@ pub(super) fn scenarios(
                 list.push(Scenario {
                     name: entry.name.clone(),
                     kind,
+                    start: match entry.start {
+                        None | Some(StartFile::Settled) => Start::Settled,
+                        Some(StartFile::WithoutSpring) => Start::WithoutSpring,
+                    },
                     clutch,
                     torque_history,
                     speed_history,
@@ -164,6 +170,7 @@ fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind
         ("step_time_s", s.step_time_s),
         ("torque_history_csv", s.torque_history_csv.as_ref().map(|_| 0.0)),
         ("speed_history_csv", s.speed_history_csv.as_ref().map(|_| 0.0)),
+        ("start", s.start.map(|_| 0.0)),
     ];
     let kind_key = format!("{path}.kind");
     for (name, value) in values {
@@ -197,7 +204,7 @@ fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind
                 out.refuse(
                     &keys,
                     format!("no {other} beside {one}"),
-                    format!("remove {other}: the file says it"),
+                    format!("remove {other}: {one} says it"),
                 );
             }
         }

@@ -203,6 +203,7 @@ impl Driver<'_> {
         self.run.note_engagement();
         if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {
             self.run.modes.push((t, mode));
+            self.mark(t);
         }
     }
 

@@ -94,6 +94,7 @@ impl<'a> Driver<'a> {
 
     /// Integrate to the end, whatever that is.
     pub(super) fn run(mut self) -> Run {
+        self.settings.clock.inspect(|clock| clock.begin_run());
         self.begin();
         self.integrate();
         self.finish()
@@ -114,6 +115,7 @@ impl<'a> Driver<'a> {
             if self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                 return self.stop(Stop::Interrupted);
             }
+            self.settings.clock.inspect(|clock| clock.tell(self.run.t_s));
             if self.most_slip_m.is_some_and(|path| self.run.has_slipped(self.model.loaded_n, path)) {
                 return self.stop(Stop::Slipped);
             }
@@ -423,6 +425,7 @@ impl<'a> Driver<'a> {
 
     fn finish(mut self) -> Run {
         self.run.energy = self.balance();
+        self.sample_extremes();
         if matches!(self.run.stop, Stop::StepLimit | Stop::EventLimit) {
             let mut rhs = slope_in(self.model, self.run.mode);
             let (t, y) = (self.run.t_s, self.run.state);

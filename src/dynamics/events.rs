@@ -18,6 +18,8 @@ pub(super) const OUTER: usize = 3;
 pub(super) const FIGURES: usize = 5;
 /// Index of N_bi among them.
 pub(super) const N_BI: usize = 3;
+/// Index of N_be among them.
+pub(super) const N_BE: usize = 4;
 
 /// How far below first contact alpha must fall before contact counts as lost, rad: N is 0 from first contact on,
 /// and a sprag that neither spring nor load moves does not flutter between the two places on rounding.
@@ -38,12 +40,22 @@ pub(super) struct Look {
     pub(super) rho: f64,
     /// Windup of the rolling clutch, rad.
     pub(super) windup: f64,
+    /// OC_g' alpha'' while A carries load, else 0, m/s^2.
+    pub(super) radial_m_s2: f64,
+    /// theta_be', rad/s.
+    pub(super) outer_rate_rad_s: f64,
 }
 
 impl Look {
     /// Before anything is seen.
-    pub(super) const NOTHING: Self =
-        Self { events: [f64::NAN; EVENTS], figures: [f64::NAN; FIGURES], rho: f64::NAN, windup: f64::NAN };
+    pub(super) const NOTHING: Self = Self {
+        events: [f64::NAN; EVENTS],
+        figures: [f64::NAN; FIGURES],
+        rho: f64::NAN,
+        windup: f64::NAN,
+        radial_m_s2: f64::NAN,
+        outer_rate_rad_s: f64::NAN,
+    };
 }
 
 /// How far alpha (rad) lies from the ends of its place.
@@ -97,7 +109,16 @@ pub(super) fn seen(model: &Model, mode: &Mode, y: &State, p: &WedgePoint, f: &Fo
         figures: figures(matches!(mode.place, Place::Arc(_)), f, share),
         rho: p.rho_i + p.rho_e,
         windup: p.windup,
+        radial_m_s2: radial_m_s2(mode, p, f),
+        outer_rate_rad_s: y[7],
     }
+}
+
+/// OC_g' alpha'' while A carries load, else 0, m/s^2.
+#[inline(always)]
+pub(super) fn radial_m_s2(mode: &Mode, p: &WedgePoint, f: &Forces) -> f64 {
+    let carries = mode.place != Place::Open && f.n_bi > 0.0;
+    if carries { p.oc_g_slope * f.acceleration[0] } else { 0.0 }
 }
 
 /// What is seen at (t, y) in `mode`.

@@ -10,6 +10,7 @@
 
 mod change;
 mod choose;
+mod clock;
 mod crossing;
 mod cusp;
 mod driver;
@@ -25,12 +26,14 @@ mod start;
 mod watch;
 mod zeno;
 
+pub use clock::{Clock, Told};
 pub use energy::EnergyBalance;
 pub use model::{Drive, Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
 pub use outside::{events, next_mode};
 pub use published::{PublishedSettings, published};
 pub use rolling::{Rolling, rolling};
 pub use run::{
-    Engaged, FastMotion, Held, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run, run_while_it_sticks,
+    Engaged, FastMotion, Held, History, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,
+    run_while_it_sticks,
 };
-pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled};
+pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled, settled_end_torque_nm, settled_point};

@@ -32,6 +32,8 @@ pub fn next_mode(model: &Model, mode: &Mode, which: usize, t: f64, y: &State) ->
         rolling: false,
         energy: false,
         interrupt: None,
+        history: Default::default(),
+        clock: None,
     };
     let mut driver = Driver::new(model, *y, *mode, &settings);
     driver.run.t_s = t;

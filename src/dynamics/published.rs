@@ -3,7 +3,7 @@
 //! It does not converge at the paper's step: inside the band the contact creeps, and once the restoring force is
 //! lost it runs away. Never the default.
 
-use super::events::figures;
+use super::events::{figures, radial_m_s2};
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{Run, Sample, Stop};
 use crate::ode::rk4;
@@ -100,7 +100,7 @@ pub fn published(
             run.open_s += h;
             run.longest_open_s = run.longest_open_s.max(open_s);
         }
-        note(&mut run, t, if i > 0 { h } else { 0.0 }, mode, &forces, band);
+        note(model, &mut run, t, if i > 0 { h } else { 0.0 }, mode, &forces, band);
         keep(&mut run, t, mode, forces, settings, h);
         if !(run.state[0] < end_alpha && run.state[0] > -10.0) {
             run.stop = if run.state[0] > 0.0 { Stop::CurveEnd } else { Stop::FellAway };
@@ -130,7 +130,7 @@ pub fn published(
 }
 
 /// Extremes, slip times and changes of mode at the end of a step of length `h`.
-fn note(run: &mut Run, t: f64, h: f64, mode: Mode, f: &Forces, band: f64) {
+fn note(model: &Model, run: &mut Run, t: f64, h: f64, mode: Mode, f: &Forces, band: f64) {
     let closed = mode.place != Place::Open;
     if closed && f.v_a.abs() > band {
         run.inner.time_s += h;
@@ -144,6 +144,8 @@ fn note(run: &mut Run, t: f64, h: f64, mode: Mode, f: &Forces, band: f64) {
             run.peaks.keep(i, t, seen[i], f.n_bi);
         }
     }
+    let p = model.point(mode.place, run.state[0]);
+    run.neglected.note(radial_m_s2(&mode, &p, f).abs(), f.n_be, run.state[7].abs());
     run.events += u64::from(t > 0.0 && mode != run.mode);
     run.mode = mode;
     run.note_engagement();

@@ -1,5 +1,6 @@
 //! A run: what it is asked for and what comes out.
 
+use super::clock::Clock;
 use super::driver::Driver;
 use super::energy::EnergyBalance;
 use super::events::{FIGURES, N_BI};
@@ -28,6 +29,40 @@ pub struct RunSettings {
     pub energy: bool,
     /// Set from outside to end the run at the next step.
     pub interrupt: Option<&'static AtomicBool>,
+    /// What the samples are of.
+    pub history: History,
+    /// Where the run tells how far it is.
+    pub clock: Option<&'static Clock>,
+}
+
+/// What a history holds.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct History {
+    /// The samples lie between these times, s; `None`: from the start to the end of the run.
+    pub window_s: Option<[f64; 2]>,
+    /// Whether located changes of mode and extremes are samples too, at most as many as there are equidistant ones.
+    pub marks: bool,
+}
+
+/// What the equations leave out, at its largest over a run, from every look at every step. 0 where no samples were asked for.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Neglected {
+    /// |OC_g' alpha''| while A carries load, m/s^2: the radial acceleration of G.
+    pub radial_m_s2: f64,
+    /// N_be then, N.
+    pub normal_outer_n: f64,
+    /// |theta_be'|, rad/s.
+    pub outer_rate_rad_s: f64,
+}
+
+impl Neglected {
+    /// One look: |OC_g' alpha''| (m/s^2), N_be (N) and |theta_be'| (rad/s) there.
+    pub(super) fn note(&mut self, radial_m_s2: f64, normal_outer_n: f64, outer_rate_rad_s: f64) {
+        if radial_m_s2 > self.radial_m_s2 {
+            (self.radial_m_s2, self.normal_outer_n) = (radial_m_s2, normal_outer_n);
+        }
+        self.outer_rate_rad_s = self.outer_rate_rad_s.max(outer_rate_rad_s);
+    }
 }
 
 /// Why a run ended.
@@ -234,8 +269,14 @@ pub struct Run {
     pub fast_motion: Option<FastMotion>,
     /// Where the energy went, where that was asked.
     pub energy: Option<EnergyBalance>,
-    /// Equidistant samples.
+    /// Samples in the order of time: equidistant ones, and those that [`History::marks`] adds.
     pub samples: Vec<Sample>,
+    /// How many of these are changes of mode.
+    pub(super) marked: usize,
+    /// The sample at each of the extremes so far, where the history marks them.
+    pub(super) extremes: [Option<Sample>; FIGURES],
+    /// What the equations leave out.
+    pub neglected: Neglected,
     /// When the clutch began to be one; `None`: it overran or was open to the end.
     pub engaged: Option<Engaged>,
     /// The first hold of the load since then that has ended.
@@ -292,6 +333,9 @@ impl Run {
             fast_motion: None,
             energy: None,
             samples: Vec::with_capacity(samples),
+            marked: 0,
+            extremes: [None; FIGURES],
+            neglected: Neglected::default(),
             engaged: None,
             held: None,
             stick: None,

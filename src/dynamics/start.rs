@@ -4,7 +4,7 @@ use super::model::{Model, Place, State};
 use crate::design::Clutch;
 use crate::kinematics::levers;
 use crate::numeric::root;
-use crate::wedge::WedgeCurve;
+use crate::wedge::{StaticPoint, WedgeCurve, WedgePoint};
 
 /// Friction coefficient behind the measured drag torque C_f from which alpha_max follows (MODEL choice).
 const DRAG_FRICTION: f64 = 0.1;
@@ -33,6 +33,10 @@ pub fn preloaded(model: &Model, torque_nm: f64) -> Option<(State, Place)> {
         y[0] = model.curve.first_contact_rad();
         return Some((y, Place::Open));
     }
+    if model.mean_speed(0.0).0 != model.curve.speed_rad_s() {
+        // The curve has another centrifugal force than the start.
+        return settled(&Model { spring_nm_per_rad: 0.0, ..model.clone() }, torque_nm);
+    }
     let (_, c) = model.curve.closure_at_torque(torque_nm)?;
     let alpha = c.alpha.v;
     let outer = if model.loads.abutment_nm_per_rad > 0.0 {
@@ -58,7 +62,7 @@ pub fn settled(model: &Model, torque_nm: f64) -> Option<(State, Place)> {
         let rho = p.rho_i + p.rho_e;
         model.static_tangential_n(&p, speed) * p.oa * rho
             - torque_nm / model.count * rho
-            - model.spring_nm_per_rad * (model.alpha_max_rad - alpha)
+            - spring_moment_nm(model, alpha)
     };
     let mut from = model.curve.first_contact_rad();
     if left(0, from) >= 0.0 {
@@ -80,6 +84,50 @@ pub fn settled(model: &Model, torque_nm: f64) -> Option<(State, Place)> {
         from = until;
     }
     None
+}
+
+/// What the energizing spring presses one sprag in with at `alpha` (rad), N m.
+fn spring_moment_nm(model: &Model, alpha: f64) -> f64 {
+    model.spring_nm_per_rad * (model.alpha_max_rad - alpha)
+}
+
+/// What the spring takes over of the torque of the clutch at the point `p` of the curve at `alpha` (rad), N m: the curve
+/// without it carries C_0, the clutch C = C_0 - n_s K_r(alpha_max - alpha)/(rho_i + rho_e).
+fn spring_torque_nm(model: &Model, p: &WedgePoint, alpha: f64) -> f64 {
+    model.count * spring_moment_nm(model, alpha) / (p.rho_i + p.rho_e)
+}
+
+/// Torque that the clutch with its spring carries at the end of the curve, N m.
+pub fn settled_end_torque_nm(model: &Model) -> f64 {
+    let (_, end) = model.curve.end();
+    let p = model.curve.in_arc(model.curve.arc_count() - 1, end);
+    model.curve.end_torque_nm() - spring_torque_nm(model, &p, end)
+}
+
+/// The static state of [`settled`] at rest under `torque_nm` > 0, at its alpha, rad: N_bi as the curve has it there,
+/// T_bi = C/(n_s OA), T_be = C/(n_s OB), N_be by the radial equation, so that the spring lowers |T|/N. Windup from first contact.
+/// `None` beyond the curve.
+pub fn settled_point(model: &Model, torque_nm: f64, alpha: f64) -> Option<StaticPoint> {
+    let k = model.curve.arc_at(alpha);
+    let p = model.curve.in_arc(k, alpha);
+    let free = model.curve.at_normal(p.n_bi)?;
+    let [t_bi, t_be] = [p.oa, p.ob].map(|radius| torque_nm / (model.count * radius));
+    let (sin, cos) = p.beta_gamma.sin_cos();
+    let n_be = (p.n_bi * cos + t_bi * sin - t_be * p.gamma.sin()) / p.gamma.cos();
+    // dC/dW with dW = (rho_i + rho_e) d alpha.
+    let rho = p.rho_i + p.rho_e;
+    let of_spring = model.count * model.spring_nm_per_rad / rho
+        + spring_torque_nm(model, &p, alpha) * (p.rho_i_slope + p.rho_e_slope) / rho;
+    Some(StaticPoint {
+        torque_nm,
+        normal_outer_n: n_be,
+        tan_omega: t_bi / p.n_bi,
+        tan_nu: t_be / n_be,
+        k_secant_nm_per_rad: torque_nm / free.windup_rad,
+        k_tangent_nm_per_rad: free.k_tangent_nm_per_rad + of_spring / rho,
+        hertz_outer_pa: model.curve.statics().elastic.outer_contact.peak_pressure_pa(n_be),
+        ..free
+    })
 }
 
 /// Steady overrun: the outer race carries the sprags round, the inner race slips ahead.

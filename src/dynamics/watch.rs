@@ -1,10 +1,10 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
 use super::driver::Driver;
-use super::events::{FIGURES, N_BI, look};
+use super::events::{FIGURES, N_BE, N_BI, look};
 use super::looks::{Looks, Observed, parabola};
 use super::model::{N_STATE, State};
-use super::run::Sample;
+use super::run::{RunSettings, Sample};
 use crate::ode::step::Step;
 
 impl Driver<'_> {
@@ -30,6 +30,8 @@ impl Driver<'_> {
                 if value(j) > best {
                     best = value(j);
                     peaks.keep(i, t, best, looks.seen(j).figures[N_BI]);
+                    let state = if j == 0 { self.run.state } else { *step.y1() };
+                    self.keep_extreme(i, t, state);
                 }
             }
             for j in 0..looks.count() {
@@ -54,8 +56,21 @@ impl Driver<'_> {
                     if found > best {
                         best = found.min(bound);
                         peaks.keep(i, start + theta * length, best, figures(theta)[N_BI]);
+                        let state = d.after(theta * length);
+                        self.keep_extreme(i, start + theta * length, state);
                     }
                 }
+            }
+        }
+        if samples > 0 {
+            for j in 0..looks.count() {
+                let seen = looks.seen(j);
+                // No more than a parabola can rise between the looks.
+                let radial = |j: usize| looks.seen(j).radial_m_s2.abs();
+                let rate = |j: usize| looks.seen(j).outer_rate_rad_s.abs();
+                let [radial, rate] =
+                    [radial(j) + looks.overshoot(j, radial), rate(j) + looks.overshoot(j, rate)];
+                self.run.neglected.note(radial, seen.figures[N_BE], rate);
             }
         }
         if wants_sample {
@@ -66,7 +81,8 @@ impl Driver<'_> {
             while self.next_sample < samples && self.sample_time(self.next_sample) <= t_end {
                 let t = self.sample_time(self.next_sample);
                 let state = d.at(t);
-                self.run.samples.push(Sample { t, state, forces: model.forces(&mode, t, &state), mode });
+                let sample = self.sample(t, state);
+                self.run.samples.push(sample);
                 self.next_sample += 1;
             }
         }
@@ -85,7 +101,42 @@ impl Driver<'_> {
     }
 
     fn sample_time(&self, i: usize) -> f64 {
-        self.settings.duration_s * i as f64 / (self.settings.samples.max(2) - 1) as f64
+        let [from, until] = self.settings.history.window_s.unwrap_or([0.0, self.settings.duration_s]);
+        from + (until - from) * i as f64 / (self.settings.samples.max(2) - 1) as f64
+    }
+
+    fn sample(&self, t: f64, state: State) -> Sample {
+        let mode = self.run.mode;
+        Sample { t, state, forces: self.model.forces(&mode, t, &state), mode }
+    }
+
+    /// Whether something at `t` (s) is to be a sample beside the equidistant ones.
+    fn marks(&self, t: f64) -> bool {
+        let RunSettings { samples, history, .. } = self.settings;
+        *samples > 0 && history.marks && history.window_s.is_none_or(|[from, until]| from <= t && t <= until)
+    }
+
+    /// The mode has changed at `t` (s).
+    pub(super) fn mark(&mut self, t: f64) {
+        if self.marks(t) && self.run.marked < self.settings.samples {
+            let sample = self.sample(t, self.run.state);
+            self.run.samples.push(sample);
+            self.run.marked += 1;
+        }
+    }
+
+    /// Extreme `i` so far is at `t` (s).
+    fn keep_extreme(&mut self, i: usize, t: f64, state: State) {
+        if self.marks(t) {
+            self.run.extremes[i] = Some(self.sample(t, state));
+        }
+    }
+
+    /// The extremes of the run join its samples.
+    pub(super) fn sample_extremes(&mut self) {
+        let run = &mut self.run;
+        run.samples.extend(run.extremes.iter_mut().filter_map(Option::take));
+        run.samples.sort_by(|a, b| a.t.total_cmp(&b.t));
     }
 
     /// Extremes of N_bi at one instant.

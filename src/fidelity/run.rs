@@ -55,9 +55,10 @@ pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<
     Ok(Planned { prepared, simulation, left_out, kept })
 }
 
-/// Whether the run, or the rolling run beside it, ended where the curve does.
+/// Whether the run, or the rolling run beside it, ended where the curve does: a run that met a limit of work would meet it
+/// again on the whole curve.
 fn reached_the_end(s: &Simulation) -> bool {
-    s.stop == Stop::CurveEnd || s.demand.is_some_and(|d| !d.finished)
+    s.stop == Stop::CurveEnd || s.demand.is_some_and(|d| d.overloaded)
 }
 
 fn friction_law(s: &Simulation, prepared: &Prepared) -> Term {

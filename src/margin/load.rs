@@ -10,7 +10,8 @@ use crate::dynamics::alpha_max_rad;
 use crate::profile::{Outline, Profile, clearance_m};
 use crate::wedge::{EndReason, StaticPoint, WedgeCurve};
 
-/// What the static limits are read from.
+/// What the static limits are read from: the wedge without its energizing spring, which at such torques presses by parts in
+/// ten thousand harder and lowers |T|/N.
 #[derive(Debug, Clone)]
 pub struct LoadState {
     /// Placed profile.

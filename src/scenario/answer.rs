@@ -3,7 +3,7 @@
 use super::demand::Demand;
 use super::error::{ErrorEstimate, Scales};
 use crate::dynamics::{
-    EnergyBalance, Engaged, FastMotion, Held, Mode, Overrun, Peaks, Sample, SlipRecord, Stop,
+    EnergyBalance, Engaged, FastMotion, Held, Mode, Neglected, Overrun, Peaks, Sample, SlipRecord, Stop,
 };
 
 /// What the clutch did.
@@ -35,6 +35,17 @@ impl Verdict {
             Self::AtThreshold => "at-threshold",
         }
     }
+}
+
+/// Where and why a run did not come to its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GaveUp {
+    /// Why.
+    pub stop: Stop,
+    /// Time reached, s.
+    pub t_s: f64,
+    /// The limit of steps or mode changes that it met; `None`: steps became too short, it ceased to be finite or was interrupted.
+    pub limit: Option<u64>,
 }
 
 /// Result of a simulation.
@@ -92,6 +103,8 @@ pub struct Simulation {
     pub tolerance_reached: bool,
     /// Where the answer is that of the finest runs which came to their end: why a finer one did not.
     pub finer_gave_up: Option<Stop>,
+    /// The run that did not come to its end: that of the answer, or a finer one.
+    pub gave_up: Option<GaveUp>,
     /// Smallest and largest theta_bi at the end over all runs made, rad: what is left where no digit is sure.
     pub spread_rad: [f64; 2],
     /// Sequences of mode changes that accumulated and were closed at their limit.
@@ -104,6 +117,8 @@ pub struct Simulation {
     pub energy: Option<EnergyBalance>,
     /// History.
     pub samples: Vec<Sample>,
+    /// What the equations leave out, at its largest over the run; 0 without samples.
+    pub neglected: Neglected,
     /// When A first carried load without overrunning; `None`: never, or an equilibrium.
     pub engaged: Option<Engaged>,
     /// The first stick of A since then under which the load comes to a peak.

@@ -65,17 +65,20 @@ pub(super) fn run_settings(
     per_period: f64,
 ) -> RunSettings {
     let chosen = || prepared.period_s.map_or(prepared.duration_s / 200.0, |p| p / per_period);
+    let [most_steps, most_events] = settings.limits(prepared);
     let longest_step_s = fineness.longest * settings.longest_step_s.unwrap_or_else(chosen);
     RunSettings {
         tolerance: fineness.tolerance,
         duration_s: prepared.duration_s,
         longest_step_s,
-        most_events: settings.most_events,
-        most_steps: settings.most_steps,
+        most_events,
+        most_steps,
         samples,
         rolling: false,
         energy: settings.energy,
         interrupt: settings.interrupt,
+        history: settings.history,
+        clock: settings.clock,
     }
 }
 

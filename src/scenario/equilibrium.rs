@@ -5,7 +5,8 @@ use super::demand::demand;
 use super::error::Scales;
 use super::prepare::Prepared;
 use super::simulate::{Settings, hertz_at, hertz_peak};
-use crate::dynamics::{Peaks, SlipRecord, Stop};
+use crate::design::Start;
+use crate::dynamics::{Neglected, Peaks, SlipRecord, Stop};
 use crate::wedge::StaticPoint;
 
 /// Static and overrunning scenarios: equilibrium, no integration.
@@ -52,12 +53,14 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         scales: Scales::of(prepared, &peaks),
         tolerance_reached: true,
         finer_gave_up: None,
+        gave_up: None,
         spread_rad: [prepared.state[2]; 2],
         zeno_closures: 0,
         inconsistent_choices: 0,
         fast_motion: None,
         energy: None,
         samples: Vec::new(),
+        neglected: Neglected::default(),
         engaged: None,
         held: None,
         modes: Vec::new(),
@@ -73,7 +76,9 @@ fn equilibrium_error(prepared: &Prepared, row: Option<&StaticPoint>) -> f64 {
     match (prepared.overrun, row) {
         (Some(overrun), _) => SETTLED + overrun.relative_error,
         (None, Some(row)) if torque_nm > 0.0 => {
-            SETTLED + prepared.model.curve.truncation() + (row.torque_nm / torque_nm - 1.0).abs()
+            // Where the spring counts alpha is located to its rounding.
+            let located = if prepared.start == Start::Settled { f64::EPSILON / row.alpha_rad } else { 0.0 };
+            SETTLED + prepared.model.curve.truncation() + (row.torque_nm / torque_nm - 1.0).abs() + located
         }
         _ => SETTLED,
     }

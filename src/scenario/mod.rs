@@ -10,7 +10,7 @@ mod error;
 mod prepare;
 mod simulate;
 
-pub use answer::{Simulation, Verdict};
+pub use answer::{GaveUp, Simulation, Verdict};
 pub use demand::{Demand, demand};
 pub use error::{ErrorEstimate, Scales};
 pub use prepare::{

@@ -1,9 +1,9 @@
 //! From a scenario of the design to a model with an initial state.
 
-use crate::design::{Clutch, Scenario, ScenarioKind};
+use crate::design::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{
     Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
-    settled,
+    settled, settled_end_torque_nm, settled_point,
 };
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
@@ -62,6 +62,8 @@ pub struct Prepared {
     pub overrun: Option<Overrun>,
     /// What that start follows from, where something happens after it.
     pub free_run: Option<FreeRun>,
+    /// Which equilibrium a start under load is.
+    pub start: Start,
 }
 
 /// A start in steady overrun, which depends on friction.
@@ -96,7 +98,11 @@ impl Prepared {
     /// The equilibrium at the start of a static scenario, exact; `None` without a load.
     pub fn at_rest(&self) -> Option<StaticPoint> {
         let (curve, torque_nm) = (&self.model.curve, -self.model.loads.inner_nm);
-        if torque_nm > 0.0 { curve.at_torque(torque_nm) } else { curve.at_normal(self.static_normal_n) }
+        match self.start {
+            _ if torque_nm <= 0.0 => curve.at_normal(self.static_normal_n),
+            Start::WithoutSpring => curve.at_torque(torque_nm),
+            Start::Settled => settled_point(&self.model, torque_nm, self.state[0]),
+        }
     }
 }
 
@@ -137,6 +143,7 @@ pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
 /// As [`prepare`].
 pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoScenario> {
     let mut prepared = at_start(scenario, reduction)?;
+    prepared.start = scenario.start;
     let model = &mut prepared.model;
     // A curve that ends before is one that the scene meets the end of.
     let largest_nm = model.loads.amplitude_nm - model.loads.inner_nm;
@@ -160,11 +167,12 @@ fn at_start(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoSc
     let stuck = |place| Mode { place, inner: Grip::Stick, outer: Grip::Stick };
     let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
     let start = |model: &Model, torque_nm: f64| {
-        preloaded(model, torque_nm).ok_or_else(|| NoScenario::NotCarried {
-            torque_nm,
-            end_torque_nm: model.curve.end_torque_nm(),
-            reason: model.curve.end().0.name(),
-        })
+        let (found, end_torque_nm) = match scenario.start {
+            Start::WithoutSpring => (preloaded(model, torque_nm), model.curve.end_torque_nm()),
+            Start::Settled => (settled(model, torque_nm), settled_end_torque_nm(model)),
+        };
+        let reason = model.curve.end().0.name();
+        found.ok_or(NoScenario::NotCarried { torque_nm, end_torque_nm, reason })
     };
     match scenario.kind {
         ScenarioKind::Static { torque_nm } => {
@@ -247,12 +255,7 @@ fn at_start(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoSc
                 Some(free) => overrunning(free, &model.curve, overrun_rad_s),
                 None => {
                     let torque_nm = model.drive.torque_at(0.0).max(0.0);
-                    let (state, place) =
-                        settled(&model, torque_nm).ok_or_else(|| NoScenario::NotCarried {
-                            torque_nm,
-                            end_torque_nm: model.curve.end_torque_nm(),
-                            reason: model.curve.end().0.name(),
-                        })?;
+                    let (state, place) = start(&model, torque_nm)?;
                     (state, stuck(place))
                 }
             };
@@ -301,5 +304,6 @@ fn finish(
     overrun: Option<Overrun>,
 ) -> Prepared {
     let static_normal_n = model.point(mode.place, state[0]).n_bi;
-    Prepared { model, state, mode, duration_s, period_s, static_normal_n, overrun, free_run: None }
+    let start = Start::default();
+    Prepared { model, state, mode, duration_s, period_s, static_normal_n, overrun, free_run: None, start }
 }

@@ -2,13 +2,15 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::answer::{Simulation, Verdict};
+use super::answer::{GaveUp, Simulation, Verdict};
 use super::demand::{Demand, Fineness, STEPS_PER_PERIOD, demand_at, roll, run_settings};
 use super::equilibrium::steady;
 use super::error::{ErrorEstimate, Scales};
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
-use crate::dynamics::{Grip, Place, PublishedSettings, Run, SlipRecord, Stop, published, run};
+use crate::dynamics::{
+    Clock, Grip, History, Place, PublishedSettings, Run, SlipRecord, Stop, published, run,
+};
 
 /// Settings of a simulation.
 #[derive(Debug, Clone, Copy)]
@@ -23,15 +25,27 @@ pub struct Settings {
     pub longest_step_s: Option<f64>,
     /// Samples of the history, 0 for none.
     pub samples: usize,
-    /// Mode changes before a run ends with a name. Default 100 000.
-    pub most_events: u64,
-    /// Steps, rejected ones included, before a run ends with a name. Default 200 000: some 3 s.
-    pub most_steps: u64,
+    /// Mode changes before a run ends with a name; `None`: half as many as steps.
+    pub most_events: Option<u64>,
+    /// Steps, rejected ones included, before a run ends with a name; `None`: 200 000 (some 3 s of work), more where the
+    /// scene is longer than 4 s or has more than 400 periods ([`Settings::limits`]).
+    pub most_steps: Option<u64>,
     /// Whether the energy balance of the run is made up. Default no.
     pub energy: bool,
     /// Set from outside to end the runs at the next step.
     pub interrupt: Option<&'static AtomicBool>,
+    /// What the samples are of. Default: equidistant ones from start to end.
+    pub history: History,
+    /// Where the runs tell how far they are.
+    pub clock: Option<&'static Clock>,
 }
+
+/// Steps that a run may take at least.
+const LEAST_STEPS: f64 = 200_000.0;
+/// Steps that it may take for a second of the scene: twice what a sprag takes that trembles in overrun all the time.
+const STEPS_PER_S: f64 = 50_000.0;
+/// Steps that it may take for a period of the excitation.
+const STEPS_OF_A_PERIOD: f64 = 500.0;
 
 impl Default for Settings {
     fn default() -> Self {
@@ -39,11 +53,23 @@ impl Default for Settings {
             tolerance: 1e-6,
             longest_step_s: None,
             samples: 0,
-            most_events: 100_000,
-            most_steps: 200_000,
+            most_events: None,
+            most_steps: None,
             energy: false,
             interrupt: None,
+            history: History::default(),
+            clock: None,
         }
+    }
+}
+
+impl Settings {
+    /// How many steps and how many mode changes a run of `prepared` may take.
+    pub fn limits(&self, prepared: &Prepared) -> [u64; 2] {
+        let duration_s = prepared.duration_s;
+        let periods = prepared.period_s.map_or(0.0, |period_s| duration_s / period_s);
+        let steps = LEAST_STEPS.max(STEPS_PER_S * duration_s).max(STEPS_OF_A_PERIOD * periods) as u64;
+        [self.most_steps.unwrap_or(steps), self.most_events.unwrap_or(steps / 2)]
     }
 }
 
@@ -77,14 +103,17 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         return steady(prepared, settings);
     }
     let coarsest = (100.0 * settings.tolerance).clamp(1000.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
-    let go = |tolerance: f64, samples: usize, before: Option<&Try>| {
+    let go = |tolerance: f64, samples: usize, before: Option<&Try>, answered: bool| {
         let fineness = Fineness { tolerance, longest: (tolerance / coarsest).powf(1.0 / ORDER) };
+        settings.clock.inspect(|clock| clock.begin_pass(before.is_none(), tolerance));
         // The coarsest run is never the answer: its energy is not asked for.
         let settings = &Settings { energy: settings.energy && before.is_some(), ..*settings };
-        attempt(prepared, settings, fineness, samples, reduced, before.and_then(Try::bisected))
+        attempt(prepared, settings, fineness, samples, reduced, before.and_then(Try::bisected), answered)
     };
     let mut tolerance = coarsest;
-    let mut coarse = go(tolerance, 0, None);
+    // What is known of a long scene where it is interrupted.
+    let early = if settings.history.marks { settings.samples } else { 0 };
+    let mut coarse = go(tolerance, early, None, false);
     let (mut work, mut spread) = ([0; 3], [f64::INFINITY, f64::NEG_INFINITY]);
     let (mut before, mut doubts) = (None, [0.0; 2]);
     let (mut told, mut contradicted) = (None, false);
@@ -94,7 +123,7 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         let fine = if coarse.interrupted() {
             coarse.clone()
         } else {
-            go(tolerance, settings.samples, Some(&coarse))
+            go(tolerance, settings.samples, Some(&coarse), finished.is_some())
         };
         for theta in [&coarse.run, &fine.run].into_iter().filter(|r| !r.stop.gave_up()).map(|r| r.state[2]) {
             spread = [spread[0].min(theta), spread[1].max(theta)];
@@ -106,14 +135,18 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         contradicted |= told.zip(definite).is_some_and(|(a, b)| a != b);
         told = definite.or(told);
         let gave_up = fine.run.stop.gave_up();
-        let last = gave_up || tolerance < 9.0 * STEP_TOLERANCES[1] || s.stop == Stop::Interrupted;
+        let interrupted = s.stop == Stop::Interrupted;
+        let last = gave_up || tolerance < 9.0 * STEP_TOLERANCES[1] || interrupted;
         if last || s.tolerance_reached && before.is_some() {
             let [steps, rejections, rhs_evaluations] = sum([s.steps, s.rejections, s.rhs_evaluations], work);
             // Runs that came to the end say more than a finer one that did not.
             let s = match finished {
-                Some(earlier) if gave_up => {
-                    Simulation { finer_gave_up: Some(s.stop), tolerance_reached: false, ..earlier }
-                }
+                Some(earlier) if gave_up || interrupted => Simulation {
+                    finer_gave_up: Some(s.stop),
+                    gave_up: s.gave_up,
+                    tolerance_reached: false,
+                    ..earlier
+                },
                 _ => s,
             };
             let doubtful = contradicted && !s.tolerance_reached;
@@ -123,7 +156,7 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
         }
         work = sum(work, coarse.work());
         doubts = [doubts[1], s.error.map_or(0.0, |e| e.net_slip_m)];
-        let difference = s.off(&answer(prepared, &coarse));
+        let difference = s.off(&answer(prepared, settings, &coarse));
         before = s.error.map(|_| before.map_or(difference, |b| difference.at_least(FALLS, &b)));
         finished = Some(s).filter(|s| s.error.is_some());
         coarse = fine;
@@ -141,10 +174,12 @@ struct Try {
 }
 
 impl Try {
-    fn new(prepared: &Prepared, run: Run, demand: impl FnOnce() -> Demand) -> Self {
+    /// `answered`: coarser runs have come to the end, a run that does not is no answer and needs no demand.
+    fn new(prepared: &Prepared, run: Run, answered: bool, demand: impl FnOnce() -> Demand) -> Self {
         // What overruns to the end is not to stick: there is no demand.
         let holds = prepared.overrun.is_none() || run.engaged.is_some();
-        let demand = (holds && run.stop != Stop::Interrupted).then(demand);
+        let in_vain = run.stop == Stop::Interrupted || answered && run.stop.gave_up();
+        let demand = (holds && !in_vain).then(demand);
         Self { run, demand, rolled: false }
     }
 
@@ -179,6 +214,7 @@ fn attempt(
     samples: usize,
     reduced: bool,
     near: Option<f64>,
+    answered: bool,
 ) -> Try {
     let mode = prepared.mode;
     let stuck = mode.inner == Grip::Stick && mode.outer == Grip::Stick && mode.place != Place::Open;
@@ -187,7 +223,7 @@ fn attempt(
         run(&prepared.model, prepared.state, mode, &s)
     };
     if !(reduced && stuck && prepared.overrun.is_none()) {
-        return Try::new(prepared, go(), || demand_at(prepared, settings, fineness, near));
+        return Try::new(prepared, go(), answered, || demand_at(prepared, settings, fineness, near));
     }
     let (rolling, demand) = roll(prepared, settings, fineness, samples, STEPS_PER_PERIOD, near);
     let suffices =
@@ -195,7 +231,7 @@ fn attempt(
     if suffices || demand.interrupted {
         return Try { run: rolling, demand: Some(demand), rolled: true };
     }
-    Try::new(prepared, go(), || demand)
+    Try::new(prepared, go(), answered, || demand)
 }
 
 /// Simulate `scenario` with the paper's own scheme, kept as a reference: at `step_s` and at half of it; the
@@ -219,7 +255,7 @@ pub fn simulate_published(
     let mut go = |step_s: f64, samples: usize, before: u64, tolerance: f64| -> Try {
         let s = PublishedSettings { duration_s, step_s, band_m_s, samples };
         let run = published(&prepared.model, prepared.state, &s, &mut |steps| go_on(before + steps));
-        Try::new(&prepared, run, || demand_at(&prepared, settings, Fineness::single(tolerance), None))
+        Try::new(&prepared, run, false, || demand_at(&prepared, settings, Fineness::single(tolerance), None))
     };
     let answer = go(step_s, settings.samples, 0, 1e-3 * settings.tolerance);
     let before = answer.run.counters.steps;
@@ -253,8 +289,8 @@ fn conclude(
 ) -> Simulation {
     let whole = !fine.interrupted() && !other.interrupted();
     let gave_up = fine.run.stop.gave_up() || other.run.stop.gave_up();
-    let (run, own) = (&fine.run, answer(prepared, fine));
-    let difference = || own.off(&answer(prepared, other));
+    let (run, own) = (&fine.run, answer(prepared, settings, fine));
+    let difference = || own.off(&answer(prepared, settings, other));
     let error =
         (whole && !gave_up).then(|| before.map_or_else(difference, |b| difference().at_least(LEFT, &b)));
     let balanced = run
@@ -293,10 +329,20 @@ fn rounding_j(prepared: &Prepared, run: &Run) -> f64 {
 }
 
 /// What one run says, without an error or a verdict.
-fn answer(prepared: &Prepared, of: &Try) -> Simulation {
+fn answer(prepared: &Prepared, settings: &Settings, of: &Try) -> Simulation {
     let (run, p) = (&of.run, of.run.peaks);
     let [steps, rejections, rhs_evaluations] = of.work();
     let [inner, outer] = slips(run);
+    let gave_up = (run.stop.gave_up() || run.stop == Stop::Interrupted).then(|| {
+        let [most_steps, most_events] = settings.limits(prepared);
+        let taken = run.counters.steps + run.counters.rejections;
+        let limit = match run.stop {
+            Stop::StepLimit if taken >= most_steps => Some(most_steps),
+            Stop::EventLimit => Some(most_events),
+            _ => None,
+        };
+        GaveUp { stop: run.stop, t_s: run.t_s, limit }
+    });
     Simulation {
         verdict: None,
         stop: run.stop,
@@ -323,12 +369,14 @@ fn answer(prepared: &Prepared, of: &Try) -> Simulation {
         scales: Scales::of(prepared, &p),
         tolerance_reached: false,
         finer_gave_up: None,
+        gave_up,
         spread_rad: [run.state[2]; 2],
         zeno_closures: run.zeno_closures,
         inconsistent_choices: run.inconsistent_choices,
         fast_motion: run.fast_motion,
         energy: run.energy,
         samples: run.samples.clone(),
+        neglected: run.neglected,
         engaged: run.engaged,
         held: run.first_hold(),
         modes: run.modes.clone(),

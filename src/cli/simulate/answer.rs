@@ -118,7 +118,7 @@ pub(super) struct Body {
     method: &'static str,
     verdict: Option<&'static str>,
     stop: &'static str,
-    /// Why the scenario has no start.
+    /// Why the scenario has no start, or why a run did not come to its end and what would let it.
     reason: Option<String>,
     t_end_s: Option<f64>,
     theta_inner_end_rad: Option<f64>,
@@ -311,6 +311,7 @@ impl Body {
         let known = s.demand.filter(|d| d.gave_up.is_none());
         Self {
             stop: s.stop.name(),
+            reason: scene.given_up(),
             t_end_s: Some(s.t_s),
             theta_inner_end_rad: Some(s.theta_inner_rad),
             theta_outer_end_rad: Some(s.theta_outer_rad),
@@ -353,7 +354,7 @@ impl Body {
             },
             tolerance_reached: (scene.method != "published" && s.stop != Stop::Interrupted)
                 .then_some(s.tolerance_reached),
-            worst_figure: s.error.filter(|_| !s.tolerance_reached).map(|_| super::worst(s)),
+            worst_figure: s.error.filter(|_| !s.tolerance_reached).map(|_| super::notes::worst(s)),
             finer_gave_up: s.finer_gave_up.map(Stop::name),
             spread_rad: s.error.filter(|_| !s.tolerance_reached).map(|_| s.spread_rad),
             initial_slip_s: s.initial_slip_s(),

@@ -1,8 +1,8 @@
 //! Histories: one row per sample, as CSV and as curves.
 
-use super::Scene;
-use crate::design::Clutch;
-use crate::dynamics::{Grip, Mode, Place, Sample};
+use super::{Scene, SimulateArgs, duration_s};
+use crate::design::{Clutch, Scenario, ScenarioKind};
+use crate::dynamics::{Grip, History, Mode, Place, Sample};
 use crate::report::{Cell, Column, Table, Unit};
 use crate::scenario::Prepared;
 use crate::wedge::{Elastic, Lengthwise, Side, along, asks_for_slices};
@@ -24,8 +24,39 @@ pub(super) struct Row {
     pub(super) acting: [f64; 2],
     /// Arc in contact, from 0, in the profile's count.
     pub(super) arc: usize,
-    /// dOC_g/dalpha, m.
-    pub(super) oc_g_slope_m: f64,
+}
+
+/// Rows of the history of a short scene: one that these show well.
+const ROWS: usize = 1200;
+/// Rows that show a period of the excitation well.
+const ROWS_A_PERIOD: f64 = 24.0;
+/// Rows that show a second well: a clutch swings at some 100 Hz.
+const ROWS_A_SECOND: f64 = 1000.0;
+/// Rows that are not exceeded unless they are asked for.
+const MOST_ROWS: usize = 400_000;
+
+/// How many samples, and of what. Where [`ROWS`] do not show a scene well there are more, and changes of mode and extremes
+/// beside them.
+pub(super) fn asked(args: &SimulateArgs, scenario: &Scenario) -> (usize, History) {
+    let [from, until] = args.window.unwrap_or([0.0, duration_s(scenario).unwrap_or(0.0)]);
+    let frequency_hz = match scenario.kind {
+        ScenarioKind::TorsionalExcitation { frequency_hz, .. } => frequency_hz,
+        _ => 0.0,
+    };
+    let well = 1 + ((ROWS_A_PERIOD * frequency_hz).max(ROWS_A_SECOND) * (until - from)).round() as usize;
+    let rows = args.samples.and_then(|n| usize::try_from(n).ok());
+    let history = History { window_s: args.window, marks: rows.is_none() && well > ROWS };
+    (rows.unwrap_or(well.clamp(ROWS, MOST_ROWS)), history)
+}
+
+/// A sentence where the scene is so long that its history has fewer rows than show it well.
+pub(super) fn fewer(args: &SimulateArgs, scenario: &Scenario) -> Option<String> {
+    let (rows, history) = asked(args, scenario);
+    (history.marks && rows == MOST_ROWS).then(|| {
+        format!(
+            "the history has {rows} rows, too few to show every swing; --window A:B shows a part of it finely"
+        )
+    })
 }
 
 /// All rows of the history; none for an equilibrium.
@@ -110,13 +141,16 @@ fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePe
         tan: [tan(f.t_bi, f.n_bi), tan(f.t_be, f.n_be)],
         torque_nm: count * f.t_bi * p.oa,
         hertz_pa: [
-            elastic.inner_contact.get(arc).map_or(0.0, |c| c.peak_pressure_pa(f.n_bi.max(0.0))),
+            // The mean over the patch, as everywhere.
+            Some(f.n_bi)
+                .filter(|&n| n > 0.0)
+                .and_then(|n| model.curve.at_normal(n))
+                .map_or(0.0, |p| p.hertz_inner_pa),
             elastic.outer_contact.peak_pressure_pa(f.n_be.max(0.0)),
         ],
         slice_pa: slices.map(|s| s.at(arc, f.n_bi, f.n_be)),
         acting: [model.drive.torque_at(sample.t) - model.loads.inner_nm, model.mean_speed(sample.t).0],
         arc,
-        oc_g_slope_m: p.oc_g_slope,
     }
 }
 

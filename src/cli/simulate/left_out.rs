@@ -1,9 +1,9 @@
 //! What a scene leaves out beside what every answer leaves out, with the cost where the run itself shows it.
 
 use super::Scene;
-use super::history::{Row, rows};
 use crate::cli::left_out::{LeftOut, left_out};
 use crate::design::{ContactLaw, ScenarioKind};
+use crate::dynamics::Neglected;
 use crate::report::Unit;
 use crate::scenario::place_profile;
 use crate::wedge::WedgeCurve;
@@ -54,11 +54,11 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
             "none on the motion; edge pressure in time not estimated: take the slice law",
         );
     }
-    let rows = rows(scene);
+    let neglected = scene.simulation().map_or(Neglected::default(), |s| s.neglected);
     add(
         "radial inertia of the sprag",
         "N_be closes the radial balance without m_g OC_g''",
-        &radial_inertia(&rows, scene.own.clutch.sprags.mass_kg),
+        &radial_inertia(&neglected, scene.own.clutch.sprags.mass_kg),
     );
     let speed = match kind {
         ScenarioKind::TorsionalExcitation { speed_rad_s, .. } => *speed_rad_s,
@@ -76,7 +76,7 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
         } else {
             "the wedge curve is that at the mean speed; its fluctuation enters through phi'^2 alone"
         },
-        &growth(scene, &rows, speed),
+        &growth(scene, neglected.outer_rate_rad_s, speed),
     );
     if speed != 0.0 {
         add("growth of the inner race by rotation", "(7) is the outer race's alone", "not estimated");
@@ -84,27 +84,21 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
     list
 }
 
-/// m_g OC_g' alpha'' at its largest over the samples in contact, beside N_be then.
-fn radial_inertia(rows: &[Row], mass_kg: f64) -> String {
-    let worst = rows
-        .iter()
-        .filter(|r| r.tan[0].is_some())
-        .map(|r| ((mass_kg * r.oc_g_slope_m * r.sample.forces.acceleration[0]).abs(), r.sample.forces.n_be))
-        .max_by(|a, b| a.0.total_cmp(&b.0));
-    match worst {
-        None => "not estimated".to_owned(),
-        Some((force, n_be)) => format!(
-            "at most {} per sprag over this run's samples, where N_be is {}",
-            Unit::Newton.show(force, 2),
-            Unit::Newton.show(n_be, 3)
-        ),
+/// m_g OC_g' alpha'' at its largest while A carries load, beside N_be then.
+fn radial_inertia(neglected: &Neglected, mass_kg: f64) -> String {
+    if neglected.radial_m_s2 == 0.0 {
+        return "not estimated: the inner contact carries nothing".to_owned();
     }
+    format!(
+        "at most {} per sprag over this run, where N_be is {}",
+        Unit::Newton.show(mass_kg * neglected.radial_m_s2, 2),
+        Unit::Newton.show(neglected.normal_outer_n, 3)
+    )
 }
 
-/// Growth (7) of the outer race that its own fluctuation of speed would add.
-fn growth(scene: &Scene, rows: &[Row], speed: f64) -> String {
+/// Growth (7) of the outer race that its own `fluctuation` about the mean `speed` would add, rad/s.
+fn growth(scene: &Scene, fluctuation: f64, speed: f64) -> String {
     let Ok((prepared, _)) = &scene.outcome else { return "not estimated".to_owned() };
-    let fluctuation = rows.iter().map(|r| r.rates[3].abs()).fold(0.0, f64::max);
     let race = &prepared.model.curve.statics().elastic.outer_race;
     if let Some(history) = &scene.scenario.speed_history {
         return growth_over(scene, history);

@@ -179,7 +179,36 @@ fn plot(y_title: &str) -> Plot {
 }
 
 fn over_time(rows: &[Row], value: &dyn Fn(&Row) -> f64) -> Vec<[f64; 2]> {
-    rows.iter().map(|r| [r.sample.t * 1e3, value(r)]).collect()
+    envelope(rows.iter().map(|r| [r.sample.t * 1e3, value(r)]).collect())
+}
+
+/// Points that are drawn one by one.
+const DRAWN: usize = 2400;
+/// Columns into which more of them are put: about as many as a plot has on a screen.
+const COLUMNS: f64 = 600.0;
+
+/// Of many points those that are seen: in each column the first, the lowest, the highest and the last, and a gap where the
+/// column has one.
+fn envelope(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let (Some(first), Some(last)) = (points.first().copied(), points.last().copied()) else { return points };
+    if points.len() <= DRAWN {
+        return points;
+    }
+    let column = |p: &[f64; 2]| (COLUMNS * (p[0] - first[0]) / (last[0] - first[0])) as usize;
+    let seen = |all: &[[f64; 2]]| {
+        let there: Vec<[f64; 2]> = all.iter().copied().filter(|p| p[1].is_finite()).collect();
+        let by_height = |a: &&[f64; 2], b: &&[f64; 2]| a[1].total_cmp(&b[1]);
+        let marks =
+            [there.first(), there.iter().min_by(by_height), there.iter().max_by(by_height), there.last()];
+        let mut kept: Vec<[f64; 2]> = marks.into_iter().flatten().copied().collect();
+        kept.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        kept.dedup();
+        if there.len() < all.len() {
+            kept.extend(all.last().map(|p| [p[0], f64::NAN]));
+        }
+        kept
+    };
+    points.chunk_by(|a, b| column(a) == column(b)).flat_map(seen).collect()
 }
 
 fn largest(rows: &[Row], value: &dyn Fn(&Row) -> f64) -> f64 {
@@ -348,4 +377,27 @@ fn draw(page: &mut Page, scene: &Scene, prepared: &Prepared) {
     let loaded = scene.drawn_torque_nm().and_then(|t| parts::pose_at_torque(&rest, &prepared.model.curve, t));
     let poses = loaded.into_iter().chain([rest]).collect();
     parts::draw(page, &parts::drawing(&scene.own, poses));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_points_keep_their_peaks_and_gaps_and_few_are_left_alone() {
+        let swing = |i: usize| [i as f64, if i == 70_001 { 9.0 } else { (i as f64).sin() }];
+        let few: Vec<[f64; 2]> = (0..1200).map(swing).collect();
+        assert_eq!(envelope(few.clone()), few);
+        let mut many: Vec<[f64; 2]> = (0..144_000).map(swing).collect();
+        many[100_000][1] = f64::NAN;
+        let drawn = envelope(many.clone());
+        assert!(drawn.len() < 2500, "{}", drawn.len());
+        assert!(drawn.contains(&[70_001.0, 9.0]) && drawn.iter().any(|p| p[1].is_nan()));
+        assert_eq!((drawn[0], drawn[drawn.len() - 1]), (many[0], many[143_999]));
+        // Every column reaches from the lowest to the highest.
+        for part in drawn.chunk_by(|a, b| (a[0] / 2400.0) as usize == (b[0] / 2400.0) as usize) {
+            let highest = part.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
+            assert!(highest > 0.999, "{highest}");
+        }
+    }
 }

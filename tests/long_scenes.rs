@@ -1,0 +1,96 @@
+//! Scenes that are long: limits of work, samples beside the equidistant ones, what the equations leave out.
+
+use sprag_design::design::{Design, Scenario, ScenarioKind};
+use sprag_design::dynamics::{History, Stop};
+use sprag_design::fidelity;
+use sprag_design::scenario::{Settings, prepare, simulate};
+use std::path::Path;
+
+fn scene(name: &str) -> Scenario {
+    let design = Design::read(Path::new("designs/huang2017-multi-arc.toml")).unwrap();
+    design.scenario(name).unwrap().clone()
+}
+
+fn lasting(name: &str, seconds: f64, hertz: f64) -> Scenario {
+    let mut long = scene(name);
+    if let ScenarioKind::TorsionalExcitation { duration_s, frequency_hz, .. } = &mut long.kind {
+        (*duration_s, *frequency_hz) = (seconds, hertz);
+    }
+    long
+}
+
+#[test]
+fn the_limits_of_work_grow_with_the_scene() {
+    let limits = |seconds: f64, hertz: f64, settings: &Settings| {
+        settings.limits(&prepare(&lasting("high-6", seconds, hertz)).unwrap())
+    };
+    let chosen = Settings::default();
+    assert_eq!(limits(0.3, 100.0, &chosen), [200_000, 100_000]);
+    assert_eq!(limits(4.0, 100.0, &chosen), [200_000, 100_000]);
+    assert_eq!(limits(60.0, 100.0, &chosen), [3_000_000, 1_500_000]);
+    assert_eq!(limits(2.0, 1000.0, &chosen), [1_000_000, 500_000]);
+    let asked = Settings { most_steps: Some(7), most_events: Some(8), ..chosen };
+    assert_eq!(limits(60.0, 100.0, &asked), [7, 8]);
+}
+
+#[test]
+fn a_run_that_meets_its_limit_says_which_and_is_not_repeated_on_the_whole_curve() {
+    let few = Settings { most_steps: Some(60), ..Settings::default() };
+    let planned = fidelity::simulate(&scene("high-10"), &few, false).unwrap();
+    let s = &planned.simulation;
+    let gave_up = s.gave_up.unwrap();
+    assert_eq!((s.stop, gave_up.stop, gave_up.limit), (Stop::StepLimit, Stop::StepLimit, Some(60)));
+    assert!(gave_up.t_s == s.t_s && s.t_s < 0.3);
+    // Arcs were left out of the run that answers: the limit has nothing to do with the length of the curve.
+    assert!(planned.left_out.iter().any(|t| t.term == "arcs that are never touched"));
+    // A finer run that gives up names its limit too.
+    let finer = Settings { most_steps: Some(2000), tolerance: 1e-10, ..Settings::default() };
+    let s = simulate(&scene("high-10"), &finer).unwrap();
+    assert_eq!((s.finer_gave_up, s.gave_up.unwrap().limit), (Some(Stop::StepLimit), Some(2000)));
+    assert!(simulate(&scene("high-10"), &Settings::default()).unwrap().gave_up.is_none());
+}
+
+#[test]
+fn marks_are_the_located_changes_of_mode_and_extremes_within_the_window() {
+    let run = |history: History| {
+        simulate(&scene("high-10"), &Settings { samples: 101, history, ..Settings::default() }).unwrap()
+    };
+    let plain = run(History::default());
+    let marked = run(History { marks: true, ..History::default() });
+    assert_eq!(plain.samples.len(), 101);
+    assert_eq!(marked.theta_inner_rad, plain.theta_inner_rad);
+    assert!(marked.samples.windows(2).all(|two| two[0].t <= two[1].t));
+    // Every equidistant sample is still there.
+    let at = |t: f64| marked.samples.iter().filter(move |s| s.t == t);
+    assert!(plain.samples.iter().all(|s| at(s.t).any(|m| m.state == s.state)));
+    let changes = &marked.modes[..marked.modes.len().min(101)];
+    assert!(changes.len() > 20 && changes.iter().all(|m| at(m.0).any(|s| s.mode == m.1)));
+    let peaks = &marked.peaks;
+    assert!(at(peaks.at_s[3]).any(|s| (s.forces.n_bi / peaks.normal_max_n - 1.0).abs() < 1e-9));
+    assert!(at(peaks.at_s[4]).any(|s| (s.forces.n_be / peaks.normal_outer_max_n - 1.0).abs() < 1e-9));
+    let window = run(History { window_s: Some([0.1, 0.15]), marks: true });
+    let (first, last) = (window.samples[0].t, window.samples[window.samples.len() - 1].t);
+    assert!(first == 0.1 && last <= 0.15 + 1e-12 && last > 0.1499 && window.samples.len() > 101);
+    assert_eq!(window.peaks, marked.peaks, "extremes are those of the whole run");
+}
+
+/// Two hundred samples a period miss little of a smooth scene; twelve hundred of sixty seconds miss most.
+#[test]
+fn what_is_left_out_is_seen_by_the_steps_and_not_by_the_samples() {
+    let at =
+        |samples: usize| simulate(&scene("high-6"), &Settings { samples, ..Settings::default() }).unwrap();
+    let (coarse, fine) = (at(3), at(6001));
+    assert_eq!(coarse.neglected, fine.neglected);
+    let model = prepare(&scene("high-6")).unwrap().model;
+    let radial = |s: &sprag_design::dynamics::Sample| {
+        let p = model.point(s.mode.place, s.state[0]);
+        (p.oc_g_slope * s.forces.acceleration[0]).abs()
+    };
+    let sampled = fine.samples.iter().map(radial).fold(0.0, f64::max);
+    let rate = fine.samples.iter().map(|s| s.state[7].abs()).fold(0.0, f64::max);
+    let found = coarse.neglected;
+    println!("{found:?}; samples: {sampled} m/s^2, {rate} rad/s");
+    assert!((0.999..1.05).contains(&(found.radial_m_s2 / sampled)));
+    assert!((0.999..1.05).contains(&(found.outer_rate_rad_s / rate)));
+    assert!(found.normal_outer_n > 0.0);
+}
