@@ -18,6 +18,7 @@ pub mod optimize;
 pub mod optimize_answer;
 pub mod optimize_file;
 pub mod optimize_json;
+mod optimize_relief;
 pub mod optimize_story;
 pub mod output;
 pub mod parts;

@@ -11,8 +11,8 @@ use super::simulate::refuse_tolerance;
 use super::{optimize_answer as answer, parts};
 use crate::design::{Design, EditError, Objective, Optimize};
 use crate::optimise::{
-    Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, front,
-    realise, relief, robust, search, spread,
+    Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, alone,
+    front, loosened, realise, relief, robust, search, spread,
 };
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,8 @@ Every margin of `check` is a limit. Each evaluation goes into a journal at once:
 best design found so far, --resume goes on from NEW.toml.journal and ends where an uninterrupted search ends; --journal
 keeps the record for later searches too, as a CSV file that only grows. A journal belongs to what the design file says:
 comments and layout may change, a value or a history makes another problem. In NEW.toml each value that the search has
-changed says so behind it, with what it was; histories are named from there.";
+changed says so behind it, with what it was; histories are named from there. Where no design holds every limit, NEW.toml
+is not written: the nearest one goes to NEW.nearest.toml, whose first line says what it does not hold, and the exit code is 1.";
 
 /// Arguments of `optimize`.
 #[derive(Debug, Clone, Args)]
@@ -164,11 +165,25 @@ fn tell(
     desk: &Desk,
 ) -> Result<Story, NoSearch> {
     let found = search(design, method, fidelity, desk)?;
-    let mut story =
-        Story { found, realised: None, relief: None, front: None, made: None, robust: None, why: Vec::new() };
-    if matches!(story.found.outcome.status, Status::Infeasible { .. }) {
+    let mut story = Story {
+        found,
+        realised: None,
+        relief: None,
+        loosened: Vec::new(),
+        alone: Vec::new(),
+        front: None,
+        made: None,
+        robust: None,
+        why: Vec::new(),
+    };
+    let ended = matches!(story.found.outcome.status, Status::Infeasible { .. } | Status::Stalled(_));
+    if ended && !story.found.feasible() {
         let (problem, outcome) = (&story.found.problem, &story.found.outcome);
         story.relief = Some(relief(design, problem, outcome, desk));
+        if !desk.stopped() {
+            story.loosened = loosened(design, &story.found, desk);
+            story.alone = alone(&story.found, desk);
+        }
     }
     if !story.found.feasible() {
         return Ok(story);
@@ -221,6 +236,14 @@ fn finish(
             write_whole(&path, further_text(design, what, text, &path).map_err(unwritten)?.as_bytes())?;
             beside.push(path);
         }
+    }
+    if !feasible && !interrupted {
+        let path = new.with_extension("nearest.toml");
+        let what =
+            format!("the nearest design found, NOT FEASIBLE: not held: {}", found.not_held().join(", "));
+        let unwritten = |e: EditError| Failure::Failed(format!("{}: {e}", path.display()));
+        write_whole(&path, further_text(design, &what, &found.file, &path).map_err(unwritten)?.as_bytes())?;
+        beside.push(path);
     }
     let journal = keep.then(|| file.path().to_path_buf());
     let answer = answer::Told { design, story, found, written, beside, journal, run_time_s, interrupted };
