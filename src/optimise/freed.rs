@@ -22,6 +22,8 @@ const REACH: f64 = 0.2;
 const FACTOR: f64 = 4.0;
 /// Share of a limit's value by which it is moved to see whether it bears on what does not hold.
 const FELT: f64 = 0.01;
+/// Margin below which a limit may be what keeps another from being held.
+const TIGHT: f64 = 1e-3;
 /// Evaluations of one climb.
 const EVALUATIONS: usize = 150;
 
@@ -109,16 +111,16 @@ impl Evaluate for OneLimit<'_> {
     }
 }
 
-/// Every limit that bears on what does not hold, and every dimension of the sprag that is no variable, let go one by one
+/// Every limit that bears on what does not hold or holds by a hair, and every dimension of the sprag that is no variable, let go one by one
 /// from the best design of `found`, which is infeasible.
 pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
     let problem = found.problem.as_checked();
     let x = &found.outcome.x;
     let (Ok(text), Ok(here)) = (problem.file_at(x), problem.look_at(x)) else { return Vec::new() };
     desk.begins("what would free it");
-    let not_held: Vec<&Margin> = here.rows.iter().filter(|m| !m.held()).collect();
+    let tight: Vec<&Margin> = here.rows.iter().filter(|m| m.margin < TIGHT).collect();
     let eased = |rows: &[Margin]| {
-        not_held.iter().any(|m| rows.iter().any(|r| r.code == m.code && r.margin > m.margin + 1e-9))
+        tight.iter().any(|m| rows.iter().any(|r| r.code == m.code && r.margin > m.margin + 1e-9))
     };
     let mut asked: Vec<(Number, String, &'static str, f64, (f64, f64))> = Vec::new();
     for key in &LIMIT_KEYS {

@@ -64,7 +64,7 @@ fn a_capacity_is_where_every_limit_just_holds() {
     let base = aimed("torque-capacity", "");
     let text = base.source.replacen(
         "hoop_inner_mpa = 900.0",
-        "hoop_inner_mpa = 900.0\nequivalent_inner_mpa = 700.0",
+        "hoop_inner_mpa = 900.0\nequivalent_inner_mpa = 500.0",
         1,
     );
     let design = changed(&text, &[]);

@@ -32,8 +32,7 @@ fn a_torque_capacity_is_priced_by_what_decides_it() {
     let (promised, bought) = (10.0 * price.gain_per_unit, after.objective.1 - found.objective.1);
     println!("promised {promised:.4} Nm, bought {bought:.4} Nm");
     assert!(bought > 1.0 && (promised / bought - 1.0).abs() < 0.1, "{promised} {bought}");
-    let more_friction =
-        shaped(aim, &[("static = 0.12 ", "static = 0.1205 "), ("kinetic = 0.09 ", "kinetic = 0.09 ")]);
+    let more_friction = shaped(aim, &[("static = 0.12 ", "static = 0.1205 ")]);
     if let Some(grip) = found.prices.iter().find(|p| p.of == "grip-inner") {
         let after = search_with(&more_friction, &method);
         let (promised, bought) = (5e-4 * grip.gain_per_unit, after.objective.1 - found.objective.1);
