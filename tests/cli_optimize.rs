@@ -94,6 +94,12 @@ fn a_scene_that_opens_the_contact_is_infeasible_and_says_why() {
     let fighting = told["fighting_limits"].as_array().unwrap();
     assert!(fighting.iter().any(|f| f == "contact:high-10"), "{fighting:?}");
     assert!(told["written_to"].is_null() && !new.exists());
+    // The nearest design is written beside, and says that it is none.
+    let nearest = std::fs::read_to_string(folder.join("new.nearest.toml")).unwrap();
+    let first = nearest.lines().next().unwrap();
+    assert!(first.contains("NOT FEASIBLE") && first.contains("contact:high-10"), "{first}");
+    assert!(sprag_design::Design::parse(&nearest, "nearest").is_ok());
+    assert!(told["relief"]["numbers"].as_array().unwrap().iter().any(|n| n["key"] == "r_i1_mm"));
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

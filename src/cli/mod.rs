@@ -19,6 +19,7 @@ pub mod optimize;
 pub mod optimize_answer;
 pub mod optimize_file;
 pub mod optimize_json;
+mod optimize_relief;
 pub mod optimize_story;
 pub mod origin;
 pub mod output;

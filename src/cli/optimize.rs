@@ -5,15 +5,15 @@ use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
 use super::optimize_file::{file_text, further_text};
-use super::optimize_story::{REALISED, ROBUST, Story};
+use super::optimize_story::{NEAREST, REALISED, ROBUST, Story};
 use super::origin::Kind;
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
 use super::{optimize_answer as answer, parts};
 use crate::design::{Design, EditError, Objective, Optimize};
 use crate::optimise::{
-    Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, front,
-    is_centroid, realise, relief, robust, search, spread,
+    Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, alone,
+    front, is_centroid, loosened, realise, relief, robust, search, spread,
 };
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -37,6 +37,9 @@ are kept and not used. One search at a time writes a journal; a second is refuse
 In NEW.toml each value that the search has changed says so behind it, with what it was; the design's histories are copied
 beside it. A design with a free centroid is written once more with flanks that give it, as NEW.realised.toml; the design of
 --robust is NEW.robust.toml. No output replaces FILE, nor without --force a file that this tool did not write.
+
+Where no design holds every limit, NEW.toml is not written: the nearest one goes to NEW.nearest.toml, whose first line says what
+it does not hold.
 
 Exit codes: 0 every limit held, with --robust at every corner of the tolerances too; 1 no such design found; 130 stopped by
 Ctrl-C, the best design so far is written if it is better than FILE.";
@@ -204,15 +207,22 @@ fn tell(
         found,
         realised: None,
         relief: None,
+        loosened: Vec::new(),
+        alone: Vec::new(),
         front: None,
         made: None,
         robust: None,
         wants_robust: args.robust,
         why: Vec::new(),
     };
-    if matches!(story.found.outcome.status, Status::Infeasible { .. }) {
+    let ended = matches!(story.found.outcome.status, Status::Infeasible { .. } | Status::Stalled(_));
+    if ended && !story.found.feasible() {
         let (problem, outcome) = (&story.found.problem, &story.found.outcome);
         story.relief = Some(relief(design, problem, outcome, desk));
+        if !desk.stopped() {
+            story.loosened = loosened(design, &story.found, desk);
+            story.alone = alone(&story.found, desk);
+        }
     }
     if !story.found.feasible() {
         return Ok(story);
@@ -264,20 +274,28 @@ fn finish(
     let better = feasible && (found.improved() || !found.start_feasible());
     let mut written = None;
     let mut beside = Vec::new();
+    let write = |path: &Path, text: Result<String, EditError>| match text {
+        Ok(text) => context.outputs.write(path, Kind::Design, text.as_bytes()),
+        Err(why) => {
+            context.outputs.lost(format!("{}: {why}", path.display()));
+            false
+        }
+    };
     if feasible && (better || !interrupted) && histories.write(&context.outputs) {
-        let write = |path: &Path, text: Result<String, EditError>| match text {
-            Ok(text) => context.outputs.write(path, Kind::Design, text.as_bytes()),
-            Err(why) => {
-                context.outputs.lost(format!("{}: {why}", path.display()));
-                false
-            }
-        };
         written = write(new, file_text(design, found, context)).then_some(new);
         for (ending, what, text) in story.other_files() {
             let path = new.with_extension(format!("{ending}.toml"));
             if write(&path, further_text(design, what, text)) {
                 beside.push(path);
             }
+        }
+    }
+    if !feasible && !interrupted {
+        let path = new.with_extension(format!("{NEAREST}.toml"));
+        let what =
+            format!("the nearest design found, NOT FEASIBLE: not held: {}", found.not_held().join(", "));
+        if histories.write(&context.outputs) && write(&path, further_text(design, &what, &found.file)) {
+            beside.push(path);
         }
     }
     let journal = keep.then(|| file.path().to_path_buf());
@@ -311,7 +329,7 @@ fn output_path(args: &OptimizeArgs) -> PathBuf {
 fn beside(new: &Path, task: &Optimize, args: &OptimizeArgs) -> Vec<PathBuf> {
     let realised = task.variables.iter().any(|v| is_centroid(&v.name)).then_some(REALISED);
     let robust = args.robust.then_some(ROBUST);
-    realised.into_iter().chain(robust).map(|ending| new.with_extension(format!("{ending}.toml"))).collect()
+    realised.into_iter().chain(robust).chain([NEAREST]).map(|ending| new.with_extension(format!("{ending}.toml"))).collect()
 }
 
 /// Progress and journal.

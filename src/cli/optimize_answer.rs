@@ -7,10 +7,10 @@ use super::optimize_story::{Story, shown, word};
 use super::output::TOOL;
 use super::output::path_text;
 use super::parts::{self, Answer};
-use crate::design::Design;
+use crate::design::{Design, Objective};
 use crate::margin::Margin;
 use crate::optimise::{Search, Status};
-use crate::report::{Cell, Column, Page, Plot, Table, Unit};
+use crate::report::{Cell, Column, Page, Plot, Table, Unit, significant};
 use crate::scenario::place_profile;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -66,6 +66,9 @@ impl Told<'_> {
                     .filter_map(|&i| self.found.names.limits.get(i))
                     .map(String::as_str)
                     .collect();
+                if let Some(said) = self.out_of_reach() {
+                    return said;
+                }
                 return format!(
                     "infeasible: no design within the bounds holds every limit; the least violation is \
                      {least_violation:.4}, held up by {}",
@@ -88,8 +91,28 @@ impl Told<'_> {
                 self.not_robust().map_or(String::new(), |why| format!("; {why}"))
             )
         } else {
-            format!("no feasible design found: {why} after {} evaluations", self.found.evaluations)
+            format!(
+                "no feasible design found: {why} after {} evaluations; not held: {}",
+                self.found.evaluations,
+                self.found.not_held().join(", ")
+            )
         }
+    }
+
+    /// What to say where the best slip margin is less than the wanted one and nothing else is broken.
+    fn out_of_reach(&self) -> Option<String> {
+        let wanted = self.design.optimize.as_ref()?.limits.slip_margin?;
+        let slip = |code: &&str| code.starts_with("slip:");
+        let found = self.found;
+        (found.aim == Objective::SlipMargin && found.not_held().iter().all(slip)).then(|| {
+            format!(
+                "infeasible: the largest {} found is {}, and slip_margin asks for {}; it is held down by {}",
+                found.aim.words(),
+                shown(found.aim, found.objective.1),
+                significant(wanted, 4),
+                self.active().join(", ")
+            )
+        })
     }
 
     /// Margins before and after, as `check` shows them.

@@ -1,8 +1,11 @@
 //! What `optimize` found beside the optimum, for programs.
 
-use super::optimize_story::{Story, freed_sentence, sentence, word};
+use super::optimize_relief::{alone_sentence, freed_sentence, loosened_sentence};
+use super::optimize_story::{Story, sentence, word};
 use crate::margin::Margin;
-use crate::optimise::{Branch, Freed, Front, Price, PriceKind, Realised, Relief, Robust, Start, Status};
+use crate::optimise::{
+    Alone, Branch, Freed, Front, Loosened, Price, PriceKind, Realised, Relief, Robust, Start, Status,
+};
 use serde_json::{Value, json};
 
 impl Story {
@@ -48,18 +51,38 @@ impl Story {
         map.insert("sensitivities".into(), json!(sensitivities));
         let change = |(full, searched): (&Margin, &Margin)| json!({ "code": full.code, "change": full.margin - searched.margin });
         map.insert("change_in_full".into(), found.best.iter().zip(&found.as_searched).map(change).collect());
-        map.insert("relief".into(), json!(self.relief.as_ref().map(relief_json)));
+        map.insert("relief".into(), json!(self.relief.as_ref().map(|r| self.relief_json(r))));
         map.insert("realised".into(), json!(self.realised.as_ref().map(realised_json)));
         map.insert("tolerances".into(), json!(self.made.as_ref().map(robust_json)));
         let robust = self.robust.as_ref().map(|r| {
             let variables: serde_json::Map<_, _> =
                 found.searched.iter().cloned().zip(r.x.iter().map(|x| json!(x))).collect();
-            json!({ "variables": variables, "ended": word(&r.status), "held_at": r.held_at, "rounds": r.rounds,
+            json!({ "variables": variables, "ended": word(self.robust_status(r)), "held_at": r.held_at, "rounds": r.rounds,
                     "evaluations": r.evaluations, "made": robust_json(&r.made) })
         });
         map.insert("robust".into(), json!(robust));
         map.insert("not_done".into(), json!(self.why));
         map
+    }
+
+    fn relief_json(&self, r: &Relief) -> Value {
+        let freed = |f: &Freed| {
+            json!({ "scenario": f.scenario, "key": f.key, "what": f.what, "unit": f.unit, "given": f.given,
+                    "needed": f.needed, "tried_to": f.tried_to, "sentence": freed_sentence(f) })
+        };
+        let loosened = |l: &Loosened| {
+            json!({ "key": l.key, "unit": l.unit, "given": l.given, "needed": l.needed, "tried_from": l.between.0,
+                    "tried_to": l.between.1, "sentence": loosened_sentence(l) })
+        };
+        let alone = |a: &Alone| {
+            let changes: serde_json::Map<_, _> =
+                a.changes.iter().map(|(n, v)| (n.clone(), json!(v))).collect();
+            json!({ "code": a.code, "margin": a.margin, "variables": changes, "sentence": alone_sentence(a) })
+        };
+        json!({ "freed": r.freed.iter().map(freed).collect::<Vec<_>>(), "other_limits": r.other_limits,
+                "numbers": self.loosened.iter().map(loosened).collect::<Vec<_>>(),
+                "limits_alone": self.alone.iter().map(alone).collect::<Vec<_>>(),
+                "evaluations": r.evaluations + self.loosened.iter().map(|l| l.evaluations).sum::<usize>() })
     }
 
     /// The front, or the optimum as the only point of one.
@@ -107,15 +130,6 @@ fn realised_json(r: &Realised) -> Value {
     })
 }
 
-fn relief_json(r: &Relief) -> Value {
-    let freed = |f: &Freed| {
-        json!({ "scenario": f.scenario, "key": f.key, "what": f.what, "unit": f.unit, "given": f.given,
-                "needed": f.needed, "tried_to": f.tried_to, "sentence": freed_sentence(f) })
-    };
-    json!({ "freed": r.freed.iter().map(freed).collect::<Vec<_>>(), "other_limits": r.other_limits,
-            "evaluations": r.evaluations })
-}
-
 fn robust_json(r: &Robust) -> Value {
     let rows: Vec<Value> = r
         .spreads
@@ -129,6 +143,7 @@ fn robust_json(r: &Robust) -> Value {
     json!({
         "objective": { "nominal": nominal, "worst": worst, "p01": p01, "p05": p05, "p50": p50 },
         "margins": rows, "corners": r.corners, "draws": r.draws.0, "impossible_draws": r.draws.1,
+        "not_held": r.not_held.iter().map(|(code, at)| json!({ "code": code, "worst_at": at })).collect::<Vec<_>>(),
         "impossible_corners": r.impossible, "seed": r.seed, "yield": r.yield_share, "held": r.held(),
     })
 }

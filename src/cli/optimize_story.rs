@@ -1,9 +1,10 @@
 //! What `optimize` found beside the optimum: sentences, tables and JSON of its parts.
 
+use super::optimize_relief::relief_parts;
 use crate::design::Objective;
 use crate::optimise::{
-    Branch, Freed, Front, Optima, Price, PriceKind, Realised, Relief, Robust, RobustSearch, Search, Start,
-    Status,
+    Alone, Branch, Front, Loosened, Optima, Price, PriceKind, Realised, Relief, Robust, RobustSearch, Search,
+    Start, Status,
 };
 use crate::report::{Cell, Column, Plot, Table, Unit, significant};
 
@@ -15,6 +16,10 @@ pub struct Story {
     pub realised: Option<Realised>,
     /// What would free an infeasible problem.
     pub relief: Option<Relief>,
+    /// Single numbers let go in an infeasible problem, the variables with them.
+    pub loosened: Vec<Loosened>,
+    /// What the limits that do not hold come to one by one.
+    pub alone: Vec<Alone>,
     /// Front.
     pub front: Option<Front>,
     /// The optimum as it may be made.
@@ -85,20 +90,6 @@ pub fn sentence(aim: Objective, price: &Price) -> String {
         PriceKind::Margin => format!("asking {by} less of {} would buy {bought}", price.of),
         PriceKind::Lower => format!("lowering the lower bound of {} by {by} would buy {bought}", price.of),
         PriceKind::Upper => format!("raising the upper bound of {} by {by} would buy {bought}", price.of),
-    }
-}
-
-/// "preload of high-10: 3.34 Nm must become at least 5.2 Nm".
-pub fn freed_sentence(f: &Freed) -> String {
-    let value = |v: f64| format!("{} {}", significant(v, 4), f.unit);
-    match f.needed {
-        Some(v) if v >= f.given => {
-            format!("{} in {}: at least {} instead of {}", f.what, f.scenario, value(v), value(f.given))
-        }
-        Some(v) => {
-            format!("{} in {}: at most {} instead of {}", f.what, f.scenario, value(v), value(f.given))
-        }
-        None => format!("{} in {}: no value up to {} frees it alone", f.what, f.scenario, value(f.tried_to)),
     }
 }
 
@@ -252,20 +243,7 @@ impl Story {
             let lines = found.prices.iter().map(|p| sentence(aim, p)).collect();
             parts.push(Part { heading: "What holds the optimum", lines, ..Part::default() });
         }
-        if let Some(relief) = &self.relief {
-            let mut lines: Vec<String> = relief.freed.iter().map(freed_sentence).collect();
-            if !relief.other_limits.is_empty() {
-                lines.push(format!(
-                    "broken there too, which no change of a scenario mends: {}",
-                    relief.other_limits.join(", ")
-                ));
-            }
-            parts.push(Part {
-                heading: "What would free it (profile of least violation, one change alone)",
-                lines,
-                ..Part::default()
-            });
-        }
+        parts.extend(self.relief.iter().flat_map(|relief| relief_parts(self, relief)));
         if let Some(realised) = &self.realised {
             parts.push(Part { heading: "Centroid", lines: realised_lines(aim, realised), ..Part::default() });
         }
@@ -294,6 +272,9 @@ impl Story {
             shown(aim, p50),
             Unit::Percent.show(made.yield_share, 3)
         )];
+        if !made.not_held.is_empty() {
+            lines.push(format!("the optimum is not held within the tolerances: {}", places(made)));
+        }
         if !made.impossible.is_empty() {
             lines.push(format!("cannot be put together at: {}", made.impossible.join("; ")));
         }
@@ -308,12 +289,23 @@ impl Story {
                 shown(aim, worst),
                 gain(aim, (drawn - robust.made.objective.0) * aim.sense()),
                 if robust.made.held() { "hold every limit at every corner" } else { "come as near as it can" },
-                word(&robust.status),
+                word(self.robust_status(robust)),
                 robust.held_at.len()
             ));
+            if !robust.made.not_held.is_empty() {
+                lines.push(format!(
+                    "no design was found that holds every limit at every corner; of this one is not held: {}",
+                    places(&robust.made)
+                ));
+            }
             tables.push(("Margins of the robust design", spread_table(&robust.made)));
         }
         Part { heading: "Within the tolerances", lines, tables, ..Part::default() }
+    }
+
+    /// How the search at the corners ended; where there was nothing to do, that of the optimum.
+    pub fn robust_status<'s>(&'s self, robust: &'s RobustSearch) -> &'s Status {
+        if robust.rounds == 0 { &self.found.outcome.status } else { &robust.status }
     }
 
     /// Further design files: ending, what it is, text.
@@ -338,6 +330,12 @@ impl Story {
         }
         files
     }
+}
+
+/// Limits that are not held, each with its worst corner.
+fn places(made: &Robust) -> String {
+    let place = |(code, corner): &(String, String)| format!("{code} (worst at {corner})");
+    made.not_held.iter().map(place).collect::<Vec<_>>().join(", ")
 }
 
 /// Captions of a front's plots.

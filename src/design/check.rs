@@ -22,7 +22,8 @@ pub(super) fn rad_s(rpm: f64) -> f64 {
     rpm * std::f64::consts::PI / 30.0
 }
 
-fn pa(mpa: f64) -> f64 {
+/// MPa to Pa.
+pub(super) fn pa(mpa: f64) -> f64 {
     mpa * 1e6
 }
 

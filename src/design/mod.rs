@@ -16,6 +16,7 @@ mod file;
 mod findings;
 mod geometry;
 mod history;
+mod limit_keys;
 mod limits_file;
 mod notes;
 mod objective;
@@ -42,13 +43,14 @@ pub use edit::{
     EditError, content, value_at, with_flanks, with_keys, with_limits, with_values, without_variables,
 };
 pub use history::is_history;
+pub use limit_keys::{LIMIT_KEYS, LimitKey};
 pub use notes::with_notes;
 pub use objective::Objective;
 pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind, Start};
 pub use shape::schema;
 pub use tolerances_file::Tolerances;
-pub use variables::{VARIABLES, is_whole, variable_names, variable_path};
+pub use variables::{VARIABLES, is_whole, variable_names, variable_path, variable_unit};
 
 /// A checked clutch design. Built only by reading a file; never changed afterwards.
 #[derive(Debug, Clone, PartialEq)]

@@ -29,6 +29,63 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
     ("centroid_y_mm", "sprags.centroid.y_mm", "centroid, radially outward from C_e"),
 ];
 
+/// Unit of every number in [`OWN_TABLES`] by the last step of its path, as printed; a pure number has none.
+const UNITS: &[(&str, &str)] = &[
+    ("axial_offset_mm", "mm"),
+    ("bearing_stiffness_n_per_um", "N/um"),
+    ("centre_distance_mm", "mm"),
+    ("count", ""),
+    ("crowned_ratio", ""),
+    ("decay_s_per_m", "s/m"),
+    ("density_kg_m3", "kg/m^3"),
+    ("design_load_n", "N"),
+    ("drag_torque_nm", "Nm"),
+    ("drop_um", "um"),
+    ("end_drop_um", "um"),
+    ("expansion_um_per_m_k", "um/(m K)"),
+    ("front_mm", "mm"),
+    ("front_tilt_rad", "rad"),
+    ("housing_outside_radius_mm", "mm"),
+    ("hunt_crossley_s_per_m", "s/m"),
+    ("inertia_kg_m2", "kg m^2"),
+    ("inner_bore_radius_mm", "mm"),
+    ("inner_inertia_kg_m2", "kg m^2"),
+    ("inner_interference_um", "um"),
+    ("inner_radius_mm", "mm"),
+    ("kinetic", ""),
+    ("length_mm", "mm"),
+    ("load_factor", ""),
+    ("mass_kg", "kg"),
+    ("offset_mm", "mm"),
+    ("outer_inertia_kg_m2", "kg m^2"),
+    ("outer_interference_um", "um"),
+    ("outer_outside_radius_mm", "mm"),
+    ("outer_radius_mm", "mm"),
+    ("poisson_ratio", ""),
+    ("radius_mm", "mm"),
+    ("rear_mm", "mm"),
+    ("rear_tilt_rad", "rad"),
+    ("roller_coefficient", ""),
+    ("shaft_bore_radius_mm", "mm"),
+    ("slices", ""),
+    ("static", ""),
+    ("stiffness_nm_per_rad", "Nm/rad"),
+    ("tilt_mrad", "mrad"),
+    ("until_rad", "rad"),
+    ("viscous_damping_nm_s_per_rad", "Nm s/rad"),
+    ("width_mm", "mm"),
+    ("x_mm", "mm"),
+    ("y_mm", "mm"),
+    ("youngs_modulus_gpa", "GPa"),
+];
+
+/// Unit of variable `name` as printed, empty for a pure number; `None` where no design has such a variable.
+pub fn variable_unit(name: &str) -> Option<&'static str> {
+    let path = variable_path(name, usize::MAX)?;
+    let key = path.rsplit('.').next()?;
+    UNITS.iter().find(|(known, _)| *known == key).map(|(_, unit)| *unit)
+}
+
 /// Dotted path of the key that variable `name` sets in a design of `arcs` inner arcs, or `None` where no
 /// such variable exists: `r_i2_mm` gives `sprags.inner_arcs[1].radius_mm`, a dotted path itself.
 pub fn variable_path(name: &str, arcs: usize) -> Option<String> {
@@ -82,6 +139,40 @@ mod tests {
         }
         assert_eq!(variable_names(1).len(), 14);
         assert!(is_whole("count", 3) && is_whole("sprags.count", 3) && !is_whole("r_i1_mm", 3));
+    }
+
+    /// Every number that may be a variable, by its dotted path in the schema, and every short name.
+    #[test]
+    fn every_variable_has_a_unit() {
+        fn numbers(schema: &serde_json::Value, path: &str, found: &mut Vec<String>) {
+            match schema["type"].as_str() {
+                Some("object") => {
+                    for (key, inner) in schema["properties"].as_object().into_iter().flatten() {
+                        numbers(inner, &format!("{path}.{key}"), found);
+                    }
+                }
+                Some("array") => numbers(&schema["items"], &format!("{path}[0]"), found),
+                Some("number" | "integer") => found.push(path.to_owned()),
+                _ => {}
+            }
+        }
+        let schema = shape::schema();
+        let mut all = variable_names(3);
+        let short = all.len();
+        for table in OWN_TABLES {
+            numbers(&schema["properties"][table], table, &mut all);
+        }
+        assert!(all.len() > short + 50, "{}", all.len());
+        let without: Vec<&String> = all.iter().filter(|name| variable_unit(name).is_none()).collect();
+        assert!(without.is_empty(), "{without:?}");
+        for (key, _) in UNITS {
+            assert!(all.iter().any(|path| path.rsplit('.').next() == Some(key)), "no key {key}");
+        }
+        let unit = |name| variable_unit(name).unwrap();
+        assert_eq!(unit("races.viscous_damping_nm_s_per_rad"), "Nm s/rad");
+        assert_eq!(unit("contact.tilt_mrad"), "mrad");
+        assert_eq!((unit("r_i2_mm"), unit("junction_1_rad"), unit("count")), ("mm", "rad", ""));
+        assert_eq!(variable_unit("r_i0_mm"), None);
     }
 
     #[test]

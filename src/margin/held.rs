@@ -45,7 +45,8 @@ pub(super) struct Held<'a> {
 /// Whether the row `code` is held at nominal torque, those of the worst sprag off centre included.
 pub fn at_nominal_torque(code: &str) -> bool {
     let code = code.trim_start_matches("run-out-");
-    code.starts_with("hertz-nominal") || YIELDS.iter().any(|y| y.code == code && y.when == When::Nominal)
+    let of_sprag = |limit: &OfSprag| limit.code == code && limit.when == When::Nominal;
+    NOMINAL_PRESSURE.iter().any(of_sprag) || YIELDS.iter().any(|y| y.code == code && y.when == When::Nominal)
 }
 
 const MPA: (&str, f64) = ("MPa", 1e-6);

@@ -77,6 +77,11 @@ impl<'a> Desk<'a> {
         self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
+    /// The flag itself, for runs that are not recorded.
+    pub(super) fn stop(&self) -> Option<&'a AtomicBool> {
+        self.stop
+    }
+
     /// Announce a part of the search.
     pub fn begins(&self, part: &str) {
         self.with(|record| record.begins(part));

@@ -10,11 +10,13 @@ use super::view::Phase;
 pub enum Status {
     /// A feasible point whose residuals are below the tolerances.
     Converged,
-    /// No feasible point near: the largest violation has a positive local minimum.
+    /// No feasible point near: the largest violation has a positive local minimum, or the objective, which is to reach a
+    /// value of its own (a wanted slip margin), a local maximum below it.
     Infeasible {
-        /// That minimum, in the unit of the limits.
+        /// That minimum, in the unit of the limits; or by what the objective's margin is short.
         least_violation: f64,
-        /// Limits that hold it up against each other (multiplier above 1e-3 of their sum, 1), in their order.
+        /// Limits that hold it up against each other (multiplier above 1e-3 of their sum, 1), or that hold the objective
+        /// down, in their order.
         fighting: Vec<usize>,
     },
     /// `max_evaluations` would have been passed; the best point seen is given.

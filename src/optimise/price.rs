@@ -3,9 +3,13 @@
 use super::influence::Influence;
 use super::outcome::Outcome;
 use super::problem::{ClutchProblem, Looked};
+use super::settings::Settings;
+use super::smooth::is_room;
+use crate::design::variable_unit;
+use crate::margin::{Margin, at_nominal_torque, courses, load_state};
 
-/// Share of the largest price below which one is rounding of the interior point.
-const NEGLIGIBLE: f64 = 1e-4;
+/// Torque step, relative, over which the slope of a demand is taken below the torque where its limit is reached.
+const STEP: f64 = 1e-4;
 
 /// Price of one limit or bound.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,26 +39,27 @@ pub enum PriceKind {
     Upper,
 }
 
-/// Prices at the optimum, dearest first in what one percent of the value buys.
+/// Prices at the optimum of what holds it there, dearest first in what one percent of the value buys.
 ///
 /// With dt = sum lambda_i dm_i + sum mu_j dc_j (t the least scaled objective): a margin c = allowable/demand - 1 grows by
-/// dA/demand with its allowable A; a variable on its bound gains by the Lagrangian's slope sum lambda m' + sum mu c' per
-/// range, divided by the range.
+/// dA/demand with its allowable A; a torque capacity m, at which the demand D(T) meets A, by dA/(dD/dT); a variable on its
+/// bound gains by the Lagrangian's slope sum lambda m' + sum mu c' per range, divided by the range. Multipliers of margins
+/// that are not active, and slopes below the tolerance of the climb, are what its subproblem leaves: no prices.
 pub(super) fn prices(
     problem: &ClutchProblem,
     best: &Looked,
     outcome: &Outcome,
     table: &Influence,
     (lo, hi): (&[f64], &[f64]),
+    climb: &Settings,
 ) -> Vec<Price> {
     let span = problem.goals()[0].span;
     let rows = problem.limit_rows(&best.rows);
     let (lambda, mu) = (&outcome.objective_multipliers, &outcome.limit_multipliers);
-    let mut found = Vec::new();
-    for (row, mu) in rows.iter().zip(mu) {
-        let is_ratio =
-            (row.allowable / row.demand - 1.0 - row.margin).abs() <= 1e-6 * (1.0 + row.margin.abs());
-        let (kind, unit, per_unit, value) = match is_ratio {
+    let mut found = capacity_prices(problem, best, outcome);
+    for &j in &outcome.active.limits {
+        let Some((row, mu)) = rows.get(j).zip(mu.get(j)) else { continue };
+        let (kind, unit, per_unit, value) = match is_ratio(row) {
             true => (PriceKind::Limit, row.unit, 1.0 / row.demand, row.allowable),
             false => (PriceKind::Margin, "1", 1.0, 1.0),
         };
@@ -63,35 +68,73 @@ pub(super) fn prices(
             found.push(Price { of: row.code.clone(), kind, unit: unit.to_owned(), gain_per_unit, value });
         }
     }
+    let known = climb.optimality_tolerance * outcome.evaluation.least_margin().abs().max(1.0);
     for (i, name) in problem.variables().iter().enumerate() {
         let slope = |weights: &[f64], rows: &[Vec<f64>]| -> f64 {
             weights.iter().zip(rows).map(|(w, row)| w * row[i]).sum()
         };
         let per_range = slope(lambda, &table.objectives) + slope(mu, &table.limits);
         let (kind, value) = match (outcome.x[i] == lo[i], outcome.x[i] == hi[i]) {
-            (true, false) if per_range < 0.0 => (PriceKind::Lower, lo[i]),
-            (false, true) if per_range > 0.0 => (PriceKind::Upper, hi[i]),
+            (true, false) if per_range < -known => (PriceKind::Lower, lo[i]),
+            (false, true) if per_range > known => (PriceKind::Upper, hi[i]),
             _ => continue,
         };
         found.push(Price {
             of: name.clone(),
             kind,
-            unit: unit_of(name).to_owned(),
+            unit: variable_unit(name).unwrap_or_default().to_owned(),
             gain_per_unit: per_range.abs() * span / (hi[i] - lo[i]),
             value,
         });
     }
     let weight = |p: &Price| p.gain_per_unit * p.value.abs();
-    let dearest = found.iter().map(weight).fold(0.0, f64::max);
-    found.retain(|p| weight(p) > NEGLIGIBLE * dearest);
     found.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
     found
 }
 
-/// Unit at the end of a variable's name.
-fn unit_of(name: &str) -> &'static str {
-    ["_mm", "_rad", "_mpa", "_nm"]
-        .into_iter()
-        .find(|u| name.ends_with(u))
-        .map_or("", |u| u.trim_start_matches('_'))
+/// Whether the row's margin is allowable/demand - 1.
+fn is_ratio(row: &Margin) -> bool {
+    !is_room(&row.code)
+        && (row.allowable / row.demand - 1.0 - row.margin).abs() <= 1e-6 * (1.0 + row.margin.abs())
+}
+
+/// Prices of the allowables that decide a torque capacity; none where no capacity is raised.
+fn capacity_prices(problem: &ClutchProblem, best: &Looked, outcome: &Outcome) -> Vec<Price> {
+    let capacities = outcome.active.objectives.iter().filter_map(|&i| {
+        let code = best.measures.get(i)?.code.strip_prefix("capacity:")?;
+        let row = best.rows.iter().find(|row| row.code == code)?;
+        Some((row, row.torque_capacity_nm?, outcome.objective_multipliers.get(i)?))
+    });
+    let capacities: Vec<_> = capacities.filter(|(row, ..)| is_ratio(row)).collect();
+    let Some((design, state)) = problem
+        .design_at(&outcome.x)
+        .ok()
+        .filter(|_| !capacities.is_empty())
+        .and_then(|design| load_state(&design).ok().map(|state| (design, state)))
+    else {
+        return Vec::new();
+    };
+    let limits = problem.limits();
+    let price = |(row, torque_nm, lambda): (&Margin, f64, &f64)| {
+        let points: Option<Vec<_>> =
+            [2.0, 1.0].iter().map(|k| state.curve.at_torque(torque_nm * (1.0 - k * STEP))).collect();
+        let course = courses(std::slice::from_ref(row), &design, limits, &state, &points?).pop()?;
+        let [[t0, share0], [t1, share1]] = course.points[..] else { return None };
+        // Of demand over allowable, 1/Nm.
+        let slope = (share1 - share0) / (t1 - t0);
+        // Capacities at nominal torque count by the peak torque in proportion.
+        let in_proportion = match at_nominal_torque(&row.code) {
+            true => limits.peak_torque_nm.zip(limits.nominal_torque_nm).map_or(1.0, |(p, n)| p / n),
+            false => 1.0,
+        };
+        let gain_per_unit = lambda * in_proportion / (slope * row.allowable);
+        (gain_per_unit.is_finite() && gain_per_unit > 0.0).then(|| Price {
+            of: row.code.clone(),
+            kind: PriceKind::Limit,
+            unit: row.unit.to_owned(),
+            gain_per_unit,
+            value: row.allowable,
+        })
+    };
+    capacities.into_iter().filter_map(price).collect()
 }

@@ -4,9 +4,11 @@ use super::corner::{Corner, perturbed};
 use super::evaluate::{Evaluate, Evaluation, Failure};
 use super::goal::{Goal, Measure, measures};
 use super::smooth;
-use crate::design::{Design, EditError, Limits, Objective, Optimize, content, with_limits, with_values};
+use crate::design::{
+    Design, EditError, LIMIT_KEYS, Limits, Objective, Optimize, content, with_limits, with_values,
+};
 use crate::fidelity;
-use crate::margin::{Margin, SceneDemand, load_state, scene_margins, scene_rows};
+use crate::margin::{Margin, RunOut, SceneDemand, load_state, run_out_margins, scene_margins, scene_rows};
 use crate::scenario::{Settings, demand};
 
 /// Prefix of the rows that hold slip margins.
@@ -50,6 +52,10 @@ pub struct ClutchProblem {
     goals: Vec<Goal>,
     corners: Vec<Corner>,
     fidelity: Fidelity,
+    /// Scenarios of `[check]`.
+    checked: Vec<String>,
+    /// Whether everything that `check` demands is a limit: see [`ClutchProblem::as_checked`].
+    as_checked: bool,
 }
 
 /// Everything known of one clutch.
@@ -84,7 +90,20 @@ impl ClutchProblem {
             goals: vec![Goal::plain(task.objective, &task.limits)],
             corners: vec![Corner::NOMINAL],
             fidelity,
+            checked: design.check_scenarios.clone(),
+            as_checked: false,
         }
+    }
+
+    /// The same problem with everything that `check` demands as a limit: the wanted slip margin even where slip is what is
+    /// raised, the scenarios of `[check]`, the worst sprag off centre.
+    pub fn as_checked(&self) -> Self {
+        Self { as_checked: true, ..self.clone() }
+    }
+
+    /// The same problem under other limits.
+    pub fn under(&self, limits: Limits) -> Self {
+        Self { limits, ..self.clone() }
     }
 
     /// The same problem with other goals.
@@ -107,6 +126,11 @@ impl ClutchProblem {
         Self { scenarios: vec![name.to_owned()], ..self.clone() }
     }
 
+    /// The same problem without its scenarios.
+    pub fn at_rest(&self) -> Self {
+        Self { scenarios: Vec::new(), ..self.clone() }
+    }
+
     /// The same problem at another fidelity.
     pub fn at_fidelity(&self, fidelity: Fidelity) -> Self {
         Self { fidelity, ..self.clone() }
@@ -127,6 +151,11 @@ impl ClutchProblem {
         &self.variables
     }
 
+    /// Limits.
+    pub fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
     /// Goals.
     pub fn goals(&self) -> &[Goal] {
         &self.goals
@@ -145,8 +174,9 @@ impl ClutchProblem {
         // The task's own bounds and seed do not enter a margin; what of it does follows, and the values of the histories.
         let said = content(&source, &["optimize"]).unwrap_or(source);
         let histories = &self.histories;
+        let checked = if self.as_checked { format!("{:?}", self.checked) } else { String::new() };
         format!(
-            "{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}",
+            "{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}",
             self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners, self.fidelity
         )
     }
@@ -194,17 +224,28 @@ impl ClutchProblem {
         if self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks.")) {
             rows.extend(smooth::flank_rows(design, &state));
         }
-        for scenario in design.scenarios.iter().filter(|s| self.scenarios.contains(&s.name)) {
-            rows.extend(self.scene(scenario));
-            // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
-            if let Some(row) = rows.iter().find(|r| !r.computed) {
-                return Err(Failure::Refused(row.name.clone()));
+        let scenes = |rows: &mut Vec<Margin>, wanted: &dyn Fn(&String) -> bool| {
+            for scenario in design.scenarios.iter().filter(|s| wanted(&s.name)) {
+                rows.extend(self.scene(scenario));
+                // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
+                if let Some(row) = rows.iter().find(|r| !r.computed) {
+                    return Err(Failure::Refused(row.name.clone()));
+                }
             }
-        }
+            Ok(())
+        };
+        scenes(&mut rows, &|name| self.scenarios.contains(name))?;
         let mut measures_of_goals = Vec::new();
         for (k, goal) in self.goals.iter().enumerate() {
             let found = measures(goal.objective, &self.limits, &self.target, &state, &rows);
             measures_of_goals.extend(found.into_iter().map(|m| Measure { goal: k, ..m }));
+        }
+        if self.as_checked {
+            scenes(&mut rows, &|name| self.checked.contains(name) && !self.scenarios.contains(name))?;
+            let off_centre = RunOut::new(design, &state)
+                .map(|ring| run_out_margins(design, &self.limits, &ring, false))
+                .unwrap_or_default();
+            rows.extend(off_centre.into_iter().filter(|m| m.required));
         }
         Ok(Looked { rows, measures: measures_of_goals })
     }
@@ -253,8 +294,13 @@ impl ClutchProblem {
         self.goals.iter().any(|g| g.objective != Objective::SlipMargin)
     }
 
+    /// Whether the row is raised, and so no limit of a climb.
+    pub fn is_raised(&self, m: &Margin) -> bool {
+        !self.as_checked && !self.slip_is_limit() && m.code.starts_with(SLIP)
+    }
+
     fn is_limit(&self, m: &Margin) -> bool {
-        self.slip_is_limit() || !m.code.starts_with(SLIP)
+        !self.is_raised(m)
     }
 
     /// Names in the order of [`Evaluation`].
@@ -307,29 +353,7 @@ impl Evaluate for ClutchProblem {
 
 /// `text` with every limit of `sharper` written into `[limits]`.
 fn with_all_limits(text: &str, sharper: &Limits) -> Result<String, EditError> {
-    let rpm = 30.0 / std::f64::consts::PI;
-    let entries = [
-        ("nominal_torque_nm", sharper.nominal_torque_nm),
-        ("peak_torque_nm", sharper.peak_torque_nm),
-        ("hertz_nominal_mpa", sharper.hertz_nominal_pa.map(|v| v * 1e-6)),
-        ("hertz_peak_mpa", sharper.hertz_peak_pa.map(|v| v * 1e-6)),
-        ("hoop_inner_mpa", sharper.hoop_inner_pa.map(|v| v * 1e-6)),
-        ("hoop_outer_mpa", sharper.hoop_outer_pa.map(|v| v * 1e-6)),
-        ("hoop_inner_bending_mpa", sharper.hoop_inner_bending_pa.map(|v| v * 1e-6)),
-        ("hoop_outer_bending_mpa", sharper.hoop_outer_bending_pa.map(|v| v * 1e-6)),
-        ("case_depth_mm", sharper.case_depth_m.map(|v| v * 1e3)),
-        ("case_shear_mpa", sharper.case_shear_pa.map(|v| v * 1e-6)),
-        ("core_shear_mpa", sharper.core_shear_pa.map(|v| v * 1e-6)),
-        ("axial_load_n", sharper.axial_load_n),
-        ("gap_nominal_mm", sharper.gap_nominal_m.map(|v| v * 1e3)),
-        ("gap_peak_mm", sharper.gap_peak_m.map(|v| v * 1e3)),
-        ("windup_nominal_deg", sharper.windup_nominal_rad.map(f64::to_degrees)),
-        ("equivalent_inner_mpa", sharper.equivalent_inner_pa.map(|v| v * 1e-6)),
-        ("equivalent_outer_mpa", sharper.equivalent_outer_pa.map(|v| v * 1e-6)),
-        ("slip_margin", sharper.slip_margin),
-        // rad/s back to the file's rpm, without the last digit's rounding.
-        ("keep_contact_to_rpm", sharper.keep_contact_to_rad_s.map(|v| (v * rpm * 1e9).round() / 1e9)),
-    ];
-    let values: Vec<(&str, f64)> = entries.iter().filter_map(|(k, v)| v.map(|v| (*k, v))).collect();
+    let values: Vec<(&str, f64)> =
+        LIMIT_KEYS.iter().filter_map(|key| Some((key.name, key.value(sharper)?))).collect();
     with_limits(text, &values)
 }

@@ -9,7 +9,7 @@ use super::corner::{Corner, corners, half_ranges};
 use super::desk::Desk;
 use super::evaluate::{Evaluation, Failure};
 use super::journal::Memo;
-use super::outcome::Status;
+use super::outcome::{Cause, Status};
 use super::problem::{ClutchProblem, Names};
 use super::search::{NoSearch, refused};
 use super::starts::Method;
@@ -42,8 +42,11 @@ pub struct Spread {
 /// Spreads of all margins of a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robust {
-    /// Margin by margin: objectives first, then limits.
+    /// Margin by margin: objectives first, then those limits that are no objectives.
     pub spreads: Vec<Spread>,
+    /// Limits that do not hold at some corner, each with the corner where it is worst; the wanted slip margin and all else
+    /// that `check` demands among them.
+    pub not_held: Vec<(String, String)>,
     /// The objective in its own unit: at the nominal values, at the worst corner, and its 1st, 5th, 50th percentile.
     pub objective: (f64, f64, [f64; 3]),
     /// Corners looked at.
@@ -54,7 +57,7 @@ pub struct Robust {
     pub impossible: Vec<String>,
     /// Seed of the draws.
     pub seed: u64,
-    /// Share of the draws at which every limit holds and slip is as wanted.
+    /// Share of the draws at which every limit holds that `check` demands, slip as wanted among them.
     pub yield_share: f64,
     /// Evaluations of the clutch.
     pub evaluations: usize,
@@ -63,8 +66,7 @@ pub struct Robust {
 impl Robust {
     /// Whether every margin holds at every corner.
     pub fn held(&self) -> bool {
-        self.impossible.is_empty()
-            && self.spreads.iter().all(|s| s.objective || s.worst >= -crate::margin::RESOLUTION)
+        self.impossible.is_empty() && self.not_held.is_empty()
     }
 }
 
@@ -117,6 +119,7 @@ pub fn spread(
     (draws, seed): (usize, u64),
     desk: &Desk,
 ) -> Result<Robust, NoSearch> {
+    let problem = &problem.as_checked();
     let nominal_problem = problem.at_corners(vec![Corner::NOMINAL]);
     let looked = nominal_problem.look_at(x).map_err(NoSearch::Start)?;
     let names = nominal_problem.names(&looked);
@@ -144,7 +147,24 @@ pub fn spread(
     };
     // A row may be absent at a corner where an arc dropped out; only rows of the same shape compare.
     let alike = |e: &Evaluation| e.objectives.len() == count && e.limits.len() == nominal.limits.len();
+    let holds = |e: &Evaluation| e.violation() <= crate::margin::RESOLUTION;
+    let everywhere: Vec<(String, &Evaluation)> = std::iter::once(("nominal".to_owned(), &nominal))
+        .chain(ends.iter().zip(&at_ends).filter_map(|(c, e)| Some((c.name(), e.as_ref().ok()?))))
+        .collect();
+    let mut not_held = Vec::new();
+    for (j, code) in names.limits.iter().enumerate() {
+        let worst = everywhere
+            .iter()
+            .filter(|(_, e)| alike(e))
+            .min_by(|a, b| a.1.limits[j].total_cmp(&b.1.limits[j]))
+            .filter(|(_, e)| e.limits[j] < -crate::margin::RESOLUTION);
+        not_held.extend(worst.map(|(corner, _)| (code.clone(), corner.clone())));
+    }
+    let unlike = everywhere.iter().filter(|(_, e)| !alike(e) && !holds(e));
+    not_held.extend(unlike.map(|(corner, _)| ("some limit".to_owned(), corner.clone())));
+    let raised_too = |j: usize| j >= count && names.objectives.contains(&names.limits[j - count]);
     let spreads = (0..count + nominal.limits.len())
+        .filter(|&j| !raised_too(j))
         .map(|j| {
             let known = ends
                 .iter()
@@ -171,10 +191,10 @@ pub fn spread(
     let worst = ends_least.fold(nominal.least_margin(), f64::min);
     let mut least: Vec<f64> = good.iter().map(|e| e.least_margin()).collect();
     least.sort_by(f64::total_cmp);
-    let holds = |e: &Evaluation| e.violation() <= crate::margin::RESOLUTION;
     let share = good.iter().filter(|e| holds(e)).count() as f64 / draws.max(1) as f64;
     Ok(Robust {
         spreads,
+        not_held,
         objective: (own(nominal.least_margin()), own(worst), percentiles(&least).map(own)),
         corners: ends.len(),
         draws: (draws, draws - good.len()),
@@ -193,7 +213,8 @@ fn percentiles(sorted: &[f64]) -> [f64; 3] {
     })
 }
 
-/// The best worst corner from `x0` on: every margin a limit at every corner.
+/// The best worst corner from `x0` on: every limit of the climb held at every corner, and what `check` demands looked at in
+/// the end.
 ///
 /// # Errors
 /// [`NoSearch`] where a climb is refused.
@@ -211,11 +232,15 @@ pub fn robust(
     let mut x = x0.to_vec();
     let mut status = Status::Converged;
     let (mut evaluations, mut rounds) = (0, 0);
-    for _ in 0..ROUNDS {
+    loop {
         let at_ends = at_each(problem, &x, &ends, desk);
         evaluations += ends.len();
         let fresh = worse_than_set(&set, &ends, &at_ends, &at_each(problem, &x, &set, desk));
         if fresh.is_empty() {
+            break;
+        }
+        if rounds == ROUNDS {
+            status = Status::Stalled(Cause::IterationLimit);
             break;
         }
         set.extend(fresh);

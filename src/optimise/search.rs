@@ -9,7 +9,7 @@ use super::outcome::{Outcome, Refusal, Status};
 use super::price::{Price, prices};
 use super::problem::{ClutchProblem, Fidelity, Looked, Names};
 use super::realise::is_centroid;
-use super::starts::{Climbed, Method, Optima, Start, climb_all, rank, rescued};
+use super::starts::{Climbed, Method, Optima, Start, climb_all, idle_everywhere, rank, rescued};
 use crate::design::{Design, Objective, Optimize};
 use crate::margin::Margin;
 
@@ -28,7 +28,7 @@ pub struct Variable {
     pub start: f64,
     /// Value found.
     pub best: f64,
-    /// Dropped from the search because it moves no margin.
+    /// Dropped from the search because it moves no margin, at the start or at points spread over the box.
     pub dropped: bool,
 }
 
@@ -81,6 +81,11 @@ impl Search {
     /// Whether every margin of the design found is held.
     pub fn feasible(&self) -> bool {
         self.best.iter().all(Margin::held)
+    }
+
+    /// Codes of the margins that the design found does not hold.
+    pub fn not_held(&self) -> Vec<&str> {
+        self.best.iter().filter(|m| !m.held()).map(|m| m.code.as_str()).collect()
     }
 
     /// Whether every margin of the given design was held.
@@ -197,7 +202,12 @@ pub fn search_problem(
         desk.run(&inner, |inner, run| influence(inner, &x, &lo, &hi, &method.climb, run)).map_err(refused)?
     };
     evaluations += table.evaluations;
-    let idle: Vec<String> = table.without().into_iter().map(|i| continuous[i].clone()).collect();
+    let (idle, looked_at) = {
+        let (lo, hi) = bounds(&variables, &continuous);
+        idle_everywhere(desk, &inner, table.without(), (&lo, &hi), method)
+    };
+    evaluations += looked_at;
+    let idle: Vec<String> = idle.into_iter().map(|i| continuous[i].clone()).collect();
     variables.iter_mut().for_each(|v| v.dropped = idle.contains(&v.name));
     let searched: Vec<String> = continuous.iter().filter(|n| !idle.contains(n)).cloned().collect();
     let whole_numbers: Vec<_> = task.variables.iter().filter(|v| v.whole).cloned().collect();
@@ -240,7 +250,7 @@ pub fn search_problem(
             break;
         }
     }
-    let Some((Climbed { best: outcome, starts: climbs, optima, .. }, problem, chosen)) = best else {
+    let Some((Climbed { best: mut outcome, starts: climbs, optima, .. }, problem, chosen)) = best else {
         return Err(first_refusal.map_or(NoSearch::Stopped, refused));
     };
     for v in &mut variables {
@@ -264,9 +274,16 @@ pub fn search_problem(
     };
     evaluations += sensitivity.as_ref().map_or(0, |s| s.evaluations);
     let prices = match &sensitivity {
-        Some(table) => prices(&problem, &best, &outcome, table, (&lo, &hi)),
+        Some(table) => prices(&problem, &best, &outcome, table, (&lo, &hi), &method.climb),
         None => Vec::new(),
     };
+    // A slip margin that is raised is no limit of the climb: where the best of it is less than is wanted, no design is one.
+    let short = best.rows.iter().filter(|m| problem.is_raised(m) && !m.held()).map(|m| -m.margin);
+    let short = short.fold(0.0, f64::max);
+    if outcome.status == Status::Converged && short > 0.0 {
+        let fighting = outcome.active.limits.clone();
+        outcome.status = Status::Infeasible { least_violation: short, fighting };
+    }
     let file =
         problem.finished_file(&outcome.x).map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
     let value = |looked: &Looked| problem.value(looked, 0);

@@ -58,12 +58,20 @@ pub(super) fn load_rows(
     rows
 }
 
+/// Codes of the rows of [`flank_rows`], rear and front, inside and outside.
+const ROOMS: [&str; 4] =
+    ["flank-rear-inside", "flank-rear-outside", "flank-front-inside", "flank-front-outside"];
+
+/// Whether `code` is a row of [`flank_rows`], whose margin is a difference, not a ratio.
+pub(super) fn is_room(code: &str) -> bool {
+    ROOMS.contains(&code)
+}
+
 /// Four rows: what each flank has left inside and outside, less [`ROOM`].
 pub(super) fn flank_rows(design: &Design, state: &LoadState) -> Vec<Margin> {
     let Some(flanks) = design.clutch.sprags.flanks else { return Vec::new() };
     let Ok(room) = Outline::room(&state.profile, &flanks) else { return Vec::new() };
-    let names = [["flank-rear-inside", "flank-rear-outside"], ["flank-front-inside", "flank-front-outside"]];
-    let rows = names.into_iter().flatten().zip(room.into_iter().flatten());
+    let rows = ROOMS.into_iter().zip(room.into_iter().flatten());
     rows.map(|(code, left)| Margin {
         code: code.to_owned(),
         name: "half width left until the flank no longer closes the profile, over the half width".to_owned(),

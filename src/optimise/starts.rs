@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::desk::Desk;
 use super::evaluate::Evaluation;
+use super::influence::influence;
 use super::outcome::{Outcome, Refusal, Status};
 use super::problem::ClutchProblem;
 use super::settings::Settings;
@@ -55,12 +56,15 @@ pub struct Optima {
 impl Optima {
     /// Least margins that lie nearer together are one optimum: a part of the larger.
     const APART: f64 = 1e-3;
+    /// The same where they are near 0; they are scaled to be of order one, and climbs come within 1e-8 of their ends.
+    const NEAR_ZERO: f64 = 1e-6;
 
     fn of(starts: &[Start], tolerance: f64) -> Self {
         let within = starts.iter().filter(|s| s.ended == Ok(Status::Converged) && s.violation <= tolerance);
         let mut found: Vec<f64> = within.map(|s| s.least_margin).collect();
         found.sort_by(f64::total_cmp);
-        let apart = |w: &&[f64]| w[1] - w[0] > Self::APART * w[1].abs().max(w[0].abs());
+        let apart =
+            |w: &&[f64]| w[1] - w[0] > (Self::APART * w[1].abs().max(w[0].abs())).max(Self::NEAR_ZERO);
         let seen = found.windows(2).filter(apart).count() + usize::from(!found.is_empty());
         Self { climbs: found.len(), seen }
     }
@@ -269,6 +273,44 @@ impl Points {
         found.truncate(wanted);
         found
     }
+}
+
+/// Points at which a variable that moves nothing at the start is looked at again: as many as there are usually starts beside
+/// the design.
+const LOOKED_AT: usize = 7;
+
+/// Those of the variables `idle`, without influence at the start, that have none at points spread over the box either; and
+/// the evaluations that this took.
+pub(super) fn idle_everywhere(
+    desk: &Desk,
+    problem: &ClutchProblem,
+    mut idle: Vec<usize>,
+    (lo, hi): (&[f64], &[f64]),
+    method: &Method,
+) -> (Vec<usize>, usize) {
+    if idle.is_empty() {
+        return (idle, 0);
+    }
+    let mut points = Points { next: 0, spent: 0 };
+    // The same points whatever the seed: this is no draw.
+    let unseeded = Method { seed: 0, ..method.clone() };
+    let mut spent = 0;
+    for x in points.draw(desk, problem, (lo, hi), LOOKED_AT, &unseeded) {
+        // The others have no range, so that no difference is taken along them.
+        let only_idle = |bounds: &[f64]| -> Vec<f64> {
+            (0..x.len()).map(|i| if idle.contains(&i) { bounds[i] } else { x[i] }).collect()
+        };
+        let (lo, hi) = (only_idle(lo), only_idle(hi));
+        let found = desk.run(problem, |problem, run| influence(problem, &x, &lo, &hi, &method.climb, run));
+        let Ok(table) = found else { break };
+        spent += table.evaluations;
+        let without = table.without();
+        idle.retain(|i| without.contains(i));
+        if idle.is_empty() {
+            break;
+        }
+    }
+    (idle, spent + points.spent)
 }
 
 /// A start with margins near `x0`: `x0` itself, or the best of some points of the box.

@@ -3,7 +3,7 @@
 use super::clutch::{HUANG, changed, design, problem, search_with, task};
 use super::problems::all;
 use sprag_design::design::{Design, Objective};
-use sprag_design::margin::load_state;
+use sprag_design::margin::{at_nominal_torque, load_margins, load_state};
 use sprag_design::optimise::*;
 
 const SCENES: &str = r#"scenarios = ["high-6", "low-10", "rated-45", "rated-45-at-speed"]"#;
@@ -37,9 +37,9 @@ fn each_objective_gets_better_and_holds_every_limit() {
         let expected = match objective {
             "torque-capacity" => {
                 // As `check` has it: the least of the required capacities at peak torque, and of those at nominal scaled.
-                let rows = sprag_design::margin::load_margins(&new, &new.limits, true, &state);
+                let rows = load_margins(&new, &new.limits, true, &state);
                 let scaled = rows.iter().filter(|m| m.required).filter_map(|m| {
-                    let share = if m.code.contains("nominal") { 110.0 / 90.0 } else { 1.0 };
+                    let share = if at_nominal_torque(&m.code) { 110.0 / 90.0 } else { 1.0 };
                     Some(m.torque_capacity_nm? * share)
                 });
                 scaled.fold(f64::INFINITY, f64::min)
@@ -54,6 +54,46 @@ fn each_objective_gets_better_and_holds_every_limit() {
             "{objective}: {} {expected}",
             found.objective.1
         );
+    }
+}
+
+/// A capacity is the largest peak torque, with the nominal torque in proportion, that every static limit holds: also where one
+/// decides that is held at nominal torque without saying so in its code.
+#[test]
+fn a_capacity_is_where_every_limit_just_holds() {
+    let base = aimed("torque-capacity", "");
+    let text = base.source.replacen(
+        "hoop_inner_mpa = 900.0",
+        "hoop_inner_mpa = 900.0\nequivalent_inner_mpa = 500.0",
+        1,
+    );
+    let design = changed(&text, &[]);
+    let problem = problem(&design);
+    let x: Vec<f64> = task(&design).variables.iter().map(|v| v.start).collect();
+    let looked = problem.look_at(&x).unwrap();
+    let capacity = problem.value(&looked, 0);
+    let state = load_state(&design).unwrap();
+    let held = |peak: f64| {
+        let limits = sprag_design::Limits {
+            peak_torque_nm: Some(peak),
+            nominal_torque_nm: Some(peak * 90.0 / 110.0),
+            ..design.limits
+        };
+        load_margins(&design, &limits, false, &state).iter().filter(|m| m.required).all(|m| {
+            // Contact at speed and re-engagement do not depend on torque.
+            m.held() || ["keep-contact", "re-engagement"].contains(&m.code.as_str())
+        })
+    };
+    let least = looked.measures.iter().min_by(|a, b| a.value.total_cmp(&b.value)).unwrap();
+    println!("{capacity} by {}", least.code);
+    assert_eq!(least.code, "capacity:equivalent-inner");
+    assert!(held(0.9999 * capacity) && !held(1.0001 * capacity), "{capacity}");
+    for m in load_margins(&design, &design.limits, true, &state) {
+        let scaled = design.limits.nominal_torque_nm.unwrap() * 1.01;
+        let more = sprag_design::Limits { nominal_torque_nm: Some(scaled), ..design.limits };
+        let after = load_margins(&design, &more, false, &state);
+        let moved = after.iter().find(|r| r.code == m.code).unwrap().margin != m.margin;
+        assert_eq!(moved, at_nominal_torque(&m.code), "{}", m.code);
     }
 }
 

@@ -4,7 +4,9 @@ mod clutch;
 mod ends;
 mod goals;
 mod made;
+mod prices;
 mod problems;
+mod unreached;
 
 use sprag_design::optimise::{Outcome, Run, Settings, Status, maximise_least_margin};
 
