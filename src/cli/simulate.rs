@@ -12,10 +12,12 @@ use super::exit::{Exit, Failure};
 use super::parts::{self, Answer};
 use super::{Context, positive};
 use crate::design::{Design, Scenario, ScenarioKind};
-use crate::dynamics::Stop;
+use crate::dynamics::{Stop, Swing};
 use crate::fidelity::{self, Term};
+use crate::report::Unit;
 use crate::scenario::{
-    NoScenario, Prepared, Settings, Simulation, Verdict, prepare, published_steps, simulate_published,
+    NoScenario, Prepared, Settings, Simulation, Verdict, overrun_swing, prepare, published_steps,
+    simulate_published,
 };
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -196,6 +198,17 @@ fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Fai
 fn notes(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
     let mut notes = unfelt::notes(scene.scenario);
     let simulation = scene.simulation();
+    if let Ok((prepared, _)) = &scene.outcome
+        && let Some(swing) = overrun_swing(scene.scenario, prepared).filter(Swing::grows)
+    {
+        notes.push(format!(
+            "warning: this overrun does not stay: races at held speeds, a small swing of the sprags grows by {} at {}; drag \
+             and forces are those of the equilibrium, not what the clutch does; a transient scenario with overrun_rpm shows \
+             that",
+            Unit::PerSecond.show(swing.growth_rate_per_s, 3),
+            Unit::Hertz.show(swing.frequency_hz, 3),
+        ));
+    }
     if scene.method == "equilibrium" {
         if args.method == Method::Published || args.step.is_some() {
             notes.push("an equilibrium: nothing is integrated, --method and --step say nothing".into());

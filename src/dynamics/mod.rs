@@ -22,6 +22,7 @@ mod published;
 mod rolling;
 mod run;
 mod start;
+mod swing;
 mod watch;
 mod zeno;
 
@@ -34,3 +35,4 @@ pub use run::{
     Engaged, FastMotion, Held, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run, run_while_it_sticks,
 };
 pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled};
+pub use swing::{Swing, swing};

@@ -207,7 +207,8 @@ impl Body {
             Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
             None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
         };
-        capacity.chain(early).chain([lift_off, self.overrun.remark()]).chain(running).chain(run_out).collect()
+        let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
+        capacity.chain(early).chain(overrun).chain(running).chain(run_out).collect()
     }
 }
 
@@ -348,6 +349,7 @@ pub(super) fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::design::Limits;
     use crate::margin::OverrunCurve;
     use crate::report::Screen;
 
@@ -367,13 +369,14 @@ mod tests {
     }
 
     fn source(lift_off_rad_s: Option<f64>) -> Source {
+        let curve = OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 };
         Source {
             end: EndReason::OffProfile,
             end_torque_nm: 50.0,
             asked_nm: 110.0,
             lift_off_rad_s,
             searched_to_rad_s: 100.0,
-            overrun: Section::new(&OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 }),
+            overrun: Section::new(&curve, &Limits::default()),
             running: None,
             run_out: None,
         }
