@@ -63,8 +63,8 @@ fn every_size_of_the_grid_holds_its_own_file() {
     }
 }
 
-/// Race spaces are tried as likenesses of one another: a clutch twice as large in every length carries eight times the
-/// torque with the same sprags twice as large, to the millimetre steps in which lengths are written.
+/// Sprags a millimetre shorter, races with them, keep less than a first design is to keep; and of the race spaces that hold
+/// everything the one with the smallest ring is taken.
 #[test]
 fn the_width_is_the_shortest_that_the_limits_allow() {
     let ask = ask(40.0, 1000.0, 0.0, 1.3, 0.11);

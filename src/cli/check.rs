@@ -19,6 +19,7 @@ use crate::margin::{
 };
 use crate::report::{Screen, Unit};
 use crate::scenario::Settings;
+use crate::wedge::straddling_error;
 use body::{Body, NONE_SUFFICES, OVERLOADED, Source, csv_table};
 pub(super) use body::{demand_cell, ends_first, margin_cell, people_table, unit_cell};
 use clap::Args;
@@ -82,7 +83,7 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
         lift_off_rad_s: check.lift_off_rad_s,
         searched_to_rad_s: LIFT_OFF_TO_RAD_S,
-        overrun: overrun::Section::new(&check.overrun),
+        overrun: overrun::Section::new(&check.overrun, limits),
         running: running::Section::new(&design, &check.state),
         run_out: check.run_out.as_ref().map(|ring| run_out::Section::new(&design, &check.state, ring)),
     };
@@ -100,6 +101,8 @@ pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
         error_estimate: Some(serde_json::json!({
             "statics_relative": check.state.curve.truncation(),
             "scenario_margins": check.scene_error,
+            // Of inner Hertz pressure, while a junction lies under the contact.
+            "hertz_at_junctions_relative": straddling_error(&design.clutch),
         })),
         body,
     };

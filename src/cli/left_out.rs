@@ -2,7 +2,7 @@
 
 use crate::design::{Clutch, ContactLaw};
 use crate::report::Unit;
-use crate::wedge::{even_load_error, knows_shape};
+use crate::wedge::{even_load_error, knows_shape, straddling_error};
 use serde::Serialize;
 
 /// One term left out.
@@ -69,6 +69,7 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
             "at junctions delta_H of a law that knows it changes by 0.1 % (clutch of Table 1)",
         ),
     });
+    list.extend(straddling(clutch));
     list.extend(lengthwise(clutch));
     if clutch.races.inner_bore_radius_m == 0.0 {
         list.push(LeftOut::new("bore of the inner race", "a solid shaft has none", "0: nothing is lost"));
@@ -94,6 +95,20 @@ pub fn off_centre(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
 
 const UNEQUAL: &str = "unequal sharing of the load between the sprags";
 const ECCENTRIC: &str = "eccentric and tilted races";
+
+/// What the peak pressure leaves out at junctions.
+fn straddling(clutch: &Clutch) -> Option<LeftOut> {
+    let error = Some(straddling_error(clutch)).filter(|&e| e > 0.0)?;
+    Some(LeftOut::new(
+        "shape of the pressure in a contact that straddles a junction",
+        "the peak is that of one arc with the mean curvature under the contact",
+        &format!(
+            "inner Hertz pressure off by {} at most while a junction lies under the contact (plane contact of these arcs), 0 \
+             elsewhere",
+            Unit::Percent.show(error, 2)
+        ),
+    ))
+}
 
 /// What is left out along the axis.
 fn lengthwise(clutch: &Clutch) -> Option<LeftOut> {

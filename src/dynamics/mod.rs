@@ -23,6 +23,7 @@ mod published;
 mod rolling;
 mod run;
 mod start;
+mod swing;
 mod watch;
 mod zeno;
 
@@ -37,3 +38,4 @@ pub use run::{
     run_while_it_sticks,
 };
 pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled, settled_end_torque_nm, settled_point};
+pub use swing::{Swing, swing};

@@ -156,7 +156,8 @@ const BESIDE: f64 = 1e-4;
 ///
 /// B sticks, phi' = theta_be' = Omega, T_bi = -mu N_bi, T_be = T_bi OA/OB, and moments about G with the spring:
 /// h_i N_bi - h_e N_be - b_i T_bi - b_e T_be = K_r(alpha_max - alpha), N_be by the radial equation with F_c.
-/// Lift-off (no N_bi > 0 in equilibrium) is an answer.
+/// Lift-off (no N_bi > 0 in equilibrium) is an answer. Whether the sprags stay there, and how far beside it the equations of
+/// motion settle, [`super::swing()`] says.
 pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> Overrun {
     let k_r = clutch.spring.stiffness_nm_per_rad;
     let speed = curve.speed_rad_s();

@@ -7,7 +7,7 @@
 
 use super::load::LoadState;
 use crate::design::Design;
-use crate::dynamics::{Overrun, overrun};
+use crate::dynamics::{Overrun, Swing, overrun, swing};
 use crate::kinematics::levers;
 use crate::numeric::root;
 use crate::scenario::sliding_friction;
@@ -22,6 +22,8 @@ pub struct OverrunPoint {
     pub friction: f64,
     /// Equilibrium of one sprag, and the drag torque of all.
     pub state: Overrun,
+    /// The small swing about that equilibrium, races at held speeds; `None` where A is open or nothing slides.
+    pub swing: Option<Swing>,
     /// Growth of the outer track, (7), m.
     pub growth_m: f64,
     /// Hoop stress at the bore of the outer race by rotation alone, Pa, tension positive.
@@ -56,6 +58,7 @@ pub fn overrun_curve(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Re
             speed_rad_s,
             friction: mu,
             state: found,
+            swing: swing(clutch, curve, state.alpha_max_rad, &found, speed_rad_s),
             growth_m: ring.centrifugal_bore_growth_m(curve.speed_rad_s()),
             rotation_hoop_pa: ring.rotating_bore_hoop_pa(curve.speed_rad_s()),
         }

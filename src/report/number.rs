@@ -40,6 +40,8 @@ pub enum Unit {
     Millisecond,
     /// Hertz.
     Hertz,
+    /// Rate of growth or decay, 1/s.
+    PerSecond,
     /// Revolutions per minute, from rad/s.
     Rpm,
     /// Metre per second.
@@ -72,6 +74,7 @@ impl Unit {
             Self::Second => "s",
             Self::Millisecond => "ms",
             Self::Hertz => "Hz",
+            Self::PerSecond => "1/s",
             Self::Rpm => "rpm",
             Self::MetrePerSecond => "m/s",
             Self::Gram => "g",
@@ -99,6 +102,7 @@ impl Unit {
             | Self::NewtonMetrePerRadian
             | Self::Second
             | Self::Hertz
+            | Self::PerSecond
             | Self::MetrePerSecond
             | Self::KilogramSquareMetre
             | Self::Watt => si,

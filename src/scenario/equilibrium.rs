@@ -5,8 +5,8 @@ use super::demand::demand;
 use super::error::Scales;
 use super::prepare::Prepared;
 use super::simulate::{Settings, hertz_at, hertz_peak};
-use crate::design::Start;
-use crate::dynamics::{Neglected, Peaks, SlipRecord, Stop};
+use crate::design::{Scenario, ScenarioKind, Start};
+use crate::dynamics::{Neglected, Peaks, SlipRecord, Stop, Swing, swing};
 use crate::wedge::StaticPoint;
 
 /// Static and overrunning scenarios: equilibrium, no integration.
@@ -66,6 +66,13 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         modes: Vec::new(),
         overrun: prepared.overrun,
     }
+}
+
+/// The small swing about the steady overrun of `scenario`; `None` for other kinds and for sprags that have lifted off.
+pub fn overrun_swing(scenario: &Scenario, prepared: &Prepared) -> Option<Swing> {
+    let ScenarioKind::Overrun { overrun_rad_s, .. } = scenario.kind else { return None };
+    let model = &prepared.model;
+    swing(&scenario.clutch, &model.curve, model.alpha_max_rad, prepared.overrun.as_ref()?, overrun_rad_s)
 }
 
 /// To what part every figure of an equilibrium is right: what of the torque is left over, what the windup's interpolation

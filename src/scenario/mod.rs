@@ -12,6 +12,7 @@ mod simulate;
 
 pub use answer::{GaveUp, Simulation, Verdict};
 pub use demand::{Demand, demand};
+pub use equilibrium::overrun_swing;
 pub use error::{ErrorEstimate, Scales};
 pub use prepare::{
     FreeRun, NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced, sliding_friction,

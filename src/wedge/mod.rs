@@ -23,6 +23,6 @@ pub use axial::{Along, Lengthwise, Side, along, asks_for_slices, even_load_error
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};
-pub use patch::{InnerCurvature, Straddle};
+pub use patch::{InnerCurvature, Straddle, straddling_error};
 pub use stiffness::StaticPoint;
 pub(crate) use table::RHO_STEEPEST_RAD;

@@ -31,7 +31,8 @@ pub struct StaticPoint {
     pub arc: usize,
     /// delta_H at A, m.
     pub approach_inner_m: f64,
-    /// p_0 at A, Pa, with the profile's curvature averaged over the patch.
+    /// p_0 at A, Pa, with the profile's curvature averaged over the patch; off by [`super::straddling_error`] at most
+    /// where that straddles a junction.
     pub hertz_inner_pa: f64,
     /// p_0 at A, Pa, with the radius at the contact point alone, as the paper takes it: jumps at a junction.
     pub hertz_inner_pointwise_pa: f64,

@@ -235,7 +235,8 @@ impl Body {
             Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
             None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
         };
-        capacity.chain(early).chain([lift_off, self.overrun.remark()]).chain(running).chain(run_out).collect()
+        let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
+        capacity.chain(early).chain(overrun).chain(running).chain(run_out).collect()
     }
 }
 

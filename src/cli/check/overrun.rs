@@ -52,6 +52,11 @@ struct Row {
     normal_inner_n: f64,
     normal_outer_n: f64,
     friction: f64,
+    /// Of a small swing of the sprags about the equilibrium, + grows; null where they are off or nothing slides.
+    growth_rate_per_s: Option<f64>,
+    swing_frequency_hz: Option<f64>,
+    #[serde(skip)]
+    grows: bool,
     lifted_off: bool,
     outer_race_growth_um: f64,
     rotation_hoop_outer_mpa: f64,
@@ -67,10 +72,31 @@ pub(super) struct Section {
     /// Drag torque with either race at rest.
     drag_torque_slow_nm: f64,
     points: Vec<Row>,
+    /// That the equilibrium does not stay; null where it does.
+    warning: Option<String>,
+}
+
+/// What an equilibrium does not say: the fastest growth of the swing among the speeds looked at, up to `wanted_rpm` of the
+/// outer race where contact is to be kept.
+fn warning(points: &[Row], wanted_rpm: Option<f64>) -> Option<String> {
+    let within = |p: &&Row| p.race == "inner" || wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
+    let growth = |p: &Row| p.growth_rate_per_s.unwrap_or(0.0);
+    let p =
+        points.iter().filter(|p| p.grows).filter(within).max_by(|a, b| growth(a).total_cmp(&growth(b)))?;
+    let held = if wanted_rpm.is_some() { ", and so is keep-contact" } else { "" };
+    Some(format!(
+        "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}, {:.0} rpm of the {} race \
+         (fastest of the speeds looked at; races at held speeds). Drag and forces are those of the equilibrium{held}; a \
+         transient scenario shows what the sprags do",
+        Unit::PerSecond.show(growth(p), 3),
+        Unit::Hertz.show(p.swing_frequency_hz?, 3),
+        p.speed_rpm,
+        p.race,
+    ))
 }
 
 impl Section {
-    pub(super) fn new(curve: &OverrunCurve) -> Self {
+    pub(super) fn new(curve: &OverrunCurve, limits: &Limits) -> Self {
         let row = |race: &'static str, p: &OverrunPoint| Row {
             race,
             speed_rpm: Unit::Rpm.from_si(p.speed_rad_s),
@@ -78,11 +104,16 @@ impl Section {
             normal_inner_n: p.state.normal_inner_n,
             normal_outer_n: p.state.normal_outer_n,
             friction: p.friction,
+            growth_rate_per_s: p.swing.map(|s| s.growth_rate_per_s),
+            swing_frequency_hz: p.swing.map(|s| s.frequency_hz),
+            grows: p.swing.is_some_and(|s| s.grows()),
             lifted_off: p.state.normal_inner_n <= 0.0,
             outer_race_growth_um: Unit::Micrometre.from_si(p.growth_m),
             rotation_hoop_outer_mpa: Unit::Megapascal.from_si(p.rotation_hoop_pa),
         };
         let outer = curve.outer_race.iter().map(|p| row("outer", p));
+        let points: Vec<Row> = outer.chain(curve.inner_race.iter().map(|p| row("inner", p))).collect();
+        let wanted_rpm = limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
         Self {
             centrifugal: match curve.gamma_rad {
                 g if g > 0.0 => "engaging",
@@ -91,12 +122,18 @@ impl Section {
             },
             gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
-            points: outer.chain(curve.inner_race.iter().map(|p| row("inner", p))).collect(),
+            warning: warning(&points, wanted_rpm),
+            points,
         }
     }
 
+    /// Drag, and whether the equilibrium stays, a line each.
+    pub(super) fn remarks(&self) -> impl Iterator<Item = String> {
+        std::iter::once(self.remark()).chain(self.warning.clone())
+    }
+
     /// Drag in one line; lift-off has its own, and the last speed looked at is not it.
-    pub(super) fn remark(&self) -> String {
+    fn remark(&self) -> String {
         let last = |race: &str| self.points.iter().rev().find(|p| p.race == race);
         let slow = Unit::NewtonMetre.show(self.drag_torque_slow_nm, 3);
         let at = |race: &str| {
@@ -126,6 +163,8 @@ impl Section {
             Column::number("normal_inner_n", "Normal force at A", Unit::Newton, 4),
             Column::number("normal_outer_n", "Normal force at B", Unit::Newton, 4),
             Column::number("friction", "Friction at A", Unit::One, 4),
+            Column::number("growth_rate_per_s", "Growth of the swing, 1/s", Unit::One, 4),
+            Column::number("swing_frequency_hz", "Swing, Hz", Unit::One, 4),
             Column::number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4),
             Column::number("rotation_hoop_outer_mpa", "Hoop by rotation, outer race, MPa", Unit::One, 4),
         ]);
@@ -137,6 +176,8 @@ impl Section {
                 p.normal_inner_n.into(),
                 p.normal_outer_n.into(),
                 p.friction.into(),
+                p.growth_rate_per_s.into(),
+                p.swing_frequency_hz.into(),
                 p.outer_race_growth_um.into(),
                 p.rotation_hoop_outer_mpa.into(),
             ]);
@@ -169,7 +210,9 @@ impl Section {
         page.heading("Overrun").paragraph(&format!("{}.", self.remark()));
         page.paragraph(
             "The sprags ride with the outer race. Where it stands and the inner race runs they are at rest; where it runs, \
-             the centrifugal force presses them in (engaging) or lifts them off the inner race (disengaging).",
+             the centrifugal force presses them in (engaging) or lifts them off the inner race (disengaging). Where \
+             friction falls with speed a small swing of the sprags about the equilibrium grows, unless something damps it; \
+             the races are taken to keep their speeds.",
         );
         page.figures(&[
             (marked(drag), "Drag torque of the whole clutch: friction at the inner contacts."),

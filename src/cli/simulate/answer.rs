@@ -1,10 +1,11 @@
 //! The JSON object of `simulate`.
 
 use super::Scene;
+use super::facts::shape_error;
 use crate::cli::left_out::LeftOut;
 use crate::design::ScenarioKind;
 use crate::dynamics::{EnergyBalance, SlipRecord, Stop};
-use crate::scenario::{ErrorEstimate, Prepared, Simulation};
+use crate::scenario::{ErrorEstimate, Prepared, Simulation, overrun_swing};
 use serde::Serialize;
 
 /// Slip at one contact.
@@ -108,6 +109,8 @@ struct Equilibrium {
     k_tangent_nm_per_rad: Option<f64>,
     /// Error of each figure, also of margins and pressure, by its own size.
     relative_error: f64,
+    /// That of the pressure: with its shape where a junction lies under the inner contact.
+    hertz_relative_error: f64,
 }
 
 /// Keys of `simulate`; null where a figure does not exist for the scenario.
@@ -172,6 +175,14 @@ pub(super) struct Body {
     drag_torque_nm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     lift_off_rpm: Option<f64>,
+    /// Of a small swing of the sprags about a steady overrun, races at held speeds; + grows. Absent where they are off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    growth_rate_per_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    swing_frequency_hz: Option<f64>,
+    /// N_bi about which they swing: that of the equations of motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    swing_normal_inner_n: Option<f64>,
     /// Terms that the planner looked at and kept.
     kept: Vec<LeftOut>,
     notes: Vec<String>,
@@ -207,7 +218,10 @@ impl Energy {
 }
 
 impl Errors {
-    fn of(e: &ErrorEstimate) -> Self {
+    fn of(scene: &Scene, prepared: &Prepared, s: &Simulation, e: &ErrorEstimate) -> Self {
+        let shape = |pa: f64, normal_n: f64| pa * shape_error(scene, prepared, normal_n);
+        let peak = e.hertz_peak_pa + shape(s.hertz_peak_pa, s.peaks.normal_max_n);
+        let least = e.hertz_least_pa + shape(s.hertz_least_pa, s.peaks.normal_min_n);
         Self {
             theta_inner_rad: e.theta_inner_rad,
             theta_outer_rad: e.theta_outer_rad,
@@ -223,8 +237,8 @@ impl Errors {
             normal_min_n: e.normal_min_n,
             normal_max_n: e.normal_max_n,
             normal_outer_max_n: e.normal_outer_max_n,
-            hertz_peak_mpa: e.hertz_peak_pa / 1e6,
-            hertz_least_mpa: e.hertz_least_pa / 1e6,
+            hertz_peak_mpa: peak / 1e6,
+            hertz_least_mpa: least / 1e6,
             initial_slip_s: e.initial_slip_s,
             required_static_friction: e.required_friction,
             slip_margin: e.slip_margin,
@@ -252,9 +266,10 @@ impl Extremes {
 }
 
 impl Equilibrium {
-    fn of(prepared: &Prepared, s: &Simulation) -> Option<Self> {
+    fn of(scene: &Scene, prepared: &Prepared, s: &Simulation) -> Option<Self> {
         let relative_error = s.equilibrium_error?;
         let alpha_rad = prepared.state[0];
+        let hertz_relative_error = relative_error + shape_error(scene, prepared, s.peaks.normal_max_n);
         if let Some(o) = s.overrun {
             return Some(Self {
                 alpha_rad,
@@ -267,6 +282,7 @@ impl Equilibrium {
                 k_secant_nm_per_rad: None,
                 k_tangent_nm_per_rad: None,
                 relative_error,
+                hertz_relative_error,
             });
         }
         let row = prepared.at_rest()?;
@@ -281,6 +297,7 @@ impl Equilibrium {
             k_secant_nm_per_rad: Some(row.k_secant_nm_per_rad),
             k_tangent_nm_per_rad: Some(row.k_tangent_nm_per_rad),
             relative_error,
+            hertz_relative_error,
         })
     }
 }
@@ -308,6 +325,7 @@ impl Body {
             Ok((prepared, s)) => (prepared, s),
         };
         let overruns = matches!(scene.scenario.kind, ScenarioKind::Overrun { .. });
+        let swing = overrun_swing(scene.scenario, prepared);
         let known = s.demand.filter(|d| d.gave_up.is_none());
         Self {
             stop: s.stop.name(),
@@ -328,11 +346,11 @@ impl Body {
             normal_min_n: Some(s.peaks.normal_min_n),
             normal_max_n: Some(s.peaks.normal_max_n),
             extremes: s.equilibrium_error.is_none().then(|| Extremes::of(s)),
-            equilibrium: Equilibrium::of(prepared, s),
+            equilibrium: Equilibrium::of(scene, prepared, s),
             hertz_peak_mpa: Some(s.hertz_peak_pa / 1e6),
             hertz_static_mpa: Some(s.hertz_static_pa / 1e6),
             hertz_least_mpa: Some(s.hertz_least_pa / 1e6),
-            hertz_rated_mpa: super::facts::rated_pa(scene).map(|p| p / 1e6),
+            hertz_rated_mpa: super::facts::rated(scene).map(|p| p.hertz_inner_pa / 1e6),
             events: Some(s.events),
             zeno_closures: Some(s.zeno_closures),
             inconsistent_choices: Some(s.inconsistent_choices),
@@ -344,7 +362,11 @@ impl Body {
             steps: Some(s.steps),
             rejections: Some(s.rejections),
             rhs_evaluations: Some(s.rhs_evaluations),
-            error_estimates: s.error.as_ref().filter(|_| s.stop != Stop::Interrupted).map(Errors::of),
+            error_estimates: s
+                .error
+                .as_ref()
+                .filter(|_| s.stop != Stop::Interrupted)
+                .map(|e| Errors::of(scene, prepared, s, e)),
             energy_balance: s.energy.as_ref().map(Energy::of),
             assumptions: match scene.scenario.kind {
                 ScenarioKind::Engagement { .. } => {
@@ -359,6 +381,9 @@ impl Body {
             spread_rad: s.error.filter(|_| !s.tolerance_reached).map(|_| s.spread_rad),
             initial_slip_s: s.initial_slip_s(),
             drag_torque_nm: s.overrun.filter(|_| overruns).map(|o| o.drag_torque_nm),
+            growth_rate_per_s: swing.map(|w| w.growth_rate_per_s),
+            swing_frequency_hz: swing.map(|w| w.frequency_hz),
+            swing_normal_inner_n: swing.map(|w| w.normal_inner_n),
             lift_off_rpm: super::facts::lift_off_rad_s(scene).map(|w| w * 30.0 / std::f64::consts::PI),
             ..base
         }

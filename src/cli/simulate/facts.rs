@@ -2,10 +2,11 @@
 
 use super::Scene;
 use crate::design::ScenarioKind;
-use crate::dynamics::Stop;
+use crate::dynamics::{Stop, Swing};
 use crate::margin::{LIFT_OFF_ERROR, lift_off_rad_s as lift_off, load_state};
 use crate::report::{Cell, Column, Table, Unit, significant};
-use crate::scenario::{ErrorEstimate, Prepared, Simulation, Verdict};
+use crate::scenario::{ErrorEstimate, Prepared, Simulation, Verdict, overrun_swing};
+use crate::wedge::{StaticPoint, straddling_error};
 
 /// Lift-off is looked for up to this speed of the outer race, rad/s: 60 000 rev/min, a choice.
 const LIFT_OFF_SEARCH_RAD_S: f64 = 2000.0 * std::f64::consts::PI;
@@ -26,13 +27,13 @@ impl Scene<'_> {
                     curve.end().0.name()
                 )
             }
-            Ok((_, s)) => meaning(s, &self.scenario.kind),
+            Ok((prepared, s)) => meaning(s, &self.scenario.kind, overrun_swing(self.scenario, prepared)),
         };
         format!("{name}: {verdict}: {meaning}")
     }
 }
 
-fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
+fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String {
     let margin = match s.demand.map(|d| (d.required_friction, d.slip_margin)) {
         Some((Some(needed), margin)) => {
             format!("slip margin {} (needs {})", Unit::Percent.show(margin, 3), Unit::One.show(needed, 4))
@@ -53,7 +54,11 @@ fn meaning(s: &Simulation, kind: &ScenarioKind) -> String {
             if s.verdict == Some(Verdict::Disengages) {
                 "the sprags have lifted off the inner race".to_owned()
             } else {
-                format!("drag torque {}", Unit::NewtonMetre.show(drag, 4))
+                let stays = match swing.filter(Swing::grows) {
+                    Some(_) => " in an equilibrium that does not stay: the swing of the sprags grows",
+                    None => "",
+                };
+                format!("drag torque {}{stays}", Unit::NewtonMetre.show(drag, 4))
             }
         }
         Some(Verdict::Sticks) if s.demand.is_some_and(|d| d.slip_margin < 0.0) => {
@@ -179,11 +184,18 @@ fn span(value: f64, error: f64, unit: Unit) -> String {
     format!("{} to {}", unit.show(low, 3), unit.show(value + error, 3))
 }
 
-/// Hertz pressure at A at the nominal torque of `[limits]`, Pa: what the paper's 4.1.2 compares with.
-pub(super) fn rated_pa(scene: &Scene) -> Option<f64> {
+/// The static state at the nominal torque of `[limits]`: with its pressure at A the paper's 4.1.2 compares.
+pub(super) fn rated(scene: &Scene) -> Option<StaticPoint> {
     // The scene's own curve may end where the scene has no use for it.
     let state = load_state(&scene.own).ok()?;
-    Some(state.curve.at_torque(scene.own.limits.nominal_torque_nm?)?.hertz_inner_pa)
+    state.curve.at_torque(scene.own.limits.nominal_torque_nm?)
+}
+
+/// By what part the pressure's shape makes a Hertz pressure at `normal_n` (N) uncertain: 0 but where a junction lies under
+/// the inner contact.
+pub(super) fn shape_error(scene: &Scene, prepared: &Prepared, normal_n: f64) -> f64 {
+    let at = (normal_n > 0.0).then(|| prepared.model.curve.at_normal(normal_n)).flatten();
+    if at.is_some_and(|p| p.straddles_junction) { straddling_error(&scene.own.clutch) } else { 0.0 }
 }
 
 /// What an engagement takes for given: the paper publishes none of it for its Figure 8.
@@ -225,12 +237,17 @@ fn motion(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {
     }
     f.add("time without contact", s.contact_lost_s, Unit::Millisecond, e.map(|e| e.contact_lost_s));
     peaks(f, s);
-    f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, e.map(|e| e.hertz_peak_pa));
-    f.add("smallest Hertz pressure, inner", s.hertz_least_pa, Unit::Megapascal, e.map(|e| e.hertz_least_pa));
+    let mut pressure = |name: &str, pa: f64, normal_n: f64, error: Option<f64>| {
+        f.add(name, pa, Unit::Megapascal, error.map(|e| e + pa * shape_error(scene, prepared, normal_n)));
+    };
     let exact = |value: f64| Some((EXACT + prepared.model.curve.truncation()) * value);
-    f.add("Hertz pressure, static load", s.hertz_static_pa, Unit::Megapascal, exact(s.hertz_static_pa));
-    if let Some(rated) = rated_pa(scene) {
-        f.add("Hertz pressure, nominal torque", rated, Unit::Megapascal, exact(rated));
+    let (p, rated) = (&s.peaks, rated(scene));
+    pressure("largest Hertz pressure", s.hertz_peak_pa, p.normal_max_n, e.map(|e| e.hertz_peak_pa));
+    pressure("smallest Hertz pressure, inner", s.hertz_least_pa, p.normal_min_n, e.map(|e| e.hertz_least_pa));
+    pressure("Hertz pressure, static load", s.hertz_static_pa, s.static_normal_n, exact(s.hertz_static_pa));
+    if let Some(rated) = rated {
+        let pa = rated.hertz_inner_pa;
+        pressure("Hertz pressure, nominal torque", pa, rated.normal_inner_n, exact(pa));
     }
     demand(f, s);
     if let Some(b) = s.energy {
@@ -320,6 +337,16 @@ fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation
         add("normal force, outer", o.normal_outer_n, Unit::Newton);
         add("|T|/N, inner (sliding friction)", o.tan_inner, Unit::One);
         add("|T|/N, outer (must hold)", o.tan_outer, Unit::One);
+        if let Some(swing) = overrun_swing(scene.scenario, prepared) {
+            f.add(
+                "growth rate of the sprags' swing (+ grows)",
+                swing.growth_rate_per_s,
+                Unit::PerSecond,
+                None,
+            );
+            f.add("frequency of that swing", swing.frequency_hz, Unit::Hertz, None);
+            f.add("normal force, inner, about which it swings", swing.normal_inner_n, Unit::Newton, None);
+        }
         let error = Some(LIFT_OFF_ERROR * LIFT_OFF_SEARCH_RAD_S);
         match lift_off_rad_s(scene) {
             Some(speed) => f.add("lift-off at an outer race speed of", speed, Unit::Rpm, error),
@@ -336,7 +363,9 @@ fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation
     add("|T|/N, outer", row.tan_nu, Unit::One);
     add("secant stiffness", row.k_secant_nm_per_rad, Unit::NewtonMetrePerRadian);
     add("tangent stiffness", row.k_tangent_nm_per_rad, Unit::NewtonMetrePerRadian);
-    add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal);
+    let shape = shape_error(scene, prepared, row.normal_inner_n);
+    let error_pa = s.equilibrium_error.map(|e| (e + shape) * s.hertz_peak_pa);
+    f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, error_pa);
     demand(f, s);
 }
 

@@ -5,7 +5,7 @@ use crate::cli::left_out::{LeftOut, left_out};
 use crate::design::{ContactLaw, ScenarioKind};
 use crate::dynamics::Neglected;
 use crate::report::Unit;
-use crate::scenario::place_profile;
+use crate::scenario::{overrun_swing, place_profile};
 use crate::wedge::WedgeCurve;
 
 /// The list for `scene`.
@@ -27,6 +27,7 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
         );
     }
     if scene.method == "equilibrium" {
+        list.extend(static_outer_force(scene));
         return list;
     }
     if scene.own.clutch.hunt_crossley_s_per_m == 0.0 {
@@ -82,6 +83,19 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
         add("growth of the inner race by rotation", "(7) is the outer race's alone", "not estimated");
     }
     list
+}
+
+/// Why a run in steady overrun settles beside the equilibrium, and by how much ([`crate::dynamics::swing()`]).
+fn static_outer_force(scene: &Scene) -> Option<LeftOut> {
+    let (prepared, s) = scene.outcome.as_ref().ok()?;
+    let swing = overrun_swing(scene.scenario, prepared)?;
+    let off = swing.normal_inner_n / s.overrun?.normal_inner_n - 1.0;
+    Some(LeftOut::new(
+        "what friction changes of N_be in the approach of the outer contact, in runs",
+        "runs take that approach for a function of alpha, as under a static load, so that stick keeps its energy; this \
+         equilibrium has the N_be of the radial equation",
+        &format!("runs settle at a normal force at A that is {} off this one", Unit::Percent.show(off, 2)),
+    ))
 }
 
 /// m_g OC_g' alpha'' at its largest while A carries load, beside N_be then.

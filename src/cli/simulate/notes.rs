@@ -1,8 +1,9 @@
 //! What a reader must know beside the figures of a scene: why a run gave up, what is in doubt, what was not felt.
 
 use super::{Method, Scene, SimulateArgs, duration_s, history};
-use crate::dynamics::Stop;
-use crate::scenario::Simulation;
+use crate::dynamics::{Stop, Swing};
+use crate::report::Unit;
+use crate::scenario::{Simulation, overrun_swing};
 
 /// A published run whose angle moves by more than this when its step is halved has not converged, rad.
 const CONVERGED_RAD: f64 = 1e-4;
@@ -11,6 +12,17 @@ const CONVERGED_RAD: f64 = 1e-4;
 pub(super) fn of(scene: &Scene, args: &SimulateArgs) -> Vec<String> {
     let mut notes = super::unfelt::notes(scene.scenario);
     let simulation = scene.simulation();
+    if let Ok((prepared, _)) = &scene.outcome
+        && let Some(swing) = overrun_swing(scene.scenario, prepared).filter(Swing::grows)
+    {
+        notes.push(format!(
+            "warning: this overrun does not stay: races at held speeds, a small swing of the sprags grows by {} at {}; drag \
+             and forces are those of the equilibrium, not what the clutch does; a transient scenario with overrun_rpm shows \
+             that",
+            Unit::PerSecond.show(swing.growth_rate_per_s, 3),
+            Unit::Hertz.show(swing.frequency_hz, 3),
+        ));
+    }
     if scene.method == "equilibrium" {
         if args.method == Method::Published || args.step.is_some() {
             notes.push("an equilibrium: nothing is integrated, --method and --step say nothing".into());

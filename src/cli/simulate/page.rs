@@ -296,7 +296,7 @@ fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
         plot = plot.curve("inner contact, end slice", mega(&|r| r.slice_pa.map_or(f64::NAN, |p| p[0])));
     }
     plot.curves.push(levels("static load", &[s.hertz_static_pa / 1e6], s));
-    let rated = match facts::rated_pa(scene) {
+    let rated = match facts::rated(scene).map(|p| p.hertz_inner_pa) {
         Some(p) => {
             let share = Unit::Percent.show(s.hertz_peak_pa / p, 3);
             format!(

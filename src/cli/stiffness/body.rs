@@ -6,7 +6,7 @@ use super::{LawCurve, Study};
 use crate::cli::parts::{self, Junction};
 use crate::design::ContactLaw;
 use crate::report::Unit;
-use crate::wedge::StaticPoint;
+use crate::wedge::{StaticPoint, straddling_error};
 use serde::Serialize;
 
 /// One row.
@@ -26,6 +26,9 @@ struct Point {
     /// Whether the patch at A lies on two arcs.
     straddles_junction: bool,
     hertz_inner_mpa: f64,
+    /// How far that is off at most: the curve's interpolation, and the pressure's shape while a junction lies under the
+    /// contact.
+    hertz_inner_error_mpa: f64,
     /// With the radius at the contact point alone, as the paper takes it.
     hertz_inner_pointwise_mpa: f64,
     hertz_outer_mpa: f64,
@@ -107,7 +110,7 @@ fn law(law: &LawCurve) -> Law {
         ContactLaw::Din26281 | ContactLaw::Hertz | ContactLaw::Elastic { .. } => (None, None),
     };
     let curve = Curve {
-        points: law.rows.iter().filter_map(|(t, p)| p.as_ref().map(|p| point(*t, p))).collect(),
+        points: law.rows.iter().filter_map(|(t, p)| p.as_ref().map(|p| point(*t, p, law))).collect(),
         beyond_end: law.rows.iter().filter(|(_, p)| p.is_none()).map(|(t, _)| *t).collect(),
         junctions: parts::junctions(&law.curve),
         end: End { reason: law.curve.end().0.name(), torque_nm: law.curve.end_torque_nm() },
@@ -116,7 +119,9 @@ fn law(law: &LawCurve) -> Law {
 }
 
 /// A row under the torque asked for, which the equilibrium meets to rounding.
-fn point(torque_nm: f64, p: &StaticPoint) -> Point {
+fn point(torque_nm: f64, p: &StaticPoint, law: &LawCurve) -> Point {
+    let shape = if p.straddles_junction { straddling_error(&law.clutch) } else { 0.0 };
+    let hertz_error_pa = (law.curve.truncation() + shape) * p.hertz_inner_pa;
     Point {
         torque_nm,
         normal_inner_n: p.normal_inner_n,
@@ -131,6 +136,7 @@ fn point(torque_nm: f64, p: &StaticPoint) -> Point {
         straddles_junction: p.straddles_junction,
         hertz_inner_pointwise_mpa: Unit::Megapascal.from_si(p.hertz_inner_pointwise_pa),
         hertz_inner_mpa: Unit::Megapascal.from_si(p.hertz_inner_pa),
+        hertz_inner_error_mpa: Unit::Megapascal.from_si(hertz_error_pa),
         hertz_outer_mpa: Unit::Megapascal.from_si(p.hertz_outer_pa),
     }
 }

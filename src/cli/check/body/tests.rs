@@ -1,6 +1,7 @@
 //! What tables, JSON and banner of `check` say of given rows.
 
 use super::*;
+use crate::design::Limits;
 use crate::margin::OverrunCurve;
 use crate::report::Screen;
 
@@ -20,13 +21,14 @@ fn margin(code: &str, demand: f64, margin: f64, capacity: Option<f64>, required:
 }
 
 fn source(lift_off_rad_s: Option<f64>) -> Source {
+    let curve = OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 };
     Source {
         end: EndReason::OffProfile,
         end_torque_nm: 50.0,
         asked_nm: 110.0,
         lift_off_rad_s,
         searched_to_rad_s: 100.0,
-        overrun: Section::new(&OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 }),
+        overrun: Section::new(&curve, &Limits::default()),
         running: None,
         run_out: None,
     }

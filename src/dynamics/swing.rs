@@ -1,0 +1,102 @@
+//! Whether a steady overrun stays: growth and frequency of the sprag's swing about it.
+
+use nalgebra::Matrix2;
+
+use super::model::{Grip, Loads, Mode, Model, N_STATE, Place};
+use super::start::Overrun;
+use crate::design::Clutch;
+use crate::numeric::root;
+use crate::wedge::WedgeCurve;
+
+/// A small swing of the sprag about steady overrun, alpha - alpha_0 ~ exp(growth t) cos(2 pi frequency t).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// Growth rate, 1/s; negative: the swing dies away, 0: it stays.
+    pub growth_rate_per_s: f64,
+    /// Frequency, Hz; 0: it creeps and does not swing.
+    pub frequency_hz: f64,
+    /// N_bi of the equilibrium of the equations of motion, N, about which the sprag swings. Some 0.2 % less than that of
+    /// [`Overrun`]: see [`swing()`].
+    pub normal_inner_n: f64,
+}
+
+/// Growth within that part of the circular frequency is none: what the differences below cannot tell from 0 (a choice).
+const RESOLVED: f64 = 1e-7;
+
+impl Swing {
+    /// Whether the sprags leave the equilibrium by themselves.
+    pub fn grows(&self) -> bool {
+        self.growth_rate_per_s > RESOLVED * std::f64::consts::TAU * self.frequency_hz
+    }
+}
+
+/// How far beside the equilibrium accelerations are taken, as a part of what they change over: a choice between
+/// rounding, which falls with it, and the second order of the difference.
+const BESIDE: f64 = 1e-4;
+
+/// The swing about the steady overrun `steady` ([`super::overrun()`] of the same arguments), A sliding at `overrun_rad_s`;
+/// `None` where A is open or does not slide, and where the equations of motion open it.
+///
+/// Both races keep their speeds: they are far heavier than a sprag, and what drives them is not asked. B sticks, so
+/// phi' = theta_be' - rho_e alpha' and one sprag has one freedom, alpha'' = f(alpha, alpha'), the right-hand side of the
+/// dynamics ([`Model::forces`]). About its equilibrium f = 0
+///
+///   d/dt (alpha, alpha') = [[0, 1], [df/dalpha, df/dalpha']] (alpha, alpha'),
+///
+/// whose eigenvalues are growth +- i 2 pi frequency, by central differences of f. With the inertia I = I_g (1 - rho_e)^2 +
+/// m_g OC_g^2 rho_e^2 and v_A = OA(Omega_o + (rho_i + rho_e) alpha')
+///
+///   df/dalpha' = -[dmu/dv N_bi (OA (rho_i + rho_e))^2 + damping of the contacts]/I:
+///
+/// friction that falls with speed feeds the swing, friction that rises and damped contacts take from it.
+///
+/// The equilibrium of [`super::overrun()`] is another by a little. There moments about G hold with the N_be of the radial
+/// equation. The dynamics put U'(alpha) in the place of N_bi delta_i' + N_be delta_e', without which stick would not keep its
+/// energy, and in U' stands the N_be of a static load at that alpha. What is left over at the equilibrium of the statics is
+///
+///   I alpha'' = (N_be - N_be,static) delta_e',   delta_e' = OC_g' cos gamma - OC_g sin gamma:
+///
+/// friction turned round (-mu N_bi for tan omega N_bi) presses B a little less.
+pub fn swing(
+    clutch: &Clutch,
+    curve: &WedgeCurve,
+    alpha_max_rad: f64,
+    steady: &Overrun,
+    overrun_rad_s: f64,
+) -> Option<Swing> {
+    if steady.normal_inner_n <= 0.0 || overrun_rad_s <= 0.0 {
+        return None;
+    }
+    let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
+    // Races that nothing turns: the largest number, as infinity times 0 is none.
+    let held = Model {
+        inner_inertia_kg_m2: f64::MAX,
+        outer_inertia_kg_m2: f64::MAX,
+        ..Model::new(clutch, curve.clone(), still, alpha_max_rad, 0.0)
+    };
+    let mode = Mode { place: Place::Arc(0), inner: Grip::Slip(1.0), outer: Grip::Stick };
+    let f = |alpha: f64, alpha_rate: f64| {
+        let mut y = [0.0; N_STATE];
+        (y[0], y[4], y[6]) = (alpha, alpha_rate, overrun_rad_s);
+        held.forces(&mode, 0.0, &y).acceleration[0]
+    };
+    // From first contact on: alpha'' falls with alpha, and the equilibrium of the statics is near.
+    let touch = curve.first_contact_rad();
+    let near = steady.alpha_rad - touch;
+    let at = |x: f64| f(touch + x, 0.0);
+    let low = (0..60).map(|i| near * 0.5_f64.powi(i)).find(|&x| at(x) >= 0.0)?;
+    let high = (0..60).map(|i| near * 2.0_f64.powi(i)).find(|&x| at(x) <= 0.0)?;
+    let x = if low == high { low } else { root::bracketed(low, high, at(low), at(high), 1e-15 * high, at)? };
+    let by_alpha = (at(x * (1.0 + BESIDE)) - at(x * (1.0 - BESIDE))) / (2.0 * BESIDE * x);
+    let p = curve.in_arc(0, touch + x);
+    // alpha' changes friction over the sliding speed, or over 1/gamma_b where that is less.
+    let least = overrun_rad_s.min(1.0 / (held.friction.decay_s_per_m * p.oa));
+    let beside = BESIDE * least / (p.rho_i + p.rho_e);
+    let by_rate = (f(touch + x, beside) - f(touch + x, -beside)) / (2.0 * beside);
+    let eigenvalues = Matrix2::new(0.0, 1.0, by_alpha, by_rate).complex_eigenvalues();
+    Some(Swing {
+        growth_rate_per_s: eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max),
+        frequency_hz: eigenvalues[0].im.abs() / std::f64::consts::TAU,
+        normal_inner_n: p.n_bi,
+    })
+}
