@@ -91,8 +91,9 @@ pub(super) const RIGHT_PX: f64 = 18.0;
 const BOTTOM_PX: f64 = 50.0;
 const MARKER_ROWS: usize = 3;
 /// Room for the text of a tick of an x axis.
-pub(super) const PITCH_X_PX: f64 = 80.0;
-const PITCH_Y_PX: f64 = 36.0;
+pub(super) const PITCH_X_PX: f64 = 60.0;
+/// The same on a linear y axis, and on a logarithmic one, where every power of ten is wanted.
+const PITCH_Y_PX: [f64; 2] = [32.0, 18.0];
 
 impl Plot {
     /// An empty plot with linear axes.
@@ -179,7 +180,7 @@ impl Plot {
     /// Grid, frame, ticks with their texts, titles.
     fn draw_axes(&self, svg: &mut Svg, x: &Axis, y: &Axis) {
         let ([left, right], [bottom, top]) = (x.px, y.px);
-        let (x_ticks, y_ticks) = (x.ticks(PITCH_X_PX), y.ticks(PITCH_Y_PX));
+        let (x_ticks, y_ticks) = (x.ticks(PITCH_X_PX), y.ticks(PITCH_Y_PX[usize::from(self.log_y)]));
         let upright = x_ticks.iter().filter(|t| !t.text.is_empty()).map(|t| [[t.px, bottom], [t.px, top]]);
         let level = y_ticks.iter().filter(|t| !t.text.is_empty()).map(|t| [[left, t.px], [right, t.px]]);
         let grid: String = upright.chain(level).map(|line| polyline(&line, false)).collect();
