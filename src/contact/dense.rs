@@ -35,3 +35,25 @@ pub(super) fn solve_dense(
     let solved = solved.unwrap_or_else(|| nalgebra::DMatrix::from_element(n, 2, f64::NAN));
     [0, 1].map(|column| (0..n).map(|j| solved[(j, column)]).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn definite_and_indefinite_matrices_are_solved() {
+        let falling = |j: usize, k: usize| 1.0 / (1.0 + j.abs_diff(k) as f64);
+        let indefinite = |j: usize, k: usize| if j == k { 0.0 } else { falling(j, k) };
+        for entry in [&falling as &dyn Fn(usize, usize) -> f64, &indefinite] {
+            let n = 40;
+            let right: [Vec<f64>; 2] = [vec![1.0; n], (0..n).map(|j| (j as f64).sin()).collect()];
+            let solved = solve_dense(n, entry, [&right[0], &right[1]]);
+            for (x, b) in solved.iter().zip(&right) {
+                for (j, b) in b.iter().enumerate() {
+                    let sum: f64 = x.iter().enumerate().map(|(k, x)| entry(j, k) * x).sum();
+                    assert!((sum - b).abs() < 1e-11, "{j}: {sum} {b}");
+                }
+            }
+        }
+    }
+}
