@@ -293,9 +293,8 @@ fn press_closed(row: &[f64], closed: &[bool], gap_m: &[f64], normal_n: f64) -> (
         (vec![1.0; index.len()], index.iter().map(|j| gap_m[*j] - least_m).collect::<Vec<_>>());
     let side_by_side = index.first().zip(index.last()).is_some_and(|(a, b)| b - a + 1 == index.len());
     let toeplitz = if side_by_side { solve_symmetric(row, [&ones, &gaps]) } else { None };
-    let [u, v] = toeplitz.unwrap_or_else(|| {
-        solve_dense(index.len(), |j, k| row[index[j].abs_diff(index[k])], [&ones, &gaps])
-    });
+    let [u, v] = toeplitz
+        .unwrap_or_else(|| solve_dense(index.len(), |j, k| row[index[j].abs_diff(index[k])], [&ones, &gaps]));
     let beyond_m = (normal_n + v.iter().sum::<f64>()) / u.iter().sum::<f64>();
     let mut load_n = vec![0.0; closed.len()];
     for ((at, u), v) in index.iter().zip(&u).zip(&v) {

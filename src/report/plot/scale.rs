@@ -103,8 +103,8 @@ pub(super) fn widened((low, high): (f64, f64), log: bool, air: f64) -> [f64; 2] 
         let half = if low == 0.0 { 1.0 } else { 0.1 * low.abs() };
         return [low - half, high + half];
     }
-    // A range that begins close to zero begins there.
-    let low = if low > 0.0 && low < NEAR_ZERO * high { 0.0 } else { low };
+    // A range that begins close to zero, or below it by roundings, begins there.
+    let low = if low > -1e-9 * high && low < NEAR_ZERO * high { 0.0 } else { low };
     // A curve that begins at zero sits on the axis.
     let bottom = if low == 0.0 { 0.0 } else { low - air * span };
     let top = if high == 0.0 { 0.0 } else { high + air * span };

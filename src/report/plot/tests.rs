@@ -55,6 +55,7 @@ fn a_constant_curve_has_an_axis() {
 #[test]
 fn a_range_from_close_to_zero_begins_at_zero() {
     assert_eq!(widened((0.3, 200.0), false, 0.0), [0.0, 200.0]);
+    assert_eq!(widened((-1e-14, 200.0), false, 0.05), [0.0, 210.0]);
     assert_eq!(widened((30.0, 200.0), false, 0.0), [30.0, 200.0]);
 }
 
