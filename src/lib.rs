@@ -48,6 +48,15 @@
 //! * What can happen to a clutch is data ([`Verdict`], [`EndReason`], [`Stop`]); an `Err` means that the question
 //!   was malformed.
 //!
+//! # Features
+//!
+//! All are on by default; with `default-features = false` the library is built alone.
+//!
+//! * `cli`: the room [`cli`] and the command `sprag-design`; needs `report`.
+//! * `report`: the room [`report`].
+//! * `faer`: scattered slices of a contact are solved by the crate faer; without it by nalgebra, slower for thousands
+//!   of slices and with other roundings. The matrix of Eq. (2) as a whole is there with it alone.
+//!
 //! # From a file to an answer
 //!
 //! ```
@@ -74,6 +83,7 @@
 //! ```
 
 pub mod accuracy;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod contact;
 pub mod design;
@@ -90,6 +100,7 @@ pub mod ode;
 pub mod optimise;
 pub mod profile;
 pub mod race;
+#[cfg(feature = "report")]
 pub mod report;
 pub mod scenario;
 pub mod size;

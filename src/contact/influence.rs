@@ -1,5 +1,6 @@
 //! Influence of a loaded slice on the others: Love's rectangle on a half-space, averaged over a slice.
 
+#[cfg(feature = "faer")]
 use faer::Mat;
 
 use crate::numeric::quadrature::integral;
@@ -64,6 +65,7 @@ fn phi(c: f64, y: f64) -> f64 {
 /// Symmetric Toeplitz. Its mean row sum is s, so a uniform load q per slice gives a mean deflection s q
 /// whatever w: the slices share the load, the mean compliance stays that of the law s came from.
 #[doc(alias = "Eq. (2)")]
+#[cfg(feature = "faer")]
 pub fn weighted_influence_m_per_n(influence_m_per_pa: &[f64], slice_compliance_m_per_n: f64) -> Mat<f64> {
     let n = influence_m_per_pa.len();
     let factor = n as f64 * slice_compliance_m_per_n / influence_sum(influence_m_per_pa);
@@ -139,6 +141,7 @@ mod tests {
         }
     }
 
+    #[cfg(feature = "faer")]
     #[test]
     fn eq_2_keeps_the_mean_deflection_of_a_uniform_load() {
         let s = 2.7e-7;

@@ -2,11 +2,9 @@
 
 use std::f64::consts::{LN_2, PI};
 
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
-
 use super::approach::RollerLaw;
 use super::axial::{AxialFit, slice_middles_m};
+use super::dense::solve_dense;
 use super::edge::{Edge, End, Peak, edges_and_peak};
 use super::influence::{influence_m_per_pa, influence_sum};
 use super::line::{ContactError, LineContact, positive};
@@ -295,16 +293,8 @@ fn press_closed(row: &[f64], closed: &[bool], gap_m: &[f64], normal_n: f64) -> (
         (vec![1.0; index.len()], index.iter().map(|j| gap_m[*j] - least_m).collect::<Vec<_>>());
     let side_by_side = index.first().zip(index.last()).is_some_and(|(a, b)| b - a + 1 == index.len());
     let toeplitz = if side_by_side { solve_symmetric(row, [&ones, &gaps]) } else { None };
-    let [u, v] = toeplitz.unwrap_or_else(|| {
-        let m = index.len();
-        let matrix = Mat::from_fn(m, m, |j, k| row[index[j].abs_diff(index[k])]);
-        let right = Mat::from_fn(m, 2, |j, k| if k == 0 { 1.0 } else { gaps[j] });
-        let solved = match matrix.llt(Side::Lower) {
-            Ok(factor) => factor.solve(&right),
-            Err(_) => matrix.lblt(Side::Lower).solve(&right),
-        };
-        [0, 1].map(|column| (0..m).map(|j| solved[(j, column)]).collect())
-    });
+    let [u, v] = toeplitz
+        .unwrap_or_else(|| solve_dense(index.len(), |j, k| row[index[j].abs_diff(index[k])], [&ones, &gaps]));
     let beyond_m = (normal_n + v.iter().sum::<f64>()) / u.iter().sum::<f64>();
     let mut load_n = vec![0.0; closed.len()];
     for ((at, u), v) in index.iter().zip(&u).zip(&v) {

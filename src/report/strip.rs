@@ -1,5 +1,6 @@
 //! Coloured bands over time, one row per thing observed: which state held when.
 
+use super::plot::{Axis, LEFT_PX, PITCH_X_PX, RIGHT_PX, draw_below};
 use super::svg::{Anchor, INK, RULE, SERIES, SOFT, Svg, px, text_width};
 
 /// A stretch in one state.
@@ -27,8 +28,6 @@ pub struct Strip {
     pub rows: Vec<(String, Vec<Span>)>,
 }
 
-const LEFT_PX: f64 = 66.0;
-const RIGHT_PX: f64 = 18.0;
 const WIDTH_PX: f64 = 720.0;
 const TOP_PX: f64 = 26.0;
 const ROW_PX: f64 = 24.0;
@@ -49,8 +48,8 @@ impl Strip {
         let height = TOP_PX + ROW_PX * self.rows.len() as f64 + BOTTOM_PX;
         let mut svg = Svg::new(WIDTH_PX, height, &format!("States over {}", self.title));
         let [low, high] = self.sound_range();
-        let scale = (WIDTH_PX - LEFT_PX - RIGHT_PX) / (high - low);
-        let x = |at: f64| LEFT_PX + (at.clamp(low, high) - low) * scale;
+        let axis = Axis { log: false, range: [low, high], px: [LEFT_PX, WIDTH_PX - RIGHT_PX] };
+        let x = |at: f64| axis.at(at.clamp(low, high));
         let mut at = LEFT_PX;
         for (state, name) in self.states.iter().enumerate() {
             let style = format!("fill=\"{}\"", colour(state));
@@ -78,7 +77,9 @@ impl Strip {
                 }
             }
         }
-        self.draw_axis(&mut svg, height, x);
+        let y = height - BOTTOM_PX + 2.0;
+        svg.line([LEFT_PX, y], [WIDTH_PX - RIGHT_PX, y], &format!("stroke=\"{SOFT}\" fill=\"none\""));
+        draw_below(&mut svg, &axis, &axis.ticks(PITCH_X_PX), y, &self.title, WIDTH_PX);
         svg.finish()
     }
 
@@ -87,39 +88,11 @@ impl Strip {
         let [low, high] = self.range;
         if low.is_finite() && high.is_finite() && high > low { self.range } else { [0.0, 1.0] }
     }
-
-    fn draw_axis(&self, svg: &mut Svg, height: f64, x: impl Fn(f64) -> f64) {
-        let y = height - BOTTOM_PX + 2.0;
-        let [low, high] = self.sound_range();
-        svg.line([LEFT_PX, y], [WIDTH_PX - RIGHT_PX, y], &format!("stroke=\"{SOFT}\" fill=\"none\""));
-        let step = round_step((high - low) / 6.0);
-        let first = (low / step).ceil() as i64;
-        for i in (first..).take(20) {
-            let at = i as f64 * step;
-            if at > high + 1e-9 * step {
-                break;
-            }
-            svg.line([x(at), y], [x(at), y + 4.0], &format!("stroke=\"{SOFT}\" fill=\"none\""));
-            let label = super::number::plain(at, 6);
-            svg.bare_text([x(at) + 0.5 * text_width(&label, 11.0), y + 17.0], Anchor::End, INK, &label);
-        }
-        let middle = 0.5 * (LEFT_PX + WIDTH_PX - RIGHT_PX);
-        svg.text([middle + 0.5 * text_width(&self.title, 12.0), y + 37.0], Anchor::End, INK, &self.title);
-    }
 }
 
 /// Path data of a rectangle.
 fn rectangle(x: f64, y: f64, width: f64, height: f64) -> String {
     format!("M{} {}h{}v{}h-{}Z", px(x), px(y), px(width), px(height), px(width))
-}
-
-/// 1, 2 or 5 times a power of ten, the nearest above `wanted`.
-fn round_step(wanted: f64) -> f64 {
-    if !(wanted.is_finite() && wanted > 0.0) {
-        return 1.0;
-    }
-    let power = 10f64.powf(wanted.log10().floor());
-    [1.0, 2.0, 5.0, 10.0].into_iter().map(|f| f * power).find(|&s| s >= wanted * 0.999).unwrap_or(power)
 }
 
 #[cfg(test)]
@@ -151,6 +124,5 @@ mod tests {
         assert!(strip.to_svg().ends_with("</svg>"));
         strip.range = [f64::NAN, 1.0];
         assert!(!strip.to_svg().contains("NaN"));
-        assert_eq!([0.03, 47.0, 50.0, 0.0].map(round_step), [0.05, 50.0, 50.0, 1.0]);
     }
 }

@@ -93,7 +93,13 @@ impl Svg {
         self.write(at, anchor, colour, "", text);
     }
 
-    fn write(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, halo: &str, text: &str) {
+    /// Text that reads upwards, its middle at `at`.
+    pub fn rising_text(&mut self, at: [f64; 2], colour: &str, text: &str) {
+        let turn = format!(" transform=\"rotate(-90 {} {})\"", px(at[0]), px(at[1]));
+        self.write(at, Anchor::Middle, colour, &turn, text);
+    }
+
+    fn write(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, more: &str, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
@@ -101,7 +107,7 @@ impl Svg {
         };
         let _ = writeln!(
             self.body,
-            "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\" fill=\"{colour}\"{halo}>{}</text>",
+            "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\" fill=\"{colour}\"{more}>{}</text>",
             px(at[0]),
             px(at[1]),
             escape(text)

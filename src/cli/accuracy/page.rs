@@ -22,7 +22,7 @@ pub(super) fn page(study: &Study, answer: &Answer<'_, Body>, context: &Context) 
         let rhs = plot(scene, "Right-hand sides", |p| p.rhs_evaluations as f64);
         let time = plot(scene, "Time, ms", |p| 1e3 * p.seconds);
         page.figures(&[
-            (parts::half(rhs), "Error of theta_bi over right-hand sides."),
+            (parts::half(rhs), "Error of θ_bi over right-hand sides."),
             (parts::half(time), "The same over time (median; one thread of a machine that others use too)."),
         ]);
         page.table("", &tables::scene(scene));
@@ -38,7 +38,7 @@ pub(super) fn page(study: &Study, answer: &Answer<'_, Body>, context: &Context) 
 
 const OMISSIONS: [&str; 8] = [
     "Integrators of others are not compared here but in reports/accuracy-peers.html, on the same right-hand sides and events.",
-    "One quantity decides: theta_bi at the end, beside it the slip margin. Slip distances, peaks and times of contact loss \
+    "One quantity decides: θ_bi at the end, beside it the slip margin. Slip distances, peaks and times of contact loss \
      have error estimates of their own in simulate, which --tolerance holds below its value; they are not plotted.",
     "Errors are differences to the event method itself at steps of 1e-13. That the equations are those meant is shown \
      elsewhere: an independent script, energy balances and the paper's statements, in the tests.",
@@ -94,7 +94,7 @@ fn reference(s: &Precision) -> String {
     let [theta, margin] = s.reference_error;
     let without = if s.left_out.is_empty() { "nothing".to_owned() } else { s.left_out.join(", ") };
     format!(
-        "Reference: theta_bi {:.12} rad, slip margin {}, {} changes of mode; at ten times its tolerance and twice its \
+        "Reference: θ_bi {:.12} rad, slip margin {}, {} changes of mode; at ten times its tolerance and twice its \
          longest step it moves by {theta:.1e} rad and {margin:.1e}. The planned model leaves out: {without}. It is built in \
          {} ms, the full one in {} ms.",
         s.theta_inner_rad,
@@ -106,7 +106,7 @@ fn reference(s: &Precision) -> String {
 }
 
 fn plot(scene: &Precision, x_title: &str, x: impl Fn(&Point) -> f64) -> Plot {
-    let mut plot = Plot::new(x_title, "Error of theta_bi, rad");
+    let mut plot = Plot::new(x_title, "Error of θ_bi, rad");
     (plot.log_x, plot.log_y) = (true, true);
     for (method, points) in &scene.methods {
         let at = |p: &Point| [x(p), p.theta_error_rad.map_or(f64::NAN, |e| e.max(FLOOR_RAD))];

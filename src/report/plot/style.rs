@@ -2,8 +2,6 @@
 
 use super::{Curve, Dash};
 use crate::report::svg::SERIES;
-use kuva::prelude::LineStyle;
-use kuva::render::color::Color;
 
 /// Patterns of one [`Dash`]: the usual one, and those that follow when all colours are taken with it.
 const PATTERNS: usize = 3;
@@ -23,23 +21,24 @@ impl Style {
         SERIES[self.colour]
     }
 
-    pub(super) fn colour(self) -> Color {
-        Color::from(self.css())
-    }
-
-    pub(super) fn line(self) -> LineStyle {
-        let custom = |text: &str| LineStyle::Custom(text.to_owned());
-        match (self.dash, self.pattern) {
-            (Dash::Solid, 0) => LineStyle::Solid,
-            (Dash::Solid, 1) => custom("18 3"),
-            (Dash::Solid, _) => custom("18 3 3 3"),
-            (Dash::Dashed, 0) => LineStyle::Dashed,
-            (Dash::Dashed, 1) => LineStyle::DashDot,
-            (Dash::Dashed, _) => custom("8 4 2 4 2 4"),
-            (Dash::Dotted, 0) => LineStyle::Dotted,
-            (Dash::Dotted, 1) => custom("1.5 8"),
-            (Dash::Dotted, _) => custom("2 3 2 9"),
-        }
+    /// Attributes of a line in this style, `width_px` thick.
+    pub(super) fn line(self, width_px: f64) -> String {
+        let dashes = match (self.dash, self.pattern) {
+            (Dash::Solid, 0) => "none",
+            (Dash::Solid, 1) => "18 3",
+            (Dash::Solid, _) => "18 3 3 3",
+            (Dash::Dashed, 0) => "8 4",
+            (Dash::Dashed, 1) => "8 4 2 4",
+            (Dash::Dashed, _) => "8 4 2 4 2 4",
+            (Dash::Dotted, 0) => "2 4",
+            (Dash::Dotted, 1) => "1.5 8",
+            (Dash::Dotted, _) => "2 3 2 9",
+        };
+        let colour = self.css();
+        format!(
+            "fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width_px}\" stroke-dasharray=\"{dashes}\" \
+             stroke-linejoin=\"round\""
+        )
     }
 }
 

@@ -1,4 +1,4 @@
-use super::scale::{log_tick, one_decade, thinned, tick, widened};
+use super::scale::{round_step, thinned, tick, widened};
 use super::style::styles;
 use super::*;
 
@@ -48,8 +48,15 @@ fn logarithmic_axes_skip_what_has_no_logarithm() {
 fn a_constant_curve_has_an_axis() {
     let svg = Plot::new("x", "y").curve("flat", vec![[0.0, 3.0], [1.0, 3.0]]).to_svg();
     assert!(!svg.contains("NaN"));
-    let (low, high) = widened((3.0, 3.0), false, 0.05);
+    let [low, high] = widened((3.0, 3.0), false, 0.05);
     assert!(low < 3.0 && high > 3.0);
+}
+
+#[test]
+fn a_range_from_close_to_zero_begins_at_zero() {
+    assert_eq!(widened((0.3, 200.0), false, 0.0), [0.0, 200.0]);
+    assert_eq!(widened((-1e-14, 200.0), false, 0.05), [0.0, 210.0]);
+    assert_eq!(widened((30.0, 200.0), false, 0.0), [30.0, 200.0]);
 }
 
 #[test]
@@ -68,28 +75,56 @@ fn thinning_keeps_the_ends_and_every_peak() {
     run[31_415][1] = 5.0;
     run[27_182][1] = -3.0;
     let kept = thinned(&run, 720.0);
-    assert!(kept.len() < 6000 && kept[0] == (0.0, 0.0) && kept[kept.len() - 1] == (99_999.0, 0.0));
-    assert!(kept.contains(&(31_415.0, 5.0)) && kept.contains(&(27_182.0, -3.0)));
-    assert!(kept.is_sorted_by(|a, b| a.0 < b.0));
+    assert!(kept.len() < 6000 && kept[0] == [0.0, 0.0] && kept[kept.len() - 1] == [99_999.0, 0.0]);
+    assert!(kept.contains(&[31_415.0, 5.0]) && kept.contains(&[27_182.0, -3.0]));
+    assert!(kept.is_sorted_by(|a, b| a[0] < b[0]));
     assert_eq!(thinned(&run[..100], 720.0).len(), 100);
+}
+
+/// Texts of the ticks of an axis 600 px long.
+fn texts(log: bool, range: [f64; 2], pitch_px: f64) -> Vec<String> {
+    let axis = Axis { log, range, px: [0.0, 600.0] };
+    axis.ticks(pitch_px).into_iter().map(|t| t.text).filter(|t| !t.is_empty()).collect()
 }
 
 #[test]
 fn ticks_of_one_axis_agree() {
-    assert_eq!(tick(0.5, 2.0, 2.0), "0.5");
-    assert_eq!(tick(40.0, 100.0, 100.0), "40");
-    assert_eq!(tick(-0.0, 100.0, 100.0), "0");
-    assert_eq!(tick(2.5e-5, 1e-4, 1e-4), "2.5e-5");
-    assert_eq!(tick(-0.0072, 0.02, 0.01), "−0.0072");
+    assert_eq!(tick(0.5, 0.5, 2.0), "0.5");
+    assert_eq!(tick(1.0, 0.5, 2.0), "1.0");
+    assert_eq!(tick(40.0, 20.0, 100.0), "40");
+    assert_eq!(tick(-0.0, 20.0, 100.0), "0");
+    assert_eq!(tick(2.5e-5, 5e-6, 1e-4), "2.5e-5");
+    assert_eq!(tick(-0.0072, 2e-4, 0.01), "−0.0072");
+    assert_eq!([0.03, 47.0, 50.0, 0.0].map(round_step), [0.05, 50.0, 50.0, 1.0]);
+    assert_eq!(texts(false, [0.0, 1.2], 100.0), ["0", "0.2", "0.4", "0.6", "0.8", "1.0", "1.2"]);
+    assert_eq!(texts(false, [-0.3, 0.3], 200.0), ["−0.2", "0", "0.2"]);
+}
+
+#[test]
+fn ticks_far_from_zero_are_told_apart() {
+    let told = texts(false, [1_000_000.0, 1_000_300.0], 200.0);
+    assert_eq!(told, ["1.0000e6", "1.0001e6", "1.0002e6", "1.0003e6"]);
 }
 
 #[test]
 fn powers_of_ten_alone_are_written_on_a_long_logarithmic_axis() {
-    let long = log_tick(one_decade((100.0, 1e5)), 1.0);
-    let told: Vec<String> = [100.0, 200.0, 1000.0, 5000.0, 1e4, 1e5].map(long).into();
-    assert_eq!(told, ["100", "", "1000", "", "1e4", "1e5"]);
-    let short = log_tick(one_decade((1e4, 1e5)), 1.0);
-    assert_eq!([1e4, 2e4, 5e4].map(short), ["1e4", "2e4", "5e4"]);
+    assert_eq!(texts(true, [2.0, 5.0], 80.0), ["100", "1000", "1e4", "1e5"]);
+    assert_eq!(texts(true, [4.0, 5.0], 80.0), ["1e4", "2e4", "5e4", "1e5"]);
+    // The first is written in any case.
+    assert_eq!(
+        texts(true, [-13.0, 2.0], 80.0),
+        ["1e-13", "1e-11", "1e-9", "1e-7", "1e-5", "0.001", "0.1", "10"]
+    );
+    // From the smallest number to the largest.
+    assert!(texts(true, [-324.0, 309.0], 80.0).len() < 9);
+}
+
+#[test]
+fn the_longest_texts_stay_inside_the_figure() {
+    let svg = Plot::new("x", "y").curve("c", vec![[0.0, 0.0], [100_000.0, 1.0]]).to_svg();
+    let place = svg.split(">100000<").next().unwrap().rsplit("<text x=\"").next().unwrap();
+    let x: f64 = place.split('"').next().unwrap().parse().unwrap();
+    assert!(x + text_width("100000", TEXT_PX) / 2.0 <= 720.0, "{x}");
 }
 
 #[test]
