@@ -2,6 +2,7 @@
 
 use super::mutate;
 use fastrand::Rng;
+use std::time::Duration;
 use toml_edit::{DocumentMut, Item, value};
 
 /// Longest scene that is run, s.
@@ -19,6 +20,8 @@ pub struct Case {
     pub args: Vec<String>,
     /// Standard input.
     pub input: Vec<u8>,
+    /// Ctrl-C after so long.
+    pub interrupt: Option<Duration>,
     /// Files that the command may write: their paths, or how those begin.
     pub outputs: Vec<String>,
     /// Whether nothing is wrong with the command line, so that a refusal is one of a file.
@@ -38,6 +41,7 @@ impl Case {
             spoil: Vec::new(),
             args: Vec::new(),
             input: Vec::new(),
+            interrupt: None,
             outputs: Vec::new(),
             plain_flags: true,
             repeats: true,
@@ -67,7 +71,8 @@ impl Case {
             format!("sprag-design{}; spoil {:?}; ", quoted(&self.prepare), self.spoil)
         };
         let input = if self.input.is_empty() { "" } else { " <input" };
-        format!("{first}sprag-design{}{input}", quoted(&self.args))
+        let stop = self.interrupt.map_or(String::new(), |after| format!(" and SIGINT after {after:?}"));
+        format!("{first}sprag-design{}{input}{stop}", quoted(&self.args))
     }
 }
 
@@ -192,6 +197,12 @@ impl Maker {
             self.case.args.insert(at, mutate::word(&mut rng));
             self.case.plain_flags = false;
         }
+        if self.once_in(12)
+            && let Some(mut rng) = self.strike()
+        {
+            self.case.interrupt = Some(Duration::from_millis(rng.u64(1..300)));
+            self.case.repeats = false;
+        }
     }
 
     /// One of the designs at hand, its scenes cut short, mutated; with its histories.
@@ -250,10 +261,13 @@ impl Maker {
         // A name from a mutated file may begin like a flag.
         self.case.plain_flags &= !scene.starts_with('-');
         self.flag("--scenario", scene);
-        self.maybe(6, "--method", &["event", "published"]);
+        if self.once_in(6) {
+            self.flag("--method", "published");
+            self.maybe(2, "--band", &["1e-3", "1e-6"]);
+        } else {
+            self.maybe(8, "--tolerance", &["1e-4", "1e-8", "1e-3"]);
+        }
         self.maybe(8, "--step", &["1e-5", "1e-6", "1e-4"]);
-        self.maybe(8, "--tolerance", &["1e-4", "1e-8", "1e-3"]);
-        self.maybe(12, "--band", &["1e-3", "1e-6"]);
         self.switch(6, "--full");
     }
 
@@ -269,7 +283,7 @@ impl Maker {
         }
         if self.once_in(8) {
             self.case.args.push("--robust".into());
-            self.flag("--draws", "3");
+            self.flag("--draws", "10");
         }
         self.switch(10, "--full");
         self.maybe(10, "--tolerance", &["1e-4", "1e-5"]);

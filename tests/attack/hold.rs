@@ -14,7 +14,7 @@ const MAY_BE_NULL: &[&str] = &[
     "k_tangent_nm_per_rad", "lift_off_rpm", "lowest_torque_capacity", "nominal_torque_capacity", "normal_max_n",
     "normal_min_n", "offset_rad", "peak_tan_demand", "peak_torque_capacity", "realised", "reason", "rejections", "relief",
     "required_static_friction", "required_static_friction_by", "residual_sigma", "rhs_evaluations", "robust", "run_out",
-    "running", "sensitivities", "slip_margin", "steps", "t_end_s", "theta_inner_end_rad", "theta_outer_end_rad", "time_s",
+    "running", "scenario_margins", "sensitivities", "slip_margin", "steps", "t_end_s", "theta_inner_end_rad", "theta_outer_end_rad", "time_s",
     "distance_mm", "net_mm", "tolerances", "torque_capacity_nm", "verdict", "why_not", "windup_rad", "written", "written_to",
     "zeno_closures", "not_done", "searched_on", "influence", "best",
 ];
@@ -27,7 +27,7 @@ pub fn kind(fault: &str) -> String {
 /// What one run did wrong, judged by its exit code, its streams and its files.
 pub fn faults(case: &Case, before: &Files, ran: &Ran, after: &Files) -> Vec<String> {
     let mut faults = Vec::new();
-    ending(ran, &mut faults);
+    ending(case, ran, &mut faults);
     if faults.is_empty() {
         streams(case, ran, &mut faults);
         if case.command() == "evaluate" {
@@ -40,10 +40,13 @@ pub fn faults(case: &Case, before: &Files, ran: &Ran, after: &Files) -> Vec<Stri
     faults
 }
 
-fn ending(ran: &Ran, faults: &mut Vec<String>) {
+fn ending(case: &Case, ran: &Ran, faults: &mut Vec<String>) {
     let last: String = ran.stderr.lines().rev().take(4).collect::<Vec<_>>().join(" | ");
     match (ran.code, ran.signal) {
-        (Some(0..=3 | 130), _) => {}
+        (Some(0..=3), _) => {}
+        (Some(130), _) if case.interrupt.is_some() => {}
+        // Ctrl-C before the program listens.
+        (None, Some(2)) if case.interrupt.is_some() => {}
         (code, Some(24)) => faults.push(format!("more than 60 s of processor time: {code:?}, {last}")),
         (code, signal) => faults.push(format!("ends with code {code:?}, signal {signal:?}: {last}")),
     }
@@ -84,7 +87,7 @@ fn has_no_number(line: &str) -> bool {
 }
 
 fn json(case: &Case, ran: &Ran, faults: &mut Vec<String>) {
-    if ran.code == Some(2) && ran.stdout.is_empty() {
+    if (ran.code == Some(2) || case.interrupt.is_some()) && ran.stdout.is_empty() {
         return;
     }
     let value = match serde_json::from_str::<Value>(&ran.stdout) {
@@ -169,7 +172,7 @@ fn lines_of_evaluate(case: &Case, ran: &Ran, faults: &mut Vec<String>) {
             _ => faults.push(format!("no JSON line: {line}")),
         }
     }
-    let refused = ran.code == Some(2) && !ran.stderr.is_empty();
+    let refused = ran.code == Some(2) && !ran.stderr.is_empty() || case.interrupt.is_some();
     if !refused && ran.code != Some(3) && (answers != asked + usize::from(case.has("--describe")) || malformed != (ran.code == Some(2))) {
         faults.push(format!("{answers} answers to {asked} lines, code {:?}", ran.code));
     }
@@ -201,7 +204,8 @@ fn files(case: &Case, before: &Files, ran: &Ran, after: &Files, faults: &mut Vec
         }
         let file = name.rsplit('/').next().unwrap_or(name);
         // The search writes beside the design file where no other place is named.
-        if file.starts_with('.') || file.ends_with(".tmp") || !(written(name) || name.starts_with("design-optimized")) {
+        let new = !before.0.contains_key(name);
+        if new && (file.starts_with('.') || file.ends_with(".tmp") || !(written(name) || name.starts_with("design-optimized"))) {
             faults.push(format!("left behind: {name}"));
         }
         let text = String::from_utf8_lossy(bytes);
@@ -241,7 +245,7 @@ pub fn unreadable(program: &Program, case: &Case, before: &Files, after: &Files,
     written
         .into_iter()
         .filter_map(|name| {
-            let ran = program.run(folder, &["check".into(), name.clone(), "-q".into()], &[]);
+            let ran = program.run(folder, &["check".into(), name.clone(), "-q".into()], &[], None);
             let refused = !matches!(ran.code, Some(0 | 1 | 3));
             refused.then(|| format!("{} writes a design that check refuses: {name}, {}", case.command(), ran.stderr))
         })

@@ -37,6 +37,8 @@ fn whole_commands_keep_their_promises() {
             panic!("{told}");
         }
     }
+    let [runs, answered] = program.runs();
+    assert!(answered > runs / 4, "only {answered} of {runs} runs had an answer: the attack is stopped at the door");
 }
 
 #[test]
@@ -70,7 +72,8 @@ fn attack_for_long() {
         }
     });
     let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
-    eprintln!("{} cases from {first}, {} kinds of fault", next.into_inner() - first, found.len());
+    let (cases, [runs, answered]) = (next.into_inner() - first, program.runs());
+    eprintln!("{cases} cases from {first}, {runs} runs, {answered} with an answer, {} kinds of fault", found.len());
     for (kind, seeds) in &found {
         eprintln!("{} times: {kind}: {:?}", seeds.len(), &seeds[..seeds.len().min(8)]);
     }
@@ -114,7 +117,7 @@ fn faults(program: &Program, case: &Case) -> Vec<String> {
 fn run_with(program: &Program, case: &Case, folder: &Path, threads: &str) -> (Files, run::Ran) {
     Files::write(folder, &case.files);
     if !case.prepare.is_empty() {
-        program.run(folder, &case.prepare, &[]);
+        program.run(folder, &case.prepare, &[], None);
         for (name, mutation) in &case.spoil {
             if let Ok(bytes) = std::fs::read(folder.join(name)) {
                 std::fs::write(folder.join(name), mutate::bytes(&bytes, &mut mutation.clone())).unwrap();
@@ -126,7 +129,7 @@ fn run_with(program: &Program, case: &Case, folder: &Path, threads: &str) -> (Fi
     if case.repeats {
         args.extend(["--threads".to_owned(), threads.to_owned()]);
     }
-    (before, program.run(folder, &args, &case.input))
+    (before, program.run(folder, &args, &case.input, case.interrupt))
 }
 
 /// Files and command line of a case, kept for the person who mends it.

@@ -14,7 +14,11 @@ const LIMITS: &str = "ulimit -t 60; ulimit -v 2097152; ulimit -c 0; exec \"$0\" 
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// The program under attack.
-pub struct Program(PathBuf);
+pub struct Program {
+    path: PathBuf,
+    /// Runs, and those of them that had an answer.
+    runs: [AtomicUsize; 2],
+}
 
 /// How a run ended.
 pub struct Ran {
@@ -26,17 +30,23 @@ pub struct Ran {
 
 impl Program {
     pub fn new(path: &str) -> Self {
-        Self(fs::canonicalize(path).unwrap_or_else(|e| panic!("{path}: {e}")))
+        let path = fs::canonicalize(path).unwrap_or_else(|e| panic!("{path}: {e}"));
+        Self { path, runs: Default::default() }
     }
 
-    /// Run with `args` in `folder`, `input` on standard input.
-    pub fn run(&self, folder: &Path, args: &[String], input: &[u8]) -> Ran {
+    /// How many runs there were, and how many of them had an answer.
+    pub fn runs(&self) -> [usize; 2] {
+        [0, 1].map(|at| self.runs[at].load(Ordering::Relaxed))
+    }
+
+    /// Run with `args` in `folder`, `input` on standard input; Ctrl-C after `interrupt`.
+    pub fn run(&self, folder: &Path, args: &[String], input: &[u8], mut interrupt: Option<Duration>) -> Ran {
         let streams = Folder::new();
         let [input_path, out, err] = ["in", "out", "err"].map(|name| streams.path().join(name));
         fs::write(&input_path, input).unwrap();
         let mut child = Command::new("sh")
             .args(["-c", LIMITS])
-            .arg(&self.0)
+            .arg(&self.path)
             .args(args)
             .current_dir(folder)
             .env("NO_COLOR", "1")
@@ -53,9 +63,14 @@ impl Program {
             if began.elapsed() > PATIENCE {
                 child.kill().unwrap();
             }
+            if interrupt.take_if(|after| began.elapsed() > *after).is_some() {
+                Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+            }
             std::thread::sleep(Duration::from_millis(2));
         };
         let text = |path| String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
+        self.runs[0].fetch_add(1, Ordering::Relaxed);
+        self.runs[1].fetch_add(usize::from(matches!(status.code(), Some(0 | 1))), Ordering::Relaxed);
         Ran { code: status.code(), signal: status.signal(), stdout: text(out), stderr: text(err) }
     }
 }
