@@ -1,0 +1,427 @@
+//! A case: files, a command line and what was done to them, all from one number.
+
+use super::mutate;
+use fastrand::Rng;
+use std::time::Duration;
+use toml_edit::{DocumentMut, Item, value};
+
+/// Longest scene that is run, s.
+const LONGEST_S: f64 = 0.03;
+/// A file that is nobody's business.
+pub const FOREIGN: (&str, &[u8]) = ("letter.txt", b"Dear Sir,\nK\xe4fig, signed\nno line end");
+
+pub struct Case {
+    /// Files in the folder before any command.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// A command that runs first, such as the search that leaves a journal.
+    pub prepare: Vec<String>,
+    /// Files that `prepare` made, and what is done to them.
+    pub spoil: Vec<(&'static str, Rng)>,
+    pub args: Vec<String>,
+    /// Standard input.
+    pub input: Vec<u8>,
+    /// Ctrl-C after so long.
+    pub interrupt: Option<Duration>,
+    /// Files that the command may write: their paths, or how those begin.
+    pub outputs: Vec<String>,
+    /// Whether nothing is wrong with the command line, so that a refusal is one of a file.
+    pub plain_flags: bool,
+    /// Whether the answer is the same for every number of threads.
+    pub repeats: bool,
+    /// How many mutations there were to make, those left out included.
+    pub mutations: u32,
+}
+
+impl Case {
+    /// The case `seed`; bit n of `without` leaves mutation n out.
+    pub fn new(seed: u64, without: u32) -> Self {
+        let case = Self {
+            files: Vec::new(),
+            prepare: Vec::new(),
+            spoil: Vec::new(),
+            args: Vec::new(),
+            input: Vec::new(),
+            interrupt: None,
+            outputs: Vec::new(),
+            plain_flags: true,
+            repeats: true,
+            mutations: 0,
+        };
+        let mut maker = Maker { case, rng: Rng::with_seed(seed), seed, without };
+        maker.make();
+        maker.case
+    }
+
+    pub fn has(&self, flag: &str) -> bool {
+        self.args.iter().any(|arg| arg == flag)
+    }
+
+    pub fn command(&self) -> &str {
+        &self.args[0]
+    }
+
+    /// As a shell takes it.
+    pub fn command_line(&self) -> String {
+        let quoted = |args: &[String]| -> String {
+            args.iter().map(|arg| format!(" '{}'", arg.replace('\'', "'\\''"))).collect()
+        };
+        let first = if self.prepare.is_empty() {
+            String::new()
+        } else {
+            format!("sprag-design{}; spoil {:?}; ", quoted(&self.prepare), self.spoil)
+        };
+        let input = if self.input.is_empty() { "" } else { " <input" };
+        let stop = self.interrupt.map_or(String::new(), |after| format!(" and SIGINT after {after:?}"));
+        format!("{first}sprag-design{}{input}{stop}", quoted(&self.args))
+    }
+}
+
+struct Maker {
+    case: Case,
+    rng: Rng,
+    seed: u64,
+    without: u32,
+}
+
+impl Maker {
+    /// The generator of the next mutation, unless it is left out. Each has its own, so that leaving one out changes no other.
+    fn strike(&mut self) -> Option<Rng> {
+        let number = self.case.mutations;
+        self.case.mutations += 1;
+        let rng = Rng::with_seed(self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ u64::from(number));
+        (self.without >> number & 1 == 0).then_some(rng)
+    }
+
+    /// True once in `n` cases.
+    fn once_in(&mut self, n: u32) -> bool {
+        self.rng.u32(..n) == 0
+    }
+
+    fn one(&mut self, list: &[&str]) -> String {
+        mutate::one(list, &mut self.rng).to_owned()
+    }
+
+    fn flag(&mut self, flag: &str, value: impl Into<String>) {
+        let mut value = value.into();
+        if self.once_in(12)
+            && let Some(mut rng) = self.strike()
+        {
+            value = mutate::word(&mut rng);
+            self.case.plain_flags = false;
+        }
+        self.case.args.extend([flag.to_owned(), value]);
+    }
+
+    /// The flag with one of the values, once in `n` cases.
+    fn maybe(&mut self, n: u32, flag: &str, values: &[&str]) {
+        if self.once_in(n) {
+            let value = self.one(values);
+            self.flag(flag, value);
+        }
+    }
+
+    fn switch(&mut self, n: u32, flag: &str) {
+        if self.once_in(n) {
+            self.case.args.push(flag.to_owned());
+        }
+    }
+
+    fn file(&mut self, name: &str, bytes: Vec<u8>) {
+        self.case.files.push((name.to_owned(), bytes));
+    }
+
+    /// Where to write; rarely where something foreign is.
+    fn output(&mut self, flag: &str, name: &str) {
+        let path = match self.rng.u8(..24) {
+            0 => FOREIGN.0.to_owned(),
+            1 => format!("sub/{name}"),
+            2 => format!("no-such/{name}"),
+            3 => "design.toml".to_owned(),
+            4 => "sub".to_owned(),
+            _ => name.to_owned(),
+        };
+        self.case.plain_flags &= path == name;
+        self.case.args.extend([flag.to_owned(), path.clone()]);
+        let stem = path.rsplit_once('.').map_or(path.as_str(), |(stem, _)| stem);
+        if path != FOREIGN.0 && path != "design.toml" {
+            self.case.outputs.push(stem.to_owned());
+        }
+    }
+
+    fn make(&mut self) {
+        self.file(FOREIGN.0, FOREIGN.1.to_vec());
+        let design = self.design();
+        let scenes = scenarios(&design);
+        self.file("design.toml", design.into_bytes());
+        let command = self.one(&[
+            "check", "check", "stiffness", "stiffness", "simulate", "simulate", "simulate", "optimize", "optimize", "identify", "size",
+            "export", "evaluate",
+        ]);
+        self.case.args.push(command.clone());
+        if command != "size" {
+            let path = if self.once_in(60) { self.one(&["no-such.toml", "sub", "letter.txt", "data.csv"]) } else { "design.toml".into() };
+            self.case.args.push(path);
+        }
+        match command.as_str() {
+            "check" => {
+                if self.once_in(4) {
+                    self.output("--overrun-csv", "overrun.csv");
+                }
+            }
+            "stiffness" => self.stiffness(),
+            "simulate" => self.simulate(&scenes),
+            "optimize" => self.optimize(),
+            "identify" => self.identify(),
+            "size" => self.size(),
+            "export" => self.export(),
+            _ => self.evaluate(),
+        }
+        // A deck and the lines of `evaluate` are neither JSON nor table nor page; once in a while they are asked for all the same.
+        let rarely = if ["export", "evaluate"].contains(&command.as_str()) { 20 } else { 1 };
+        let plain = self.case.plain_flags;
+        if self.once_in(2 * rarely) {
+            self.case.args.push("--json".into());
+        }
+        if self.once_in(3 * rarely) {
+            self.output("--csv", "out.csv");
+        }
+        if self.once_in(3 * rarely) {
+            self.output("--report", "out.html");
+        }
+        self.case.plain_flags &= plain && rarely == 1;
+        self.switch(3, "--quiet");
+        if self.once_in(30)
+            && let Some(mut rng) = self.strike()
+        {
+            let at = rng.usize(1..=self.case.args.len());
+            self.case.args.insert(at, mutate::word(&mut rng));
+            self.case.plain_flags = false;
+        }
+        if self.once_in(12)
+            && let Some(mut rng) = self.strike()
+        {
+            self.case.interrupt = Some(Duration::from_millis(rng.u64(1..300)));
+            self.case.repeats = false;
+        }
+    }
+
+    /// One of the designs at hand, its scenes cut short, mutated; with its histories.
+    fn design(&mut self) -> String {
+        const DESIGNS: &[&str] = &[
+            "designs/huang2017-multi-arc.toml", "designs/huang2017-multi-arc.toml", "designs/huang2017-bench.toml",
+            "designs/huang2017-bench.toml", "designs/huang2017-single-arc.toml", "designs/fe-check-24.toml",
+            "designs/indexing.toml", "designs/series-833-large.toml", "designs/starter.toml",
+            "tests/optimise/designs/a-huang-at-rest.toml", "tests/optimise/designs/b-huang-at-speed.toml",
+            "tests/optimise/designs/c-24-sprags.toml",
+        ];
+        let path = self.one(DESIGNS);
+        let mut text = shortened(&read(&path));
+        if text.contains("_csv") {
+            for name in ["engaging-in-and-out.csv", "overrunning-torque.csv", "speed-ramp.csv"] {
+                let mut bytes = read(&format!("designs/{name}")).into_bytes();
+                if self.once_in(3)
+                    && let Some(mut rng) = self.strike()
+                {
+                    bytes = mutate::table(&String::from_utf8_lossy(&bytes), &mut rng);
+                }
+                self.file(name, bytes);
+            }
+        }
+        for _ in 0..[0, 1, 1, 1, 2, 2, 3, 5][self.rng.usize(..8)] {
+            if let Some(mut rng) = self.strike() {
+                text = mutate::design(&text, &mut rng);
+            }
+        }
+        text
+    }
+
+    fn stiffness(&mut self) {
+        self.maybe(2, "--contact", &["roller", "din26281", "hertz", "slice", "elastic", "roller,hertz", "slice,elastic,roller"]);
+        if self.once_in(2) {
+            self.maybe(2, "--torques", &["1", "3.34,16.8", "50", "1e-6", "90,90", "100,1", "1e6"]);
+        } else {
+            self.maybe(3, "--max-torque", &["10", "1000", "1e-3"]);
+        }
+        if self.once_in(8) {
+            self.case.args.push("--pressure=slices".into());
+        }
+        if self.once_in(5) {
+            let mut fem = read("tests/reference/fem_multi_arc.csv").into_bytes();
+            if let Some(mut rng) = self.strike() {
+                fem = mutate::table(&String::from_utf8_lossy(&fem), &mut rng);
+            }
+            self.file("fem.csv", fem);
+            self.flag("--fem", "fem.csv");
+            self.maybe(2, "--fem-model", &["2-D", "layer", "nothing", "|"]);
+        }
+    }
+
+    fn simulate(&mut self, scenes: &[String]) {
+        let scene = if scenes.is_empty() { "high-6".to_owned() } else { scenes[self.rng.usize(..scenes.len())].clone() };
+        // A name from a mutated file may begin like a flag.
+        self.case.plain_flags &= !scene.starts_with('-');
+        self.flag("--scenario", scene);
+        if self.once_in(6) {
+            self.flag("--method", "published");
+            self.maybe(2, "--band", &["1e-3", "1e-6"]);
+        } else {
+            self.maybe(8, "--tolerance", &["1e-4", "1e-8", "1e-3"]);
+        }
+        self.maybe(8, "--step", &["1e-5", "1e-6", "1e-4"]);
+        self.switch(6, "--full");
+    }
+
+    fn optimize(&mut self) {
+        let evaluations = self.one(&["1", "2", "5"]);
+        self.flag("--evaluations", evaluations);
+        let starts = self.one(&["1", "1", "2"]);
+        self.flag("--starts", starts);
+        self.maybe(20, "--global", &["80"]);
+        if self.once_in(8) {
+            self.flag("--pareto", "slip-margin,torque-capacity");
+            self.flag("--points", "2");
+        }
+        if self.once_in(8) {
+            self.case.args.push("--robust".into());
+            self.flag("--draws", "10");
+        }
+        self.switch(10, "--full");
+        self.maybe(10, "--tolerance", &["1e-4", "1e-5"]);
+        self.output("-o", "new.toml");
+        match self.rng.u8(..10) {
+            // A journal that an earlier search left, perhaps spoilt since.
+            0..3 => {
+                self.flag("--journal", "j.csv");
+                self.case.prepare = ["optimize", "design.toml", "--evaluations", "1", "--starts", "1", "-q", "-o", "new.toml"]
+                    .iter()
+                    .chain(&["--journal", "j.csv"])
+                    .map(|arg| (*arg).to_owned())
+                    .collect();
+                if self.once_in(3) {
+                    self.case.args.push("--resume".into());
+                }
+                if let Some(rng) = self.strike() {
+                    self.case.spoil.push(("j.csv", rng));
+                }
+                self.case.outputs.push("j.csv".into());
+            }
+            3 => {
+                self.flag("--journal", FOREIGN.0);
+                self.case.plain_flags = false;
+            }
+            4 => {
+                self.case.args.push("--resume".into());
+                self.case.plain_flags = false;
+            }
+            _ => {}
+        }
+    }
+
+    fn identify(&mut self) {
+        let mut data = self.one(&[
+            "torque_nm,windup_deg\n10,1.2345\n16.8,1.94\n50,5.1\n",
+            "label,use,torque_nm,windup_deg,windup_deg_sigma\na,,10,1.2345,0.01\nb,fit,16.8,1.94,0.02\nd,check,90,8.5,0.1\n",
+            "torque_nm,normal_inner_n,hertz_inner_mpa,k_secant_nm_per_rad\n3.34,319.1,805,431\n10,940,1380,466\n60,5000,,\n",
+            "lift_off_rpm,nominal_torque_nm,end_torque_nm,races.inner_radius_mm\n4970,,,11.11\n,100,,11.11\n,,150,11.12\n",
+        ]);
+        for _ in 0..self.rng.u8(..3) {
+            if let Some(mut rng) = self.strike() {
+                data = String::from_utf8_lossy(&mutate::table(&data, &mut rng)).into_owned();
+            }
+        }
+        self.file("data.csv", data.into_bytes());
+        self.flag("--data", "data.csv");
+        let unknown = self.one(&[
+            "r_i1_mm:3.6:4.8", "friction.static:0.05:0.2", "material.youngs_modulus_gpa:100:300,r_i1_mm:3.9:4.2",
+            "sprags.centre_distance_mm:0.5:0.8", "centroid_y_mm:0.3:0.8", "races.inner_radius_mm:11:11.2", "contact.slices:10:60",
+        ]);
+        self.case.plain_flags = false; // what an unknown may be depends on the design
+        self.flag("--unknown", unknown);
+        self.flag("--starts", "1");
+        self.flag("--evaluations", "8");
+        self.maybe(4, "--seed", &["0", "7"]);
+        if self.once_in(2) {
+            self.output("-o", "new.toml");
+        }
+    }
+
+    fn size(&mut self) {
+        self.case.plain_flags = false; // no file is read
+        let (bore, torque) = (self.one(&["40", "10", "1", "2000", "25.5"]), self.one(&["1000", "50", "1e-3", "1e6", "300"]));
+        self.flag("--bore", bore);
+        self.flag("--torque", torque);
+        self.maybe(2, "--speed", &["0", "3000", "1e6"]);
+        self.maybe(3, "--safety", &["1", "1.3", "10"]);
+        self.maybe(3, "--friction", &["0.05", "0.2", "1.5"]);
+        self.output("-o", "new.toml");
+    }
+
+    fn export(&mut self) {
+        self.case.args.extend(["--format".to_owned(), "calculix".to_owned()]);
+        if self.once_in(3) {
+            let mut result = read("tests/reference/calculix_excerpt.dat").into_bytes();
+            if let Some(mut rng) = self.strike() {
+                result = mutate::table(&String::from_utf8_lossy(&result), &mut rng);
+            }
+            self.file("x.dat", result);
+            self.flag("--read", "x.dat");
+            self.maybe(3, "--torques", &["3.34", "1,2"]);
+            return;
+        }
+        let mesh = self.one(&["0.2", "0.1", "0.5"]);
+        self.flag("--mesh", mesh);
+        self.maybe(2, "--variant", &["plane-strain", "plane-stress", "layer"]);
+        self.maybe(2, "--torque", &["10", "26.8", "1e5"]);
+        self.maybe(4, "--increments", &["1", "12"]);
+        self.maybe(4, "--friction", &["0.3", "0.05"]);
+        if self.once_in(2) {
+            self.output("-o", "deck.inp");
+        }
+    }
+
+    fn evaluate(&mut self) {
+        self.switch(4, "--describe");
+        self.switch(4, "--full");
+        let mut lines = String::new();
+        for _ in 0..self.rng.u8(1..4) {
+            lines += &self.one(&[
+                "[3.6, 4.2, -0.2, 0.2]\n", "[4.08, 4.15, 0.19, 0.52]\n", "[4.3, 4.4, 0.08, 5.0, 1.096]\n", "[4.1,4.2]\n", "\n", "[]\n", "[1]",
+            ]);
+        }
+        for _ in 0..self.rng.u8(..3) {
+            if let Some(mut rng) = self.strike() {
+                lines = String::from_utf8_lossy(&mutate::table(&lines, &mut rng)).into_owned();
+            }
+        }
+        self.case.plain_flags = false; // the lines are refused one by one
+        self.case.input = lines.into_bytes();
+    }
+}
+
+fn read(path: &str) -> String {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// The design with scenes of at most [`LONGEST_S`].
+fn shortened(text: &str) -> String {
+    let mut file: DocumentMut = text.parse().unwrap();
+    if let Some(scenes) = file.get_mut("scenarios").and_then(Item::as_array_of_tables_mut) {
+        for scene in scenes.iter_mut() {
+            let long = scene.get("duration_s").and_then(Item::as_float).is_some_and(|d| d > LONGEST_S);
+            if long {
+                scene["duration_s"] = value(LONGEST_S);
+            }
+        }
+    }
+    file.to_string()
+}
+
+/// Names of the scenes that a design has, as far as it can be read.
+fn scenarios(text: &str) -> Vec<String> {
+    let Ok(file) = text.parse::<DocumentMut>() else { return Vec::new() };
+    let scenes = file.get("scenarios").and_then(Item::as_array_of_tables);
+    let names = scenes.into_iter().flatten().filter_map(|scene| scene.get("name")?.as_str().map(str::to_owned));
+    // What a shell or a system cannot pass on as an argument is no name to ask for.
+    names.filter(|name| !name.contains('\0')).collect()
+}
