@@ -16,6 +16,7 @@ mod file;
 mod findings;
 mod geometry;
 mod history;
+mod law;
 mod limits_file;
 mod notes;
 mod objective;
@@ -32,8 +33,8 @@ mod tolerances_file;
 mod variables;
 
 pub use clutch::{
-    Axial, Carrier, Clutch, ContactLaw, Eccentricity, EndProfile, Flanks, Friction, InnerArc, MassSource,
-    Materials, Races, Running, Sprags, Spring, StressState, TrackRun,
+    Axial, Carrier, Clutch, Eccentricity, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials,
+    Races, Running, Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem};
 pub use draft::{Draft, KINETIC_SHARE, rounded};
@@ -41,6 +42,7 @@ pub use edit::{
     EditError, content, value_at, with_flanks, with_history_names, with_keys, with_limits, with_values,
     without_variables,
 };
+pub use law::{ContactLaw, LAWS, LawFacts, LawName};
 pub use notes::with_notes;
 pub use objective::Objective;
 pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind};
