@@ -2,7 +2,7 @@
 
 use crate::design::{Clutch, ContactLaw};
 use crate::report::Unit;
-use crate::wedge::{even_load_error, knows_shape, straddling_error};
+use crate::wedge::{even_load_error, straddling_error};
 use serde::Serialize;
 
 /// One term left out.
@@ -43,15 +43,15 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
             "not estimated",
         ),
     ];
-    let elastic = matches!(clutch.contact, ContactLaw::Elastic { .. });
-    if !elastic {
+    let law = clutch.contact.facts();
+    if !law.whole_bodies {
         list.push(LeftOut::new(
             "bending of the rings between the sprags in windup",
             "growth is Lame's mean under evenly spread pressure, (5); hoop stress is given with bending beside the mean",
             "growth agrees with finite elements to 0.3 % (clutch of Table 1)",
         ));
     }
-    list.push(match (clutch.sprags.inner_arcs.len(), elastic || clutch.contact == ContactLaw::Hertz) {
+    list.push(match (clutch.sprags.inner_arcs.len(), law.knows_radius) {
         (1, _) => LeftOut::new(
             "junctions and the mean curvature under a contact",
             "one arc has one radius",
@@ -74,9 +74,7 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
     if clutch.races.inner_bore_radius_m == 0.0 {
         list.push(LeftOut::new("bore of the inner race", "a solid shaft has none", "0: nothing is lost"));
     }
-    if clutch.sprags.width_m > 0.0
-        && !matches!(clutch.contact, ContactLaw::Hertz | ContactLaw::Elastic { .. })
-    {
+    if clutch.sprags.width_m > 0.0 && law.overlaps_body {
         list.push(LeftOut::new(
             "overlap of the contact law with the compression of the body, (6)",
             "both are added as the paper does, although a roller law seems to hold the bulk already",
@@ -113,7 +111,7 @@ fn straddling(clutch: &Clutch) -> Option<LeftOut> {
 /// What is left out along the axis.
 fn lengthwise(clutch: &Clutch) -> Option<LeftOut> {
     let slices = matches!(clutch.contact, ContactLaw::Slice { .. });
-    match (clutch.axial.is_straight(), knows_shape(&clutch.contact)) {
+    match (clutch.axial.is_straight(), clutch.contact.facts().knows_shape) {
         (true, _) if slices => None,
         (true, _) => Some(LeftOut::new(
             "slices",

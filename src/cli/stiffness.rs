@@ -11,7 +11,7 @@ use super::exit::{Exit, Failure};
 use super::left_out::{LeftOut, at_rest, left_out};
 use super::parts::{self, Answer};
 use super::{Context, positive};
-use crate::design::{Clutch, Design};
+use crate::design::{Clutch, Design, LawName};
 use crate::margin::NoMargins;
 use crate::profile::Profile;
 use crate::report::Unit;
@@ -20,7 +20,6 @@ use crate::wedge::{StaticPoint, WedgeCurve};
 use body::Body;
 use clap::Args;
 use fem::Fem;
-pub use laws::ContactName;
 use pressure::PressureMap;
 pub use pressure::PressureName;
 use rayon::prelude::*;
@@ -52,7 +51,7 @@ pub struct StiffnessArgs {
     pub files: Vec<PathBuf>,
     /// Contact laws to compare, comma separated [default: the design's]
     #[arg(long, value_name = "LAW,...", value_enum, value_delimiter = ',')]
-    pub contact: Vec<ContactName>,
+    pub contact: Vec<LawName>,
     /// Torques of the table, Nm, comma separated
     #[arg(long, value_name = "NM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',', conflicts_with = "max_torque")]
     pub torques: Vec<f64>,
@@ -72,7 +71,7 @@ pub struct StiffnessArgs {
 
 /// One law's curve and the rows asked for.
 struct LawCurve {
-    name: ContactName,
+    name: LawName,
     /// The clutch with this law.
     clutch: Clutch,
     curve: WedgeCurve,
@@ -186,7 +185,7 @@ fn compute(
             if context.interrupt.requested() {
                 return Err(Failure::Interrupted);
             }
-            let contact = name.law(&design.clutch.contact);
+            let contact = name.beside(&design.clutch.contact);
             let clutch = Clutch { contact, ..design.clutch.clone() };
             let none = |e| parts::no_clutch(file, &NoMargins::Curve(e));
             let curve = WedgeCurve::build(&clutch, profile, 0.0).map_err(none)?;
@@ -208,7 +207,7 @@ fn compute(
 fn torques(
     args: &StiffnessArgs,
     design: &Design,
-    curves: &[(ContactName, Clutch, WedgeCurve, WedgeCurve)],
+    curves: &[(LawName, Clutch, WedgeCurve, WedgeCurve)],
 ) -> Vec<f64> {
     if !args.torques.is_empty() {
         return args.torques.clone();

@@ -4,11 +4,12 @@
 //! single keys ([`super::file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
 //! at first contact is asked of `profile`.
 
-use super::contact_file::{ContactFile, LawFile, StateFile};
+use super::contact_file::{ContactFile, StateFile};
 use super::file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
+use super::law::{ContactLaw, LawName, ROLLER_COEFFICIENT};
 use super::limits_file::LimitsFile;
-use super::{Clutch, ContactLaw, Friction, Limits, Races, Spring, StressState};
+use super::{Clutch, Friction, Limits, Races, Spring, StressState};
 use super::{axial, eccentricity, geometry, running, steels};
 
 /// mm to m. Division, because 1e-3 is no binary fraction: 4.68 mm becomes the double nearest to 4.68e-3 m
@@ -115,10 +116,10 @@ fn friction(file: &DesignFile, out: &mut Findings) -> Option<Friction> {
 }
 
 /// Whether a law reads a key of [contact]; all read those of the axial arrangement.
-pub(super) fn reads(law: LawFile, key: &str) -> bool {
+pub(super) fn reads(law: LawName, key: &str) -> bool {
     match key {
-        "roller_coefficient" => matches!(law, LawFile::Roller | LawFile::Slice),
-        "stress_state" => law == LawFile::Elastic,
+        "roller_coefficient" => law.facts().reads_coefficient,
+        "stress_state" => law.facts().reads_stress_state,
         _ => true,
     }
 }
@@ -138,27 +139,20 @@ fn contact(file: &ContactFile, out: &mut Findings) -> Option<ContactLaw> {
             return None;
         }
     }
-    match (file.law, file.roller_coefficient) {
-        (LawFile::Din26281, _) => Some(ContactLaw::Din26281),
-        (LawFile::Hertz, _) => Some(ContactLaw::Hertz),
-        (LawFile::Elastic, _) => Some(ContactLaw::Elastic {
-            state: match file.stress_state {
-                None | Some(StateFile::Layer) => StressState::Layer,
-                Some(StateFile::PlaneStrain) => StressState::PlaneStrain,
-                Some(StateFile::PlaneStress) => StressState::PlaneStress,
-            },
-        }),
-        (LawFile::Roller, Some(coefficient)) => Some(ContactLaw::Roller { coefficient }),
-        (LawFile::Slice, Some(coefficient)) => Some(ContactLaw::Slice { coefficient }),
-        (LawFile::Roller | LawFile::Slice, None) => {
-            out.refuse(
-                &["contact.roller_coefficient", "contact.law"],
-                super::shape::meaning_of("contact.roller_coefficient"),
-                "add roller_coefficient = ... to [contact]; 3.97e-5 is DIN 26281's".to_owned(),
-            );
-            None
-        }
+    let state = match file.stress_state {
+        None | Some(StateFile::Layer) => StressState::Layer,
+        Some(StateFile::PlaneStrain) => StressState::PlaneStrain,
+        Some(StateFile::PlaneStress) => StressState::PlaneStress,
+    };
+    if file.roller_coefficient.is_none() && reads(file.law, "roller_coefficient") {
+        out.refuse(
+            &["contact.roller_coefficient", "contact.law"],
+            super::shape::meaning_of("contact.roller_coefficient"),
+            "add roller_coefficient = ... to [contact]; 3.97e-5 is DIN 26281's".to_owned(),
+        );
+        return None;
     }
+    Some(file.law.with(file.roller_coefficient.unwrap_or(ROLLER_COEFFICIENT), state))
 }
 
 /// The body's limit needs a section to hold it against.

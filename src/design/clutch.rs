@@ -179,31 +179,6 @@ pub enum StressState {
     PlaneStress,
 }
 
-/// Named local contact law.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ContactLaw {
-    /// delta_H = K N^0.9 / l^0.8 with the coefficient K in (mm, N).
-    Roller {
-        /// K, mm and N.
-        coefficient: f64,
-    },
-    /// The roller law with DIN 26281's K = 3.97e-5.
-    Din26281,
-    /// Logarithmic line-contact approach; knows the radius, averaged over the patch where it straddles a junction.
-    Hertz,
-    /// Plane elasticity of rings, sprag and layer: nothing fitted, nothing counted twice; knows the radius as above.
-    Elastic {
-        /// Stress state of bodies and rings.
-        state: StressState,
-    },
-    /// Slice method (1)-(4); compliance from the roller law, so it feels the radius only through the half width in the
-    /// influence of slice on slice: a few 1e-5 of the approach at a junction. Number of slices from [`Axial`].
-    Slice {
-        /// K of the roller law, mm and N.
-        coefficient: f64,
-    },
-}
-
 /// What the contacts are like along the axis; alike at A and B.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axial {
@@ -285,7 +260,7 @@ pub struct Clutch {
     /// Friction.
     pub friction: Friction,
     /// Local contact law.
-    pub contact: ContactLaw,
+    pub contact: super::law::ContactLaw,
     /// How sprag and race lie along the axis.
     pub axial: Axial,
     /// Hunt and Crossley's damping of both contacts: N is raised by this times the rate of approach, s/m; 0: none.

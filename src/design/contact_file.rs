@@ -3,6 +3,7 @@
 //! In: TOML. Out: structs in the file's units, ranges stated in their schema. Absent: rules that join keys
 //! ([`super::check`], [`super::axial`]). Equations: none.
 
+use super::law::LawName;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -12,7 +13,7 @@ use serde::Deserialize;
 pub(super) struct ContactFile {
     /// Which law; absent: elastic. Only roller and slice take a roller_coefficient.
     #[serde(default)]
-    pub law: LawFile,
+    pub law: LawName,
     /// Coefficient K of the roller law K N^0.9/l^0.8, for N and mm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub roller_coefficient: Option<f64>,
@@ -97,15 +98,4 @@ pub(super) enum StateFile {
     Layer,
     PlaneStrain,
     PlaneStress,
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum LawFile {
-    Roller,
-    Din26281,
-    Hertz,
-    Slice,
-    #[default]
-    Elastic,
 }

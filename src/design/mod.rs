@@ -16,6 +16,7 @@ mod file;
 mod findings;
 mod geometry;
 mod history;
+mod law;
 mod limit_keys;
 mod limits_file;
 mod notes;
@@ -34,8 +35,8 @@ mod tolerances_file;
 mod variables;
 
 pub use clutch::{
-    Axial, Carrier, Clutch, ContactLaw, Eccentricity, EndProfile, Flanks, Friction, InnerArc, MassSource,
-    Materials, Races, Running, Sprags, Spring, StressState, TrackRun,
+    Axial, Carrier, Clutch, Eccentricity, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials,
+    Races, Running, Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem, shown, unprintable};
 pub use draft::{Draft, KINETIC_SHARE, rounded};
@@ -43,6 +44,7 @@ pub use edit::{
     EditError, content, value_at, with_flanks, with_keys, with_limits, with_values, without_variables,
 };
 pub use history::is_history;
+pub use law::{ContactLaw, LAWS, LawFacts, LawName};
 pub use limit_keys::{LIMIT_KEYS, LimitKey};
 pub use notes::with_notes;
 pub use objective::Objective;

@@ -117,7 +117,7 @@ pub(super) fn shaped(
     inner: Vec<Approach>,
     outer: Approach,
 ) -> Result<(Vec<Approach>, Approach), ContactError> {
-    if clutch.axial.is_straight() || !knows_shape(&clutch.contact) {
+    if clutch.axial.is_straight() || !clutch.contact.facts().knows_shape {
         return Ok((inner, outer));
     }
     let [a, b] = contacts;
@@ -136,11 +136,6 @@ pub(super) fn shaped(
     let inner = inner.into_iter().map(|base| Approach::Shaped(of_first.on(base))).collect();
     let outer = Approach::Shaped(shape(&outer, b, Side::Outer)?);
     Ok((inner, outer))
-}
-
-/// Whether the approach of a law follows end profile and tilt; the roller laws spread the load evenly.
-pub fn knows_shape(law: &ContactLaw) -> bool {
-    !matches!(law, ContactLaw::Roller { .. } | ContactLaw::Din26281)
 }
 
 fn compliance(clutch: &Clutch, contact: &LineContact) -> Result<SliceCompliance, ContactError> {

@@ -4,7 +4,7 @@ use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
 use super::patch::InnerCurvature;
 use super::table::{ArcBuilder, ArcTable};
-use crate::design::{Carrier, Clutch, ContactLaw};
+use crate::design::{Carrier, Clutch};
 use crate::numeric::root;
 use crate::profile::Profile;
 
@@ -148,7 +148,7 @@ impl WedgeCurve {
 
 /// q of s = (alpha - alpha_0)^(1/q): 9 for the power of the roller law, 10 for logarithmic laws.
 fn exponent(clutch: &Clutch) -> f64 {
-    if matches!(clutch.contact, ContactLaw::Hertz | ContactLaw::Elastic { .. }) { 10.0 } else { 9.0 }
+    if clutch.contact.facts().knows_radius { 10.0 } else { 9.0 }
 }
 
 /// N at which arc `k` ends and, where that ends the curve, why. `None`: nothing of this arc can be used.

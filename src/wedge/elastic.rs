@@ -118,9 +118,8 @@ impl Elastic {
         };
         let inner_wall_m = r.inner_radius_m - r.inner_bore_radius_m;
         let outer_wall_m = r.outer_outside_radius_m - r.outer_radius_m;
-        // Only the elastic law counts what a race wider than the sprags does beyond (5), and holds the
-        // compression of the body already.
-        let own = matches!(clutch.contact, ContactLaw::Elastic { .. });
+        // What a race wider than the sprags does beyond (5) comes on top; the compression of the body is held already.
+        let own = clutch.contact.facts().whole_bodies;
         let band = |race: &Race| if own { race.band_compliance_m_per_n(s.count, length_m) } else { 0.0 };
         let body_width_m = if own { 0.0 } else { s.width_m };
         let straight = inner_contact.iter().map(|c| law(c, &half[0], inner_wall_m));

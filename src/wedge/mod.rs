@@ -19,7 +19,7 @@ mod stiffness;
 mod table;
 
 pub use crate::contact::{Edge, Peak};
-pub use axial::{Along, Lengthwise, Side, along, asks_for_slices, even_load_error, knows_shape};
+pub use axial::{Along, Lengthwise, Side, along, asks_for_slices, even_load_error};
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};

@@ -4,7 +4,7 @@ use super::fem::{Distance, FemRow, distance};
 use super::pressure::{PressureJson, PressureMap};
 use super::{LawCurve, Study};
 use crate::cli::parts::{self, Junction};
-use crate::design::ContactLaw;
+use crate::design::LawName;
 use crate::report::Unit;
 use crate::wedge::{StaticPoint, straddling_error};
 use serde::Serialize;
@@ -104,18 +104,15 @@ fn against(study: &Study, row: &FemRow) -> FemJson {
 }
 
 fn law(law: &LawCurve) -> Law {
-    let (roller_coefficient, slices) = match law.clutch.contact {
-        ContactLaw::Roller { coefficient } => (Some(coefficient), None),
-        ContactLaw::Slice { coefficient } => (Some(coefficient), Some(law.clutch.axial.slices)),
-        ContactLaw::Din26281 | ContactLaw::Hertz | ContactLaw::Elastic { .. } => (None, None),
-    };
+    let roller_coefficient = law.clutch.contact.roller_coefficient();
+    let slices = (law.name == LawName::Slice).then_some(law.clutch.axial.slices);
     let curve = Curve {
         points: law.rows.iter().filter_map(|(t, p)| p.as_ref().map(|p| point(*t, p, law))).collect(),
         beyond_end: law.rows.iter().filter(|(_, p)| p.is_none()).map(|(t, _)| *t).collect(),
         junctions: parts::junctions(&law.curve),
         end: End { reason: law.curve.end().0.name(), torque_nm: law.curve.end_torque_nm() },
     };
-    Law { contact: law.name.key(), roller_coefficient, slices, curve }
+    Law { contact: law.name.facts().key, roller_coefficient, slices, curve }
 }
 
 /// A row under the torque asked for, which the equilibrium meets to rounding.

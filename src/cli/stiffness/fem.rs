@@ -103,7 +103,7 @@ pub(super) fn table(study: &Study, fem: &Fem) -> Table {
         Column::number("fem_windup_deg", "FE windup", Unit::Degree, 4),
     ];
     for law in &study.laws {
-        let key = law.name.key();
+        let key = law.name.facts().key;
         columns.push(Column::number(&format!("{key}_windup"), &format!("{key}: windup"), Unit::Percent, 3));
         columns.push(Column::number(&format!("{key}_local"), "local only", Unit::Percent, 3));
         columns.push(Column::number(&format!("{key}_normal"), "N", Unit::Percent, 2));
@@ -137,14 +137,15 @@ pub(super) fn findings(study: &Study, fem: &Fem) -> Vec<String> {
             let nearer = if whole < local { "nearer" } else { "farther off" };
             out.push(format!(
                 "{}: at most {} off, local deformation alone {}: local plus structural is {nearer}",
-                law.name.key(),
+                law.name.facts().key,
                 percent(whole),
                 percent(local)
             ));
         }
     }
-    let of =
-        |key: &str| study.laws.iter().find(|l| l.name.key() == key).and_then(|l| worst(l, fem, |d| d.windup));
+    let of = |key: &str| {
+        study.laws.iter().find(|l| l.name.facts().key == key).and_then(|l| worst(l, fem, |d| d.windup))
+    };
     if let (Some(roller), Some(slice)) = (of("roller").or(of("din26281")), of("slice")) {
         let (nearer, holds) =
             if slice < roller { ("nearer to", "holds") } else { ("farther from", "does not hold") };

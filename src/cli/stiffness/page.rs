@@ -2,7 +2,6 @@
 
 use super::body::Body;
 use super::fem::{self, Distance, Fem, distance, findings};
-use super::laws::description;
 use super::tables::{full, junction_text, tangents, windups};
 use super::{LawCurve, Study, end_text};
 use crate::cli::Context;
@@ -31,7 +30,7 @@ fn section(page: &mut Page, study: &Study) {
     page.list(laws.iter().map(|l| {
         format!(
             "{}. Curve ends {}{}.",
-            description(&l.clutch.contact, &l.clutch.axial),
+            l.clutch.contact.description(&l.clutch.axial),
             end_text(l),
             junction_text(l)
         )
@@ -106,7 +105,7 @@ fn section(page: &mut Page, study: &Study) {
         page.table("Tangent stiffness.", &tangents(laws));
     }
     for law in laws {
-        page.table(&format!("Law: {}", law.name.key()), &full(law));
+        page.table(&format!("Law: {}", law.name.facts().key), &full(law));
     }
 }
 
@@ -145,7 +144,7 @@ fn junctions(page: &mut Page, laws: &[LawCurve]) {
                 },
             );
             table.row(vec![
-                law.name.key().into(),
+                law.name.facts().key.into(),
                 junction.label().as_str().into(),
                 junction.torque_nm.into(),
                 a.into(),
@@ -196,7 +195,7 @@ impl<'a> Curves<'a> {
     fn plot(&self, title: &str, value: &dyn Fn(&StaticPoint) -> f64) -> Plot {
         let mut plot = Plot::new("Torque, Nm", title);
         for (law, points) in self.laws.iter().zip(&self.points) {
-            plot = plot.curve(law.name.key(), points.iter().map(|p| [p.torque_nm, value(p)]).collect());
+            plot = plot.curve(law.name.facts().key, points.iter().map(|p| [p.torque_nm, value(p)]).collect());
         }
         self.marked(plot, |j| j)
     }
@@ -213,7 +212,7 @@ impl<'a> Curves<'a> {
         let mut plot = Plot::new("Windup, deg", "Torque, Nm");
         for (law, points) in self.laws.iter().zip(&self.points) {
             let points = points.iter().map(|p| [degrees(p), p.torque_nm]);
-            plot = plot.curve(law.name.key(), points.collect());
+            plot = plot.curve(law.name.facts().key, points.collect());
         }
         let first = self.laws.first().map(|l| &l.curve);
         self.marked(plot, |torque| first.and_then(|c| c.at_torque(torque)).map_or(f64::NAN, |p| degrees(&p)))
@@ -225,12 +224,12 @@ impl<'a> Curves<'a> {
         let mut plot = Plot::new("Windup, deg", "Torque, Nm");
         for (k, (law, points)) in self.laws.iter().zip(&self.points).enumerate() {
             let whole = points.iter().map(|p| [degrees(p), p.torque_nm]).collect();
-            plot.curves.push(Curve::new(law.name.key(), whole).coloured(k));
+            plot.curves.push(Curve::new(law.name.facts().key, whole).coloured(k));
             let local = points.iter().filter_map(|p| law.local.at_torque(p.torque_nm));
             plot.curves.push(Curve {
                 dash: Dash::Dashed,
                 ..Curve::new(
-                    &format!("{}, local", law.name.key()),
+                    &format!("{}, local", law.name.facts().key),
                     local.map(|p| [degrees(&p), p.torque_nm]).collect(),
                 )
                 .coloured(k)
@@ -248,7 +247,7 @@ impl<'a> Curves<'a> {
                 each.filter_map(|r| Some([r.torque_nm, Unit::Percent.from_si(of(&distance(law, r))?)]))
                     .collect()
             };
-            let key = law.name.key();
+            let key = law.name.facts().key;
             plot.curves.push(Curve { dots: true, ..Curve::new(key, points(&|d| d.windup)).coloured(k) });
             let local = Curve::new(&format!("{key}, local"), points(&|d| d.windup_local_only)).coloured(k);
             plot.curves.push(Curve { dots: true, dash: Dash::Dashed, ..local });
@@ -269,13 +268,13 @@ impl<'a> Curves<'a> {
     /// Windup of each law over that of the first, less one, %; the first keeps its colour as the zero line.
     fn difference(&self) -> Plot {
         let Some(first) = self.laws.first() else { return Plot::new("", "") };
-        let mut plot = Plot::new("Torque, Nm", &format!("Windup against {}, %", first.name.key()));
+        let mut plot = Plot::new("Torque, Nm", &format!("Windup against {}, %", first.name.facts().key));
         for (law, points) in self.laws.iter().zip(self.loaded()) {
             let against = |p: &StaticPoint| {
                 let reference = first.curve.at_torque(p.torque_nm)?;
                 Some([p.torque_nm, Unit::Percent.from_si(p.windup_rad / reference.windup_rad - 1.0)])
             };
-            plot = plot.curve(law.name.key(), points.iter().filter_map(against).collect());
+            plot = plot.curve(law.name.facts().key, points.iter().filter_map(against).collect());
         }
         self.marked(plot, |j| j)
     }

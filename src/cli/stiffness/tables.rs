@@ -1,6 +1,5 @@
 //! The curve as tables: one law in full, several side by side, all of it as CSV.
 
-use super::laws::description;
 use super::{LawCurve, Study, end_text, fem};
 use crate::cli::parts;
 use crate::report::{Cell, Column, Screen, Table, Unit, significant};
@@ -74,7 +73,7 @@ fn side_by_side(laws: &[LawCurve]) -> impl Iterator<Item = (f64, Vec<Option<&Sta
 
 fn one_column_each(laws: &[LawCurve], unit: Unit) -> Vec<Column> {
     let torque = Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4);
-    let each = laws.iter().map(|l| Column::number(l.name.key(), l.name.key(), unit, 5));
+    let each = laws.iter().map(|l| Column::number(l.name.facts().key, l.name.facts().key, unit, 5));
     std::iter::once(torque).chain(each).collect()
 }
 
@@ -82,7 +81,7 @@ fn one_column_each(laws: &[LawCurve], unit: Unit) -> Vec<Column> {
 pub(super) fn windups(laws: &[LawCurve]) -> Table {
     let mut columns = one_column_each(laws, Unit::Degree);
     columns.extend(laws.iter().skip(1).map(|l| {
-        let key = l.name.key();
+        let key = l.name.facts().key;
         Column::number(&format!("{key}_difference"), &format!("{key} diff."), Unit::Percent, 3)
     }));
     let mut table = Table::new(columns);
@@ -118,7 +117,7 @@ pub(super) fn csv(laws: &[LawCurve]) -> Table {
     let mut table = Table::new(all);
     for law in laws {
         for (torque, point) in &law.rows {
-            let mut row: Vec<Cell> = vec![law.name.key().into()];
+            let mut row: Vec<Cell> = vec![law.name.facts().key.into()];
             row.extend(cells(*torque, point.as_ref()));
             row.resize(columns().len() + 1, Cell::Empty);
             row.push(state(point.as_ref()).into());
@@ -133,7 +132,7 @@ pub(super) fn text(study: &Study, screen: Screen) -> String {
     let (design, laws) = (&study.design, study.laws.as_slice());
     let mut out = format!("{}  {}\n\n", design.name, design.hash.get(..12).unwrap_or(&design.hash));
     for law in laws {
-        out.push_str(&format!("{}\n", description(&law.clutch.contact, &law.clutch.axial)));
+        out.push_str(&format!("{}\n", law.clutch.contact.description(&law.clutch.axial)));
     }
     out.push('\n');
     match laws {
@@ -146,7 +145,12 @@ pub(super) fn text(study: &Study, screen: Screen) -> String {
     }
     out.push('\n');
     for law in laws {
-        out.push_str(&format!("{}: curve ends {}{}\n", law.name.key(), end_text(law), junction_text(law)));
+        out.push_str(&format!(
+            "{}: curve ends {}{}\n",
+            law.name.facts().key,
+            end_text(law),
+            junction_text(law)
+        ));
     }
     if let Some(fem) = &study.fem {
         out.push_str(&format!(
