@@ -329,7 +329,12 @@ fn output_path(args: &OptimizeArgs) -> PathBuf {
 fn beside(new: &Path, task: &Optimize, args: &OptimizeArgs) -> Vec<PathBuf> {
     let realised = task.variables.iter().any(|v| is_centroid(&v.name)).then_some(REALISED);
     let robust = args.robust.then_some(ROBUST);
-    realised.into_iter().chain(robust).chain([NEAREST]).map(|ending| new.with_extension(format!("{ending}.toml"))).collect()
+    realised
+        .into_iter()
+        .chain(robust)
+        .chain([NEAREST])
+        .map(|ending| new.with_extension(format!("{ending}.toml")))
+        .collect()
 }
 
 /// Progress and journal.

@@ -36,6 +36,8 @@ pub struct Story {
 pub const REALISED: &str = "realised";
 /// Middle of the name of the robust design.
 pub const ROBUST: &str = "robust";
+/// Middle of the name of the nearest design where none is feasible.
+pub const NEAREST: &str = "nearest";
 
 /// A status in one word.
 pub fn word(status: &Status) -> &'static str {

@@ -14,12 +14,10 @@ use super::exit::{Exit, Failure};
 use super::parts::{self, Answer};
 use super::{Context, positive};
 use crate::design::{Design, Scenario, ScenarioKind};
-use crate::dynamics::{Stop, Swing};
+use crate::dynamics::Stop;
 use crate::fidelity::{self, Term};
-use crate::report::Unit;
 use crate::scenario::{
-    NoScenario, Prepared, Settings, Simulation, Verdict, overrun_swing, prepare, published_steps,
-    simulate_published,
+    NoScenario, Prepared, Settings, Simulation, Verdict, prepare, published_steps, simulate_published,
 };
 use clap::{Args, ValueEnum};
 use serde_json::json;

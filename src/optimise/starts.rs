@@ -295,7 +295,7 @@ pub(super) fn idle_everywhere(
     // The same points whatever the seed: this is no draw.
     let unseeded = Method { seed: 0, ..method.clone() };
     let mut spent = 0;
-    for x in points.draw(desk, problem, (lo, hi), LOOKED_AT, &unseeded) {
+    for (x, _) in points.draw(desk, problem, (lo, hi), LOOKED_AT, &unseeded) {
         // The others have no range, so that no difference is taken along them.
         let only_idle = |bounds: &[f64]| -> Vec<f64> {
             (0..x.len()).map(|i| if idle.contains(&i) { bounds[i] } else { x[i] }).collect()

@@ -38,7 +38,10 @@ fn whole_commands_keep_their_promises() {
         }
     }
     let [runs, answered] = program.runs();
-    assert!(answered > runs / 4, "only {answered} of {runs} runs had an answer: the attack is stopped at the door");
+    assert!(
+        answered > runs / 4,
+        "only {answered} of {runs} runs had an answer: the attack is stopped at the door"
+    );
 }
 
 #[test]
@@ -62,7 +65,12 @@ fn attack_for_long() {
                         eprintln!("{told}\n");
                         let fault = told.split_once(": ").map_or("", |(_, fault)| fault);
                         let kind = hold::kind(fault);
-                        found.lock().unwrap_or_else(PoisonError::into_inner).entry(kind).or_default().push(seed);
+                        found
+                            .lock()
+                            .unwrap_or_else(PoisonError::into_inner)
+                            .entry(kind)
+                            .or_default()
+                            .push(seed);
                     }
                     if Instant::now() >= end {
                         break;
@@ -73,7 +81,10 @@ fn attack_for_long() {
     });
     let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
     let (cases, [runs, answered]) = (next.into_inner() - first, program.runs());
-    eprintln!("{cases} cases from {first}, {runs} runs, {answered} with an answer, {} kinds of fault", found.len());
+    eprintln!(
+        "{cases} cases from {first}, {runs} runs, {answered} with an answer, {} kinds of fault",
+        found.len()
+    );
     for (kind, seeds) in &found {
         eprintln!("{} times: {kind}: {:?}", seeds.len(), &seeds[..seeds.len().min(8)]);
     }
