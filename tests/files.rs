@@ -91,18 +91,15 @@ fn a_full_disk_costs_no_answer() {
     assert!(answer["sized"] == true && answer["written"].is_null() && answer["unwritten"][0].is_string());
     // Without --json the text comes all the same.
     let output = run(&["stiffness", MULTI, "--csv", "/dev/full"]);
-    assert!(output.status.code() == Some(3) && stdout(&output).contains("windup"), "{}", stdout(&output));
+    assert!(output.status.code() == Some(3) && stdout(&output).contains("Windup"), "{}", stdout(&output));
 }
 
 #[test]
 fn a_failure_is_one_json_object_too() {
-    let output = run(&["simulate", MULTI, "--scenario", "none-such", "--json"]);
-    assert_eq!(output.status.code(), Some(2));
+    let output = run(&["check", "no-such.toml", "--json"]);
     let answer = json(&output);
     assert_eq!((&answer["tool"], answer["version"].is_string()), (&"sprag-design".into(), true));
-    assert!(answer["error"]["message"].as_str().unwrap().contains("none-such"), "{answer}");
-    let output = run(&["check", "no-such.toml", "--json"]);
-    let error = &json(&output)["error"];
+    let error = &answer["error"];
     assert_eq!(error["file"], "no-such.toml");
     assert!(error["message"].is_string() && error["problems"][0]["found"] == "no such file", "{error}");
 }

@@ -43,6 +43,8 @@ impl From<Exit> for ExitCode {
 pub enum Failure {
     /// The design file or a flag makes no sense; the report points at the place.
     Malformed(miette::Report),
+    /// The design file is in order, but there is no clutch to answer for.
+    NoClutch(String),
     /// Something outside failed: reading, writing, memory.
     Failed(String),
     /// Ctrl-C.
@@ -55,30 +57,25 @@ impl Failure {
         Self::Malformed(miette::Report::msg(shown(message.as_ref())))
     }
 
-    /// For programs: `message`; of a refused design file also `file` and `problems`.
-    pub fn to_json(&self) -> Value {
-        let mut out = json!({ "message": self.message() });
-        if let Self::Malformed(report) = self
-            && let Some(refused) = report.downcast_ref::<DesignError>()
-            && let (Some(out), Value::Object(more)) = (out.as_object_mut(), refused.to_json())
-        {
-            out.extend(more);
-        }
-        out
-    }
-
-    fn message(&self) -> String {
+    /// For programs: `message`; of a refused design file also `file` and `problems`. Nothing for misuse of the command line,
+    /// which asks no question.
+    pub fn to_json(&self) -> Option<Value> {
+        let message = |text: &str| json!({ "message": text });
         match self {
-            Self::Malformed(report) => report.to_string(),
-            Self::Failed(text) => text.clone(),
-            Self::Interrupted => "stopped".to_owned(),
+            Self::Malformed(report) => {
+                let mut refused = report.downcast_ref::<DesignError>()?.to_json();
+                refused.as_object_mut()?.insert("message".to_owned(), report.to_string().into());
+                Some(refused)
+            }
+            Self::Failed(text) | Self::NoClutch(text) => Some(message(text)),
+            Self::Interrupted => Some(message("stopped")),
         }
     }
 
     /// The code that goes with it.
     pub fn exit(&self) -> Exit {
         match self {
-            Self::Malformed(_) => Exit::Malformed,
+            Self::Malformed(_) | Self::NoClutch(_) => Exit::Malformed,
             Self::Failed(_) => Exit::Failed,
             Self::Interrupted => Exit::Interrupted,
         }

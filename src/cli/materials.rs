@@ -35,6 +35,8 @@ pub fn run(context: &Context) -> Result<Exit, Failure> {
             s.hertz_peak_pa.into(),
         ]);
     }
+    context.outputs.check(&[], &[])?;
+    context.outputs.refuse_foreign()?;
     context.outputs.write_csv(&table);
     if context.json {
         let steels: Vec<_> = STEELS

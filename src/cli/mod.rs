@@ -57,7 +57,7 @@ Exit codes:
 
 A file that is there already is replaced only if this tool has written it (its first lines say so; of a table: the names of
 its columns); --force replaces any. What cannot be written costs no answer: it is printed, with exit code 3.
-With --json a refusal or failure is one JSON object too: tool, version, error.";
+With --json a refused design or a failure is one JSON object too: tool, version, error.";
 
 #[derive(Debug, Parser)]
 #[command(
@@ -187,15 +187,15 @@ pub fn run() -> ExitCode {
     match dispatch(cli) {
         Ok(exit) => exit.into(),
         Err(failure) => {
-            if json {
+            if let Some(error) = failure.to_json().filter(|_| json) {
                 // Standard output may be what has failed; standard error says it in words.
                 let _ = output::print_json(&json!({
-                    "tool": output::TOOL, "version": output::VERSION, "error": failure.to_json(),
+                    "tool": output::TOOL, "version": output::VERSION, "error": error,
                 }));
             }
             match &failure {
                 Failure::Malformed(report) => output::note_painted(&format!("{report:?}")),
-                Failure::Failed(text) => output::note(&format!("error: {text}")),
+                Failure::Failed(text) | Failure::NoClutch(text) => output::note(&format!("error: {text}")),
                 Failure::Interrupted => output::note("stopped"),
             }
             failure.exit().into()

@@ -147,10 +147,23 @@ impl Outputs {
             if seen.contains(&here) {
                 return Err(refused(path, "is named for two outputs"));
             }
-            kind.fits(path).and_then(|()| self.may_replace(path, kind)).map_err(|why| refused(path, &why))?;
+            kind.fits(path).map_err(|why| refused(path, &why))?;
             seen.push(here);
         }
-        Ok(())
+        others
+            .iter()
+            .try_for_each(|(path, kind)| self.may_replace(path, *kind).map_err(|why| refused(path, &why)))
+    }
+
+    /// Refuse a `--csv` or `--report` that somebody else has made. Apart, because what the command reads is known first.
+    ///
+    /// # Errors
+    /// [`Failure::Malformed`] naming the path.
+    pub fn refuse_foreign(&self) -> Result<(), Failure> {
+        let own = [(&self.csv, Kind::Table), (&self.report, Kind::Page)];
+        own.into_iter()
+            .filter_map(|(path, kind)| Some((path.as_deref()?, kind)))
+            .try_for_each(|(path, kind)| self.may_replace(path, kind).map_err(|why| refused(path, &why)))
     }
 
     /// Whether what stands at `path` may be replaced by a file of this kind; why not.

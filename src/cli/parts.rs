@@ -25,6 +25,7 @@ pub fn read_design(path: &Path, context: &Context) -> Result<Design, Failure> {
     let histories = design.histories.iter().map(PathBuf::as_path);
     let read: Vec<&Path> = std::iter::once(path).chain(histories).collect();
     context.outputs.check(&read, &[])?;
+    context.outputs.refuse_foreign()?;
     Ok(design)
 }
 
@@ -42,7 +43,7 @@ pub fn no_clutch(file: &Path, why: &NoMargins) -> Failure {
              races.outer_radius_mm"
         }
     };
-    Failure::malformed(format!("{}: {why}; keys that decide it: {keys}", file.display()))
+    Failure::NoClutch(format!("{}: {why}; keys that decide it: {keys}", file.display()))
 }
 
 /// An answer for programs: the common keys and the command's own in `body`.
@@ -247,7 +248,7 @@ mod tests {
     #[test]
     fn a_clutch_without_a_curve_is_told_with_file_and_keys() {
         let why = NoMargins::Curve(NoCurve::NoConvergence);
-        let text = no_clutch(Path::new("a.toml"), &why).to_json()["message"].to_string();
+        let text = no_clutch(Path::new("a.toml"), &why).to_json().unwrap()["message"].to_string();
         for word in ["a.toml", "did not converge", "contact, material", "sprags.inner_arcs"] {
             assert!(text.contains(word), "{text}");
         }

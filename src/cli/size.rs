@@ -58,6 +58,7 @@ pub struct SizeArgs {
 /// [`Failure`].
 pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&[], &[(&args.output, Kind::Design)])?;
+    context.outputs.refuse_foreign()?;
     let ask = Ask {
         bore_m: args.bore / 1e3,
         torque_nm: args.torque,

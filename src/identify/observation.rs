@@ -82,7 +82,7 @@ pub enum Use {
 pub struct Observation {
     /// Line of the table, from 1.
     pub line: usize,
-    /// Label of the row, or its line.
+    /// Label of the row, control characters escaped, or its line.
     pub label: String,
     /// Keys of the design that this row changes (dotted path, value in the key's unit).
     pub keys: Vec<(String, f64)>,
@@ -263,7 +263,7 @@ fn row(
         needs(&sigma_column, sigma, "a standard error above 0")?;
         all.push(Observation {
             line,
-            label: cell("label").map_or_else(|| format!("line {line}"), str::to_owned),
+            label: cell("label").map_or_else(|| format!("line {line}"), crate::design::shown),
             keys: keys.clone(),
             kind,
             value,

@@ -32,7 +32,7 @@ impl Drop for Folder {
 fn message(failure: Failure) -> String {
     match failure {
         Failure::Malformed(report) => report.to_string(),
-        Failure::Failed(text) => text,
+        Failure::Failed(text) | Failure::NoClutch(text) => text,
         Failure::Interrupted => "interrupted".into(),
     }
 }
@@ -130,17 +130,17 @@ fn a_file_of_another_kind_is_not_overwritten() {
     assert!(message(csv(&folder.0.join("new.toml")).check(&[], &[]).unwrap_err()).contains(".csv"));
     // Nor is one of its own kind that somebody else has made; with --force it is.
     for mut theirs in [csv(&table), report(&page), csv(&make("notes.txt"))] {
-        let text = message(theirs.check(&[], &[]).unwrap_err());
+        let text = message(theirs.refuse_foreign().unwrap_err());
         assert!(text.contains("--force"), "{text}");
         theirs.force = true;
-        assert!(theirs.check(&[], &[]).is_ok());
+        assert!(theirs.check(&[], &[]).is_ok() && theirs.refuse_foreign().is_ok());
     }
     // What this tool has made gives way, as does an empty file.
     fs::write(&table, "code,name\n1,2\n").unwrap();
     fs::write(&page, "<!-- sprag-design 1 -->\n").unwrap();
     fs::write(&design, "").unwrap();
     assert!(csv(&table).check(&[], &[(&design, Kind::Design)]).is_ok());
-    assert!(report(&page).check(&[], &[]).is_ok());
+    assert!(csv(&table).refuse_foreign().is_ok() && report(&page).refuse_foreign().is_ok());
 }
 
 /// A temporary of a killed run whose process id has come round again, or a file of that name by somebody else.
