@@ -101,14 +101,19 @@ fn a_row_is_believed_only_if_its_check_agrees_and_its_model_is_ours() {
     std::fs::write(&place, text.replace(row, &better)).unwrap();
     let foreign = written(&place, "sprag-design 0.1.0 of another day");
     let out = search(&design, &new, &["--journal", &place]);
-    for words in ["1 row whose check disagrees", "1 row by another version"] {
+    for words in ["whose check disagrees", "1 row by another version"] {
         assert!(said(&out).contains(words), "{words}: {}", said(&out));
     }
     assert_eq!(json(&out)["best"], first["best"]);
     let after = std::fs::read(&place).unwrap();
     assert!(after.starts_with(&foreign), "nothing is taken away");
     let fresh = String::from_utf8(after[foreign.len()..].to_vec()).unwrap();
-    assert_eq!(fresh, format!("{row}\n"), "the row is computed anew, and no other");
+    // Parts of a search look at one point more than once.
+    let (lines, edited) = (fresh.lines().count(), text.lines().filter(|l| *l == row).count());
+    assert!(
+        fresh.lines().all(|l| l == row) && lines == edited,
+        "the edited row is computed anew, no other: {fresh}"
+    );
     // Rows of another version alone are nothing to go on with.
     let alone = folder.path("alone.csv");
     let kept = written(&alone, "sprag-design 0.1.0 of another day");
