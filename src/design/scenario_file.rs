@@ -73,6 +73,8 @@ pub(super) struct ScenarioFile {
     pub overrun_rpm: Option<f64>,
     /// static, torsional-excitation and transient: the equilibrium at the start: settled (with the energizing spring,
     /// absent: this one) or without-spring (of the torque alone, as in the paper).
+    #[serde(default)]
+    #[schemars(with = "StartFile")]
     pub start: Option<StartFile>,
     /// Keys of sprags that differ in this scenario.
     #[serde(default)]
