@@ -1,7 +1,7 @@
 //! A clutch as a vector: made better under limits and bounds, by SQP, from several starts, at corners, on fronts.
 //!
 //! In: a problem as [`Evaluate`] (margins at x, or a failure), a start and a box; or a `Design` with its task.
-//! Out: [`Outcome`] of a climb; [`Search`], [`Front`], [`Robust`], [`Realised`], [`Relief`] of a design. Absent: files.
+//! Out: [`Outcome`] of a climb; [`Search`], [`Front`], [`Robust`], [`Realised`], [`Relief`], [`Loosened`] of a design. Absent: files.
 //! Equations: those of the methods, named in `sqp`, `swarm`, `pareto`, `robust`; none of the paper.
 
 mod branch;
