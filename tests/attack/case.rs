@@ -103,7 +103,7 @@ impl Maker {
 
     fn flag(&mut self, flag: &str, value: impl Into<String>) {
         let mut value = value.into();
-        if self.once_in(12)
+        if self.once_in(30)
             && let Some(mut rng) = self.strike()
         {
             value = mutate::word(&mut rng);
@@ -132,7 +132,7 @@ impl Maker {
 
     /// Where to write; rarely where something foreign is.
     fn output(&mut self, flag: &str, name: &str) {
-        let path = match self.rng.u8(..24) {
+        let path = match self.rng.u8(..80) {
             0 => FOREIGN.0.to_owned(),
             1 => format!("sub/{name}"),
             2 => format!("no-such/{name}"),
@@ -150,16 +150,31 @@ impl Maker {
 
     fn make(&mut self) {
         self.file(FOREIGN.0, FOREIGN.1.to_vec());
-        let design = self.design();
-        let scenes = scenarios(&design);
-        self.file("design.toml", design.into_bytes());
         let command = self.one(&[
-            "check", "check", "stiffness", "stiffness", "simulate", "simulate", "simulate", "optimize", "optimize", "identify", "size",
-            "export", "evaluate",
+            "check",
+            "check",
+            "stiffness",
+            "stiffness",
+            "simulate",
+            "simulate",
+            "simulate",
+            "optimize",
+            "optimize",
+            "identify",
+            "size",
+            "export",
+            "evaluate",
         ]);
         self.case.args.push(command.clone());
+        let design = self.design(&command);
+        let scenes = scenarios(&design);
+        self.file("design.toml", design.into_bytes());
         if command != "size" {
-            let path = if self.once_in(60) { self.one(&["no-such.toml", "sub", "letter.txt", "data.csv"]) } else { "design.toml".into() };
+            let path = if self.once_in(60) {
+                self.one(&["no-such.toml", "sub", "letter.txt", "data.csv"])
+            } else {
+                "design.toml".into()
+            };
             self.case.args.push(path);
         }
         match command.as_str() {
@@ -206,15 +221,25 @@ impl Maker {
     }
 
     /// One of the designs at hand, its scenes cut short, mutated; with its histories.
-    fn design(&mut self) -> String {
+    fn design(&mut self, command: &str) -> String {
+        // The first five have an [optimize] table.
         const DESIGNS: &[&str] = &[
-            "designs/huang2017-multi-arc.toml", "designs/huang2017-multi-arc.toml", "designs/huang2017-bench.toml",
-            "designs/huang2017-bench.toml", "designs/huang2017-single-arc.toml", "designs/fe-check-24.toml",
-            "designs/indexing.toml", "designs/series-833-large.toml", "designs/starter.toml",
-            "tests/optimise/designs/a-huang-at-rest.toml", "tests/optimise/designs/b-huang-at-speed.toml",
+            "designs/huang2017-multi-arc.toml",
+            "designs/huang2017-multi-arc.toml",
+            "tests/optimise/designs/a-huang-at-rest.toml",
+            "tests/optimise/designs/b-huang-at-speed.toml",
             "tests/optimise/designs/c-24-sprags.toml",
+            "designs/huang2017-bench.toml",
+            "designs/huang2017-bench.toml",
+            "designs/huang2017-single-arc.toml",
+            "designs/fe-check-24.toml",
+            "designs/indexing.toml",
+            "designs/series-833-large.toml",
+            "designs/starter.toml",
         ];
-        let path = self.one(DESIGNS);
+        // What a search or `evaluate` cannot do without.
+        let searched = ["optimize", "evaluate"].contains(&command) && !self.once_in(30);
+        let path = self.one(if searched { &DESIGNS[..5] } else { DESIGNS });
         let mut text = shortened(&read(&path));
         if text.contains("_csv") {
             for name in ["engaging-in-and-out.csv", "overrunning-torque.csv", "speed-ramp.csv"] {
@@ -227,16 +252,21 @@ impl Maker {
                 self.file(name, bytes);
             }
         }
-        for _ in 0..[0, 1, 1, 1, 2, 2, 3, 5][self.rng.usize(..8)] {
+        let mild = self.once_in(2);
+        for _ in 0..[0, 1, 1, 1, 1, 2, 2, 4][self.rng.usize(..8)] {
             if let Some(mut rng) = self.strike() {
-                text = mutate::design(&text, &mut rng);
+                text = mutate::design(&text, mild, &mut rng);
             }
         }
         text
     }
 
     fn stiffness(&mut self) {
-        self.maybe(2, "--contact", &["roller", "din26281", "hertz", "slice", "elastic", "roller,hertz", "slice,elastic,roller"]);
+        self.maybe(
+            2,
+            "--contact",
+            &["roller", "din26281", "hertz", "slice", "elastic", "roller,hertz", "slice,elastic,roller"],
+        );
         if self.once_in(2) {
             self.maybe(2, "--torques", &["1", "3.34,16.8", "50", "1e-6", "90,90", "100,1", "1e6"]);
         } else {
@@ -257,7 +287,11 @@ impl Maker {
     }
 
     fn simulate(&mut self, scenes: &[String]) {
-        let scene = if scenes.is_empty() { "high-6".to_owned() } else { scenes[self.rng.usize(..scenes.len())].clone() };
+        let scene = if scenes.is_empty() {
+            "high-6".to_owned()
+        } else {
+            scenes[self.rng.usize(..scenes.len())].clone()
+        };
         // A name from a mutated file may begin like a flag.
         self.case.plain_flags &= !scene.starts_with('-');
         self.flag("--scenario", scene);
@@ -292,11 +326,21 @@ impl Maker {
             // A journal that an earlier search left, perhaps spoilt since.
             0..3 => {
                 self.flag("--journal", "j.csv");
-                self.case.prepare = ["optimize", "design.toml", "--evaluations", "1", "--starts", "1", "-q", "-o", "new.toml"]
-                    .iter()
-                    .chain(&["--journal", "j.csv"])
-                    .map(|arg| (*arg).to_owned())
-                    .collect();
+                self.case.prepare = [
+                    "optimize",
+                    "design.toml",
+                    "--evaluations",
+                    "1",
+                    "--starts",
+                    "1",
+                    "-q",
+                    "-o",
+                    "new.toml",
+                ]
+                .iter()
+                .chain(&["--journal", "j.csv"])
+                .map(|arg| (*arg).to_owned())
+                .collect();
                 if self.once_in(3) {
                     self.case.args.push("--resume".into());
                 }
@@ -332,8 +376,13 @@ impl Maker {
         self.file("data.csv", data.into_bytes());
         self.flag("--data", "data.csv");
         let unknown = self.one(&[
-            "r_i1_mm:3.6:4.8", "friction.static:0.05:0.2", "material.youngs_modulus_gpa:100:300,r_i1_mm:3.9:4.2",
-            "sprags.centre_distance_mm:0.5:0.8", "centroid_y_mm:0.3:0.8", "races.inner_radius_mm:11:11.2", "contact.slices:10:60",
+            "r_i1_mm:3.6:4.8",
+            "friction.static:0.05:0.2",
+            "material.youngs_modulus_gpa:100:300,r_i1_mm:3.9:4.2",
+            "sprags.centre_distance_mm:0.5:0.8",
+            "centroid_y_mm:0.3:0.8",
+            "races.inner_radius_mm:11:11.2",
+            "contact.slices:10:60",
         ]);
         self.case.plain_flags = false; // what an unknown may be depends on the design
         self.flag("--unknown", unknown);
@@ -347,7 +396,8 @@ impl Maker {
 
     fn size(&mut self) {
         self.case.plain_flags = false; // no file is read
-        let (bore, torque) = (self.one(&["40", "10", "1", "2000", "25.5"]), self.one(&["1000", "50", "1e-3", "1e6", "300"]));
+        let (bore, torque) =
+            (self.one(&["40", "10", "1", "2000", "25.5"]), self.one(&["1000", "50", "1e-3", "1e6", "300"]));
         self.flag("--bore", bore);
         self.flag("--torque", torque);
         self.maybe(2, "--speed", &["0", "3000", "1e6"]);
@@ -385,7 +435,13 @@ impl Maker {
         let mut lines = String::new();
         for _ in 0..self.rng.u8(1..4) {
             lines += &self.one(&[
-                "[3.6, 4.2, -0.2, 0.2]\n", "[4.08, 4.15, 0.19, 0.52]\n", "[4.3, 4.4, 0.08, 5.0, 1.096]\n", "[4.1,4.2]\n", "\n", "[]\n", "[1]",
+                "[3.6, 4.2, -0.2, 0.2]\n",
+                "[4.08, 4.15, 0.19, 0.52]\n",
+                "[4.3, 4.4, 0.08, 5.0, 1.096]\n",
+                "[4.1,4.2]\n",
+                "\n",
+                "[]\n",
+                "[1]",
             ]);
         }
         for _ in 0..self.rng.u8(..3) {
@@ -421,7 +477,8 @@ fn shortened(text: &str) -> String {
 fn scenarios(text: &str) -> Vec<String> {
     let Ok(file) = text.parse::<DocumentMut>() else { return Vec::new() };
     let scenes = file.get("scenarios").and_then(Item::as_array_of_tables);
-    let names = scenes.into_iter().flatten().filter_map(|scene| scene.get("name")?.as_str().map(str::to_owned));
+    let names =
+        scenes.into_iter().flatten().filter_map(|scene| scene.get("name")?.as_str().map(str::to_owned));
     // What a shell or a system cannot pass on as an argument is no name to ask for.
     names.filter(|name| !name.contains('\0')).collect()
 }

@@ -8,15 +8,70 @@ use std::path::Path;
 /// Keys of JSON answers that may be null: figures that do not exist for a scene or a design. Another null is a number that
 /// is none.
 const MAY_BE_NULL: &[&str] = &[
-    "at_moved_s", "contact_lost_s", "contact_margin", "correlation", "deciding", "decided_by", "demand", "demand_after",
-    "demand_before", "energy_balance", "equilibrium", "error_estimates", "events", "expected", "extremes", "hertz_least_mpa",
-    "hertz_peak_mpa", "hertz_rated_mpa", "hertz_static_mpa", "inconsistent_choices", "journal", "k_secant_nm_per_rad",
-    "k_tangent_nm_per_rad", "lift_off_rpm", "lowest_torque_capacity", "nominal_torque_capacity", "normal_max_n",
-    "normal_min_n", "offset_rad", "peak_tan_demand", "peak_torque_capacity", "realised", "reason", "rejections", "relief",
-    "required_static_friction", "required_static_friction_by", "residual_sigma", "rhs_evaluations", "robust", "run_out",
-    "running", "scenario_margins", "sensitivities", "slip_margin", "steps", "t_end_s", "theta_inner_end_rad", "theta_outer_end_rad", "time_s",
-    "distance_mm", "net_mm", "tolerances", "torque_capacity_nm", "verdict", "why_not", "windup_rad", "written", "written_to",
-    "zeno_closures", "not_done", "searched_on", "influence", "best",
+    "at_moved_s",
+    "contact_lost_s",
+    "contact_margin",
+    "correlation",
+    "deciding",
+    "decided_by",
+    "demand",
+    "demand_after",
+    "demand_before",
+    "energy_balance",
+    "equilibrium",
+    "error_estimates",
+    "events",
+    "expected",
+    "extremes",
+    "hertz_least_mpa",
+    "hertz_peak_mpa",
+    "hertz_rated_mpa",
+    "hertz_static_mpa",
+    "inconsistent_choices",
+    "journal",
+    "k_secant_nm_per_rad",
+    "k_tangent_nm_per_rad",
+    "lift_off_rpm",
+    "lowest_torque_capacity",
+    "nominal_torque_capacity",
+    "normal_max_n",
+    "normal_min_n",
+    "offset_rad",
+    "peak_tan_demand",
+    "peak_torque_capacity",
+    "realised",
+    "reason",
+    "rejections",
+    "relief",
+    "required_static_friction",
+    "required_static_friction_by",
+    "residual_sigma",
+    "rhs_evaluations",
+    "robust",
+    "run_out",
+    "running",
+    "scenario_margins",
+    "sensitivities",
+    "slip_margin",
+    "steps",
+    "t_end_s",
+    "theta_inner_end_rad",
+    "theta_outer_end_rad",
+    "time_s",
+    "distance_mm",
+    "net_mm",
+    "tolerances",
+    "torque_capacity_nm",
+    "verdict",
+    "why_not",
+    "windup_rad",
+    "written",
+    "written_to",
+    "zeno_closures",
+    "not_done",
+    "searched_on",
+    "influence",
+    "best",
 ];
 
 /// What kind of fault it is: its words without figures.
@@ -50,8 +105,13 @@ fn ending(case: &Case, ran: &Ran, faults: &mut Vec<String>) {
         (code, Some(24)) => faults.push(format!("more than 60 s of processor time: {code:?}, {last}")),
         (code, signal) => faults.push(format!("ends with code {code:?}, signal {signal:?}: {last}")),
     }
-    if let Some(line) = ran.stderr.lines().find(|line| line.contains("panicked at") || line.contains("report this")) {
-        faults.push(format!("panics at {}: {line}", line.split("panicked at ").last().unwrap_or_default().trim_end_matches(':')));
+    if let Some(line) =
+        ran.stderr.lines().find(|line| line.contains("panicked at") || line.contains("report this"))
+    {
+        faults.push(format!(
+            "panics at {}: {line}",
+            line.split("panicked at ").last().unwrap_or_default().trim_end_matches(':')
+        ));
     }
 }
 
@@ -71,7 +131,8 @@ fn streams(case: &Case, ran: &Ran, faults: &mut Vec<String>) {
         }
         // Frames break long lines; a name is looked for without them.
         let said: String = ran.stderr.chars().filter(|c| !c.is_whitespace() && *c != '│').collect();
-        let mut names = case.files.iter().map(|(name, _)| name.as_str()).chain(case.args.get(1).map(String::as_str));
+        let mut names =
+            case.files.iter().map(|(name, _)| name.as_str()).chain(case.args.get(1).map(String::as_str));
         if case.plain_flags && !names.any(|name| said.contains(name)) {
             faults.push(format!("a refusal names no file: {}", ran.stderr));
         }
@@ -95,7 +156,11 @@ fn json(case: &Case, ran: &Ran, faults: &mut Vec<String>) {
         Ok(_) => return faults.push("standard output is not one JSON object".into()),
         Err(e) => {
             let code = ran.code.unwrap_or(-1);
-            return faults.push(format!("no JSON with exit code {code}: {e}; {} {}", head(&ran.stdout), head(&ran.stderr)));
+            return faults.push(format!(
+                "no JSON with exit code {code}: {e}; {} {}",
+                head(&ran.stdout),
+                head(&ran.stderr)
+            ));
         }
     };
     if ran.code == Some(2) {
@@ -128,14 +193,20 @@ fn check(value: &Value, ran: &Ran, faults: &mut Vec<String>) {
     let mut all = true;
     for row in rows {
         let (margin, held) = (row["margin"].as_f64(), row["held"].as_bool());
-        if row["computed"] == true && margin.is_some_and(|m| m.abs() > 1e-9) && held != margin.map(|m| m >= 0.0) {
+        if row["computed"] == true
+            && margin.is_some_and(|m| m.abs() > 1e-9)
+            && held != margin.map(|m| m >= 0.0)
+        {
             faults.push(format!("held and margin differ: {row}"));
         }
         all &= held == Some(true) || row["required"] != true;
     }
     let pass = value["pass"].as_bool();
     if pass != Some(all) || (ran.code == Some(0)) != all {
-        faults.push(format!("verdict, rows and exit code differ: pass {pass:?}, rows {all}, code {:?}", ran.code));
+        faults.push(format!(
+            "verdict, rows and exit code differ: pass {pass:?}, rows {all}, code {:?}",
+            ran.code
+        ));
     }
 }
 
@@ -173,7 +244,10 @@ fn lines_of_evaluate(case: &Case, ran: &Ran, faults: &mut Vec<String>) {
         }
     }
     let refused = ran.code == Some(2) && !ran.stderr.is_empty() || case.interrupt.is_some();
-    if !refused && ran.code != Some(3) && (answers != asked + usize::from(case.has("--describe")) || malformed != (ran.code == Some(2))) {
+    if !refused
+        && ran.code != Some(3)
+        && (answers != asked + usize::from(case.has("--describe")) || malformed != (ran.code == Some(2)))
+    {
         faults.push(format!("{answers} answers to {asked} lines, code {:?}", ran.code));
     }
 }
@@ -185,7 +259,9 @@ fn files(case: &Case, before: &Files, ran: &Ran, after: &Files, faults: &mut Vec
         match after.0.get(name) {
             None => faults.push(format!("{name} is gone: code {:?}", ran.code)),
             Some(new) if new == old => {}
-            Some(_) if ran.code == Some(2) => faults.push(format!("{name} changed by a refused command: {}", head(&ran.stderr))),
+            Some(_) if ran.code == Some(2) => {
+                faults.push(format!("{name} changed by a refused command: {}", head(&ran.stderr)))
+            }
             Some(_) if name == FOREIGN.0 => faults.push("a foreign file was overwritten: letter.txt".into()),
             Some(new) if name == "j.csv" => {
                 // A journal only grows; a last line cut short may go.
@@ -205,7 +281,11 @@ fn files(case: &Case, before: &Files, ran: &Ran, after: &Files, faults: &mut Vec
         let file = name.rsplit('/').next().unwrap_or(name);
         // The search writes beside the design file where no other place is named.
         let new = !before.0.contains_key(name);
-        if new && (file.starts_with('.') || file.ends_with(".tmp") || !(written(name) || name.starts_with("design-optimized"))) {
+        if new
+            && (file.starts_with('.')
+                || file.ends_with(".tmp")
+                || !(written(name) || name.starts_with("design-optimized")))
+        {
             faults.push(format!("left behind: {name}"));
         }
         let text = String::from_utf8_lossy(bytes);
@@ -231,7 +311,8 @@ fn table(name: &str, bytes: &[u8], faults: &mut Vec<String>) {
             Err(e) => return faults.push(format!("a table does not parse: {name}, {e}")),
             Ok(row) => {
                 if let Some(cell) = row.iter().find(|cell| has_no_number(cell)) {
-                    return faults.push(format!("a number that is none in a table: {name}, {cell} in {row:?}"));
+                    return faults
+                        .push(format!("a number that is none in a table: {name}, {cell} in {row:?}"));
                 }
             }
         }
@@ -239,7 +320,13 @@ fn table(name: &str, bytes: &[u8], faults: &mut Vec<String>) {
 }
 
 /// Designs that were written and that `check` refuses.
-pub fn unreadable(program: &Program, case: &Case, before: &Files, after: &Files, folder: &Path) -> Vec<String> {
+pub fn unreadable(
+    program: &Program,
+    case: &Case,
+    before: &Files,
+    after: &Files,
+    folder: &Path,
+) -> Vec<String> {
     let design = |name: &str| name.ends_with(".toml") && before.0.get(name) != after.0.get(name);
     let written: Vec<&String> = after.0.keys().filter(|name| design(name)).collect();
     written
@@ -247,7 +334,9 @@ pub fn unreadable(program: &Program, case: &Case, before: &Files, after: &Files,
         .filter_map(|name| {
             let ran = program.run(folder, &["check".into(), name.clone(), "-q".into()], &[], None);
             let refused = !matches!(ran.code, Some(0 | 1 | 3));
-            refused.then(|| format!("{} writes a design that check refuses: {name}, {}", case.command(), ran.stderr))
+            refused.then(|| {
+                format!("{} writes a design that check refuses: {name}, {}", case.command(), ran.stderr)
+            })
         })
         .collect()
 }
@@ -256,10 +345,17 @@ pub fn unreadable(program: &Program, case: &Case, before: &Files, after: &Files,
 pub fn differences(once: &Ran, files: &Files, twice: &Ran, others: &Files) -> Vec<String> {
     let mut faults = Vec::new();
     if once.code != twice.code {
-        faults.push(format!("another exit code the second time: {:?}, {:?} {}", once.code, twice.code, head(&twice.stderr)));
+        faults.push(format!(
+            "another exit code the second time: {:?}, {:?} {}",
+            once.code,
+            twice.code,
+            head(&twice.stderr)
+        ));
         return faults;
     }
-    for (name, a, b) in [("standard output", &once.stdout, &twice.stdout), ("standard error", &once.stderr, &twice.stderr)] {
+    for (name, a, b) in
+        [("standard output", &once.stdout, &twice.stdout), ("standard error", &once.stderr, &twice.stderr)]
+    {
         let (a, b) = (timeless(a), timeless(b));
         if a != b {
             faults.push(format!("{name} differs the second time: {}", difference(&a, &b)));
@@ -270,7 +366,8 @@ pub fn differences(once: &Ran, files: &Files, twice: &Ran, others: &Files) -> Ve
     }
     for (name, bytes) in &files.0 {
         let Some(other) = others.0.get(name) else { continue };
-        let (mut a, mut b) = (timeless(&String::from_utf8_lossy(bytes)), timeless(&String::from_utf8_lossy(other)));
+        let (mut a, mut b) =
+            (timeless(&String::from_utf8_lossy(bytes)), timeless(&String::from_utf8_lossy(other)));
         // Rows of a journal stand in the order in which evaluations ended.
         if name.contains("journal") || name == "j.csv" {
             (a, b) = (sorted(&a), sorted(&b));

@@ -5,17 +5,81 @@ use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 /// What stands in place of a number.
 const NUMBERS: &[&str] = &[
-    "0", "0.0", "-0.0", "1", "-1", "1.0", "-1.5", "2", "3", "1e-30", "1e-12", "1e-6", "1e-3", "1e3", "1e6", "1e12",
-    "1e15", "-1e15", "1e308", "1e999", "5e-324", "nan", "inf", "-inf", "9223372036854775807", "99999999999999999999",
-    "0x10", "1_000", "true", "\"6.0\"", "[]", "{}", "1979-05-27", "0.3333333333333333", "1e-9", "100", "0.5",
+    "0",
+    "0.0",
+    "-0.0",
+    "1",
+    "-1",
+    "1.0",
+    "-1.5",
+    "2",
+    "3",
+    "1e-30",
+    "1e-12",
+    "1e-6",
+    "1e-3",
+    "1e3",
+    "1e6",
+    "1e12",
+    "1e15",
+    "-1e15",
+    "1e308",
+    "1e999",
+    "5e-324",
+    "nan",
+    "inf",
+    "-inf",
+    "9223372036854775807",
+    "99999999999999999999",
+    "0x10",
+    "1_000",
+    "true",
+    "\"6.0\"",
+    "[]",
+    "{}",
+    "1979-05-27",
+    "0.3333333333333333",
+    "1e-9",
+    "100",
+    "0.5",
 ];
 /// What stands in place of a text.
 const TEXTS: &[&str] = &[
-    "\"\"", "\" \"", "\"x\"", "\"high-6\"", "\"\\u001b[31mred\"", "\"\\u009b31m\"", "\"a\\nb\"", "\"a\\tb\"", "\"\\u0000\"",
-    "\"=1+1\"", "\"@x\"", "\"<script>alert(1)</script>\"", "\"]]>-->\"", "\"\u{202e}drehum\"", "\"Größe 🦀\"", "\"a,b\"",
-    "\"a\\\"b'c\"", "\"../x\"", "\"slice\"", "\"elastic\"", "\"hertz\"", "\"overrun\"", "\"static\"", "\"transient\"",
-    "\"engagement\"", "\"torsional-excitation\"", "\"vernay\"", "\"torque-capacity\"", "\"r_i1_mm\"", "\"junction_1_rad\"",
-    "\"no-such.csv\"", "\"design.toml\"", "\"sub\"", "\"data.csv\"", "7",
+    "\"\"",
+    "\" \"",
+    "\"x\"",
+    "\"high-6\"",
+    "\"\\u001b[31mred\"",
+    "\"\\u009b31m\"",
+    "\"a\\nb\"",
+    "\"a\\tb\"",
+    "\"\\u0000\"",
+    "\"=1+1\"",
+    "\"@x\"",
+    "\"<script>alert(1)</script>\"",
+    "\"]]>-->\"",
+    "\"\u{202e}drehum\"",
+    "\"Größe 🦀\"",
+    "\"a,b\"",
+    "\"a\\\"b'c\"",
+    "\"../x\"",
+    "\"slice\"",
+    "\"elastic\"",
+    "\"hertz\"",
+    "\"overrun\"",
+    "\"static\"",
+    "\"transient\"",
+    "\"engagement\"",
+    "\"torsional-excitation\"",
+    "\"vernay\"",
+    "\"torque-capacity\"",
+    "\"r_i1_mm\"",
+    "\"junction_1_rad\"",
+    "\"no-such.csv\"",
+    "\"design.toml\"",
+    "\"sub\"",
+    "\"data.csv\"",
+    "7",
 ];
 /// Options of a design that the files at hand do not all use: table, key, value.
 const GRAFTS: &[(&str, &str, &str)] = &[
@@ -51,18 +115,71 @@ const GRAFTS: &[(&str, &str, &str)] = &[
     ("races", "inner_bore_radius_mm", "0.0"),
     ("optimize", "objective", "\"torque-capacity\""),
     ("optimize", "objective", "\"overrun-speed\""),
-    ("", "schema", "2"),
-    ("", "misspelt", "1"),
 ];
 /// What is put between two characters of a text.
 const WILD: &[&str] = &[
-    "\u{0}", "\u{feff}", "\u{1b}[2J", "\"", "'", "=", "[", "]", "{", "}", ",", "#", "-", ".", "e", "9", "\n", "\r\n", "\u{e9}",
-    "\u{202e}", "🦀", "\\", "\\u001b", "[[scenarios]]\n", "[sprags]\n", ";", "\t", "nan",
+    "\u{0}",
+    "\u{feff}",
+    "\u{1b}[2J",
+    "\"",
+    "'",
+    "=",
+    "[",
+    "]",
+    "{",
+    "}",
+    ",",
+    "#",
+    "-",
+    ".",
+    "e",
+    "9",
+    "\n",
+    "\r\n",
+    "\u{e9}",
+    "\u{202e}",
+    "🦀",
+    "\\",
+    "\\u001b",
+    "[[scenarios]]\n",
+    "[sprags]\n",
+    ";",
+    "\t",
+    "nan",
 ];
 /// Values of flags.
 const WORDS: &[&str] = &[
-    "0", "-1", "1", "2", "nan", "inf", "-inf", "1e999", "1e-300", "1e-9", "1e9", "1e300", "", " ", "x", "1,2,3", "1,,2", ",",
-    "٣", "0x10", "18446744073709551616", "4294967296", "-0", "1e-5", "\u{1b}[31m", "a\nb", "--json", "=1", "0.1", "100", "🦀",
+    "0",
+    "-1",
+    "1",
+    "2",
+    "nan",
+    "inf",
+    "-inf",
+    "1e999",
+    "1e-300",
+    "1e-9",
+    "1e9",
+    "1e300",
+    "",
+    " ",
+    "x",
+    "1,2,3",
+    "1,,2",
+    ",",
+    "٣",
+    "0x10",
+    "18446744073709551616",
+    "4294967296",
+    "-0",
+    "1e-5",
+    "\u{1b}[31m",
+    "a\nb",
+    "--json",
+    "=1",
+    "0.1",
+    "100",
+    "🦀",
 ];
 
 /// One of a list.
@@ -75,38 +192,66 @@ pub fn word(rng: &mut Rng) -> String {
     one(WORDS, rng).to_owned()
 }
 
-/// A design with one thing changed; where it is no TOML already, its text.
-pub fn design(text: &str, rng: &mut Rng) -> String {
+/// A design with one thing changed, mildly so that most such designs are accepted; where it is no TOML already, its text.
+pub fn design(text: &str, mild: bool, rng: &mut Rng) -> String {
     let Ok(mut file) = text.parse::<DocumentMut>() else { return string(text, rng) };
-    match rng.u8(..12) {
-        0..4 => on_value(file.as_item_mut(), rng, |v| v.is_float() || v.is_integer(), |v, rng| {
-            let old = v.as_float().or(v.as_integer().map(|i| i as f64)).unwrap_or(1.0);
-            let factor = [0.0, 0.1, 0.5, 0.9, 0.99, 0.999, 1.001, 1.01, 1.1, 1.5, 2.0, 10.0, -1.0][rng.usize(..13)];
-            *v = if v.is_integer() { Value::from((old * factor) as i64) } else { Value::from(old * factor) };
-        }),
-        4 | 5 => on_value(file.as_item_mut(), rng, |v| v.is_float() || v.is_integer(), |v, rng| {
-            *v = one(NUMBERS, rng).parse().unwrap_or(Value::from(f64::INFINITY));
-        }),
-        6 => on_value(file.as_item_mut(), rng, Value::is_str, |v, rng| *v = one(TEXTS, rng).parse().unwrap()),
-        7 => on_value(file.as_item_mut(), rng, |v| v.is_array(), |v, rng| {
-            let array = v.as_array_mut().unwrap();
-            if array.is_empty() {
-                return;
-            }
-            let (from, to) = (rng.usize(..array.len()), rng.usize(..array.len()));
-            let value = array.get(from).unwrap().clone();
-            match rng.u8(..4) {
-                0 => drop(array.remove(from)),
-                1 => array.push_formatted(value),
-                2 => (0..40).for_each(|_| array.push_formatted(value.clone())),
-                _ => drop(array.replace_formatted(to, value)),
-            }
-        }),
-        8 => remove_key(&mut file, rng),
-        9 | 10 => {
+    let graft = rng.u8(..3) == 0;
+    match if mild { if graft { 13 } else { 0 } } else { rng.u8(..16) } {
+        0..8 => on_value(
+            file.as_item_mut(),
+            rng,
+            |v| v.is_float() || v.is_integer(),
+            |v, rng| {
+                let old = v.as_float().or(v.as_integer().map(|i| i as f64)).unwrap_or(1.0);
+                let factor =
+                    [0.0, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999, 1.0001, 1.001, 1.01, 1.1, 1.5, 2.0, 10.0]
+                        [rng.usize(..14)];
+                *v = if v.is_integer() {
+                    Value::from((old * factor) as i64)
+                } else {
+                    Value::from(old * factor)
+                };
+            },
+        ),
+        8 | 9 => on_value(
+            file.as_item_mut(),
+            rng,
+            |v| v.is_float() || v.is_integer(),
+            |v, rng| {
+                *v = one(NUMBERS, rng).parse().unwrap_or(Value::from(f64::INFINITY));
+            },
+        ),
+        10 => {
+            on_value(file.as_item_mut(), rng, Value::is_str, |v, rng| *v = one(TEXTS, rng).parse().unwrap())
+        }
+        11 => on_value(
+            file.as_item_mut(),
+            rng,
+            |v| v.is_array(),
+            |v, rng| {
+                let array = v.as_array_mut().unwrap();
+                if array.is_empty() {
+                    return;
+                }
+                let (from, to) = (rng.usize(..array.len()), rng.usize(..array.len()));
+                let value = array.get(from).unwrap().clone();
+                match rng.u8(..4) {
+                    0 => drop(array.remove(from)),
+                    1 => array.push_formatted(value),
+                    2 => (0..40).for_each(|_| array.push_formatted(value.clone())),
+                    _ => drop(array.replace_formatted(to, value)),
+                }
+            },
+        ),
+        12 => remove_key(&mut file, rng),
+        13..15 => {
             let (table, key, value) = GRAFTS[rng.usize(..GRAFTS.len())];
             let value: Value = value.parse().unwrap();
-            let place = if table.is_empty() { Some(file.as_table_mut()) } else { file.get_mut(table).and_then(Item::as_table_mut) };
+            let place = if table.is_empty() {
+                Some(file.as_table_mut())
+            } else {
+                file.get_mut(table).and_then(Item::as_table_mut)
+            };
             if let Some(place) = place {
                 place.insert(key, Item::Value(value));
             }
