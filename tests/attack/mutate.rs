@@ -115,8 +115,6 @@ const GRAFTS: &[(&str, &str, &str)] = &[
     ("races", "inner_bore_radius_mm", "0.0"),
     ("optimize", "objective", "\"torque-capacity\""),
     ("optimize", "objective", "\"overrun-speed\""),
-    ("", "schema", "2"),
-    ("", "misspelt", "1"),
 ];
 /// What is put between two characters of a text.
 const WILD: &[&str] = &[
@@ -194,18 +192,20 @@ pub fn word(rng: &mut Rng) -> String {
     one(WORDS, rng).to_owned()
 }
 
-/// A design with one thing changed; where it is no TOML already, its text.
-pub fn design(text: &str, rng: &mut Rng) -> String {
+/// A design with one thing changed, mildly so that most such designs are accepted; where it is no TOML already, its text.
+pub fn design(text: &str, mild: bool, rng: &mut Rng) -> String {
     let Ok(mut file) = text.parse::<DocumentMut>() else { return string(text, rng) };
-    match rng.u8(..12) {
-        0..4 => on_value(
+    let graft = rng.u8(..3) == 0;
+    match if mild { if graft { 13 } else { 0 } } else { rng.u8(..16) } {
+        0..8 => on_value(
             file.as_item_mut(),
             rng,
             |v| v.is_float() || v.is_integer(),
             |v, rng| {
                 let old = v.as_float().or(v.as_integer().map(|i| i as f64)).unwrap_or(1.0);
-                let factor = [0.0, 0.1, 0.5, 0.9, 0.99, 0.999, 1.001, 1.01, 1.1, 1.5, 2.0, 10.0, -1.0]
-                    [rng.usize(..13)];
+                let factor =
+                    [0.0, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999, 1.0001, 1.001, 1.01, 1.1, 1.5, 2.0, 10.0]
+                        [rng.usize(..14)];
                 *v = if v.is_integer() {
                     Value::from((old * factor) as i64)
                 } else {
@@ -213,7 +213,7 @@ pub fn design(text: &str, rng: &mut Rng) -> String {
                 };
             },
         ),
-        4 | 5 => on_value(
+        8 | 9 => on_value(
             file.as_item_mut(),
             rng,
             |v| v.is_float() || v.is_integer(),
@@ -221,8 +221,10 @@ pub fn design(text: &str, rng: &mut Rng) -> String {
                 *v = one(NUMBERS, rng).parse().unwrap_or(Value::from(f64::INFINITY));
             },
         ),
-        6 => on_value(file.as_item_mut(), rng, Value::is_str, |v, rng| *v = one(TEXTS, rng).parse().unwrap()),
-        7 => on_value(
+        10 => {
+            on_value(file.as_item_mut(), rng, Value::is_str, |v, rng| *v = one(TEXTS, rng).parse().unwrap())
+        }
+        11 => on_value(
             file.as_item_mut(),
             rng,
             |v| v.is_array(),
@@ -241,8 +243,8 @@ pub fn design(text: &str, rng: &mut Rng) -> String {
                 }
             },
         ),
-        8 => remove_key(&mut file, rng),
-        9 | 10 => {
+        12 => remove_key(&mut file, rng),
+        13..15 => {
             let (table, key, value) = GRAFTS[rng.usize(..GRAFTS.len())];
             let value: Value = value.parse().unwrap();
             let place = if table.is_empty() {

@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
@@ -16,8 +17,8 @@ const PATIENCE: Duration = Duration::from_secs(600);
 /// The program under attack.
 pub struct Program {
     path: PathBuf,
-    /// Runs, and those of them that had an answer.
-    runs: [AtomicUsize; 2],
+    /// How many runs of a command ended with a code.
+    ends: Mutex<BTreeMap<(String, Option<i32>), usize>>,
 }
 
 /// How a run ended.
@@ -31,12 +32,12 @@ pub struct Ran {
 impl Program {
     pub fn new(path: &str) -> Self {
         let path = fs::canonicalize(path).unwrap_or_else(|e| panic!("{path}: {e}"));
-        Self { path, runs: Default::default() }
+        Self { path, ends: Mutex::default() }
     }
 
-    /// How many runs there were, and how many of them had an answer.
-    pub fn runs(&self) -> [usize; 2] {
-        [0, 1].map(|at| self.runs[at].load(Ordering::Relaxed))
+    /// How many runs of a command ended with a code.
+    pub fn ends(&self) -> BTreeMap<(String, Option<i32>), usize> {
+        self.ends.lock().unwrap().clone()
     }
 
     /// Run with `args` in `folder`, `input` on standard input; Ctrl-C after `interrupt`.
@@ -69,8 +70,7 @@ impl Program {
             std::thread::sleep(Duration::from_millis(2));
         };
         let text = |path| String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
-        self.runs[0].fetch_add(1, Ordering::Relaxed);
-        self.runs[1].fetch_add(usize::from(matches!(status.code(), Some(0 | 1))), Ordering::Relaxed);
+        *self.ends.lock().unwrap().entry((args[0].clone(), status.code())).or_default() += 1;
         Ran { code: status.code(), signal: status.signal(), stdout: text(out), stderr: text(err) }
     }
 }
