@@ -258,9 +258,11 @@ impl Points {
 /// Points at which a variable that moves nothing at the start is looked at again: as many as there are usually starts beside
 /// the design.
 const LOOKED_AT: usize = 7;
+/// Such variables that are put to their ends together: a choice, eight corners.
+const TOGETHER: usize = 3;
 
-/// Those of the variables `idle`, without influence at the start `x0`, that have none elsewhere either: with each of them at
-/// its ends, and at points spread over the box; the points at which one of the others is felt, from which to climb as well,
+/// Those of the variables `idle`, without influence at the start `x0`, that have none elsewhere either: with them at
+/// their ends, and at points spread over the box; the points at which one of the others is felt, from which to climb as well,
 /// because nothing draws a climb from the start there; and the evaluations that this took.
 pub(super) fn idle_everywhere(
     desk: &Desk,
@@ -278,35 +280,37 @@ pub(super) fn idle_everywhere(
     // The same points whatever the seed: this is no draw.
     let unseeded = Method { seed: 0, ..method.clone() };
     let mut spent = 0;
-    let at_end = |i: usize, end: f64| {
+    let level = idle.clone();
+    // A junction or an arc may be felt near one end of its range only, and only together with another.
+    let ends = (0..1_usize << level.len().min(TOGETHER)).map(|corner| {
         let mut x = x0.to_vec();
-        x[i] = end;
-        x
-    };
-    // A junction or an arc may be felt near one end of its range only.
-    let mut looks: Vec<Vec<f64>> = idle.iter().flat_map(|&i| [at_end(i, lo[i]), at_end(i, hi[i])]).collect();
-    looks.extend(points.draw(desk, problem, (lo, hi), LOOKED_AT, &unseeded));
-    for x in looks {
+        for (bit, &i) in level.iter().take(TOGETHER).enumerate() {
+            x[i] = if corner >> bit & 1 == 0 { lo[i] } else { hi[i] };
+        }
+        (x, true)
+    });
+    let drawn = points.draw(desk, problem, (lo, hi), LOOKED_AT, &unseeded);
+    for (x, is_end) in ends.chain(drawn.into_iter().map(|x| (x, false))) {
+        if desk.stopped() || (!is_end && idle.is_empty()) {
+            break;
+        }
         // The others have no range, so that no difference is taken along them.
-        let only_idle = |bounds: &[f64]| -> Vec<f64> {
-            (0..x.len()).map(|i| if idle.contains(&i) { bounds[i] } else { x[i] }).collect()
+        let only_level = |bounds: &[f64]| -> Vec<f64> {
+            (0..x.len()).map(|i| if level.contains(&i) { bounds[i] } else { x[i] }).collect()
         };
-        let (lo, hi) = (only_idle(lo), only_idle(hi));
+        let (lo, hi) = (only_level(lo), only_level(hi));
         let found = desk.run(problem, |problem, run| influence(problem, &x, &lo, &hi, &method.climb, run));
         let Ok(table) = found else {
-            // No margins at this end, or stopped.
+            // No margins here.
             spent += 1;
             continue;
         };
         spent += table.evaluations;
         let without = table.without();
-        if idle.iter().any(|i| !without.contains(i)) {
+        if level.iter().any(|i| !without.contains(i)) {
             felt_at.push(x.clone());
         }
         idle.retain(|i| without.contains(i));
-        if idle.is_empty() {
-            break;
-        }
     }
     (idle, felt_at, spent + points.spent)
 }
