@@ -202,13 +202,17 @@ pub fn search_problem(
         desk.run(&inner, |inner, run| influence(inner, &x, &lo, &hi, &method.climb, run)).map_err(refused)?
     };
     evaluations += table.evaluations;
-    let (idle, looked_at) = {
+    let (idle, felt_at, looked_at) = {
         let (lo, hi) = bounds(&variables, &continuous);
-        idle_everywhere(desk, &inner, table.without(), (&lo, &hi), method)
+        let x = starts(&variables, &continuous);
+        idle_everywhere(desk, &inner, table.without(), &x, (&lo, &hi), method)
     };
     evaluations += looked_at;
     let idle: Vec<String> = idle.into_iter().map(|i| continuous[i].clone()).collect();
     variables.iter_mut().for_each(|v| v.dropped = idle.contains(&v.name));
+    let kept =
+        |x: Vec<f64>| x.into_iter().zip(&continuous).filter(|(_, n)| !idle.contains(n)).map(|(v, _)| v);
+    let felt_at: Vec<Vec<f64>> = felt_at.into_iter().map(|x| kept(x).collect()).collect();
     let searched: Vec<String> = continuous.iter().filter(|n| !idle.contains(n)).cloned().collect();
     let whole_numbers: Vec<_> = task.variables.iter().filter(|v| v.whole).cloned().collect();
     if searched.is_empty() && whole_numbers.is_empty() {
@@ -228,7 +232,8 @@ pub fn search_problem(
         let begun = rescued(desk, &problem, &x, (&lo, &hi), method);
         let from = begun.unwrap_or_else(|| x.clone());
         let method = if told.is_empty() { method } else { &carried_on };
-        match climb_all(desk, &problem, &from, (&lo, &hi), method) {
+        let felt_at: &[Vec<f64>] = if told.is_empty() { &felt_at } else { &[] };
+        match climb_all(desk, &problem, &from, felt_at, (&lo, &hi), method) {
             Ok(climbed) => {
                 evaluations += climbed.evaluations;
                 branch.tell(&climbed.best, climbed.evaluations);

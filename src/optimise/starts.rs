@@ -85,7 +85,7 @@ impl Optima {
 /// One climb of several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start {
-    /// Where it came from: `design`, `point 3`, `swarm`.
+    /// Where it came from: `design`, `point 3`, `swarm`, `level variable` (where one is felt that is not at the design).
     pub from: String,
     /// How it ended, or why it did not begin.
     pub ended: Result<Status, String>,
@@ -112,7 +112,7 @@ pub(super) fn rank(e: &Evaluation, tolerance: f64) -> (f64, f64) {
     if violation <= tolerance { (0.0, -e.least_margin()) } else { (violation, 0.0) }
 }
 
-/// Best of all climbs in the box; each climb's path depends on its own start alone, so neither the number of threads nor
+/// Best of all climbs in the box, from `x0`, from the points `felt_at` and from drawn ones; each climb's path depends on its own start alone, so neither the number of threads nor
 /// the order in which they end matters.
 ///
 /// # Errors
@@ -121,6 +121,7 @@ pub(super) fn climb_all(
     desk: &Desk,
     problem: &ClutchProblem,
     x0: &[f64],
+    felt_at: &[Vec<f64>],
     (lo, hi): (&[f64], &[f64]),
     method: &Method,
 ) -> Result<Climbed, Refusal> {
@@ -129,6 +130,7 @@ pub(super) fn climb_all(
     let mut spent_on_swarm = 0;
     // Margins go along where they are known: a climb that is stopped before it begins still has its start.
     let mut named = vec![("design".to_owned(), x0.to_vec(), None)];
+    named.extend(felt_at.iter().map(|x| ("level variable".to_owned(), x.clone(), None)));
     if let Some(evaluations) = method.swarm {
         desk.begins("particle swarm");
         let settings = &method.climb;
@@ -278,39 +280,61 @@ impl Points {
 /// Points at which a variable that moves nothing at the start is looked at again: as many as there are usually starts beside
 /// the design.
 const LOOKED_AT: usize = 7;
+/// Such variables that are put to their ends together: a choice, eight corners.
+const TOGETHER: usize = 3;
 
-/// Those of the variables `idle`, without influence at the start, that have none at points spread over the box either; and
-/// the evaluations that this took.
+/// Those of the variables `idle`, without influence at the start `x0`, that have none elsewhere either: with them at
+/// their ends, and at points spread over the box; the points at which one of the others is felt, from which to climb as well,
+/// because nothing draws a climb from the start there; and the evaluations that this took.
 pub(super) fn idle_everywhere(
     desk: &Desk,
     problem: &ClutchProblem,
     mut idle: Vec<usize>,
+    x0: &[f64],
     (lo, hi): (&[f64], &[f64]),
     method: &Method,
-) -> (Vec<usize>, usize) {
+) -> (Vec<usize>, Vec<Vec<f64>>, usize) {
+    let mut felt_at = Vec::new();
     if idle.is_empty() {
-        return (idle, 0);
+        return (idle, felt_at, 0);
     }
     let mut points = Points { next: 0, spent: 0 };
     // The same points whatever the seed: this is no draw.
     let unseeded = Method { seed: 0, ..method.clone() };
     let mut spent = 0;
-    for (x, _) in points.draw(desk, problem, (lo, hi), LOOKED_AT, &unseeded) {
-        // The others have no range, so that no difference is taken along them.
-        let only_idle = |bounds: &[f64]| -> Vec<f64> {
-            (0..x.len()).map(|i| if idle.contains(&i) { bounds[i] } else { x[i] }).collect()
-        };
-        let (lo, hi) = (only_idle(lo), only_idle(hi));
-        let found = desk.run(problem, |problem, run| influence(problem, &x, &lo, &hi, &method.climb, run));
-        let Ok(table) = found else { break };
-        spent += table.evaluations;
-        let without = table.without();
-        idle.retain(|i| without.contains(i));
-        if idle.is_empty() {
+    let level = idle.clone();
+    // A junction or an arc may be felt near one end of its range only, and only together with another.
+    let ends = (0..1_usize << level.len().min(TOGETHER)).map(|corner| {
+        let mut x = x0.to_vec();
+        for (bit, &i) in level.iter().take(TOGETHER).enumerate() {
+            x[i] = if corner >> bit & 1 == 0 { lo[i] } else { hi[i] };
+        }
+        (x, true)
+    });
+    let drawn = points.draw(desk, problem, (lo, hi), LOOKED_AT, &unseeded);
+    for (x, is_end) in ends.chain(drawn.into_iter().map(|(x, _)| (x, false))) {
+        if desk.stopped() || (!is_end && idle.is_empty()) {
             break;
         }
+        // The others have no range, so that no difference is taken along them.
+        let only_level = |bounds: &[f64]| -> Vec<f64> {
+            (0..x.len()).map(|i| if level.contains(&i) { bounds[i] } else { x[i] }).collect()
+        };
+        let (lo, hi) = (only_level(lo), only_level(hi));
+        let found = desk.run(problem, |problem, run| influence(problem, &x, &lo, &hi, &method.climb, run));
+        let Ok(table) = found else {
+            // No margins here.
+            spent += 1;
+            continue;
+        };
+        spent += table.evaluations;
+        let without = table.without();
+        if level.iter().any(|i| !without.contains(i)) {
+            felt_at.push(x.clone());
+        }
+        idle.retain(|i| without.contains(i));
     }
-    (idle, spent + points.spent)
+    (idle, felt_at, spent + points.spent)
 }
 
 /// A start with margins near `x0`: `x0` itself, or the best of some points of the box.
