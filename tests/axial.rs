@@ -4,7 +4,7 @@ use sprag_design::WedgeCurve;
 use sprag_design::contact::{Edge, Peak};
 use sprag_design::design::{Clutch, ContactLaw, Design, EndProfile, StressState};
 use sprag_design::scenario::place_profile;
-use sprag_design::wedge::{Along, Lengthwise, Side, along, knows_shape};
+use sprag_design::wedge::{Along, Lengthwise, Side, along};
 
 const SINGLE: &str = include_str!("../designs/huang2017-single-arc.toml");
 const ROLLER: &str = "law = \"roller\"\nroller_coefficient = 3.944e-5";
@@ -46,7 +46,7 @@ fn a_shape_softens_the_laws_that_know_it_and_only_those() {
         assert!((other / tilted - 1.0).abs() < 1e-9, "{other} {tilted}");
     }
     for law in [ROLLER, "law = \"din26281\""] {
-        assert!(!knows_shape(&clutch(law).contact));
+        assert!(!clutch(law).contact.facts().knows_shape);
         assert_eq!(windup_deg(&format!("{law}\n{shape}\n{tilt}")), windup_deg(law));
     }
 }

@@ -149,7 +149,9 @@ fn a_file_beside_the_output_replaces_neither_the_input_nor_somebody_elses() {
     let (new, beside) = (folder.path("better.toml"), folder.path("better.realised.toml"));
     std::fs::copy(MULTI, &beside).unwrap();
     let before = std::fs::read(&beside).unwrap();
-    for (design, word) in [(beside.as_str(), "never overwritten"), (MULTI, "not written by this command")] {
+    for (design, word) in
+        [(beside.as_str(), "never overwritten"), (MULTI, "no design file that sprag-design has written")]
+    {
         let out = search(design, &new, &[]);
         assert_eq!(out.status.code(), Some(2), "{}", said(&out));
         assert!(said(&out).contains("better.realised.toml") && said(&out).contains(word), "{}", said(&out));

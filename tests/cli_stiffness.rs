@@ -103,7 +103,9 @@ fn torques_beyond_the_end_are_named_not_refused() {
     assert!(number(&value["end"], "torque_nm") < 300.0);
     let table = std::fs::read_to_string(csv).unwrap();
     let lines: Vec<&str> = table.lines().collect();
-    assert_eq!(lines[0], format!("contact,{},state", KEYS.join(",")));
+    // The error stands in JSON alone.
+    let keys: Vec<&str> = KEYS.into_iter().filter(|key| *key != "hertz_inner_error_mpa").collect();
+    assert_eq!(lines[0], format!("contact,{},state", keys.join(",")));
     assert!(lines[1].starts_with("roller,50,") && lines[1].ends_with(",carried"), "{}", lines[1]);
     assert_eq!(lines[2], format!("roller,300{},beyond the end", ",".repeat(11)));
     assert!(stdout(&run(&["stiffness", MULTI, "--torques", "300"])).contains("beyond the end"));

@@ -55,6 +55,8 @@ fn measured(model: &Model, steady: &Overrun, ahead_rad_s: f64, expected: &Swing)
         rolling: false,
         energy: false,
         interrupt: None,
+        history: Default::default(),
+        clock: None,
     };
     let run = integrate(model, y, OVERRUNNING, &settings);
     assert_eq!((run.stop, run.events), (Stop::Finished, 0));

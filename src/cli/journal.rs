@@ -21,6 +21,7 @@ use std::collections::HashMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Names of the columns.
 const COLUMNS: [&str; 13] = [
@@ -293,8 +294,22 @@ impl JournalFile {
 /// The file at `path` and what it holds; there, if it was not, and locked for as long as it is open.
 fn locked(path: &Path) -> Result<(File, Vec<u8>), Failure> {
     let options = OpenOptions::new().read(true).append(true).create(true).to_owned();
+    if std::fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+        let why = "no regular file; name another one with --journal";
+        return Err(Failure::malformed(format!("{}: {why}", path.display())));
+    }
     let mut file = options.open(path).map_err(|e| named(path, &e))?;
-    match file.try_lock() {
+    // A search that is just ending lets go of it in a moment.
+    let mut tries = 0..25;
+    let lock = loop {
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) if tries.next().is_some() => {
+                std::thread::sleep(Duration::from_millis(20));
+            }
+            other => break other,
+        }
+    };
+    match lock {
         Ok(()) => {}
         Err(TryLockError::WouldBlock) => {
             let why = "another search is writing this journal; wait until it has ended, or name another file with --journal";

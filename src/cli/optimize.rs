@@ -104,6 +104,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     refuse_tolerance(args.tolerance)?;
     let new = output_path(args);
     let record = args.journal.clone().unwrap_or_else(|| journal::path_for(&new));
+    context.outputs.check(&[&args.file], &[(&new, Kind::Design), (&record, Kind::Journal)])?;
     let design = parts::read_design(&args.file, context)?;
     let histories = Histories::beside(&design, &new)?;
     let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
@@ -117,7 +118,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
     }
     let beside = beside(&new, &task, args);
-    let others: Vec<_> = [(new.as_path(), Kind::Design), (&record, Kind::Table)]
+    let others: Vec<_> = [(new.as_path(), Kind::Design), (&record, Kind::Journal)]
         .into_iter()
         .chain(beside.iter().map(|path| (path.as_path(), Kind::Design)))
         .collect();

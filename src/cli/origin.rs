@@ -18,8 +18,10 @@ const HEAD: u64 = 65_536;
 /// What is written into a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A table or journal, CSV.
+    /// A table, CSV.
     Table,
+    /// A journal, CSV: never replaced; whether it is one, and whose, says its own header when it is opened.
+    Journal,
     /// A page.
     Page,
     /// A design file.
@@ -53,6 +55,7 @@ impl Kind {
     pub fn noun(self) -> &'static str {
         match self {
             Self::Table => "table",
+            Self::Journal => "journal",
             Self::Page => "page",
             Self::Design => "design file",
             Self::Deck => "deck",
@@ -61,7 +64,7 @@ impl Kind {
 
     fn ending(self) -> &'static str {
         match self {
-            Self::Table => ".csv",
+            Self::Table | Self::Journal => ".csv",
             Self::Page => ".html or .htm",
             Self::Design => ".toml",
             Self::Deck => ".inp",
@@ -79,6 +82,7 @@ impl Kind {
         let noun = self.noun();
         match known {
             Some((_, Some(there))) if *there == self => Ok(()),
+            Some((_, Some(Self::Table))) if self == Self::Journal => Ok(()),
             Some((_, Some(there))) if path.exists() => {
                 Err(format!("is a {} already; a {noun} does not overwrite it", there.noun()))
             }
@@ -100,6 +104,7 @@ impl Kind {
             Self::Design => head.starts_with(WRITTEN_BY),
             Self::Page => head.starts_with(PAGE),
             Self::Deck => head.lines().take(8).any(|line| line.starts_with(DECK_FACT)),
+            Self::Journal => true,
             Self::Table => !is_history(head) && head.lines().next().is_some_and(is_our_header),
         }
     }

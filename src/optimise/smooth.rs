@@ -47,7 +47,10 @@ pub(super) fn load_rows(
                 // Where the sprag rolls over first some profile is left: then the shortfall begins there.
                 row.margin = left.max(0.0) + (end / torque).min(1.0).powf(power) - 1.0;
             }
-            "roll-over" => {}
+            "roll-over" => {
+                let torque = limits.peak_torque_nm.unwrap_or(end);
+                row.margin = curve.roll_over_torque_nm() / torque - 1.0;
+            }
             code => {
                 if let Some(there) = stresses.iter().find(|s| s.code == code) {
                     row.margin = there.margin;

@@ -68,7 +68,10 @@ mod tests {
         let settings = Settings { clock: Some(&OWN), ..Settings::default() };
         simulate(design.scenario("low-6").unwrap(), &settings).unwrap();
         let told = OWN.told();
-        assert!(told.t_s == 0.3 && told.pass >= 3 && told.run >= 1 && told.tolerance < 1e-5, "{told:?}");
+        assert!(
+            told.t_s > 0.29 && told.t_s <= 0.3 && told.pass >= 3 && told.run >= 1 && told.tolerance < 1e-5,
+            "{told:?}"
+        );
         let said = words("low-6", &Told { t_s: 0.1, run: 2, pass: 3, tolerance: 1e-6 });
         assert_eq!(said, "low-6: pass 3 (steps to 1e-6), run 2");
     }
