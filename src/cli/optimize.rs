@@ -189,7 +189,7 @@ fn aims(args: &OptimizeArgs) -> Result<Vec<Objective>, Failure> {
     let aims = args.pareto.clone();
     let twice = aims.iter().enumerate().any(|(i, a)| aims[..i].contains(a));
     if !aims.is_empty() && (twice || !(2..=3).contains(&aims.len())) {
-        return Err(Failure::malformed("--pareto: two or three different objectives are needed".to_owned()));
+        return Err(Failure::malformed("--pareto: two or three different objectives are needed"));
     }
     Ok(aims)
 }

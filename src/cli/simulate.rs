@@ -21,7 +21,7 @@ use crate::scenario::{
 };
 use clap::{Args, ValueEnum};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -123,7 +123,8 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&[&args.file], &[])?;
     refuse_senseless(args)?;
     let design = parts::read_design(&args.file, context)?;
-    let scenario = design.scenario(&args.scenario).ok_or_else(|| unknown(&args.scenario, &design))?;
+    let scenario =
+        design.scenario(&args.scenario).ok_or_else(|| unknown(&args.scenario, &design, &args.file))?;
     let duration = duration_s(scenario);
     if let (Method::Published, Some(duration), Some(step)) = (args.method, duration, args.step)
         && step > duration
@@ -312,15 +313,16 @@ fn refused(flag: &str, found: f64, allowed: &str) -> Failure {
 }
 
 /// The refusal of a scenario that the design does not have.
-pub(super) fn unknown(name: &str, design: &Design) -> Failure {
+pub(super) fn unknown(name: &str, design: &Design, file: &Path) -> Failure {
+    let file = file.display();
     let names: Vec<&str> = design.scenarios.iter().map(|s| s.name.as_str()).collect();
     let likeness = |candidate: &str| strsim::jaro_winkler(candidate, name);
     match names.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b))) {
         None => Failure::malformed(format!(
-            "--scenario {name}: the design has no scenarios; add a [[scenarios]] table"
+            "{file}: the design has no scenarios, --scenario {name} asks for one; add a [[scenarios]] table"
         )),
         Some(nearest) => Failure::malformed(format!(
-            "--scenario {name}: no such scenario; did you mean {nearest}? The design has: {}",
+            "{file}: no scenario {name}, which --scenario asks for; did you mean {nearest}? The design has: {}",
             names.join(", ")
         )),
     }

@@ -155,7 +155,6 @@ pub const LAWS: [LawFacts; 5] = [
                 }
             )
         },
-        ..ROLLER
     },
 ];
 

@@ -111,6 +111,9 @@ impl Evaluate for OneLimit<'_> {
     }
 }
 
+/// A number to be let go: which, its key, its unit, its value, and the range it is given.
+type Asked = (Number, String, &'static str, f64, (f64, f64));
+
 /// Every limit that bears on what does not hold or holds by a hair, and every dimension of the sprag that is no variable, let go one by one
 /// from the best design of `found`, which is infeasible.
 pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
@@ -122,7 +125,7 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
     let eased = |rows: &[Margin]| {
         tight.iter().any(|m| rows.iter().any(|r| r.code == m.code && r.margin > m.margin + 1e-9))
     };
-    let mut asked: Vec<(Number, String, &'static str, f64, (f64, f64))> = Vec::new();
+    let mut asked: Vec<Asked> = Vec::new();
     for key in &LIMIT_KEYS {
         let Some(value) = key.value(problem.limits()).filter(|v| *v > 0.0) else { continue };
         let felt = |share: f64| {
@@ -154,7 +157,7 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
     let (lo, hi) = found.bounds();
     let settings =
         Settings { max_evaluations: EVALUATIONS, poll: false, first_radius: 0.1, ..Settings::default() };
-    let let_go = |(number, key, unit, given, between): (Number, String, &'static str, f64, (f64, f64))| {
+    let let_go = |(number, key, unit, given, between): Asked| {
         let problem = match number {
             Number::Limit(_) => problem.clone(),
             Number::Dimension => {

@@ -69,6 +69,7 @@ const MAY_BE_NULL: &[&str] = &[
     "tolerances",
     "torque_capacity_nm",
     "verdict",
+    "warning",
     "why_not",
     "windup_rad",
     "written",
@@ -254,6 +255,11 @@ fn lines_of_evaluate(case: &Case, ran: &Ran, faults: &mut Vec<String>) {
     }
 }
 
+/// Length of the whole lines of a file.
+fn whole(bytes: &[u8]) -> usize {
+    bytes.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1)
+}
+
 /// What was there before is there still; what is new is asked for and whole.
 fn files(case: &Case, before: &Files, ran: &Ran, after: &Files, faults: &mut Vec<String>) {
     let written = |name: &str| case.outputs.iter().any(|output| name.starts_with(output.as_str()));
@@ -267,8 +273,7 @@ fn files(case: &Case, before: &Files, ran: &Ran, after: &Files, faults: &mut Vec
             Some(_) if name == FOREIGN.0 => faults.push("a foreign file was overwritten: letter.txt".into()),
             Some(new) if name == "j.csv" => {
                 // A journal only grows; a last line cut short may go.
-                let whole = old.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
-                if !new.starts_with(&old[..whole]) {
+                if !new.starts_with(&old[..whole(old)]) {
                     faults.push("the journal lost rows: j.csv".into());
                 }
             }
@@ -291,7 +296,10 @@ fn files(case: &Case, before: &Files, ran: &Ran, after: &Files, faults: &mut Vec
             faults.push(format!("left behind: {name}"));
         }
         let text = String::from_utf8_lossy(bytes);
-        if text.chars().any(|c| c == '\u{1b}' || c == '\0') {
+        // What a journal held before stays as it is, spoilt rows too: only what was written behind it is judged.
+        let kept =
+            before.0.get(name).filter(|_| name == "j.csv").map_or(0, |old| whole(old).min(bytes.len()));
+        if bytes[kept..].iter().any(|b| *b == 0x1b || *b == 0) {
             faults.push(format!("a raw control character in a file: {name}"));
         }
         if name.ends_with(".html") {

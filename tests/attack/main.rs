@@ -27,7 +27,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Cases of the short run.
-const SHORT: u64 = 60;
+const SHORT: u64 = 150;
 
 #[test]
 fn whole_commands_keep_their_promises() {
