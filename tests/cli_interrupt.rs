@@ -205,3 +205,19 @@ fn no_robust_design_is_exit_code_1() {
     assert!(said.lines().next().unwrap().contains("no "), "{said}");
     assert_eq!(out.status.code(), Some(1), "{said}{}", String::from_utf8_lossy(&out.stderr));
 }
+
+#[test]
+fn a_check_of_a_long_scene_is_stopped_within_the_scene() {
+    let folder = Folder::new();
+    // A minute at 1 kHz: some ten million steps, which nobody waits for here.
+    let scene = (
+        "frequency_hz = 100.0\nabutment_stiffness_nm_per_rad = 5000.0\nduration_s = 0.3",
+        "frequency_hz = 1000.0\nabutment_stiffness_nm_per_rad = 5000.0\nduration_s = 60.0",
+    );
+    let long = folder.changed(MULTI, &[scene]);
+    let child = started(&["check", &long]);
+    std::thread::sleep(Duration::from_secs(2));
+    ctrl_c(&child);
+    // Where the runs themselves do not hear it, it goes on for longer than `ended` waits.
+    assert_eq!(ended(child).status.code(), Some(130));
+}

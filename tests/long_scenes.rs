@@ -29,6 +29,8 @@ fn the_limits_of_work_grow_with_the_scene() {
     assert_eq!(limits(4.0, 100.0, &chosen), [200_000, 100_000]);
     assert_eq!(limits(60.0, 100.0, &chosen), [3_000_000, 1_500_000]);
     assert_eq!(limits(2.0, 1000.0, &chosen), [1_000_000, 500_000]);
+    // What nobody would wait for is asked for by name.
+    assert_eq!(limits(0.3, 1e9, &chosen), [10_000_000, 5_000_000]);
     let asked = Settings { most_steps: Some(7), most_events: Some(8), ..chosen };
     assert_eq!(limits(60.0, 100.0, &asked), [7, 8]);
 }

@@ -155,13 +155,17 @@ fn scene(
     interrupt: Interrupt,
     progress: &Progress,
 ) -> Option<(Vec<Margin>, f64)> {
-    let coarse = Settings::default();
+    let coarse = Settings { interrupt: Some(interrupt.flag()), ..Settings::default() };
     let fine = Settings { tolerance: 0.1 * coarse.tolerance, ..coarse };
     let required = design.check_scenarios.contains(&scenario.name);
     let at = |settings: &Settings| {
         (!interrupt.requested()).then(|| scene_margins(scenario, &design.limits, required, settings))
     };
     let (coarse, fine) = (at(&coarse)?, at(&fine)?);
+    // Rows of a run that was cut short are none.
+    if interrupt.requested() {
+        return None;
+    }
     let error = coarse.iter().zip(&fine).map(|(a, b)| (a.margin - b.margin).abs()).fold(0.0, f64::max);
     progress.advance(1);
     Some((fine, error))

@@ -118,7 +118,7 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
             context.answer(&format!("{why}\n"))?;
             if context.json {
                 super::output::print_json(
-                    &json!({ "tool": TOOL, "version": VERSION, "error": why.to_string() }),
+                    &json!({ "tool": TOOL, "version": VERSION, "error": { "message": why.to_string() } }),
                 )?;
             }
             return Ok(Exit::NotHeld);

@@ -305,8 +305,9 @@ fn finish(
     context.outputs.write_report(|| answer.page(context));
     answer.json().print(context)?;
     context.answer(&answer.text(context))?;
-    if !interrupted && !keep && file.failed.is_none() && context.outputs.unwritten().is_empty() {
-        // The search is over and its answer is safe: nothing is left to resume.
+    let whole = file.failed.is_none() && file.unused().is_none();
+    if !interrupted && !keep && whole && context.outputs.unwritten().is_empty() {
+        // The search is over and its answer is safe: nothing is left to resume, no row was promised to stay.
         file.discard();
     }
     Ok(if interrupted {

@@ -4,26 +4,30 @@ use super::optimize_story::{Part, Story};
 use crate::optimise::{Alone, Freed, Loosened, Relief};
 use crate::report::significant;
 
-/// "preload of high-10: 3.34 Nm must become at least 5.2 Nm".
+/// "at least 5.2001 Nm instead of 3.34 Nm": five digits, rounded to the side that frees.
+fn bound(needed: f64, given: f64, unit: &str) -> String {
+    let size = if needed == 0.0 { 1.0 } else { needed.abs() };
+    let digit = 10.0_f64.powi(size.log10().floor() as i32 - 4);
+    let (word, rounded) = match needed > given {
+        true => ("at least", (needed / digit).ceil() * digit),
+        false => ("at most", (needed / digit).floor() * digit),
+    };
+    let shown = |v: f64, digits: usize| format!("{} {unit}", significant(v, digits)).trim_end().to_owned();
+    format!("{word} {} instead of {}", shown(rounded, 5), shown(given, 5))
+}
+
+/// "preload in high-10: at least 5.2001 Nm instead of 3.34 Nm".
 pub fn freed_sentence(f: &Freed) -> String {
     let value = |v: f64| format!("{} {}", significant(v, 4), f.unit);
     match f.needed {
-        Some(v) if v >= f.given => {
-            format!("{} in {}: at least {} instead of {}", f.what, f.scenario, value(v), value(f.given))
-        }
-        Some(v) => {
-            format!("{} in {}: at most {} instead of {}", f.what, f.scenario, value(v), value(f.given))
-        }
+        Some(v) => format!("{} in {}: {}", f.what, f.scenario, bound(v, f.given, f.unit)),
         None => format!("{} in {}: no value up to {} frees it alone", f.what, f.scenario, value(f.tried_to)),
     }
 }
 
 /// "limits.hoop_inner_mpa: at least 541 MPa instead of 480 MPa", the variables chosen anew.
 pub fn loosened_sentence(l: &Loosened) -> Option<String> {
-    let value = |v: f64| format!("{} {}", significant(v, 4), l.unit).trim_end().to_owned();
-    let needed = l.needed?;
-    let bound = if needed > l.given { "at least" } else { "at most" };
-    Some(format!("{}: {bound} {} instead of {}", l.key, value(needed), value(l.given)))
+    Some(format!("{}: {}", l.key, bound(l.needed?, l.given, l.unit)))
 }
 
 /// "keep-contact: the variables hold it, but for the other limits: centroid_x_mm = -0.22".
@@ -68,4 +72,16 @@ pub fn relief_parts(story: &Story, relief: &Relief) -> Vec<Part> {
     .into_iter()
     .filter(|part| !part.lines.is_empty())
     .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bound;
+
+    #[test]
+    fn a_bound_is_rounded_to_the_side_that_frees() {
+        assert_eq!(bound(563.7042, 480.0, "MPa"), "at least 563.71 MPa instead of 480.00 MPa");
+        assert_eq!(bound(0.407_879, 0.45, ""), "at most 0.40787 instead of 0.45000");
+        assert_eq!(bound(-0.218_123, -0.2, "mm"), "at most \u{2212}0.21813 mm instead of \u{2212}0.20000 mm");
+    }
 }

@@ -46,6 +46,8 @@ const LEAST_STEPS: f64 = 200_000.0;
 const STEPS_PER_S: f64 = 50_000.0;
 /// Steps that it may take for a period of the excitation.
 const STEPS_OF_A_PERIOD: f64 = 500.0;
+/// Steps that it may take at most where nobody asks for more: some two minutes.
+const MOST_STEPS: f64 = 1e7;
 
 impl Default for Settings {
     fn default() -> Self {
@@ -68,7 +70,8 @@ impl Settings {
     pub fn limits(&self, prepared: &Prepared) -> [u64; 2] {
         let duration_s = prepared.duration_s;
         let periods = prepared.period_s.map_or(0.0, |period_s| duration_s / period_s);
-        let steps = LEAST_STEPS.max(STEPS_PER_S * duration_s).max(STEPS_OF_A_PERIOD * periods) as u64;
+        let steps =
+            LEAST_STEPS.max(STEPS_PER_S * duration_s).max(STEPS_OF_A_PERIOD * periods).min(MOST_STEPS) as u64;
         [self.most_steps.unwrap_or(steps), self.most_events.unwrap_or(steps / 2)]
     }
 }
