@@ -9,6 +9,7 @@ use std::path::Path;
 /// is none.
 const MAY_BE_NULL: &[&str] = &[
     "at_moved_s",
+    "bearing_stiffness_n_per_um",
     "best",
     "contact_lost_s",
     "contact_margin",
@@ -76,6 +77,7 @@ const MAY_BE_NULL: &[&str] = &[
     "warning",
     "why_not",
     "windup",
+    "windup_deg",
     "windup_local_only",
     "windup_rad",
     "written",

@@ -352,7 +352,7 @@ pub fn table(text: &str, rng: &mut Rng) -> Vec<u8> {
     let cells: Vec<(usize, &str)> = text
         .match_indices(|c: char| c.is_ascii_digit() || "+-.e".contains(c))
         .map(|(at, _)| at)
-        .filter(|&at| at == 0 || ",\n [".contains(&text[at - 1..at]))
+        .filter(|&at| at == 0 || b",\n [".contains(&text.as_bytes()[at - 1]))
         .map(|at| (at, &text[at..at + text[at..].find([',', '\n', ']']).unwrap_or(text.len() - at)]))
         .filter(|(_, cell)| cell.parse::<f64>().is_ok())
         .collect();
