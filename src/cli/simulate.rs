@@ -80,7 +80,7 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "M_PER_S", allow_hyphen_values = true, value_parser = positive)]
     pub band: Option<f64>,
     /// Most steps of one run, refused ones included; a run that meets the limit gives up [default: 50000 for a second of the
-    /// scene or 500 for a period, 200000 at least]
+    /// scene or 500 for a period, 200000 at least, 10000000 at most]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(1..))]
     pub max_steps: Option<u64>,
     /// Most changes of mode of one run; a run that meets the limit gives up [default: half as many as steps]
