@@ -52,9 +52,8 @@ fn beside_the_published_scheme() {
         samples: 0,
         rolling: false,
         energy: false,
-        interrupt: None,
         history: Default::default(),
-        clock: None,
+        follow: Default::default(),
     };
     let scheme = PublishedSettings { duration_s: p.duration_s, step_s: 1e-5, band_m_s: 1e-4, samples: 0 };
     let [mut ours, mut theirs] = [Vec::new(), Vec::new()];

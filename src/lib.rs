@@ -13,6 +13,7 @@
 //! |---|---|---|
 //! | 0 | [`numeric`] | duals, bracketed roots, quadrature, Chebyshev panels; never heard of a clutch |
 //! | 0 | [`ode`] | Runge-Kutta steps with dense output and work counters |
+//! | 0 | [`follow`] | one handle to follow and to stop whatever computes |
 //! | 1 | [`material`] | elastic constants, density, a library of steels |
 //! | 1 | [`profile`] | tangent arcs, outline, mass properties, crowding of neighbours |
 //! | 1 | [`race`] | growth and hoop stress of rings, press fits, body compression |
@@ -29,8 +30,12 @@
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
 //! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |
 //! | 4 | [`size`] | a first design from bore, torque, speed, safety, friction |
+//! | 4 | [`compare`] | designs side by side: what differs in their files, and what comes of it |
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
-//! | 5 | [`export`] | a clutch as a finite-element deck, and the solver's result read back |
+//! | 5 | [`export`] | a clutch as drawing, solid, table or finite-element deck, and the solver's result read back |
+//! | 5 | [`import`] | a drawn or measured outline as arcs and flanks |
+//! | 5 | [`answer`] | what a library user and a program get: figures, errors, notes, what was left out |
+//! | 5 | [`studio`] | the live page: a text in, margins, curves, pictures, a scene's course out |
 //! | 5 | [`cli`] | paths, printing, exit codes |
 //!
 //! # Conventions
@@ -53,7 +58,7 @@
 //! All are on by default; with `default-features = false` the library is built alone.
 //!
 //! * `cli`: the room [`cli`] and the command `sprag-design`; needs `report`.
-//! * `report`: the room [`report`].
+//! * `report`: the rooms [`report`], [`answer`], whose words have units, and [`studio`].
 //! * `faer`: scattered slices of a contact are solved by the crate faer; without it by nalgebra, slower for thousands
 //!   of slices and with other roundings. The matrix of Eq. (2) as a whole is there with it alone.
 //!
@@ -78,20 +83,25 @@
 //!
 //! // Margins: every limit of the file.
 //! let rows = margins(&design, &design.limits, &[], false, false, &Settings::default())?;
-//! assert!(rows.iter().any(|row| row.code.starts_with("hertz")));
+//! assert!(rows.iter().any(|row| row.code() == "hertz-peak-inner"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 pub mod accuracy;
+#[cfg(feature = "report")]
+pub mod answer;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod compare;
 pub mod contact;
 pub mod design;
 pub mod dynamics;
 pub mod export;
 pub mod fidelity;
+pub mod follow;
 pub mod friction;
 pub mod identify;
+pub mod import;
 pub mod kinematics;
 pub mod margin;
 pub mod material;
@@ -104,10 +114,13 @@ pub mod race;
 pub mod report;
 pub mod scenario;
 pub mod size;
+#[cfg(feature = "report")]
+pub mod studio;
 pub mod wedge;
 
 pub use design::{Clutch, ContactLaw, Design, DesignError, Limits, Scenario, ScenarioKind};
 pub use dynamics::Stop;
+pub use follow::Follow;
 pub use margin::{Margin, NoMargins, margins};
 pub use material::Material;
 pub use optimise::{NoSearch, Search, search};

@@ -36,9 +36,8 @@ fn a_sequence_without_end_is_closed_at_its_limit() {
         samples: 2,
         rolling: false,
         energy: false,
-        interrupt: None,
         history: Default::default(),
-        clock: None,
+        follow: Default::default(),
     };
     let r = run(&p.model, p.state, p.mode, &settings);
     let times: Vec<f64> = r.modes.iter().map(|m| m.0).collect();

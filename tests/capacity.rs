@@ -15,7 +15,7 @@ fn rows(keys: &str) -> (Design, Vec<Margin>) {
 }
 
 fn row<'a>(rows: &'a [Margin], code: &str) -> &'a Margin {
-    rows.iter().find(|r| r.code == code).unwrap_or_else(|| panic!("no row {code}"))
+    rows.iter().find(|r| r.code() == code).unwrap_or_else(|| panic!("no row {code}"))
 }
 
 /// Johnson, Contact Mechanics, 4.2: tau_1 = 0.30 p_0 at 0.78 a, and on the axis
@@ -33,16 +33,16 @@ fn shear_below_the_outer_contact_is_johnsons() {
     let a = (4.0 * line_load * radius_m / (PI * modulus_pa)).sqrt();
     let p0 = 2.0 * line_load / (PI * a);
     let largest = row(&rows, "subsurface-outer");
-    assert!((largest.demand * 1e6 / (0.3003 * p0) - 1.0).abs() < 1e-3, "{largest:?}");
+    assert!((largest.demand_in_unit().unwrap() * 1e6 / (0.3003 * p0) - 1.0).abs() < 1e-3, "{largest:?}");
     assert!(largest.name.contains(&format!("{:.3} mm deep", 0.78615 * a * 1e3)), "{}", largest.name);
     let s = a.hypot(depth_m);
     let across = -(p0 / a) * ((a * a + 2.0 * depth_m * depth_m) / s - 2.0 * depth_m);
     let down = -p0 * a / s;
     let core = row(&rows, "subsurface-core-outer");
     assert!(depth_m > 0.78615 * a, "the case is to reach below the largest shear");
-    assert!((core.demand * 1e6 / (0.5 * (across - down)) - 1.0).abs() < 1e-9, "{core:?}");
+    assert!((core.demand_in_unit().unwrap() * 1e6 / (0.5 * (across - down)) - 1.0).abs() < 1e-9, "{core:?}");
     // The contact at A is narrower: its shear is larger near the surface and fades sooner.
-    assert!(row(&rows, "subsurface-inner").demand > largest.demand);
+    assert!(row(&rows, "subsurface-inner").demand_in_unit().unwrap() > largest.demand_in_unit().unwrap());
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn a_capacity_by_shear_is_the_torque_at_which_no_margin_is_left() {
         let design = Design::parse(&there, "there.toml").unwrap();
         let state = load_state(&design).unwrap();
         assert!(at < state.curve.end_torque_nm(), "{code} is not reached");
-        let margin = row(&load_margins(&design, &design.limits, false, &state), code).margin;
+        let margin = row(&load_margins(&design, &design.limits, false, &state), code).margin();
         assert!(margin.abs() < 1e-8, "{code}: {margin} at {at} N m");
     }
 }
@@ -79,15 +79,15 @@ fn an_axial_load_takes_its_share_of_the_friction() {
         // Torque of one sprag over the radius; the races have grown by some 1e-4 of it.
         let tangential_n: f64 = 110.0 / 12.0 / radius_m;
         let want = (tangential_n * tangential_n + each_n * each_n).sqrt() / normal_n;
-        let got = row(&with, code).demand;
+        let got = row(&with, code).demand_in_unit().unwrap();
         assert!((got / want - 1.0).abs() < 5e-3, "{code}: {got} against {want}");
-        let plain = row(&without, code).demand;
+        let plain = row(&without, code).demand_in_unit().unwrap();
         let exact = (plain * plain + (each_n / normal_n).powi(2)).sqrt();
         assert!(got > plain && (got / exact - 1.0).abs() < 1e-12, "{code}: {got} against {exact}");
     }
     // More than friction can ever hold.
     let (_, over) = rows("axial_load_n = 1e6");
-    assert!(row(&over, "grip-inner").margin < 0.0);
+    assert!(row(&over, "grip-inner").margin() < 0.0);
     assert_eq!(row(&over, "grip-inner").torque_capacity_nm, Some(0.0));
 }
 
@@ -123,8 +123,8 @@ fn the_body_is_a_prism_under_an_eccentric_strut() {
     let (width, length) = (5.05e-3, 6e-3);
     let want = force_n / (width * length) * (1.0 + 6.0 * e / width);
     let got = row(&rows, "body-yield");
-    println!("F {force_n} N, e {} mm, {} MPa", e * 1e3, got.demand);
-    assert!((got.demand * 1e6 / want - 1.0).abs() < 2e-4, "{got:?} against {want}");
+    println!("F {force_n} N, e {} mm, {} MPa", e * 1e3, got.demand_in_unit().unwrap());
+    assert!((got.demand_in_unit().unwrap() * 1e6 / want - 1.0).abs() < 2e-4, "{got:?} against {want}");
     assert!(got.torque_capacity_nm.unwrap() > 110.0);
 }
 
@@ -132,14 +132,14 @@ fn the_body_is_a_prism_under_an_eccentric_strut() {
 #[test]
 fn the_torque_from_which_an_axial_load_is_carried_leaves_no_friction() {
     let (design, rows) = rows("axial_load_n = 1500.0");
-    let from = row(&rows, "axial-from").demand;
+    let from = row(&rows, "axial-from").demand_in_unit().unwrap();
     let p = load_state(&design).unwrap().curve.at_torque(from).unwrap();
     let left = |normal_n: f64, tangent: f64| 12.0 * normal_n * (0.12f64 * 0.12 - tangent * tangent).sqrt();
     let least = left(p.normal_inner_n, p.tan_omega).min(left(p.normal_outer_n, p.tan_nu));
     println!("axial load carried from {from} Nm");
     assert!((least / 1500.0 - 1.0).abs() < 1e-6, "{least} N at {from} N m");
     assert!(!row(&rows, "axial-from").required);
-    assert!(row(&self::rows("").1, "grip-inner").demand > 0.0);
+    assert!(row(&self::rows("").1, "grip-inner").demand_in_unit().unwrap() > 0.0);
 }
 
 /// Sprags turn until they touch: clearance by the outline at the torque named, with none left.

@@ -142,7 +142,7 @@ fn evaluate_ends_when_its_reader_has_gone() {
     answers.read_line(&mut String::new()).unwrap();
     drop(answers);
     let out = ended(child);
-    assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+    assert_eq!(out.status.code(), Some(141), "{}", String::from_utf8_lossy(&out.stderr));
     assert!(out.stderr.is_empty(), "{}", String::from_utf8_lossy(&out.stderr));
     assert!(writer.join().unwrap().is_err());
 }

@@ -103,6 +103,30 @@ fn a_scene_that_opens_the_contact_is_infeasible_and_says_why() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
+#[test]
+fn the_end_of_a_search_says_what_it_began_with_and_what_would_carry_it_on() {
+    let folder = folder("words");
+    let new = folder.join("new.toml");
+    let line = |design: &str, evaluations: &str| {
+        let flags = ["--starts", "1", "-q", "--evaluations", evaluations];
+        let out = tool(&[&["optimize", design, "-o", new.to_str().unwrap()], &flags[..]].concat());
+        String::from_utf8(out.stdout).unwrap().lines().next().unwrap_or_default().to_owned()
+    };
+    let short = line("designs/huang2017-single-arc.toml", "12");
+    assert!(
+        short.starts_with("no feasible design found") && short.contains("--evaluations raises"),
+        "{short}"
+    );
+    assert!(
+        short.contains("worst margin of this nearest design: ") && short.ends_with("%, hoop-inner"),
+        "{short}"
+    );
+    let found = line(DESIGN, "500");
+    assert!(found.contains("every limit held (the start did not hold 1 limit: keep-contact)"), "{found}");
+    assert!(found.contains("-> 0.40787 (exact to the digits shown)"), "{found}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
 /// `flank_rear_mm` moves only the neighbours' clearance; with flanks named it is searched, and a variable that
 /// moves nothing is named and dropped: the width in (6) of a law that holds the bulk itself.
 #[test]

@@ -399,3 +399,25 @@ fn slices_show_the_pressure_along_the_length() {
     assert!(page.contains("Pressure along the sprag by 60 slices"));
     let _ = (std::fs::remove_file(csv), std::fs::remove_file(html));
 }
+
+#[test]
+fn what_never_varies_has_no_time_and_refused_numbers_are_plain() {
+    let tail = "\n[[scenarios]]\nname = \"steady-pull\"\nkind = \"transient\"\npreload_nm = 20.0\ntorque_step_nm = 0.0\n\
+                step_time_s = 0.01\nabutment_stiffness_nm_per_rad = 5000.0\nduration_s = 0.02\n";
+    let steady = Changed::new("steady", tail);
+    let said = text(&simulate(steady.path(), "steady-pull", &[]).stdout);
+    for row in ["smallest normal force, inner", "largest normal force, inner", "largest |T|/N, inner"] {
+        assert!(said.contains(&format!("{row} (throughout)")), "{said}");
+    }
+    let swings = text(&simulate(DESIGN, "high-6", &[]).stdout);
+    assert!(
+        swings.contains("largest normal force, inner (at ") && !swings.contains("throughout"),
+        "{swings}"
+    );
+    for (flags, word) in
+        [(["--window", "5:6"], "--window 5:6: allowed"), (["--band", "6"], "--band 6: allowed")]
+    {
+        let said = text(&simulate(DESIGN, "high-6", &flags).stderr);
+        assert!(said.contains(word), "{said}");
+    }
+}

@@ -29,13 +29,48 @@ fn help_and_version_answer_on_standard_output() {
 
 #[test]
 fn misuse_is_code_2_with_nothing_on_standard_output() {
-    for args in
-        [&[][..], &["frob"], &["check"], &["check", "Cargo.toml", "--json", "--csv", "no-such-folder/a.csv"]]
-    {
+    for args in [
+        &[][..],
+        &["frob"],
+        &["check"],
+        &["check", "Cargo.toml", "--json", "--frob"],
+        &["check", "Cargo.toml", "--json", "--threads", "many"],
+        &["check", "Cargo.toml", "--csv", "no-such-folder/a.csv"],
+    ] {
         let output = run(args);
         assert_eq!(output.status.code(), Some(2), "{args:?}");
         assert!(output.stdout.is_empty() && !output.stderr.is_empty(), "{args:?}");
         assert!(!text(&output.stderr).contains('\u{1b}'), "NO_COLOR, {args:?}");
+    }
+}
+
+/// What is refused once the arguments are read is one JSON object for whoever asked for one.
+#[test]
+fn with_json_a_refused_argument_is_the_same_error_object_as_a_refused_design() {
+    const MULTI: &str = "designs/huang2017-multi-arc.toml";
+    const BARE: &str = "designs/huang2017-bench.toml";
+    let scene = ["simulate", MULTI, "--scenario", "high-6"];
+    for (args, word) in [
+        (&["check", "Cargo.toml", "--csv", "no-such-folder/a.csv"][..], "no-such-folder"),
+        (&["check", "no-such.toml"], "no such file"),
+        (&["optimize", BARE, "-o", "never.toml"], "no [optimize] table"),
+        (&["optimize", MULTI, "-o", MULTI], "never overwritten"),
+        (&["optimize", MULTI, "-o", "never.toml", "--journal", "Cargo.toml"], "Cargo.toml"),
+        (&["optimize", MULTI, "-o", "never.toml", "--pareto", "windup"], "two or three"),
+        (&["simulate", MULTI, "--scenario", "none"], "no scenario none"),
+        (&[&scene[..], &["--window", "5:6"]].concat(), "--window"),
+        (&["identify", MULTI, "--data", "no-such.csv", "--unknown", "r_i1_mm:3:4"], "no-such.csv"),
+        (&["export", MULTI, "--format", "calculix", "-o", MULTI], "never overwritten"),
+    ] {
+        let output = run(&[args, &["--json"]].concat());
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {}", text(&output.stderr));
+        let out = text(&output.stdout);
+        let answer: serde_json::Value =
+            serde_json::from_str(&out).unwrap_or_else(|e| panic!("{args:?}: {e}: {out}"));
+        assert!(answer["tool"] == "sprag-design" && answer["version"].is_string(), "{args:?}: {out}");
+        let message = answer["error"]["message"].as_str().unwrap_or_default();
+        assert!(message.contains(word), "{args:?}: {out}");
+        assert!(!output.stderr.is_empty(), "{args:?}: standard error says it in words");
     }
 }
 

@@ -87,9 +87,8 @@ fn below_the_friction_that_was_bisected_the_scene_does_not_stick() {
                     samples: 0,
                     rolling: false,
                     energy: false,
-                    interrupt: None,
                     history: Default::default(),
-                    clock: None,
+                    follow: Default::default(),
                 },
             );
             let slipped = r.inner.net_m - r.engaged.unwrap().inner.net_m;
@@ -122,7 +121,7 @@ fn what_a_contact_that_holds_is_asked_for_converges() {
         println!(
             "{tolerance:e}: {:.9}, {off:e} off, {:e} stated",
             s.peaks.tan_outer,
-            s.error.unwrap().tan_demand[1]
+            s.error.unwrap().tan_outer
         );
         assert!(s.tolerance_reached && off < tolerance);
     }

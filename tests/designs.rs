@@ -274,7 +274,7 @@ fn a_design_with_neither_width_nor_flanks_is_a_design() {
     let settings = Settings::default();
     let codes = |design: &Design| -> Vec<String> {
         let rows = margins(design, &design.limits, &[], false, false, &settings);
-        rows.unwrap_or_else(|e| panic!("{e}")).into_iter().map(|row| row.code).collect()
+        rows.unwrap_or_else(|e| panic!("{e}")).into_iter().map(|row| row.code()).collect()
     };
     for text in [without(&["width_mm = 5.05"]), MULTI.replacen("width_mm = 5.05", "width_mm = 0.0 ", 1)] {
         let open = parse(&text);
@@ -298,8 +298,8 @@ fn the_scenarios_that_the_examples_check_hold() {
         let rows = rows.unwrap_or_else(|e| panic!("{e}"));
         for name in &design.check_scenarios {
             for code in [format!("slip:{name}"), format!("contact:{name}")] {
-                let row = rows.iter().find(|row| row.code == code).unwrap_or_else(|| panic!("no {code}"));
-                assert!(row.required && row.margin > 0.0, "{}: {row:?}", design.name);
+                let row = rows.iter().find(|row| row.code() == code).unwrap_or_else(|| panic!("no {code}"));
+                assert!(row.required && row.margin() > 0.0, "{}: {row:?}", design.name);
             }
         }
     }

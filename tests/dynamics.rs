@@ -1,5 +1,6 @@
 //! Dynamics of the paper's scenes: converged figures, the published scheme beside them, energy, overrun.
 
+use sprag_design::Follow;
 use sprag_design::design::{Clutch, ContactLaw, Design, Scenario, ScenarioKind, StressState};
 use sprag_design::dynamics::{
     Grip, Loads, Mode, Model, Place, PublishedSettings, Run, RunSettings, Stop, alpha_max_rad, overrun,
@@ -31,9 +32,8 @@ fn settings(tolerance: f64, duration_s: f64, samples: usize) -> RunSettings {
         samples,
         rolling: false,
         energy: false,
-        interrupt: None,
         history: Default::default(),
-        clock: None,
+        follow: Default::default(),
     }
 }
 
@@ -193,8 +193,9 @@ fn a_stiff_race_does_not_hold_the_steps() {
 
 #[test]
 fn a_run_can_be_stopped_from_outside() {
-    static FLAG: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(true);
-    let s = Settings { interrupt: Some(&FLAG), ..Settings::default() };
+    let follow = Follow::new();
+    follow.stop();
+    let s = Settings { follow, ..Settings::default() };
     let stopped = simulate(&scene("high-10"), &s).unwrap();
     assert_eq!((stopped.stop, stopped.verdict, stopped.t_s), (Stop::Interrupted, None, 0.0));
     assert!(stopped.error.is_none() && stopped.demand.is_none());

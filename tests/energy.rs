@@ -43,9 +43,8 @@ fn changed(
         samples: 0,
         rolling: false,
         energy: true,
-        interrupt: None,
         history: Default::default(),
-        clock: None,
+        follow: Default::default(),
     };
     let r = run(&p.model, p.state, p.mode, &settings);
     (r.energy.unwrap(), r.open_s, r.outer.distance_m)

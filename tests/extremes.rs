@@ -60,7 +60,9 @@ fn answered(name: &str, text: &str) -> Design {
     assert!(rows.len() >= 14, "{name}: {} rows", rows.len());
     for row in &rows {
         assert!(
-            row.demand.is_finite() && row.allowable.is_finite() && row.margin.is_finite(),
+            row.demand.value().is_none_or(f64::is_finite)
+                && row.allowable.is_finite()
+                && row.margin().is_finite(),
             "{name}: {row:?}"
         );
         assert!(row.torque_capacity_nm.is_none_or(|t| t.is_finite() && t >= 0.0), "{name}: {row:?}");
@@ -79,7 +81,7 @@ fn answered(name: &str, text: &str) -> Design {
         Err(why) => format!("not started: {why}"),
     };
     for row in scene_margins(scene, &design.limits, true, &Settings::default()) {
-        assert!(!row.margin.is_nan() && !row.demand.is_nan(), "{name}: {row:?}");
+        assert!(!row.margin().is_nan() && !row.demand.value().is_some_and(f64::is_nan), "{name}: {row:?}");
     }
     let end_nm = state.curve.end_torque_nm();
     println!("{name}: curve to {end_nm:.4e} Nm ({}), lift-off {off:?} rad/s, low-6 {ends}", end.name());

@@ -187,12 +187,14 @@ fn a_history_lies_with_its_design_and_no_other_file_is_shown() {
     let outside = Folder::new();
     std::fs::write(outside.path("secret"), secret).unwrap();
     std::fs::write(folder.path("inside"), secret).unwrap();
+    std::fs::write(folder.path("below"), format!("time_s,torque_nm\n0,1\n{}", secret.repeat(30))).unwrap();
     std::os::unix::fs::symlink(outside.path("secret"), folder.path("link.csv")).unwrap();
     for (name, word) in [
         (outside.path("secret").as_str(), "leaves the folder"),
         ("../secret", "leaves the folder"),
         ("link.csv", "a link that leaves the folder"),
         ("inside", "another first line"),
+        ("below", "below:3:1: found 1 fields"),
     ] {
         let output = run(&["check", &with_history(&folder, name), "--json"]);
         assert_eq!(output.status.code(), Some(2), "{name}");

@@ -21,9 +21,8 @@ fn runs(scene: &Scenario, tolerances: &[f64]) -> Vec<Run> {
             samples: 0,
             rolling: false,
             energy: false,
-            interrupt: None,
             history: Default::default(),
-            clock: None,
+            follow: Default::default(),
         };
         run(&p.model, p.state, p.mode, &settings)
     };

@@ -24,7 +24,7 @@ fn rows(design: &Design) -> Vec<Margin> {
 }
 
 fn row<'a>(rows: &'a [Margin], code: &str) -> &'a Margin {
-    rows.iter().find(|r| r.code == code).unwrap_or_else(|| panic!("no row {code}"))
+    rows.iter().find(|r| r.code() == code).unwrap_or_else(|| panic!("no row {code}"))
 }
 
 /// Lame (Timoshenko, Strength of Materials II, art. 41) with Table 1's radii: u = p R/E [(b^2 + a^2)/(b^2 - a^2) +- nu] under
@@ -44,9 +44,9 @@ fn the_gap_opens_as_lames_rings_do() {
         let by_hand = growth(p.normal_inner_n, 11.11e-3, (inner.0 + inner.1) / (inner.0 - inner.1), -0.3)
             + growth(p.normal_outer_n, 19.44e-3, (outer.0 + outer.1) / (outer.0 - outer.1), 0.3);
         let r = row(&all, code);
-        assert!((r.demand / (1e3 * by_hand) - 1.0).abs() < 1e-12, "{r:?} {by_hand}");
+        assert!((r.demand_in_unit().unwrap() / (1e3 * by_hand) - 1.0).abs() < 1e-12, "{r:?} {by_hand}");
         // The allowable is an opening too: 8.33 mm are there at rest.
-        assert!((r.allowable - (gap_mm - 8.33)).abs() < 1e-9 && r.unit == "mm", "{r:?}");
+        assert!((r.allowable_in_unit() - (gap_mm - 8.33)).abs() < 1e-9 && r.limit.unit == "mm", "{r:?}");
     }
 }
 
@@ -60,14 +60,14 @@ fn equivalent_stresses_are_von_mises_of_lame() {
     let hoop = po * (26.23f64.powi(2) + 19.44f64.powi(2)) / (26.23f64.powi(2) - 19.44f64.powi(2));
     // Principal stresses hoop, -p, 0.
     let outer = (0.5 * ((hoop + po).powi(2) + po * po + hoop * hoop)).sqrt();
-    assert!((row(&all, "equivalent-outer").demand / outer - 1.0).abs() < 1e-12);
+    assert!((row(&all, "equivalent-outer").demand_in_unit().unwrap() / outer - 1.0).abs() < 1e-12);
     let bore = 2.0 * pi * 11.11f64.powi(2) / (11.11f64.powi(2) - 7.21f64.powi(2));
-    assert!((row(&all, "equivalent-inner").demand / bore - 1.0).abs() < 1e-12);
+    assert!((row(&all, "equivalent-inner").demand_in_unit().unwrap() / bore - 1.0).abs() < 1e-12);
     // A solid shaft is pressed evenly: -p, -p, 0.
     let solid = self::design(KEYS, &[("inner_bore_radius_mm = 7.21 ", "inner_bore_radius_mm = 0.0 ")]);
     let p = load_state(&solid).unwrap().curve.at_torque(90.0).unwrap();
     let want = pressure(p.normal_inner_n, 11.11e-3);
-    assert!((row(&rows(&solid), "equivalent-inner").demand / want - 1.0).abs() < 1e-12);
+    assert!((row(&rows(&solid), "equivalent-inner").demand_in_unit().unwrap() / want - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn a_capacity_is_the_torque_at_which_no_margin_is_left_and_the_least_is_the_nomi
                 ("peak_torque_nm = 110.0", &format!("peak_torque_nm = {at}")),
             ],
         );
-        let margin = row(&rows(&there), code).margin;
+        let margin = row(&rows(&there), code).margin();
         assert!(margin.abs() < 1e-8, "{code}: {margin} at {at} N m");
         if code != "gap-peak" {
             least = least.min(at);

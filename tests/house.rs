@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 const MAY_USE: &[(&str, &[&str])] = &[
     ("numeric", &[]),
     ("ode", &[]),
+    // What is given to every computation from outside: it knows none.
+    ("follow", &[]),
     ("material", &[]),
     ("profile", &["material", "numeric"]),
     ("race", &["material", "numeric"]),
@@ -20,31 +22,49 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("contact", &["material", "numeric"]),
     ("friction", &["numeric", "design"]),
     ("wedge", &["numeric", "material", "profile", "design", "kinematics", "contact", "race"]),
-    ("dynamics", &["numeric", "ode", "design", "kinematics", "friction", "wedge"]),
+    ("dynamics", &["follow", "numeric", "ode", "design", "kinematics", "friction", "wedge"]),
     // A scenario may be given another friction law, so it names that law.
-    ("scenario", &["numeric", "design", "profile", "friction", "wedge", "dynamics"]),
+    ("scenario", &["follow", "numeric", "design", "profile", "friction", "wedge", "dynamics"]),
     ("fidelity", &["numeric", "design", "profile", "contact", "wedge", "dynamics", "scenario"]),
-    ("accuracy", &["design", "dynamics", "scenario", "fidelity"]),
+    ("accuracy", &["follow", "design", "dynamics", "scenario", "fidelity"]),
     (
         "margin",
         &["numeric", "contact", "race", "design", "profile", "kinematics", "wedge", "dynamics", "scenario"],
     ),
     // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
     // real, and a tolerance felt, on the profile itself.
-    ("optimise", &["numeric", "profile", "design", "scenario", "fidelity", "margin"]),
+    ("optimise", &["follow", "numeric", "profile", "design", "scenario", "fidelity", "margin"]),
     // Asks for margins and static points as they are; knows no law.
-    ("identify", &["numeric", "design", "wedge", "margin"]),
+    ("identify", &["follow", "numeric", "design", "wedge", "margin"]),
     // A first design: proportions, then whatever the margins say.
     ("size", &["design", "profile", "scenario", "margin"]),
+    // Files beside one another, then whatever the margins say.
+    ("compare", &["design", "profile", "wedge", "scenario", "margin"]),
     // Units and drawings: a profile to draw, no physics.
-    ("report", &["profile"]),
+    ("report", &["profile", "design"]),
     // A finite-element deck is a whole clutch, and its own curve says how far to turn it.
     ("export", &["material", "profile", "design", "wedge"]),
+    // An outline is a profile and flanks; races are two radii, so no design.
+    ("import", &["profile"]),
+    // What is computed is put into words and units here: all but the command.
+    (
+        "answer",
+        &[
+            "follow", "profile", "design", "wedge", "dynamics", "scenario", "fidelity", "margin", "optimise",
+            "report",
+        ],
+    ),
+    // Questions about the text of a design, and their answers as a page shows them.
+    (
+        "studio",
+        &["answer", "follow", "design", "wedge", "dynamics", "scenario", "margin", "optimise", "report"],
+    ),
     (
         "cli",
         &[
-            "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity", "accuracy",
-            "margin", "optimise", "identify", "size", "report", "export",
+            "answer", "follow", "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity",
+            "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export", "import",
+            "studio",
         ],
     ),
 ];

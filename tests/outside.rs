@@ -58,9 +58,8 @@ fn another_integrator_comes_to_the_same_angle_through_the_public_modes() {
             samples: 0,
             rolling: false,
             energy: false,
-            interrupt: None,
             history: Default::default(),
-            clock: None,
+            follow: Default::default(),
         };
         let ours = run(&p.model, p.state, p.mode, &settings);
         let (theta, changes) = by_hand(&p);

@@ -54,9 +54,8 @@ fn measured(model: &Model, steady: &Overrun, ahead_rad_s: f64, expected: &Swing)
         samples: periods as usize * 200 + 1,
         rolling: false,
         energy: false,
-        interrupt: None,
         history: Default::default(),
-        clock: None,
+        follow: Default::default(),
     };
     let run = integrate(model, y, OVERRUNNING, &settings);
     assert_eq!((run.stop, run.events), (Stop::Finished, 0));

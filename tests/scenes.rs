@@ -25,9 +25,8 @@ fn run_at(p: &Prepared, tolerance: f64, samples: usize) -> Run {
         samples,
         rolling: false,
         energy: false,
-        interrupt: None,
         history: Default::default(),
-        clock: None,
+        follow: Default::default(),
     };
     run(&p.model, p.state, p.mode, &settings)
 }

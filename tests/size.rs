@@ -82,7 +82,7 @@ fn the_width_is_the_shortest_that_the_limits_allow() {
     let shorter = Design::parse(&text, "shorter.toml").unwrap();
     let state = load_state(&shorter).unwrap();
     let rows = load_margins(&shorter, &shorter.limits, false, &state);
-    let least = rows.iter().filter(|r| r.required).map(|r| r.margin).fold(f64::INFINITY, f64::min);
+    let least = rows.iter().filter(|r| r.required).map(|r| r.margin()).fold(f64::INFINITY, f64::min);
     assert!(least < 0.02, "{least}");
     // The smallest ring of those that do it.
     let smallest = sized.tried.iter().filter(|t| t.held).map(|t| t.volume_m3).fold(f64::INFINITY, f64::min);

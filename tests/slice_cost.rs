@@ -5,7 +5,7 @@ use std::time::Instant;
 use sprag_design::contact::{AxialFit, EndProfile, LineContact, RollerLaw, SliceContact};
 
 #[test]
-#[ignore = "a measurement, printed; the bound is ten times what was measured"]
+#[ignore = "a measurement, printed"]
 fn cost_of_a_slice_solution() {
     let c = LineContact::external(11.11e-3, 4.02e-3, 6e-3, 113e9).unwrap();
     let roller = RollerLaw::new(&c, 3.944e-5).unwrap();
@@ -33,6 +33,5 @@ fn cost_of_a_slice_solution() {
             cost(EndProfile::table(wave.clone()).unwrap(), 0.0, 150.0),
         ];
         println!("{n:>7} {:>12.4} {:>12.4} {:>12.4} {:>12.4}", times[0], times[1], times[2], times[3]);
-        assert!(n < 2000 || times[..2].iter().all(|t| *t < 1000.0));
     }
 }

@@ -5,14 +5,15 @@ use std::panic::catch_unwind;
 use std::path::Path;
 
 use rayon::prelude::*;
-use sprag_design::Design;
 use sprag_design::accuracy::{Case, Judged, Outcome, WorkLimit, cases, judge, map};
 use sprag_design::design::Clutch;
+use sprag_design::{Design, Follow};
 
 const SEED: u64 = 1;
 const COUNT: usize = 150;
 /// Small, so that the test takes seconds: what is tested is that limits are kept, not that they are not met.
-const LIMIT: WorkLimit = WorkLimit { tolerance: 1e-6, most_steps: 2_000, most_events: 500, interrupt: None };
+const LIMIT: WorkLimit =
+    WorkLimit { tolerance: 1e-6, most_steps: 2_000, most_events: 500, follow: Follow::nobody() };
 /// Right-hand sides of one case, both answers: far below what a case could take if a limit were not kept.
 const MOST_RHS: u64 = 12_000_000;
 

@@ -2,7 +2,7 @@
 //! steps are a thousand times finer.
 
 use sprag_design::design::{Design, Scenario, ScenarioKind};
-use sprag_design::scenario::{ErrorEstimate, Settings, Simulation, simulate};
+use sprag_design::scenario::{ErrorEstimate, FIGURES, Settings, Simulation, simulate};
 use std::path::Path;
 
 /// The scenes of the paper, the bench's (engagement, torque step, in and out), and a friction that falls within 0.1 mm/s.
@@ -30,30 +30,8 @@ fn at(scenario: &Scenario, tolerance: f64) -> Simulation {
     simulate(scenario, &Settings { tolerance, ..Settings::default() }).unwrap()
 }
 
-fn figures(e: &ErrorEstimate) -> [(&'static str, f64); 21] {
-    [
-        ("theta_bi", e.theta_inner_rad),
-        ("theta_be", e.theta_outer_rad),
-        ("offset", e.offset_rad),
-        ("net slip", e.net_slip_m),
-        ("net slip at B", e.net_slip_outer_m),
-        ("path of slip", e.slip_distance_m[0]),
-        ("path of slip at B", e.slip_distance_m[1]),
-        ("time of slip", e.slip_time_s[0]),
-        ("time of slip at B", e.slip_time_s[1]),
-        ("time without contact", e.contact_lost_s),
-        ("|T|/N", e.tan_demand[0]),
-        ("|T|/N at B", e.tan_demand[1]),
-        ("N_min", e.normal_min_n),
-        ("N_max", e.normal_max_n),
-        ("N_be, max", e.normal_outer_max_n),
-        ("Hertz pressure", e.hertz_peak_pa),
-        ("least Hertz pressure", e.hertz_least_pa),
-        ("initial slip", e.initial_slip_s),
-        ("friction needed", e.required_friction),
-        ("slip margin", e.slip_margin),
-        ("contact margin", e.contact_margin),
-    ]
+fn figures(e: &ErrorEstimate) -> Vec<(&'static str, f64)> {
+    FIGURES.iter().map(|figure| (figure.words, (figure.error)(e))).collect()
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod study;
 
 use std::error::Error;
 
+use sprag_design::Follow;
 use sprag_design::design::Design;
 use sprag_design::identify::{Settings, Unknown, identify, observations};
 
@@ -37,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let data = observations(&rows::observations(&all, every))?;
         let settings = Settings { starts, seed: 1, evaluations: 160 };
         let at = std::time::Instant::now();
-        let found = identify(&series, &data, unknowns, &settings, None)?;
+        let found = identify(&series, &data, unknowns, &settings, &Follow::nobody())?;
         eprintln!("{name}: {:.0} s, {} evaluations", at.elapsed().as_secs_f64(), found.evaluations);
         Case::new(name, found, &all)
     };

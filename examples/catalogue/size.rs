@@ -40,7 +40,7 @@ impl Size {
     pub(crate) fn capacity(&self, codes: &[&str]) -> f64 {
         let rows = load_margins(&self.design, &self.design.limits, true, &self.state);
         let each =
-            rows.iter().filter(|r| codes.contains(&r.code.as_str())).filter_map(|r| r.torque_capacity_nm);
+            rows.iter().filter(|r| codes.contains(&r.code().as_str())).filter_map(|r| r.torque_capacity_nm);
         each.fold(f64::INFINITY, f64::min)
     }
 

@@ -97,16 +97,16 @@ fn figures(ran: &[Ran]) -> Table {
         ("net slip inside, µm", |r| with_error(1e6 * r.run.inner.net_m, 1e6 * e(r).net_slip_m)),
         ("net slip outside, µm", |r| with_error(1e6 * r.run.outer.net_m, 1e6 * e(r).net_slip_outer_m)),
         ("slip path inside, µm", |r| {
-            with_error(1e6 * r.run.inner.distance_m, 1e6 * e(r).slip_distance_m[0])
+            with_error(1e6 * r.run.inner.distance_m, 1e6 * e(r).slip_distance_inner_m)
         }),
         ("slip path outside, µm", |r| {
-            with_error(1e6 * r.run.outer.distance_m, 1e6 * e(r).slip_distance_m[1])
+            with_error(1e6 * r.run.outer.distance_m, 1e6 * e(r).slip_distance_outer_m)
         }),
-        ("time in slip inside, ms", |r| with_error(1e3 * r.run.inner.time_s, 1e3 * e(r).slip_time_s[0])),
+        ("time in slip inside, ms", |r| with_error(1e3 * r.run.inner.time_s, 1e3 * e(r).slip_time_inner_s)),
         ("slips inside between, ms", |r| slip_ms(&r.run).into()),
         ("smallest N, N", |r| with_error(r.run.peaks.normal_min_n, e(r).normal_min_n)),
         ("time open, ms", |r| with_error(1e3 * r.run.contact_lost_s, 1e3 * e(r).contact_lost_s)),
-        ("largest |T|/N inside", |r| with_error(r.run.peaks.tan_inner, e(r).tan_demand[0])),
+        ("largest |T|/N inside", |r| with_error(r.run.peaks.tan_inner, e(r).tan_inner)),
         ("static friction needed to stick", |r| match r.run.demand.and_then(|d| d.required_friction) {
             Some(mu) => with_error(mu, e(r).required_friction),
             None => "none suffices: opens".into(),

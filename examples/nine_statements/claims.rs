@@ -241,9 +241,8 @@ fn inner_above_outer(page: &mut Page, multi: &Design) -> Anyhow<()> {
             most_steps: 200_000,
             samples: SAMPLES,
             rolling: true,
-            interrupt: None,
             history: Default::default(),
-            clock: None,
+            follow: Default::default(),
         };
         let rolled = rolling(&p.model, p.state, p.mode.place, &settings).run;
         let peaks = |p: &Peaks| [p.tan_inner, p.tan_outer, p.normal_min_n];

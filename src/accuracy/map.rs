@@ -1,17 +1,16 @@
 //! One case of the stability map: run, run again at half the tolerance, compared.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use rayon::prelude::*;
 
 use super::cases::Case;
 use crate::design::Clutch;
 use crate::dynamics::Stop;
 use crate::fidelity;
-use crate::scenario::{NoScenario, Settings, Simulation, Verdict};
+use crate::follow::Follow;
+use crate::scenario::{FIGURES, NoScenario, Settings, Simulation, Verdict};
 
 /// What one case may cost.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct WorkLimit {
     /// As [`Settings::tolerance`].
     pub tolerance: f64,
@@ -19,14 +18,14 @@ pub struct WorkLimit {
     pub most_steps: u64,
     /// Changes of mode of one run.
     pub most_events: u64,
-    /// Set from outside to end the runs.
-    pub interrupt: Option<&'static AtomicBool>,
+    /// Ends the runs.
+    pub follow: Follow,
 }
 
 impl Default for WorkLimit {
     /// A tenth of the command's own limit of steps: most cases need a thousandth of it.
     fn default() -> Self {
-        Self { tolerance: 1e-6, most_steps: 20_000, most_events: 5_000, interrupt: None }
+        Self { tolerance: 1e-6, most_steps: 20_000, most_events: 5_000, follow: Follow::nobody() }
     }
 }
 
@@ -143,7 +142,7 @@ impl Judged {
 /// `done` is called after each. Once interrupted, those that were finished.
 pub fn map(clutch: &Clutch, cases: &[Case], limit: &WorkLimit, done: &(dyn Fn() + Sync)) -> Vec<Judged> {
     let one = |case: &Case| {
-        if limit.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+        if limit.follow.stopped() {
             return None;
         }
         let judged = judge(clutch, case, limit);
@@ -161,7 +160,7 @@ pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
             tolerance,
             most_steps: Some(limit.most_steps),
             most_events: Some(limit.most_events),
-            interrupt: limit.interrupt,
+            follow: limit.follow.unseen(),
             ..Settings::default()
         };
         fidelity::simulate(&scenario, &settings, false).map(|p| p.simulation)
@@ -225,16 +224,11 @@ fn not_finite(s: &Simulation) -> Option<&'static str> {
         ("demand.slip_margin", demand(|d| d.slip_margin)),
         ("demand.contact_margin", demand(|d| d.contact_margin)),
         ("demand.normal_max_n", demand(|d| d.normal_max_n[0] + d.normal_max_n[1])),
-        ("error.angles", e.theta_inner_rad + e.theta_outer_rad + e.offset_rad),
-        ("error.slip", e.net_slip_m + e.net_slip_outer_m + e.slip_distance_m[0] + e.slip_distance_m[1]),
-        ("error.times", e.slip_time_s[0] + e.slip_time_s[1] + e.contact_lost_s),
-        ("error.normal", e.normal_min_n + e.normal_max_n + e.hertz_peak_pa),
-        ("error.demand", e.tan_demand[0] + e.tan_demand[1] + e.required_friction),
-        ("error.margins", e.slip_margin + e.contact_margin),
         ("spread_rad", s.spread_rad[1] - s.spread_rad[0]),
         ("fastest_rad_s", s.fast_motion.map_or(0.0, |f| f.rate_rad_s)),
     ]
     .into_iter()
+    .chain(FIGURES.iter().map(|figure| (figure.words, (figure.error)(&e))))
     .find(|(_, value)| !value.is_finite())
     .map(|(name, _)| name)
 }

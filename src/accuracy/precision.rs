@@ -1,11 +1,11 @@
 //! Work-precision of one scene: error of theta_bi and of the slip margin over right-hand sides and over time.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::design::Scenario;
 use crate::dynamics::{PublishedSettings, Run, RunSettings, Stop, published, run};
 use crate::fidelity::{self, Plan};
+use crate::follow::Follow;
 use crate::scenario::{NoScenario, Prepared, Settings, Simulation, demand, prepare, simulate_prepared};
 
 /// What is compared.
@@ -19,8 +19,8 @@ pub struct PrecisionSettings {
     pub bands_m_s: Vec<f64>,
     /// Time spent on repeating one setting, s.
     pub repeat_s: f64,
-    /// Set from outside to end the comparison.
-    pub interrupt: Option<&'static AtomicBool>,
+    /// Ends the comparison.
+    pub follow: Follow,
 }
 
 impl Default for PrecisionSettings {
@@ -33,7 +33,7 @@ impl Default for PrecisionSettings {
             steps_s: vec![1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7],
             bands_m_s: vec![1e-3, 1e-4, 1e-5],
             repeat_s: 0.1,
-            interrupt: None,
+            follow: Follow::nobody(),
         }
     }
 }
@@ -180,7 +180,7 @@ struct Bench<'a> {
 
 impl Bench<'_> {
     fn interrupted(&self) -> bool {
-        self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed))
+        self.settings.follow.stopped()
     }
 
     fn longest_step_s(&self, per_period: f64) -> f64 {
@@ -198,9 +198,8 @@ impl Bench<'_> {
             most_steps: MOST,
             samples: 0,
             rolling: false,
-            interrupt: self.settings.interrupt,
             history: Default::default(),
-            clock: None,
+            follow: self.settings.follow.unseen(),
         };
         run(&p.model, p.state, p.mode, &s)
     }
@@ -212,14 +211,14 @@ impl Bench<'_> {
             tolerance: 10.0 * tolerance,
             longest_step_s: Some(self.longest_step_s(per_period)),
             most_steps: Some(MOST),
-            interrupt: self.settings.interrupt,
+            follow: self.settings.follow.unseen(),
             ..Settings::default()
         };
         (self.run(tolerance, per_period), demand(&self.full, &s).slip_margin)
     }
 
     fn answer(&self, prepared: &Prepared, tolerance: f64, reduced: bool) -> Simulation {
-        let s = Settings { tolerance, interrupt: self.settings.interrupt, ..Settings::default() };
+        let s = Settings { tolerance, follow: self.settings.follow.unseen(), ..Settings::default() };
         simulate_prepared(prepared, &s, reduced)
     }
 

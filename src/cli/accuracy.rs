@@ -11,7 +11,7 @@ use super::left_out::left_out;
 use super::parts::{self, Answer};
 use super::{Context, positive};
 use crate::accuracy::{self, Judged, Precision, PrecisionSettings, WorkLimit, cases};
-use crate::design::{Design, Scenario, ScenarioKind};
+use crate::design::{Design, Scenario};
 use body::Body;
 use clap::Args;
 use serde_json::json;
@@ -97,7 +97,7 @@ pub fn run(args: &AccuracyArgs, context: &Context) -> Result<Exit, Failure> {
 }
 
 fn is_torsional(scenario: &Scenario) -> bool {
-    matches!(scenario.kind, ScenarioKind::TorsionalExcitation { .. })
+    scenario.kind.frequency_hz().is_some()
 }
 
 fn chosen<'a>(args: &AccuracyArgs, design: &'a Design) -> Result<Vec<&'a Scenario>, Failure> {
@@ -124,8 +124,8 @@ fn chosen<'a>(args: &AccuracyArgs, design: &'a Design) -> Result<Vec<&'a Scenari
 
 /// Everything asked for, or as much of it as was finished before Ctrl-C.
 fn study(args: &AccuracyArgs, context: &Context, design: &Design, scenarios: &[&Scenario]) -> Study {
-    let interrupt = Some(context.interrupt.flag());
-    let mut settings = PrecisionSettings { interrupt, ..PrecisionSettings::default() };
+    let follow = context.follow.clone();
+    let mut settings = PrecisionSettings { follow: follow.clone(), ..PrecisionSettings::default() };
     // A hair of room: 1e-7 as typed and as listed are the same step.
     settings.steps_s.retain(|&s| s >= 0.999 * args.min_step);
     let progress =
@@ -140,13 +140,13 @@ fn study(args: &AccuracyArgs, context: &Context, design: &Design, scenarios: &[&
         }
     }
     drop(progress);
-    let limit = WorkLimit { interrupt, ..WorkLimit::default() };
+    let limit = WorkLimit { follow, ..WorkLimit::default() };
     let wanted = cases(args.seed, args.cases as usize);
     let progress = context.progress("stability map", "cases", Some(u64::from(args.cases)));
     let start = Instant::now();
     let cases = accuracy::map(&design.clutch, &wanted, &limit, &|| progress.advance(1));
     drop(progress);
     let map_time_s = start.elapsed().as_secs_f64();
-    let interrupted = context.interrupt.requested();
+    let interrupted = context.follow.stopped();
     Study { scenes, without_start, seed: args.seed, limit, cases, map_time_s, interrupted }
 }

@@ -23,7 +23,7 @@ side by side, as --threads says, with the same answers for any number of threads
 maximises); limits (each must be 0 or more); least, the least objective; violation, the largest -limit or 0; feasible.
 Where x is out of bounds or there is no clutch at it: x and refused, the reason. A line that is no such array: malformed, and exit code 2 at
 the end. --describe tells names, bounds and start first. Ctrl-C ends at once (exit code 130), and so does a reader that
-goes away.";
+goes away before the last answer (exit code 141, as of programs that a closed pipe ends).";
 
 /// Arguments of `evaluate`.
 #[derive(Debug, Clone, Args)]
@@ -69,7 +69,7 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
         let (value, is_malformed) = said?;
         malformed |= is_malformed;
         if !output::heard(&format!("{value}\n"))? {
-            break;
+            return Ok(Exit::Unheard);
         }
     }
     Ok(if malformed { Exit::Malformed } else { Exit::Held })
@@ -100,7 +100,7 @@ fn read_lines(asked: &Arc<(ClutchProblem, Optimize)>, queue: &SyncSender<Receive
 /// What comes next, looked for often enough that Ctrl-C is heard; `None` where nothing more comes.
 fn next<T>(from: &Receiver<T>, context: &Context) -> Result<Option<T>, Failure> {
     loop {
-        if context.interrupt.requested() {
+        if context.follow.stopped() {
             return Err(Failure::Interrupted);
         }
         match from.recv_timeout(Duration::from_millis(20)) {

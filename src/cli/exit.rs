@@ -17,6 +17,8 @@ pub enum Exit {
     Failed,
     /// 130: stopped by Ctrl-C (128 + SIGINT); what had been found is written.
     Interrupted,
+    /// 141: whoever read the answers of `evaluate` has gone before the last (128 + SIGPIPE, which other programs die of).
+    Unheard,
 }
 
 impl Exit {
@@ -28,6 +30,7 @@ impl Exit {
             Self::Malformed => 2,
             Self::Failed => 3,
             Self::Interrupted => 130,
+            Self::Unheard => 141,
         }
     }
 }
@@ -57,19 +60,20 @@ impl Failure {
         Self::Malformed(miette::Report::msg(shown(message.as_ref())))
     }
 
-    /// For programs: `message`; of a refused design file also `file` and `problems`. Nothing for misuse of the command line,
-    /// which asks no question.
-    pub fn to_json(&self) -> Option<Value> {
-        let message = |text: &str| json!({ "message": text });
-        match self {
-            Self::Malformed(report) => {
-                let mut refused = report.downcast_ref::<DesignError>()?.to_json();
-                refused.as_object_mut()?.insert("message".to_owned(), report.to_string().into());
-                Some(refused)
-            }
-            Self::Failed(text) | Self::NoClutch(text) => Some(message(text)),
-            Self::Interrupted => Some(message("stopped")),
-        }
+    /// For programs: `message`; of a refused design file also `file` and `problems`.
+    pub fn to_json(&self) -> Value {
+        let message = match self {
+            Self::Malformed(report) => report.to_string(),
+            Self::Failed(text) | Self::NoClutch(text) => text.clone(),
+            Self::Interrupted => "stopped".to_owned(),
+        };
+        let refused = match self {
+            Self::Malformed(report) => report.downcast_ref::<DesignError>(),
+            _ => None,
+        };
+        let mut error = refused.map_or_else(|| json!({}), DesignError::to_json);
+        error["message"] = message.into();
+        error
     }
 
     /// The code that goes with it.
@@ -89,7 +93,8 @@ mod tests {
     #[test]
     fn the_codes_are_those_promised() {
         let codes =
-            [Exit::Held, Exit::NotHeld, Exit::Malformed, Exit::Failed, Exit::Interrupted].map(Exit::code);
-        assert_eq!(codes, [0, 1, 2, 3, 130]);
+            [Exit::Held, Exit::NotHeld, Exit::Malformed, Exit::Failed, Exit::Interrupted, Exit::Unheard]
+                .map(Exit::code);
+        assert_eq!(codes, [0, 1, 2, 3, 130, 141]);
     }
 }

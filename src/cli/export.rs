@@ -1,35 +1,91 @@
 //! `export`: the design for other programs, and their results read back.
 
+mod deck;
+mod geometry;
 mod result;
 
 use super::exit::{Exit, Failure};
 use super::origin::Kind;
-use super::{Context, output, parts, positive};
-use crate::design::Design;
-use crate::export::calculix::{Options, Variant, deck};
-use crate::margin::NoMargins;
-use crate::profile::Outline;
-use crate::scenario::place_profile;
+use super::{Context, parts, positive};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
+  sprag-design export designs/starter.toml --format dxf -o sprag.dxf
+  sprag-design export designs/starter.toml --format step --part clutch -o clutch.step
+  sprag-design export designs/starter.toml --format svg --part clutch -o clutch.svg
+  sprag-design export designs/starter.toml --format csv -o arcs.csv
+  sprag-design export designs/starter.toml --format csv --table points --deviation-mm 0.001 -o points.csv
   sprag-design export designs/huang2017-single-arc.toml --format calculix --torque 26.8 -o clutch.inp
   ccx -i clutch
   sprag-design export designs/huang2017-single-arc.toml --format calculix --read clutch.dat --torques 3.34,10,16.8
   sprag-design export designs/huang2017-multi-arc.toml --format calculix --variant solid --mesh 0.05 -o solid.inp
 
-The deck holds one sector, meshed, and needs nothing else. CalculiX: apt-get install calculix-ccx.";
+Drawings, solids and tables are in mm, at first contact without load, as made: before press fits, at the reference temperature.
+A sprag has its origin in C_e, y outward; races and clutch lie about the axis O. Seen so, the clutch engages when the inner race
+turns counterclockwise against the outer one. dxf: release 12, closed polylines with bulges for exact arcs, layers SPRAG, RACES,
+CENTRES, CENTRE_LINES, ARC_ENDS, TEXT. step: AP214, prisms with square ends; the clutch is an assembly.
 
-/// Layers along half a sprag's length in a solid deck.
-const SOLID_LAYERS: usize = 4;
+A deck holds one sector, meshed, and needs nothing else. CalculiX: apt-get install calculix-ccx.";
 
 /// Formats.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
+    /// Drawing, true arcs on named layers
+    Dxf,
+    /// Solid for CAD, true cylinders
+    Step,
+    /// Drawing at full size, true arcs
+    Svg,
+    /// Table of arcs, or of points on them
+    Csv,
     /// Finite-element deck of one sector for CalculiX
     Calculix,
+}
+
+impl Format {
+    fn kind(self) -> Kind {
+        match self {
+            Self::Dxf => Kind::Dxf,
+            Self::Step => Kind::Step,
+            Self::Svg => Kind::Svg,
+            Self::Csv => Kind::Table,
+            Self::Calculix => Kind::Deck,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Dxf => "dxf",
+            Self::Step => "step",
+            Self::Svg => "svg",
+            Self::Csv => "csv",
+            Self::Calculix => "calculix",
+        }
+    }
+}
+
+/// Parts by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PartName {
+    /// One sprag
+    Sprag,
+    /// The inner race
+    Inner,
+    /// The outer race
+    Outer,
+    /// Both races and all sprags
+    Clutch,
+}
+
+/// Tables by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TableName {
+    /// Centre, radius, angles and ends of every arc and flank
+    Arcs,
+    /// Points on the surfaces
+    Points,
 }
 
 /// Variants of the deck by name.
@@ -58,25 +114,34 @@ pub struct ExportArgs {
     /// The file to write [default: standard output]
     #[arg(short, long, value_name = "PATH", conflicts_with = "read")]
     pub output: Option<PathBuf>,
-    /// Where the material is held along the axis
-    #[arg(long, value_enum, default_value_t = VariantName::Layer)]
-    pub variant: VariantName,
-    /// Spacing of the mesh at the contacts, mm
-    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = positive, default_value = "0.025")]
-    pub mesh: f64,
-    /// Torque to be reached, Nm [default: the design's nominal torque]
+    /// dxf, step, svg, csv: which part [default: sprag]
+    #[arg(long, value_enum)]
+    pub part: Option<PartName>,
+    /// csv: which table [default: arcs]
+    #[arg(long, value_enum)]
+    pub table: Option<TableName>,
+    /// csv, points: the most that a chord between two points leaves its arc, mm [default: 0.001]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = positive)]
+    pub deviation_mm: Option<f64>,
+    /// calculix: where the material is held along the axis [default: layer]
+    #[arg(long, value_enum)]
+    pub variant: Option<VariantName>,
+    /// calculix: spacing of the mesh at the contacts, mm [default: 0.025]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = positive)]
+    pub mesh: Option<f64>,
+    /// calculix: torque to be reached, Nm [default: the design's nominal torque]
     #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = positive)]
     pub torque: Option<f64>,
-    /// Increments of the turning step [default: 12, more where the contacts travel far]
+    /// calculix: increments of the turning step [default: 12, more where the contacts travel far]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub increments: Option<usize>,
-    /// Coefficient of friction of the deck; it is to stick, the design's own is not used
-    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = positive, default_value = "0.3")]
-    pub friction: f64,
-    /// Read this result of ccx instead of writing; the deck is looked for beside it, as .inp
+    /// calculix: coefficient of friction of the deck; it is to stick, the design's own is not used [default: 0.3]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = positive)]
+    pub friction: Option<f64>,
+    /// calculix: read this result of ccx instead of writing; the deck is looked for beside it, as .inp
     #[arg(long, value_name = "RESULT.dat")]
     pub read: Option<PathBuf>,
-    /// Torques at which the result is read, Nm, comma separated [default: every increment]
+    /// calculix: torques at which the result is read, Nm, comma separated [default: every increment]
     #[arg(long, value_name = "NM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',', requires = "read")]
     pub torques: Vec<f64>,
 }
@@ -86,63 +151,38 @@ pub struct ExportArgs {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
+    refuse_meaningless(args)?;
     let inputs: Vec<_> = std::iter::once(&args.file).chain(&args.read).map(PathBuf::as_path).collect();
-    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), Kind::Deck)).collect();
+    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), args.format.kind())).collect();
     context.outputs.check(&inputs, &others)?;
     let design = parts::read_design(&args.file, context)?;
-    if let Some(dat) = &args.read {
-        return result::run(&design, dat, &args.torques, context);
-    }
-    if context.json || context.outputs.csv.is_some() || context.outputs.report.is_some() {
-        return Err(Failure::malformed("a deck is neither JSON, table nor page: those come with --read"));
-    }
-    let text = text(&design, args)?;
-    match &args.output {
-        Some(path) => {
-            if context.outputs.write(path, Kind::Deck, text.as_bytes()) {
-                context.message(&format!(
-                    "{}: {} variant, {:.1} MB; next: ccx -i {}",
-                    path.display(),
-                    variant(args.variant).name(),
-                    text.len() as f64 * 1e-6,
-                    path.with_extension("").display()
-                ));
-            }
-        }
-        None => output::print(&text)?,
-    }
-    Ok(Exit::Held)
-}
-
-fn variant(name: VariantName) -> Variant {
-    match name {
-        VariantName::PlaneStrain => Variant::PlaneStrain,
-        VariantName::PlaneStress => Variant::PlaneStress,
-        VariantName::Layer => Variant::Layer,
-        VariantName::Solid => Variant::Solid { layers: SOLID_LAYERS },
+    match (&args.read, args.format) {
+        (Some(dat), _) => result::run(&design, dat, &args.torques, context),
+        (None, Format::Calculix) => deck::run(&design, args, context),
+        (None, _) => geometry::run(&design, args, context),
     }
 }
 
-fn text(design: &Design, args: &ExportArgs) -> Result<String, Failure> {
-    let clutch = &design.clutch;
-    let torque_nm = args
-        .torque
-        .or(design.limits.nominal_torque_nm)
-        .ok_or_else(|| Failure::malformed("--torque is needed: the design names no nominal torque"))?;
-    let profile = place_profile(clutch).map_err(|e| parts::no_clutch(&args.file, &NoMargins::Profile(e)))?;
-    let outline = match clutch.sprags.flanks {
-        Some(flanks) => Outline::closed(&profile, &flanks),
-        None => Outline::narrowest(&profile),
+/// Refuse flags that mean nothing to the format.
+fn refuse_meaningless(args: &ExportArgs) -> Result<(), Failure> {
+    let deck = args.format == Format::Calculix;
+    let points = args.table == Some(TableName::Points);
+    let given = [
+        ("part", args.part.is_some(), !deck, "dxf, step, svg, csv"),
+        ("table", args.table.is_some(), args.format == Format::Csv, "csv"),
+        ("deviation-mm", args.deviation_mm.is_some(), points, "csv with --table points"),
+        ("variant", args.variant.is_some(), deck, "calculix"),
+        ("mesh", args.mesh.is_some(), deck, "calculix"),
+        ("torque", args.torque.is_some(), deck, "calculix"),
+        ("increments", args.increments.is_some(), deck, "calculix"),
+        ("friction", args.friction.is_some(), deck, "calculix"),
+        ("read", args.read.is_some(), deck, "calculix"),
+    ];
+    match given.into_iter().find(|(_, given, means, _)| *given && !means) {
+        Some((flag, _, _, of)) => Err(Failure::malformed(format!(
+            "--{flag} has no meaning here (--format {}): it belongs to --format {of}; leave it out",
+            args.format.name()
+        ))),
+        None => Ok(()),
     }
-    .map_err(|e| parts::no_clutch(&args.file, &NoMargins::Outline(e)))?;
-    let options = Options {
-        variant: variant(args.variant),
-        mesh_m: 1e-3 * args.mesh,
-        torque_nm,
-        friction: args.friction,
-        increments: args.increments,
-        ..Options::default()
-    };
-    deck(clutch, &profile, &outline, &options, &design.hash)
-        .map_err(|e| Failure::malformed(format!("{}: no deck: {e}", args.file.display())))
 }

@@ -13,7 +13,7 @@ use super::parts::{self, Answer};
 use crate::design::{Design, MOST_TABLE, read_text};
 use crate::identify::{Identified, NoFit, Settings, SoFar, Unknown, identify, observations};
 use crate::report::Screen;
-use body::{Body, estimates, residuals, sentences, verdict};
+use body::{Body, estimates, in_short, residuals, sentences, verdict};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -31,9 +31,11 @@ its standard error as <column>_sigma, without which all count in proportion; dot
 design, such as races.inner_radius_mm; label; use = fit, check (compared only) or skip.
 
 An unknown counts as determined where its 95 % interval is narrower than its bounds and, within bounds of one sign, than its
-value, and no correlation with another exceeds 0.9999. Bounds are those of --unknown; those in [optimize] bind optimize alone.
+value, and no correlation with another exceeds 0.99: beyond, an error of the model of 1 % moves each of the two by up to 7 %
+or more, and they are determined only together. An unknown that moves nothing in the data is said to, keeps the file's value,
+and the others are judged without it. Whole numbers, such as sprags.count, are refused. Bounds are those of --unknown; those in [optimize] bind optimize alone.
 
-Exit codes: 0 every unknown is determined; 1 the data leave one undetermined, or no design fits between the bounds; 130
+Exit codes: 0 every unknown is determined; 1 the data leave one undetermined, or determine two only together, or no design fits between the bounds; 130
 stopped by Ctrl-C, the best design so far is told, and written where -o names a file.";
 
 /// Arguments of `identify`.
@@ -106,7 +108,7 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
         settings.seed
     ));
     let started = Instant::now();
-    let found = identify(&design, &data, &args.unknown, &settings, Some(context.interrupt.flag()));
+    let found = identify(&design, &data, &args.unknown, &settings, &context.follow);
     let run_time_s = started.elapsed().as_secs_f64();
     let found = match found {
         Ok(found) => found,
@@ -200,7 +202,7 @@ fn new_file(design: &Design, found: &Identified, context: &Context) -> String {
         .zip(&found.knowledge.estimates)
         .map(|((u, before), e)| {
             let width = e.half_width.map_or(String::new(), |w| format!(" +- {w:.3e} (95 %)"));
-            let doubt = if e.doubt.is_some() { ", not determined" } else { "" };
+            let doubt = e.doubt.map_or(String::new(), |doubt| format!(", {}", in_short(found, doubt)));
             format!("#   {}: {} -> {}{width}{doubt}\n", u.name, before, e.value)
         })
         .collect();

@@ -2,43 +2,28 @@
 
 use super::exit::Exit;
 use super::output;
-use std::sync::atomic::{AtomicBool, Ordering};
+use crate::follow::Follow;
+use std::sync::{Mutex, Once, PoisonError};
 
-static STOP: AtomicBool = AtomicBool::new(false);
+/// What Ctrl-C stops now: a program that carries this one may run several commands, one after another.
+static NOW: Mutex<Follow> = Mutex::new(Follow::nobody());
 
-/// Whether the user has asked to stop. Copies share one flag.
-#[derive(Debug, Clone, Copy)]
-pub struct Interrupt(&'static AtomicBool);
-
-impl Interrupt {
-    /// Listen to Ctrl-C (and termination) from now on.
-    ///
-    /// # Errors
-    /// The message where the system refuses a handler; Ctrl-C then ends the program as it always does.
-    pub fn install() -> Result<Self, String> {
-        ctrlc::set_handler(|| {
-            if STOP.swap(true, Ordering::SeqCst) {
+/// What Ctrl-C (and termination) stops from now on; where the system refuses a handler, Ctrl-C ends the program as it
+/// always does, and a warning says so.
+pub fn install() -> Follow {
+    static HANDLER: Once = Once::new();
+    let follow = Follow::new();
+    *NOW.lock().unwrap_or_else(PoisonError::into_inner) = follow.clone();
+    HANDLER.call_once(|| {
+        let handler = || {
+            if NOW.lock().unwrap_or_else(PoisonError::into_inner).stop() {
                 std::process::exit(i32::from(Exit::Interrupted.code()));
             }
             output::note("\nstopping at the next safe point; Ctrl-C again stops at once");
-        })
-        .map_err(|e| format!("Ctrl-C cannot be caught: {e}"))?;
-        Ok(Self(&STOP))
-    }
-
-    /// A flag that nobody sets.
-    pub fn never() -> Self {
-        static NEVER: AtomicBool = AtomicBool::new(false);
-        Self(&NEVER)
-    }
-
-    /// Whether to stop.
-    pub fn requested(self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-
-    /// The flag itself, for loops of rooms that know no command line.
-    pub fn flag(self) -> &'static AtomicBool {
-        self.0
-    }
+        };
+        if let Err(why) = ctrlc::set_handler(handler) {
+            output::note(&format!("warning: Ctrl-C cannot be caught: {why}"));
+        }
+    });
+    follow
 }

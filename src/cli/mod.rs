@@ -6,14 +6,16 @@
 
 pub mod accuracy;
 pub mod check;
+pub mod compare;
 pub mod evaluate;
 pub mod exit;
+pub mod explain;
 pub mod export;
 pub mod histories;
 pub mod identify;
+pub mod import;
 pub mod interrupt;
 pub mod journal;
-pub mod left_out;
 pub mod materials;
 pub mod optimize;
 pub mod optimize_answer;
@@ -29,15 +31,18 @@ pub mod schema;
 pub mod simulate;
 pub mod size;
 pub mod stiffness;
+pub mod studio;
 
+use crate::answer::left_out;
 use crate::design::unprintable;
+use crate::follow::Follow;
 use crate::report::Screen;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use exit::{Exit, Failure};
-use interrupt::Interrupt;
 use output::Outputs;
 use progress::Progress;
 use serde_json::json;
+use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -45,8 +50,12 @@ use std::process::ExitCode;
 const EXAMPLES: &str = "\
 Examples:
   sprag-design check designs/huang2017-multi-arc.toml
+  sprag-design sheet designs/huang2017-multi-arc.toml
+  sprag-design compare before.toml after.toml --report compare.html
   sprag-design stiffness designs/huang2017-multi-arc.toml --max-torque 50 --csv curve.csv
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --report high-10.html
+  sprag-design check designs/huang2017-multi-arc.toml --set r_i2_mm=4.2 --set friction.static=0.11
+  sprag-design studio designs/huang2017-multi-arc.toml
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml
   sprag-design accuracy designs/huang2017-multi-arc.toml --report accuracy.html
 
@@ -54,10 +63,13 @@ Exit codes:
   0 done, all margins held     1 a margin is not held, or no feasible design found
   2 malformed command line or design file     3 answer not computed or not written
   130 stopped by Ctrl-C; what had been found is written
+  141 the reader of the answers of evaluate has gone before the last
 
 A file that is there already is replaced only if this tool has written it (its first lines say so; of a table: the names of
 its columns); --force replaces any. What cannot be written costs no answer: it is printed, with exit code 3.
-With --json a refused design or a failure is one JSON object too: tool, version, error.";
+With --json whatever is refused or fails is one JSON object too: tool, version, error (message; of a refused design file
+also file and problems), with the same exit code. An option that there is not, or a value that is none of its kind, is
+refused in words alone.";
 
 #[derive(Debug, Parser)]
 #[command(
@@ -76,8 +88,14 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// A live page in the browser: change a number and see what it does
+    Studio(studio::StudioArgs),
     /// Hold the design against each of its limits: demand, allowable, margin, torque capacity
     Check(check::CheckArgs),
+    /// The design sheet: answer, dimensioned drawing, margins, scenes and all inputs, to print on A4
+    Sheet(check::sheet::SheetArgs),
+    /// Two to six designs side by side: inputs that differ, margins, curves, scenes
+    Compare(compare::CompareArgs),
     /// Torque against windup, forces, angles and stiffness, for one contact law or several
     Stiffness(stiffness::StiffnessArgs),
     /// Run one scenario of the design: histories, slip, contact loss and a verdict
@@ -92,8 +110,12 @@ enum Command {
     Size(size::SizeArgs),
     /// Find unknown parameters from measured or published numbers, and what these cannot tell apart
     Identify(identify::IdentifyArgs),
-    /// Write the design for another program (a CalculiX deck), or read its result
+    /// Write the design as a drawing (DXF, SVG), a solid (STEP), a table of arcs or a CalculiX deck
     Export(export::ExportArgs),
+    /// A drawn or measured sprag (DXF, or a table of points) as a design file
+    Import(import::ImportArgs),
+    /// What a limit, a key, a variable or another name means, and what moves it
+    Explain(explain::ExplainArgs),
     /// List the steels that a design may name, with their constants, allowed stresses and sources
     Materials,
     /// Print the JSON Schema of the design file
@@ -111,12 +133,16 @@ struct Common {
     /// Print one JSON object on standard output and nothing else there
     #[arg(long, global = true)]
     json: bool,
-    /// Write the result table as CSV, units in the column names
+    /// Write the result table as CSV, units in the column names; - writes it to standard output in place of the text
     #[arg(long, global = true, value_name = "PATH")]
     csv: Option<PathBuf>,
-    /// Write a self-contained HTML page with drawing, curves and tables
+    /// Write a self-contained HTML page with drawing, curves and tables; a PDF is made by printing it (A4)
     #[arg(long, global = true, value_name = "PATH.html")]
     report: Option<PathBuf>,
+    /// Set a value of the design before anything else, as often as wanted: a dotted path of the file, or a variable's short
+    /// name; checked like the file, which stays as it is
+    #[arg(long, global = true, value_name = "KEY=VALUE", value_parser = setting)]
+    set: Vec<(String, String)>,
     /// Replace files that this tool has not written, too
     #[arg(long, global = true)]
     force: bool,
@@ -139,10 +165,12 @@ pub struct Context {
     pub screen: Screen,
     /// Files to write.
     pub outputs: Outputs,
+    /// What `--set` sets: path and value as typed.
+    pub set: Vec<(String, String)>,
     /// The command line as typed, for the reports.
     pub command_line: String,
-    /// Ctrl-C.
-    pub interrupt: Interrupt,
+    /// Stopped by Ctrl-C.
+    pub follow: Follow,
 }
 
 impl Context {
@@ -158,39 +186,50 @@ impl Context {
         Progress::new(!self.quiet, what, unit, total)
     }
 
-    /// The answer as text on standard output; nothing with `--json`.
+    /// The answer as text on standard output; nothing with `--json` and with `--csv -`.
     ///
     /// # Errors
     /// [`Failure::Failed`] where standard output cannot be written.
     pub fn answer(&self, text: &str) -> Result<(), Failure> {
-        if self.json { Ok(()) } else { output::print(text) }
+        if self.json || self.outputs.csv_is_answer() { Ok(()) } else { output::print(text) }
     }
 }
 
 /// Run the program.
 pub fn run() -> ExitCode {
-    let args = arguments();
-    let parsed = missing_value(&args).map_or_else(|| command().try_get_matches(), Err);
+    run_from(std::env::args_os()).into()
+}
+
+/// Run the program with `args`, its own name first, as another program does that carries this one: its answer goes to standard
+/// output, Ctrl-C is caught from then on. `--threads` holds for the process, and once. The exit code.
+pub fn run_from<A: Into<OsString>>(args: impl IntoIterator<Item = A>) -> u8 {
+    // A path that is no Unicode loses what cannot be shown.
+    let text = |arg: A| arg.into().to_string_lossy().into_owned();
+    ended(args.into_iter().map(text).collect()).code()
+}
+
+fn ended(args: Vec<String>) -> Exit {
+    let parsed = missing_value(&args).map_or_else(|| command().try_get_matches_from(&args), Err);
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(e) if e.use_stderr() => {
             // The message repeats what was typed.
             output::note(e.render().to_string().trim_end());
-            return Exit::Malformed.into();
+            return Exit::Malformed;
         }
         Err(help_or_version) => {
             let _ = help_or_version.print();
-            return Exit::Held.into();
+            return Exit::Held;
         }
     };
     let json = cli.common.json && takes(name_of(&cli.command), "json");
-    match dispatch(cli) {
-        Ok(exit) => exit.into(),
+    match dispatch(cli, &args) {
+        Ok(exit) => exit,
         Err(failure) => {
-            if let Some(error) = failure.to_json().filter(|_| json) {
+            if json {
                 // Standard output may be what has failed; standard error says it in words.
                 let _ = output::print_json(&json!({
-                    "tool": output::TOOL, "version": output::VERSION, "error": error,
+                    "tool": output::TOOL, "version": output::VERSION, "error": failure.to_json(),
                 }));
             }
             match &failure {
@@ -198,7 +237,7 @@ pub fn run() -> ExitCode {
                 Failure::Failed(text) | Failure::NoClutch(text) => output::note(&format!("error: {text}")),
                 Failure::Interrupted => output::note("stopped"),
             }
-            failure.exit().into()
+            failure.exit()
         }
     }
 }
@@ -214,11 +253,14 @@ fn command() -> clap::Command {
     })
 }
 
-fn dispatch(cli: Cli) -> Result<Exit, Failure> {
+fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
     refuse_meaningless(&cli.command, &cli.common)?;
-    let context = context(cli.common)?;
+    let context = context(cli.common, args)?;
     let exit = match cli.command {
+        Command::Studio(args) => studio::run(&args, &context),
         Command::Check(args) => check::run(&args, &context),
+        Command::Sheet(args) => check::sheet::run(&args, &context),
+        Command::Compare(args) => compare::run(&args, &context),
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
@@ -227,6 +269,8 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Size(args) => size::run(&args, &context),
         Command::Identify(args) => identify::run(&args, &context),
         Command::Export(args) => export::run(&args, &context),
+        Command::Import(args) => import::run(&args, &context),
+        Command::Explain(args) => explain::run(&args, &context),
         Command::Materials => materials::run(&context),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
@@ -240,10 +284,13 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
 }
 
 /// Commands, why common options mean nothing to them, and which.
-const MEANINGLESS: [(&str, &str, &[&str]); 4] = [
-    ("materials", "steels are a table, they have no page", &["report", "threads", "quiet"]),
-    ("schema", "its answer is one JSON object", &["csv", "report", "force", "threads", "quiet"]),
-    ("completions", "its answer is a script", &["json", "csv", "report", "force", "threads", "quiet"]),
+const MEANINGLESS: [(&str, &str, &[&str]); 7] = [
+    ("explain", "its answer is a few words", &["csv", "report", "set", "force", "threads", "quiet"]),
+    ("size", "it makes a design, it reads none", &["set"]),
+    ("studio", "its answers are shown in the browser", &["json", "csv", "report", "force"]),
+    ("materials", "steels are a table, they have no page", &["report", "set", "threads", "quiet"]),
+    ("schema", "its answer is one JSON object", &["csv", "report", "set", "force", "threads", "quiet"]),
+    ("completions", "its answer is a script", &["json", "csv", "report", "set", "force", "threads", "quiet"]),
     (
         "evaluate",
         "its answer is a JSON object for each line that it reads",
@@ -257,7 +304,10 @@ fn takes(command: &str, option: &str) -> bool {
 
 fn name_of(command: &Command) -> &'static str {
     match command {
+        Command::Studio(_) => "studio",
         Command::Check(_) => "check",
+        Command::Sheet(_) => "sheet",
+        Command::Compare(_) => "compare",
         Command::Stiffness(_) => "stiffness",
         Command::Simulate(_) => "simulate",
         Command::Optimize(_) => "optimize",
@@ -266,16 +316,23 @@ fn name_of(command: &Command) -> &'static str {
         Command::Size(_) => "size",
         Command::Identify(_) => "identify",
         Command::Export(_) => "export",
+        Command::Import(_) => "import",
+        Command::Explain(_) => "explain",
         Command::Materials => "materials",
         Command::Schema => "schema",
         Command::Completions { .. } => "completions",
     }
 }
 
-/// Refuse `--json`, `--csv` and `--report` where a command has no such answer; --force, --threads and --quiet, which then
+/// Refuse `--json`, `--csv`, `--report` and `--set` where a command has no such answer; --force, --threads and --quiet, which then
 /// change nothing, are let pass.
 fn refuse_meaningless(command: &Command, common: &Common) -> Result<(), Failure> {
-    let given = [("json", common.json), ("csv", common.csv.is_some()), ("report", common.report.is_some())];
+    let given = [
+        ("json", common.json),
+        ("csv", common.csv.is_some()),
+        ("report", common.report.is_some()),
+        ("set", !common.set.is_empty()),
+    ];
     let command = name_of(command);
     let Some((name, why, without)) = MEANINGLESS.iter().find(|(name, ..)| *name == command) else {
         return Ok(());
@@ -286,11 +343,13 @@ fn refuse_meaningless(command: &Command, common: &Common) -> Result<(), Failure>
     }
 }
 
-fn context(common: Common) -> Result<Context, Failure> {
-    let interrupt = Interrupt::install().unwrap_or_else(|why| {
-        output::note(&format!("warning: {why}"));
-        Interrupt::never()
-    });
+fn context(common: Common, args: &[String]) -> Result<Context, Failure> {
+    if common.json && common.csv.as_deref().is_some_and(output::is_standard_output) {
+        return Err(Failure::malformed(
+            "--csv - and --json both write to standard output: give --csv a file",
+        ));
+    }
+    let follow = interrupt::install();
     if let Some(threads) = common.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(usize::from(threads))
@@ -308,14 +367,10 @@ fn context(common: Common) -> Result<Context, Failure> {
         quiet: common.quiet,
         screen: Screen { colour: terminal && !refused, columns },
         outputs: Outputs::new(common.csv, common.report, common.force),
-        command_line: command_line(arguments().into_iter()),
-        interrupt,
+        set: common.set,
+        command_line: command_line(args.iter().cloned()),
+        follow,
     })
-}
-
-/// The arguments as typed; a path that is no Unicode loses what cannot be shown.
-fn arguments() -> Vec<String> {
-    std::env::args_os().map(|arg| arg.to_string_lossy().into_owned()).collect()
 }
 
 /// The command line as a shell would take it again, on one line; the program by its name, not by its path.
@@ -362,6 +417,14 @@ fn missing_value(args: &[String]) -> Option<clap::Error> {
     })?;
     let message = format!("a value is required for '{}' but none was supplied", option(&pair[0])?);
     Some(command.clone().error(clap::error::ErrorKind::InvalidValue, message))
+}
+
+/// A path and a value, for `--set`.
+fn setting(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((path, value)) if !path.trim().is_empty() => Ok((path.trim().to_owned(), value.to_owned())),
+        _ => Err("KEY=VALUE is needed, such as sprags.inner_arcs[1].radius_mm=4.1 or r_i2_mm=4.1".to_owned()),
+    }
 }
 
 /// A finite number above zero, for flags.

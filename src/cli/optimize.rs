@@ -7,9 +7,11 @@ use super::journal::{self, JournalFile};
 use super::optimize_file::{file_text, further_text};
 use super::optimize_story::{NEAREST, REALISED, ROBUST, Story};
 use super::origin::Kind;
+use super::output::TOOL;
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
 use super::{optimize_answer as answer, parts};
+use crate::answer::search::{MOST_STARTS, STARTS};
 use crate::design::{Design, EditError, Objective, Optimize};
 use crate::optimise::{
     Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, alone,
@@ -91,11 +93,6 @@ pub struct OptimizeArgs {
     pub tolerance: f64,
 }
 
-/// Climbs where their number is left open: with fewer than 8 even a single optimum met each time proves nothing.
-const STARTS: usize = 8;
-/// The same at most.
-const MOST_STARTS: usize = 32;
-
 /// Run the command.
 ///
 /// # Errors
@@ -118,10 +115,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
     }
     let beside = beside(&new, &task, args);
-    let others: Vec<_> = [(new.as_path(), Kind::Design), (&record, Kind::Journal)]
-        .into_iter()
-        .chain(beside.iter().map(|path| (path.as_path(), Kind::Design)))
-        .collect();
+    let others: Vec<_> = beside.iter().map(|path| (path.as_path(), Kind::Design)).collect();
     context.outputs.check(&[&args.file], &others)?;
     let (model, said) = (journal::model(), design.content_hash());
     let file = match (args.resume, args.journal.is_some()) {
@@ -160,7 +154,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     let fidelity = Fidelity { settings, reduced: !args.full };
     let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
     let started = Instant::now();
-    let desk = Desk::new(Some(context.interrupt.flag()), &mut keeper);
+    let desk = Desk::new(&context.follow, &mut keeper);
     let story = tell(&design, &task, &aims, args, (&method, fidelity), &desk);
     let run_time_s = started.elapsed().as_secs_f64();
     let Keeper { progress, file, .. } = keeper;
@@ -270,15 +264,15 @@ fn finish(
     context: &Context,
 ) -> Result<Exit, Failure> {
     let found = &story.found;
-    let interrupted = found.outcome.status == Status::Interrupted || context.interrupt.requested();
+    let interrupted = found.outcome.status == Status::Interrupted || context.follow.stopped();
     let feasible = found.feasible();
     let better = feasible && (found.improved() || !found.start_feasible());
     let mut written = None;
     let mut beside = Vec::new();
-    let write = |path: &Path, text: Result<String, EditError>| match text {
+    let write = |path: &Path, text: Result<String, EditError>| match readable(design, path, text) {
         Ok(text) => context.outputs.write(path, Kind::Design, text.as_bytes()),
         Err(why) => {
-            context.outputs.lost(format!("{}: {why}", path.display()));
+            context.outputs.lost(why);
             false
         }
     };
@@ -317,6 +311,18 @@ fn finish(
     } else {
         Exit::NotHeld
     })
+}
+
+/// `text` if it reads as a design with the histories of `design`; else what is wrong with the file that it would have made.
+fn readable(design: &Design, path: &Path, text: Result<String, EditError>) -> Result<String, String> {
+    let name = path.display().to_string();
+    let text = text.map_err(|why| format!("{name}: {why}"))?;
+    match Design::parse_in(&design.folder, &text, &name) {
+        Ok(_) => Ok(text),
+        Err(why) => Err(format!(
+            "{name}: not written, it would be a design file that this tool refuses; report this as a fault of {TOOL}; {why}"
+        )),
+    }
 }
 
 /// `-o`, or a name of our own.
@@ -380,5 +386,20 @@ impl Record for Keeper {
         };
         self.progress
             .describe(&format!("{}: {:.5}, {violated}, best feasible {best}", self.part, it.least_margin));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_design_that_would_be_refused_is_no_file_but_a_sentence() {
+        let text = include_str!("../../designs/huang2017-multi-arc.toml");
+        let design = Design::parse(text, "a.toml").unwrap();
+        let said = |text: &str| readable(&design, Path::new("new.toml"), Ok(text.to_owned()));
+        assert_eq!(said(text).as_deref(), Ok(text));
+        let why = said(&text.replacen("count = 12 ", "count = 0 ", 1)).unwrap_err();
+        assert!(why.starts_with("new.toml: not written") && why.contains("sprags.count"), "{why}");
     }
 }

@@ -1,16 +1,16 @@
 //! What `optimize` says: text, JSON, page.
 
 use super::Context;
-use super::check::{demand_cell, margin_cell, unit_cell};
+use super::check::{allowable_cell, demand_cell, margin_cell, margin_text, unit_cell};
 use super::left_out::left_out;
-use super::optimize_story::{Story, shown, word};
+use super::optimize_story::{SHOWN_DIGITS, Story, shown};
 use super::output::TOOL;
 use super::output::path_text;
 use super::parts::{self, Answer};
 use crate::design::{Design, Objective};
 use crate::margin::Margin;
 use crate::optimise::{Search, Status};
-use crate::report::{Cell, Column, Page, Plot, Table, Unit, significant};
+use crate::report::{Cell, Column, Curve, Dash, Page, Plot, Table, Unit, error_beside, significant};
 use crate::scenario::place_profile;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -75,36 +75,60 @@ impl Told<'_> {
                     names.join(" against ")
                 );
             }
-            Status::EvaluationLimit => "stopped at the evaluation limit".to_owned(),
+            Status::EvaluationLimit => {
+                "stopped at the evaluation limit, which --evaluations raises,".to_owned()
+            }
             Status::Interrupted => "stopped by Ctrl-C".to_owned(),
             Status::Stalled(cause) => format!("stalled ({cause:?})"),
         };
         if self.found.feasible() {
             format!(
-                "{} {} -> {} (+- {:.0e}), every limit held; {why} after {} evaluations{}{}",
+                "{} {} -> {} ({}), every limit held{}; {why} after {} evaluations{}{}",
                 self.found.aim.words(),
                 shown(self.found.aim, before),
                 shown(self.found.aim, after),
-                self.found.objective_error.max(1e-16),
+                error_beside(after, SHOWN_DIGITS, self.found.objective_error),
+                self.start_not_held(),
                 self.found.evaluations,
                 if self.found.wants_centroid() { "; no flanks give its centroid yet" } else { "" },
                 self.not_robust().map_or(String::new(), |why| format!("; {why}"))
             )
         } else {
             format!(
-                "no feasible design found: {why} after {} evaluations; not held: {}",
+                "no feasible design found: {why} after {} evaluations; not held: {}{}",
                 self.found.evaluations,
-                self.found.not_held().join(", ")
+                self.found.not_held().join(", "),
+                self.worst()
             )
         }
+    }
+
+    /// The limits that the design searched from does not hold, in words behind a design that holds all.
+    fn start_not_held(&self) -> String {
+        let broken: Vec<String> = self.found.start.iter().filter(|m| !m.held()).map(Margin::code).collect();
+        match broken.len() {
+            0 => String::new(),
+            n => format!(
+                " (the start did not hold {n} {}: {})",
+                if n == 1 { "limit" } else { "limits" },
+                broken.join(", ")
+            ),
+        }
+    }
+
+    /// The worst margin of a design that does not hold all, the nearest one found.
+    fn worst(&self) -> String {
+        let rows = self.found.best.iter().filter(|m| !m.held());
+        rows.min_by(|a, b| a.margin().total_cmp(&b.margin())).map_or(String::new(), |m| {
+            format!("; worst margin of this nearest design: {}, {}", margin_text(m), m.code())
+        })
     }
 
     /// What to say where the best slip margin is less than the wanted one and nothing else is broken.
     fn out_of_reach(&self) -> Option<String> {
         let wanted = self.design.optimize.as_ref()?.limits.slip_margin?;
-        let slip = |code: &&str| code.starts_with("slip:");
         let found = self.found;
-        (found.aim == Objective::SlipMargin && found.not_held().iter().all(slip)).then(|| {
+        (found.aim == Objective::SlipMargin && found.best.iter().filter(|m| !m.held()).all(Margin::is_slip)).then(|| {
             format!(
                 "infeasible: the largest {} found is {}, and slip_margin asks for {}; it is held down by {}",
                 found.aim.words(),
@@ -129,10 +153,10 @@ impl Told<'_> {
         ]);
         for (a, b) in self.found.start.iter().zip(&self.found.best) {
             table.row(vec![
-                b.code.as_str().into(),
+                b.code().into(),
                 demand_cell(a),
                 demand_cell(b),
-                b.allowable.into(),
+                allowable_cell(b),
                 unit_cell(b),
                 margin_cell(a),
                 margin_cell(b),
@@ -155,15 +179,15 @@ impl Told<'_> {
             Column::text("held", "Held"),
         ]);
         for (a, b) in self.found.start.iter().zip(&self.found.best) {
-            let demand = |m: &Margin| if m.demand < 1e300 { Cell::Si(m.demand) } else { Cell::Empty };
+            let demand = |m: &Margin| m.demand_in_unit().map_or(Cell::Empty, Cell::Si);
             table.row(vec![
-                b.code.as_str().into(),
-                b.unit.into(),
+                b.code().into(),
+                b.limit.unit.into(),
                 demand(a),
                 demand(b),
-                b.allowable.into(),
-                a.margin.into(),
-                b.margin.into(),
+                b.shown_allowable().into(),
+                a.margin().into(),
+                b.margin().into(),
                 held_cell(b),
             ]);
         }
@@ -276,8 +300,9 @@ impl Told<'_> {
     /// What the optimum gained or lost when it was looked at with everything.
     fn in_full(&self) -> String {
         let changes = self.found.best.iter().zip(&self.found.as_searched);
-        let most =
-            changes.map(|(a, b)| ((a.margin - b.margin).abs(), &a.code)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let most = changes
+            .map(|(a, b)| ((a.margin() - b.margin()).abs(), a.code()))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
         match most {
             Some((change, code)) => format!(
                 "Looked at in full, at a true error of 1e-7 or less: no margin moves by more than {change:.0e} ({code})."
@@ -294,14 +319,14 @@ impl Told<'_> {
         };
         let row = |m: &Margin| {
             json!({
-                "code": m.code, "name": m.name, "unit": m.unit, "allowable": m.allowable, "margin": m.margin,
-                "demand": if m.demand < 1e300 { json!(m.demand) } else { Value::Null },
+                "code": m.code(), "name": m.name, "unit": m.limit.unit, "allowable": m.shown_allowable(),
+                "margin": m.margin(), "slip_margin": m.slip_margin(), "demand": m.demand_in_unit(),
             })
         };
         let rows = |list: &[Margin]| list.iter().map(row).collect::<Vec<_>>();
         let dropped: Vec<&str> =
             found.variables.iter().filter(|v| v.dropped).map(|v| v.name.as_str()).collect();
-        let status = word(self.status());
+        let status = self.status().name();
         let fighting: Vec<&String> = match self.status() {
             Status::Infeasible { fighting, .. } => {
                 fighting.iter().filter_map(|&i| found.names.limits.get(i)).collect()
@@ -349,11 +374,11 @@ impl Told<'_> {
         if let Some(path) = self.written {
             page.paragraph(&format!("New design: {}", path.display()));
         }
-        page.table("Variables before and after, with their bounds", &self.variable_table());
+        self.draw(&mut page);
+        page.heading("Variables").table("Before and after, with their bounds", &self.variable_table());
         self.moved_inside().iter().for_each(|line| {
             page.paragraph(line);
         });
-        self.draw(&mut page);
         page.heading("Margins");
         page.table(
             "Margins before and after; the slip rows are the objectives, all others are limits",
@@ -378,7 +403,7 @@ impl Told<'_> {
         let path = |pick: fn(&crate::optimise::Iteration) -> f64| -> Vec<[f64; 2]> {
             history.iter().map(|it| [it.evaluations as f64, pick(it)]).collect()
         };
-        let plot = Plot::new("evaluations of the clutch", "margin")
+        let plot = Plot::new("Evaluations of the clutch", "Margin")
             .curve("least scaled objective", path(|it| it.least_margin))
             .curve("worst violation of a limit", path(|it| it.violation));
         page.figure(&plot.to_svg(), "Path of the search; a violated limit is paid first.");
@@ -396,6 +421,7 @@ impl Told<'_> {
         let (Ok(p), Ok(q)) = (place_profile(&self.design.clutch), place_profile(&after.clutch)) else {
             return;
         };
+        parts::draw_sheet(page, &after, &q);
         let poses =
             vec![parts::pose_at_rest("after", &after, &q), parts::pose_at_rest("before", self.design, &p)];
         parts::draw(page, &parts::drawing(&after, poses));
@@ -409,12 +435,11 @@ impl Told<'_> {
                     .collect::<Vec<_>>()
             })
         };
-        let mut plot = Plot::new("torque (Nm)", "demanded tan \u{3c9} (1)");
-        for (name, curve) in [("after", depth(&after, &q)), ("before", depth(self.design, &p))] {
-            if let Some(points) = curve {
-                plot = plot.curve(name, points);
-            }
-        }
+        let mut plot = Plot::new("Torque, Nm", "tan ω, inner contact");
+        // Before is dashed in every picture.
+        let before = depth(self.design, &p).map(|points| Curve::new("before", points).coloured(1));
+        plot.curves.extend(before.map(|curve| Curve { dash: Dash::Dashed, ..curve }));
+        plot.curves.extend(depth(&after, &q).map(|points| Curve::new("after", points).coloured(0)));
         let plot = plot.level(self.design.clutch.friction.static_, "\u{3bc}s");
         page.figure(&plot.to_svg(), &format!("Static friction demand at the inner contact ({TOOL})."));
     }

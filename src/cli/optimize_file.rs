@@ -2,12 +2,10 @@
 //! new values, and what these were.
 
 use super::Context;
+use super::origin::WRITTEN_BY;
 use super::output::VERSION;
 use crate::design::{Design, EditError, with_notes};
 use crate::optimise::Search;
-
-/// First line of every design file that this command writes.
-const WRITTEN_BY: &str = "# Written by sprag-design optimize";
 
 /// The new design file.
 ///
@@ -25,7 +23,7 @@ pub fn file_text(design: &Design, found: &Search, context: &Context) -> Result<S
         false => "",
     };
     let head = format!(
-        "{WRITTEN_BY} {VERSION} from {:?} (sha256 {})\n# by: {}\n# {} {:.6} -> {:.6} {}\n{not_real}{changes}{END}\n",
+        "{WRITTEN_BY} optimize {VERSION} from {:?} (sha256 {})\n# by: {}\n# {} {:.6} -> {:.6} {}\n{not_real}{changes}{END}\n",
         design.name,
         design.hash,
         context.command_line,
@@ -42,7 +40,7 @@ pub fn file_text(design: &Design, found: &Search, context: &Context) -> Result<S
 /// # Errors
 /// As [`file_text`].
 pub fn further_text(design: &Design, what: &str, text: &str) -> Result<String, EditError> {
-    Ok(format!("{WRITTEN_BY} {VERSION}: {what}\n{END}\n{}", body(design, text)?))
+    Ok(format!("{WRITTEN_BY} optimize {VERSION}: {what}\n{END}\n{}", body(design, text)?))
 }
 
 /// Last line of a head.
@@ -55,7 +53,7 @@ fn body(design: &Design, text: &str) -> Result<String, EditError> {
 }
 
 fn without_head(text: &str) -> &str {
-    if !text.starts_with(WRITTEN_BY) {
+    if !text.strip_prefix(WRITTEN_BY).is_some_and(|rest| rest.starts_with(" optimize ")) {
         return text;
     }
     let after_first = text.split_once('\n').map_or("", |(_, rest)| rest);
@@ -78,14 +76,14 @@ mod tests {
 
     #[test]
     fn a_head_is_taken_off_whole_and_nothing_else() {
-        let head = format!("{WRITTEN_BY} 0.1.0 from \"x\"\n# by: y\n#   a: 1 -> 2\n#\n");
+        let head = format!("{WRITTEN_BY} optimize 0.1.0 from \"x\"\n# by: y\n#   a: 1 -> 2\n#\n");
         assert_eq!(
             without_head(&format!("{head}# Why this file exists.\nschema = 1\n")),
             "# Why this file exists.\nschema = 1\n"
         );
         assert_eq!(without_head("# Why.\n#\nschema = 1\n"), "# Why.\n#\nschema = 1\n");
         for (end, rest) in [("", "# Why.\n#\nschema = 1\n"), ("#\n", "# Why.\n#\nschema = 1\n")] {
-            assert_eq!(without_head(&format!("{WRITTEN_BY} 0.1.0: z\n{end}{rest}")), rest);
+            assert_eq!(without_head(&format!("{WRITTEN_BY} optimize 0.1.0: z\n{end}{rest}")), rest);
         }
     }
 }

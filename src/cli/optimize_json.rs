@@ -1,7 +1,7 @@
 //! What `optimize` found beside the optimum, for programs.
 
 use super::optimize_relief::{alone_sentence, freed_sentence, loosened_sentence};
-use super::optimize_story::{Story, sentence, word};
+use super::optimize_story::{Story, sentence};
 use crate::margin::Margin;
 use crate::optimise::{
     Alone, Branch, Freed, Front, Loosened, Price, PriceKind, Realised, Relief, Robust, Start, Status,
@@ -14,7 +14,7 @@ impl Story {
         let found = &self.found;
         let mut map = serde_json::Map::new();
         let ended = |e: &Result<Status, String>| match e {
-            Ok(status) => json!(word(status)),
+            Ok(status) => json!(status.name()),
             Err(why) => json!(why),
         };
         let or_null = |v: f64| if v.is_finite() { json!(v) } else { Value::Null };
@@ -49,7 +49,7 @@ impl Story {
                     "d_objectives_per_range": s.objectives, "d_limits_per_range": s.limits })
         });
         map.insert("sensitivities".into(), json!(sensitivities));
-        let change = |(full, searched): (&Margin, &Margin)| json!({ "code": full.code, "change": full.margin - searched.margin });
+        let change = |(full, searched): (&Margin, &Margin)| json!({ "code": full.code(), "change": full.margin() - searched.margin() });
         map.insert("change_in_full".into(), found.best.iter().zip(&found.as_searched).map(change).collect());
         map.insert("relief".into(), json!(self.relief.as_ref().map(|r| self.relief_json(r))));
         map.insert("realised".into(), json!(self.realised.as_ref().map(realised_json)));
@@ -57,7 +57,7 @@ impl Story {
         let robust = self.robust.as_ref().map(|r| {
             let variables: serde_json::Map<_, _> =
                 found.searched.iter().cloned().zip(r.x.iter().map(|x| json!(x))).collect();
-            json!({ "variables": variables, "ended": word(self.robust_status(r)), "held_at": r.held_at, "rounds": r.rounds,
+            json!({ "variables": variables, "ended": self.robust_status(r).name(), "held_at": r.held_at, "rounds": r.rounds,
                     "evaluations": r.evaluations, "made": robust_json(&r.made) })
         });
         map.insert("robust".into(), json!(robust));
@@ -109,13 +109,13 @@ fn realised_json(r: &Realised) -> Value {
     let n = &r.nearest;
     let f = &n.flanks;
     let rows = |rows: &[Margin]| -> Value {
-        rows.iter().map(|m| json!({ "code": m.code, "margin": m.margin })).collect()
+        rows.iter().map(|m| json!({ "code": m.code(), "margin": m.margin() })).collect()
     };
     let search = r.search.as_ref().map(|s| {
         let variables: serde_json::Map<_, _> =
             s.variables.iter().map(|v| (v.name.clone(), json!(v.best))).collect();
         json!({ "variables": variables, "objective": s.objective.1, "feasible": s.feasible(),
-                "status": word(&s.outcome.status), "evaluations": s.evaluations, "margins": rows(&s.best) })
+                "status": s.outcome.status.name(), "evaluations": s.evaluations, "margins": rows(&s.best) })
     });
     json!({
         "reached": n.reached(),

@@ -39,22 +39,14 @@ pub const ROBUST: &str = "robust";
 /// Middle of the name of the nearest design where none is feasible.
 pub const NEAREST: &str = "nearest";
 
-/// A status in one word.
-pub fn word(status: &Status) -> &'static str {
-    match status {
-        Status::Converged => "converged",
-        Status::Infeasible { .. } => "infeasible",
-        Status::EvaluationLimit => "evaluation-limit",
-        Status::Interrupted => "interrupted",
-        Status::Stalled(_) => "stalled",
-    }
-}
+/// Digits to which an objective is shown.
+pub const SHOWN_DIGITS: usize = 5;
 
 /// A value of an objective with its unit.
 pub fn shown(aim: Objective, value: f64) -> String {
     match aim.unit() {
-        "" => significant(value, 5),
-        unit => format!("{} {unit}", significant(value, 5)),
+        "" => significant(value, SHOWN_DIGITS),
+        unit => format!("{} {unit}", significant(value, SHOWN_DIGITS)),
     }
 }
 
@@ -104,7 +96,7 @@ fn start_table(starts: &[Start]) -> Table {
         Column::number("evaluations", "Evaluations", Unit::One, 6),
     ]);
     for s in starts {
-        let ended = s.ended.as_ref().map_or_else(|why| why.clone(), |e| word(e).to_owned());
+        let ended = s.ended.as_ref().map_or_else(|why| why.clone(), |e| e.name().to_owned());
         table.row(vec![
             s.from.as_str().into(),
             ended.as_str().into(),
@@ -155,7 +147,7 @@ fn branch_table(branches: &[Branch]) -> Table {
     ]);
     for b in branches {
         let values: Vec<String> = b.values.iter().map(|(n, v)| format!("{n} = {v}")).collect();
-        let ended = b.ended.as_ref().map_or_else(|why| why.clone(), |e| word(e).to_owned());
+        let ended = b.ended.as_ref().map_or_else(|why| why.clone(), |e| e.name().to_owned());
         table.row(vec![
             values.join(", ").as_str().into(),
             ended.as_str().into(),
@@ -291,7 +283,7 @@ impl Story {
                 shown(aim, worst),
                 gain(aim, (drawn - robust.made.objective.0) * aim.sense()),
                 if robust.made.held() { "hold every limit at every corner" } else { "come as near as it can" },
-                word(self.robust_status(robust)),
+                self.robust_status(robust).name(),
                 robust.held_at.len()
             ));
             if !robust.made.not_held.is_empty() {
@@ -374,7 +366,7 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
     let f = &n.flanks;
     let mm = |m: f64| significant(m * 1e3, 5);
     let at = |p: [f64; 2]| format!("({}, {}) mm", mm(p[0]), mm(p[1]));
-    let held = r.looked.rows.iter().filter(|m| !m.held()).map(|m| m.code.as_str()).collect::<Vec<_>>();
+    let held = r.looked.rows.iter().filter(|m| !m.held()).map(|m| m.code()).collect::<Vec<_>>();
     let limits = if held.is_empty() {
         "every limit held".to_owned()
     } else {
@@ -411,7 +403,7 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
         )
     });
     if let Some(s) = &r.search {
-        let ended = word(&s.outcome.status);
+        let ended = s.outcome.status.name();
         let values: Vec<String> =
             s.variables.iter().map(|v| format!("{} {}", v.name, significant(v.best, 5))).collect();
         let verdict = if s.feasible() { "every limit held" } else { "not every limit held" };

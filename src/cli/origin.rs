@@ -10,6 +10,8 @@ pub const WRITTEN_BY: &str = "# Written by sprag-design";
 
 /// First words of the facts in a deck.
 const DECK_FACT: &str = "** sprag-design ";
+/// First word in the second line of a drawing or solid, behind what its format wants there.
+const MARK: &str = "sprag-design ";
 /// First words of a page.
 const PAGE: &str = "<!-- sprag-design ";
 /// As much of a file as is looked at, bytes.
@@ -28,18 +30,27 @@ pub enum Kind {
     Design,
     /// A finite-element deck.
     Deck,
+    /// A drawing, DXF.
+    Dxf,
+    /// A drawing, SVG.
+    Svg,
+    /// A solid, STEP.
+    Step,
 }
 
 /// Endings that name a kind, and endings of files that this tool never writes.
-const ENDINGS: [(&str, Option<Kind>); 16] = [
+const ENDINGS: [(&str, Option<Kind>); 19] = [
     ("csv", Some(Kind::Table)),
     ("html", Some(Kind::Page)),
     ("htm", Some(Kind::Page)),
     ("toml", Some(Kind::Design)),
     ("inp", Some(Kind::Deck)),
+    ("dxf", Some(Kind::Dxf)),
+    ("svg", Some(Kind::Svg)),
+    ("step", Some(Kind::Step)),
+    ("stp", Some(Kind::Step)),
     ("json", None),
     ("pdf", None),
-    ("svg", None),
     ("png", None),
     ("jpg", None),
     ("xls", None),
@@ -59,6 +70,9 @@ impl Kind {
             Self::Page => "page",
             Self::Design => "design file",
             Self::Deck => "deck",
+            Self::Dxf => "DXF drawing",
+            Self::Svg => "SVG drawing",
+            Self::Step => "STEP solid",
         }
     }
 
@@ -68,6 +82,9 @@ impl Kind {
             Self::Page => ".html or .htm",
             Self::Design => ".toml",
             Self::Deck => ".inp",
+            Self::Dxf => ".dxf",
+            Self::Svg => ".svg",
+            Self::Step => ".step or .stp",
         }
     }
 
@@ -104,6 +121,17 @@ impl Kind {
             Self::Design => head.starts_with(WRITTEN_BY),
             Self::Page => head.starts_with(PAGE),
             Self::Deck => head.lines().take(8).any(|line| line.starts_with(DECK_FACT)),
+            Self::Dxf => head.lines().nth(1).is_some_and(|line| line.starts_with(MARK)),
+            Self::Svg => head
+                .lines()
+                .nth(1)
+                .and_then(|line| line.strip_prefix("<desc>"))
+                .is_some_and(|l| l.starts_with(MARK)),
+            Self::Step => head
+                .lines()
+                .nth(1)
+                .and_then(|line| line.strip_prefix("/* "))
+                .is_some_and(|l| l.starts_with(MARK)),
             Self::Journal => true,
             Self::Table => !is_history(head) && head.lines().next().is_some_and(is_our_header),
         }
@@ -126,6 +154,9 @@ mod tests {
             (Kind::Design, "# Written by sprag-design size 1\nschema = 1\n", "schema = 1\n"),
             (Kind::Page, "<!-- sprag-design 1; -->\n", "<!DOCTYPE html>\n"),
             (Kind::Deck, "** a\n** b\n** sprag-design design = 0\n", "*NODE\n"),
+            (Kind::Dxf, "999\nsprag-design 1; design 0\n", "  0\nSECTION\n  2\nHEADER\n"),
+            (Kind::Svg, "<svg>\n<desc>sprag-design 1</desc>\n", "<svg>\n<g/>\n"),
+            (Kind::Step, "ISO-10303-21;\n/* sprag-design 1 */\n", "ISO-10303-21;\nHEADER;\n"),
             (Kind::Table, "code,name,demand\n1,2,3\n", "Time [s];Torque\n"),
             (Kind::Table, "label,races.inner_radius_mm,torque_nm\n", "time_s,torque_nm\n0,1\n"),
             (Kind::Table, "model,design\n", "notes\n"),
@@ -151,6 +182,8 @@ mod tests {
             (Kind::Design, "a.csv", false),
             (Kind::Deck, "a", true),
             (Kind::Deck, "a.pdf", false),
+            (Kind::Step, "a.STP", true),
+            (Kind::Dxf, "a.svg", false),
         ] {
             assert_eq!(kind.fits(Path::new(name)).is_ok(), fits, "{kind:?} {name}");
         }

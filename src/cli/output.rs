@@ -123,7 +123,11 @@ impl Outputs {
     /// # Errors
     /// [`Failure::Malformed`] naming the path.
     pub fn check(&self, inputs: &[&Path], others: &[(&Path, Kind)]) -> Result<(), Failure> {
-        let csv = self.csv.iter().map(|path| (path.as_path(), Kind::Table));
+        let csv = self
+            .csv
+            .iter()
+            .filter(|path| !is_standard_output(path))
+            .map(|path| (path.as_path(), Kind::Table));
         let report = self.report.iter().map(|path| (path.as_path(), Kind::Page));
         let mut seen: Vec<PathBuf> = Vec::new();
         for (path, kind) in csv.chain(report).chain(others.iter().copied()) {
@@ -168,7 +172,8 @@ impl Outputs {
 
     /// Whether what stands at `path` may be replaced by a file of this kind; why not.
     fn may_replace(&self, path: &Path, kind: Kind) -> Result<(), String> {
-        if self.force || is_special(path) || !path.exists() || kind.is_ours(path) {
+        if self.force || is_standard_output(path) || is_special(path) || !path.exists() || kind.is_ours(path)
+        {
             return Ok(());
         }
         Err(format!(
@@ -213,9 +218,24 @@ impl Outputs {
         }
     }
 
+    /// Whether the table takes the place of the text on standard output.
+    pub fn csv_is_answer(&self) -> bool {
+        self.csv.as_deref().is_some_and(is_standard_output)
+    }
+
     /// Write the table if `--csv` was given.
     pub fn write_csv(&self, table: &Table) {
-        self.csv.iter().for_each(|path| self.write_table(path, table));
+        match &self.csv {
+            Some(path) if is_standard_output(path) => {
+                let csv = table.to_csv().map_err(|why| Failure::Failed(why.to_string()));
+                let printed = csv.and_then(|bytes| print(&String::from_utf8_lossy(&bytes)));
+                if let Err(why) = printed {
+                    self.lost(why.to_json()["message"].as_str().unwrap_or_default().to_owned());
+                }
+            }
+            Some(path) => self.write_table(path, table),
+            None => {}
+        }
     }
 
     /// Write the page if `--report` was given; it is only made then.
@@ -244,6 +264,11 @@ fn resolved(path: &Path) -> PathBuf {
         let folder = fs::canonicalize(folder_of(path)).unwrap_or_else(|_| folder_of(path));
         path.file_name().map_or(folder.clone(), |name| folder.join(name))
     })
+}
+
+/// `-`: the table goes to standard output.
+pub fn is_standard_output(path: &Path) -> bool {
+    path == Path::new("-")
 }
 
 /// A device or pipe: written to, never replaced.

@@ -4,24 +4,24 @@ use super::Context;
 use super::exit::Failure;
 use super::left_out::LeftOut;
 use super::output::{self, Envelope, TOOL, VERSION};
-use crate::design::Design;
+pub use crate::answer::stiffness::junctions;
+use crate::compare::masses_kg;
+use crate::design::{Design, Input, inputs};
 use crate::margin::NoMargins;
-use crate::profile::{Outline, Profile};
-use crate::report::{Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Unit};
-use crate::wedge::{Closure, NoCurve, NoElastic, StaticPoint, WedgeCurve};
+use crate::profile::Profile;
+use crate::report::{Cell, Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Unit};
+use crate::wedge::{Closure, NoCurve, NoElastic, WedgeCurve};
 use serde::Serialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// Chords of a drawn outline leave its arcs by no more than this, m.
-const OUTLINE_M: f64 = 1e-6;
-
-/// The checked design in `path`.
+/// The checked design in `path`, with what `--set` sets.
 ///
 /// # Errors
 /// [`Failure::Malformed`] with every fault of the file, or where an output is one of its histories.
 pub fn read_design(path: &Path, context: &Context) -> Result<Design, Failure> {
-    let design = Design::read(path).map_err(|refused| Failure::Malformed(miette::Report::new(refused)))?;
+    let design = Design::read_with(path, &context.set)
+        .map_err(|refused| Failure::Malformed(miette::Report::new(refused)))?;
     let histories = design.histories.iter().map(PathBuf::as_path);
     let read: Vec<&Path> = std::iter::once(path).chain(histories).collect();
     context.outputs.check(&read, &[])?;
@@ -85,8 +85,14 @@ impl<B: Serialize> Answer<'_, B> {
         }
     }
 
-    /// End of a page: what was left out, the results for programs, the design file.
+    /// End of a page: the inputs, then as [`Answer::end`].
     pub fn close(&self, page: &mut Page) {
+        page.folded("Inputs", |page| draw_inputs(page, self.design));
+        self.end(page);
+    }
+
+    /// End of a page that has its inputs: what was left out, the results for programs, the design file.
+    pub fn end(&self, page: &mut Page) {
         let mut table = Table::new(vec![
             Column::text("term", "Left out"),
             Column::text("why", "Why"),
@@ -99,7 +105,9 @@ impl<B: Serialize> Answer<'_, B> {
                 entry.cost.as_str().into(),
             ]);
         }
-        page.heading("What the model leaves out").table("", &table);
+        page.folded("What the model leaves out", |page| {
+            page.table("", &table);
+        });
         // Numbers that are none become null; the object holds nothing else that has no JSON form.
         page.results("results", &serde_json::to_value(self.envelope(Vec::new())).unwrap_or_default());
         page.source("Design file", &self.design.source);
@@ -118,17 +126,9 @@ pub fn page(title: &str, design: &Design, context: &Context) -> Page {
     })
 }
 
-/// The sprag of `design` at first contact at rest, with its outline: the narrowest that works where the design
-/// names no flanks.
+/// The sprag of `design` at first contact at rest.
 pub fn pose_at_rest(label: &str, design: &Design, profile: &Profile) -> SpragPose {
-    let sprags = &design.clutch.sprags;
-    // A profile that no flanks close is drawn by its arcs, contacts and centres alone.
-    let outline = match sprags.flanks {
-        Some(flanks) => Outline::closed(profile, &flanks),
-        None => Outline::narrowest(profile),
-    };
-    let outline = outline.map(|o| o.polyline(OUTLINE_M)).unwrap_or_default();
-    SpragPose::at_first_contact(label, profile, outline, Some(sprags.centroid_m))
+    SpragPose::at_rest(label, &design.clutch.sprags, profile)
 }
 
 /// The same sprag under load, as the equilibrium `state` (of [`WedgeCurve::closure_at_torque`]) has it.
@@ -147,77 +147,9 @@ pub fn pose_at_torque(at_rest: &SpragPose, curve: &WedgeCurve, torque_nm: f64) -
     Some(pose_loaded(&label, at_rest, &state))
 }
 
-/// Points of the curve for plots, N m ascending, up to `up_to_nm` or the curve's end, with the equilibrium
-/// behind each. Every arc keeps both its ends, so jumps at a junction show as jumps.
-pub fn samples(curve: &WedgeCurve, up_to_nm: f64) -> Vec<(StaticPoint, Closure)> {
-    /// Points per arc: more than a plot of 720 px can tell apart from a curve.
-    const PER_ARC: usize = 60;
-    let mut points = Vec::new();
-    let mut from_n = 0.0;
-    for arc in 0..curve.arc_count() {
-        let until_n = curve.arc_end_n(arc);
-        for i in 0..=PER_ARC {
-            // Denser towards the beginning, where angles and stiffness change most. A junction belongs to the arc
-            // before it; the next one begins a hair above.
-            let share = (i as f64 / PER_ARC as f64).powi(2);
-            let n = from_n + (until_n - from_n) * share.max(1e-9);
-            let both = curve.at_normal(n).zip(curve.closure_at_normal(n).map(|(_, c)| c));
-            match both {
-                Some((point, _)) if point.torque_nm > up_to_nm => {
-                    let last =
-                        curve.at_torque(up_to_nm).zip(curve.closure_at_torque(up_to_nm).map(|(_, c)| c));
-                    points.extend(last);
-                    return points;
-                }
-                both => points.extend(both),
-            }
-        }
-        from_n = until_n;
-    }
-    points
-}
-
-/// Torque, N m, and alpha, rad, at which each arc of the curve but its last hands over to the next; `arc` counts
-/// from 1 and names the arc that ends.
-pub fn junctions(curve: &WedgeCurve) -> Vec<Junction> {
-    (0..curve.arc_count().saturating_sub(1))
-        .filter_map(|k| {
-            let point = curve.at_normal(curve.arc_end_n(k))?;
-            Some(Junction {
-                torque_nm: point.torque_nm,
-                alpha_rad: curve.arc_end_rad(k),
-                arc: curve.first_arc() + k + 1,
-            })
-        })
-        .collect()
-}
-
-/// Where one arc hands over to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Junction {
-    /// Torque, N m.
-    pub torque_nm: f64,
-    /// alpha, rad.
-    pub alpha_rad: f64,
-    /// Number of the arc that ends here, from 1.
-    pub arc: usize,
-}
-
-impl Junction {
-    /// Label in plots, e.g. `1|2`.
-    pub fn label(&self) -> String {
-        format!("{}|{}", self.arc, self.arc + 1)
-    }
-}
-
 /// The races of `design` with `poses` of its sprags (the first in full, the others dashed over it).
 pub fn drawing(design: &Design, poses: Vec<SpragPose>) -> Drawing {
-    let r = &design.clutch.races;
-    Drawing {
-        race_radii_m: [r.inner_bore_radius_m, r.inner_radius_m, r.outer_radius_m, r.outer_outside_radius_m],
-        count: design.clutch.sprags.count,
-        poses,
-    }
+    Drawing::of(&design.clutch, poses)
 }
 
 /// Section of a page with the drawing to scale: one sprag, then clutch and arc centres side by side.
@@ -236,6 +168,108 @@ pub fn draw(page: &mut Page, drawing: &Drawing) {
     ]);
 }
 
+/// The dimensioned drawing: clutch, section, one sprag, masses.
+pub fn draw_sheet(page: &mut Page, design: &Design, profile: &Profile) {
+    let (s, r) = (&design.clutch.sprags, &design.clutch.races);
+    let mm = |m: f64| Unit::Millimetre.show_plain(m, 6);
+    let gram = |kg: f64| Unit::Gram.show(kg, 4);
+    let [sprags, inner, outer] = masses_kg(&design.clutch);
+    let notes = [
+        format!("{} sprags {} long,", s.count, mm(s.length_m)),
+        format!("races {} wide,", mm(r.width_m)),
+        format!("mass {}: sprags {},", gram(sprags + inner + outer), gram(sprags)),
+        format!("inner race {}, outer race {}", gram(inner), gram(outer)),
+    ];
+    let rest = pose_at_rest("first contact, no load", design, profile);
+    let svg = drawing(design, vec![rest]).sheet_svg([r.width_m, s.length_m], &notes);
+    page.true_figure(&svg, "Radii as run; inner, outer: the tracks. ν, ω: angles of the strut AB to the radii at B and A; junctions by the turn of the contact; races as plain rings.");
+}
+
+/// Every value of the design file: a short table for each of its parts, a wide one for the scenes.
+pub fn draw_inputs(page: &mut Page, design: &Design) {
+    let all = inputs(&design.source);
+    let (scenes, others): (Vec<&Input>, Vec<&Input>) =
+        all.iter().partition(|i| i.path.starts_with("scenarios["));
+    page.columns(&short_tables(&others));
+    if !scenes.is_empty() {
+        page.table("scenarios", &scene_table(&scenes));
+    }
+}
+
+/// A table for each part of the file; a row of a list (arc, variable) in one line.
+fn short_tables(inputs: &[&Input]) -> Vec<(String, Table)> {
+    let mut tables: Vec<(String, Table)> = Vec::new();
+    for input in inputs {
+        let path = input.path.as_str();
+        let (group, key) = match path.find(['.', '[']) {
+            Some(at) => (&path[..at], path[at..].trim_start_matches('.')),
+            None => ("design", path),
+        };
+        if tables.last().is_none_or(|(last, _)| last != group) {
+            let columns = vec![Column::text("key", "Key"), Column::text("value", "Value")];
+            tables.push((group.to_owned(), Table::new(columns)));
+        }
+        let Some((_, table)) = tables.last_mut() else { continue };
+        let value = if input.unit.is_empty() {
+            input.text.clone()
+        } else {
+            format!("{} {}", input.text, power(input.unit))
+        };
+        // A row of a list: its name stands in its path already.
+        let Some((row, inner)) = key.split_once(']') else {
+            table.row(vec![key.into(), value.into()]);
+            continue;
+        };
+        let (row, inner) = (row.replacen('[', " ", 1).trim().to_owned(), inner.trim_start_matches('.'));
+        if !matches!(table.rows.last(), Some(cells) if cells.first() == Some(&Cell::Text(row.clone()))) {
+            table.row(vec![row.into(), "".into()]);
+        }
+        if let Some(Cell::Text(text)) =
+            table.rows.last_mut().and_then(|cells| cells.get_mut(1)).filter(|_| inner != "name")
+        {
+            let between = if text.is_empty() { "" } else { "; " };
+            text.push_str(&format!("{between}{inner} {value}"));
+        }
+    }
+    tables
+}
+
+/// A unit with its powers raised.
+fn power(unit: &str) -> String {
+    unit.replace("^2", "²").replace("^3", "³")
+}
+
+/// A row for each scene, a column for each key that one of them has.
+fn scene_table(inputs: &[&Input]) -> Table {
+    let mut table = Table::new(vec![Column::text("name", "scene")]);
+    for input in inputs {
+        let Some((name, key)) = input.path.trim_start_matches("scenarios[").split_once("].") else {
+            continue;
+        };
+        if key == "name" {
+            table.row(vec![name.into()]);
+            continue;
+        }
+        let at = table.columns.iter().position(|c| c.key == key).unwrap_or_else(|| {
+            // The unit stands at the end of the key.
+            table.columns.push(Column::text(key, &key.replace('_', " ")));
+            table.columns.len() - 1
+        });
+        if !table.rows.iter().any(|cells| cells.first() == Some(&Cell::Text(name.to_owned()))) {
+            table.row(vec![name.into()]);
+        }
+        if let Some(cells) =
+            table.rows.iter_mut().find(|cells| cells.first() == Some(&Cell::Text(name.to_owned())))
+        {
+            while cells.len() <= at {
+                cells.push(Cell::Empty);
+            }
+            cells[at] = input.text.as_str().into();
+        }
+    }
+    table
+}
+
 /// A plot at the size it has beside another on a page, so that its letters keep theirs.
 pub fn half(plot: Plot) -> String {
     plot.sized(500.0, 320.0).to_svg()
@@ -248,7 +282,7 @@ mod tests {
     #[test]
     fn a_clutch_without_a_curve_is_told_with_file_and_keys() {
         let why = NoMargins::Curve(NoCurve::NoConvergence);
-        let text = no_clutch(Path::new("a.toml"), &why).to_json().unwrap()["message"].to_string();
+        let text = no_clutch(Path::new("a.toml"), &why).to_json()["message"].to_string();
         for word in ["a.toml", "did not converge", "contact, material", "sprags.inner_arcs"] {
             assert!(text.contains(word), "{text}");
         }

@@ -1,24 +1,17 @@
 //! `simulate`: one scenario in time.
 
-mod answer;
-mod damping;
 mod facts;
 mod history;
-mod left_out;
-mod notes;
 mod page;
 mod told;
-mod unfelt;
 
 use super::exit::{Exit, Failure};
 use super::parts::{self, Answer};
 use super::{Context, positive};
-use crate::design::{Design, Scenario, ScenarioKind};
+use crate::answer::simulation::{self as scene, Ask, Ran, Refused, Setting, SimulationAnswer};
+use crate::design::{Design, Scenario};
 use crate::dynamics::Stop;
-use crate::fidelity::{self, Term};
-use crate::scenario::{
-    NoScenario, Prepared, Settings, Simulation, Verdict, prepare, published_steps, simulate_published,
-};
+use crate::report::plain;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -34,16 +27,8 @@ Examples:
 The verdict is the answer: sticks, slips-overrunning, slips-engaging, disengages, overloaded and
 at-threshold all exit with 0. A run that meets a limit of work exits with 3, with or without a verdict.";
 
-/// The paper's step, s.
-const PUBLISHED_STEP_S: f64 = 1e-5;
-/// Half width of the published scheme's band; the paper gives none, a choice.
-const PUBLISHED_BAND_M_S: f64 = 1e-4;
-/// Tolerances that make sense: below, rounding rules; above, events are missed.
-const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
-/// Shortest step that makes sense, s: below, rounding of the time rules.
-const SHORTEST_STEP_S: f64 = 1e-9;
-/// Steps of the published scheme that one command takes on: some hours.
-const MOST_STEPS: u64 = 1_000_000_000;
+/// Digits to which a refused number is repeated: more than anybody types.
+const DIGITS: usize = 15;
 /// Most rows of a history that can be asked for: more than any program reads.
 const MOST_SAMPLES: u64 = 10_000_000;
 
@@ -98,127 +83,82 @@ pub struct SimulateArgs {
     pub full: bool,
 }
 
-/// A scenario and what became of it.
-struct Scene<'a> {
-    scenario: &'a Scenario,
-    /// The design with the scenario's overrides in its clutch.
-    own: Design,
-    /// `event`, `published`, or `equilibrium` where nothing is integrated.
-    method: &'static str,
-    outcome: Result<(Prepared, Simulation), NoScenario>,
-    /// Terms that the planner left out, and those it looked at and kept.
-    planned: [Vec<Term>; 2],
-    /// What contact damping changes, where that was asked.
-    damping: Option<damping::Effect>,
-    /// What a reader must know beside the figures.
-    notes: Vec<String>,
-    run_time_s: f64,
-}
-
 /// Run the command.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&[&args.file], &[])?;
-    refuse_senseless(args)?;
+    let ask = args.ask(context);
+    ask.validate().map_err(|why| refusal(why, args.window))?;
+    refuse_strangers(args)?;
     let design = parts::read_design(&args.file, context)?;
     let scenario =
         design.scenario(&args.scenario).ok_or_else(|| unknown(&args.scenario, &design, &args.file))?;
-    let duration = duration_s(scenario);
-    if let (Method::Published, Some(duration), Some(step)) = (args.method, duration, args.step)
-        && step > duration
-    {
-        return Err(refused("--step", step, &format!("at most the duration of the scenario, {duration} s")));
-    }
-    refuse_endless(args, duration)?;
-    refuse_outside(args, duration)?;
+    ask.validate_for(scenario).map_err(|why| refusal(why, args.window))?;
+    refuse_unknown_to_published(args)?;
+    let event = scenario.kind.duration_s().filter(|_| args.method == Method::Event);
     let start = Instant::now();
-    let event = duration.filter(|_| args.method == Method::Event);
-    let run = || computed(args, context, scenario);
-    let (outcome, planned) = match told::while_told(&scenario.name, event, context, run) {
-        Ok((prepared, simulation, planned)) => (Ok((prepared, simulation)), planned),
-        Err(why) => (Err(why), Default::default()),
-    };
+    let ran = told::while_told(&scenario.name, event, context, || computed(&design, scenario, &ask, context));
     let run_time_s = start.elapsed().as_secs_f64();
-    let method = match args.method {
-        _ if duration.is_none() => "equilibrium",
-        Method::Event => "event",
-        Method::Published => "published",
-    };
-    let own = Design { clutch: scenario.clutch.clone(), ..design.clone() };
-    let mut scene =
-        Scene { scenario, own, method, outcome, planned, damping: None, notes: Vec::new(), run_time_s };
     let other = format!("{}, contact damping changed", scenario.name);
-    scene.damping = told::while_told(&other, event, context, || {
-        damping::effect(&scene, &settings_of(args, context, scenario))
-    });
-    scene.notes = notes::of(&scene, args);
-    report(&design, &scene, context)
+    let damping = told::while_told(&other, event, context, || ran.damping_effect(&ask));
+    report(&design, &SimulationAnswer::new(ran, damping, &ask), run_time_s, context)
 }
 
-fn settings_of(args: &SimulateArgs, context: &Context, scenario: &Scenario) -> Settings {
-    let (samples, history) = history::asked(args, scenario);
-    let chosen = Settings::default();
-    Settings {
-        tolerance: args.tolerance.unwrap_or(chosen.tolerance),
-        // The published scheme has a step of its own.
-        longest_step_s: args.step.filter(|_| args.method == Method::Event),
-        samples,
-        history,
-        most_steps: args.max_steps,
-        most_events: args.max_changes,
-        energy: true,
-        interrupt: Some(context.interrupt.flag()),
-        clock: Some(&told::CLOCK),
+impl SimulateArgs {
+    fn ask(&self, context: &Context) -> Ask {
+        Ask {
+            method: match self.method {
+                Method::Event => scene::Method::Event,
+                Method::Published => scene::Method::Published { band_m_s: self.band },
+            },
+            tolerance: self.tolerance,
+            step_s: self.step,
+            most_steps: self.max_steps,
+            most_events: self.max_changes,
+            rows: self.samples.and_then(|n| usize::try_from(n).ok()),
+            window_s: self.window,
+            full: self.full,
+            follow: context.follow.clone(),
+        }
     }
 }
 
-fn computed(
-    args: &SimulateArgs,
+fn computed(design: &Design, scenario: &Scenario, ask: &Ask, context: &Context) -> Ran {
+    let steps = ask.published_steps(scenario);
+    let progress = steps.map(|steps| context.progress("published scheme", "steps", Some(steps)));
+    Ran::new(design, scenario, ask, &mut |steps| {
+        if let Some(progress) = &progress {
+            progress.set(steps);
+        }
+    })
+}
+
+fn report(
+    design: &Design,
+    found: &SimulationAnswer,
+    run_time_s: f64,
     context: &Context,
-    scenario: &Scenario,
-) -> Result<(Prepared, Simulation, [Vec<Term>; 2]), NoScenario> {
-    let settings = settings_of(args, context, scenario);
-    match args.method {
-        Method::Event => {
-            let planned = fidelity::simulate(scenario, &settings, args.full)?;
-            Ok((planned.prepared, planned.simulation, [planned.left_out, planned.kept]))
-        }
-        Method::Published => {
-            let prepared = prepare(scenario)?;
-            let step_s = args.step.unwrap_or(PUBLISHED_STEP_S);
-            let total = published_steps(prepared.duration_s, step_s);
-            let progress = context.progress("published scheme", "steps", Some(total));
-            let band = args.band.unwrap_or(PUBLISHED_BAND_M_S);
-            let simulation = simulate_published(scenario, &settings, step_s, band, &mut |steps| {
-                progress.set(steps);
-                !context.interrupt.requested()
-            })?;
-            Ok((prepared, simulation, Default::default()))
-        }
-    }
-}
-
-fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Failure> {
+) -> Result<Exit, Failure> {
     let answer = Answer {
         design,
-        run_time_s: scene.run_time_s,
-        left_out: left_out::of(scene),
-        error_estimate: scene.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
-        body: answer::Body::of(scene),
+        run_time_s,
+        left_out: found.left_out.clone(),
+        error_estimate: found.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
+        body: found,
     };
     if context.outputs.csv.is_some() {
-        context.outputs.write_csv(&history::table(scene));
+        context.outputs.write_csv(&history::table(&found.history()));
     }
-    context.outputs.write_report(|| page::page(scene, &answer, context));
+    context.outputs.write_report(|| page::page(found, &answer, context));
     answer.print(context)?;
-    let facts = facts::table(scene).to_text(context.screen);
-    context.answer(&format!("{}\n\n{facts}", scene.verdict_line()))?;
-    for note in &scene.notes {
+    let facts = facts::table(found).to_text(context.screen);
+    context.answer(&format!("{}\n\n{facts}", found.verdict_line()))?;
+    for note in &found.body.notes {
         context.message(&format!("note: {note}"));
     }
-    Ok(match scene.simulation() {
+    Ok(match found.simulation() {
         Some(s) if s.stop == Stop::Interrupted || s.finer_gave_up == Some(Stop::Interrupted) => {
             Exit::Interrupted
         }
@@ -227,56 +167,49 @@ fn report(design: &Design, scene: &Scene, context: &Context) -> Result<Exit, Fai
     })
 }
 
-/// Duration of a scenario that is integrated, s.
-fn duration_s(scenario: &Scenario) -> Option<f64> {
-    match scenario.kind {
-        ScenarioKind::TorsionalExcitation { duration_s, .. }
-        | ScenarioKind::Engagement { duration_s, .. }
-        | ScenarioKind::Transient { duration_s, .. } => Some(duration_s),
-        ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. } => None,
+/// The refusal of a setting, by its flag.
+fn refusal(why: Refused, window_s: Option<[f64; 2]>) -> Failure {
+    if let (Setting::Window, Some(ends)) = (why.setting, window_s) {
+        let [from, until] = ends.map(|t_s| plain(t_s, DIGITS));
+        return Failure::malformed(format!("--window {from}:{until}: allowed: {}", why.allowed));
     }
+    let flag = match why.setting {
+        Setting::Tolerance => "--tolerance",
+        Setting::Step => "--step",
+        Setting::Window => "--window",
+    };
+    refused(flag, why.found, &why.allowed)
 }
 
-fn refuse_senseless(args: &SimulateArgs) -> Result<(), Failure> {
-    if let Some(step) = args.step.filter(|&step| step < SHORTEST_STEP_S) {
-        return Err(refused("--step", step, &format!("{SHORTEST_STEP_S:e} s or more")));
-    }
-    if let Some(x) = args.tolerance {
-        refuse_tolerance(x)?;
-        if args.method == Method::Published {
-            return Err(refused("--tolerance", x, "--step with --method published, whose step is fixed"));
+/// Refuse a `--tolerance` that makes no sense.
+pub(super) fn refuse_tolerance(x: f64) -> Result<(), Failure> {
+    Ask { tolerance: Some(x), ..Ask::default() }.validate().map_err(|why| refusal(why, None))
+}
+
+/// Refuse flags that the method does not know.
+fn refuse_strangers(args: &SimulateArgs) -> Result<(), Failure> {
+    match (args.method, args.tolerance, args.band) {
+        (Method::Published, Some(x), _) => {
+            Err(refused("--tolerance", x, "--step with --method published, whose step is fixed"))
         }
-    }
-    match (args.method, args.band) {
-        (Method::Event, Some(band)) => {
+        (Method::Event, _, Some(band)) => {
             Err(refused("--band", band, "only with --method published: the event method needs no band"))
         }
         _ => Ok(()),
     }
 }
 
-/// Refuse a `--tolerance` that makes no sense.
-pub(super) fn refuse_tolerance(x: f64) -> Result<(), Failure> {
-    let [low, high] = TOLERANCES;
-    match (low..=high).contains(&x) {
-        true => Ok(()),
-        false => Err(refused("--tolerance", x, &format!("{low:e} to {high:e}; 1e-6 serves well"))),
+/// Refuse a window and limits with the published scheme.
+fn refuse_unknown_to_published(args: &SimulateArgs) -> Result<(), Failure> {
+    let given = [
+        ("--window", args.window.is_some()),
+        ("--max-steps", args.max_steps.is_some()),
+        ("--max-changes", args.max_changes.is_some()),
+    ];
+    match given.into_iter().find(|(_, given)| *given && args.method == Method::Published) {
+        Some((flag, _)) => Err(Failure::malformed(format!("{flag}: only with --method event"))),
+        None => Ok(()),
     }
-}
-
-/// Refuse a run of the published scheme that would not end in a day.
-fn refuse_endless(args: &SimulateArgs, duration_s: Option<f64>) -> Result<(), Failure> {
-    let (Method::Published, Some(duration_s)) = (args.method, duration_s) else { return Ok(()) };
-    let step_s = args.step.unwrap_or(PUBLISHED_STEP_S);
-    if published_steps(duration_s, step_s) <= MOST_STEPS {
-        return Ok(());
-    }
-    let least = step_s * (published_steps(duration_s, step_s) as f64 / MOST_STEPS as f64);
-    let why = format!(
-        "{least:.1e} s or more: at most {:e} steps in twice the scenario's {duration_s} s, the second time halved",
-        MOST_STEPS as f64
-    );
-    Err(refused("--step", step_s, &why))
 }
 
 /// Two times, s, with a colon between them.
@@ -288,28 +221,8 @@ fn window(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// Refuse a part of the scene that it does not have, and limits that the published scheme does not know.
-fn refuse_outside(args: &SimulateArgs, duration_s: Option<f64>) -> Result<(), Failure> {
-    if args.method == Method::Published {
-        let given = [
-            ("--window", args.window.is_some()),
-            ("--max-steps", args.max_steps.is_some()),
-            ("--max-changes", args.max_changes.is_some()),
-        ];
-        if let Some((flag, _)) = given.into_iter().find(|(_, given)| *given) {
-            return Err(Failure::malformed(format!("{flag}: only with --method event")));
-        }
-    }
-    match (args.window, duration_s) {
-        (Some([_, until]), Some(end)) if until > end => {
-            Err(refused("--window", until, &format!("up to the end of the scene at {end} s")))
-        }
-        _ => Ok(()),
-    }
-}
-
 fn refused(flag: &str, found: f64, allowed: &str) -> Failure {
-    Failure::malformed(format!("{flag} {found:e}: allowed: {allowed}"))
+    Failure::malformed(format!("{flag} {}: allowed: {allowed}", plain(found, DIGITS)))
 }
 
 /// The refusal of a scenario that the design does not have.
@@ -325,53 +238,5 @@ pub(super) fn unknown(name: &str, design: &Design, file: &Path) -> Failure {
             "{file}: no scenario {name}, which --scenario asks for; did you mean {nearest}? The design has: {}",
             names.join(", ")
         )),
-    }
-}
-
-impl Scene<'_> {
-    fn simulation(&self) -> Option<&Simulation> {
-        self.outcome.as_ref().ok().map(|(_, s)| s)
-    }
-
-    /// Verdict by its name, also where the clutch has no start: it does not carry it, or has no curve.
-    fn verdict(&self) -> Option<&'static str> {
-        match &self.outcome {
-            Ok((_, s)) => s.verdict.map(Verdict::name),
-            Err(NoScenario::NotCarried { .. }) => Some(Verdict::Overloaded.name()),
-            Err(_) => Some(Verdict::Disengages.name()),
-        }
-    }
-
-    /// Whether the clutch does what the scenario asks: hold, or slip freely in overrun.
-    fn held(&self) -> bool {
-        let overruns = match self.scenario.kind {
-            ScenarioKind::Overrun { .. } => true,
-            // A clutch that starts in overrun, or whose torque turns round, is to let go.
-            ScenarioKind::Transient { overrun_rad_s, .. } => {
-                let turns = |h: &Vec<[f64; 2]>| h.iter().any(|row| row[1] < 0.0);
-                overrun_rad_s > 0.0 || self.scenario.torque_history.as_ref().is_some_and(turns)
-            }
-            _ => false,
-        };
-        match self.simulation().and_then(|s| s.verdict) {
-            Some(Verdict::Sticks) => true,
-            Some(Verdict::SlipsOverrunning) => overruns,
-            _ => false,
-        }
-    }
-
-    /// Torque at which the drawing shows the clutch, N m.
-    fn drawn_torque_nm(&self) -> Option<f64> {
-        match self.scenario.kind {
-            ScenarioKind::Static { torque_nm } => Some(torque_nm),
-            ScenarioKind::TorsionalExcitation { preload_nm, .. } => Some(preload_nm),
-            ScenarioKind::Engagement { reversing_torque_nm, .. } => Some(reversing_torque_nm),
-            ScenarioKind::Transient { preload_nm, torque_step_nm, .. } => {
-                let rows = self.scenario.torque_history.iter().flatten();
-                Some(rows.map(|row| row[1]).fold(preload_nm.max(preload_nm + torque_step_nm), f64::max))
-            }
-            ScenarioKind::Overrun { .. } => None,
-        }
-        .filter(|&t| t > 0.0)
     }
 }

@@ -67,10 +67,10 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
         friction: args.friction,
     };
     let started = Instant::now();
-    let settings = Settings { interrupt: Some(context.interrupt.flag()), ..Settings::default() };
+    let settings = Settings { follow: context.follow.unseen(), ..Settings::default() };
     let sized = size(&ask, &settings);
     let run_time_s = started.elapsed().as_secs_f64();
-    if context.interrupt.requested() {
+    if context.follow.stopped() {
         return Err(Failure::Interrupted);
     }
     let sized = match sized {
@@ -110,8 +110,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
         let mut page = parts::page("First design", design, context);
         page.verdict(true, &verdict(&sized));
         if let Ok(profile) = place_profile(&design.clutch) {
-            let rest = parts::pose_at_rest("first contact, no load", design, &profile);
-            parts::draw(&mut page, &parts::drawing(design, vec![rest]));
+            parts::draw_sheet(&mut page, design, &profile);
         }
         page.heading("Race spaces tried").table("", &tried_table(&sized.tried, Some(sized.taken)));
         page.heading("Margins").table(REACHED_AT, &people_table(&sized.margins, end_nm));
@@ -195,7 +194,8 @@ fn rows_of(tried: &[Tried], taken: Option<usize>) -> Vec<Value> {
 
 fn margin_json(r: &Margin, end_nm: f64) -> Value {
     json!({
-        "code": r.code, "demand": r.demand, "allowable": r.allowable, "unit": r.unit, "margin": r.margin,
+        "code": r.code(), "demand": r.demand_in_unit(), "allowable": r.shown_allowable(), "unit": r.limit.unit,
+        "margin": r.margin(), "slip_margin": r.slip_margin(),
         "torque_capacity_nm": r.torque_capacity_nm, "capacity_beyond_end": ends_first(r, end_nm), "held": r.held(),
     })
 }

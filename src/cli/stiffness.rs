@@ -1,6 +1,5 @@
 //! `stiffness`: the static curve, for one contact law or several side by side.
 
-mod body;
 mod fem;
 mod laws;
 mod page;
@@ -8,21 +7,19 @@ mod pressure;
 mod tables;
 
 use super::exit::{Exit, Failure};
-use super::left_out::{LeftOut, at_rest, left_out};
 use super::parts::{self, Answer};
 use super::{Context, positive};
-use crate::design::{Clutch, Design, LawName};
+use crate::answer::stiffness::{self, Ask, LawCurve, NoStiffness, StiffnessAnswer, curves};
+use crate::design::{Design, LawName};
 use crate::margin::NoMargins;
 use crate::profile::Profile;
 use crate::report::Unit;
 use crate::scenario::place_profile;
-use crate::wedge::{StaticPoint, WedgeCurve};
-use body::Body;
 use clap::Args;
-use fem::Fem;
-use pressure::PressureMap;
+use fem::{Fem, FemJson};
 pub use pressure::PressureName;
-use rayon::prelude::*;
+use pressure::{PressureJson, PressureMap};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -36,11 +33,6 @@ Examples:
 
 Finite elements: a CSV with the columns torque_nm and windup_deg, normal_inner_n or normal_n if there; what
 `export --format calculix --read ... --csv` writes is one. Several FILEs go onto one page, each with its --fem.";
-
-/// Rows of an even table.
-const EVEN_ROWS: usize = 20;
-/// Smallest torque that the curve's root finding resolves to six digits, N m.
-const SMALLEST_NM: f64 = 1e-6;
 
 /// Arguments of `stiffness`.
 #[derive(Debug, Clone, Args)]
@@ -69,27 +61,33 @@ pub struct StiffnessArgs {
     pub pressure: Option<PressureName>,
 }
 
-/// One law's curve and the rows asked for.
-struct LawCurve {
-    name: LawName,
-    /// The clutch with this law.
-    clutch: Clutch,
-    curve: WedgeCurve,
-    /// The same with local deformation alone.
-    local: WedgeCurve,
-    /// Static point at each torque of the table; none beyond the curve's end.
-    rows: Vec<(f64, Option<StaticPoint>)>,
-}
-
 /// One design with all that was asked of it.
 struct Study {
     design: Design,
     profile: Profile,
-    laws: Vec<LawCurve>,
+    found: StiffnessAnswer,
     fem: Option<Fem>,
     /// Pressure along the length with the first law; absent: not asked for.
     pressure: Option<PressureMap>,
     run_time_s: f64,
+}
+
+impl Study {
+    fn laws(&self) -> &[LawCurve] {
+        &self.found.laws
+    }
+}
+
+/// Keys of `stiffness`: the curves, and what was asked beside them.
+#[derive(Debug, Clone, Serialize)]
+struct Body {
+    #[serde(flatten)]
+    curves: stiffness::Body,
+    /// Finite elements and the distance of each law to them, in the order of `laws`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fem: Option<Vec<FemJson>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pressure: Option<PressureJson>,
 }
 
 /// Run the command.
@@ -99,7 +97,7 @@ struct Study {
 pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
     let inputs: Vec<&Path> = args.files.iter().chain(&args.fem).map(PathBuf::as_path).collect();
     context.outputs.check(&inputs, &[])?;
-    refuse_tiny(args)?;
+    args.ask(context).validate().map_err(|why| Failure::malformed(why.to_string()))?;
     let several = args.files.len() > 1;
     if several && (context.json || context.outputs.csv.is_some() || context.outputs.report.is_none()) {
         return Err(Failure::malformed(
@@ -115,7 +113,7 @@ pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
     let studies = (0..args.files.len()).map(|i| study(args, i, context)).collect::<Result<Vec<_>, _>>()?;
     let answers: Vec<_> = studies.iter().map(answer).collect();
     if let [study] = studies.as_slice() {
-        context.outputs.write_csv(&tables::csv(&study.laws));
+        context.outputs.write_csv(&tables::csv(study.laws()));
     }
     context.outputs.write_report(|| page::page(&studies, &answers, context));
     for (study, answer) in studies.iter().zip(&answers) {
@@ -132,91 +130,47 @@ fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<Study, Fai
     let profile = place_profile(&design.clutch)
         .map_err(|e| parts::no_clutch(&args.files[i], &NoMargins::Profile(e)))?;
     let started = Instant::now();
-    let laws = compute(args, &args.files[i], (&design, &profile), context)?;
+    let ask = args.ask(context);
+    let count = ask.laws_of(&design.clutch.contact).len() as u64;
+    let progress = context.progress("curves", "contact laws", Some(count));
+    let laws = curves(&design, &profile, &ask, &|| progress.advance(1)).map_err(|why| match why {
+        NoStiffness::NoClutch(why) => parts::no_clutch(&args.files[i], &why),
+        NoStiffness::Torque(_) => Failure::malformed(why.to_string()),
+        NoStiffness::Stopped => Failure::Interrupted,
+    })?;
+    drop(progress);
     let shaped = (!design.clutch.axial.is_straight()).then_some(PressureName::Slices);
     let pressure = match (laws.first(), args.pressure.or(shaped)) {
         (Some(law), Some(how)) => Some(PressureMap::of(law, how)?),
         _ => None,
     };
-    Ok(Study { design, profile, laws, fem, pressure, run_time_s: started.elapsed().as_secs_f64() })
+    let run_time_s = started.elapsed().as_secs_f64();
+    Ok(Study { design, profile, found: StiffnessAnswer::of(laws), fem, pressure, run_time_s })
+}
+
+impl StiffnessArgs {
+    fn ask(&self, context: &Context) -> Ask {
+        Ask {
+            laws: self.contact.clone(),
+            torques_nm: self.torques.clone(),
+            max_torque_nm: self.max_torque,
+            follow: context.follow.clone(),
+        }
+    }
 }
 
 fn answer(study: &Study) -> Answer<'_, Body> {
-    // A term that one of the laws compared does hold is left out by the others all the same.
-    let mut terms: Vec<LeftOut> = Vec::new();
-    for term in study.laws.iter().flat_map(|l| left_out(&l.clutch)) {
-        if terms.iter().all(|t| t.term != term.term) {
-            terms.push(term);
-        }
-    }
-    terms.push(at_rest());
-    let truncation = study.laws.iter().map(|l| l.curve.truncation()).fold(0.0, f64::max);
     Answer {
         design: &study.design,
         run_time_s: study.run_time_s,
-        left_out: terms,
-        error_estimate: Some(truncation.into()),
-        body: Body::new(study),
+        left_out: study.found.left_out.clone(),
+        error_estimate: Some(study.found.error_relative.into()),
+        body: Body {
+            curves: study.found.body.clone(),
+            fem: study.fem.as_ref().map(|fem| fem::json(study, fem)),
+            pressure: study.pressure.as_ref().map(PressureMap::to_json),
+        },
     }
-}
-
-fn refuse_tiny(args: &StiffnessArgs) -> Result<(), Failure> {
-    let least = args.max_torque.map(|t| t / EVEN_ROWS as f64);
-    match args.torques.iter().copied().chain(least).find(|&t| t < SMALLEST_NM) {
-        Some(torque) => Err(Failure::malformed(format!(
-            "a torque of {torque:e} Nm is too small: allowed from {SMALLEST_NM:e} Nm up"
-        ))),
-        None => Ok(()),
-    }
-}
-
-/// Curves of the laws asked for, in parallel, and their rows at the torques asked for.
-fn compute(
-    args: &StiffnessArgs,
-    file: &Path,
-    (design, profile): (&Design, &Profile),
-    context: &Context,
-) -> Result<Vec<LawCurve>, Failure> {
-    let names = laws::asked(&args.contact, &design.clutch.contact);
-    let progress = context.progress("curves", "contact laws", Some(names.len() as u64));
-    let curves = names
-        .par_iter()
-        .map(|&name| {
-            if context.interrupt.requested() {
-                return Err(Failure::Interrupted);
-            }
-            let contact = name.beside(&design.clutch.contact);
-            let clutch = Clutch { contact, ..design.clutch.clone() };
-            let none = |e| parts::no_clutch(file, &NoMargins::Curve(e));
-            let curve = WedgeCurve::build(&clutch, profile, 0.0).map_err(none)?;
-            let local = WedgeCurve::build_local(&clutch, profile).map_err(none)?;
-            progress.advance(1);
-            Ok((name, clutch, curve, local))
-        })
-        .collect::<Result<Vec<_>, Failure>>()?;
-    let torques = torques(args, design, &curves);
-    let laws = curves.into_par_iter().map(|(name, clutch, curve, local)| {
-        let rows = torques.iter().map(|&t| (t, curve.at_torque(t))).collect();
-        LawCurve { name, clutch, curve, local, rows }
-    });
-    Ok(laws.collect())
-}
-
-/// Torques of the table, N m: those asked for, or an even table up to the largest asked for, else up to the
-/// design's peak torque or the first end of a curve, whichever comes first.
-fn torques(
-    args: &StiffnessArgs,
-    design: &Design,
-    curves: &[(LawName, Clutch, WedgeCurve, WedgeCurve)],
-) -> Vec<f64> {
-    if !args.torques.is_empty() {
-        return args.torques.clone();
-    }
-    let first_end = curves.iter().map(|c| c.2.end_torque_nm()).fold(f64::INFINITY, f64::min);
-    let largest = args
-        .max_torque
-        .unwrap_or_else(|| design.limits.peak_torque_nm.map_or(first_end, |peak| peak.min(first_end)));
-    (1..=EVEN_ROWS).map(|i| largest * i as f64 / EVEN_ROWS as f64).collect()
 }
 
 /// Where the curve of a law ends, in words.

@@ -8,7 +8,7 @@ use super::contact_file::{ContactFile, StateFile};
 use super::file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
 use super::law::{ContactLaw, LawName, ROLLER_COEFFICIENT};
-use super::limits_file::LimitsFile;
+use super::limits::{LIMIT_KEYS, LimitsFile};
 use super::{Clutch, Friction, Limits, Races, Spring, StressState};
 use super::{axial, eccentricity, geometry, running, steels};
 
@@ -40,6 +40,13 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
         drag_torque_nm: file.spring.drag_torque_nm,
     };
     let axial = axial::axial(file, out);
+    if file.sprags.length_mm > file.races.width_mm {
+        out.refuse(
+            &["sprags.length_mm", "races.width_mm"],
+            format!("at most the width of the races, {} mm", file.races.width_mm),
+            "shorten the sprags or widen the races: beyond a race's edge nothing carries a sprag".to_owned(),
+        );
+    }
     // The sprag is looked at between races that are in order, first as they are made.
     let made = races?;
     let sprags = geometry::sprags(&file.sprags, &made, materials.as_ref(), out);
@@ -200,29 +207,12 @@ pub(super) fn tolerances(file: &DesignFile, out: &mut Findings) {
 /// The limits of a table, the absent ones from `base`.
 pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Limits {
     let base = if file.from_material == Some(true) { steels::limits(file, base, out) } else { base };
-    let limits = Limits {
-        nominal_torque_nm: file.nominal_torque_nm.or(base.nominal_torque_nm),
-        peak_torque_nm: file.peak_torque_nm.or(base.peak_torque_nm),
-        hertz_nominal_pa: file.hertz_nominal_mpa.map(pa).or(base.hertz_nominal_pa),
-        hertz_peak_pa: file.hertz_peak_mpa.map(pa).or(base.hertz_peak_pa),
-        hoop_inner_pa: file.hoop_inner_mpa.map(pa).or(base.hoop_inner_pa),
-        hoop_outer_pa: file.hoop_outer_mpa.map(pa).or(base.hoop_outer_pa),
-        hoop_inner_bending_pa: file.hoop_inner_bending_mpa.map(pa).or(base.hoop_inner_bending_pa),
-        hoop_outer_bending_pa: file.hoop_outer_bending_mpa.map(pa).or(base.hoop_outer_bending_pa),
-        case_depth_m: file.case_depth_mm.map(m).or(base.case_depth_m),
-        case_shear_pa: file.case_shear_mpa.map(pa).or(base.case_shear_pa),
-        core_shear_pa: file.core_shear_mpa.map(pa).or(base.core_shear_pa),
-        body_yield_pa: file.body_yield_mpa.map(pa).or(base.body_yield_pa),
-        axial_load_n: file.axial_load_n.or(base.axial_load_n),
-        gap_nominal_m: file.gap_nominal_mm.map(m).or(base.gap_nominal_m),
-        gap_peak_m: file.gap_peak_mm.map(m).or(base.gap_peak_m),
-        windup_nominal_rad: file.windup_nominal_deg.map(f64::to_radians).or(base.windup_nominal_rad),
-        equivalent_inner_pa: file.equivalent_inner_mpa.map(pa).or(base.equivalent_inner_pa),
-        equivalent_outer_pa: file.equivalent_outer_mpa.map(pa).or(base.equivalent_outer_pa),
-        slip_margin: file.slip_margin.or(base.slip_margin),
-        keep_contact_to_rad_s: file.keep_contact_to_rpm.map(rad_s).or(base.keep_contact_to_rad_s),
-        lift_off_by_rad_s: file.lift_off_by_rpm.map(rad_s).or(base.lift_off_by_rad_s),
-    };
+    let mut limits = base;
+    for key in LIMIT_KEYS {
+        if let Some(value) = key.written(file) {
+            limits = key.with(&limits, value);
+        }
+    }
     if let (Some(keep), Some(lift)) = (limits.keep_contact_to_rad_s, limits.lift_off_by_rad_s)
         && lift <= keep
     {
@@ -233,64 +223,11 @@ pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Lim
                 .to_owned(),
         );
     }
-    let needs = [
-        ("limits.hertz_nominal_mpa", limits.hertz_nominal_pa, "nominal_torque_nm", limits.nominal_torque_nm),
-        ("limits.hertz_peak_mpa", limits.hertz_peak_pa, "peak_torque_nm", limits.peak_torque_nm),
-        ("limits.hoop_inner_mpa", limits.hoop_inner_pa, "peak_torque_nm", limits.peak_torque_nm),
-        ("limits.hoop_outer_mpa", limits.hoop_outer_pa, "peak_torque_nm", limits.peak_torque_nm),
-        (
-            "limits.hoop_inner_bending_mpa",
-            limits.hoop_inner_bending_pa,
-            "peak_torque_nm",
-            limits.peak_torque_nm,
-        ),
-        (
-            "limits.hoop_outer_bending_mpa",
-            limits.hoop_outer_bending_pa,
-            "peak_torque_nm",
-            limits.peak_torque_nm,
-        ),
-        ("limits.case_shear_mpa", limits.case_shear_pa, "peak_torque_nm", limits.peak_torque_nm),
-        ("limits.core_shear_mpa", limits.core_shear_pa, "peak_torque_nm", limits.peak_torque_nm),
-        ("limits.body_yield_mpa", limits.body_yield_pa, "peak_torque_nm", limits.peak_torque_nm),
-        ("limits.axial_load_n", limits.axial_load_n, "peak_torque_nm", limits.peak_torque_nm),
-        ("limits.gap_nominal_mm", limits.gap_nominal_m, "nominal_torque_nm", limits.nominal_torque_nm),
-        ("limits.gap_peak_mm", limits.gap_peak_m, "peak_torque_nm", limits.peak_torque_nm),
-        (
-            "limits.windup_nominal_deg",
-            limits.windup_nominal_rad,
-            "nominal_torque_nm",
-            limits.nominal_torque_nm,
-        ),
-        (
-            "limits.equivalent_inner_mpa",
-            limits.equivalent_inner_pa,
-            "nominal_torque_nm",
-            limits.nominal_torque_nm,
-        ),
-        (
-            "limits.equivalent_outer_mpa",
-            limits.equivalent_outer_pa,
-            "nominal_torque_nm",
-            limits.nominal_torque_nm,
-        ),
-    ];
-    for (key, limit, torque_key, torque) in needs {
-        if limit.is_some() && torque.is_none() {
-            out.refuse(
-                &[key],
-                format!("only together with limits.{torque_key}, which is missing"),
-                format!(
-                    "add {torque_key} = ..., the torque at which this limit is held, or remove the limit"
-                ),
-            );
-        }
-    }
-    if limits.core_shear_pa.is_some() && limits.case_depth_m.is_none() {
+    for (key, needed, what) in LIMIT_KEYS.iter().flat_map(|key| key.missing(&limits)) {
         out.refuse(
-            &["limits.core_shear_mpa"],
-            "only together with limits.case_depth_mm, which is missing".to_owned(),
-            "add case_depth_mm = ..., the depth at which the core begins, or remove the limit".to_owned(),
+            &[&format!("limits.{key}")],
+            format!("only together with limits.{needed}, which is missing"),
+            format!("add {needed} = ..., {what}, or remove the limit"),
         );
     }
     if let (Some(nominal), Some(peak)) = (limits.nominal_torque_nm, limits.peak_torque_nm)

@@ -53,17 +53,22 @@ impl std::error::Error for EditError {}
 /// [`EditError`]; nothing is written where one value cannot be.
 pub fn with_values(source: &str, values: &[(&str, f64)]) -> Result<String, EditError> {
     let mut document = parse(source)?;
-    let arcs = match document.get("sprags").and_then(|s| s.get("inner_arcs")) {
-        Some(Item::Value(Value::Array(rows))) => rows.len(),
-        Some(Item::ArrayOfTables(rows)) => rows.len(),
-        _ => 0,
-    };
+    let arcs = arcs(&document);
     for &(name, value) in values {
         let path = variable_path(name, arcs)
             .ok_or_else(|| EditError::UnknownName { name: name.to_owned(), known: variable_names(arcs) })?;
         put(&mut document, name, &path, value)?;
     }
     Ok(document.to_string())
+}
+
+/// How many inner arcs the text has.
+pub(super) fn arcs(document: &DocumentMut) -> usize {
+    match document.get("sprags").and_then(|s| s.get("inner_arcs")) {
+        Some(Item::Value(Value::Array(rows))) => rows.len(),
+        Some(Item::ArrayOfTables(rows)) => rows.len(),
+        _ => 0,
+    }
 }
 
 /// Sets one key; a whole number where the schema wants one.
@@ -102,6 +107,52 @@ pub fn with_flanks(source: &str, flanks: &Flanks) -> Result<String, EditError> {
     Ok(document.to_string())
 }
 
+/// The text with another sprag: r_e and e_1, m, inner arcs (radius m, end rad), flanks. Lengths to 0.01 um, angles to
+/// 1e-6 rad. Mass, inertia and centroid then follow from the outline; a task for `optimize`, whose variables belong to the
+/// sprag before, goes.
+///
+/// # Errors
+/// [`EditError`].
+pub fn with_sprag(
+    source: &str,
+    outer_radius_m: f64,
+    centre_distance_m: f64,
+    arcs: &[(f64, f64)],
+    flanks: &Flanks,
+) -> Result<String, EditError> {
+    let mm = |m: f64| (m * 1e8).round() / 1e5;
+    let rad = |angle: f64| (angle * 1e6).round() / 1e6;
+    let round = |m: f64| mm(m) * 1e-3;
+    let rounded = Flanks {
+        rear_m: round(flanks.rear_m),
+        front_m: round(flanks.front_m),
+        rear_tilt_rad: rad(flanks.rear_tilt_rad),
+        front_tilt_rad: rad(flanks.front_tilt_rad),
+    };
+    let mut document = parse(&with_flanks(source, &rounded)?)?;
+    document.remove("optimize");
+    let missing = || EditError::MissingKey { key: "sprags".to_owned() };
+    let sprags = document.get_mut("sprags").and_then(Item::as_table_like_mut).ok_or_else(missing)?;
+    let mut values =
+        vec![("outer_radius_mm", mm(outer_radius_m)), ("centre_distance_mm", mm(centre_distance_m))];
+    // b of (6) where the file has it.
+    if sprags.contains_key("width_mm") {
+        values.push(("width_mm", mm(flanks.rear_m + flanks.front_m)));
+    }
+    for (key, value) in values {
+        sprags.insert(key, Item::Value(finite(key, value)?));
+    }
+    let mut rows = toml_edit::Array::new();
+    for (radius_m, until_rad) in arcs {
+        let mut row = toml_edit::InlineTable::new();
+        row.insert("radius_mm", finite("radius_mm", mm(*radius_m))?);
+        row.insert("until_rad", finite("until_rad", rad(*until_rad))?);
+        rows.push(row);
+    }
+    sprags.insert("inner_arcs", Item::Value(Value::Array(rows)));
+    Ok(document.to_string())
+}
+
 /// The text without those variables of `[optimize]` whose name `drop` picks.
 ///
 /// # Errors
@@ -124,6 +175,23 @@ pub fn without_variables(source: &str, drop: &dyn Fn(&str) -> bool) -> Result<St
             });
         }
         _ => {}
+    }
+    Ok(document.to_string())
+}
+
+/// The text without the tables and keys at dotted paths; what is not there is not missed.
+///
+/// # Errors
+/// [`EditError::Syntax`].
+pub(super) fn without_keys(source: &str, paths: &[&str]) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    for path in paths {
+        let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
+        let table =
+            if table.is_empty() { Some(document.as_item_mut()) } else { item_at(&mut document, table) };
+        if let Some(table) = table.and_then(Item::as_table_like_mut) {
+            table.remove(key);
+        }
     }
     Ok(document.to_string())
 }
@@ -204,8 +272,8 @@ fn finite(name: &str, value: f64) -> Result<Value, EditError> {
     }
 }
 
-/// Put a number where one stands and keep the blanks and comments around it.
-fn replace(item: &mut Item, mut number: Value) {
+/// Put a value where one stands and keep the blanks and comments around it.
+pub(super) fn replace(item: &mut Item, mut number: Value) {
     if let Some(old) = item.as_value() {
         *number.decor_mut() = old.decor().clone();
     }

@@ -5,8 +5,9 @@
 //! join several keys ([`super::check`]). Equations: none. The doc comments are the schema's descriptions.
 
 use super::contact_file::ContactFile;
-use super::limits_file::{CheckFile, LimitsFile, OptimizeFile};
+use super::limits::LimitsFile;
 use super::scenario_file::ScenarioFile;
+use super::task_file::{CheckFile, OptimizeFile};
 use super::tolerances_file::TolerancesFile;
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,7 +1,7 @@
 //! Histories over time from a CSV file named in a scenario.
 //!
-//! In: the text of a file with two named columns. Out: rows in SI, or every fault with line and column. Absent:
-//! reading files, what a history does. Equations: none.
+//! In: the text of a file with two named columns. Out: rows in SI, or its faults with line and column, which repeat nothing
+//! but numbers: it may be any file. Absent: reading files, what a history does. Equations: none.
 
 use super::check::rad_s;
 use super::diagnostic::{Place, Problem};
@@ -17,8 +17,8 @@ pub(super) enum HistoryKind {
 
 /// Most rows that are read.
 const MOST_ROWS: usize = 100_000;
-/// Most problems that are told of one file.
-const MOST_PROBLEMS: usize = 20;
+/// Faults of one file that are told one by one; the others are counted.
+const MOST_PROBLEMS: usize = 5;
 
 impl HistoryKind {
     fn header(self) -> String {
@@ -64,7 +64,7 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
-    let mut faults = Faults { text, problems: Vec::new() };
+    let mut faults = Faults { text, problems: Vec::new(), more: 0 };
     let mut rows: Vec<[f64; 2]> = Vec::new();
     let header = kind.header();
     let mut named = false;
@@ -108,13 +108,13 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
             faults.add(
                 "time_s",
                 time_at.clone(),
-                quoted(time),
+                number(time),
                 "a finite time of at least 0 s",
                 "mend the time",
             );
         }
         if v.is_none() {
-            faults.add(kind.column(), value_at, quoted(value), &kind.allowed(), "mend the value");
+            faults.add(kind.column(), value_at, number(value), &kind.allowed(), "mend the value");
         }
         let (Some(t), Some(v)) = (t, v) else { continue };
         let v = if kind == HistoryKind::Speed { rad_s(v) } else { v };
@@ -122,14 +122,14 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
             let jumps = rows.iter().rev().take_while(|r| r[0] == t).count() > 1;
             if kind == HistoryKind::Speed && t <= before {
                 let allowed = format!("later than the row before, {before} s");
-                faults.add("time_s", time_at, quoted(time), &allowed, "a speed cannot jump; sort the rows");
+                faults.add("time_s", time_at, number(time), &allowed, "a speed cannot jump; sort the rows");
             } else if t < before || jumps {
                 let allowed =
                     format!("not before the row before, {before} s, and at most two rows at one time");
                 faults.add(
                     "time_s",
                     time_at,
-                    quoted(time),
+                    number(time),
                     &allowed,
                     "sort the rows; two at one time are a jump",
                 );
@@ -144,8 +144,6 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
                 "100 000 rows",
                 "thin the history out",
             );
-        }
-        if faults.problems.len() >= MOST_PROBLEMS {
             break;
         }
     }
@@ -154,20 +152,32 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
         let help = format!("write {header} and one row per point below it");
         faults.add("", 0..1, found, "at least two", &help);
     }
-    if faults.problems.is_empty() { Ok(rows) } else { Err(faults.problems) }
+    if faults.problems.is_empty() { Ok(rows) } else { Err(faults.told()) }
 }
 
-fn quoted(field: &str) -> String {
-    format!("{:?}", field.chars().take(40).collect::<String>())
+/// A field as it is told: a number as it stands.
+fn number(field: &str) -> String {
+    match field.parse::<f64>() {
+        Ok(value) if value.is_finite() => field.chars().take(40).collect(),
+        Ok(_) => "a number that is not finite".to_owned(),
+        Err(_) if field.is_empty() => "nothing".to_owned(),
+        Err(_) => "text that is no number".to_owned(),
+    }
 }
 
 struct Faults<'a> {
     text: &'a str,
     problems: Vec<Problem>,
+    /// Faults beyond those.
+    more: usize,
 }
 
 impl Faults<'_> {
     fn add(&mut self, key: &str, span: std::ops::Range<usize>, found: String, allowed: &str, help: &str) {
+        if self.problems.len() >= MOST_PROBLEMS {
+            self.more += 1;
+            return;
+        }
         self.problems.push(Problem {
             key: key.to_owned(),
             place: Some(Place::of(self.text, span)),
@@ -176,6 +186,14 @@ impl Faults<'_> {
             help: help.to_owned(),
             also: Vec::new(),
         });
+    }
+
+    /// Those told one by one; the last of them says how many more there are.
+    fn told(mut self) -> Vec<Problem> {
+        if let (more @ 1.., Some(last)) = (self.more, self.problems.last_mut()) {
+            last.help.push_str(&format!("; and {more} more such faults below"));
+        }
+        self.problems
     }
 }
 
@@ -197,7 +215,7 @@ mod tests {
         let torque = HistoryKind::Torque;
         for (text, kind, line, column, words) in [
             ("t,torque_nm\n0,1\n", torque, 1, 1, "time_s,torque_nm"),
-            ("time_s,torque_nm\n0,1\n0.5,abc\n", torque, 3, 5, "\"abc\""),
+            ("time_s,torque_nm\n0,1\n0.5,abc\n", torque, 3, 5, "text that is no number"),
             ("# c\ntime_s,torque_nm\n0,1\n0.5,nan\n", torque, 4, 5, "finite"),
             ("time_s,torque_nm\n0,1\n-1,2\n", torque, 3, 1, "at least 0"),
             ("time_s,torque_nm\n0.5,1\n0.25,2\n", torque, 3, 1, "0.5 s"),
@@ -214,5 +232,15 @@ mod tests {
             assert_eq!((place.line, place.column), (line, column), "{text:?}: {problems:?}");
             assert!(problems[0].to_string().contains(words), "{text:?}: {}", problems[0]);
         }
+    }
+
+    #[test]
+    fn of_many_faults_the_first_are_told_and_the_others_counted() {
+        let text = format!("time_s,torque_nm\n{}", "secret\n".repeat(12));
+        let problems = rows(&text, HistoryKind::Torque).unwrap_err();
+        let lines: Vec<usize> = problems.iter().map(|p| p.place.as_ref().unwrap().line).collect();
+        assert_eq!(lines, [2, 3, 4, 5, 6]);
+        assert!(problems[4].to_string().ends_with("and 7 more such faults below"), "{}", problems[4]);
+        assert!(problems.iter().all(|p| !p.to_string().contains("secret")));
     }
 }

@@ -16,9 +16,10 @@ mod file;
 mod findings;
 mod geometry;
 mod history;
+mod inputs;
+mod kinds;
 mod law;
-mod limit_keys;
-mod limits_file;
+mod limits;
 mod notes;
 mod objective;
 mod open;
@@ -28,9 +29,11 @@ mod read;
 mod running;
 mod scenario_file;
 mod scenarios;
+mod set;
 mod shape;
 mod steels;
 mod task;
+mod task_file;
 mod tolerances_file;
 mod variables;
 
@@ -41,18 +44,21 @@ pub use clutch::{
 pub use diagnostic::{DesignError, Place, Problem, shown, unprintable};
 pub use draft::{Draft, KINETIC_SHARE, rounded};
 pub use edit::{
-    EditError, content, value_at, with_flanks, with_keys, with_limits, with_values, without_variables,
+    EditError, content, value_at, with_flanks, with_keys, with_limits, with_sprag, with_values,
+    without_variables,
 };
 pub use history::is_history;
+pub use inputs::{Input, inputs, unit_of_path};
 pub use law::{ContactLaw, LAWS, LawFacts, LawName};
-pub use limit_keys::{LIMIT_KEYS, LimitKey};
+pub use limits::{LIMIT_KEYS, LimitKey, Limits};
 pub use notes::with_notes;
 pub use objective::Objective;
 pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
-pub use question::{Limits, Optimize, OptimizeVariable, Scenario, ScenarioKind, Start};
-pub use shape::schema;
+pub use question::{Optimize, OptimizeVariable, Scenario, ScenarioKind, Start};
+pub use set::with_setting;
+pub use shape::{allowed, keys_of, nearest, schema, shape_of};
 pub use tolerances_file::Tolerances;
-pub use variables::{VARIABLES, is_whole, variable_names, variable_path, variable_unit};
+pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
 
 /// A checked clutch design. Built only by reading a file; never changed afterwards.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,56 +1,10 @@
-//! What is asked of a clutch: limits, scenarios, the optimiser's task.
+//! What is asked of a clutch: scenarios, the optimiser's task.
 //!
-//! In: nothing. Out: [`Limits`], [`Scenario`], [`Optimize`], SI. Absent: how they are answered. Equations: none.
+//! In: nothing. Out: [`Scenario`], [`Optimize`], SI. Absent: how they are answered. Equations: none.
 
+use super::Limits;
 use super::clutch::Clutch;
 use super::objective::Objective;
-
-/// Allowables of the designer margin check; absent ones are not checked.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Limits {
-    /// Torque at which Hertz nominal is held, N m.
-    pub nominal_torque_nm: Option<f64>,
-    /// Torque at which Hertz peak, hoop, end of profile and roll-over are held, N m.
-    pub peak_torque_nm: Option<f64>,
-    /// Allowed p_0 at nominal torque, Pa.
-    pub hertz_nominal_pa: Option<f64>,
-    /// Allowed p_0 at peak torque, Pa.
-    pub hertz_peak_pa: Option<f64>,
-    /// Allowed magnitude of the inner race's mean hoop stress at peak torque, Pa.
-    pub hoop_inner_pa: Option<f64>,
-    /// Allowed mean hoop stress of the outer race at peak torque, Pa.
-    pub hoop_outer_pa: Option<f64>,
-    /// Allowed magnitude of the inner race's hoop stress with ring bending at peak torque, Pa.
-    pub hoop_inner_bending_pa: Option<f64>,
-    /// Allowed hoop stress of the outer race with ring bending at peak torque, Pa.
-    pub hoop_outer_bending_pa: Option<f64>,
-    /// Depth of the hardened case, m.
-    pub case_depth_m: Option<f64>,
-    /// Allowed largest shear below a contact at peak torque, Pa.
-    pub case_shear_pa: Option<f64>,
-    /// Allowed shear at the depth of the case and below at peak torque, Pa.
-    pub core_shear_pa: Option<f64>,
-    /// Allowed compression of the sprag's body at peak torque, Pa.
-    pub body_yield_pa: Option<f64>,
-    /// Axial load from race to race through all sprags, N.
-    pub axial_load_n: Option<f64>,
-    /// Allowed race gap at nominal torque, m.
-    pub gap_nominal_m: Option<f64>,
-    /// Allowed race gap at peak torque, m.
-    pub gap_peak_m: Option<f64>,
-    /// Allowed windup at nominal torque, rad.
-    pub windup_nominal_rad: Option<f64>,
-    /// Allowed equivalent stress of the inner race at nominal torque, Pa.
-    pub equivalent_inner_pa: Option<f64>,
-    /// Allowed equivalent stress of the outer race at nominal torque, Pa.
-    pub equivalent_outer_pa: Option<f64>,
-    /// Smallest slip margin wanted, pure number.
-    pub slip_margin: Option<f64>,
-    /// Overrun speed up to which the sprags must keep contact, rad/s.
-    pub keep_contact_to_rad_s: Option<f64>,
-    /// Overrun speed of the outer race by which the sprags must have lifted off the inner one, rad/s.
-    pub lift_off_by_rad_s: Option<f64>,
-}
 
 /// What happens to the clutch.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,11 +10,12 @@ use sha2::{Digest, Sha256};
 
 use super::diagnostic::{DesignError, Place, Problem};
 use super::document::Document;
-use super::edit::content;
+use super::edit::{EditError, content, without_keys};
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::history;
 use super::open;
+use super::set::with_setting;
 use super::tolerances_file::TolerancesFile;
 use super::{Design, Limits, check, scenarios, shape, task};
 
@@ -32,6 +33,43 @@ impl Design {
             Err(why) if why.text.is_empty() => Err(DesignError::unreadable(&name, why.found, WHAT, why.help)),
             Err(why) => Err(one_problem(&name, &why.text, why.at, why.found, WHAT, why.help)),
         }
+    }
+
+    /// The same with values set as [`with_setting`] sets them, in this order: (path, value as typed). An error in what they
+    /// make of the file points at the changed text.
+    ///
+    /// # Errors
+    /// As [`Design::read`], and where a path names nothing that can be set.
+    pub fn read_with(path: &Path, settings: &[(String, String)]) -> Result<Self, DesignError> {
+        let read = Self::read(path)?;
+        if settings.is_empty() { Ok(read) } else { read.with(settings, &path.display().to_string()) }
+    }
+
+    /// This design with values set as [`with_setting`] sets them, in this order: (path, value as typed); `name_for_errors`
+    /// stands for the file in messages. Histories stay where they are.
+    ///
+    /// # Errors
+    /// As [`Design::read_with`].
+    pub fn with(&self, settings: &[(String, String)], name_for_errors: &str) -> Result<Self, DesignError> {
+        let mut source = self.source.clone();
+        for (key, value) in settings {
+            source = with_setting(&source, key, value).map_err(|why| {
+                let (allowed, help) = match why {
+                    EditError::UnknownName { known, .. } => {
+                        let near: Vec<&str> = known.iter().map(String::as_str).collect();
+                        let help = shape::nearest(key, &near).map(|k| format!("did you mean {k}?"));
+                        (known.join(", "), help)
+                    }
+                    other => (other.to_string(), None),
+                };
+                let help = help.unwrap_or_else(|| "name a key that the file has or may have".to_owned());
+                let found = format!("the setting {key}={value}");
+                let problem =
+                    Problem { key: key.clone(), place: None, found, allowed, help, also: Vec::new() };
+                DesignError::in_source(name_for_errors, "", vec![problem])
+            })?;
+        }
+        Self::parse_in(&self.folder, &source, name_for_errors)
     }
 
     /// Check the text of a design file; `name_for_errors` stands for the file in messages, and histories are named
@@ -80,9 +118,8 @@ impl Design {
             let path = open::history_path(folder, name).map_err(at)?;
             let text = open::read_text(&path, open::MOST_TABLE).map_err(|why| at(why.found))?;
             let rows = history::rows(&text, kind).map_err(|problems| {
-                // What is no history is not shown: it may be any file.
-                let shown = if history::is_history(&text) { text.as_str() } else { "" };
-                refused.get_or_insert(DesignError::in_source(&path.display().to_string(), shown, problems));
+                // It may be any file: nothing of it is shown.
+                refused.get_or_insert(DesignError::in_source(&path.display().to_string(), "", problems));
                 None
             });
             texts.insert(path, text);
@@ -121,6 +158,20 @@ impl Design {
                 ))
             }
         }
+    }
+
+    /// The clutch as made, for a workshop: at the reference temperature, its races not yet pressed onto shaft or into
+    /// housing. [`Design::clutch`] is the one that runs.
+    ///
+    /// # Errors
+    /// As [`Design::read`], where the races as made are no clutch.
+    pub fn as_made(&self) -> Result<super::Clutch, DesignError> {
+        if self.clutch.running.is_none() {
+            return Ok(self.clutch.clone());
+        }
+        let text = without_keys(&self.source, &["thermal", "races.press_fit"]);
+        let text = text.unwrap_or_else(|_| self.source.clone());
+        Ok(Self::parse_in(&self.folder, &text, &self.name)?.clutch)
     }
 
     /// SHA-256 (hex) of what the file says and of its histories' values: unlike `hash` the same for another comment or

@@ -68,7 +68,8 @@ pub(super) struct ScenarioFile {
     #[schemars(length(min = 1))]
     pub speed_history_csv: Option<String>,
     /// overrun and transient: by how much the inner race is faster than the outer, in a transient at the start,
-    /// rev/min.
+    /// rev/min. Such a transient starts at the sprags' equilibrium of the statics, whose forces lie 0.1 to 0.6 % beside those
+    /// that the equations of motion then settle at.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub overrun_rpm: Option<f64>,
     /// static, torsional-excitation and transient: the equilibrium at the start: settled (with the energizing spring,

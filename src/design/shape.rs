@@ -64,35 +64,40 @@ pub(super) fn let_all_keys_be_absent(schema: &mut Schema) {
     }
 }
 
-/// The schema of the key at a dotted path.
-fn schema_of(path: &str) -> Option<&'static Value> {
-    path.split('.').try_fold(&*SCHEMA, |schema, step| {
+/// The JSON Schema of the key at a dotted path; what stands in brackets, the row of an array, is any.
+pub fn shape_of(path: &str) -> Option<&'static Value> {
+    path.split('.').filter(|_| !path.is_empty()).try_fold(&*SCHEMA, |schema, step| {
         let name = step.split('[').next()?;
         let rows = step.matches('[').count();
         (0..rows).try_fold(schema.get("properties")?.get(name)?, |s, _| s.get("items"))
     })
 }
 
+/// Whether a design file may hold something at a dotted path.
+pub(super) fn is_known(path: &str) -> bool {
+    !path.is_empty() && shape_of(path).is_some()
+}
+
 /// "number" or "integer" where the key at a dotted path holds one.
 pub(super) fn kind_of(path: &str) -> Option<&'static str> {
-    let kind = schema_of(path)?.get("type").and_then(Value::as_str)?;
+    let kind = shape_of(path)?.get("type").and_then(Value::as_str)?;
     ["number", "integer"].contains(&kind).then_some(kind)
 }
 
 /// Names of the keys of the table at a dotted path.
-pub(super) fn keys_of(path: &str) -> Vec<&'static str> {
-    let properties = schema_of(path).and_then(|s| s.get("properties")).and_then(Value::as_object);
+pub fn keys_of(path: &str) -> Vec<&'static str> {
+    let properties = shape_of(path).and_then(|s| s.get("properties")).and_then(Value::as_object);
     properties.into_iter().flat_map(|p| p.keys().map(String::as_str)).collect()
 }
 
 /// What the key at a dotted path may hold, where `value` is outside of it.
 pub(super) fn out_of_range(path: &str, value: f64) -> Option<String> {
-    schema_of(path).filter(|s| !in_range(s, value)).map(|s| allowed_for(s, Some(value)))
+    shape_of(path).filter(|s| !in_range(s, value)).map(|s| allowed_for(s, Some(value)))
 }
 
 /// What the key at a dotted path holds, in the schema's words.
 pub(super) fn meaning_of(path: &str) -> String {
-    schema_of(path).map(|s| format!("{}: {}", allowed(s), description(s))).unwrap_or_default()
+    shape_of(path).map(|s| format!("{}: {}", allowed(s), description(s))).unwrap_or_default()
 }
 
 /// All departures of the file from the schema.
@@ -231,7 +236,7 @@ fn help_for_unknown(name: &str, known: &[&str]) -> String {
 }
 
 /// The known name that is much like `name`.
-pub(super) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
+pub fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
     let likeness = |k: &&'k str| (strsim::jaro_winkler(&name.to_lowercase(), &k.to_lowercase()), *k);
     let best = known.iter().map(likeness).max_by(|a, b| a.0.total_cmp(&b.0))?;
     (best.0 > 0.8).then_some(best.1)
@@ -265,7 +270,7 @@ fn allowed_for(schema: &Value, x: Option<f64>) -> String {
 }
 
 /// What a schema allows, in words.
-fn allowed(schema: &Value) -> String {
+pub fn allowed(schema: &Value) -> String {
     if let Some(c) = schema.get("const") {
         return c.to_string();
     }

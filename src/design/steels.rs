@@ -4,7 +4,7 @@
 
 use super::file::{BodyFile, MaterialFile};
 use super::findings::Findings;
-use super::limits_file::LimitsFile;
+use super::limits::LimitsFile;
 use super::shape::nearest;
 use super::{Limits, Materials};
 use crate::material::{Material, STEELS, Steel, steel};

@@ -29,10 +29,17 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
     ("centroid_y_mm", "sprags.centroid.y_mm", "centroid, radially outward from C_e"),
 ];
 
-/// Unit of every number in [`OWN_TABLES`] by the last step of its path, as printed; a pure number has none.
+/// Tables besides whose numbers have their unit here; those of `[limits]` have it in [`LIMIT_KEYS`](super::LIMIT_KEYS).
+#[cfg(test)]
+const OTHER_TABLES: &[&str] = &["scenarios", "thermal"];
+
+/// Unit of every number in these tables by the last step of its path, as printed; a pure number has none.
 const UNITS: &[(&str, &str)] = &[
+    ("abutment_stiffness_nm_per_rad", "Nm/rad"),
+    ("amplitude_nm", "Nm"),
     ("axial_offset_mm", "mm"),
     ("bearing_stiffness_n_per_um", "N/um"),
+    ("bench_inertia_kg_m2", "kg m^2"),
     ("centre_distance_mm", "mm"),
     ("count", ""),
     ("crowned_ratio", ""),
@@ -41,8 +48,11 @@ const UNITS: &[(&str, &str)] = &[
     ("design_load_n", "N"),
     ("drag_torque_nm", "Nm"),
     ("drop_um", "um"),
+    ("duration_s", "s"),
     ("end_drop_um", "um"),
     ("expansion_um_per_m_k", "um/(m K)"),
+    ("free_run_rpm", "rpm"),
+    ("frequency_hz", "Hz"),
     ("front_mm", "mm"),
     ("front_tilt_rad", "rad"),
     ("housing_outside_radius_mm", "mm"),
@@ -51,6 +61,7 @@ const UNITS: &[(&str, &str)] = &[
     ("inner_bore_radius_mm", "mm"),
     ("inner_inertia_kg_m2", "kg m^2"),
     ("inner_interference_um", "um"),
+    ("inner_race_c", "°C"),
     ("inner_radius_mm", "mm"),
     ("kinetic", ""),
     ("length_mm", "mm"),
@@ -60,17 +71,28 @@ const UNITS: &[(&str, &str)] = &[
     ("outer_inertia_kg_m2", "kg m^2"),
     ("outer_interference_um", "um"),
     ("outer_outside_radius_mm", "mm"),
+    ("outer_race_c", "°C"),
     ("outer_radius_mm", "mm"),
+    ("overrun_rpm", "rpm"),
     ("poisson_ratio", ""),
+    ("preload_nm", "Nm"),
     ("radius_mm", "mm"),
     ("rear_mm", "mm"),
     ("rear_tilt_rad", "rad"),
+    ("reference_c", "°C"),
+    ("reversing_torque_nm", "Nm"),
     ("roller_coefficient", ""),
     ("shaft_bore_radius_mm", "mm"),
     ("slices", ""),
+    ("speed_rpm", "rpm"),
+    ("sprags_c", "°C"),
     ("static", ""),
+    ("step_time_s", "s"),
     ("stiffness_nm_per_rad", "Nm/rad"),
+    ("stop_stiffness_nm_per_rad", "Nm/rad"),
     ("tilt_mrad", "mrad"),
+    ("torque_nm", "Nm"),
+    ("torque_step_nm", "Nm"),
     ("until_rad", "rad"),
     ("viscous_damping_nm_s_per_rad", "Nm s/rad"),
     ("width_mm", "mm"),
@@ -82,7 +104,11 @@ const UNITS: &[(&str, &str)] = &[
 /// Unit of variable `name` as printed, empty for a pure number; `None` where no design has such a variable.
 pub fn variable_unit(name: &str) -> Option<&'static str> {
     let path = variable_path(name, usize::MAX)?;
-    let key = path.rsplit('.').next()?;
+    unit_of_key(path.rsplit('.').next()?)
+}
+
+/// Unit of the number under a key of the clutch's own tables, of a scenario or of `[thermal]`; `None` where there is no such.
+pub fn unit_of_key(key: &str) -> Option<&'static str> {
     UNITS.iter().find(|(known, _)| *known == key).map(|(_, unit)| *unit)
 }
 
@@ -107,9 +133,10 @@ pub fn variable_path(name: &str, arcs: usize) -> Option<String> {
     })
 }
 
-/// Whether variable `name` takes whole numbers only.
+/// Whether variable `name`, or the key at this path, takes whole numbers only.
 pub fn is_whole(name: &str, arcs: usize) -> bool {
-    variable_path(name, arcs).is_some_and(|path| shape::kind_of(&path) == Some("integer"))
+    let path = variable_path(name, arcs).unwrap_or_else(|| name.to_owned());
+    shape::kind_of(&path) == Some("integer")
 }
 
 /// The short names that a design of `arcs` inner arcs has.
@@ -138,7 +165,12 @@ mod tests {
             assert_eq!(path(none), None, "{none}");
         }
         assert_eq!(variable_names(1).len(), 14);
-        assert!(is_whole("count", 3) && is_whole("sprags.count", 3) && !is_whole("r_i1_mm", 3));
+        assert!(
+            is_whole("count", 3)
+                && is_whole("sprags.count", 3)
+                && is_whole("contact.slices", 3)
+                && !is_whole("r_i1_mm", 3)
+        );
     }
 
     /// Every number that may be a variable, by its dotted path in the schema, and every short name.
@@ -165,6 +197,12 @@ mod tests {
         assert!(all.len() > short + 50, "{}", all.len());
         let without: Vec<&String> = all.iter().filter(|name| variable_unit(name).is_none()).collect();
         assert!(without.is_empty(), "{without:?}");
+        let own = all.len();
+        for table in OTHER_TABLES {
+            numbers(&schema["properties"][table], table, &mut all);
+        }
+        let without = |name: &&String| unit_of_key(name.rsplit('.').next().unwrap()).is_none();
+        assert_eq!(all[own..].iter().find(without), None);
         for (key, _) in UNITS {
             assert!(all.iter().any(|path| path.rsplit('.').next() == Some(key)), "no key {key}");
         }

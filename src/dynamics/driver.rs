@@ -12,7 +12,6 @@ use super::zeno::Zeno;
 use crate::ode::adaptive::Adaptive;
 use crate::ode::rhs::RightHandSide;
 use crate::ode::step::{Dense, Room, Step};
-use std::sync::atomic::Ordering;
 
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
 const SMALL: f64 = 1e-3;
@@ -94,7 +93,7 @@ impl<'a> Driver<'a> {
 
     /// Integrate to the end, whatever that is.
     pub(super) fn run(mut self) -> Run {
-        self.settings.clock.inspect(|clock| clock.begin_run());
+        self.settings.follow.begin_run();
         self.begin();
         self.integrate();
         self.finish()
@@ -112,10 +111,10 @@ impl<'a> Driver<'a> {
     fn integrate(&mut self) {
         let (trail, mut room, mut looks) = (Trail::new(), Room::new(), Looks::new());
         while self.run.t_s < self.settings.duration_s {
-            if self.settings.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            if self.settings.follow.stopped() {
                 return self.stop(Stop::Interrupted);
             }
-            self.settings.clock.inspect(|clock| clock.tell(self.run.t_s));
+            self.settings.follow.tell(self.run.t_s);
             if self.most_slip_m.is_some_and(|path| self.run.has_slipped(self.model.loaded_n, path)) {
                 return self.stop(Stop::Slipped);
             }

@@ -10,7 +10,6 @@
 
 mod change;
 mod choose;
-mod clock;
 mod crossing;
 mod cusp;
 mod driver;
@@ -27,7 +26,6 @@ mod swing;
 mod watch;
 mod zeno;
 
-pub use clock::{Clock, Told};
 pub use energy::EnergyBalance;
 pub use model::{Drive, Forces, Grip, Loads, Mode, Model, N_STATE, Place, State};
 pub use outside::{events, next_mode};

@@ -31,9 +31,8 @@ pub fn next_mode(model: &Model, mode: &Mode, which: usize, t: f64, y: &State) ->
         samples: 0,
         rolling: false,
         energy: false,
-        interrupt: None,
         history: Default::default(),
-        clock: None,
+        follow: Default::default(),
     };
     let mut driver = Driver::new(model, *y, *mode, &settings);
     driver.run.t_s = t;

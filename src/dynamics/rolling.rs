@@ -25,7 +25,7 @@ pub fn rolling(model: &Model, state: State, place: Place, settings: &RunSettings
         inner: Grip::Stick,
         outer: Grip::Stick,
     };
-    let run = run(model, state, mode, &RunSettings { rolling: true, ..*settings });
+    let run = run(model, state, mode, &RunSettings { rolling: true, ..settings.clone() });
     let p = run.peaks;
     let outer_asks = !model.outer_holds && p.tan_outer > p.tan_inner;
     let asked = if outer_asks { p.tan_outer } else { p.tan_inner };

@@ -1,15 +1,14 @@
 //! A run: what it is asked for and what comes out.
 
-use super::clock::Clock;
 use super::driver::Driver;
 use super::energy::EnergyBalance;
 use super::events::{FIGURES, N_BI};
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
+use crate::follow::Follow;
 use crate::ode::step::{Counters, Tolerance};
-use std::sync::atomic::AtomicBool;
 
 /// Settings of a run.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct RunSettings {
     /// Relative tolerance of a step, pure number; absolute ones follow (rad, rad/s, m).
     pub tolerance: f64,
@@ -27,12 +26,10 @@ pub struct RunSettings {
     pub rolling: bool,
     /// Whether works are counted for the energy balance; costs some fifteen evaluations a step.
     pub energy: bool,
-    /// Set from outside to end the run at the next step.
-    pub interrupt: Option<&'static AtomicBool>,
     /// What the samples are of.
     pub history: History,
-    /// Where the run tells how far it is.
-    pub clock: Option<&'static Clock>,
+    /// Ends the run at the next step, and is told how far it is.
+    pub follow: Follow,
 }
 
 /// What a history holds.

@@ -1,7 +1,16 @@
 //! Designs in other programs' formats, and those programs' answers read back.
 //!
-//! In: a checked clutch, its profile and outline. Out: strings (a finite-element deck; rows from its result).
+//! In: a checked clutch, its profile and outline. Out: strings (drawings DXF and SVG, solids STEP, tables of arcs and
+//! points; a finite-element deck; rows from its result).
 //! Absent: paths and running the other program (cli), drawings for people (report).
 //! Equations: none of the paper's; statics of a sector, read off the nodes, in `calculix::read`.
 
 pub mod calculix;
+pub mod dxf;
+mod part;
+pub mod rows;
+mod sheet;
+pub mod step;
+pub mod svg;
+
+pub use part::{Part, Subject};

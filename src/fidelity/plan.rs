@@ -1,6 +1,6 @@
 //! Which terms a scene cannot feel, before it runs.
 
-use crate::design::{Scenario, ScenarioKind};
+use crate::design::Scenario;
 use crate::scenario::{NoScenario, Prepared, Reduction, prepare_reduced};
 
 /// One term, left out or kept.
@@ -42,7 +42,7 @@ const REACH: f64 = 2.5;
 /// # Errors
 /// [`NoScenario`] where the scenario has no start.
 pub fn plan(scenario: &Scenario) -> Result<(Plan, Prepared), NoScenario> {
-    let (torque, speed) = acting(scenario);
+    let (torque, speed) = (scenario.largest_torque_nm(), scenario.mean_speed_rad_s());
     let reach_nm = Some(REACH * torque);
     let mut reduction = Reduction { reach_nm };
     let (mut left_out, mut kept) = (Vec::new(), Vec::new());
@@ -62,25 +62,6 @@ pub fn plan(scenario: &Scenario) -> Result<(Plan, Prepared), NoScenario> {
         kept.push(inertia(scenario));
     }
     Ok((Plan { reduction, left_out, kept }, prepared))
-}
-
-/// Largest torque from outside, N m, and mean speed, rad/s (that of a history is not constant: infinite).
-fn acting(scenario: &Scenario) -> (f64, f64) {
-    let largest = |h: &Vec<[f64; 2]>| h.iter().map(|r| r[1].abs()).fold(0.0, f64::max);
-    match scenario.kind {
-        ScenarioKind::Static { torque_nm } => (torque_nm, 0.0),
-        ScenarioKind::TorsionalExcitation { preload_nm, amplitude_nm, speed_rad_s, .. } => {
-            (preload_nm + amplitude_nm, speed_rad_s)
-        }
-        // What the free run brings along comes on top of the torque.
-        ScenarioKind::Engagement { reversing_torque_nm, .. } => (2.0 * reversing_torque_nm, 0.0),
-        ScenarioKind::Overrun { speed_rad_s, .. } => (1.0, speed_rad_s),
-        ScenarioKind::Transient { preload_nm, torque_step_nm, speed_rad_s, .. } => {
-            let steps = preload_nm.max((preload_nm + torque_step_nm).abs());
-            let torque = scenario.torque_history.as_ref().map_or(steps, largest);
-            (torque, if scenario.speed_history.is_some() { f64::INFINITY } else { speed_rad_s })
-        }
-    }
 }
 
 /// The sprags' inertia beside that of the lighter race: it is in the equations anyway and costs no time in stick.

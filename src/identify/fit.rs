@@ -1,7 +1,7 @@
 //! The fit: Nelder-Mead of argmin from several starts, finished by Levenberg and Marquardt.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::neldermead::NelderMead;
@@ -12,7 +12,8 @@ use super::no_fit::{NoFit, SoFar};
 use super::observation::{Observation, Use};
 use super::predict::{NoPrediction, Prediction, design_with, predict};
 use super::statistics::{Knowledge, knowledge};
-use crate::design::{Design, value_at, variable_names, variable_path};
+use crate::design::{Design, is_whole, value_at, variable_names, variable_path};
+use crate::follow::Follow;
 
 /// A parameter to be found, between bounds in the unit of its name.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,7 +93,7 @@ struct Problem<'a> {
     count: AtomicUsize,
     /// Shares and sum of the best design so far.
     best: Mutex<Option<(Vec<f64>, f64)>>,
-    stop: Option<&'a AtomicBool>,
+    follow: &'a Follow,
 }
 
 /// Observations with the same keys, in the order in which they come.
@@ -119,12 +120,13 @@ impl Problem<'_> {
 
     /// Scaled residuals at `t`.
     fn residuals(&self, t: &[f64]) -> Result<DVector<f64>, String> {
-        if self.stop.is_some_and(|s| s.load(Ordering::Relaxed)) {
+        if self.follow.stopped() {
             return Err("stopped".to_owned());
         }
         self.count.fetch_add(1, Ordering::Relaxed);
         let values = self.named(t);
-        let rows: Result<Vec<Vec<f64>>, String> = self
+        // All of them, then the first that fails: which one is told does not depend on threads.
+        let rows: Vec<Result<Vec<f64>, String>> = self
             .groups
             .par_iter()
             .map(|group| {
@@ -133,12 +135,13 @@ impl Problem<'_> {
                 said.iter()
                     .zip(group)
                     .map(|(p, o)| match p {
-                        Ok(p) => Ok((p.value - o.value) / o.scale()),
+                        Ok(p) => scaled(p.value, o),
                         Err(why) => Err(at(why, o)),
                     })
                     .collect()
             })
             .collect();
+        let rows: Result<Vec<Vec<f64>>, String> = rows.into_iter().collect();
         let residuals = DVector::from_vec(rows?.concat());
         let sum = residuals.norm_squared();
         let mut best = self.best.lock().unwrap_or_else(|e| e.into_inner());
@@ -191,6 +194,21 @@ impl Problem<'_> {
     }
 }
 
+/// Largest residual that can be squared, summed and divided by steps without an overflow.
+const LARGEST_RESIDUAL: f64 = 1e100;
+
+/// (predicted - observed) over what the observation is good to.
+fn scaled(predicted: f64, o: &Observation) -> Result<f64, String> {
+    let residual = (predicted - o.value) / o.scale();
+    if residual.abs() < LARGEST_RESIDUAL {
+        return Ok(residual);
+    }
+    Err(format!(
+        "{}: the model says {predicted:e}, the table {:e}, and they differ by too many times its error to be fitted; is the number in the unit of its column?",
+        o.label, o.value
+    ))
+}
+
 /// t = (1 + sin u)/2: every u lies between the bounds.
 fn share(u: &[f64]) -> Vec<f64> {
     u.iter().map(|u| 0.5 * (1.0 + u.sin())).collect()
@@ -206,7 +224,7 @@ impl CostFunction for Transformed<'_, '_> {
     }
 }
 
-/// Find the unknowns of `design` from `observations`. `stop` is looked at before every evaluation.
+/// Find the unknowns of `design` from `observations`. `follow` ends the search before its next evaluation.
 ///
 /// Residuals are (predicted - observed) over the row's standard error, or over the observed number where none is given.
 ///
@@ -217,9 +235,9 @@ pub fn identify(
     observations: &[Observation],
     unknowns: &[Unknown],
     settings: &Settings,
-    stop: Option<&AtomicBool>,
+    follow: &Follow,
 ) -> Result<Identified, NoFit> {
-    let stopped = || stop.is_some_and(|s| s.load(Ordering::Relaxed));
+    let stopped = || follow.stopped();
     let (paths, before) = paths(design, unknowns)?;
     let fitted = observations.iter().filter(|o| o.purpose == Use::Fit);
     let problem = Problem {
@@ -230,7 +248,7 @@ pub fn identify(
         range: unknowns.iter().map(|u| u.max - u.min).collect(),
         count: AtomicUsize::new(0),
         best: Mutex::new(None),
-        stop,
+        follow,
     };
     if problem.groups.is_empty() {
         return Err(NoFit::NothingToFit);
@@ -300,6 +318,13 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
         })?;
         let value = value_at(&design.source, &path)
             .ok_or_else(|| refuse(format!("the design file holds no number {path}; write it there first")))?;
+        if is_whole(&path, arcs) {
+            return Err(refuse(format!(
+                "a whole number, and identify searches only what varies smoothly; try each value by itself: write it into the \
+                 file, find the other unknowns, and compare the sums of squares; a test with another value has it in a column {path} \
+                 of the data"
+            )));
+        }
         if paths.contains(&path) {
             return Err(NoFit::Unknowns(format!("{path} is named twice")));
         }

@@ -1,5 +1,6 @@
 //! The table of what was measured: CSV text in, observations out.
 
+use crate::wedge::SMALLEST_TORQUE_NM;
 use std::fmt;
 
 /// A measured or published quantity; at a torque where its name in `stiffness` is one of a static point.
@@ -175,13 +176,22 @@ fn kinds() -> String {
     Kind::ALL.map(Kind::column).join(", ")
 }
 
+/// Whether a column has a meaning; a dotted key must look like one.
+fn is_known(name: &str) -> bool {
+    let of_a_key = |c: char| c.is_ascii_alphanumeric() || "_.[]".contains(c);
+    ["label", "use", "torque_nm"].contains(&name)
+        || name.contains('.') && name.chars().all(of_a_key)
+        || Kind::ALL.iter().any(|k| name.strip_suffix("_sigma").unwrap_or(name) == k.column())
+}
+
 fn check_header(header: &[String]) -> Result<(), Fault> {
+    // Where no column is known it may be any file: nothing of it is repeated.
+    let ours = header.iter().any(|name| is_known(name));
     for (i, name) in header.iter().enumerate() {
-        let known = ["label", "use", "torque_nm"].contains(&name.as_str())
-            || name.contains('.')
-            || Kind::ALL.iter().any(|k| *name == k.column() || *name == format!("{}_sigma", k.column()));
-        let fault = |found: String, allowed: String| Fault { line: 1, column: name.clone(), found, allowed };
-        if !known {
+        let column = if ours { name.clone() } else { format!("column {}", i + 1) };
+        let fault =
+            |found: String, allowed: String| Fault { line: 1, column: column.clone(), found, allowed };
+        if !is_known(name) {
             return Err(fault(
                 "an unknown column".to_owned(),
                 format!(
@@ -214,7 +224,7 @@ fn row(
             _ => Err(Fault {
                 line,
                 column: name.to_owned(),
-                found: format!("{text:?}"),
+                found: "no finite number".to_owned(),
                 allowed: "a finite number, or nothing".to_owned(),
             }),
         }
@@ -223,11 +233,11 @@ fn row(
         None | Some("fit") => Use::Fit,
         Some("check") => Use::Check,
         Some("skip") => return Ok(()),
-        Some(other) => {
+        Some(_) => {
             return Err(Fault {
                 line,
                 column: "use".to_owned(),
-                found: format!("{other:?}"),
+                found: "another word".to_owned(),
                 allowed: USES.to_owned(),
             });
         }
@@ -246,7 +256,12 @@ fn row(
         }),
         _ => Ok(()),
     };
-    needs("torque_nm", torque_nm, "a torque above 0 N m")?;
+    // Below, the curve's figures are rounding.
+    if let Some(found) = torque_nm.filter(|t| *t < SMALLEST_TORQUE_NM) {
+        let (column, allowed) =
+            ("torque_nm".to_owned(), format!("a torque of {SMALLEST_TORQUE_NM:e} N m or more"));
+        return Err(Fault { line, column, found: found.to_string(), allowed });
+    }
     for kind in Kind::ALL {
         let Some(value) = number(kind.column())? else { continue };
         needs(kind.column(), Some(value), "a number above 0")?;
@@ -306,8 +321,12 @@ mod tests {
             ("torque_nm,windup_deg\n1,2,3\n", 2, ""),
             ("torque_nm,windup_deg\n", 0, ""),
             ("", 0, ""),
+            ("root:x:0:0:root:/root:/bin/ba.sh,b\n1,2\n", 1, "column 1"),
+            ("torque_nm,windup_deg\n1,root:x\n", 2, "windup_deg"),
+            ("torque_nm,windup_deg,use\n1,2,root:x\n", 2, "use"),
         ] {
             let fault = observations(text).unwrap_err();
+            assert!(!fault.to_string().contains("root"), "{fault}");
             assert_eq!((fault.line, fault.column.as_str()), (line, column), "{text:?}: {fault}");
         }
     }

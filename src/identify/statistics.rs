@@ -4,12 +4,12 @@ use nalgebra::{DMatrix, DVector, SVD};
 
 use crate::numeric::student;
 
-/// Correlation from which two parameters count as hardly told apart.
+/// Correlation from which a combination of two parameters is known better than either.
 pub const STRONG: f64 = 0.95;
 
-/// Correlation from which neither of two parameters counts as determined: an error of the model of 1 % moves each by up to
-/// 70 %, 1/sqrt(1 - correlation^2), however small the scatter.
-pub const INSEPARABLE: f64 = 0.9999;
+/// Correlation from which two parameters are determined only together: an error of the model of 1 % moves each by up to
+/// 7 %, 1/sqrt(1 - correlation^2), however small the scatter. A choice.
+pub const INSEPARABLE: f64 = 0.99;
 
 /// Half width of an interval over the range of the bounds, or over the value, from which the value does not count as
 /// determined: the interval is then as wide as what was known before. A choice.
@@ -48,7 +48,8 @@ pub enum Doubt {
     WiderThanBounds,
     /// The half width of the interval is more than half the value, within bounds of one sign.
     WiderThanValue,
-    /// The correlation with this other unknown (its index) is above [`INSEPARABLE`] in magnitude.
+    /// Determined only together with this other unknown (its index), to which its correlation is largest and above
+    /// [`INSEPARABLE`] in magnitude.
     Inseparable(usize),
 }
 
@@ -77,19 +78,31 @@ pub enum Tied {
 pub struct Knowledge {
     /// One per unknown.
     pub estimates: Vec<Estimate>,
-    /// Correlation matrix; absent where the data are blind in a direction.
+    /// Correlation matrix; absent where the data are blind in a direction of several unknowns. Of an unknown without any
+    /// effect NaN beside its own 1.
     pub correlation: Option<Vec<Vec<f64>>>,
     /// Standard deviation of the scaled residuals with `freedom` degrees of freedom; absent without any.
     pub residual_sigma: Option<f64>,
-    /// Observations less unknowns.
+    /// Observations less unknowns that they feel.
     pub freedom: usize,
     /// What cannot be told apart.
     pub tied: Vec<Tied>,
-    /// Smallest over largest singular value of the Jacobian, columns of equal length.
+    /// Smallest over largest singular value of the Jacobian of what the data feel, columns of equal length; 0 where they feel
+    /// nothing.
     pub singular_ratio: f64,
 }
 
 impl Knowledge {
+    /// Of data that feel nothing.
+    const NONE: Self = Self {
+        estimates: Vec::new(),
+        correlation: None,
+        residual_sigma: None,
+        freedom: 0,
+        tied: Vec::new(),
+        singular_ratio: 0.0,
+    };
+
     /// Unknowns that the data do not determine.
     pub fn undetermined(&self) -> impl Iterator<Item = (usize, Doubt)> {
         self.estimates.iter().enumerate().filter_map(|(j, e)| Some((j, e.doubt?)))
@@ -107,8 +120,73 @@ impl Knowledge {
 }
 
 /// From the Jacobian of the scaled residuals by the unknowns over their ranges, and the residuals at the solution; `bounds`
-/// are (least, most) of each.
+/// are (least, most) of each. Unknowns without effect are left aside, and the others judged without them.
 pub(super) fn knowledge(
+    jacobian: &DMatrix<f64>,
+    residuals: &DVector<f64>,
+    values: &[f64],
+    bounds: &[(f64, f64)],
+) -> Knowledge {
+    let p = jacobian.ncols();
+    let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
+    let largest = lengths.iter().fold(0.0, |a: f64, b| a.max(*b));
+    let (felt, unfelt): (Vec<usize>, Vec<usize>) = (0..p).partition(|&j| lengths[j] > NOTHING * largest);
+    let pick = |list: &[f64]| felt.iter().map(|&j| list[j]).collect::<Vec<_>>();
+    let of_felt: Vec<(f64, f64)> = felt.iter().map(|&j| bounds[j]).collect();
+    let known = match felt.is_empty() {
+        true => Knowledge::NONE,
+        false => of_all_felt(&jacobian.select_columns(&felt), residuals, &pick(values), &of_felt),
+    };
+    let place = |k: usize| felt.iter().position(|&j| j == k);
+    let estimates = (0..p).map(|j| match place(j) {
+        Some(k) => known.estimates[k].over(&felt),
+        None => Estimate { value: values[j], sigma: None, half_width: None, doubt: Some(Doubt::NoInterval) },
+    });
+    let entry = |c: &[Vec<f64>], i: usize, j: usize| match (place(i), place(j)) {
+        (Some(a), Some(b)) => c[a][b],
+        _ if i == j => 1.0,
+        _ => f64::NAN,
+    };
+    let correlation = known
+        .correlation
+        .as_ref()
+        .map(|c| (0..p).map(|i| (0..p).map(|j| entry(c, i, j)).collect()).collect());
+    let alone = unfelt
+        .iter()
+        .map(|&j| Tied::Blind { direction: (0..p).map(|i| if i == j { 1.0 } else { 0.0 }).collect() });
+    let tied = known.tied.iter().map(|tied| tied.over(&felt, p)).chain(alone).collect();
+    Knowledge { estimates: estimates.collect(), correlation, tied, ..known }
+}
+
+impl Estimate {
+    /// The same with the other unknown by its index among all, of which `felt` are here.
+    fn over(&self, felt: &[usize]) -> Self {
+        let doubt = self.doubt.map(|doubt| match doubt {
+            Doubt::Inseparable(other) => Doubt::Inseparable(felt[other]),
+            other => other,
+        });
+        Self { doubt, ..self.clone() }
+    }
+}
+
+impl Tied {
+    /// As [`Estimate::over`]; `count` unknowns in all.
+    fn over(&self, felt: &[usize], count: usize) -> Self {
+        match self {
+            Self::Strongly { first, second, correlation } => {
+                Self::Strongly { first: felt[*first], second: felt[*second], correlation: *correlation }
+            }
+            Self::Blind { direction } => {
+                let mut all = vec![0.0; count];
+                felt.iter().zip(direction).for_each(|(&j, d)| all[j] = *d);
+                Self::Blind { direction: all }
+            }
+        }
+    }
+}
+
+/// [`knowledge`] where every column has a length.
+fn of_all_felt(
     jacobian: &DMatrix<f64>,
     residuals: &DVector<f64>,
     values: &[f64],
@@ -119,15 +197,12 @@ pub(super) fn knowledge(
     let residual_sigma = (freedom > 0).then(|| (residuals.norm_squared() / freedom as f64).sqrt());
     // Columns of equal length: the ratio of singular values does not depend on the ranges.
     let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
-    let largest = lengths.iter().fold(0.0, |a: f64, b| a.max(*b));
     let mut scaled = jacobian.clone();
     for (mut column, length) in scaled.column_iter_mut().zip(&lengths) {
-        // A column without length would hide behind its own scale.
-        let by = if *length > NOTHING * largest { *length } else { f64::INFINITY };
-        column /= by;
+        column /= *length;
     }
     // Rows of zeros make the factorisation square where there are fewer observations than unknowns.
-    let padded = scaled.clone().resize(m.max(p), p, 0.0);
+    let padded = scaled.resize(m.max(p), p, 0.0);
     let svd = SVD::new(padded, false, true);
     let v = svd.v_t.map(|v| v.transpose()).unwrap_or_else(|| DMatrix::identity(p, p));
     let s = svd.singular_values;
@@ -137,7 +212,7 @@ pub(super) fn knowledge(
         if *sigma > BLIND * top {
             continue;
         }
-        let raw: Vec<f64> = (0..p).map(|j| unscaled(v[(j, k)], lengths[j], largest)).collect();
+        let raw: Vec<f64> = (0..p).map(|j| v[(j, k)] / lengths[j]).collect();
         let most = raw.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         tied.push(Tied::Blind { direction: raw.iter().map(|x| x / most).collect() });
     }
@@ -169,15 +244,13 @@ pub(super) fn knowledge(
     });
     if let Some(c) = &correlation {
         for (first, row) in c.iter().enumerate() {
-            for (second, &correlation) in row.iter().enumerate().skip(first + 1) {
-                if correlation.abs() > INSEPARABLE {
-                    estimates[first].doubt.get_or_insert(Doubt::Inseparable(second));
-                    estimates[second].doubt.get_or_insert(Doubt::Inseparable(first));
-                }
-                if correlation.abs() > STRONG {
-                    tied.push(Tied::Strongly { first, second, correlation });
-                }
+            let others =
+                row.iter().enumerate().filter(|(second, r)| *second != first && r.abs() > INSEPARABLE);
+            if let Some((other, _)) = others.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())) {
+                estimates[first].doubt.get_or_insert(Doubt::Inseparable(other));
             }
+            let after = row.iter().enumerate().skip(first + 1).filter(|(_, r)| r.abs() > STRONG);
+            tied.extend(after.map(|(second, &correlation)| Tied::Strongly { first, second, correlation }));
         }
     }
     Knowledge { estimates, correlation, residual_sigma, freedom, tied, singular_ratio }
@@ -193,11 +266,6 @@ fn width_doubt(value: f64, half_width: Option<f64>, (least, most): (f64, f64)) -
         Some(_) if least * most > 0.0 && wide(value.abs()) => Some(Doubt::WiderThanValue),
         Some(_) => None,
     }
-}
-
-/// A component of a direction in units of ranges: columns were divided by their lengths.
-fn unscaled(component: f64, length: f64, largest: f64) -> f64 {
-    component / if length > NOTHING * largest { length } else { (NOTHING * largest).max(f64::MIN_POSITIVE) }
 }
 
 #[cfg(test)]
@@ -279,5 +347,51 @@ mod tests {
             assert!((d[0] + 2.0 * d[1]).abs() < 1e-6 && d[2].abs() < 1e-9, "{d:?}");
         }
         assert!(directions.iter().any(|d| d[3].abs() > 0.9), "{directions:?}");
+    }
+
+    #[test]
+    fn an_unknown_without_effect_is_told_by_itself_and_the_others_are_judged() {
+        let column = |j: usize, i: usize| [1.0, 1.0 + i as f64][j];
+        let residuals = DVector::from_fn(6, |i, _| 1e-3 * [1.0, -1.0, -1.0, 1.0, 1.0, -1.0][i]);
+        let alone = knowledge(
+            &DMatrix::from_fn(6, 2, |i, j| column(j, i)),
+            &residuals,
+            &[1.0, 2.0],
+            &[(0.5, 1.5), (1.5, 2.5)],
+        );
+        let beside = knowledge(
+            &DMatrix::from_fn(6, 3, |i, j| [column(0, i), 1e-9, column(1, i)][j]),
+            &residuals,
+            &[1.0, 7.0, 2.0],
+            &[(0.5, 1.5), (6.0, 8.0), (1.5, 2.5)],
+        );
+        assert_eq!(alone.undetermined().count(), 0, "{alone:?}");
+        assert_eq!([&beside.estimates[0], &beside.estimates[2]], [&alone.estimates[0], &alone.estimates[1]]);
+        assert_eq!(beside.undetermined().collect::<Vec<_>>(), [(1, Doubt::NoInterval)]);
+        assert_eq!(beside.without_influence(), [1]);
+        assert_eq!((beside.freedom, beside.residual_sigma), (alone.freedom, alone.residual_sigma));
+        let (a, b) = (alone.correlation.unwrap(), beside.correlation.unwrap());
+        assert!(b[0][2] == a[0][1] && b[1][1] == 1.0 && b[0][1].is_nan() && b[1][2].is_nan(), "{b:?}");
+        // Nothing is felt at all.
+        let none = knowledge(&DMatrix::zeros(6, 2), &residuals, &[1.0, 2.0], &[(0.5, 1.5), (1.5, 2.5)]);
+        assert_eq!(none.without_influence(), [0, 1]);
+    }
+
+    #[test]
+    fn beyond_a_correlation_of_0_99_two_unknowns_are_determined_only_together() {
+        let with = |apart: f64| {
+            let jacobian = DMatrix::from_fn(6, 2, |i, j| {
+                let x = 1.0 + i as f64;
+                x + if j == 1 { apart * if i.is_multiple_of(2) { 1.0 } else { -1.0 } } else { 0.0 }
+            });
+            knowledge(&jacobian, &DVector::from_element(6, 1e-9), &[1.0, 1.0], &[(0.5, 1.5); 2])
+        };
+        let doubts = |k: &Knowledge| k.undetermined().map(|(_, doubt)| doubt).collect::<Vec<_>>();
+        let near = with(0.3);
+        assert!((0.99..0.9999).contains(&-near.correlation.as_ref().unwrap()[0][1]), "{near:?}");
+        assert_eq!(doubts(&near), [Doubt::Inseparable(1), Doubt::Inseparable(0)]);
+        let apart = with(0.8);
+        assert!((0.95..0.99).contains(&-apart.correlation.as_ref().unwrap()[0][1]), "{apart:?}");
+        assert_eq!(doubts(&apart), []);
     }
 }

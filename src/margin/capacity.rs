@@ -1,48 +1,52 @@
 //! How each static limit's demand runs with torque, and the torque at which it would be reached.
 
 use super::Margin;
-use super::held::{When, held};
-use super::load::{LoadState, clearance_at_m, profile_capacity};
-use super::sprag::{GRIP, grip};
+use super::limits::{Limit, Of, When};
+use super::load::{Case, LoadState, clearance_at_m, profile_capacity};
+use super::sprag::grip;
+use super::table::{END_OF_PROFILE, GRIP_INNER, LIMITS};
 use crate::design::{Design, Limits};
 use crate::numeric::root;
 use crate::wedge::StaticPoint;
 
 /// What one limit bounds, as a function of the static state; demand and allowable in the same unit.
 struct Bounded<'a> {
-    code: &'static str,
+    limit: &'static Limit,
     allowed: f64,
     demand: Box<dyn Fn(&StaticPoint) -> f64 + 'a>,
 }
 
-/// What depends on torque: what is held at a torque, then grip, room between neighbours and roll-over.
-fn bounded<'a>(design: &'a Design, limits: &'a Limits, state: &'a LoadState) -> Vec<Bounded<'a>> {
-    let at_torque = held(design, limits, state).into_iter();
-    let mut list: Vec<Bounded> =
-        at_torque.map(|h| Bounded { code: h.code, allowed: h.allowed, demand: h.demand }).collect();
-    let mut add = |code, allowed, demand| list.push(Bounded { code, allowed, demand });
-    for limit in &GRIP {
-        if let Some(mu) = (limit.allowed)(design, limits) {
-            add(limit.code, mu, Box::new(move |p| (limit.demand)(design, limits, p)));
+/// The same of `limit`, where it depends on torque and `case` asks for it.
+fn bounded<'a>(case: Case<'a>, limit: &'static Limit) -> Option<Bounded<'a>> {
+    let Case { design, limits, state } = case;
+    match limit.of {
+        Of::RollOver => Some(Bounded {
+            limit,
+            allowed: state.curve.roll_over_torque_nm(),
+            demand: Box::new(|p| p.torque_nm),
+        }),
+        // Clearance used up, so that it rises to 1 where neighbours touch.
+        Of::Neighbours => {
+            let free = clearance_at_m(design, state, &StaticPoint::UNLOADED)?;
+            let used = move |p: &StaticPoint| 1.0 - clearance_at_m(design, state, p).unwrap_or(free) / free;
+            Some(Bounded { limit, allowed: 1.0, demand: Box::new(used) })
+        }
+        _ => {
+            let (allowed, _) = limit.allowed(design, limits)?;
+            let demand = move |p: &StaticPoint| limit.demand(&case, p).unwrap_or(f64::NAN);
+            Some(Bounded { limit, allowed, demand: Box::new(demand) })
         }
     }
-    // Clearance used up, so that it rises to 1 where neighbours touch.
-    if let Some(free) = clearance_at_m(design, state, &StaticPoint::UNLOADED) {
-        let used = move |p: &StaticPoint| 1.0 - clearance_at_m(design, state, p).unwrap_or(free) / free;
-        add("neighbours", 1.0, Box::new(used));
-    }
-    add("roll-over", state.curve.roll_over_torque_nm(), Box::new(|p| p.torque_nm));
-    list
 }
 
 /// Fill `torque_capacity_nm` of the rows that depend on torque.
 pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state: &LoadState) {
-    let list = bounded(design, limits, state);
+    let case = Case { design, limits, state };
     for row in rows {
-        row.torque_capacity_nm = match row.code.as_str() {
-            "end-of-profile" => Some(profile_capacity(state)),
-            "roll-over" => Some(row.allowable),
-            code => list.iter().find(|b| b.code == code).map(|b| torque_where(state, b.allowed, &*b.demand)),
+        row.torque_capacity_nm = match row.limit.of {
+            Of::RollOver => Some(row.allowable),
+            _ if row.limit == &END_OF_PROFILE => Some(profile_capacity(state)),
+            _ => bounded(case, row.limit).map(|b| torque_where(state, b.allowed, &*b.demand)),
         };
     }
 }
@@ -66,11 +70,11 @@ pub fn courses(
     state: &LoadState,
     points: &[StaticPoint],
 ) -> Vec<Course> {
-    let list = bounded(design, limits, state);
+    let case = Case { design, limits, state };
     let course = |row: &Margin| {
-        let b = list.iter().find(|b| b.code == row.code)?;
+        let b = bounded(case, row.limit).filter(|_| !row.off_centre && row.corner.is_none())?;
         let points = points.iter().map(|p| [p.torque_nm, (b.demand)(p) / b.allowed]).collect();
-        Some(Course { code: row.code.clone(), required: row.required, points })
+        Some(Course { code: row.code(), required: row.required, points })
     };
     rows.iter().filter_map(course).collect()
 }
@@ -138,18 +142,19 @@ pub(super) fn axial_from_nm(
 pub fn nominal_capacity(design: &Design, limits: &Limits, state: &LoadState) -> Option<(f64, &'static str)> {
     // What does not grip at first contact never gets as far as the torque at which it would.
     if state.first_tan_omega >= design.clutch.friction.static_ {
-        return Some((0.0, "grip-inner"));
+        return Some((0.0, GRIP_INNER.code));
     }
-    let named: Vec<&str> =
-        held(design, limits, state).iter().filter(|h| h.when == When::Nominal).map(|h| h.code).collect();
-    if named.is_empty() {
+    let case = Case { design, limits, state };
+    let all = || LIMITS.iter().filter_map(|limit| bounded(case, limit));
+    let nominal = |b: &Bounded| b.limit.when == When::Nominal;
+    if !all().any(|b| nominal(&b)) {
         return None;
     }
-    let counts = |b: &Bounded| named.contains(&b.code) || b.code.starts_with("grip-");
-    let reached = bounded(design, limits, state)
-        .into_iter()
-        .filter(counts)
-        .map(|b| (torque_where(state, b.allowed, &*b.demand), b.code));
+    // Limits of which states on the way count are those of the grip.
+    let grips = |b: &Bounded| matches!(b.limit.of, Of::Sprag { on_the_way: Some(_), .. });
+    let reached = all()
+        .filter(|b| nominal(b) || grips(b))
+        .map(|b| (torque_where(state, b.allowed, &*b.demand), b.limit.code));
     let end = (state.curve.end_torque_nm(), "end-of-curve");
     Some(reached.fold(end, |least, found| if found.0 < least.0 { found } else { least }))
 }

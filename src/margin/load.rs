@@ -1,14 +1,15 @@
 //! Limits that follow from the static load state, first contact and overrun.
 
 use super::capacity::axial_from_nm;
-use super::held::held;
+use super::limits::{Limit, Of, When};
 use super::overrun::overrun_moments;
-use super::sprag::GRIP;
-use super::{Margin, NoMargins, curve_at_rest, ratio};
+use super::row::{Demand, Margin};
+use super::table::LIMITS;
+use super::{NoMargins, curve_at_rest};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
 use crate::profile::{Outline, Profile, clearance_m};
-use crate::wedge::{EndReason, StaticPoint, WedgeCurve};
+use crate::wedge::{Elastic, EndReason, StaticPoint, WedgeCurve};
 
 /// What the static limits are read from: the wedge without its energizing spring, which at such torques presses by parts in
 /// ten thousand harder and lowers |T|/N.
@@ -39,117 +40,106 @@ pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
     Ok(LoadState { profile, outline, curve, alpha_max_rad, first_tan_omega })
 }
 
+/// A load state with what is asked of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Case<'a> {
+    pub design: &'a Design,
+    pub limits: &'a Limits,
+    pub state: &'a LoadState,
+}
+
+impl<'a> Case<'a> {
+    pub fn elastic(&self) -> &'a Elastic {
+        &self.state.curve.statics().elastic
+    }
+
+    /// Number of sprags.
+    pub fn count(&self) -> usize {
+        self.design.clutch.sprags.count
+    }
+}
+
+/// The static state at the torque of a limit, or at the end of the curve where that comes first.
+struct Reached {
+    torque_nm: f64,
+    end_nm: f64,
+    p: StaticPoint,
+    /// States below it, rising.
+    below: Vec<StaticPoint>,
+}
+
+impl Reached {
+    fn new(case: &Case, torque_nm: f64) -> Self {
+        let end_nm = case.state.curve.end_torque_nm();
+        let p = at(&case.state.curve, carried(torque_nm, end_nm));
+        Self { torque_nm, end_nm, p, below: below(case.state, &p) }
+    }
+
+    /// A demand at this state.
+    fn demand(&self, value: f64) -> Demand {
+        beyond(value, self.torque_nm, self.end_nm)
+    }
+
+    fn row(&self, limit: &'static Limit, name: &str, value: f64, allowable: f64) -> Margin {
+        let name = said(name, self.torque_nm, self.end_nm);
+        Margin { name, ..Margin::new(limit, self.demand(value), allowable) }
+    }
+}
+
 pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<Margin> {
-    let mut rows = Vec::new();
-    let mut push = |code: &str, name: &str, demand: f64, allowable: f64, unit, margin: f64| {
-        rows.push(Margin {
-            code: code.into(),
-            name: name.into(),
-            demand,
-            allowable,
-            unit,
-            margin,
-            torque_capacity_nm: None,
-            required: true,
-            computed: true,
-            overloaded: false,
-        });
+    let case = Case { design, limits, state };
+    let reached = |when: When| when.torque_nm(limits).map(|torque_nm| Reached::new(&case, torque_nm));
+    let (nominal, peak) = (reached(When::Nominal), reached(When::Peak));
+    let row = |limit: &&'static Limit| match limit.when {
+        When::Nominal => loaded_row(&case, limit, nominal.as_ref()?),
+        When::Peak => loaded_row(&case, limit, peak.as_ref()?),
+        _ => unloaded_row(&case, limit),
     };
-    let curve = &state.curve;
-    let end = curve.end_torque_nm();
-    let (mut shown_only, mut not_reached) = (Vec::new(), Vec::new());
-    for h in held(design, limits, state) {
-        let Some(torque) = h.when.torque_nm(limits) else { continue };
-        let p = at(curve, torque);
-        let value = (h.demand)(&p);
-        let (unit, per_si) = h.unit;
-        let margin = beyond(ratio(value, h.allowed), torque, end);
-        push(h.code, &said(&(h.name)(&p), torque, end), value * per_si, h.allowed * per_si, unit, margin);
-        if !h.required {
-            shown_only.push(h.code);
+    LIMITS.iter().filter_map(row).collect()
+}
+
+/// The row of a limit that is held at a torque.
+fn loaded_row(case: &Case, limit: &'static Limit, reached: &Reached) -> Option<Margin> {
+    let Case { design, limits, state } = *case;
+    let Reached { torque_nm, end_nm, p, ref below } = *reached;
+    let name = (limit.name)(limits);
+    match limit.of {
+        Of::RollOver => Some(reached.row(limit, name, torque_nm, state.curve.roll_over_torque_nm())),
+        Of::AxialFrom => {
+            limits.axial_load_n.filter(|n| *n > 0.0)?;
+            let wanted = limits.nominal_torque_nm.unwrap_or(torque_nm);
+            let from = axial_from_nm(design, limits, state, torque_nm);
+            let demand = from.map_or(Demand::MoreThan(torque_nm.min(end_nm)), Demand::Value);
+            Some(Margin { required: false, ..Margin::new(limit, demand, wanted) })
         }
-        if end < torque {
-            not_reached.push(h.code);
-        }
-    }
-    if let Some(torque) = limits.peak_torque_nm {
-        let p = at(curve, torque);
-        let over = curve.roll_over_torque_nm();
-        let name = said("peak torque against roll-over torque", torque, end);
-        push("roll-over", &name, torque, over, "Nm", beyond(over / torque - 1.0, torque, end));
-        let below = below(state, &p);
-        for limit in &GRIP {
-            let Some(mu) = (limit.allowed)(design, limits) else { continue };
-            let need = limit.largest(design, limits, &p, &below);
-            let name = said((limit.name)(limits), torque, end);
-            push(limit.code, &name, need, mu, limit.unit.0, beyond(ratio(need, mu), torque, end));
-        }
-        if limits.axial_load_n.is_some_and(|n| n > 0.0) {
-            let wanted = limits.nominal_torque_nm.unwrap_or(torque);
-            let from = axial_from_nm(design, limits, state, torque);
-            push(
-                "axial-from",
-                "torque from which on friction carries the axial load, against nominal torque",
-                from.unwrap_or(torque.min(end)),
-                wanted,
-                "Nm",
-                from.map_or(-1.0, |from| ratio(from, wanted)),
-            );
-            shown_only.push("axial-from");
-        }
-        if let Some(gap) = clearance_up_to_m(design, state, &p, &below) {
+        Of::Neighbours => {
             // Clearance itself, relative to the sprag's height: smooth through contact.
-            let height = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
-            push(
-                "neighbours",
-                &said("clearance between neighbouring sprags up to peak torque", torque, end),
-                0.0,
-                gap * 1e3,
-                "mm",
-                beyond(gap / height, torque, end),
-            );
+            let gap_m = clearance_up_to_m(design, state, &p, below)?;
+            let height_m = design.clutch.races.outer_radius_m - design.clutch.races.inner_radius_m;
+            Some(Margin { reference: height_m, ..reached.row(limit, name, 0.0, gap_m) })
         }
-        if end < torque {
-            not_reached.extend(["roll-over", "grip-inner", "grip-outer", "neighbours"]);
+        _ => {
+            let (allowed, required) = limit.allowed(design, limits)?;
+            let value = limit.largest(case, &p, below)?;
+            let name = limit.name_at(case, required, &p);
+            Some(Margin { required, ..reached.row(limit, &name, value, allowed) })
         }
     }
-    let kinetic = design.clutch.friction.kinetic;
-    let first = state.first_tan_omega;
-    push(
-        "re-engagement",
-        "tan omega at first contact against mu_c",
-        first,
-        kinetic,
-        "1",
-        ratio(first, kinetic),
-    );
-    if let Some(speed) = limits.keep_contact_to_rad_s {
-        let (opening, closing) = overrun_moments(design, state, speed);
-        push(
-            "keep-contact",
-            "centrifugal opening moment against spring moment at the keep-contact speed",
-            opening * 1e3,
-            closing * 1e3,
-            "mNm",
-            if closing > 0.0 { 1.0 - opening / closing } else { -1.0 },
-        );
-    }
-    if let Some(speed) = limits.lift_off_by_rad_s {
-        let (opening, closing) = overrun_moments(design, state, speed);
-        push(
-            "lift-off",
-            "spring moment against centrifugal opening moment at the speed by which the sprags must be off",
-            closing * 1e3,
-            opening * 1e3,
-            "mNm",
-            if closing > 0.0 { opening / closing - 1.0 } else { 1.0 },
-        );
-    }
-    for row in &mut rows {
-        row.required = !shown_only.contains(&row.code.as_str());
-        row.overloaded = not_reached.contains(&row.code.as_str());
-    }
-    rows
+}
+
+/// The row of a limit at first contact or in overrun.
+fn unloaded_row(case: &Case, limit: &'static Limit) -> Option<Margin> {
+    let Case { design, limits, state } = *case;
+    let (demand, allowable) = match limit.of {
+        Of::ReEngagement => (state.first_tan_omega, design.clutch.friction.kinetic),
+        Of::KeepContact => overrun_moments(design, state, limits.keep_contact_to_rad_s?),
+        Of::LiftOff => {
+            let (opening, closing) = overrun_moments(design, state, limits.lift_off_by_rad_s?);
+            (closing, opening)
+        }
+        _ => return None,
+    };
+    Some(Margin::new(limit, Demand::Value(demand), allowable))
 }
 
 /// States looked at between no load and the peak, beside the peak itself: a choice; demands are smooth but at
@@ -183,9 +173,21 @@ fn clearance_up_to_m(
     all.map(|p| clearance_at_m(design, state, p)).reduce(|a, b| Some(a?.min(b?)))?
 }
 
-/// Beyond the curve's end the rows of a torque continue as its shortfall, so that a search sees a slope.
-pub(super) fn beyond(margin: f64, torque: f64, end: f64) -> f64 {
-    if end >= torque { margin } else { margin.min(end / torque - 1.0) }
+/// The torque, or one a hair below the curve's end where that comes first.
+fn carried(torque_nm: f64, end_nm: f64) -> f64 {
+    if torque_nm > end_nm && end_nm > 0.0 { end_nm * (1.0 - 1e-12) } else { torque_nm }
+}
+
+/// A demand at a torque, or where the curve ends before, at `end`; one that is infinite no friction meets.
+pub(super) fn beyond(value: f64, torque: f64, end: f64) -> Demand {
+    match end >= torque {
+        true if value.is_finite() => Demand::Value(value),
+        true => Demand::NoneSuffices,
+        false => Demand::Overloaded {
+            at_end: Some(value).filter(|v| v.is_finite()),
+            shortfall: Some(end / torque - 1.0),
+        },
+    }
 }
 
 /// The name of a row, with word that its torque is not carried where the curve ends below it.

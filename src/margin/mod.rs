@@ -5,63 +5,29 @@
 
 mod body;
 mod capacity;
-mod gap;
-mod held;
 mod hoop;
+mod limits;
 mod load;
 mod overrun;
+mod row;
 mod run_out;
 mod scenes;
 mod sprag;
 mod subsurface;
+mod table;
 
 pub use capacity::{Course, courses, nominal_capacity};
-pub use held::at_nominal_torque;
+pub use limits::{Limit, When, limit_of};
 pub use load::{LoadState, load_state};
 pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
+pub use row::{Demand, Margin, RESOLUTION, Rule};
 pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
+pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIMITS, SLIP};
 
-use crate::design::{Design, Limits, Scenario, ScenarioKind};
+use crate::design::{Design, Limits, Scenario};
 use crate::scenario::{Settings, place_profile};
 use crate::wedge::{NoCurve, WedgeCurve};
-
-/// One limit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Margin {
-    /// Stable code for scripts.
-    pub code: String,
-    /// Name for people.
-    pub name: String,
-    /// Demand, in `unit`.
-    pub demand: f64,
-    /// Allowable, in `unit`.
-    pub allowable: f64,
-    /// Unit of demand and allowable as printed; SI inside is not needed for a ratio.
-    pub unit: &'static str,
-    /// Margin; 0 or more is held.
-    pub margin: f64,
-    /// Torque at which this limit would be reached, N m, where it depends on torque.
-    pub torque_capacity_nm: Option<f64>,
-    /// Whether it counts for the verdict; the others are shown only.
-    pub required: bool,
-    /// Whether demand and margin are known; else a run met its limit of work, and the margin is -1.
-    pub computed: bool,
-    /// Whether the row goes beyond the end of the curve: its scene, so that the margin is -1 whatever the friction, or its
-    /// torque, so that the margin is at most what the torque lacks, end/torque - 1, and the demand that at the end.
-    pub overloaded: bool,
-}
-
-/// Resolution of a margin: what the optimiser leaves of a limit that it stops at. A margin above minus this is
-/// held.
-pub const RESOLUTION: f64 = 1e-8;
-
-impl Margin {
-    /// Whether the limit is held.
-    pub fn held(&self) -> bool {
-        self.margin >= -RESOLUTION
-    }
-}
 
 /// Why no margins can be computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,6 +77,24 @@ pub fn margins(
     Ok(rows)
 }
 
+/// All margins that are no scene's, with what they are read from: the load state, and the load round the circumference where
+/// the axes lie apart. `capacities` asks for the torque capacity of each limit as well.
+///
+/// # Errors
+/// [`NoMargins`].
+pub fn static_margins(
+    design: &Design,
+    capacities: bool,
+) -> Result<(LoadState, Vec<Margin>, Option<RunOut>), NoMargins> {
+    let state = load_state(design)?;
+    let mut rows = load_margins(design, &design.limits, capacities, &state);
+    let ring = RunOut::new(design, &state);
+    if let Some(ring) = &ring {
+        rows.extend(run_out_margins(design, &design.limits, ring, capacities));
+    }
+    Ok((state, rows, ring))
+}
+
 /// The margins of the load state `state` of `design` alone.
 pub fn load_margins(design: &Design, limits: &Limits, capacities: bool, state: &LoadState) -> Vec<Margin> {
     let mut rows = load::rows(design, limits, state);
@@ -129,10 +113,10 @@ pub fn scene_margins(
     required: bool,
     settings: &Settings,
 ) -> Vec<Margin> {
-    match scenario.kind {
-        ScenarioKind::Overrun { .. } => Vec::new(),
-        _ => scene_rows(scenario, &scene_demand(scenario, settings), limits, required),
+    if scenario.kind.is_overrun() {
+        return Vec::new();
     }
+    scene_rows(scenario, &scene_demand(scenario, settings), limits, required)
 }
 
 /// The same margins from a demand that is known.
@@ -145,9 +129,4 @@ fn curve_at_rest(design: &Design) -> Result<(crate::profile::Profile, WedgeCurve
     let profile = place_profile(&design.clutch).map_err(NoMargins::Profile)?;
     let curve = WedgeCurve::build(&design.clutch, &profile, 0.0).map_err(NoMargins::Curve)?;
     Ok((profile, curve))
-}
-
-/// margin = allowable/demand - 1; no demand counts as a margin of 1e6.
-fn ratio(demand: f64, allowable: f64) -> f64 {
-    if demand.abs() * 1e6 <= allowable.abs() { 1e6 } else { allowable / demand - 1.0 }
 }

@@ -1,7 +1,6 @@
 //! What all runs of a search share: the flag that stops them and the record of their evaluations.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use sha2::{Digest, Sha256};
 
@@ -10,6 +9,7 @@ use super::journal::{Entry, Journal, Run, Watch};
 use super::outcome::{Iteration, Outcome, Refusal};
 use super::problem::ClutchProblem;
 use super::settings::Settings;
+use crate::follow::Follow;
 
 /// What the entries of a record belong to.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,7 +56,7 @@ impl Record for Forgetful {}
 
 /// Shared by all runs of a search.
 pub struct Desk<'a> {
-    stop: Option<&'a AtomicBool>,
+    follow: Follow,
     record: Mutex<&'a mut dyn Record>,
 }
 
@@ -67,19 +67,19 @@ struct Scribe<'d, 'a> {
 }
 
 impl<'a> Desk<'a> {
-    /// Around a record.
-    pub fn new(stop: Option<&'a AtomicBool>, record: &'a mut dyn Record) -> Self {
-        Self { stop, record: Mutex::new(record) }
+    /// Around a record; `follow` ends its runs.
+    pub fn new(follow: &Follow, record: &'a mut dyn Record) -> Self {
+        Self { follow: follow.clone(), record: Mutex::new(record) }
     }
 
     /// Whether the caller wants an end.
     pub fn stopped(&self) -> bool {
-        self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
+        self.follow.stopped()
     }
 
-    /// The flag itself, for runs that are not recorded.
-    pub(super) fn stop(&self) -> Option<&'a AtomicBool> {
-        self.stop
+    /// What ends its runs, for those that are not recorded.
+    pub(super) fn follow(&self) -> Follow {
+        self.follow.clone()
     }
 
     /// Announce a part of the search.
@@ -102,7 +102,7 @@ impl<'a> Desk<'a> {
         let id = ProblemId::of(problem);
         let journal = self.with(|record| record.known(&id));
         let mut scribe = Scribe { desk: self, problem: id };
-        what(problem, Run { journal, stop: self.stop, watch: Some(&mut scribe) })
+        what(problem, Run { journal, follow: self.follow(), watch: Some(&mut scribe) })
     }
 
     /// One climb.

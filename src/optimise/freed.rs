@@ -14,7 +14,7 @@ use super::settings::Settings;
 use crate::design::{
     Design, LIMIT_KEYS, LimitKey, is_whole, value_at, variable_names, variable_path, variable_unit,
 };
-use crate::margin::Margin;
+use crate::margin::{CONTACT, Demand, Margin};
 
 /// Farthest a dimension goes from its value, as a share of it: a choice, beyond it is another clutch.
 const REACH: f64 = 0.2;
@@ -90,23 +90,24 @@ impl Evaluate for LetGo<'_> {
 /// Margins, where a contact opens that of the contact for the slip margin too: that friction cannot suffice has no slope.
 fn with_slopes(rows: &[Margin]) -> Vec<f64> {
     let contact = |row: &Margin| {
-        let scene = row.code.strip_prefix("slip:").filter(|_| row.margin <= -1.0)?;
-        rows.iter().find(|r| r.code.strip_prefix("contact:") == Some(scene)).filter(|r| r.margin < 0.0)
+        let lost = row.is_slip() && !matches!(row.demand, Demand::Value(_));
+        let of = |r: &&Margin| r.limit == &CONTACT && (&r.scene, &r.corner) == (&row.scene, &row.corner);
+        rows.iter().filter(|_| lost).find(of).filter(|r| r.margin() < 0.0)
     };
-    rows.iter().map(|row| contact(row).unwrap_or(row).margin).collect()
+    rows.iter().map(|row| contact(row).unwrap_or(row).margin()).collect()
 }
 
 /// One limit alone, as large as it gets.
 struct OneLimit<'p> {
     problem: &'p ClutchProblem,
-    code: &'p str,
+    row: &'p Margin,
 }
 
 impl Evaluate for OneLimit<'_> {
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
         let looked = self.problem.look_at(x)?;
-        let row = looked.rows.iter().find(|r| r.code == self.code);
-        let margin = row.ok_or_else(|| Failure::Refused(format!("no {}", self.code)))?.margin;
+        let row = looked.rows.iter().find(|r| r.is_of(self.row));
+        let margin = row.ok_or_else(|| Failure::Refused(format!("no {}", self.row.code())))?.margin();
         Ok(Evaluation { objectives: vec![margin], limits: Vec::new(), tie_break: 0.0 })
     }
 }
@@ -121,12 +122,12 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
     let x = &found.outcome.x;
     let (Ok(text), Ok(here)) = (problem.file_at(x), problem.look_at(x)) else { return Vec::new() };
     desk.begins("what would free it");
-    let tight: Vec<&Margin> = here.rows.iter().filter(|m| m.margin < TIGHT).collect();
+    let tight: Vec<&Margin> = here.rows.iter().filter(|m| m.margin() < TIGHT).collect();
     let eased = |rows: &[Margin]| {
-        tight.iter().any(|m| rows.iter().any(|r| r.code == m.code && r.margin > m.margin + 1e-9))
+        tight.iter().any(|m| rows.iter().any(|r| r.is_of(m) && r.margin() > m.margin() + 1e-9))
     };
     let mut asked: Vec<Asked> = Vec::new();
-    for key in &LIMIT_KEYS {
+    for key in LIMIT_KEYS {
         let Some(value) = key.value(problem.limits()).filter(|v| *v > 0.0) else { continue };
         let felt = |share: f64| {
             let moved = problem.under(key.with(problem.limits(), value * (1.0 + share)));
@@ -168,7 +169,7 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
         let one = LetGo { problem: &problem, number, given, range: between.1 - between.0 };
         let with = |list: &[f64], last: f64| -> Vec<f64> { list.iter().copied().chain([last]).collect() };
         let bounds = (with(&lo, between.0), with(&hi, between.1));
-        let run = Run { stop: desk.stop(), ..Run::default() };
+        let run = Run { follow: desk.follow(), ..Run::default() };
         let outcome =
             maximise_least_margin(&one, &with(x, given), &bounds.0, &bounds.1, &settings, run).ok()?;
         let needed = outcome.x.last().copied();
@@ -187,14 +188,14 @@ pub fn alone(found: &Search, desk: &Desk) -> Vec<Alone> {
     let x = &found.outcome.x;
     let Ok(here) = problem.look_at(x) else { return Vec::new() };
     let one = |row: &Margin| {
-        let only = OneLimit { problem: &problem, code: &row.code };
+        let only = OneLimit { problem: &problem, row };
         let settings = Settings { max_evaluations: EVALUATIONS, poll: false, ..Settings::default() };
-        let run = Run { stop: desk.stop(), ..Run::default() };
+        let run = Run { follow: desk.follow(), ..Run::default() };
         let outcome = maximise_least_margin(&only, x, &lo, &hi, &settings, run).ok()?;
         let moved = |i: usize| (outcome.x[i] - x[i]).abs() > 1e-3 * (hi[i] - lo[i]);
         let changes = (0..x.len()).filter(|&i| moved(i));
         let changes = changes.map(|i| (problem.variables()[i].clone(), outcome.x[i])).collect();
-        Some(Alone { code: row.code.clone(), margin: outcome.evaluation.least_margin(), changes })
+        Some(Alone { code: row.code(), margin: outcome.evaluation.least_margin(), changes })
     };
     here.rows.iter().filter(|m| !m.held()).filter_map(one).collect()
 }

@@ -1,8 +1,7 @@
 //! What an objective measures of a clutch, more being better.
 
 use crate::design::{Limits, Objective};
-use crate::margin::at_nominal_torque;
-use crate::margin::{LoadState, Margin};
+use crate::margin::{LoadState, Margin, When};
 
 /// One objective, with the shift and the scale at which it joins the least margin: (measure - from)/span.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +43,11 @@ pub struct Measure {
     pub value: f64,
 }
 
+/// Code of the measure that is the torque capacity of a row.
+pub(super) fn capacity_of(row: &Margin) -> String {
+    format!("capacity:{}", row.code())
+}
+
 /// Measures of `objective`; their count depends on the question alone, not on the clutch.
 pub(super) fn measures(
     objective: Objective,
@@ -54,14 +58,8 @@ pub(super) fn measures(
 ) -> Vec<Measure> {
     let measure = |code: String, value: f64| Measure { goal: 0, code, value };
     match objective {
-        // The row's margin is allowable/demand - 1 with allowable = mu_s/(1 + wanted).
         Objective::SlipMargin => {
-            let wanted = limits.slip_margin.unwrap_or(0.0);
-            let slip = |m: &Margin| (1.0 + m.margin) * if m.margin > -1.0 { 1.0 + wanted } else { 1.0 } - 1.0;
-            rows.iter()
-                .filter(|m| m.code.starts_with("slip:"))
-                .map(|m| measure(m.code.clone(), slip(m)))
-                .collect()
+            rows.iter().filter_map(|m| Some(measure(m.code(), m.slip_margin()?))).collect()
         }
         // Peak and nominal torque grow in proportion.
         Objective::TorqueCapacity => {
@@ -69,8 +67,8 @@ pub(super) fn measures(
             let nominal = limits.nominal_torque_nm.unwrap_or(peak);
             rows.iter()
                 .filter_map(|m| {
-                    let at = if at_nominal_torque(&m.code) { nominal } else { peak };
-                    Some(measure(format!("capacity:{}", m.code), m.torque_capacity_nm? / at * peak))
+                    let at = if m.limit.when == When::Nominal { nominal } else { peak };
+                    Some(measure(capacity_of(m), m.torque_capacity_nm? / at * peak))
                 })
                 .collect()
         }

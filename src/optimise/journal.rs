@@ -1,12 +1,12 @@
 //! One memoising evaluator in front of every method, and the ordered record of what it was asked.
 
 use std::collections::{HashMap, HashSet};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::evaluate::{Evaluate, Evaluation, Failure};
+use crate::follow::Follow;
 
 /// One evaluated point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -71,13 +71,13 @@ pub trait Watch {
     fn iterated(&mut self, _iteration: &super::Iteration) {}
 }
 
-/// What a run may be given beside the problem: an earlier journal, a flag that stops it, an observer.
+/// What a run may be given beside the problem: an earlier journal, what stops it, an observer.
 #[derive(Default)]
 pub struct Run<'a> {
     /// Points known beforehand (resumption).
     pub journal: Journal,
-    /// Set to true by the caller to stop; evaluations under way finish and are kept.
-    pub stop: Option<&'a AtomicBool>,
+    /// Stops it; evaluations under way finish and are kept.
+    pub follow: Follow,
     /// Called as the run goes on.
     pub watch: Option<&'a mut (dyn Watch + Send)>,
 }
@@ -112,7 +112,7 @@ impl<'a> Memo<'a> {
 
     /// Whether the caller wants an end.
     pub fn stopped(&self) -> bool {
-        self.run.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
+        self.run.follow.stopped()
     }
 
     /// Points with margins that this run asked for; where it was stopped, those of the batch cut short too.
@@ -149,8 +149,8 @@ impl<'a> Memo<'a> {
         if self.asked.len() + new_here.len() > self.limit {
             return Err(Halt::Limit);
         }
-        let stop = self.run.stop;
-        let stopped = || stop.is_some_and(|flag| flag.load(Ordering::Relaxed));
+        let follow = self.run.follow.clone();
+        let stopped = || follow.stopped();
         let problem = self.problem;
         let computed: Vec<Option<Result<Evaluation, Failure>>> =
             fresh.par_iter().map(|x| (!stopped()).then(|| problem.evaluate(x))).collect();

@@ -27,6 +27,19 @@ pub enum Status {
     Stalled(Cause),
 }
 
+impl Status {
+    /// In one word.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::Infeasible { .. } => "infeasible",
+            Self::EvaluationLimit => "evaluation-limit",
+            Self::Interrupted => "interrupted",
+            Self::Stalled(_) => "stalled",
+        }
+    }
+}
+
 /// Why a run stalled.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cause {

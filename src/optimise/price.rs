@@ -1,12 +1,12 @@
 //! What a limit or a bound costs at the optimum: multipliers as derivatives of the objective.
 
+use super::goal::capacity_of;
 use super::influence::Influence;
 use super::outcome::Outcome;
 use super::problem::{ClutchProblem, Looked};
 use super::settings::Settings;
-use super::smooth::is_room;
 use crate::design::variable_unit;
-use crate::margin::{Margin, at_nominal_torque, courses, load_state};
+use crate::margin::{Demand, Margin, Rule, When, courses, load_state};
 
 /// Torque step, relative, over which the slope of a demand is taken below the torque where its limit is reached.
 const STEP: f64 = 1e-4;
@@ -59,13 +59,13 @@ pub(super) fn prices(
     let mut found = capacity_prices(problem, best, outcome);
     for &j in &outcome.active.limits {
         let Some((row, mu)) = rows.get(j).zip(mu.get(j)) else { continue };
-        let (kind, unit, per_unit, value) = match is_ratio(row) {
-            true => (PriceKind::Limit, row.unit, 1.0 / row.demand, row.allowable),
-            false => (PriceKind::Margin, "1", 1.0, 1.0),
+        let (kind, unit, per_unit, value) = match ratio_of(row) {
+            Some(demand) => (PriceKind::Limit, row.limit.unit, 1.0 / demand, row.allowable_in_unit()),
+            None => (PriceKind::Margin, "1", 1.0, 1.0),
         };
         let gain_per_unit = mu * per_unit * span;
         if gain_per_unit > 0.0 {
-            found.push(Price { of: row.code.clone(), kind, unit: unit.to_owned(), gain_per_unit, value });
+            found.push(Price { of: row.code(), kind, unit: unit.to_owned(), gain_per_unit, value });
         }
     }
     let known = climb.optimality_tolerance * outcome.evaluation.least_margin().abs().max(1.0);
@@ -92,20 +92,27 @@ pub(super) fn prices(
     found
 }
 
-/// Whether the row's margin is allowable/demand - 1.
-fn is_ratio(row: &Margin) -> bool {
-    !is_room(&row.code)
-        && (row.allowable / row.demand - 1.0 - row.margin).abs() <= 1e-6 * (1.0 + row.margin.abs())
+/// The demand, in the limit's unit, of a row whose margin is allowable/demand - 1.
+fn ratio_of(row: &Margin) -> Option<f64> {
+    let ratio = match (row.limit.rule, row.demand) {
+        (Rule::Ratio | Rule::Onset | Rule::Slip, Demand::Value(_)) => !row.asks_nothing(),
+        (Rule::Ratio, Demand::Overloaded { shortfall: None, .. }) => !row.asks_nothing(),
+        (Rule::Reserve, Demand::Value(demand)) => demand > 0.0,
+        // 1 - demand/allowable is that too at the limit, to the square of the margin.
+        (Rule::Share, Demand::Value(_)) => row.margin().abs() <= 1e-3,
+        _ => false,
+    };
+    row.demand_in_unit().filter(|_| ratio)
 }
 
 /// Prices of the allowables that decide a torque capacity; none where no capacity is raised.
 fn capacity_prices(problem: &ClutchProblem, best: &Looked, outcome: &Outcome) -> Vec<Price> {
     let capacities = outcome.active.objectives.iter().filter_map(|&i| {
-        let code = best.measures.get(i)?.code.strip_prefix("capacity:")?;
-        let row = best.rows.iter().find(|row| row.code == code)?;
+        let measure = best.measures.get(i)?;
+        let row = best.rows.iter().find(|row| capacity_of(row) == measure.code)?;
         Some((row, row.torque_capacity_nm?, outcome.objective_multipliers.get(i)?))
     });
-    let capacities: Vec<_> = capacities.filter(|(row, ..)| is_ratio(row)).collect();
+    let capacities: Vec<_> = capacities.filter(|(row, ..)| ratio_of(row).is_some()).collect();
     let Some((design, state)) = problem
         .design_at(&outcome.x)
         .ok()
@@ -123,17 +130,18 @@ fn capacity_prices(problem: &ClutchProblem, best: &Looked, outcome: &Outcome) ->
         // Of demand over allowable, 1/Nm.
         let slope = (share1 - share0) / (t1 - t0);
         // Capacities at nominal torque count by the peak torque in proportion.
-        let in_proportion = match at_nominal_torque(&row.code) {
-            true => limits.peak_torque_nm.zip(limits.nominal_torque_nm).map_or(1.0, |(p, n)| p / n),
-            false => 1.0,
+        let in_proportion = match row.limit.when {
+            When::Nominal => limits.peak_torque_nm.zip(limits.nominal_torque_nm).map_or(1.0, |(p, n)| p / n),
+            _ => 1.0,
         };
-        let gain_per_unit = lambda * in_proportion / (slope * row.allowable);
+        let allowable = row.allowable_in_unit();
+        let gain_per_unit = lambda * in_proportion / (slope * allowable);
         (gain_per_unit.is_finite() && gain_per_unit > 0.0).then(|| Price {
-            of: row.code.clone(),
+            of: row.code(),
             kind: PriceKind::Limit,
-            unit: row.unit.to_owned(),
+            unit: row.limit.unit.to_owned(),
             gain_per_unit,
-            value: row.allowable,
+            value: allowable,
         })
     };
     capacities.into_iter().filter_map(price).collect()

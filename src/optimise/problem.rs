@@ -11,11 +11,8 @@ use crate::fidelity;
 use crate::margin::{Margin, RunOut, SceneDemand, load_state, run_out_margins, scene_margins, scene_rows};
 use crate::scenario::{Settings, demand};
 
-/// Prefix of the rows that hold slip margins.
-const SLIP: &str = "slip:";
-
 /// How an evaluation is computed.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Fidelity {
     /// Of the scenarios' runs.
     pub settings: Settings,
@@ -34,8 +31,29 @@ impl Fidelity {
     /// with once more.
     pub fn sharper(&self) -> Self {
         let tolerance = 0.1 * self.settings.tolerance.min(Settings::default().tolerance);
-        let settings = Settings { tolerance, ..self.settings };
+        let settings = Settings { tolerance, ..self.settings.clone() };
         Self { settings, reduced: false }
+    }
+
+    /// What of it an evaluation depends on, as text. Not who follows or stops it; the words in its place keep earlier
+    /// journals valid.
+    fn identity(&self) -> String {
+        let Self { settings, reduced } = self;
+        let Settings {
+            tolerance,
+            longest_step_s,
+            samples,
+            most_events,
+            most_steps,
+            energy,
+            history,
+            follow: _,
+        } = settings;
+        format!(
+            "Fidelity {{ settings: Settings {{ tolerance: {tolerance:?}, longest_step_s: {longest_step_s:?}, \
+             samples: {samples:?}, most_events: {most_events:?}, most_steps: {most_steps:?}, energy: {energy:?}, \
+             interrupt: None, history: {history:?}, clock: None }}, reduced: {reduced:?} }}"
+        )
     }
 }
 
@@ -162,8 +180,8 @@ impl ClutchProblem {
     }
 
     /// How evaluations are computed.
-    pub fn fidelity(&self) -> Fidelity {
-        self.fidelity
+    pub fn fidelity(&self) -> &Fidelity {
+        &self.fidelity
     }
 
     /// Everything that an evaluation depends on but x, as text: what a journal's entries belong to. Values of the
@@ -174,10 +192,11 @@ impl ClutchProblem {
         // The task's own bounds and seed do not enter a margin; what of it does follows, and the values of the histories.
         let said = content(&source, &["optimize"]).unwrap_or(source);
         let histories = &self.histories;
+        let fidelity = self.fidelity.identity();
         let checked = if self.as_checked { format!("{:?}", self.checked) } else { String::new() };
         format!(
-            "{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}",
-            self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners, self.fidelity
+            "{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
+            self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners
         )
     }
 
@@ -228,7 +247,7 @@ impl ClutchProblem {
             for scenario in design.scenarios.iter().filter(|s| wanted(&s.name)) {
                 rows.extend(self.scene(scenario));
                 // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
-                if let Some(row) = rows.iter().find(|r| !r.computed) {
+                if let Some(row) = rows.iter().find(|r| !r.computed()) {
                     return Err(Failure::Refused(row.name.clone()));
                 }
             }
@@ -251,13 +270,13 @@ impl ClutchProblem {
     }
 
     fn scene(&self, scenario: &crate::design::Scenario) -> Vec<Margin> {
-        let Fidelity { settings, reduced } = self.fidelity;
+        let Fidelity { settings, reduced } = &self.fidelity;
         if !reduced {
-            return scene_margins(scenario, &self.limits, true, &settings);
+            return scene_margins(scenario, &self.limits, true, settings);
         }
-        let whole = || scene_margins(scenario, &self.limits, true, &settings);
+        let whole = || scene_margins(scenario, &self.limits, true, settings);
         let Ok((plan, prepared)) = fidelity::plan(scenario) else { return whole() };
-        let found = demand(&prepared, &settings);
+        let found = demand(&prepared, settings);
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {
             return whole();
@@ -280,7 +299,7 @@ impl ClutchProblem {
             };
             if !corner.is_nominal() {
                 let name = corner.name();
-                found.rows.iter_mut().for_each(|r| r.code = format!("{} @ {name}", r.code));
+                found.rows.iter_mut().for_each(|r| r.corner = Some(name.clone()));
                 found.measures.iter_mut().for_each(|m| m.code = format!("{} @ {name}", m.code));
             }
             all.rows.extend(found.rows);
@@ -296,7 +315,7 @@ impl ClutchProblem {
 
     /// Whether the row is raised, and so no limit of a climb.
     pub fn is_raised(&self, m: &Margin) -> bool {
-        !self.as_checked && !self.slip_is_limit() && m.code.starts_with(SLIP)
+        !self.as_checked && !self.slip_is_limit() && m.is_slip()
     }
 
     fn is_limit(&self, m: &Margin) -> bool {
@@ -307,7 +326,7 @@ impl ClutchProblem {
     pub fn names(&self, looked: &Looked) -> Names {
         Names {
             objectives: looked.measures.iter().map(|m| m.code.clone()).collect(),
-            limits: looked.rows.iter().filter(|m| self.is_limit(m)).map(|m| m.code.clone()).collect(),
+            limits: looked.rows.iter().filter(|m| self.is_limit(m)).map(|m| m.code()).collect(),
         }
     }
 
@@ -319,12 +338,16 @@ impl ClutchProblem {
     /// Objectives, each (measure - from)/span of its goal; limits; and the largest Hertz pressure in GPa as the tie
     /// break.
     pub fn evaluation(&self, looked: &Looked) -> Evaluation {
-        let pressure = looked.rows.iter().filter(|m| m.code.starts_with("hertz-"));
+        let pressure = looked.rows.iter().filter(|m| m.is_static_pressure());
         let pressed = self.goals.iter().any(|g| g.objective == Objective::PeakPressure);
         Evaluation {
             objectives: looked.measures.iter().map(|m| self.goals[m.goal].scaled(m.value)).collect(),
-            limits: self.limit_rows(&looked.rows).iter().map(|m| m.margin).collect(),
-            tie_break: if pressed { 0.0 } else { pressure.map(|m| m.demand * 1e-3).fold(0.0, f64::max) },
+            limits: self.limit_rows(&looked.rows).iter().map(|m| m.margin()).collect(),
+            // MPa to GPa.
+            tie_break: match pressed {
+                true => 0.0,
+                false => pressure.filter_map(Margin::demand_in_unit).map(|p| p * 1e-3).fold(0.0, f64::max),
+            },
         }
     }
 

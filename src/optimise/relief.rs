@@ -53,15 +53,10 @@ pub fn relief(design: &Design, problem: &ClutchProblem, outcome: &Outcome, desk:
     };
     desk.begins("what would free it");
     let failing = |m: &&Margin| !m.held();
-    let of_scene = |m: &Margin, name: &str| {
-        let code = m.code.split(" @ ").next().unwrap_or(&m.code);
-        code.split_once(':').is_some_and(|(_, scene)| scene == name)
-    };
+    let of_scene = |m: &Margin, name: &str| m.scene.as_deref() == Some(name);
     let rows = || looked.rows.iter().filter(failing);
-    told.other_limits = rows()
-        .filter(|m| !design.scenarios.iter().any(|s| of_scene(m, &s.name)))
-        .map(|m| m.code.clone())
-        .collect();
+    told.other_limits =
+        rows().filter(|m| !design.scenarios.iter().any(|s| of_scene(m, &s.name))).map(Margin::code).collect();
     for (i, scene) in design.scenarios.iter().enumerate() {
         if !rows().any(|m| of_scene(m, &scene.name)) {
             continue;

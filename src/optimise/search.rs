@@ -84,8 +84,8 @@ impl Search {
     }
 
     /// Codes of the margins that the design found does not hold.
-    pub fn not_held(&self) -> Vec<&str> {
-        self.best.iter().filter(|m| !m.held()).map(|m| m.code.as_str()).collect()
+    pub fn not_held(&self) -> Vec<String> {
+        self.best.iter().filter(|m| !m.held()).map(Margin::code).collect()
     }
 
     /// Whether every margin of the given design was held.
@@ -283,7 +283,7 @@ pub fn search_problem(
         None => Vec::new(),
     };
     // A slip margin that is raised is no limit of the climb: where the best of it is less than is wanted, no design is one.
-    let short = best.rows.iter().filter(|m| problem.is_raised(m) && !m.held()).map(|m| -m.margin);
+    let short = best.rows.iter().filter(|m| problem.is_raised(m) && !m.held()).map(|m| -m.margin());
     let short = short.fold(0.0, f64::max);
     if outcome.status == Status::Converged && short > 0.0 {
         let fighting = outcome.active.limits.clone();

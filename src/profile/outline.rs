@@ -62,6 +62,36 @@ impl Segment {
         }
     }
 
+    /// The segment turned about the origin by `turn_rad` towards larger azimuths, then shifted, m.
+    pub fn moved(&self, turn_rad: f64, shift_m: Vector2<f64>) -> Self {
+        let (sin, cos) = turn_rad.sin_cos();
+        let place = |v: Vector2<f64>| Vector2::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin) + shift_m;
+        match *self {
+            Self::Line { from_m, to_m } => Self::Line { from_m: place(from_m), to_m: place(to_m) },
+            Self::Arc { centre_m, radius_m, from_azimuth_rad, sweep_rad } => Self::Arc {
+                centre_m: place(centre_m),
+                radius_m,
+                from_azimuth_rad: from_azimuth_rad + turn_rad,
+                sweep_rad,
+            },
+        }
+    }
+
+    /// Points on the segment, m, its first but not its last. No chord between them is farther from the arc than
+    /// `tolerance_m`, m, unless that asks for more than 4096 chords.
+    pub fn points_m(&self, tolerance_m: f64) -> Vec<[f64; 2]> {
+        let chords = match *self {
+            Self::Line { .. } => 1.0,
+            Self::Arc { radius_m, sweep_rad, .. } => {
+                // Sagitta r (1 - cos(step/2)) = 2 r sin^2(step/4).
+                let step = 4.0 * (tolerance_m.max(0.0) / (2.0 * radius_m)).min(0.5).sqrt().asin();
+                (sweep_rad.abs() / step).ceil().clamp(1.0, CHORDS_AT_MOST)
+            }
+        };
+        let points = (0..chords as usize).map(|i| self.at(i as f64 / chords));
+        points.map(|point| [point.x, point.y]).collect()
+    }
+
     /// Point at the fraction `part` of the segment.
     fn at(&self, part: f64) -> Vector2<f64> {
         match *self {
@@ -258,22 +288,7 @@ impl Outline {
     /// Vertices on the outline, m, counterclockwise, the first not repeated. No chord is farther from its
     /// arc than `tolerance_m`, m, unless that asks for more than 4096 chords on one arc.
     pub fn polyline(&self, tolerance_m: f64) -> Vec<[f64; 2]> {
-        let mut vertices = Vec::new();
-        for segment in &self.segments {
-            let chords = match *segment {
-                Segment::Line { .. } => 1.0,
-                Segment::Arc { radius_m, sweep_rad, .. } => {
-                    // Sagitta r (1 - cos(step/2)) = 2 r sin^2(step/4).
-                    let step = 4.0 * (tolerance_m.max(0.0) / (2.0 * radius_m)).min(0.5).sqrt().asin();
-                    (sweep_rad.abs() / step).ceil().clamp(1.0, CHORDS_AT_MOST)
-                }
-            };
-            for i in 0..chords as usize {
-                let point = segment.at(i as f64 / chords);
-                vertices.push([point.x, point.y]);
-            }
-        }
-        vertices
+        self.segments.iter().flat_map(|segment| segment.points_m(tolerance_m)).collect()
     }
 
     /// A convex counterclockwise outline from its segments, for planted answers.

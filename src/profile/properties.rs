@@ -52,18 +52,7 @@ pub(super) fn random_outline(random: &mut Random) -> Option<(Profile, Outline)> 
 
 /// The outline turned about the origin towards larger azimuths, then shifted.
 pub(super) fn moved(outline: &Outline, turn: f64, shift: Vector2<f64>) -> Outline {
-    let (sin, cos) = turn.sin_cos();
-    let place = |v: Vector2<f64>| Vector2::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin) + shift;
-    let move_one = |segment: &Segment| match *segment {
-        Segment::Line { from_m, to_m } => Segment::Line { from_m: place(from_m), to_m: place(to_m) },
-        Segment::Arc { centre_m, radius_m, from_azimuth_rad, sweep_rad } => Segment::Arc {
-            centre_m: place(centre_m),
-            radius_m,
-            from_azimuth_rad: from_azimuth_rad + turn,
-            sweep_rad,
-        },
-    };
-    Outline::planted(outline.segments().iter().map(move_one).collect())
+    Outline::planted(outline.segments().iter().map(|s| s.moved(turn, shift)).collect())
 }
 
 /// Exterior angle from one segment to the next, rad, positive to the left, between -pi and pi.

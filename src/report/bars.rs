@@ -31,7 +31,7 @@ pub struct Bar {
 /// A chart of bars, one below the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bars {
-    /// Title for screen readers.
+    /// Title.
     pub title: String,
     /// Bars, top to bottom.
     pub bars: Vec<Bar>,
@@ -44,8 +44,8 @@ pub struct Bars {
 const WIDTH: f64 = 720.0;
 const PITCH: f64 = 20.0;
 const THICK: f64 = 11.0;
-/// Two rows of mark labels.
-const TOP: f64 = 38.0;
+/// The title and two rows of mark labels.
+const TOP: f64 = 56.0;
 const LABEL_PITCH: f64 = 15.0;
 
 impl Bars {
@@ -53,6 +53,7 @@ impl Bars {
     pub fn to_svg(&self) -> String {
         let height = TOP + PITCH * self.bars.len() as f64 + 8.0;
         let mut svg = Svg::new(WIDTH, height, &self.title);
+        svg.title_text([8.0, 15.0], &self.title);
         let widest =
             |texts: &mut dyn Iterator<Item = &String>| texts.map(|t| text_width(t, 12.0)).fold(0.0, f64::max);
         let left = 8.0 + widest(&mut self.bars.iter().map(|b| &b.label));

@@ -8,8 +8,16 @@
 mod centres;
 mod clutch;
 mod detail;
+mod live;
+mod sheet;
 
-use crate::profile::Profile;
+pub use live::{Live, live};
+
+use crate::design::{Clutch, Sprags};
+use crate::profile::{Outline, Profile};
+
+/// Chords of a drawn outline leave its arcs by no more than this, m.
+const OUTLINE_M: f64 = 1e-6;
 
 /// One inner arc of a drawn sprag.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,6 +92,17 @@ impl SpragPose {
         }
     }
 
+    /// The sprag of a clutch at first contact at rest, with its outline: the narrowest that works where the design names
+    /// no flanks, and none where no flanks close the profile.
+    pub fn at_rest(label: &str, sprags: &Sprags, profile: &Profile) -> Self {
+        let outline = match sprags.flanks {
+            Some(flanks) => Outline::closed(profile, &flanks),
+            None => Outline::narrowest(profile),
+        };
+        let outline = outline.map(|o| o.polyline(OUTLINE_M)).unwrap_or_default();
+        Self::at_first_contact(label, profile, outline, Some(sprags.centroid_m))
+    }
+
     /// The same sprag in another position: body rotated by `rotation_rad` relative to the line OC_e since first
     /// contact, OC_e as given, m.
     pub fn moved(mut self, label: &str, rotation_rad: f64, outer_centre_distance_m: f64) -> Self {
@@ -145,6 +164,14 @@ impl SpragPose {
 }
 
 impl Drawing {
+    /// The races of `clutch` with `poses` of its sprags.
+    pub fn of(clutch: &Clutch, poses: Vec<SpragPose>) -> Self {
+        let r = &clutch.races;
+        let race_radii_m =
+            [r.inner_bore_radius_m, r.inner_radius_m, r.outer_radius_m, r.outer_outside_radius_m];
+        Self { race_radii_m, count: clutch.sprags.count, poses }
+    }
+
     /// The whole clutch with all its sprags and the radii of its races.
     pub fn clutch_svg(&self) -> String {
         clutch::svg(self)
@@ -153,6 +180,12 @@ impl Drawing {
     /// One sprag large: outline, contacts, strut, centres, junctions, centroid, dimensions.
     pub fn detail_svg(&self) -> String {
         detail::svg(self)
+    }
+
+    /// Front view, section and one enlarged sprag with their dimensions, at scales of ISO 5455 on paper. `axial_m`: width of
+    /// the races and length of the sprags, m; `notes` stand below the front view.
+    pub fn sheet_svg(&self, axial_m: [f64; 2], notes: &[String]) -> String {
+        sheet::svg(self, axial_m, notes)
     }
 
     /// C_e, the arc centres and the centroid, enlarged until they can be told apart.

@@ -14,9 +14,9 @@ mod svg;
 pub mod table;
 
 pub use bars::{Bar, Bars, Tone};
-pub use drawing::{Drawing, DrawnArc, SpragPose};
-pub use number::{Unit, significant};
-pub use page::{Page, PageHead};
+pub use drawing::{Drawing, DrawnArc, Live, SpragPose, live};
+pub use number::{Unit, error_beside, plain, significant};
+pub use page::{Page, PageHead, greek};
 pub use plot::{Curve, Dash, Marker, Plot};
 pub use strip::{Span, Strip};
 pub use table::{Cell, Column, Screen, Table};

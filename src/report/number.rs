@@ -158,6 +158,18 @@ pub fn plain(value: f64, digits: usize) -> String {
     format!("{}{power}", mantissa.trim_end_matches('0').trim_end_matches('.'))
 }
 
+/// The error of `value` as it stands beside it where it is shown with `digits` significant digits, in the same unit: a word
+/// where it is less than half of the last digit.
+pub fn error_beside(value: f64, digits: usize, error: f64) -> String {
+    let exponent = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    let last = 10.0_f64.powi(exponent + 1 - digits.max(1) as i32);
+    if error.abs() < 0.5 * last {
+        "exact to the digits shown".to_owned()
+    } else {
+        format!("\u{b1} {}", significant(error.abs(), 1))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -179,6 +191,19 @@ mod tests {
             (f64::INFINITY, 3, MISSING),
         ] {
             assert_eq!(significant(value, digits), want, "{value} to {digits}");
+        }
+    }
+
+    #[test]
+    fn an_error_below_the_digits_shown_is_a_word() {
+        for (value, error, want) in [
+            (144.83, 1e-16, "exact to the digits shown"),
+            (144.83, 4.9e-3, "exact to the digits shown"),
+            (144.83, 5.1e-3, "\u{b1} 0.005"),
+            (-0.246, 2e-4, "\u{b1} 0.0002"),
+            (0.0, 1e-9, "exact to the digits shown"),
+        ] {
+            assert_eq!(error_beside(value, 5, error), want, "{value}");
         }
     }
 

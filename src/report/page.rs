@@ -29,6 +29,20 @@ pub struct Page {
     body: String,
 }
 
+/// Names of symbols as people read them.
+pub fn greek(text: &str) -> String {
+    const NAMES: [(&str, &str); 7] = [
+        ("mu_s", "μs"),
+        ("mu_c", "μc"),
+        ("tan omega", "tan ω"),
+        ("tan nu", "tan ν"),
+        ("theta_bi", "θbi"),
+        ("theta_be", "θbe"),
+        ("(gamma ", "(γ "),
+    ];
+    NAMES.iter().fold(text.to_owned(), |text, (name, letter)| text.replace(name, letter))
+}
+
 /// Text made safe for HTML content and attributes.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -56,12 +70,13 @@ impl Page {
         self.verdict_in(if held { Tone::Good } else { Tone::Bad }, text)
     }
 
-    /// The answer in one line, painted as held, as broken or as neither.
+    /// The answer in one line, painted as held, as broken, as in between, or not at all.
     pub fn verdict_in(&mut self, tone: Tone, text: &str) -> &mut Self {
         let class = match tone {
             Tone::Good => "held",
             Tone::Bad => "broken",
-            Tone::Soft | Tone::Plain => "mixed",
+            Tone::Soft => "mixed",
+            Tone::Plain => "said",
         };
         self.push(&format!("<p class=\"verdict {class}\">{}</p>\n", escape(text)))
     }
@@ -99,6 +114,12 @@ impl Page {
         self.push(&figure(svg, caption))
     }
 
+    /// A figure that is printed at its own size, whatever room it takes: its scale is stated.
+    pub fn true_figure(&mut self, svg: &str, caption: &str) -> &mut Self {
+        let html = figure(svg, caption).replacen("<figure>", "<figure class=\"true\">", 1);
+        self.push(&html)
+    }
+
     /// Figures side by side where the window is wide enough.
     pub fn figures(&mut self, figures: &[(String, &str)]) -> &mut Self {
         self.body.push_str("<div class=\"row\">\n");
@@ -108,13 +129,37 @@ impl Page {
         self.push("</div>\n")
     }
 
+    /// Short tables, each with its caption, in as many columns as there is room for.
+    pub fn columns(&mut self, tables: &[(String, Table)]) -> &mut Self {
+        self.body.push_str("<div class=\"columns\">\n");
+        for (caption, table) in tables {
+            self.table(caption, table);
+        }
+        self.push("</div>\n")
+    }
+
+    /// A part that is folded away until its summary is clicked; printed open.
+    pub fn folded(&mut self, summary: &str, fill: impl FnOnce(&mut Self)) -> &mut Self {
+        self.fold("printed", summary, fill)
+    }
+
+    /// Long evidence: folded away, and its summary alone is printed.
+    pub fn apart(&mut self, summary: &str, fill: impl FnOnce(&mut Self)) -> &mut Self {
+        self.fold("apart", summary, fill)
+    }
+
+    fn fold(&mut self, class: &str, summary: &str, fill: impl FnOnce(&mut Self)) -> &mut Self {
+        self.body.push_str(&format!("<details class=\"{class}\"><summary>{}</summary>\n", escape(summary)));
+        fill(self);
+        self.push("</details>\n")
+    }
+
     /// Text kept as typed, folded away: the design file.
     pub fn source(&mut self, summary: &str, text: &str) -> &mut Self {
-        self.push(&format!(
-            "<details><summary>{}</summary><pre>{}</pre></details>\n",
-            escape(summary),
-            escape(text)
-        ))
+        let pre = format!("<pre>{}</pre>\n", escape(text));
+        self.apart(summary, |page| {
+            page.push(&pre);
+        })
     }
 
     /// The results for programs, as JSON that no browser runs. `id` is the element's id.
@@ -127,6 +172,8 @@ impl Page {
     /// The finished page.
     pub fn to_html(&self) -> String {
         let PageHead { title, tool, version, command, design, design_hash } = &self.head;
+        let short = design_hash.get(..12).unwrap_or(design_hash);
+        let foot = foot(&format!("{title}: {design}, {short}"));
         let [title, tool, version, command, design, design_hash] =
             [title, tool, version, command, design, design_hash].map(|s| escape(s));
         format!(
@@ -135,7 +182,7 @@ impl Page {
              <html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta name=\"generator\" content=\"{tool} {version}\">\n\
-             <title>{title}: {design}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+             <title>{title}: {design}</title>\n<style>\n{STYLE}{foot}</style>\n</head>\n<body>\n<main>\n\
              <header>\n<p class=\"kind\">{title}</p>\n<h1>{design}</h1>\n\
              <dl>\n<dt>Design hash</dt><dd><code>{design_hash}</code></dd>\n\
              <dt>Command</dt><dd><code>{command}</code></dd>\n\
@@ -149,6 +196,13 @@ impl Page {
         self.body.push_str(html);
         self
     }
+}
+
+/// The foot of every printed sheet. Of a text that somebody typed only what can end neither a CSS string nor the style.
+fn foot(text: &str) -> String {
+    let kept = |c: &char| c.is_alphanumeric() || " ,.:;-_+()".contains(*c);
+    let text: String = text.chars().filter(kept).collect();
+    format!("@page {{ @bottom-left {{ content: \"{text}\"; font: 8pt sans-serif; color: #444444; }} }}\n")
 }
 
 fn figure(svg: &str, caption: &str) -> String {
@@ -184,6 +238,10 @@ mod tests {
             .source("file <x>", "name = \"</pre><b>\"");
         page.verdict(false, "<b>").figure("<svg></svg>", "caption <i>");
         let html = page.to_html();
+        assert!(
+            html.contains("content: \"Margin check: Huang  co. scriptalert(1)script, 0123abcd\""),
+            "{html}"
+        );
         for bad in ["<script>alert", "<i>", "<b>", "</pre><b>", "a < b"] {
             assert!(!html.contains(bad), "{bad} in\n{html}");
         }

@@ -83,6 +83,8 @@ pub struct Plot {
 }
 
 const TEXT_PX: f64 = 12.0;
+/// Room for the title above legend and frame.
+const TITLE_PX: f64 = 19.0;
 const ROW_PX: f64 = 17.0;
 /// Left margin of figures with an axis.
 pub(super) const LEFT_PX: f64 = 66.0;
@@ -134,28 +136,51 @@ impl Plot {
         self
     }
 
+    /// Where the frame of a plot of this width begins and ends, as parts of it.
+    pub fn frame(width_px: f64) -> [f64; 2] {
+        [LEFT_PX / width_px, 1.0 - RIGHT_PX / width_px]
+    }
+
     /// The SVG. Curves without a single drawable point stay in the legend, named as having no data.
     pub fn to_svg(&self) -> String {
         let [width, height] = self.size_px;
         let extent = self.extent();
         let [x_range, y_range] = extent.ranges(self.log_x, self.log_y);
-        let x = Axis { log: self.log_x, range: x_range, px: [LEFT_PX, width - RIGHT_PX] };
+        let x = Axis { log: self.log_x, range: x_range, px: [LEFT_PX, width - RIGHT_PX] }.begun(PITCH_X_PX);
         let legend = self.legend_rows();
         let markers = self.placed_markers(&x, &extent);
         let marker_rows = markers.iter().filter_map(|m| m.2).max().map_or(0, |row| row + 1);
-        let top_px = 10.0 + ROW_PX * (legend.len() + marker_rows) as f64;
+        let title = self.title();
+        let title_px = if title.is_empty() { 0.0 } else { TITLE_PX };
+        let top_px = 10.0 + title_px + ROW_PX * (legend.len() + marker_rows) as f64;
         let y = Axis { log: self.log_y, range: y_range, px: [height - BOTTOM_PX, top_px] };
+        let y = y.begun(PITCH_Y_PX[usize::from(self.log_y)]);
         let styles = styles(&self.curves);
         let mut svg = Svg::new(width, height, &format!("{} over {}", self.y_title, self.x_title));
         self.draw_axes(&mut svg, &x, &y);
         self.draw_curves(&mut svg, &x, &y, &styles);
-        self.draw_legend(&mut svg, &legend, &styles);
+        svg.title_text([LEFT_PX, 15.0], &title);
+        self.draw_legend(&mut svg, &legend, &styles, title_px);
         self.draw_markers(&mut svg, &x, &markers, top_px);
         self.draw_levels(&mut svg, &y, top_px);
         if extent.is_empty() {
             svg.text([width / 2.0, height / 2.0], Anchor::Middle, SOFT, "no data");
         }
         svg.finish()
+    }
+
+    /// What is drawn against what, without units; nothing where an axis has no name.
+    fn title(&self) -> String {
+        let (y, x) = (without_unit(&self.y_title), without_unit(&self.x_title));
+        // A name begins small behind "against", a symbol stays.
+        let mut letters = x.chars();
+        let small = match (letters.next(), letters.next()) {
+            (Some(first), Some(second)) if second.is_lowercase() => {
+                format!("{}{}", first.to_lowercase(), &x[first.len_utf8()..])
+            }
+            _ => x.to_owned(),
+        };
+        if y.is_empty() || x.is_empty() { String::new() } else { format!("{y} against {small}") }
     }
 
     fn drawable(&self, &[x, y]: &[f64; 2]) -> bool {
@@ -245,9 +270,9 @@ impl Plot {
         if empty { format!("{} (no data)", curve.name) } else { curve.name.clone() }
     }
 
-    fn draw_legend(&self, svg: &mut Svg, rows: &[Vec<(usize, f64)>], styles: &[Style]) {
+    fn draw_legend(&self, svg: &mut Svg, rows: &[Vec<(usize, f64)>], styles: &[Style], title_px: f64) {
         for (number, row) in rows.iter().enumerate() {
-            let y = 14.0 + ROW_PX * number as f64;
+            let y = 14.0 + title_px + ROW_PX * number as f64;
             for &(index, x) in row {
                 let Some(style) = styles.get(index) else { continue };
                 svg.line([x, y - 4.0], [x + 26.0, y - 4.0], &style.line(2.4));
@@ -297,6 +322,18 @@ impl Plot {
             let label_y = if at < top_px + ROW_PX { at + 14.0 } else { at - 5.0 };
             svg.text([right - 5.0, label_y], Anchor::End, SOFT, &level.label);
         }
+    }
+}
+
+/// The name in an axis title: what stands before the unit.
+fn without_unit(title: &str) -> &str {
+    const UNITS: [&str; 22] = [
+        "deg", "rad", "mrad", "Nm", "mNm", "Nm/rad", "N", "kN", "MPa", "GPa", "mm", "µm", "m", "ms", "s",
+        "Hz", "rpm", "rad/s", "%", "g", "W", "J",
+    ];
+    match title.rsplit_once(", ") {
+        Some((name, unit)) if UNITS.contains(&unit) => name,
+        _ => title,
     }
 }
 

@@ -49,6 +49,8 @@ impl Strip {
         let mut svg = Svg::new(WIDTH_PX, height, &format!("States over {}", self.title));
         let [low, high] = self.sound_range();
         let axis = Axis { log: false, range: [low, high], px: [LEFT_PX, WIDTH_PX - RIGHT_PX] };
+        // As the plots above and below.
+        let axis = axis.begun(PITCH_X_PX);
         let x = |at: f64| axis.at(at.clamp(low, high));
         let mut at = LEFT_PX;
         for (state, name) in self.states.iter().enumerate() {

@@ -66,6 +66,27 @@ impl Svg {
         let _ = writeln!(self.body, "<path d=\"{d}\" {style}/>");
     }
 
+    /// Begin a group of this class; `more` holds further attributes.
+    pub fn open(&mut self, class: &str, more: &str) {
+        let _ = writeln!(self.body, "<g class=\"{class}\" {more}>");
+    }
+
+    /// Begin a part of the figure that is cut at its edges, its own origin at `at`.
+    pub fn open_part(&mut self, at: [f64; 2], size: [f64; 2]) {
+        let ([x, y], [w, h]) = (at.map(px), size.map(px));
+        let _ = writeln!(self.body, "<svg x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\">");
+    }
+
+    /// End the part.
+    pub fn close_part(&mut self) {
+        self.body.push_str("</svg>\n");
+    }
+
+    /// End the group.
+    pub fn close(&mut self) {
+        self.body.push_str("</g>\n");
+    }
+
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2], style: &str) {
         self.path(&polyline(&[from, to], false), style);
     }
@@ -91,6 +112,11 @@ impl Svg {
     /// Text on a plain ground.
     pub fn bare_text(&mut self, at: [f64; 2], anchor: Anchor, colour: &str, text: &str) {
         self.write(at, anchor, colour, "", text);
+    }
+
+    /// A heading on a plain ground.
+    pub fn title_text(&mut self, at: [f64; 2], text: &str) {
+        self.write(at, Anchor::Start, INK, " font-weight=\"600\"", text);
     }
 
     /// Text that reads upwards, its middle at `at`.

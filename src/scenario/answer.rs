@@ -1,7 +1,8 @@
 //! What a simulation says: the verdict and every figure.
 
 use super::demand::Demand;
-use super::error::{ErrorEstimate, Scales};
+use super::error::Scales;
+use super::figures::ErrorEstimate;
 use crate::dynamics::{
     EnergyBalance, Engaged, FastMotion, Held, Mode, Neglected, Overrun, Peaks, Sample, SlipRecord, Stop,
 };

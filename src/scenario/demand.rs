@@ -1,7 +1,7 @@
 //! What a scene demands of friction and contact if it is to roll throughout, and how runs are set up.
 
 use super::answer::Verdict;
-use super::error::ErrorEstimate;
+use super::figures::ErrorEstimate;
 use super::prepare::Prepared;
 use super::simulate::{SLIPPED_M, Settings, verdict};
 use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, run, run_while_it_sticks};
@@ -76,9 +76,8 @@ pub(super) fn run_settings(
         samples,
         rolling: false,
         energy: settings.energy,
-        interrupt: settings.interrupt,
         history: settings.history,
-        clock: settings.clock,
+        follow: settings.follow.clone(),
     }
 }
 
@@ -118,7 +117,7 @@ pub(super) fn demand_at(
 
 /// Without an energy balance, which costs some fifteen evaluations a step and of these runs is not asked for.
 fn unaudited(settings: &Settings) -> Settings {
-    Settings { energy: false, ..*settings }
+    Settings { energy: false, ..settings.clone() }
 }
 
 /// Largest coefficient that is tried where the contact opens: no pair of materials of a clutch has more.

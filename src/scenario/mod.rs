@@ -7,13 +7,15 @@ mod answer;
 mod demand;
 mod equilibrium;
 mod error;
+mod figures;
 mod prepare;
 mod simulate;
 
 pub use answer::{GaveUp, Simulation, Verdict};
 pub use demand::{Demand, demand};
 pub use equilibrium::overrun_swing;
-pub use error::{ErrorEstimate, Scales};
+pub use error::Scales;
+pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures_of};
 pub use prepare::{
     FreeRun, NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced, sliding_friction,
 };

@@ -1,19 +1,17 @@
 //! Run a scenario and say what happened.
 
-use std::sync::atomic::AtomicBool;
-
 use super::answer::{GaveUp, Simulation, Verdict};
 use super::demand::{Demand, Fineness, STEPS_PER_PERIOD, demand_at, roll, run_settings};
 use super::equilibrium::steady;
-use super::error::{ErrorEstimate, Scales};
+use super::error::Scales;
+use super::figures::ErrorEstimate;
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::design::Scenario;
-use crate::dynamics::{
-    Clock, Grip, History, Place, PublishedSettings, Run, SlipRecord, Stop, published, run,
-};
+use crate::dynamics::{Grip, History, Place, PublishedSettings, Run, SlipRecord, Stop, published, run};
+use crate::follow::Follow;
 
 /// Settings of a simulation.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Settings {
     /// What the error of every figure of a simulation must stay below: angles in rad, slip as rad at the inner
     /// race, times by the duration, forces by the largest of the run, |T|/N, margins and pressure (by the largest)
@@ -32,12 +30,11 @@ pub struct Settings {
     pub most_steps: Option<u64>,
     /// Whether the energy balance of the run is made up. Default no.
     pub energy: bool,
-    /// Set from outside to end the runs at the next step.
-    pub interrupt: Option<&'static AtomicBool>,
     /// What the samples are of. Default: equidistant ones from start to end.
     pub history: History,
-    /// Where the runs tell how far they are.
-    pub clock: Option<&'static Clock>,
+    /// Ends the runs at their next step, and is told how far they are. Of no weight for the answer of a run that comes to its
+    /// end. Default: never stops.
+    pub follow: Follow,
 }
 
 /// Steps that a run may take at least.
@@ -58,9 +55,8 @@ impl Default for Settings {
             most_events: None,
             most_steps: None,
             energy: false,
-            interrupt: None,
             history: History::default(),
-            clock: None,
+            follow: Follow::nobody(),
         }
     }
 }
@@ -108,9 +104,9 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
     let coarsest = (100.0 * settings.tolerance).clamp(1000.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
     let go = |tolerance: f64, samples: usize, before: Option<&Try>, answered: bool| {
         let fineness = Fineness { tolerance, longest: (tolerance / coarsest).powf(1.0 / ORDER) };
-        settings.clock.inspect(|clock| clock.begin_pass(before.is_none(), tolerance));
+        settings.follow.begin_pass(before.is_none(), tolerance);
         // The coarsest run is never the answer: its energy is not asked for.
-        let settings = &Settings { energy: settings.energy && before.is_some(), ..*settings };
+        let settings = &Settings { energy: settings.energy && before.is_some(), ..settings.clone() };
         attempt(prepared, settings, fineness, samples, reduced, before.and_then(Try::bisected), answered)
     };
     let mut tolerance = coarsest;

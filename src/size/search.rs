@@ -5,7 +5,7 @@ use std::fmt;
 use super::ask::{Ask, BadAsk};
 use super::proportions::{COUNTS, LENGTHS, SPACES_M, draft, lengthen, spring};
 use crate::design::{Design, Draft, rounded};
-use crate::margin::{LoadState, Margin, load_margins, load_state, margins};
+use crate::margin::{KEEP_CONTACT, LoadState, Margin, load_margins, load_state, margins};
 use crate::profile::Outline;
 use crate::scenario::{Settings, place_profile};
 
@@ -106,9 +106,9 @@ fn build(draft: &Draft) -> Result<(Design, LoadState), String> {
 fn least(draft: &Draft) -> Result<(f64, String), String> {
     let (design, state) = build(draft)?;
     let rows = load_margins(&design, &design.limits, false, &state);
-    let rows = rows.iter().filter(|r| r.required && r.code != "keep-contact");
-    let worst = rows.min_by(|a, b| a.margin.total_cmp(&b.margin));
-    Ok(worst.map_or((0.0, "no limit".to_owned()), |r| (r.margin, r.code.clone())))
+    let rows = rows.iter().filter(|r| r.required && r.limit != &KEEP_CONTACT);
+    let worst = rows.min_by(|a, b| a.margin().total_cmp(&b.margin()));
+    Ok(worst.map_or((0.0, "no limit".to_owned()), |r| (r.margin(), r.code())))
 }
 
 /// Find a design for `ask`. Every race space of the family is tried; that of the smallest volume is taken.
@@ -293,12 +293,13 @@ fn built(draft: &mut Draft) -> Result<Design, Obstacle> {
             if why.starts_with("sprags.count") { Obstacle::Neighbours } else { Obstacle::Other(why) }
         })?;
         let rows = load_margins(&design, &design.limits, false, &state);
-        let Some(keep) = rows.iter().find(|r| r.code == "keep-contact" && r.margin < KEPT) else {
+        let Some(keep) = rows.iter().find(|r| r.limit == &KEEP_CONTACT && r.margin() < KEPT) else {
             return Ok(design);
         };
         // The closing moment is in proportion to the spring's force, but for what growth takes from its angle.
         let normal_n = 10.0 * draft.drag_nm / (draft.count as f64 * draft.races_m[1]);
-        let factor = if keep.allowable > 0.0 { 1.1 * keep.demand / keep.allowable } else { 4.0 };
+        let opening = keep.demand_in_unit().filter(|_| keep.allowable > 0.0);
+        let factor = opening.map_or(4.0, |opening| 1.1 * opening / keep.allowable_in_unit());
         spring(draft, normal_n * factor.max(1.1));
         if draft.drag_nm > DRAG * draft.torques_nm[0] {
             return Err(Obstacle::Other(format!(
@@ -316,7 +317,7 @@ fn checked(design: &Design, settings: &Settings) -> Result<Vec<Margin>, Obstacle
     let rows = margins(design, &design.limits, &design.check_scenarios, false, true, settings)
         .map_err(|e| Obstacle::Other(e.to_string()))?;
     match rows.iter().filter(|r| r.required).find(|r| !r.held()) {
-        Some(row) => Err(Obstacle::Margin(row.code.clone())),
+        Some(row) => Err(Obstacle::Margin(row.code())),
         None => Ok(rows),
     }
 }

@@ -15,6 +15,7 @@ mod curve;
 mod elastic;
 mod off_centre;
 mod patch;
+mod samples;
 mod stiffness;
 mod table;
 
@@ -24,5 +25,6 @@ pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};
 pub use patch::{InnerCurvature, Straddle, straddling_error};
-pub use stiffness::StaticPoint;
+pub use samples::PLOTTED;
+pub use stiffness::{SMALLEST_TORQUE_NM, StaticPoint};
 pub(crate) use table::RHO_STEEPEST_RAD;

@@ -3,6 +3,9 @@
 use super::closure::Closure;
 use super::curve::WedgeCurve;
 
+/// Smallest torque that the curve's root finding resolves to six digits, N m.
+pub const SMALLEST_TORQUE_NM: f64 = 1e-6;
+
 /// Static state of the clutch under torque; per sprag where a force is meant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticPoint {
@@ -79,7 +82,7 @@ impl WedgeCurve {
     }
 
     /// The row of one equilibrium.
-    fn row(&self, k: usize, c: &Closure) -> StaticPoint {
+    pub(super) fn row(&self, k: usize, c: &Closure) -> StaticPoint {
         let statics = self.statics();
         let torque = c.torque_nm(statics.count);
         let windup_rad = self.windup_rad(c.alpha.v);

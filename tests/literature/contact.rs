@@ -14,8 +14,8 @@ fn the_strut_is_a_triangle() {
     let ab = (11.11e-3_f64.powi(2) + 19.44e-3_f64.powi(2) - 2.0 * 11.11e-3 * 19.44e-3 * beta.cos()).sqrt();
     let omega = (19.44e-3 * beta.sin() / ab).asin();
     let first = row(&rows, "re-engagement");
-    close(first.demand, omega.tan(), 1e-6);
-    close(first.margin, 0.09 / omega.tan() - 1.0, 1e-5);
+    close(first.demand_in_unit().unwrap(), omega.tan(), 1e-6);
+    close(first.margin(), 0.09 / omega.tan() - 1.0, 1e-5);
 }
 
 /// Torque of one sprag by hand gives T at each contact; with the normal force of the state the quotient is the demand.
@@ -26,11 +26,19 @@ fn grip_is_torque_over_radius_and_normal_force() {
     let (state, rows) = rows(&d);
     let p = state.curve.at_torque(110.0).unwrap();
     // Radii under load: Lame's growth, some 0.1 %.
-    close(row(&rows, "grip-inner").demand, 110.0 / 12.0 / 11.11e-3 / p.normal_inner_n, 5e-3);
-    close(row(&rows, "grip-outer").demand, 110.0 / 12.0 / 19.44e-3 / p.normal_outer_n, 5e-3);
+    close(
+        row(&rows, "grip-inner").demand_in_unit().unwrap(),
+        110.0 / 12.0 / 11.11e-3 / p.normal_inner_n,
+        5e-3,
+    );
+    close(
+        row(&rows, "grip-outer").demand_in_unit().unwrap(),
+        110.0 / 12.0 / 19.44e-3 / p.normal_outer_n,
+        5e-3,
+    );
     for i in 1..200 {
         let p = state.curve.at_torque(110.0 * f64::from(i) / 200.0).unwrap();
-        assert!(p.tan_omega <= row(&rows, "grip-inner").demand + 1e-12);
+        assert!(p.tan_omega <= row(&rows, "grip-inner").demand_in_unit().unwrap() + 1e-12);
     }
 }
 
@@ -50,7 +58,7 @@ fn grip_is_held_on_the_way_to_the_peak() {
     println!("tan omega {at_peak} at the peak, {on_the_way} on the way");
     assert!(on_the_way > 1.001 * at_peak);
     // The largest lies in the kink at a junction; the row looks at 24 states on the way and may pass it by so far.
-    close(row(&rows, "grip-inner").demand, on_the_way, 5e-3);
+    close(row(&rows, "grip-inner").demand_in_unit().unwrap(), on_the_way, 5e-3);
 }
 
 /// Hertz (Johnson, Contact Mechanics, 4.2(c)): p_0 = sqrt(N E*/(pi l R)), E* = E/(2(1-nu^2)), 1/R = 1/R_i + 1/r_3 at A (convex
@@ -67,7 +75,7 @@ fn pressure_is_hertz() {
             |normal_n: f64, curvature: f64| (normal_n / 6e-3 * modulus * curvature / PI).sqrt() * 1e-6;
         let inner = pressure(p.normal_inner_n, 1.0 / 11.11e-3 + 1.0 / 4.15e-3);
         let outer = pressure(p.normal_outer_n, 1.0 / 4.68e-3 - 1.0 / 19.44e-3);
-        close(row(&rows, &format!("hertz-{kind}-inner")).demand, inner, 1e-9);
-        close(row(&rows, &format!("hertz-{kind}-outer")).demand, outer, 1e-9);
+        close(row(&rows, &format!("hertz-{kind}-inner")).demand_in_unit().unwrap(), inner, 1e-9);
+        close(row(&rows, &format!("hertz-{kind}-outer")).demand_in_unit().unwrap(), outer, 1e-9);
     }
 }

@@ -30,7 +30,7 @@ pub fn rows(design: &Design) -> (LoadState, Vec<Margin>) {
 }
 
 pub fn row<'a>(rows: &'a [Margin], code: &str) -> &'a Margin {
-    rows.iter().find(|r| r.code == code).unwrap_or_else(|| panic!("no row {code}"))
+    rows.iter().find(|r| r.code() == code).unwrap_or_else(|| panic!("no row {code}"))
 }
 
 #[track_caller]

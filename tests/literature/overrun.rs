@@ -57,8 +57,12 @@ fn table_1_lifts_off_near_5000_rpm() {
     // The row at 4500 rpm: moments in mNm.
     let keep = row(&rows, "keep-contact");
     let speed = 4500.0 * PI / 30.0;
-    close(keep.demand, -1e3 * h.h_e * MASS_KG * h.oc_g * speed * speed / h.gamma.cos(), 4e-3);
-    close(keep.allowable, 1e3 * h.spring_nm, 4e-3);
+    close(
+        keep.demand_in_unit().unwrap(),
+        -1e3 * h.h_e * MASS_KG * h.oc_g * speed * speed / h.gamma.cos(),
+        4e-3,
+    );
+    close(keep.allowable_in_unit(), 1e3 * h.spring_nm, 4e-3);
 }
 
 /// One lift-off: the moments of a sprag without load say the same as the equilibrium of one that slides.
@@ -88,7 +92,7 @@ fn the_centroid_opens_on_one_side_and_closes_on_the_other() {
         let d = design(&changes);
         let (state, rows) = rows(&d);
         (
-            row(&rows, "keep-contact").demand,
+            row(&rows, "keep-contact").demand_in_unit().unwrap(),
             lift_off_rad_s(&d, &state, 6000.0),
             state.curve.statics().gamma0_rad(),
         )

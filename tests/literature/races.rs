@@ -13,9 +13,17 @@ fn hoop_is_lames() {
     let mean = |normal_n: f64, radius_m: f64| 12.0 * normal_n / (2.0 * PI * radius_m * 6e-3) * 1e-6;
     let squares = |a: f64, b: f64| (a * a, b * b);
     let (a, b) = squares(19.44, 26.23);
-    close(row(&rows, "hoop-outer").demand, mean(p.normal_outer_n, 19.44e-3) * (b + a) / (b - a), 1e-9);
+    close(
+        row(&rows, "hoop-outer").demand_in_unit().unwrap(),
+        mean(p.normal_outer_n, 19.44e-3) * (b + a) / (b - a),
+        1e-9,
+    );
     let (a, b) = squares(7.21, 11.11);
-    close(row(&rows, "hoop-inner").demand, mean(p.normal_inner_n, 11.11e-3) * 2.0 * b / (b - a), 1e-9);
+    close(
+        row(&rows, "hoop-inner").demand_in_unit().unwrap(),
+        mean(p.normal_inner_n, 11.11e-3) * 2.0 * b / (b - a),
+        1e-9,
+    );
 }
 
 const FITTED: (&str, &str) = (
@@ -63,7 +71,7 @@ fn fits_move_the_tracks_and_stress_the_races() {
     let (at_joint, at_track) =
         (p_inner * (b0 * b0 + joint * joint) / wall, 2.0 * p_inner * joint * joint / wall);
     let worst = [at_joint, at_track, load - at_joint, load - at_track].into_iter().fold(0.0, f64::max);
-    close(row(&rows, "hoop-inner").demand, worst * 1e-6, 1e-9);
+    close(row(&rows, "hoop-inner").demand_in_unit().unwrap(), worst * 1e-6, 1e-9);
     let (a, c) = (d.clutch.races.outer_radius_m, 35e-3_f64);
     let load = 12.0 * at.normal_outer_n / (2.0 * PI * a * 6e-3);
     let joint = 26.23e-3_f64;
@@ -73,10 +81,17 @@ fn fits_move_the_tracks_and_stress_the_races() {
     let (fit_track, fit_joint) =
         (-2.0 * p_outer * joint * joint / wall, -p_outer * (joint * joint + a0 * a0) / wall);
     let worst = [fit_track.abs(), fit_joint.abs(), hoop(a) + fit_track, hoop(joint) + fit_joint];
-    close(row(&rows, "hoop-outer").demand, worst.into_iter().fold(0.0, f64::max) * 1e-6, 1e-9);
+    close(
+        row(&rows, "hoop-outer").demand_in_unit().unwrap(),
+        worst.into_iter().fold(0.0, f64::max) * 1e-6,
+        1e-9,
+    );
     // A stiffer clutch, and less stress in the inner race, than without shaft and housing.
     let (_, loose) = super::rows(&design(&[]));
-    assert!(row(&rows, "hoop-inner").demand < row(&loose, "hoop-inner").demand);
+    assert!(
+        row(&rows, "hoop-inner").demand_in_unit().unwrap()
+            < row(&loose, "hoop-inner").demand_in_unit().unwrap()
+    );
 }
 
 fn warm(inner: f64, outer: f64, sprags: f64) -> Vec<(&'static str, String)> {
@@ -136,9 +151,17 @@ fn even_warmth_enlarges_and_changes_no_angle() {
     close(run.outer.to_make_m, 19.44e-3, 1e-14);
     let (_, cold) = rows(&design(&[]));
     let (_, hot) = rows(&d);
-    close(row(&hot, "re-engagement").demand, row(&cold, "re-engagement").demand, 1e-9);
+    close(
+        row(&hot, "re-engagement").demand_in_unit().unwrap(),
+        row(&cold, "re-engagement").demand_in_unit().unwrap(),
+        1e-9,
+    );
     // Forces grow with 1/length at equal torque: 0.12 % here; the pressure with its square root and that of the radius.
-    close(row(&hot, "hertz-peak-inner").demand, row(&cold, "hertz-peak-inner").demand, 4e-3);
+    close(
+        row(&hot, "hertz-peak-inner").demand_in_unit().unwrap(),
+        row(&cold, "hertz-peak-inner").demand_in_unit().unwrap(),
+        4e-3,
+    );
 }
 
 /// Made at the radii that `check` names, the clutch runs at those that were drawn.
@@ -158,5 +181,9 @@ fn the_radii_to_make_run_as_drawn() {
     // The gap as run and at nominal torque is that of the drawn radii; sprags stay cold here, so angles agree too.
     let (_, right) = rows(&made);
     let (_, as_drawn) = rows(&design(&[]));
-    close(row(&right, "re-engagement").demand, row(&as_drawn, "re-engagement").demand, 1e-9);
+    close(
+        row(&right, "re-engagement").demand_in_unit().unwrap(),
+        row(&as_drawn, "re-engagement").demand_in_unit().unwrap(),
+        1e-9,
+    );
 }

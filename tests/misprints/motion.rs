@@ -104,9 +104,8 @@ fn eq_13_a_lossless_run_keeps_its_energy() {
         samples: 501,
         rolling: true,
         energy: false,
-        interrupt: None,
         history: Default::default(),
-        clock: None,
+        follow: Default::default(),
     };
     let mode = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
     let run = run(&model, y, mode, &settings);

@@ -1,5 +1,6 @@
 //! The optimiser on clutches: noise, threads, whole numbers, prices, what would free a problem.
 
+use sprag_design::Follow;
 use sprag_design::design::{Design, Optimize};
 use sprag_design::optimise::*;
 
@@ -32,12 +33,12 @@ pub fn problem(design: &Design) -> ClutchProblem {
 }
 
 pub fn search_with(design: &Design, method: &Method) -> Search {
-    search(design, method, Fidelity::default(), &Desk::new(None, &mut Forgetful))
+    search(design, method, Fidelity::default(), &Desk::new(&Follow::nobody(), &mut Forgetful))
         .unwrap_or_else(|e| panic!("{e}"))
 }
 
 pub fn margin(rows: &[sprag_design::Margin], code: &str) -> f64 {
-    rows.iter().find(|m| m.code == code).unwrap_or_else(|| panic!("no row {code}")).margin
+    rows.iter().find(|m| m.code() == code).unwrap_or_else(|| panic!("no row {code}")).margin()
 }
 
 fn outputs(problem: &ClutchProblem, x: &[f64]) -> Option<Vec<f64>> {
@@ -183,7 +184,7 @@ fn a_hopeless_scene_says_what_would_free_it() {
         panic!("{:?}", found.outcome.status)
     };
     assert!(fighting.iter().any(|i| found.names.limits[*i] == "contact:high-10"));
-    let told = relief(&design, &found.problem, &found.outcome, &Desk::new(None, &mut Forgetful));
+    let told = relief(&design, &found.problem, &found.outcome, &Desk::new(&Follow::nobody(), &mut Forgetful));
     println!("{told:#?}");
     assert_eq!(told.freed.len(), 6);
     assert!(told.evaluations < 6 * 35);
@@ -212,7 +213,7 @@ fn a_limit_out_of_reach_is_named() {
     let names: Vec<&str> = fighting.iter().map(|i| found.names.limits[*i].as_str()).collect();
     assert_eq!(names, ["hoop-inner"], "one limit alone, no fight");
     assert!(*least_violation > 0.5 && !found.feasible());
-    let told = relief(&design, &found.problem, &found.outcome, &Desk::new(None, &mut Forgetful));
+    let told = relief(&design, &found.problem, &found.outcome, &Desk::new(&Follow::nobody(), &mut Forgetful));
     assert_eq!((told.freed.len(), told.other_limits.as_slice()), (0, ["hoop-inner".to_owned()].as_slice()));
 }
 
@@ -236,6 +237,11 @@ fn nothing_that_moves_is_said_at_once() {
             ("  { name = \"centroid_y_mm\", min = 0.2, max = 0.8 },\n", ""),
         ],
     );
-    let found = search(&design, &Method::default(), Fidelity::default(), &Desk::new(None, &mut Forgetful));
+    let found = search(
+        &design,
+        &Method::default(),
+        Fidelity::default(),
+        &Desk::new(&Follow::nobody(), &mut Forgetful),
+    );
     assert!(matches!(found, Err(NoSearch::NothingMoves(names)) if names == ["width_mm"]));
 }

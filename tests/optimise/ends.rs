@@ -1,7 +1,8 @@
 //! Every way a run can end, and what it must hand back then.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
+use sprag_design::Follow;
 use sprag_design::optimise::*;
 
 use super::problems::{Model, all, hs43};
@@ -226,7 +227,7 @@ fn the_evaluation_limit_holds_and_gives_the_best_point_seen() {
 
 /// Sets the stop flag after `after` steps and counts what it is told.
 struct Stopper<'a> {
-    flag: &'a AtomicBool,
+    follow: &'a Follow,
     after: usize,
     steps: usize,
     points: usize,
@@ -239,7 +240,7 @@ impl Watch for Stopper<'_> {
     fn iterated(&mut self, _iteration: &Iteration) {
         self.steps += 1;
         if self.steps == self.after {
-            self.flag.store(true, Ordering::Relaxed);
+            self.follow.stop();
         }
     }
 }
@@ -247,16 +248,16 @@ impl Watch for Stopper<'_> {
 #[test]
 fn an_interrupted_run_hands_back_what_it_has() {
     let model = known("HS100");
-    let flag = AtomicBool::new(false);
-    let mut stopper = Stopper { flag: &flag, after: 3, steps: 0, points: 0 };
-    let run = Run { stop: Some(&flag), watch: Some(&mut stopper), ..Run::default() };
+    let follow = Follow::new();
+    let mut stopper = Stopper { follow: &follow, after: 3, steps: 0, points: 0 };
+    let run = Run { follow: follow.clone(), watch: Some(&mut stopper), ..Run::default() };
     let found =
         maximise_least_margin(&model, &model.start, &model.lo, &model.hi, &Settings::default(), run).unwrap();
     assert_eq!(found.status, Status::Interrupted);
     assert!(found.evaluation.least_margin() > -714.0);
     assert_eq!(stopper.points, found.journal.entries().len());
     assert_eq!(stopper.steps, found.history.len());
-    let run = Run { stop: Some(&flag), ..Run::default() };
+    let run = Run { follow: follow.clone(), ..Run::default() };
     let early = maximise_least_margin(&model, &model.start, &model.lo, &model.hi, &Settings::default(), run);
     assert_eq!(early.err(), Some(Refusal::StoppedAtStart));
 }

@@ -2,8 +2,9 @@
 
 use super::clutch::{HUANG, changed, design, problem, search_with, task};
 use super::problems::all;
+use sprag_design::Follow;
 use sprag_design::design::{Design, Objective};
-use sprag_design::margin::{at_nominal_torque, load_margins, load_state};
+use sprag_design::margin::{When, load_margins, load_state};
 use sprag_design::optimise::*;
 
 const SCENES: &str = r#"scenarios = ["high-6", "low-10", "rated-45", "rated-45-at-speed"]"#;
@@ -39,7 +40,7 @@ fn each_objective_gets_better_and_holds_every_limit() {
                 // As `check` has it: the least of the required capacities at peak torque, and of those at nominal scaled.
                 let rows = load_margins(&new, &new.limits, true, &state);
                 let scaled = rows.iter().filter(|m| m.required).filter_map(|m| {
-                    let share = if at_nominal_torque(&m.code) { 110.0 / 90.0 } else { 1.0 };
+                    let share = if m.limit.when == When::Nominal { 110.0 / 90.0 } else { 1.0 };
                     Some(m.torque_capacity_nm? * share)
                 });
                 scaled.fold(f64::INFINITY, f64::min)
@@ -81,7 +82,7 @@ fn a_capacity_is_where_every_limit_just_holds() {
         };
         load_margins(&design, &limits, false, &state).iter().filter(|m| m.required).all(|m| {
             // Contact at speed and re-engagement do not depend on torque.
-            m.held() || ["keep-contact", "re-engagement"].contains(&m.code.as_str())
+            m.held() || ["keep-contact", "re-engagement"].contains(&m.limit.code)
         })
     };
     let least = looked.measures.iter().min_by(|a, b| a.value.total_cmp(&b.value)).unwrap();
@@ -92,8 +93,8 @@ fn a_capacity_is_where_every_limit_just_holds() {
         let scaled = design.limits.nominal_torque_nm.unwrap() * 1.01;
         let more = sprag_design::Limits { nominal_torque_nm: Some(scaled), ..design.limits };
         let after = load_margins(&design, &more, false, &state);
-        let moved = after.iter().find(|r| r.code == m.code).unwrap().margin != m.margin;
-        assert_eq!(moved, at_nominal_torque(&m.code), "{}", m.code);
+        let moved = after.iter().find(|r| r.is_of(&m)).unwrap().margin() != m.margin();
+        assert_eq!(moved, (m.limit.when == When::Nominal), "{}", m.code());
     }
 }
 
@@ -117,7 +118,9 @@ fn the_front_between_two_objectives_is_one() {
     let method = Method::default();
     let found = search_with(&design, &method);
     let aims = [Objective::SlipMargin, Objective::PeakPressure];
-    let front = front(&found, task(&design), &aims, 4, &method, &Desk::new(None, &mut Forgetful)).unwrap();
+    let front =
+        front(&found, task(&design), &aims, 4, &method, &Desk::new(&Follow::nobody(), &mut Forgetful))
+            .unwrap();
     println!("{front:#?}");
     assert!(front.points.len() >= 4, "{}", front.points.len());
     for pair in front.points.windows(2) {
@@ -163,11 +166,11 @@ fn what_the_search_leaves_out_costs_nothing() {
     let full = reduced.at_fidelity(Fidelity { reduced: false, ..Fidelity::default() });
     let (a, b) = (reduced.look_at(&x).unwrap(), full.look_at(&x).unwrap());
     for (a, b) in a.rows.iter().zip(&b.rows) {
-        assert!((a.margin - b.margin).abs() < 1e-9, "{}: {} {}", a.code, a.margin, b.margin);
+        assert!((a.margin() - b.margin()).abs() < 1e-9, "{}: {} {}", a.code(), a.margin(), b.margin());
     }
     let settings = sprag_design::Settings { tolerance: 1e-4, ..Default::default() };
     let loose = reduced.at_fidelity(Fidelity { settings, reduced: true }).look_at(&x).unwrap();
     for (a, b) in a.rows.iter().zip(&loose.rows) {
-        assert!((a.margin - b.margin).abs() < 1e-4, "{}: {} {}", a.code, a.margin, b.margin);
+        assert!((a.margin() - b.margin()).abs() < 1e-4, "{}: {} {}", a.code(), a.margin(), b.margin());
     }
 }

@@ -1,6 +1,7 @@
 //! Optima as they can be made: flanks that realise a centroid, and tolerances.
 
 use super::clutch::{HUANG, PEER_A, changed, design, problem, search_with, task};
+use sprag_design::Follow;
 use sprag_design::design::{Design, MassSource};
 use sprag_design::optimise::*;
 use sprag_design::profile::{Flanks, Outline, clearance_m};
@@ -9,7 +10,7 @@ use sprag_design::scenario::place_profile;
 fn realised(design: &Design) -> (Search, Realised) {
     let method = Method::default();
     let found = search_with(design, &method);
-    let made = realise(&found, task(design), &method, &Desk::new(None, &mut Forgetful));
+    let made = realise(&found, task(design), &method, &Desk::new(&Follow::nobody(), &mut Forgetful));
     let made = made.unwrap_or_else(|e| panic!("{e}")).expect("a centroid was free");
     (found, made)
 }
@@ -99,7 +100,7 @@ fn a_robust_design_holds_at_every_corner() {
     let of = design.tolerances.expect("tolerances");
     let found = search_with(&design, &method);
     let mut nobody = Forgetful;
-    let desk = Desk::new(None, &mut nobody);
+    let desk = Desk::new(&Follow::nobody(), &mut nobody);
     let made = spread(&found.problem, &found.outcome.x, &of, (60, 7), &desk).unwrap();
     assert_eq!((made.corners, made.draws), (16, (60, 0)));
     for s in &made.spreads {
@@ -134,6 +135,6 @@ fn a_friction_corner_is_the_file_with_that_friction() {
     let same = problem(&file).look_at(&x).unwrap();
     assert_eq!(low.name(), "-friction");
     for (a, b) in there.rows.iter().zip(&same.rows) {
-        assert!((a.margin - b.margin).abs() < 1e-9, "{} {} {}", a.code, a.margin, b.margin);
+        assert!((a.margin() - b.margin()).abs() < 1e-9, "{} {} {}", a.code(), a.margin(), b.margin());
     }
 }

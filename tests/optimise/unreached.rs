@@ -1,6 +1,7 @@
 //! Problems that no design holds: what is said, and what would free them.
 
 use super::clutch::{HUANG, PEER_A, changed, design, margin, search_with, task};
+use sprag_design::Follow;
 use sprag_design::design::{Design, LIMIT_KEYS, schema, with_keys};
 use sprag_design::margin::margins;
 use sprag_design::optimise::*;
@@ -17,7 +18,7 @@ fn a_slip_margin_out_of_reach_is_infeasible_and_says_what_can_be_reached() {
     assert!(*least_violation > 0.02 && !found.feasible());
     assert!(fighting.iter().any(|i| found.names.limits[*i] == "hoop-inner"));
     assert!(found.not_held().iter().all(|code| code.starts_with("slip:")), "{:?}", found.not_held());
-    let numbers = loosened(&design, &found, &Desk::new(None, &mut Forgetful));
+    let numbers = loosened(&design, &found, &Desk::new(&Follow::nobody(), &mut Forgetful));
     println!("{numbers:#?}");
     let slip = numbers.iter().find(|l| l.key == "limits.slip_margin").expect("it bears on slip");
     let reached = slip.needed.expect("a smaller one can be held");
@@ -41,7 +42,7 @@ fn a_dimension_that_is_no_variable_is_named_where_it_frees() {
     let found = search_with(&design, &Method::default());
     assert!(matches!(found.outcome.status, Status::Infeasible { .. }), "{:?}", found.outcome.status);
     let nobody = &mut Forgetful;
-    let desk = Desk::new(None, nobody);
+    let desk = Desk::new(&Follow::nobody(), nobody);
     let numbers = loosened(&design, &found, &desk);
     println!("{numbers:#?}");
     let first = numbers.iter().find(|l| l.key == "r_i1_mm").expect("looked at");
@@ -76,7 +77,7 @@ fn the_wanted_slip_margin_counts_within_the_tolerances() {
     assert!(found.feasible());
     let of = base.tolerances.unwrap();
     let nobody = &mut Forgetful;
-    let desk = Desk::new(None, nobody);
+    let desk = Desk::new(&Follow::nobody(), nobody);
     let made = spread(&found.problem, &found.outcome.x, &of, (20, 1), &desk).unwrap();
     println!("{:?} yield {} {:?}", made.objective, made.yield_share, made.not_held);
     assert!(made.objective.1 < 0.35 && !made.held());
@@ -105,7 +106,7 @@ fn what_check_demands_counts_within_the_tolerances() {
     let problem = super::clutch::problem(&base);
     let of = base.tolerances.unwrap();
     let nobody = &mut Forgetful;
-    let made = spread(&problem, &x, &of, (10, 1), &Desk::new(None, nobody)).unwrap();
+    let made = spread(&problem, &x, &of, (10, 1), &Desk::new(&Follow::nobody(), nobody)).unwrap();
     assert!(made.not_held.iter().any(|(code, _)| code == "contact:high-10"), "{:?}", made.not_held);
     assert_eq!(made.yield_share, 0.0);
 }

@@ -75,6 +75,7 @@ fn unknown_missing_and_mistyped_keys() {
         Case(&[("name = \"Huang 2017, multi-arc\"", "name = \" \"")], "name", "name = \" \"", &["not empty"]),
         Case(&[("count = 12 ", "count = 12.0 ")], "sprags.count", "count =", &["12.0", "whole number of at least 3"]),
         Case(&[("length_mm = 6.0 ", "length_mm = 1e308 ")], "sprags.length_mm", "1e308", &["found 1e308", "a magnitude from 1e-30 to 1e15"]),
+        Case(&[("length_mm = 6.0 ", "length_mm = 1e6 ")], "sprags.length_mm", "1e6", &["found 1e6 with races.width_mm = 6.0", "at most the width of the races, 6 mm"]),
         Case(&[("length_mm = 6.0 ", "length_mm = 1e-308 ")], "sprags.length_mm", "1e-308", &["a magnitude from 1e-30 to 1e15"]),
         Case(&[("name = \"Huang 2017, multi-arc\"", "name = \"Huang\\n2017\"")], "name", "n2017", &["without line breaks"]),
         Case(&[("name = \"high-6\"", "name = \"high\\t6\"")], "scenarios[0].name", "high\\t6", &["without line breaks"]),

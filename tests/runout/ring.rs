@@ -34,7 +34,7 @@ fn ring(keys: &str) -> (Design, LoadState, RunOut) {
 }
 
 fn row<'a>(rows: &'a [Margin], code: &str) -> &'a Margin {
-    rows.iter().find(|r| r.code == code).unwrap_or_else(|| panic!("no row {code}"))
+    rows.iter().find(|r| r.code() == code).unwrap_or_else(|| panic!("no row {code}"))
 }
 
 #[test]
@@ -54,11 +54,17 @@ fn no_offset_changes_nothing() {
         let rows = run_out_margins(&design, &design.limits, &ring, true);
         assert_eq!(rows.len(), 10);
         for r in &rows {
-            let Some(code) = r.code.strip_prefix("run-out-") else { panic!("{}", r.code) };
-            let Some(of_all) = even.iter().find(|e| e.code == code) else { continue };
+            let Some(code) = r.code().strip_prefix("run-out-").map(str::to_owned) else {
+                panic!("{}", r.code())
+            };
+            let Some(of_all) = even.iter().find(|e| e.code() == code) else { continue };
             let same = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
-            assert!(same(r.demand, of_all.demand) && same(r.allowable, of_all.allowable), "{r:?} {of_all:?}");
-            assert!((r.margin - of_all.margin).abs() < 1e-8, "{r:?} {of_all:?}");
+            assert!(
+                same(r.demand_in_unit().unwrap(), of_all.demand_in_unit().unwrap())
+                    && same(r.allowable_in_unit(), of_all.allowable_in_unit()),
+                "{r:?} {of_all:?}"
+            );
+            assert!((r.margin() - of_all.margin()).abs() < 1e-8, "{r:?} {of_all:?}");
             let end = state.curve.end_torque_nm();
             let reached = of_all.torque_capacity_nm.filter(|t| *t < end * (1.0 - 1e-9));
             if let (Some(a), Some(b)) = (r.torque_capacity_nm, reached) {
@@ -73,7 +79,9 @@ fn no_offset_changes_nothing() {
             assert!((l.normal_n / even_n - 1.0).abs() < 1e-9, "{l:?}");
         }
         assert!(survey.radial_n() < 1e-6 && survey.unloaded() == 0);
-        assert!((row(&rows, "run-out-end").allowable / state.curve.end_torque_nm() - 1.0).abs() < 1e-9);
+        assert!(
+            (row(&rows, "run-out-end").allowable_in_unit() / state.curve.end_torque_nm() - 1.0).abs() < 1e-9
+        );
     }
 }
 
@@ -230,7 +238,12 @@ fn extremes_are_answered() {
                 let rows = run_out_margins(&design, &design.limits, &ring, true);
                 assert!(rows.len() >= 8, "{name} {keys}: {}", rows.len());
                 for r in &rows {
-                    let all = [r.demand, r.allowable, r.margin, r.torque_capacity_nm.unwrap_or(0.0)];
+                    let all = [
+                        r.demand_in_unit().unwrap(),
+                        r.allowable_in_unit(),
+                        r.margin(),
+                        r.torque_capacity_nm.unwrap_or(0.0),
+                    ];
                     assert!(all.iter().all(|x| x.is_finite()), "{name} {keys}: {r:?}");
                 }
                 println!(
@@ -250,8 +263,8 @@ fn extremes_are_answered() {
                 );
                 // Beyond its end nothing is held.
                 if stop.torque_nm < 110.0 {
-                    assert!(row(&rows, "run-out-end").margin < 0.0);
-                    assert!(row(&rows, "run-out-hertz-peak-inner").margin < 0.0, "{name} {keys}");
+                    assert!(row(&rows, "run-out-end").margin() < 0.0);
+                    assert!(row(&rows, "run-out-hertz-peak-inner").margin() < 0.0, "{name} {keys}");
                 }
             }
         }
@@ -279,7 +292,12 @@ fn sprags_that_do_not_touch_are_named() {
     let (design, state) = off_centre("offset_mm = 0.2, turning = true", &none);
     let ring = RunOut::new(&design, &state).unwrap();
     for row in run_out_margins(&design, &design.limits, &ring, true) {
-        assert!(row.demand.is_finite() && row.margin.is_finite() && row.allowable.is_finite(), "{row:?}");
+        assert!(
+            row.demand_in_unit().unwrap().is_finite()
+                && row.margin().is_finite()
+                && row.allowable_in_unit().is_finite(),
+            "{row:?}"
+        );
     }
     println!("{:?} {:?}", ring.end, ring.empty_rad());
 }

@@ -1,25 +1,24 @@
 //! Plots of the margin check: all limits against torque, gripping angles, cam rise.
 
-use super::Check;
-use super::body::Body;
+use crate::answer::check::CheckAnswer;
 use crate::cli::parts;
 use crate::design::Design;
 use crate::margin::courses;
 use crate::report::{Curve, Dash, Plot, Unit};
-use crate::wedge::StaticPoint;
+use crate::wedge::{PLOTTED, StaticPoint};
 
 /// Demands are drawn up to this multiple of their allowable.
 const CUT_AT: f64 = 1.5;
 
 /// Demand over allowable of all limits against torque, those that set the capacities marked.
-pub(super) fn limits(design: &Design, check: &Check, body: &Body) -> Plot {
+pub(super) fn limits(design: &Design, check: &CheckAnswer) -> Plot {
     let curve = &check.state.curve;
-    let set_by = body.capacities();
+    let set_by = check.body.capacities();
     let limits = &design.limits;
     let asked = [limits.nominal_torque_nm, limits.peak_torque_nm].into_iter().flatten().fold(0.0, f64::max);
     let reached = set_by.iter().map(|c| c.1).fold(asked, f64::max);
     let up_to = if reached > 0.0 { 1.25 * reached } else { f64::INFINITY };
-    let points: Vec<StaticPoint> = parts::samples(curve, up_to).into_iter().map(|(p, _)| p).collect();
+    let points: Vec<StaticPoint> = curve.samples(up_to, PLOTTED).into_iter().map(|(p, _)| p).collect();
     let mut plot = Plot::new("Torque, Nm", "Demand / allowable").level(1.0, "limit").sized(720.0, 460.0);
     for course in courses(&check.rows, design, limits, &check.state, &points) {
         let sets = set_by.iter().any(|(code, _)| *code == course.code);
@@ -45,9 +44,9 @@ pub(super) fn limits(design: &Design, check: &Check, body: &Body) -> Plot {
 }
 
 /// Friction demand over torque, as tangents and as angles; cam rise over rotation.
-pub(super) fn gripping(design: &Design, check: &Check) -> [Plot; 3] {
+pub(super) fn gripping(design: &Design, check: &CheckAnswer) -> [Plot; 3] {
     let curve = &check.state.curve;
-    let samples = parts::samples(curve, f64::INFINITY);
+    let samples = curve.samples(f64::INFINITY, PLOTTED);
     let over = |value: &dyn Fn(&crate::wedge::StaticPoint) -> f64| {
         samples.iter().map(|(p, _)| [p.torque_nm, value(p)]).collect::<Vec<_>>()
     };

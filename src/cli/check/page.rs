@@ -1,55 +1,77 @@
 //! The margin check as a page.
 
-use super::body::{Body, NO_DEMAND, is_beyond, people_table, resolved};
-use super::{Check, charts, margin_text, overrunning};
+use super::{charts, margin_text, overrunning, people_table, sections};
+use crate::answer::check::{Body, CheckAnswer, is_beyond};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
 use crate::design::Design;
 use crate::margin::Margin;
-use crate::report::{Bar, Bars, Column, Page, Table, Tone, Unit};
+use crate::report::{Bar, Bars, Column, Page, Table, Tone, Unit, greek};
 
-pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, context: &Context) -> Page {
-    let mut page = parts::page("Margin check", design, context);
-    let tone = match (answer.body.pass, answer.body.shown_broken().as_slice()) {
+/// A page with verdict, torque capacities and the dimensioned drawing, and the remarks that come later.
+pub(super) fn opened(
+    title: &str,
+    design: &Design,
+    check: &CheckAnswer,
+    context: &Context,
+) -> (Page, Vec<String>) {
+    let mut page = parts::page(title, design, context);
+    let tone = match (check.body.pass, check.body.shown_broken().as_slice()) {
         (true, []) => Tone::Good,
         (true, _) => Tone::Soft,
         (false, _) => Tone::Bad,
     };
-    page.verdict_in(tone, &answer.body.verdict());
-    page.list(answer.body.remarks().into_iter().chain(overrunning(design)));
+    page.verdict_in(tone, &check.body.verdict());
+    let (capacities, remarks) = said_first(&check.body);
+    page.list(capacities);
+    parts::draw_sheet(&mut page, design, &check.state.profile);
+    (page, remarks)
+}
+
+pub(super) fn page(
+    design: &Design,
+    check: &CheckAnswer,
+    answer: &Answer<'_, &Body>,
+    context: &Context,
+) -> Page {
+    let (mut page, remarks) = opened("Margin check", design, check, context);
     let end_nm = check.state.curve.end_torque_nm();
+    page.heading("Limits against torque");
+    page.figure(
+        &charts::limits(design, check).to_svg(),
+        "Demand over allowable of every limit that depends on torque; a limit is reached at 1. Full lines: the limits that \
+         set the torque capacities, named at their torque; dashed: other required limits; dotted: shown only. Cut off \
+         above 1.5.",
+    );
     page.heading("Margins");
     page.table(
         "Margin = allowable / demand − 1, but for the rows that the last table of this page gives another rule; held from 0 up. “Reached at” is \
          the torque at which the limit would be reached (>: not before the curve ends).",
         &people_table(&check.rows, end_nm),
     );
-    page.figure(
-        &margin_bars(&check.rows).to_svg(),
-        "Margins; a bar that ends in an arrow goes on beyond the chart, grey ones are shown only.",
-    );
-    let capacities = capacity_bars(design, &check.rows, end_nm);
-    if !capacities.bars.is_empty() {
+    page.list(remarks.into_iter().chain(overrunning(design)));
+    page.apart("Margins and torque capacities as bars", |page| {
         page.figure(
-            &capacities.to_svg(),
-            "Torque at which each limit would be reached; “>”: not before the curve ends.",
+            &margin_bars(&check.rows).to_svg(),
+            "Margins; a bar that ends in an arrow goes on beyond the chart, grey ones are shown only.",
         );
-    }
-    page.heading("Limits against torque");
-    page.figure(
-        &charts::limits(design, check, &answer.body).to_svg(),
-        "Demand over allowable of every limit that depends on torque; a limit is reached at 1. Full lines: the limits that \
-         set the torque capacities, named at their torque; dashed: other required limits; dotted: shown only. Cut off \
-         above 1.5.",
-    );
+        let capacities = capacity_bars(design, &check.rows, end_nm);
+        if !capacities.bars.is_empty() {
+            page.figure(
+                &capacities.to_svg(),
+                "Torque at which each limit would be reached; “>”: not before the curve ends.",
+            );
+        }
+    });
     page.heading("Gripping");
+    let rest = parts::pose_at_rest("first contact, no load", design, &check.state.profile);
+    let centres = parts::drawing(design, vec![rest]).centres_svg();
     let [tangents, angles, rise] = charts::gripping(design, check);
     page.figures(&[
         (parts::half(tangents), "Static demand on friction at both contacts; grip is lost where it reaches μs."),
         (parts::half(angles), "The same as angles: ω and ν lie between the strut AB and OA, OB; friction holds up to arctan μs."),
-    ]);
-    page.figures(&[
         (parts::half(rise), "Cam rise: the undeformed sprag's height from A to B over its rotation, and the gap AB that remains under load. What lies between them is pressed in at both contacts and in the body."),
+        (centres, "Arc centres and centroid in the body frame (origin Cₑ)."),
     ]);
     if let Some(running) = &answer.body.running {
         page.heading("Radii as made and as run");
@@ -62,45 +84,44 @@ pub(super) fn page(design: &Design, check: &Check, answer: &Answer<'_, Body>, co
         page.table("", &running.table());
     }
     if let Some(run_out) = &answer.body.run_out {
-        run_out.draw(&mut page);
+        sections::run_out(run_out, &mut page);
     }
     let wanted = design.limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
-    answer.body.overrun.draw(&mut page, answer.body.lift_off_rpm, wanted);
-    parts::draw(
-        &mut page,
-        &parts::drawing(
-            design,
-            vec![parts::pose_at_rest("first contact, no load", design, &check.state.profile)],
-        ),
-    );
-    page.heading("What the limits mean").table("", &names(&check.rows));
+    sections::overrun(&answer.body.overrun, &mut page, answer.body.lift_off_rpm, wanted);
+    page.apart("What the limits mean", |page| {
+        page.table("", &names(&check.rows));
+    });
     answer.close(&mut page);
     page
 }
 
+/// Torque capacities, and what else there is to say.
+pub(super) fn said_first(body: &Body) -> (Vec<String>, Vec<String>) {
+    body.remarks().iter().map(|line| greek(line)).partition(|line| line.starts_with("Torque capacity"))
+}
+
+/// Each limit once; those of the scenes once for all of them.
 fn names(rows: &[Margin]) -> Table {
     let mut table = Table::new(vec![
         Column::text("code", "Limit"),
         Column::text("name", "Meaning"),
         Column::text("rule", "Margin"),
     ]);
+    let mut seen: Vec<String> = Vec::new();
     for r in rows {
-        table.row(vec![r.code.as_str().into(), r.name.as_str().into(), rule(&r.code).into()]);
+        let code = match &r.scene {
+            Some(_) => format!("{}:SCENE", r.limit.code),
+            None => r.code(),
+        };
+        let name =
+            r.scene.as_ref().map_or(r.name.clone(), |scene| r.name.replace(scene.as_str(), "the scene"));
+        if seen.contains(&code) {
+            continue;
+        }
+        table.row(vec![code.as_str().into(), greek(&name).into(), r.limit.rule.words().into()]);
+        seen.push(code);
     }
     table
-}
-
-/// How the margin of a limit is made up (`margin`).
-fn rule(code: &str) -> &'static str {
-    match code.split(':').next().unwrap_or(code) {
-        "keep-contact" => "1 − demand / allowable; −1 where the spring closes nothing",
-        "lift-off" => "allowable / demand − 1; 1 where the spring closes nothing",
-        "neighbours" => "clearance over the gap between the tracks at rest",
-        "contact" => "the ratio itself; −1 where the scenario does not start or end",
-        "slip" => "allowable / demand − 1; −1 where no friction suffices",
-        "axial-from" => "allowable / demand − 1; −1 where it is never carried",
-        _ => "allowable / demand − 1",
-    }
 }
 
 fn tone(r: &Margin) -> Tone {
@@ -113,12 +134,12 @@ fn tone(r: &Margin) -> Tone {
 
 fn margin_bars(rows: &[Margin]) -> Bars {
     let bar = |r: &Margin| Bar {
-        label: r.code.clone(),
-        value: if r.margin >= NO_DEMAND { f64::NAN } else { Unit::Percent.from_si(resolved(r.margin)) },
-        text: margin_text(r.margin),
+        label: r.code(),
+        value: r.shown_margin().map_or(f64::NAN, |margin| Unit::Percent.from_si(margin)),
+        text: margin_text(r),
         tone: tone(r),
     };
-    let lowest = rows.iter().map(|r| r.margin).fold(0.0, f64::min).max(-1.5);
+    let lowest = rows.iter().map(Margin::margin).fold(0.0, f64::min).max(-1.5);
     Bars {
         title: "Margins in percent".into(),
         bars: rows.iter().map(bar).collect(),
@@ -131,7 +152,7 @@ fn capacity_bars(design: &Design, rows: &[Margin], end_nm: f64) -> Bars {
     let with = rows.iter().filter_map(|r| Some((r, r.torque_capacity_nm?)));
     let bars: Vec<Bar> = with
         .map(|(r, torque)| Bar {
-            label: r.code.clone(),
+            label: r.code(),
             value: torque,
             text: format!(
                 "{}{}",

@@ -1,6 +1,6 @@
 //! What `identify` says: JSON, tables, sentences.
 
-use crate::identify::{Doubt, Identified, Point, Tied, Use};
+use crate::identify::{Doubt, INSEPARABLE, Identified, Point, Tied, Use};
 use crate::report::{Cell, Column, Table, Unit, significant};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -91,8 +91,8 @@ pub(super) fn estimates(found: &Identified) -> Table {
         } else {
             None
         };
-        let doubt = e.doubt.map(|_| "not determined");
-        let note = bound.into_iter().chain(doubt).collect::<Vec<_>>().join(", ");
+        let doubt = e.doubt.map(|doubt| in_short(found, doubt));
+        let note = bound.map(str::to_owned).into_iter().chain(doubt).collect::<Vec<_>>().join(", ");
         table.row(vec![
             u.name.as_str().into(),
             u.min.into(),
@@ -152,14 +152,34 @@ pub(super) fn correlation(found: &Identified) -> Option<Table> {
     Some(table)
 }
 
+/// How far an unknown is not determined, in a few words.
+pub(super) fn in_short(found: &Identified, doubt: Doubt) -> String {
+    match doubt {
+        Doubt::Inseparable(other) => format!("determined only together with {}", found.unknowns[other].name),
+        _ => "not determined".to_owned(),
+    }
+}
+
 /// Whether the data determine the unknowns, in one line.
 pub(super) fn verdict(found: &Identified) -> String {
-    let not: Vec<&str> =
-        found.knowledge.undetermined().map(|(j, _)| found.unknowns[j].name.as_str()).collect();
-    match not.as_slice() {
-        [] => "every unknown is determined".to_owned(),
-        names => format!("the data do not determine {}", names.join(", ")),
+    let name = |j: usize| found.unknowns[j].name.as_str();
+    let (mut not, mut together) = (Vec::new(), Vec::new());
+    for (j, doubt) in found.knowledge.undetermined() {
+        match doubt {
+            Doubt::Inseparable(other) => {
+                let pair = format!("{} and {}", name(j.min(other)), name(j.max(other)));
+                if !together.contains(&pair) {
+                    together.push(pair);
+                }
+            }
+            _ => not.push(name(j)),
+        }
     }
+    let not = (!not.is_empty()).then(|| format!("the data do not determine {}", not.join(", ")));
+    let together =
+        (!together.is_empty()).then(|| format!("determined only together: {}", together.join("; ")));
+    let said: Vec<String> = not.into_iter().chain(together).collect();
+    if said.is_empty() { "every unknown is determined".to_owned() } else { said.join("; ") }
 }
 
 /// Why the data do not determine the unknown `j`; a blind direction and too few observations have sentences of their own.
@@ -226,11 +246,18 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
     let name = |i: usize| found.unknowns[i].name.as_str();
     for tied in &k.tied {
         out.push(match tied {
-            Tied::Strongly { first, second, correlation } => format!(
-                "the data hardly tell {} and {} apart: correlation {correlation:.4}; only a combination of them is well known",
-                name(*first),
-                name(*second)
-            ),
+            Tied::Strongly { first, second, correlation } => {
+                let (a, b) = (name(*first), name(*second));
+                match correlation.abs() > INSEPARABLE {
+                    true => format!(
+                        "the data hardly tell {a} and {b} apart: correlation {correlation:.4}; only a combination of them is well \
+                         known"
+                    ),
+                    false => format!(
+                        "{a} and {b} go together: correlation {correlation:.4}; a combination of them is known better than either"
+                    ),
+                }
+            }
             Tied::Blind { direction } => {
                 let moved: Vec<String> = direction
                     .iter()

@@ -1,121 +1,10 @@
-//! The figures of a simulation as people read them: verdict in a sentence, table with errors.
+//! The figures of a simulation as people read them: a table with errors.
 
-use super::Scene;
+use crate::answer::simulation::{LIFT_OFF_SEARCH_RAD_S, Ran};
 use crate::design::ScenarioKind;
-use crate::dynamics::{Stop, Swing};
-use crate::margin::{LIFT_OFF_ERROR, lift_off_rad_s as lift_off, load_state};
+use crate::margin::LIFT_OFF_ERROR;
 use crate::report::{Cell, Column, Table, Unit, significant};
-use crate::scenario::{ErrorEstimate, Prepared, Simulation, Verdict, overrun_swing};
-use crate::wedge::{StaticPoint, straddling_error};
-
-/// Lift-off is looked for up to this speed of the outer race, rad/s: 60 000 rev/min, a choice.
-const LIFT_OFF_SEARCH_RAD_S: f64 = 2000.0 * std::f64::consts::PI;
-
-impl Scene<'_> {
-    /// The answer in one line.
-    pub(super) fn verdict_line(&self) -> String {
-        let name = &self.scenario.name;
-        let Some(verdict) = self.verdict() else { return format!("{name}: no verdict") };
-        let meaning = match &self.outcome {
-            Err(why) => why.to_string(),
-            Ok((prepared, s)) if s.verdict == Some(Verdict::Overloaded) => {
-                let curve = &prepared.model.curve;
-                let end = Unit::NewtonMetre.show(curve.end_torque_nm(), 4);
-                let at = Unit::Second.show(s.t_s, 4);
-                format!(
-                    "the load goes beyond the end of the curve ({} at {end}) at {at}",
-                    curve.end().0.name()
-                )
-            }
-            Ok((prepared, s)) => meaning(s, &self.scenario.kind, overrun_swing(self.scenario, prepared)),
-        };
-        format!("{name}: {verdict}: {meaning}")
-    }
-}
-
-fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String {
-    let margin = match s.demand.map(|d| (d.required_friction, d.slip_margin)) {
-        Some((Some(needed), margin)) => {
-            format!("slip margin {} (needs {})", Unit::Percent.show(margin, 3), Unit::One.show(needed, 4))
-        }
-        _ if s.demand.is_some_and(|d| d.gave_up.is_some()) => {
-            "what friction would suffice is not known".to_owned()
-        }
-        Some((None, _)) if s.demand.is_some_and(|d| d.contact_margin < 0.0) => {
-            "no friction would suffice to stick, the contact would open".to_owned()
-        }
-        Some((None, _)) => "no friction up to 1 would suffice to stick".to_owned(),
-        None => String::new(),
-    };
-    let overruns = matches!(kind, ScenarioKind::Overrun { .. });
-    match s.verdict {
-        Some(Verdict::SlipsOverrunning | Verdict::Disengages) if overruns => {
-            let drag = s.overrun.map_or(0.0, |o| o.drag_torque_nm);
-            if s.verdict == Some(Verdict::Disengages) {
-                "the sprags have lifted off the inner race".to_owned()
-            } else {
-                let stays = match swing.filter(Swing::grows) {
-                    Some(_) => " in an equilibrium that does not stay: the swing of the sprags grows",
-                    None => "",
-                };
-                format!("drag torque {}{stays}", Unit::NewtonMetre.show(drag, 4))
-            }
-        }
-        Some(Verdict::Sticks) if s.demand.is_some_and(|d| d.slip_margin < 0.0) => {
-            format!("slips by less than 1 um, which counts as sticking; {margin}")
-        }
-        Some(Verdict::Sticks) => margin,
-        Some(Verdict::SlipsEngaging) if matches!(kind, ScenarioKind::Static { .. }) => margin,
-        Some(Verdict::SlipsOverrunning | Verdict::SlipsEngaging) => format!("{}; {margin}", shifted(s)),
-        Some(Verdict::Disengages) => {
-            if s.peaks.normal_max_n <= 0.0 {
-                return "the sprags touch without a force".to_owned();
-            }
-            let lost = Unit::Millisecond.show(s.contact_lost_s, 4);
-            let at = Unit::Second.show(s.t_s, 4);
-            match s.stop {
-                Stop::CurveEnd => {
-                    format!(
-                        "contact lost for {lost}, and beyond the end of the curve when it closed, at {at}"
-                    )
-                }
-                stop => format!("contact lost for {lost}, run {} at {at}", stop.name()),
-            }
-        }
-        Some(Verdict::Overloaded) => "the load goes beyond the end of the curve".to_owned(),
-        Some(Verdict::AtThreshold) | None => {
-            "another verdict is nearer than the error estimate; a smaller tolerance or step decides"
-                .to_owned()
-        }
-    }
-}
-
-/// Which way the inner contact has slipped and the inner race gone: with slip at the outer contact and what turns without
-/// contact the race may have gone the other way.
-fn shifted(s: &Simulation) -> String {
-    let way = |towards: f64| if towards > 0.0 { "overrunning" } else { "engaging" };
-    let offset = Unit::Milliradian.show(s.offset_rad.abs(), 4);
-    let (slip, race) = (way(s.inner.net_m), way(s.offset_rad));
-    if slip == race {
-        return format!("slip has shifted the inner race by {offset} towards {race}");
-    }
-    let net = Unit::Micrometre.show(s.inner.net_m.abs(), 4);
-    let by = if s.contact_lost_s > 0.0 { " and while contact was lost" } else { "" };
-    format!(
-        "the inner contact has slipped by {net} towards {slip}, yet the inner race has gone {offset} towards {race}, by slip \
-         at the outer contact{by}"
-    )
-}
-
-/// Speed of the outer race at which the sprags lift off the inner one, rad/s, for an overrun; `None` where they
-/// stay on up to 60 000 rev/min, or in another scenario.
-pub(super) fn lift_off_rad_s(scene: &Scene) -> Option<f64> {
-    if !matches!(scene.scenario.kind, ScenarioKind::Overrun { .. }) {
-        return None;
-    }
-    let state = load_state(&scene.own).ok()?;
-    lift_off(&scene.own, &state, LIFT_OFF_SEARCH_RAD_S)
-}
+use crate::scenario::{Demand, Figure, Group, Prepared, Quantity, Simulation, figures_of, overrun_swing};
 
 /// To what part figures read off the wedge curve are right: what its iterations stop at.
 const EXACT: f64 = 1e-13;
@@ -166,7 +55,7 @@ impl Facts {
 }
 
 /// What happened, with error estimates.
-pub(super) fn table(scene: &Scene) -> Table {
+pub(super) fn table(scene: &Ran) -> Table {
     let unsure = |s: &Simulation| scene.method == "event" && s.error.is_some() && !s.tolerance_reached;
     let mut facts = Facts::new(scene.simulation().is_some_and(unsure));
     match &scene.outcome {
@@ -184,22 +73,8 @@ fn span(value: f64, error: f64, unit: Unit) -> String {
     format!("{} to {}", unit.show(low, 3), unit.show(value + error, 3))
 }
 
-/// The static state at the nominal torque of `[limits]`: with its pressure at A the paper's 4.1.2 compares.
-pub(super) fn rated(scene: &Scene) -> Option<StaticPoint> {
-    // The scene's own curve may end where the scene has no use for it.
-    let state = load_state(&scene.own).ok()?;
-    state.curve.at_torque(scene.own.limits.nominal_torque_nm?)
-}
-
-/// By what part the pressure's shape makes a Hertz pressure at `normal_n` (N) uncertain: 0 but where a junction lies under
-/// the inner contact.
-pub(super) fn shape_error(scene: &Scene, prepared: &Prepared, normal_n: f64) -> f64 {
-    let at = (normal_n > 0.0).then(|| prepared.model.curve.at_normal(normal_n)).flatten();
-    if at.is_some_and(|p| p.straddles_junction) { straddling_error(&scene.own.clutch) } else { 0.0 }
-}
-
 /// What an engagement takes for given: the paper publishes none of it for its Figure 8.
-fn assumed(f: &mut Facts, scene: &Scene) {
+fn assumed(f: &mut Facts, scene: &Ran) {
     let ScenarioKind::Engagement {
         free_run_rad_s,
         reversing_torque_nm,
@@ -216,38 +91,43 @@ fn assumed(f: &mut Facts, scene: &Scene) {
     f.add("input: inertia of the bench, kg m²", bench_inertia_kg_m2, Unit::One, None);
 }
 
-fn motion(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {
-    let e = s.error;
-    f.add("inner race at the end", s.theta_inner_rad, Unit::Radian, e.map(|e| e.theta_inner_rad));
-    f.add("outer race at the end", s.theta_outer_rad, Unit::Radian, e.map(|e| e.theta_outer_rad));
-    f.add("offset (+ overrunning)", s.offset_rad, Unit::Radian, e.map(|e| e.offset_rad));
-    f.add("net slip, inner contact", s.inner.net_m, Unit::Micrometre, e.map(|e| e.net_slip_m));
-    for (name, record, i) in [("inner contact", &s.inner, 0), ("outer contact", &s.outer, 1)] {
-        f.add(
-            &format!("slip path, {name}"),
-            record.distance_m,
-            Unit::Micrometre,
-            e.map(|e| e.slip_distance_m[i]),
-        );
-        f.add(&format!("slip time, {name}"), record.time_s, Unit::Millisecond, e.map(|e| e.slip_time_s[i]));
+/// The unit in which people are shown a figure.
+fn unit(quantity: Quantity) -> Unit {
+    match quantity {
+        Quantity::Angle => Unit::Radian,
+        Quantity::Length => Unit::Micrometre,
+        Quantity::Time => Unit::Millisecond,
+        Quantity::Force => Unit::Newton,
+        Quantity::Pressure => Unit::Megapascal,
+        Quantity::Friction => Unit::One,
+        Quantity::Margin | Quantity::ContactMargin => Unit::Percent,
     }
+}
+
+/// The figures of `group` that the simulation has.
+fn figures(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation, group: Group) {
+    let exact = EXACT + prepared.model.curve.truncation();
+    for figure in figures_of(group) {
+        let (Some(line), Some(value)) = (figure.line, (figure.of)(s)) else { continue };
+        let error = s.error.as_ref().map(|e| scene.error_of(figure, prepared, s, e));
+        f.add(&format!("{}{}", line.label, when(figure, s, exact)), value, unit(figure.quantity), error);
+    }
+}
+
+fn motion(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation) {
+    figures(f, scene, prepared, s, Group::Motion);
     assumed(f, scene);
-    if let Some(initial) = s.initial_slip_s() {
-        f.add("initial slip after the reversal", initial, Unit::Millisecond, e.map(|e| e.initial_slip_s));
+    for group in [Group::Reversal, Group::Lost, Group::Peaks, Group::Pressures] {
+        figures(f, scene, prepared, s, group);
     }
-    f.add("time without contact", s.contact_lost_s, Unit::Millisecond, e.map(|e| e.contact_lost_s));
-    peaks(f, s);
-    let mut pressure = |name: &str, pa: f64, normal_n: f64, error: Option<f64>| {
-        f.add(name, pa, Unit::Megapascal, error.map(|e| e + pa * shape_error(scene, prepared, normal_n)));
+    // Read off the curve, not integrated.
+    let mut pressure = |name: &str, pa: f64, normal_n: f64| {
+        let exact = (EXACT + prepared.model.curve.truncation()) * pa;
+        f.add(name, pa, Unit::Megapascal, Some(exact + pa * scene.shape_error(prepared, normal_n)));
     };
-    let exact = |value: f64| Some((EXACT + prepared.model.curve.truncation()) * value);
-    let (p, rated) = (&s.peaks, rated(scene));
-    pressure("largest Hertz pressure", s.hertz_peak_pa, p.normal_max_n, e.map(|e| e.hertz_peak_pa));
-    pressure("smallest Hertz pressure, inner", s.hertz_least_pa, p.normal_min_n, e.map(|e| e.hertz_least_pa));
-    pressure("Hertz pressure, static load", s.hertz_static_pa, s.static_normal_n, exact(s.hertz_static_pa));
-    if let Some(rated) = rated {
-        let pa = rated.hertz_inner_pa;
-        pressure("Hertz pressure, nominal torque", pa, rated.normal_inner_n, exact(pa));
+    pressure("Hertz pressure, static load", s.hertz_static_pa, s.static_normal_n);
+    if let Some(rated) = scene.rated() {
+        pressure("Hertz pressure, nominal torque", rated.hertz_inner_pa, rated.normal_inner_n);
     }
     demand(f, s);
     if let Some(b) = s.energy {
@@ -270,63 +150,89 @@ pub(super) fn at(t_s: f64) -> String {
     format!("at {}", Unit::Millisecond.show(if t_s < 1e-12 { 0.0 } else { t_s }, 5))
 }
 
-fn peaks(f: &mut Facts, s: &Simulation) {
+/// Of an extreme: when it was reached first, and by how much that moved between the runs; `exact` is the relative error of a force
+/// read off the curve.
+fn when(figure: &Figure, s: &Simulation, exact: f64) -> String {
+    let Some(i) = figure.peak else { return String::new() };
+    if is_steady(i, s, exact) {
+        return " (throughout)".to_owned();
+    }
+    let at_s = s.peaks.at_s[i];
+    let off = s.error.map_or(0.0, |e| e.extremes_at_s[i]);
+    let off =
+        if off > TOLD * at_s { format!(" ± {}", Unit::Millisecond.show(off, 2)) } else { String::new() };
+    format!(" ({}{off})", at(at_s))
+}
+
+/// Whether an extreme stays within its error over the whole run.
+fn is_steady(i: usize, s: &Simulation, exact: f64) -> bool {
     let (p, e) = (&s.peaks, s.error);
-    let mut add = |i: usize, name: &str, value: f64, unit: Unit, error: fn(&ErrorEstimate) -> f64| {
-        let at = at(p.at_s[i]);
-        let off = e.map_or(0.0, |e| e.extremes_at_s[i]);
-        let off = if off > TOLD * p.at_s[i] {
-            format!(" ± {}", Unit::Millisecond.show(off, 2))
-        } else {
-            String::new()
-        };
-        f.add(&format!("{name} ({at}{off})"), value, unit, e.as_ref().map(error));
-    };
-    add(2, "smallest normal force, inner", p.normal_min_n, Unit::Newton, |e| e.normal_min_n);
-    add(3, "largest normal force, inner", p.normal_max_n, Unit::Newton, |e| e.normal_max_n);
-    add(0, "largest |T|/N, inner", p.tan_inner, Unit::One, |e| e.tan_demand[0]);
-    add(1, "largest |T|/N, outer", p.tan_outer, Unit::One, |e| e.tan_demand[1]);
+    let of_force = e.map_or(0.0, |e| e.normal_min_n + e.normal_max_n) + exact * p.normal_max_n;
+    let force_is_steady = p.normal_max_n - p.normal_min_n <= of_force;
+    let of_demand = [p.tan_inner, p.tan_outer].map(|most| exact * most);
+    let [inner, outer] = e.map_or([0.0; 2], |e| [e.tan_inner, e.tan_outer]);
+    match i {
+        0 => force_is_steady && demand_is_steady(s, p.tan_inner, inner + of_demand[0], true),
+        1 => force_is_steady && demand_is_steady(s, p.tan_outer, outer + of_demand[1], false),
+        _ => force_is_steady,
+    }
+}
+
+/// Whether |T|/N at A and at B stays within `error` of its largest value `most` over the whole run; not where the history
+/// shows a part of it.
+fn demand_is_steady(s: &Simulation, most: f64, error: f64, at_inner: bool) -> bool {
+    let whole = s.samples.first().zip(s.samples.last());
+    let whole = whole.is_some_and(|(a, b)| a.t <= 0.0 && b.t >= s.t_s * (1.0 - EXACT));
+    whole
+        && s.samples.iter().all(|sample| {
+            let f = &sample.forces;
+            let (t, n) = if at_inner { (f.t_bi, f.n_bi) } else { (f.t_be, f.n_be) };
+            n > 0.0 && most - t.abs() / n <= error
+        })
 }
 
 fn demand(f: &mut Facts, s: &Simulation) {
     let Some(d) = s.demand else { return };
-    if let Some(stop) = d.gave_up {
-        return f.word("static friction needed to stick", &format!("not computed: {}", stop.name()));
-    }
-    // An equilibrium has one relative error for all.
-    let exact = |value: f64| s.equilibrium_error.map(|e| e * value.abs());
-    match d.required_friction {
-        Some(needed) if d.by_bisection => {
-            f.add(
-                "static friction needed to stick (bisected: rolling unloads the contact)",
-                needed,
-                Unit::One,
-                s.error.map(|e| e.required_friction),
-            );
+    for figure in figures_of(Group::Demand) {
+        let Some(label) = figure.line.map(|l| l.label) else { continue };
+        if let Some(stop) = d.gave_up {
+            return f.word(label, &format!("not computed: {}", stop.name()));
         }
-        Some(needed) => {
-            let error = s.error.map(|e| e.required_friction).or(exact(needed));
-            f.add("static friction needed to stick", needed, Unit::One, error)
+        if let Some(words) = instead(figure.quantity, &d) {
+            f.word(label, &words);
+            continue;
         }
-        None if d.overloaded => {
-            f.word("static friction needed to stick", "overloaded: rolling goes beyond the end of the curve")
-        }
-        None => f.word("static friction needed to stick", "none suffices"),
-    }
-    let slip_error = s.error.map(|e| e.slip_margin).or(exact(d.slip_margin + 1.0));
-    f.add("slip margin", d.slip_margin, Unit::Percent, slip_error);
-    let contact_error = s.error.map(|e| e.contact_margin).or(exact(d.contact_margin));
-    if d.finished {
-        f.add("contact margin", d.contact_margin, Unit::Percent, contact_error);
-    } else if d.contact_margin < 0.0 {
-        let most = Unit::Percent.show(d.contact_margin, 4);
-        f.word("contact margin", &format!("at most {most}: rolling does not come to the end"));
-    } else {
-        f.word("contact margin", "not known: rolling does not come to the end");
+        let Some(value) = (figure.of)(s) else { continue };
+        // An equilibrium has one relative error for all; that of the slip margin is of mu_s over the demand.
+        let of = value + if figure.quantity == Quantity::Margin { 1.0 } else { 0.0 };
+        let error = s.error.as_ref().map(figure.error).or(s.equilibrium_error.map(|e| e * of.abs()));
+        let by = match figure.quantity {
+            Quantity::Friction if d.by_bisection => " (bisected: rolling unloads the contact)",
+            _ => "",
+        };
+        f.add(&format!("{label}{by}"), value, unit(figure.quantity), error);
     }
 }
 
-fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation) {
+/// What stands in place of a number that pure rolling did not give.
+fn instead(quantity: Quantity, d: &Demand) -> Option<String> {
+    match quantity {
+        Quantity::Friction if d.required_friction.is_some() => None,
+        Quantity::Friction if d.overloaded => {
+            Some("overloaded: rolling goes beyond the end of the curve".to_owned())
+        }
+        Quantity::Friction => Some("none suffices".to_owned()),
+        Quantity::ContactMargin if d.finished => None,
+        Quantity::ContactMargin if d.contact_margin < 0.0 => {
+            let most = Unit::Percent.show(d.contact_margin, 4);
+            Some(format!("at most {most}: rolling does not come to the end"))
+        }
+        Quantity::ContactMargin => Some("not known: rolling does not come to the end".to_owned()),
+        _ => None,
+    }
+}
+
+fn equilibrium(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation) {
     let mut add = |name: &str, value: f64, unit: Unit| {
         f.add(name, value, unit, s.equilibrium_error.map(|e| e * value.abs()));
     };
@@ -337,7 +243,7 @@ fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation
         add("normal force, outer", o.normal_outer_n, Unit::Newton);
         add("|T|/N, inner (sliding friction)", o.tan_inner, Unit::One);
         add("|T|/N, outer (must hold)", o.tan_outer, Unit::One);
-        if let Some(swing) = overrun_swing(scene.scenario, prepared) {
+        if let Some(swing) = overrun_swing(&scene.scenario, prepared) {
             f.add(
                 "growth rate of the sprags' swing (+ grows)",
                 swing.growth_rate_per_s,
@@ -348,7 +254,7 @@ fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation
             f.add("normal force, inner, about which it swings", swing.normal_inner_n, Unit::Newton, None);
         }
         let error = Some(LIFT_OFF_ERROR * LIFT_OFF_SEARCH_RAD_S);
-        match lift_off_rad_s(scene) {
+        match scene.lift_off_rad_s() {
             Some(speed) => f.add("lift-off at an outer race speed of", speed, Unit::Rpm, error),
             None => f.word("lift-off at an outer race speed of", "none up to 60 000 rpm"),
         }
@@ -363,7 +269,7 @@ fn equilibrium(f: &mut Facts, scene: &Scene, prepared: &Prepared, s: &Simulation
     add("|T|/N, outer", row.tan_nu, Unit::One);
     add("secant stiffness", row.k_secant_nm_per_rad, Unit::NewtonMetrePerRadian);
     add("tangent stiffness", row.k_tangent_nm_per_rad, Unit::NewtonMetrePerRadian);
-    let shape = shape_error(scene, prepared, row.normal_inner_n);
+    let shape = scene.shape_error(prepared, row.normal_inner_n);
     let error_pa = s.equilibrium_error.map(|e| (e + shape) * s.hertz_peak_pa);
     f.add("largest Hertz pressure", s.hertz_peak_pa, Unit::Megapascal, error_pa);
     demand(f, s);

@@ -1,8 +1,7 @@
 //! The HTML report of a simulation.
 
-use super::answer::Body;
-use super::history::{Row, rows, word};
-use super::{Scene, facts};
+use super::facts;
+use crate::answer::simulation::{Ran, Row, SimulationAnswer, word};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
 use crate::design::ScenarioKind;
@@ -20,12 +19,12 @@ const FOUR_DIGITS: f64 = 9000.0;
 const DRAWN_FRICTION: f64 = 2.0;
 
 /// The page.
-pub(super) fn page(scene: &Scene, answer: &Answer<Body>, context: &Context) -> Page {
+pub(super) fn page(scene: &SimulationAnswer, answer: &Answer<&SimulationAnswer>, context: &Context) -> Page {
     let title = format!("Simulation of {}", scene.scenario.name);
     let mut page = parts::page(&title, answer.design, context);
     page.verdict(scene.held(), &scene.verdict_line());
     page.paragraph(&described(scene));
-    page.list(&scene.notes);
+    page.list(&scene.body.notes);
     page.table("", &facts::table(scene));
     if let Ok((prepared, simulation)) = &scene.outcome {
         if scene.method != "equilibrium" {
@@ -45,7 +44,7 @@ pub(super) fn page(scene: &Scene, answer: &Answer<Body>, context: &Context) -> P
 }
 
 /// What the scenario does, in words.
-fn described(scene: &Scene) -> String {
+fn described(scene: &Ran) -> String {
     let nm = |t: f64| Unit::NewtonMetre.show_plain(t, 5);
     let overrides = match scene.scenario.overrides.as_slice() {
         [] => String::new(),
@@ -102,7 +101,7 @@ fn described(scene: &Scene) -> String {
 }
 
 /// Course of the torque and of the mean speed of a transient, in words.
-fn courses(scene: &Scene) -> [String; 2] {
+fn courses(scene: &Ran) -> [String; 2] {
     let ScenarioKind::Transient { preload_nm, torque_step_nm, step_time_s, speed_rad_s, .. } =
         scene.scenario.kind
     else {
@@ -136,11 +135,13 @@ fn courses(scene: &Scene) -> [String; 2] {
     [torque, speed]
 }
 
-fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation) {
-    let rows = rows(scene);
+fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) {
+    let rows = scene.rows();
     let curve = |value: &dyn Fn(&Row) -> f64| over_time(&rows, value);
     let least_at = s.peaks.at_s[2] * 1e3;
     page.heading("Histories");
+    let torque = plot("Torque of the clutch, Nm").curve("", curve(&|r| r.torque_nm));
+    page.figure(&torque.to_svg(), "Torque on the inner race, positive in the sense that the clutch carries.");
     let turning = if rows.iter().any(|r| r.acting[1] != 0.0) { ", relative to the mean speed" } else { "" };
     let largest_rad = largest(&rows, &|r| r.sample.state[2].abs().max(r.sample.state[3].abs()));
     let (unit, per_rad) = if largest_rad < FOUR_DIGITS * 1e-3 { ("mrad", 1e3) } else { ("rad", 1.0) };
@@ -150,7 +151,7 @@ fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
     let caption = format!("Angles of the races{turning}; rolling would keep their distance at the windup.");
     page.figure(&angles.to_svg(), &caption);
     // Under a torsional excitation the speeds only repeat what the angles show.
-    if !matches!(scene.scenario.kind, ScenarioKind::TorsionalExcitation { .. }) {
+    if scene.scenario.kind.frequency_hz().is_none() {
         let rpm = |rad_s: f64| Unit::Rpm.from_si(rad_s);
         let speeds = plot("Angular speed, rpm")
             .curve("inner race", curve(&|r| rpm(r.rates[2])))
@@ -170,8 +171,6 @@ fn histories(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
     page.figure(&strip(s).to_svg(), "What each contact does, from the located changes of mode.");
     slip(page, s, &rows);
     pressures(page, scene, prepared, s, &rows);
-    let torque = plot("Torque of the clutch, Nm").curve("", curve(&|r| r.torque_nm));
-    page.figure(&torque.to_svg(), "Torque on the inner race, positive in the sense that the clutch carries.");
 }
 
 fn plot(y_title: &str) -> Plot {
@@ -223,7 +222,7 @@ fn levels(name: &str, at: &[f64], s: &Simulation) -> Curve {
 }
 
 /// Friction over normal force with its sign (the paper's Figure 9c).
-fn friction(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
+fn friction(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
     let found = || rows.iter().flat_map(|r| r.tan).flatten();
     if found().next().is_none() {
         page.paragraph(
@@ -287,7 +286,7 @@ fn slip(page: &mut Page, s: &Simulation, rows: &[Row]) {
 }
 
 /// Contact pressure over time (the paper's Figures 9 and 10) and, with slices, along the length.
-fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
+fn pressures(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
     let mega = |value: &dyn Fn(&Row) -> f64| over_time(rows, &|r| value(r) / 1e6);
     let mut plot = plot("Contact pressure, MPa")
         .curve("inner contact", mega(&|r| r.hertz_pa[0]))
@@ -296,7 +295,7 @@ fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
         plot = plot.curve("inner contact, end slice", mega(&|r| r.slice_pa.map_or(f64::NAN, |p| p[0])));
     }
     plot.curves.push(levels("static load", &[s.hertz_static_pa / 1e6], s));
-    let rated = match facts::rated(scene).map(|p| p.hertz_inner_pa) {
+    let rated = match scene.rated().map(|p| p.hertz_inner_pa) {
         Some(p) => {
             let share = Unit::Percent.show(s.hertz_peak_pa / p, 3);
             format!(
@@ -312,7 +311,7 @@ fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
     );
     let curve = &prepared.model.curve;
     let elastic = &curve.statics().elastic;
-    let clutch = &scene.own.clutch;
+    let clutch = &scene.design.clutch;
     let over_length = |n: f64| -> Option<Vec<[f64; 2]>> {
         let arc = curve.first_arc() + curve.arc_at(curve.alpha_at_normal(n)?);
         let found =
@@ -340,13 +339,13 @@ fn pressures(page: &mut Page, scene: &Scene, prepared: &Prepared, s: &Simulation
 }
 
 /// When, and where in the excitation's period.
-fn phase(scene: &Scene, t_s: f64) -> String {
+fn phase(scene: &Ran, t_s: f64) -> String {
     let when = facts::at(t_s);
-    match scene.scenario.kind {
-        ScenarioKind::TorsionalExcitation { frequency_hz, .. } => {
+    match scene.scenario.kind.frequency_hz() {
+        Some(frequency_hz) => {
             format!("{when}, {:.0}° after the excitation's zero", 360.0 * (t_s * frequency_hz).fract())
         }
-        _ => when,
+        None => when,
     }
 }
 
@@ -371,12 +370,13 @@ fn strip(s: &Simulation) -> Strip {
 }
 
 /// The sprag where the scenario starts, over first contact.
-fn draw(page: &mut Page, scene: &Scene, prepared: &Prepared) {
-    let Ok(profile) = place_profile(&scene.own.clutch) else { return };
-    let rest = parts::pose_at_rest("first contact", &scene.own, &profile);
-    let loaded = scene.drawn_torque_nm().and_then(|t| parts::pose_at_torque(&rest, &prepared.model.curve, t));
+fn draw(page: &mut Page, scene: &Ran, prepared: &Prepared) {
+    let Ok(profile) = place_profile(&scene.design.clutch) else { return };
+    let rest = parts::pose_at_rest("first contact", &scene.design, &profile);
+    let loaded =
+        scene.scenario.held_torque_nm().and_then(|t| parts::pose_at_torque(&rest, &prepared.model.curve, t));
     let poses = loaded.into_iter().chain([rest]).collect();
-    parts::draw(page, &parts::drawing(&scene.own, poses));
+    parts::draw(page, &parts::drawing(&scene.design, poses));
 }
 
 #[cfg(test)]

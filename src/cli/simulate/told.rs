@@ -1,12 +1,9 @@
 //! How far a simulation is, on standard error while it runs.
 
 use crate::cli::Context;
-use crate::dynamics::{Clock, Told};
+use crate::follow::Told;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-
-/// The runs of the one simulation that a command makes at a time.
-pub(super) static CLOCK: Clock = Clock::new();
 
 /// How often the line is renewed.
 const RENEWED: Duration = Duration::from_millis(200);
@@ -20,7 +17,7 @@ impl Drop for Ended<'_> {
     }
 }
 
-/// Do `work`, whose runs are `duration_s` long (s) and tell [`CLOCK`] how far they are.
+/// Do `work`, whose runs are `duration_s` long (s) and tell `context.follow` how far they are.
 pub(super) fn while_told<T>(
     what: &str,
     duration_s: Option<f64>,
@@ -35,9 +32,10 @@ pub(super) fn while_told<T>(
         let watcher = scope.spawn(|| {
             while !ended.load(Ordering::Relaxed) {
                 std::thread::park_timeout(RENEWED);
-                let told = CLOCK.told();
-                progress.describe(&words(what, &told));
-                progress.set(milliseconds(told.t_s));
+                if let Some(told) = context.follow.told() {
+                    progress.describe(&words(what, &told));
+                    progress.set(milliseconds(told.t_s));
+                }
             }
         });
         let found = {
@@ -58,16 +56,17 @@ fn words(what: &str, told: &Told) -> String {
 mod tests {
     use super::*;
     use crate::design::Design;
+    use crate::follow::Follow;
     use crate::scenario::{Settings, simulate};
 
     #[test]
     fn the_clock_tells_which_run_and_how_far() {
-        static OWN: Clock = Clock::new();
         let design =
             Design::parse(include_str!("../../../designs/huang2017-multi-arc.toml"), "multi-arc").unwrap();
-        let settings = Settings { clock: Some(&OWN), ..Settings::default() };
+        let settings = Settings { follow: Follow::new(), ..Settings::default() };
+        assert_eq!(settings.follow.told(), None, "nothing has begun");
         simulate(design.scenario("low-6").unwrap(), &settings).unwrap();
-        let told = OWN.told();
+        let told = settings.follow.told().unwrap();
         assert!(
             told.t_s > 0.29 && told.t_s <= 0.3 && told.pass >= 3 && told.run >= 1 && told.tolerance < 1e-5,
             "{told:?}"

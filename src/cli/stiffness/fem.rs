@@ -84,6 +84,25 @@ pub(super) struct Distance {
     pub(super) normal: Option<f64>,
 }
 
+/// One row of the JSON, with the distance of each law.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct FemJson {
+    torque_nm: f64,
+    windup_deg: f64,
+    normal_inner_n: Option<f64>,
+    laws: Vec<Distance>,
+}
+
+pub(super) fn json(study: &Study, fem: &Fem) -> Vec<FemJson> {
+    let row = |row: &FemRow| FemJson {
+        torque_nm: row.torque_nm,
+        windup_deg: Unit::Degree.from_si(row.windup_rad),
+        normal_inner_n: row.normal_n,
+        laws: study.laws().iter().map(|l| distance(l, row)).collect(),
+    };
+    fem.rows.iter().map(row).collect()
+}
+
 /// Distance of a law to a row.
 pub(super) fn distance(law: &LawCurve, row: &FemRow) -> Distance {
     let windup =
@@ -102,7 +121,7 @@ pub(super) fn table(study: &Study, fem: &Fem) -> Table {
         Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
         Column::number("fem_windup_deg", "FE windup", Unit::Degree, 4),
     ];
-    for law in &study.laws {
+    for law in study.laws() {
         let key = law.name.facts().key;
         columns.push(Column::number(&format!("{key}_windup"), &format!("{key}: windup"), Unit::Percent, 3));
         columns.push(Column::number(&format!("{key}_local"), "local only", Unit::Percent, 3));
@@ -111,7 +130,7 @@ pub(super) fn table(study: &Study, fem: &Fem) -> Table {
     let mut table = Table::new(columns);
     for row in &fem.rows {
         let mut cells: Vec<Cell> = vec![row.torque_nm.into(), row.windup_rad.into()];
-        for law in &study.laws {
+        for law in study.laws() {
             let d = distance(law, row);
             cells.extend([d.windup, d.windup_local_only, d.normal].map(Cell::from));
         }
@@ -131,7 +150,7 @@ fn worst(law: &LawCurve, fem: &Fem, of: impl Fn(&Distance) -> Option<f64>) -> Op
 pub(super) fn findings(study: &Study, fem: &Fem) -> Vec<String> {
     let percent = |x: f64| format!("{} %", crate::report::significant(100.0 * x, 3));
     let mut out = Vec::new();
-    for law in &study.laws {
+    for law in study.laws() {
         let (whole, local) = (worst(law, fem, |d| d.windup), worst(law, fem, |d| d.windup_local_only));
         if let (Some(whole), Some(local)) = (whole, local) {
             let nearer = if whole < local { "nearer" } else { "farther off" };
@@ -144,7 +163,7 @@ pub(super) fn findings(study: &Study, fem: &Fem) -> Vec<String> {
         }
     }
     let of = |key: &str| {
-        study.laws.iter().find(|l| l.name.facts().key == key).and_then(|l| worst(l, fem, |d| d.windup))
+        study.laws().iter().find(|l| l.name.facts().key == key).and_then(|l| worst(l, fem, |d| d.windup))
     };
     if let (Some(roller), Some(slice)) = (of("roller").or(of("din26281")), of("slice")) {
         let (nearer, holds) =

@@ -1,6 +1,6 @@
 //! The stiffness curves as a page.
 
-use super::body::Body;
+use super::Body;
 use super::fem::{self, Distance, Fem, distance, findings};
 use super::tables::{full, junction_text, tangents, windups};
 use super::{LawCurve, Study, end_text};
@@ -9,8 +9,8 @@ use crate::cli::parts::{self, Answer};
 use crate::design::Design;
 use crate::profile::Profile;
 use crate::report::plot::{Curve, Dash};
-use crate::report::{Column, Page, PageHead, Plot, Table, Unit};
-use crate::wedge::StaticPoint;
+use crate::report::{Column, Page, PageHead, Plot, Table, Tone, Unit};
+use crate::wedge::{PLOTTED, StaticPoint};
 
 pub(super) fn page(studies: &[Study], answers: &[Answer<'_, Body>], context: &Context) -> Page {
     let Some(first) = studies.first() else { return Page::new(PageHead::default()) };
@@ -26,7 +26,10 @@ pub(super) fn page(studies: &[Study], answers: &[Answer<'_, Body>], context: &Co
 }
 
 fn section(page: &mut Page, study: &Study) {
-    let (design, profile, laws) = (&study.design, &study.profile, study.laws.as_slice());
+    let (design, profile, laws) = (&study.design, &study.profile, study.laws());
+    for law in laws {
+        page.verdict_in(Tone::Plain, &banner(design, law));
+    }
     page.list(laws.iter().map(|l| {
         format!(
             "{}. Curve ends {}{}.",
@@ -109,6 +112,33 @@ fn section(page: &mut Page, study: &Study) {
     }
 }
 
+/// What the stiffness is, at the torques that the design is for, else at the largest of the table.
+fn banner(design: &Design, law: &LawCurve) -> String {
+    let limits = &design.limits;
+    let named = [(limits.nominal_torque_nm, "nominal"), (limits.peak_torque_nm, "peak")];
+    let mut asked: Vec<(f64, &str)> = named.into_iter().filter_map(|(t, name)| Some((t?, name))).collect();
+    if asked.is_empty() {
+        asked.extend(law.rows.iter().map(|r| r.0).max_by(f64::total_cmp).map(|t| (t, "largest")));
+    }
+    let each: Vec<String> = asked
+        .into_iter()
+        .map(|(torque, name)| {
+            let at = format!("{} ({name})", Unit::NewtonMetre.show_plain(torque, 5));
+            let k = |k: f64| Unit::NewtonMetrePerRadian.show(k, 4);
+            match law.curve.at_torque(torque) {
+                Some(p) => format!(
+                    "{at}: {} tangent, {} secant, windup {}",
+                    k(p.k_tangent_nm_per_rad),
+                    k(p.k_secant_nm_per_rad),
+                    Unit::Degree.show(p.windup_rad, 4)
+                ),
+                None => format!("{at}: beyond the end of the curve"),
+            }
+        })
+        .collect();
+    format!("Stiffness, {}: at {}", law.name.facts().key, each.join("; at "))
+}
+
 /// What happens where one arc hands over to the next, on every law's curve.
 fn junctions(page: &mut Page, laws: &[LawCurve]) {
     let mut table = Table::new(vec![
@@ -178,7 +208,7 @@ struct Curves<'a> {
 
 impl<'a> Curves<'a> {
     fn new(laws: &'a [LawCurve], up_to_nm: f64) -> Self {
-        let of = |l: &LawCurve| parts::samples(&l.curve, up_to_nm).into_iter().map(|(p, _)| p).collect();
+        let of = |l: &LawCurve| l.curve.samples(up_to_nm, PLOTTED).into_iter().map(|(p, _)| p).collect();
         Self { laws, points: laws.iter().map(of).collect() }
     }
 

@@ -88,12 +88,27 @@ pub(super) struct Grid {
     pub margin: f64,
     /// Number of fine columns.
     pub fine_count: usize,
+    /// Offsets between which the inner and the outer surface have room for fine columns.
+    room: [(f64, f64); 2],
 }
 
+/// Columns left between the fine stretch and a flank or a cut face.
+const SPARE: f64 = 1.5;
+
 impl Grid {
-    pub fn new(step: f64, travel: f64, margin: f64) -> Self {
+    /// `room`: offsets from the first contact to the flanks or the cut faces of the sector, whichever are nearer, on the
+    /// inner and on the outer surface.
+    pub fn new(step: f64, travel: f64, margin: f64, room: [(f64, f64); 2]) -> Self {
         let fine_count = ((travel + 2.0 * margin) / step).ceil() as usize;
-        Self { step: (travel + 2.0 * margin) / fine_count as f64, travel, margin, fine_count }
+        let step = (travel + 2.0 * margin) / fine_count as f64;
+        let room = room.map(|(rear, front)| (rear + SPARE * step, front - SPARE * step));
+        Self { step, travel, margin, fine_count, room }
+    }
+
+    /// Spacing of the fine columns of a surface, less than `step` where its stretch is cut short.
+    pub fn step_on(&self, inner: bool) -> f64 {
+        let (low, high) = self.fine(inner);
+        (high - low) / self.fine_count as f64
     }
 
     /// Rows of even height below a surface.
@@ -101,13 +116,15 @@ impl Grid {
         (0.4 * self.margin / self.step).ceil() as usize
     }
 
-    /// Fine stretch along a surface: the inner contact travels towards +x, the outer towards -x.
-    fn fine(&self, inner: bool) -> (f64, f64) {
-        if inner {
-            (-self.margin, self.travel + self.margin)
+    /// Fine stretch along a surface, cut short where there is no room: the inner contact travels towards +x, the outer
+    /// towards -x.
+    pub fn fine(&self, inner: bool) -> (f64, f64) {
+        let ((low, high), (rear, front)) = if inner {
+            ((-self.margin, self.travel + self.margin), self.room[0])
         } else {
-            (-self.travel - self.margin, self.margin)
-        }
+            ((-self.travel - self.margin, self.margin), self.room[1])
+        };
+        (low.max(rear), high.min(front))
     }
 }
 
@@ -138,7 +155,7 @@ impl Sector {
             steps_to_cover(half - fine.1, grid.step, GROWTH),
         );
         let along = positions(-half, fine, half, grid.fine_count, before, after);
-        let track = chord_radius(self.track, grid.step);
+        let track = chord_radius(self.track, grid.step_on(inner));
         let sign = if inner { -1.0 } else { 1.0 };
         let mut radii: Vec<f64> = depths((self.far - self.track).abs(), grid.step, grid.even_rows(), GROWTH)
             .into_iter()
@@ -169,8 +186,8 @@ pub(super) struct Section {
     /// Segments of the inner side, then the outer arc, with centre (offset, height) and radius.
     arcs: Vec<(f64, f64, f64, [f64; 2])>,
     outer: (f64, f64, f64),
-    /// Offsets of the flanks.
-    flanks: (f64, f64),
+    /// Offsets of rear and front flank where they meet the inner side, and the outer arc.
+    flanks: [(f64, f64); 2],
 }
 
 impl Section {
@@ -181,7 +198,6 @@ impl Section {
             [d[0] * up[1] - d[1] * up[0], d[0] * up[0] + d[1] * up[1]]
         };
         let mut arcs = Vec::new();
-        let mut flanks = [f64::INFINITY, f64::NEG_INFINITY];
         for segment in segments {
             let ends = [segment.start_m(), segment.end_m()].map(|p| local(p.x, p.y));
             match segment {
@@ -189,20 +205,18 @@ impl Section {
                     let c = local(centre_m.x, centre_m.y);
                     arcs.push((c[0], c[1], 1e3 * radius_m, [ends[0][0], ends[1][0]]));
                 }
-                Segment::Line { .. } => {
-                    for e in ends {
-                        flanks = [flanks[0].min(e[0]), flanks[1].max(e[0])];
-                    }
-                }
+                Segment::Line { .. } => {}
             }
         }
-        let (x, y, r, _) = arcs.pop()?;
-        (!arcs.is_empty()).then_some(Self { arcs, outer: (x, y, r), flanks: (flanks[0], flanks[1]) })
+        // The outer arc runs from the front to the rear.
+        let (x, y, r, [front, rear]) = arcs.pop()?;
+        let low = (arcs.first()?.3[0], arcs.last()?.3[1]);
+        Some(Self { arcs, outer: (x, y, r), flanks: [low, (rear, front)] })
     }
 
-    /// Distance of the nearer flank from the strut.
-    pub fn reach_mm(&self) -> f64 {
-        (-self.flanks.0).min(self.flanks.1)
+    /// Offsets of rear and front flank from the strut, at the inner side and at the outer arc.
+    pub fn flanks_mm(&self) -> [(f64, f64); 2] {
+        self.flanks
     }
 
     /// Height of the inner side at an offset; nodes lie outside the arc so that chords follow it.
@@ -220,22 +234,26 @@ impl Section {
     /// Block in strut coordinates: columns run from the inner to the outer surface, finest along the line
     /// that both contacts travel.
     pub fn block(&self, grid: &Grid, zs: Vec<f64>) -> Block {
-        let (rear, front) = self.flanks;
-        let counts = |side: fn((f64, f64), f64, f64) -> f64| {
-            let reach = |inner| side(grid.fine(inner), rear, front);
-            steps_to_cover(reach(true).max(reach(false)), grid.step, GROWTH)
+        let [low, high] = self.flanks;
+        let beside = |side: fn((f64, f64), (f64, f64)) -> f64| {
+            let reach = side(grid.fine(true), low).max(side(grid.fine(false), high));
+            steps_to_cover(reach, grid.step, GROWTH)
         };
-        let (before, after) = (counts(|f, rear, _| f.0 - rear), counts(|f, _, front| front - f.1));
-        let row = |inner| positions(rear, grid.fine(inner), front, grid.fine_count, before, after);
-        let (low, high) = (row(true), row(false));
-        let height = self.top(0.0, grid.step) - self.bottom(0.0, grid.step);
+        let (before, after) =
+            (beside(|fine, flanks| fine.0 - flanks.0), beside(|fine, flanks| flanks.1 - fine.1));
+        let row = |inner, (rear, front): (f64, f64)| {
+            positions(rear, grid.fine(inner), front, grid.fine_count, before, after)
+        };
+        let (low, high) = (row(true, low), row(false, high));
+        let (below, above) = (grid.step_on(true), grid.step_on(false));
+        let height = self.top(0.0, above) - self.bottom(0.0, below);
         let half = depths(0.5 * height, grid.step, grid.even_rows(), GROWTH);
         let mut parts: Vec<f64> = half.iter().map(|d| d / height).collect();
         parts.extend(half.iter().rev().skip(1).map(|d| 1.0 - d / height));
         let mut points = Vec::with_capacity(parts.len() * low.len());
         for part in &parts {
             for (a, b) in low.iter().zip(&high) {
-                let (bottom, top) = (self.bottom(*a, grid.step), self.top(*b, grid.step));
+                let (bottom, top) = (self.bottom(*a, below), self.top(*b, above));
                 points.push([a + part * (b - a), bottom + part * (top - bottom)]);
             }
         }

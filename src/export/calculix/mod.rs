@@ -29,7 +29,7 @@ pub use read::{NoRows, Row, at_torque, read};
 
 use crate::design::{Clutch, InnerArc};
 use crate::profile::{Outline, Profile};
-use crate::wedge::WedgeCurve;
+use crate::wedge::{StaticPoint, WedgeCurve};
 use mesh::{Block, Grid, Section, Sector, axial};
 
 /// Where the material is held along the axis.
@@ -109,7 +109,10 @@ pub enum NoDeck {
         end_nm: f64,
     },
     /// The contacts travel beyond the flanks or the sector, or so near that no mesh fits.
-    NoRoom,
+    NoRoom {
+        /// The largest torque at which one fits, N m, to three digits; nothing where none is known.
+        most_nm: Option<f64>,
+    },
     /// The mesh would have more nodes than allowed.
     TooFine {
         /// Nodes it would have.
@@ -128,11 +131,17 @@ impl std::fmt::Display for NoDeck {
         match self {
             Self::Option { name, allowed } => write!(f, "{name}: {allowed}"),
             Self::BeyondCurve { end_nm } => {
-                write!(f, "torque beyond the end of the wedge curve, {end_nm:.4} Nm")
+                write!(f, "torque beyond the end of the wedge curve, {end_nm:.4} Nm; give less with --torque")
             }
-            Self::NoRoom => f.write_str(
-                "the contacts travel too near to a flank or to the next sector for a mesh at this torque",
-            ),
+            Self::NoRoom { most_nm } => {
+                f.write_str(
+                    "the contacts travel too near to a flank or to the next sector for a mesh at this torque",
+                )?;
+                match most_nm {
+                    Some(most) => write!(f, "; the largest torque with one is {most} Nm (--torque {most})"),
+                    None => f.write_str("; take less torque (--torque) or a finer mesh (--mesh)"),
+                }
+            }
             Self::TooFine { nodes, most } => write!(f, "the mesh would have {nodes} nodes, {most} at most"),
             Self::NarrowRace => f.write_str("a solid deck needs races at least as wide as the sprag is long"),
             Self::NoCurve(why) => write!(f, "no wedge curve: {why}"),
@@ -146,6 +155,8 @@ impl std::error::Error for NoDeck {}
 const MOST_NODES: usize = 2_000_000;
 /// Overlap at either contact at the start, mm: presses a sprag of steel with some 5 N per mm of length.
 const OVERLAP_MM: f64 = 4e-4;
+/// Windup of the deck over that of the law: laws stiffer than the material would stop short of the torque.
+const BEYOND: f64 = 1.03;
 /// Half thickness of the plane-stress layer, mm: a tenth of a contact's width.
 const THIN_MM: f64 = 5e-3;
 /// A solid shaft is given a hole of this share of its radius: Lame's growth changes by 0.05 %.
@@ -201,6 +212,62 @@ fn check(options: &Options) -> Result<(), NoDeck> {
     Ok(())
 }
 
+/// How far the contacts travel up to a torque, and the grid for it.
+struct Plan {
+    last: StaticPoint,
+    grid: Grid,
+    /// Way of the contacts, mm: of the farther one, with a reserve.
+    travel: f64,
+    /// Whether both patches end within fine columns.
+    fits: bool,
+}
+
+/// Nothing beyond the end of the curve.
+fn plan(clutch: &Clutch, curve: &WedgeCurve, section: &Section, mesh_m: f64, torque_nm: f64) -> Option<Plan> {
+    let (s, r) = (&clutch.sprags, &clutch.races);
+    let last = curve.at_torque(torque_nm)?;
+    let (_, state) = curve.closure_at_torque(torque_nm)?;
+    let inner_radius = s.inner_arcs.iter().map(|a: &InnerArc| a.radius_m).fold(0.0, f64::max);
+    // The outer contact travels by the body's rotation, a little more than the inner one's turn.
+    let travel = 1.05e3 * inner_radius.max(s.outer_radius_m) * last.contact_turn_rad;
+    let margin = 1.5e3 * last.half_width_inner_m + 3e3 * mesh_m;
+    // Half of what a race has between two sprags.
+    let pitch = 1e3 * std::f64::consts::PI / s.count as f64;
+    let halves = [pitch * r.inner_radius_m, pitch * r.outer_radius_m];
+    let flanks = section.flanks_mm();
+    let room = [0, 1].map(|i| (flanks[i].0.max(-halves[i]), flanks[i].1.min(halves[i])));
+    let grid = Grid::new(1e3 * mesh_m, travel, margin, room);
+    // The deck turns a shade beyond the law's windup.
+    let [inner, outer] = [inner_radius * last.contact_turn_rad, s.outer_radius_m * state.rotation.v]
+        .map(|way_m| BEYOND * 1e3 * way_m);
+    // Hertz: the half width goes with the root of the relative radius.
+    let wider = ((1.0 / r.inner_radius_m + 1.0 / inner_radius)
+        / (1.0 / s.outer_radius_m - 1.0 / r.outer_radius_m))
+        .sqrt()
+        .max(1.0);
+    let half = 1e3 * last.half_width_inner_m * wider + grid.step;
+    let fits = inner + half <= grid.fine(true).1
+        && outer + half <= -grid.fine(false).0
+        && half <= -grid.fine(true).0
+        && half <= grid.fine(false).1;
+    Some(Plan { last, grid, travel, fits })
+}
+
+/// The largest torque up to `end_nm` for which `fits`, rounded down to three digits; nothing where there is none.
+fn largest(end_nm: f64, fits: impl Fn(f64) -> bool) -> Option<f64> {
+    let (mut low, mut high) = (0.0, end_nm);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if fits(middle) { low = middle } else { high = middle }
+    }
+    if low == 0.0 {
+        return None;
+    }
+    let digit = 10f64.powi(low.log10().floor() as i32 - 2);
+    let most = crate::design::rounded((low / digit).floor() * digit, 3);
+    fits(most).then_some(most)
+}
+
 fn model(
     clutch: &Clutch,
     profile: &Profile,
@@ -211,15 +278,18 @@ fn model(
     check(options)?;
     let (s, r) = (&clutch.sprags, &clutch.races);
     let curve = WedgeCurve::build(clutch, profile, 0.0).map_err(|e| NoDeck::NoCurve(format!("{e:?}")))?;
-    let last = curve
-        .at_torque(options.torque_nm)
-        .ok_or_else(|| NoDeck::BeyondCurve { end_nm: curve.end_torque_nm() })?;
-    let touch = curve.touch();
-    let longest = s.inner_arcs.iter().map(|a: &InnerArc| a.radius_m).fold(s.outer_radius_m, f64::max);
-    // The outer contact travels by the body's rotation, a little more than the inner one's turn.
-    let travel = 1.05e3 * longest * last.contact_turn_rad;
-    let margin = 1.5e3 * last.half_width_inner_m + 3e3 * options.mesh_m;
-    let grid = Grid::new(1e3 * options.mesh_m, travel, margin);
+    let no_room = NoDeck::NoRoom { most_nm: None };
+    let (Some(first), foot_direction) = (profile.arcs.first(), profile.contact_direction(0.0)) else {
+        return Err(no_room);
+    };
+    let foot = first.centre_m + first.radius_m * foot_direction;
+    let up = (nalgebra::Vector2::new(0.0, s.outer_radius_m) - foot).normalize();
+    let Some(section) = Section::new(outline.segments(), [foot.x, foot.y], [up.x, up.y]) else {
+        return Err(no_room);
+    };
+    let end_nm = curve.end_torque_nm();
+    let planned = plan(clutch, &curve, &section, options.mesh_m, options.torque_nm);
+    let Plan { last, grid, travel, fits } = planned.ok_or(NoDeck::BeyondCurve { end_nm })?;
     // The even stretches alone, four of them, before anything is built.
     let even = 4usize.saturating_mul(grid.fine_count).saturating_mul(grid.even_rows());
     if even > MOST_NODES {
@@ -243,24 +313,24 @@ fn model(
     let bore = if shaft { PINHOLE * r_i } else { bore };
     let sector_rad = std::f64::consts::TAU / s.count as f64;
 
+    if !fits {
+        let most_nm = largest(end_nm, |torque_nm| {
+            plan(clutch, &curve, &section, options.mesh_m, torque_nm).is_some_and(|p| p.fits)
+        });
+        return Err(NoDeck::NoRoom { most_nm });
+    }
+
     // The sprag rolled as a rigid body by the overlap: triangle (9) with OC_i shorter and OC_e longer.
-    let (Some(first), foot_direction) = (profile.arcs.first(), profile.contact_direction(0.0)) else {
-        return Err(NoDeck::NoRoom);
-    };
     let oc_i = r_i + 1e3 * first.radius_m - OVERLAP_MM;
     let oc_e = r_e - 1e3 * s.outer_radius_m + OVERLAP_MM;
     let e_1 = 1e3 * first.centre_m.norm();
     let beta = ((oc_i * oc_i + oc_e * oc_e - e_1 * e_1) / (2.0 * oc_i * oc_e)).acos();
     let rotation =
         (oc_i * beta.sin()).atan2(oc_i * beta.cos() - oc_e) - first.centre_m.x.atan2(first.centre_m.y);
-    let start_rad = 2.0 * OVERLAP_MM / (touch.t_ratio * r_i);
+    let start_rad = 2.0 * OVERLAP_MM / (curve.touch().t_ratio * r_i);
 
-    let foot = first.centre_m + first.radius_m * foot_direction;
-    let up = (nalgebra::Vector2::new(0.0, s.outer_radius_m) - foot).normalize();
-    let section = Section::new(outline.segments(), [foot.x, foot.y], [up.x, up.y]).ok_or(NoDeck::NoRoom)?;
-    let room = 0.9 * (0.5 * sector_rad * r_i).min(section.reach_mm());
-    if beta.is_nan() || travel.is_nan() || travel + margin > room {
-        return Err(NoDeck::NoRoom);
+    if beta.is_nan() {
+        return Err(no_room);
     }
 
     let ring = |middle, track, far| Sector { middle, half_angle: 0.5 * sector_rad, track, far };
@@ -277,7 +347,7 @@ fn model(
     for block in [&inner, &sprag, &outer] {
         let least = block.least_corner_mm2();
         if least.is_nan() || least <= 0.0 {
-            return Err(NoDeck::NoRoom);
+            return Err(no_room);
         }
     }
     let nodes = inner.nodes() + sprag.nodes() + outer.nodes();
@@ -306,8 +376,7 @@ fn model(
         let p = block.point(0, j);
         p[0].hypot(p[1])
     };
-    // A shade beyond the law's windup: laws stiffer than the material stop short of the torque.
-    let turn_rad = 1.03 * last.windup_rad - start_rad;
+    let turn_rad = BEYOND * last.windup_rad - start_rad;
     let increments =
         options.increments.unwrap_or_else(|| ((travel / (1.2 * grid.step)).ceil() as usize).clamp(12, 1000));
     let facts = Facts {

@@ -128,5 +128,5 @@ fn senseless_options_are_refused_by_name() {
     assert!(matches!(refused(Options { variant: solid, ..good }), NoDeck::Option { name: "layers", .. }));
     assert!(matches!(refused(Options { torque_nm: 1e5, ..good }), NoDeck::BeyondCurve { .. }));
     assert!(matches!(refused(Options { mesh_m: 1e-9, ..good }), NoDeck::TooFine { .. }));
-    assert!(matches!(refused(Options { mesh_m: 0.01, ..good }), NoDeck::NoRoom));
+    assert!(matches!(refused(Options { mesh_m: 0.01, ..good }), NoDeck::NoRoom { .. }));
 }

@@ -2,9 +2,10 @@
 
 use super::{RunOut, SpragLoad, Survey};
 use crate::design::{Design, Limits};
+use crate::margin::limits::{Limit, Of};
 use crate::margin::load::{beyond, said};
-use crate::margin::sprag::of_sprag;
-use crate::margin::{Margin, ratio};
+use crate::margin::table::{END_OF_PROFILE, LIMITS};
+use crate::margin::{Demand, Margin};
 use crate::numeric::root;
 
 /// Torques looked at between none and the end, for what is reached on the way: a choice.
@@ -19,7 +20,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
     let mut rows = Vec::new();
     let asked = limits.peak_torque_nm.or(limits.nominal_torque_nm);
     if let Some(torque) = asked {
-        rows.push(end_row(ring, torque, end));
+        rows.extend(end_row(ring, torque, end));
     }
     // A hair below the end, where every sprag still has its curve.
     let last = end * (1.0 - 1e-9);
@@ -31,40 +32,44 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
         rows.extend(share_row(limits, ring, &survey));
     }
     rows.extend(re_engagement_row(design, ring));
-    for limit in of_sprag() {
-        let (Some(torque), Some(allowed)) = (limit.when.torque_nm(limits), (limit.allowed)(design, limits))
-        else {
+    // The end of the profile last.
+    let (end_of_profile, others): (Vec<&'static Limit>, Vec<_>) =
+        LIMITS.iter().partition(|limit| *limit == &&END_OF_PROFILE);
+    for limit in others.into_iter().chain(end_of_profile) {
+        let Of::Sprag { allowed, demand, on_the_way } = limit.of else { continue };
+        let (Some(torque), Some(allowed)) = (limit.when.torque_nm(limits), allowed(design, limits)) else {
             continue;
         };
-        let worst = |s: &Survey| s.worst(|p| (limit.demand)(design, limits, p));
+        let worst = |s: &Survey| s.worst(|p| demand(design, limits, p));
         let mut found = ring.survey(torque.min(last)).ok().as_ref().and_then(worst);
-        if let Some(way) = limit.on_the_way {
+        if let Some(way) = on_the_way {
             let below = surveys.iter().filter(|s| s.torque_nm < torque).filter_map(|s| s.worst(way));
             found = below.chain(found).max_by(|a, b| a.0.total_cmp(&b.0));
         }
-        let (value, where_) = match found {
-            Some((value, sprag)) => (value, ring.words(&sprag)),
-            None => (0.0, "no equilibrium of the sprags was found".to_owned()),
+        let (demand, where_) = match found {
+            Some((value, sprag)) => (beyond(value, torque, end), ring.words(&sprag)),
+            None => (nothing_found(torque, end), "no equilibrium of the sprags was found".to_owned()),
         };
         let name = format!("{}, worst sprag off centre: {where_}", (limit.name)(limits));
-        let (unit, per_si) = limit.unit;
         // What is not reached before the end has none: `run-out-end` is that of all.
         let over = |s: &Survey| worst(s).map_or(f64::NAN, |(value, _)| value - allowed);
         let capacity = capacities.then(|| reached(ring, &surveys, &over)).flatten();
         rows.push(Margin {
-            code: format!("run-out-{}", limit.code),
+            off_centre: true,
             name: said(&name, torque, end),
-            demand: value * per_si,
-            allowable: allowed * per_si,
-            unit,
-            margin: if found.is_some() { beyond(ratio(value, allowed), torque, end) } else { -1.0 },
             torque_capacity_nm: capacity,
-            required: true,
-            computed: true,
-            overloaded: end < torque,
+            ..Margin::new(limit, demand, allowed)
         });
     }
     rows
+}
+
+/// What stands for a demand where no equilibrium of the sprags was found.
+fn nothing_found(torque: f64, end: f64) -> Demand {
+    match end >= torque {
+        true => Demand::MoreThan(0.0),
+        false => Demand::Overloaded { at_end: Some(0.0), shortfall: Some(-1.0) },
+    }
 }
 
 /// Torque at which `over` first rises to 0, N m; `None`: not before the end.
@@ -79,23 +84,22 @@ fn reached(ring: &RunOut, surveys: &[Survey], over: &dyn Fn(&Survey) -> f64) -> 
     root::bracketed(a.torque_nm, b.torque_nm, over(a), over(b), CAPACITY * end, at).or(Some(a.torque_nm))
 }
 
-fn end_row(ring: &RunOut, torque: f64, end: f64) -> Margin {
+/// The limit that is computed as `of`.
+fn of(of: fn(&Of) -> bool) -> Option<&'static Limit> {
+    LIMITS.iter().copied().find(|limit| of(&limit.of))
+}
+
+fn end_row(ring: &RunOut, torque: f64, end: f64) -> Option<Margin> {
+    let limit = of(|of| matches!(of, Of::RunOutEnd))?;
     let stop = ring.end;
     let who = stop.seat.map_or("no sprag touches both races".to_owned(), |seat| {
         format!("the sprag {}, {}", degrees(ring.seats[seat].azimuth_rad), stop.reason.name())
     });
-    Margin {
-        code: "run-out-end".into(),
-        name: format!("peak torque against that at which the first sprag off centre comes to its end: {who}"),
-        demand: torque,
-        allowable: end,
-        unit: "Nm",
-        margin: end / torque - 1.0,
+    Some(Margin {
+        name: format!("{}: {who}", limit.name()),
         torque_capacity_nm: Some(end),
-        required: true,
-        computed: true,
-        overloaded: false,
-    }
+        ..Margin::new(limit, Demand::Value(torque), end)
+    })
 }
 
 /// Shown only: the pressures that follow are the limits.
@@ -110,20 +114,11 @@ fn share_row(limits: &Limits, ring: &RunOut, survey: &Survey) -> Option<Margin> 
     let p = curve.at_normal(sprag.normal_n.min(curve.arc_end_n(curve.arc_count() - 1)))?;
     let most_pa = p.hertz_inner_pa.max(p.hertz_outer_pa);
     let allowable = share * (allowed_pa / most_pa).powi(2);
+    let limit = of(|of| matches!(of, Of::RunOutShare))?;
     Some(Margin {
-        code: "run-out-share".into(),
-        name: format!(
-            "largest normal force of a sprag over the mean, against that of the Hertz limit (p_0^2 ~ N): {}",
-            ring.words(&sprag)
-        ),
-        demand: share,
-        allowable,
-        unit: "1",
-        margin: allowable / share - 1.0,
-        torque_capacity_nm: None,
+        name: format!("{}: {}", limit.name(), ring.words(&sprag)),
         required: false,
-        computed: true,
-        overloaded: false,
+        ..Margin::new(limit, Demand::Value(share), allowable)
     })
 }
 
@@ -132,20 +127,11 @@ fn re_engagement_row(design: &Design, ring: &RunOut) -> Option<Margin> {
     let kinetic = design.clutch.friction.kinetic;
     let touching = ring.seats.iter().filter_map(|s| Some((s.curve.as_ref().ok()?.touch().t_ratio, s)));
     let (first, seat) = touching.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let limit = of(|of| matches!(of, Of::ReEngagement))?;
     Some(Margin {
-        code: "run-out-re-engagement".into(),
-        name: format!(
-            "tan omega at first contact against mu_c, worst sprag off centre: {}",
-            degrees(seat.azimuth_rad)
-        ),
-        demand: first,
-        allowable: kinetic,
-        unit: "1",
-        margin: ratio(first, kinetic),
-        torque_capacity_nm: None,
-        required: true,
-        computed: true,
-        overloaded: false,
+        off_centre: true,
+        name: format!("{}, worst sprag off centre: {}", limit.name(), degrees(seat.azimuth_rad)),
+        ..Margin::new(limit, Demand::Value(first), kinetic)
     })
 }
 

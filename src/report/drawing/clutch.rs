@@ -17,6 +17,35 @@ pub fn svg(drawing: &Drawing) -> String {
     }
     let scale = (HEIGHT / 2.0 - MARGIN) / outside;
     let o = [HEIGHT / 2.0, HEIGHT / 2.0];
+    draw(&mut svg, drawing, o, scale);
+    // Radii on leaders to the right, from points of the circles that lie apart.
+    let radii: Vec<(f64, &str)> =
+        [(outside, "outside"), (outer, "outer track"), (inner, "inner track"), (bore, "bore")]
+            .into_iter()
+            .filter(|(r, _)| *r > 0.0)
+            .collect();
+    let azimuths = [0.62, 0.86, 1.25, 1.75];
+    let ends: Vec<[f64; 2]> = radii
+        .iter()
+        .zip(azimuths)
+        .map(|((r, _), a): (_, f64)| [o[0] + r * scale * a.sin(), o[1] - r * scale * a.cos()])
+        .collect();
+    let wanted: Vec<f64> = ends.iter().map(|e| e[1]).collect();
+    let heights = spread(&wanted, 34.0, 40.0, HEIGHT - 40.0);
+    let label_x = HEIGHT + 6.0;
+    for ((&(radius, name), end), y) in radii.iter().zip(&ends).zip(heights) {
+        svg.line(*end, [label_x - 6.0, y], &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""));
+        svg.dot(*end, 2.2, &format!("fill=\"{INK}\" stroke=\"{PAPER}\" stroke-width=\"1\""));
+        svg.text([label_x, y], Anchor::Start, INK, &format!("R {}", Unit::Millimetre.show_plain(radius, 6)));
+        svg.text([label_x, y + 14.0], Anchor::Start, SOFT, name);
+    }
+    svg.text([label_x, HEIGHT - MARGIN], Anchor::Start, SOFT, &format!("{} sprags", drawing.count));
+    svg.finish()
+}
+
+/// Races and all sprags about `o`, px, at `scale` pixels per metre.
+pub(super) fn draw(svg: &mut Svg, drawing: &Drawing, o: [f64; 2], scale: f64) {
+    let [bore, inner, outer, outside] = drawing.race_radii_m;
     let race = format!("fill=\"{RACE}\" fill-rule=\"evenodd\" stroke=\"{SOFT}\" stroke-width=\"1\"");
     let ring = |a: f64, b: f64| {
         let mut d = circle(o, b * scale);
@@ -45,30 +74,7 @@ pub fn svg(drawing: &Drawing) -> String {
             svg.path(&polyline(&placed.iter().map(turned).collect::<Vec<_>>(), true), &style);
         }
     }
-    cross(&mut svg, o);
-    // Radii on leaders to the right, from points of the circles that lie apart.
-    let radii: Vec<(f64, &str)> =
-        [(outside, "outside"), (outer, "outer track"), (inner, "inner track"), (bore, "bore")]
-            .into_iter()
-            .filter(|(r, _)| *r > 0.0)
-            .collect();
-    let azimuths = [0.62, 0.86, 1.25, 1.75];
-    let ends: Vec<[f64; 2]> = radii
-        .iter()
-        .zip(azimuths)
-        .map(|((r, _), a): (_, f64)| [o[0] + r * scale * a.sin(), o[1] - r * scale * a.cos()])
-        .collect();
-    let wanted: Vec<f64> = ends.iter().map(|e| e[1]).collect();
-    let heights = spread(&wanted, 34.0, 40.0, HEIGHT - 40.0);
-    let label_x = HEIGHT + 6.0;
-    for ((&(radius, name), end), y) in radii.iter().zip(&ends).zip(heights) {
-        svg.line(*end, [label_x - 6.0, y], &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""));
-        svg.dot(*end, 2.2, &format!("fill=\"{INK}\" stroke=\"{PAPER}\" stroke-width=\"1\""));
-        svg.text([label_x, y], Anchor::Start, INK, &format!("R {}", Unit::Millimetre.show_plain(radius, 6)));
-        svg.text([label_x, y + 14.0], Anchor::Start, SOFT, name);
-    }
-    svg.text([label_x, HEIGHT - MARGIN], Anchor::Start, SOFT, &format!("{} sprags", drawing.count));
-    svg.finish()
+    cross(svg, o);
 }
 
 fn cross(svg: &mut Svg, at: [f64; 2]) {

@@ -6,36 +6,47 @@ use crate::report::svg::{
     Anchor, BODY, EDGE, INK, PAPER, RACE, SERIES, SOFT, Svg, circle, polyline, text_width,
 };
 
-const WIDTH: f64 = 720.0;
-const HEIGHT: f64 = 560.0;
+const SIZE: [f64; 2] = [720.0, 560.0];
 /// Columns at both sides for labels.
-const COLUMN: f64 = 178.0;
+const COLUMNS: [f64; 2] = [178.0, 178.0];
 const PITCH: f64 = 19.0;
 
 /// The map from the drawn frame (m, y up) to the figure (px, y down).
-struct View {
-    scale: f64,
+pub(super) struct View {
+    /// Pixels per metre.
+    pub(super) scale: f64,
     middle_m: [f64; 2],
+    /// Width and height, px.
+    size: [f64; 2],
+    /// Widths of the label columns left and right, px.
+    columns: [f64; 2],
 }
 
 impl View {
-    fn of(drawing: &Drawing, poses: &[&SpragPose]) -> Option<Self> {
+    /// The largest that shows a quarter of the gap of either race and keeps clear of the label columns.
+    pub(super) fn of(
+        drawing: &Drawing,
+        poses: &[&SpragPose],
+        size: [f64; 2],
+        columns: [f64; 2],
+    ) -> Option<Self> {
         let [_, inner, outer, _] = drawing.race_radii_m;
         let gap = outer - inner;
         let points = || poses.iter().flat_map(|p| p.outline_m.iter().map(|&q| p.place(q)[0]));
         let left = points().fold(0.0, f64::min);
         let right = points().fold(0.0, f64::max);
-        // A quarter of the gap of either race shows; the sprag keeps clear of the label columns.
         let high = gap * 1.5;
         let wide = (right - left).max(0.5 * gap) * 1.15;
-        let scale = (HEIGHT / high).min((WIDTH - 2.0 * COLUMN) / wide);
-        (scale.is_finite() && scale > 0.0)
-            .then_some(Self { scale, middle_m: [(left + right) / 2.0, (inner + outer) / 2.0] })
+        let scale = (size[1] / high).min((size[0] - columns[0] - columns[1]) / wide);
+        let middle_m = [(left + right) / 2.0, (inner + outer) / 2.0];
+        (scale.is_finite() && scale > 0.0).then_some(Self { scale, middle_m, size, columns })
     }
 
-    fn px(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn px(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [mx, my] = self.middle_m;
-        [WIDTH / 2.0 + (x - mx) * self.scale, HEIGHT / 2.0 - (y - my) * self.scale]
+        let [width, height] = self.size;
+        let centre = (self.columns[0] + width - self.columns[1]) / 2.0;
+        [centre + (x - mx) * self.scale, height / 2.0 - (y - my) * self.scale]
     }
 }
 
@@ -49,12 +60,24 @@ struct Note {
 }
 
 pub fn svg(drawing: &Drawing) -> String {
-    let mut svg = Svg::new(WIDTH, HEIGHT, "One sprag between its races, to scale");
+    let mut svg = Svg::new(SIZE[0], SIZE[1], "One sprag between its races, to scale");
     let poses = drawing.drawable();
-    let (Some(view), Some((first, others))) = (View::of(drawing, &poses), poses.split_first()) else {
+    let (Some(view), Some((first, others))) = (View::of(drawing, &poses, SIZE, COLUMNS), poses.split_first())
+    else {
         return svg.finish();
     };
     draw_races(&mut svg, drawing, &view);
+    draw_arrow(&mut svg, &view);
+    draw_sprags(&mut svg, &view, first, others);
+    draw_scale_bar(&mut svg, &view);
+    if !others.is_empty() {
+        draw_legend(&mut svg, &view, first, others);
+    }
+    svg.finish()
+}
+
+/// The first pose in full with its labels, the others dashed over it.
+pub(super) fn draw_sprags(svg: &mut Svg, view: &View, first: &SpragPose, others: &[&SpragPose]) {
     let outline = |pose: &SpragPose| {
         polyline(&pose.outline_m.iter().map(|&p| view.px(pose.place(p))).collect::<Vec<_>>(), true)
     };
@@ -66,15 +89,10 @@ pub fn svg(drawing: &Drawing) -> String {
         svg.path(&outline(pose), &overlay_style(index));
     }
     let mut notes = Vec::new();
-    draw_strut(&mut svg, &view, first, &mut notes);
-    draw_profile(&mut svg, &view, first, &mut notes);
-    draw_centres(&mut svg, &view, first, &mut notes);
-    draw_notes(&mut svg, &notes);
-    draw_scale_bar(&mut svg, &view);
-    if !others.is_empty() {
-        draw_legend(&mut svg, first, others);
-    }
-    svg.finish()
+    draw_strut(svg, view, first, &mut notes);
+    draw_profile(svg, view, first, &mut notes);
+    draw_centres(svg, view, first, &mut notes);
+    draw_notes(svg, view, &notes);
 }
 
 fn overlay_style(index: usize) -> String {
@@ -84,18 +102,22 @@ fn overlay_style(index: usize) -> String {
     )
 }
 
-fn draw_races(svg: &mut Svg, drawing: &Drawing, view: &View) {
+pub(super) fn draw_races(svg: &mut Svg, drawing: &Drawing, view: &View) {
     let [bore, inner, outer, outside] = drawing.race_radii_m;
     let o = view.px([0.0, 0.0]);
     let style = format!("fill=\"{RACE}\" fill-rule=\"evenodd\" stroke=\"{SOFT}\" stroke-width=\"1.2\"");
     svg.path(&(circle(o, outside * view.scale) + &circle(o, outer * view.scale)), &style);
     let hole = if bore > 0.0 { circle(o, bore * view.scale) } else { String::new() };
     svg.path(&(circle(o, inner * view.scale) + &hole), &style);
-    // Engagement lowers the inner race's angle against the outer's: anticlockwise on the page.
     svg.bare_text([14.0, 22.0], Anchor::Start, SOFT, "outer race");
-    svg.bare_text([14.0, HEIGHT - 14.0], Anchor::Start, SOFT, "inner race");
-    let y = HEIGHT - 18.0;
-    let (tip, tail) = (WIDTH / 2.0 - 106.0, WIDTH / 2.0 - 50.0);
+    svg.bare_text([14.0, view.size[1] - 14.0], Anchor::Start, SOFT, "inner race");
+}
+
+/// Engagement lowers the inner race's angle against the outer's: anticlockwise on the page.
+fn draw_arrow(svg: &mut Svg, view: &View) {
+    let [width, height] = view.size;
+    let y = height - 18.0;
+    let (tip, tail) = (width / 2.0 - 106.0, width / 2.0 - 50.0);
     let ink = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.3\"");
     svg.line([tail, y], [tip, y], &ink);
     svg.path(&polyline(&[[tip + 8.0, y - 4.0], [tip, y], [tip + 8.0, y + 4.0]], false), &ink);
@@ -185,13 +207,14 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
 }
 
 /// Labels in two columns, each on a leader that ends at its point.
-fn draw_notes(svg: &mut Svg, notes: &[Note]) {
+fn draw_notes(svg: &mut Svg, view: &View, notes: &[Note]) {
+    let ([width, height], columns) = (view.size, view.columns);
     for left in [true, false] {
         let side: Vec<&Note> = notes.iter().filter(|n| n.left == left).collect();
         let wanted: Vec<f64> = side.iter().map(|n| n.wanted).collect();
-        let x = if left { COLUMN - 12.0 } else { WIDTH - COLUMN + 24.0 };
+        let x = if left { columns[0] - 12.0 } else { width - columns[1] + 24.0 };
         let bend = if left { 14.0 } else { -14.0 };
-        for (note, y) in side.iter().zip(spread(&wanted, PITCH, 46.0, HEIGHT - 50.0)) {
+        for (note, y) in side.iter().zip(spread(&wanted, PITCH, 46.0, height - 50.0)) {
             let knee = [x + bend, y - 4.0];
             let start = [x + bend / 3.0, y - 4.0];
             svg.path(
@@ -205,11 +228,12 @@ fn draw_notes(svg: &mut Svg, notes: &[Note]) {
 
 /// A bar of 1, 2 or 5 times a power of ten millimetres, about a sixth of the figure long.
 fn draw_scale_bar(svg: &mut Svg, view: &View) {
-    let wanted = WIDTH / 6.0 / view.scale;
+    let [width, height] = view.size;
+    let wanted = width / 6.0 / view.scale;
     let power = 10f64.powf(wanted.log10().floor());
     let step = [5.0, 2.0, 1.0].into_iter().find(|s| s * power <= wanted).unwrap_or(1.0);
     let length = step * power;
-    let (right, y) = (WIDTH - 16.0, HEIGHT - 18.0);
+    let (right, y) = (width - 16.0, height - 18.0);
     let left = right - length * view.scale;
     svg.path(
         &polyline(&[[left, y - 4.0], [left, y], [right, y], [right, y - 4.0]], false),
@@ -218,7 +242,7 @@ fn draw_scale_bar(svg: &mut Svg, view: &View) {
     svg.bare_text([left - 6.0, y + 3.0], Anchor::End, INK, &Unit::Millimetre.show(length, 1));
 }
 
-fn draw_legend(svg: &mut Svg, first: &SpragPose, others: &[&SpragPose]) {
+fn draw_legend(svg: &mut Svg, view: &View, first: &SpragPose, others: &[&SpragPose]) {
     let entries = std::iter::once((
         first.label.as_str(),
         format!("fill=\"none\" stroke=\"{EDGE}\" stroke-width=\"2\""),
@@ -226,7 +250,7 @@ fn draw_legend(svg: &mut Svg, first: &SpragPose, others: &[&SpragPose]) {
     .chain(others.iter().enumerate().map(|(i, p)| (p.label.as_str(), overlay_style(i))));
     for (i, (label, style)) in entries.enumerate() {
         let y = 22.0 + PITCH * i as f64;
-        let x = WIDTH - 16.0 - text_width(label, 12.0);
+        let x = view.size[0] - 16.0 - text_width(label, 12.0);
         svg.line([x - 34.0, y - 4.0], [x - 8.0, y - 4.0], &style);
         svg.bare_text([x, y], Anchor::Start, INK, label);
     }

@@ -86,6 +86,35 @@ fn drawings_hold_no_nan_and_name_no_other_place() {
 }
 
 #[test]
+fn the_sheet_has_every_dimension_at_a_scale_that_it_states() {
+    let svg = table_1(0.0).sheet_svg([6e-3, 6e-3], &["12 sprags".into()]);
+    for word in [
+        "⌀ 14.42 bore",
+        "⌀ 22.22 inner",
+        "⌀ 38.88 outer",
+        "⌀ 52.46 outside",
+        "Clutch, scale 1:1",
+        "no load, scale 5:1",
+        "rₑ 4.68 mm",
+        "r₁ 4.02 mm",
+        "r₃ 4.15 mm",
+        "race gap 8.33 mm",
+        "e₁ = C₁Cₑ 0.62 mm",
+        "ω 4.",
+        "ν 2.",
+        "junction 2|3, 0.12 rad",
+        "12 sprags",
+    ] {
+        assert!(svg.contains(word), "{word} in {svg}");
+    }
+    // An outside of 1049 mm.
+    let large = Drawing { race_radii_m: table_1(0.0).race_radii_m.map(|r| 20.0 * r), ..table_1(0.0) };
+    assert!(large.sheet_svg([0.1, 0.1], &[]).contains("Clutch, scale 1:20"));
+    let nothing = Drawing { race_radii_m: [0.0; 4], count: 0, poses: vec![] };
+    assert!(nothing.sheet_svg([0.0; 2], &[]).ends_with("</svg>"));
+}
+
+#[test]
 fn a_drawing_without_sprags_or_sense_is_empty_not_a_panic() {
     let nothing = Drawing { race_radii_m: [0.0; 4], count: 0, poses: vec![] };
     for svg in [nothing.clutch_svg(), nothing.detail_svg(), nothing.centres_svg()] {

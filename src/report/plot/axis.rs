@@ -40,6 +40,22 @@ impl Axis {
         if self.log { self.log_ticks(pitch_px) } else { self.linear_ticks(pitch_px) }
     }
 
+    /// The same with its begin moved down to a tick, so that the first one is numbered.
+    pub(in crate::report) fn begun(mut self, pitch_px: f64) -> Self {
+        // A wider range may have wider steps: the second pass ends on one of them.
+        for _ in 0..if self.log { 0 } else { 2 } {
+            let step = self.step(pitch_px);
+            self.range[0] = (self.range[0] / step + 1e-9).floor() * step;
+        }
+        self
+    }
+
+    /// Step between linear ticks.
+    fn step(&self, pitch_px: f64) -> f64 {
+        let room = (self.length_px() / pitch_px).floor().max(1.0);
+        round_step((self.range[1] - self.range[0]) / room)
+    }
+
     fn length_px(&self) -> f64 {
         (self.px[1] - self.px[0]).abs()
     }
@@ -47,7 +63,7 @@ impl Axis {
     fn linear_ticks(&self, pitch_px: f64) -> Vec<Tick> {
         let [low, high] = self.range;
         let room = (self.length_px() / pitch_px).floor().max(1.0);
-        let step = round_step((high - low) / room);
+        let step = self.step(pitch_px);
         let first = (low / step - 1e-9).ceil();
         let values = (0..=room as usize + 1).map(|i| (first + i as f64) * step);
         values

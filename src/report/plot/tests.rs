@@ -23,11 +23,6 @@ fn gaps_and_infinities_leave_no_trace_in_the_svg() {
 }
 
 #[test]
-fn drawing_twice_gives_the_same_text() {
-    assert_eq!(two_curves().to_svg(), two_curves().to_svg());
-}
-
-#[test]
 fn nothing_to_draw_is_said() {
     for points in [vec![], vec![[f64::NAN, 1.0]]] {
         let svg = Plot::new("x", "y").curve("empty", points).to_svg();
@@ -98,6 +93,20 @@ fn ticks_of_one_axis_agree() {
     assert_eq!([0.03, 47.0, 50.0, 0.0].map(round_step), [0.05, 50.0, 50.0, 1.0]);
     assert_eq!(texts(false, [0.0, 1.2], 100.0), ["0", "0.2", "0.4", "0.6", "0.8", "1.0", "1.2"]);
     assert_eq!(texts(false, [-0.3, 0.3], 200.0), ["−0.2", "0", "0.2"]);
+}
+
+#[test]
+fn an_axis_begins_with_a_number_and_a_plot_says_what_it_is_of() {
+    for range in [[3.3, 10.2], [-0.37, 0.21], [101.0, 119.0], [0.0, 7.0]] {
+        let axis = Axis { log: false, range, px: [0.0, 600.0] }.begun(60.0);
+        let first = &axis.ticks(60.0)[0];
+        assert!(first.px.abs() < 1e-6 && !first.text.is_empty(), "{range:?}: {first:?}");
+        assert!(axis.range[0] <= range[0] + 1e-9 && axis.range[1] == range[1], "{:?}", axis.range);
+    }
+    assert!(two_curves().to_svg().contains(">Windup against torque<"));
+    let of = |y: &str, x: &str| Plot::new(x, y).title();
+    assert_eq!(of("tan ω, inner contact", "Torque, Nm"), "tan ω, inner contact against torque");
+    assert_eq!((of("T/N", "Time, ms"), of("", "Time, ms")), ("T/N against time".into(), String::new()));
 }
 
 #[test]

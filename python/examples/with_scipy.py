@@ -1,0 +1,53 @@
+"""SLSQP of scipy on the margins of a design: the least objective, t, is made largest, every limit held.
+
+    python with_scipy.py designs/huang2017-multi-arc.toml
+"""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+from scipy.optimize import minimize
+
+import sprag_design as sd
+
+
+def main(path: str, quick: bool) -> None:
+    problem = sd.Design.load(path).problem()
+    low, high = np.array(problem.bounds).T
+    known: dict[bytes, sd.Evaluation] = {}
+
+    def at(unit: np.ndarray) -> sd.Evaluation:
+        x = np.clip(low + unit * (high - low), low, high)
+        if x.tobytes() not in known:
+            known[x.tobytes()] = problem.evaluate(x)
+        return known[x.tobytes()]
+
+    def rows(v: np.ndarray) -> np.ndarray:
+        """Objectives above t, and limits, all 0 or more."""
+        e = at(v[:-1])
+        if e.refused is not None:
+            return np.full(len(problem.objectives) + len(problem.limits), -1.0)
+        return np.concatenate([np.array(e.objectives) - v[-1], e.limits])
+
+    begin = (np.array(problem.start) - low) / (high - low)
+    start = at(begin)
+    found = minimize(
+        lambda v: -v[-1],
+        [*begin, start.least],
+        jac=lambda v: np.array([*np.zeros(len(low)), -1.0]),
+        constraints={"type": "ineq", "fun": rows},
+        bounds=[(0.0, 1.0)] * len(low) + [(-1.0, 10.0)],
+        method="SLSQP",
+        options={"maxiter": 6 if quick else 100, "eps": 1e-3},
+    )
+    # The best that holds every limit, whatever the optimiser ended with.
+    best = max((e for e in known.values() if e.feasible), key=lambda e: e.least, default=start)
+    print(found.message, f"({len(known)} evaluations)")
+    print({v.name: float(x) for v, x in zip(problem.variables, best.x, strict=True)})
+    print(f"least objective {start.least:.5f} -> {best.least:.5f}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], "--quick" in sys.argv)

@@ -1,0 +1,78 @@
+"""Design and optimise multi-arc sprag (overrunning) clutches.
+
+    >>> import sprag_design as sd
+    >>> design = sd.Design.load("designs/huang2017-multi-arc.toml")
+    >>> design.check().passed
+    >>> design.simulate("high-10").theta_inner_rad      # a numpy array
+    >>> design.with_(r_i2_mm=4.1).stiffness([3.34, 16.8]).windup_deg
+
+Every figure is that of the command ``sprag-design``, to the last bit. Names end in their unit; a name without one is a pure
+number. Azimuths and rotations are positive in engagement for the sprag; a slip or an offset is positive towards overrunning.
+"""
+
+from __future__ import annotations
+
+import os
+
+from . import _core
+from ._answers import (
+    Capacity,
+    Check,
+    Curve,
+    Deciding,
+    End,
+    Evaluation,
+    Found,
+    Junction,
+    LeftOut,
+    Margin,
+    Optimum,
+    OverrunPoint,
+    Overrun,
+    Simulation,
+    Slip,
+    Slips,
+    Stiffness,
+    Variable,
+)
+from ._design import Design, Problem
+from ._errors import DesignError, DesignProblem, NoClutch
+
+__version__: str = _core.__version__
+
+__all__ = [
+    "Capacity",
+    "Check",
+    "Curve",
+    "Deciding",
+    "Design",
+    "DesignError",
+    "DesignProblem",
+    "End",
+    "Evaluation",
+    "Found",
+    "Junction",
+    "LeftOut",
+    "Margin",
+    "NoClutch",
+    "Optimum",
+    "Overrun",
+    "OverrunPoint",
+    "Problem",
+    "Simulation",
+    "Slip",
+    "Slips",
+    "Stiffness",
+    "Variable",
+    "contact_laws",
+]
+
+
+def contact_laws() -> list[str]:
+    """Names of the contact laws that :meth:`Design.stiffness` compares."""
+    return _core.contact_laws()
+
+
+if hasattr(os, "register_at_fork"):
+    # Threads do not survive a fork: the child computes on its own.
+    os.register_at_fork(after_in_child=_core.forked)

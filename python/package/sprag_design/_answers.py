@@ -1,0 +1,723 @@
+"""What the questions answer: frozen classes whose names end in their unit, with arrays, tables and plots.
+
+``to_dict`` of each is the object that the command prints with ``--json``, without the keys that name tool and design.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import html
+import json
+import types
+import typing
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from . import _core
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+    from ._design import Design
+
+    Numbers = npt.NDArray[np.float64]
+
+T = TypeVar("T")
+
+_KEYS = {"passed": "pass"}
+"""Attributes whose key in JSON is a word of Python."""
+
+
+def _value(kind: Any, data: Any) -> Any:
+    """``data`` of JSON as a value of the type ``kind``."""
+    if data is None:
+        return None
+    origin, args = typing.get_origin(kind), typing.get_args(kind)
+    if origin in (typing.Union, types.UnionType):
+        return _value(next(a for a in args if a is not type(None)), data)
+    if origin is tuple:
+        return tuple(_value(args[0], item) for item in data)
+    if dataclasses.is_dataclass(kind) and isinstance(kind, type):
+        return _object(kind, data)
+    return data
+
+
+@functools.lru_cache(maxsize=None)
+def _hints(kind: Any) -> dict[str, Any]:
+    # The design is no part of JSON, and its module comes later.
+    return typing.get_type_hints(kind, localns={"Design": object})
+
+
+def _object(kind: type[T], data: dict[str, Any], **more: Any) -> T:
+    """An object of JSON as a class of this module; keys that it does not have are left to ``to_dict``."""
+    hints = _hints(typing.cast(Any, kind))
+    names = [f.name for f in dataclasses.fields(kind) if f.name not in more]  # type: ignore[arg-type]
+    return kind(**{n: _value(hints[n], data.get(_KEYS.get(n, n))) for n in names}, **more)
+
+
+def _columns(rows: typing.Iterable[Any]) -> pd.DataFrame:
+    import pandas as pd
+
+    return pd.DataFrame([dataclasses.asdict(row) for row in rows])
+
+
+def _axes(ax: Axes | None) -> Axes:
+    if ax is not None:
+        return ax
+    import matplotlib.pyplot as plt
+
+    return plt.subplots()[1]
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A term that the model leaves out."""
+
+    term: str
+    """The term."""
+    why: str
+    """Why it is left out."""
+    cost: str
+    """What that costs, with its source; "not estimated" where nobody knows."""
+
+
+@dataclass(frozen=True)
+class _Common:
+    """What all answers share."""
+
+    run_time_s: float
+    """Time of the computation, s."""
+    left_out: tuple[LeftOut, ...]
+    """What the model leaves out, each with its cost."""
+    error_estimate: Any
+    """How far off the answer is: a number, or numbers by name."""
+    _data: dict[str, Any] = field(repr=False, compare=False)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object of ``--json``: figures in the units of their names, ``None`` where there is none."""
+        return typing.cast("dict[str, Any]", json.loads(json.dumps(self._data)))
+
+
+def _common(text: str, body: str) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Fields that all answers share, and the figures."""
+    shared = json.loads(text)
+    data = json.loads(body)
+    left_out = tuple(_object(LeftOut, entry) for entry in shared["left_out"])
+    whole = {k: v for k, v in shared.items() if k != "error_estimate" or v is not None} | data
+    fields = {
+        "run_time_s": shared["run_time_s"],
+        "left_out": left_out,
+        "error_estimate": shared["error_estimate"],
+        "_data": whole,
+    }
+    return fields, data
+
+
+# ---- check
+
+
+@dataclass(frozen=True)
+class Margin:
+    """A limit: what is demanded, what is allowed, the margin between them."""
+
+    code: str
+    """Code, such as ``hoop-inner`` or ``slip:high-6``."""
+    name: str
+    """Name for people."""
+    demand: float | None
+    """Demand in ``unit``; ``None`` where no friction suffices, or the curve ends below the row's torque."""
+    allowable: float
+    """Allowable in ``unit``; of slip the wanted slip margin."""
+    unit: str
+    """Unit of demand and allowable; ``1`` of a pure number."""
+    margin: float
+    """Margin as a number; 0 or more is held."""
+    torque_capacity_nm: float | None
+    """Torque at which the limit would be reached, N m."""
+    capacity_beyond_end: bool
+    """Whether the curve ends before: the capacity is then at least that much."""
+    required: bool
+    """Whether it counts for the verdict; the others are shown only."""
+    computed: bool
+    """False where a run met its limit of work: neither held nor broken."""
+    overloaded: bool
+    """Whether the row's scene or torque goes beyond the end of the curve."""
+    held: bool
+    """Whether the limit is held."""
+    slip_margin: float | None
+    """Of slip rows static over required friction, less 1."""
+
+
+@dataclass(frozen=True)
+class Deciding:
+    """The required limit with the least margin."""
+
+    code: str
+    name: str
+    margin: float
+
+
+@dataclass(frozen=True)
+class Capacity:
+    """A torque capacity and the limit that sets it."""
+
+    code: str
+    name: str
+    torque_capacity_nm: float
+
+
+@dataclass(frozen=True)
+class End:
+    """Where the static curve ends."""
+
+    reason: str
+    torque_nm: float
+
+
+@dataclass(frozen=True)
+class OverrunPoint:
+    """Steady overrun at one speed."""
+
+    race: str
+    """Race that runs, ``outer`` or ``inner``; the other stands."""
+    speed_rpm: float
+    drag_torque_nm: float
+    normal_inner_n: float
+    normal_outer_n: float
+    friction: float
+    growth_rate_per_s: float | None
+    """Growth of a small swing of the sprags; positive: the equilibrium does not stay."""
+    swing_frequency_hz: float | None
+    lifted_off: bool
+    outer_race_growth_um: float
+    rotation_hoop_outer_mpa: float
+
+
+@dataclass(frozen=True)
+class Overrun:
+    """Overrun against speed."""
+
+    centrifugal: str
+    """What the centrifugal force does to the sprags: ``engaging``, ``disengaging`` or ``neutral``."""
+    gamma_deg: float
+    drag_torque_slow_nm: float
+    points: tuple[OverrunPoint, ...]
+    warning: str | None
+
+
+@dataclass(frozen=True)
+class Check(_Common):
+    """A design held against each of its limits."""
+
+    verdict: str
+    """The answer in one line."""
+    margins: tuple[Margin, ...]
+    """A row for each limit."""
+    passed: bool
+    """Whether every required limit is held; ``pass`` in JSON."""
+    deciding: Deciding | None
+    """The required limit with the least margin."""
+    lowest_torque_capacity: Capacity | None
+    """The lowest torque at which a required limit would be reached."""
+    nominal_torque_capacity: Capacity | None
+    """The lowest among the limits that are held at nominal torque."""
+    peak_torque_capacity: Capacity | None
+    """The lowest among the limits that are held at peak torque."""
+    end: End
+    """Where the static curve ends."""
+    lift_off_rpm: float | None
+    """Speed at which the sprags lift off the inner race; ``None``: contact is kept up to ``lift_off_searched_to_rpm``."""
+    lift_off_searched_to_rpm: float
+    overrun: Overrun
+    """Overrun against speed."""
+    running: dict[str, Any] | None
+    """Radii as made and as run; ``None``: the races run as made."""
+    run_out: dict[str, Any] | None
+    """Load round the circumference; ``None``: the design names no eccentricity."""
+
+    def margin(self, code: str) -> Margin:
+        """The row of that code.
+
+        Raises ``KeyError`` with the codes that there are.
+        """
+        for row in self.margins:
+            if row.code == code:
+                return row
+        raise KeyError(f"no margin {code}; there are: {', '.join(row.code for row in self.margins)}")
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The rows as a table, by code. Needs pandas."""
+        return _columns(self.margins).set_index("code")
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Margins as bars. Needs matplotlib."""
+        ax = _axes(ax)
+        rows = self.margins[::-1]
+        colours = ["0.75" if not r.required else "tab:green" if r.held else "tab:red" for r in rows]
+        # Where nothing is demanded the margin is a million.
+        ax.barh([r.code for r in rows], [min(100.0 * r.margin, 150.0) for r in rows], color=colours)
+        ax.axvline(0.0, color="black", linewidth=0.8)
+        ax.set_xlabel("Margin, % (cut at 150; grey: shown only)")
+        return ax
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{html.escape(r.code)}</td><td>{'' if r.demand is None else f'{r.demand:.4g}'}</td>"
+            f"<td>{r.allowable:.4g}</td><td>{html.escape(r.unit if r.unit != '1' else '')}</td>"
+            f"<td>{100.0 * r.margin:.3g} %</td><td>{'held' if r.held else 'NOT HELD' if r.required else 'shown only'}</td></tr>"
+            for r in self.margins
+        )
+        head = "".join(f"<th>{h}</th>" for h in ("Limit", "Demand", "Allowable", "Unit", "Margin", "Verdict"))
+        return f"<p><b>{html.escape(self.verdict)}</b></p><table><tr>{head}</tr>{rows}</table>"
+
+
+def check_of(found: tuple[str, str, str]) -> Check:
+    shared, data = _common(found[0], found[1])
+    return _object(Check, data, verdict=found[2], **shared)
+
+
+# ---- stiffness
+
+
+@dataclass(frozen=True)
+class Junction:
+    """Where one inner arc hands over to the next."""
+
+    torque_nm: float
+    alpha_rad: float
+    arc: int
+    """Arc that ends here, from 1."""
+
+
+_POINT = (
+    "torque_nm",
+    "normal_inner_n",
+    "normal_outer_n",
+    "tan_omega",
+    "tan_nu",
+    "alpha_rad",
+    "windup_deg",
+    "k_secant_nm_per_rad",
+    "k_tangent_nm_per_rad",
+    "hertz_inner_mpa",
+    "hertz_inner_error_mpa",
+    "hertz_inner_pointwise_mpa",
+    "hertz_outer_mpa",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """The static curve by one contact law: arrays with one value for each torque that the curve reaches."""
+
+    contact: str
+    """The contact law."""
+    torque_nm: Numbers
+    """Torque of the clutch."""
+    normal_inner_n: Numbers
+    """Normal force of one sprag at the inner contact."""
+    normal_outer_n: Numbers
+    """The same at the outer contact."""
+    tan_omega: Numbers
+    """Tangential over normal force at the inner contact."""
+    tan_nu: Numbers
+    """The same at the outer contact."""
+    alpha_rad: Numbers
+    """Rotation of the sprag."""
+    windup_deg: Numbers
+    """Windup of the races against each other."""
+    k_secant_nm_per_rad: Numbers
+    """Secant stiffness."""
+    k_tangent_nm_per_rad: Numbers
+    """Tangent stiffness."""
+    hertz_inner_mpa: Numbers
+    """Peak Hertz pressure at the inner contact."""
+    hertz_inner_error_mpa: Numbers
+    """How far that is off at most."""
+    hertz_inner_pointwise_mpa: Numbers
+    """The same with the radius at the contact point alone, as the paper takes it."""
+    hertz_outer_mpa: Numbers
+    """Peak Hertz pressure at the outer contact."""
+    arc: npt.NDArray[np.int64]
+    """Inner arc in contact, from 1."""
+    straddles_junction: npt.NDArray[np.bool_]
+    """Whether the contact lies on two arcs."""
+    beyond_end_nm: tuple[float, ...]
+    """Torques asked for that the curve does not reach."""
+    junctions: tuple[Junction, ...]
+    """Where one arc hands over to the next."""
+    end: End
+    """Where the curve ends."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each torque. Needs pandas."""
+        import pandas as pd
+
+        return pd.DataFrame({n: getattr(self, n) for n in (*_POINT, "arc", "straddles_junction")})
+
+
+def _curve(law: dict[str, Any]) -> Curve:
+    import numpy as np
+
+    points = law["points"]
+    numbers = {n: np.array([p[n] for p in points], dtype=np.float64) for n in _POINT}
+    return Curve(
+        contact=law["contact"],
+        arc=np.array([p["arc"] for p in points], dtype=np.int64),
+        straddles_junction=np.array([p["straddles_junction"] for p in points], dtype=np.bool_),
+        beyond_end_nm=tuple(law["beyond_end"]),
+        junctions=tuple(_object(Junction, j) for j in law["junctions"]),
+        end=_object(End, law["end"]),
+        **numbers,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Stiffness(_Common):
+    """Static curves at rest. The figures of the first law stand at the top: ``stiffness.windup_deg``."""
+
+    laws: tuple[Curve, ...]
+    """A curve for each contact law asked for."""
+
+    @property
+    def torque_nm(self) -> Numbers:
+        """Torques of the first law's curve."""
+        return self.laws[0].torque_nm
+
+    @property
+    def windup_deg(self) -> Numbers:
+        """Windup by the first law."""
+        return self.laws[0].windup_deg
+
+    @property
+    def normal_inner_n(self) -> Numbers:
+        """Normal force of one sprag at the inner contact, by the first law."""
+        return self.laws[0].normal_inner_n
+
+    @property
+    def k_tangent_nm_per_rad(self) -> Numbers:
+        """Tangent stiffness by the first law."""
+        return self.laws[0].k_tangent_nm_per_rad
+
+    @property
+    def k_secant_nm_per_rad(self) -> Numbers:
+        """Secant stiffness by the first law."""
+        return self.laws[0].k_secant_nm_per_rad
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each law and torque. Needs pandas."""
+        import pandas as pd
+
+        return pd.concat([law.to_pandas().assign(contact=law.contact) for law in self.laws], ignore_index=True)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Torque over windup, a curve for each law. Needs matplotlib."""
+        ax = _axes(ax)
+        for law in self.laws:
+            ax.plot(law.windup_deg, law.torque_nm, marker=".", label=law.contact)
+        ax.set_xlabel("Windup, deg")
+        ax.set_ylabel("Torque, Nm")
+        ax.legend()
+        return ax
+
+
+def stiffness_of(found: tuple[str, str]) -> Stiffness:
+    shared, data = _common(*found)
+    return Stiffness(laws=tuple(_curve(law) for law in data["laws"]), **shared)
+
+
+# ---- simulate
+
+
+@dataclass(frozen=True)
+class Slip:
+    """Slip at one contact."""
+
+    time_s: float | None
+    """Time of slip."""
+    distance_mm: float | None
+    """Path of slip."""
+    net_mm: float | None
+    """Net slip; positive towards overrunning."""
+
+
+@dataclass(frozen=True)
+class Slips:
+    """Slip at both contacts."""
+
+    inner: Slip
+    outer: Slip
+
+
+@dataclass(frozen=True, eq=False)
+class Simulation(_Common):
+    """What became of a scene. Columns of its history are attributes too: ``simulation.theta_inner_rad``."""
+
+    _simulated: _core.Simulated = field(repr=False)
+    scenario: str
+    """Name of the scenario."""
+    kind: str
+    """Its kind."""
+    method: str
+    """``event``, ``published``, or ``equilibrium`` where nothing is integrated."""
+    verdict: str | None
+    """``sticks``, ``slips-overrunning``, ``slips-engaging``, ``disengages``, ``overloaded``, ``at-threshold``."""
+    stop: str
+    """Why the run ended; ``no-start`` where the clutch has no such start."""
+    reason: str | None
+    """Why the scenario has no start, or why a run did not come to its end."""
+    t_end_s: float | None
+    """Time reached."""
+    theta_inner_end_rad: float | None
+    """Rotation of the inner race at the end."""
+    theta_outer_end_rad: float | None
+    """Rotation of the outer race at the end."""
+    offset_rad: float | None
+    """Offset; positive towards overrunning."""
+    slip: Slips
+    """Slip at both contacts."""
+    contact_lost_s: float | None
+    """Time without contact."""
+    peak_tan_demand: float | None
+    """Largest tangential over normal force, either contact."""
+    required_static_friction: float | None
+    """Friction that rolling would need."""
+    required_static_friction_by: str | None
+    """How that was found: ``rolling`` or ``bisection``."""
+    slip_margin: float | None
+    """Static over required friction, less 1."""
+    contact_margin: float | None
+    normal_min_n: float | None
+    """Smallest normal force at the inner contact."""
+    normal_max_n: float | None
+    """Largest normal force at the inner contact."""
+    extremes: dict[str, Any] | None
+    """Extremes with their times."""
+    equilibrium: dict[str, Any] | None
+    """The state of a static scenario or of a steady overrun."""
+    hertz_peak_mpa: float | None
+    """Largest Hertz pressure."""
+    hertz_static_mpa: float | None
+    """Hertz pressure of the static load."""
+    hertz_least_mpa: float | None
+    """Hertz pressure at the smallest normal force."""
+    hertz_rated_mpa: float | None
+    """Hertz pressure at nominal torque."""
+    events: int | None
+    """Changes of mode."""
+    zeno_closures: int | None
+    inconsistent_choices: int | None
+    fast_motion: dict[str, Any] | None
+    """What was fastest where the run gave up."""
+    steps: int | None
+    rejections: int | None
+    rhs_evaluations: int | None
+    error_estimates: dict[str, Any] | None
+    """Errors of the figures by name."""
+    energy_balance: dict[str, Any] | None
+    """Where the energy went, J."""
+    assumptions: tuple[str, ...] | None
+    """Inputs of an engagement that the paper does not publish."""
+    tolerance_reached: bool | None
+    """Whether every error is below the tolerance."""
+    worst_figure: tuple[Any, ...] | None
+    """The figure with the largest error, where the tolerance is not reached, and that."""
+    finer_gave_up: str | None
+    spread_rad: tuple[float, ...] | None
+    initial_slip_s: float | None
+    drag_torque_nm: float | None
+    """Drag torque of a steady overrun."""
+    lift_off_rpm: float | None
+    growth_rate_per_s: float | None
+    swing_frequency_hz: float | None
+    swing_normal_inner_n: float | None
+    kept: tuple[LeftOut, ...]
+    """Terms that the planner looked at and kept."""
+    notes: tuple[str, ...]
+    """What a reader must know beside the figures."""
+
+    @functools.cached_property
+    def history(self) -> dict[str, npt.NDArray[Any]]:
+        """The history in columns of one length, by names that end in their unit; NaN where a number has no value, 0 where
+        no arc touches. Of an equilibrium its one row."""
+        import numpy as np
+
+        def array(values: bytes | list[str] | list[int | None]) -> npt.NDArray[Any]:
+            if isinstance(values, bytes):
+                return np.frombuffer(values, dtype=np.float64)
+            if values and isinstance(values[0], str):
+                return np.array(values, dtype=np.str_)
+            return np.array([0 if v is None else v for v in values], dtype=np.int64)
+
+        return {name: array(values) for name, values in self._simulated.history().items()}
+
+    def __getattr__(self, name: str) -> npt.NDArray[Any]:
+        # Only what is no attribute comes here: a column of the history.
+        if name.startswith("_") or name == "history":
+            raise AttributeError(name)
+        try:
+            return self.history[name]
+        except KeyError:
+            columns = ", ".join(self.history)
+            raise AttributeError(f"a simulation has no {name}; the columns of this history are: {columns}") from None
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self.history]
+
+    @property
+    def verdict_line(self) -> str:
+        """The verdict in one line."""
+        return self._simulated.verdict_line()
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The history as a table, by time where there is any. Needs pandas."""
+        import pandas as pd
+
+        table = pd.DataFrame(self.history)
+        return table.set_index("time_s") if "time_s" in table else table
+
+    def plot(self, column: str = "theta_inner_rad", ax: Axes | None = None) -> Axes:
+        """A column of the history over time. Needs matplotlib."""
+        ax = _axes(ax)
+        ax.plot(self.history["time_s"], self.history[column])
+        ax.set_xlabel("Time, s")
+        ax.set_ylabel(column)
+        ax.set_title(self.scenario)
+        return ax
+
+    def __reduce__(self) -> typing.NoReturn:
+        raise TypeError("a simulation cannot be pickled: take to_dict() and history")
+
+
+def simulation_of(found: _core.Simulated) -> Simulation:
+    shared, data = _common(found.common, found.json())
+    return _object(Simulation, data, _simulated=found, **shared)
+
+
+# ---- optimize
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A free number of the design."""
+
+    name: str
+    """Short name, with its unit."""
+    min: float
+    """Least value."""
+    max: float
+    """Greatest value."""
+    start: float
+    """Value in the design, or the bound nearest to it."""
+    whole: bool
+    """Whether it is a whole number."""
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Margins at one vector."""
+
+    x: tuple[float, ...]
+    """The vector."""
+    objectives: tuple[float, ...]
+    """Margins whose least is made largest."""
+    limits: tuple[float, ...]
+    """Margins that must be 0 or more."""
+    least: float
+    """The least objective; NaN where the vector is refused."""
+    violation: float
+    """The largest negative limit, or 0; NaN where the vector is refused."""
+    feasible: bool
+    """Whether every limit is held."""
+    refused: str | None
+    """Why there is no clutch at the vector."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object that the command ``evaluate`` prints."""
+        if self.refused is not None:
+            return {"x": list(self.x), "refused": self.refused}
+        return {
+            "x": list(self.x),
+            "objectives": list(self.objectives),
+            "limits": list(self.limits),
+            "least": self.least,
+            "violation": self.violation,
+            "feasible": self.feasible,
+        }
+
+
+@dataclass(frozen=True)
+class FoundMargin:
+    """A margin of a design of the search."""
+
+    code: str
+    name: str
+    unit: str
+    allowable: float
+    margin: float
+    slip_margin: float | None
+    demand: float | None
+
+
+@dataclass(frozen=True)
+class Found:
+    """A design of the search."""
+
+    variables: dict[str, float]
+    """Values in the units of their names, in the order of the vector."""
+    objective: float
+    """The objective, in its own unit."""
+    margins: tuple[FoundMargin, ...]
+
+
+@dataclass(frozen=True)
+class Optimum(_Common):
+    """What a search for a better design found."""
+
+    design: Design
+    """The design found; where nothing holds every limit the nearest one."""
+    status: str
+    """How the best climb ended: ``converged``, ``infeasible``, ``evaluation-limit``, ``stalled``."""
+    aim: str
+    """What was made better."""
+    feasible: bool
+    """Whether every margin of the design found is held."""
+    not_held: tuple[str, ...]
+    """Codes of the margins that are not."""
+    best: Found
+    """The design found."""
+    in_file: dict[str, float]
+    """Values of the variables in the given design."""
+    start: Found
+    """Where the search began."""
+    objective_error: float
+    """How far the objective is off."""
+    evaluations: int
+    """Evaluations of the clutch."""
+    failed_evaluations: int
+    fighting_limits: tuple[str, ...]
+    """Limits that no design near holds together."""
+    dropped_variables: tuple[str, ...]
+    """Variables that move no margin."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Variables before and after. Needs pandas."""
+        import pandas as pd
+
+        return pd.DataFrame({"given": self.in_file, "best": self.best.variables})
+
+
+def optimum_of(common: str, body: str, design: Design) -> Optimum:
+    shared, data = _common(common, body)
+    # JSON has them by the alphabet, vectors in the order of the file.
+    names = [v.name for v in design.problem().variables]
+
+    def ordered(values: dict[str, float]) -> dict[str, float]:
+        return {name: values[name] for name in names}
+
+    inside = {k: data[k] | {"variables": ordered(data[k]["variables"])} for k in ("best", "start")}
+    return _object(Optimum, data | inside | {"in_file": ordered(data["in_file"])}, design=design, **shared)

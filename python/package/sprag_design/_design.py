@@ -1,0 +1,309 @@
+"""The design and the questions to it."""
+
+from __future__ import annotations
+
+import html
+import json
+import numbers
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from . import _core
+from ._answers import (
+    Check,
+    Evaluation,
+    Optimum,
+    Simulation,
+    Stiffness,
+    Variable,
+    _object,
+    check_of,
+    optimum_of,
+    simulation_of,
+    stiffness_of,
+)
+
+Setting = bool | int | float | str | Sequence[Any]
+
+
+def _toml(value: Any) -> str:
+    """A value as a design file has it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value)
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    if isinstance(value, Iterable):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    raise TypeError(f"{value!r} is no value of a design file: a number, a text, true, false or a list of these is")
+
+
+class Design:
+    """A checked clutch design, which never changes. :meth:`with_` and :meth:`set` give another."""
+
+    __slots__ = ("_core", "_problem")
+
+    def __init__(self, core: _core.Design) -> None:
+        """Use :meth:`load` or :meth:`parse`."""
+        self._core = core
+        self._problem: Problem | None = None
+
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> Design:
+        """Read and check a design file.
+
+        Raises :class:`DesignError` with everything found wrong.
+        """
+        return Design(_core.Design.load(path))
+
+    @staticmethod
+    def parse(text: str, folder: str | os.PathLike[str] = "", file: str = "design.toml") -> Design:
+        """Check the text of a design file that would lie in ``folder``, from which its histories are named; ``file`` stands
+        for it in messages.
+
+        Raises :class:`DesignError`.
+        """
+        return Design(_core.Design.parse(text, folder, file))
+
+    @property
+    def name(self) -> str:
+        """Name of the design."""
+        return self._core.name
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of the file's text and of its histories: names exactly what is computed."""
+        return self._core.hash
+
+    @property
+    def text(self) -> str:
+        """Text of the design file."""
+        return self._core.source
+
+    @property
+    def folder(self) -> Path:
+        """Folder from which histories are named."""
+        return Path(self._core.folder)
+
+    @property
+    def scenarios(self) -> list[str]:
+        """Names of the scenarios."""
+        return self._core.scenarios
+
+    def with_(self, **values: Setting) -> Design:
+        """The same design with other values, by the short names of variables: ``design.with_(r_i2_mm=4.1)``.
+
+        Raises :class:`DesignError` where a name is unknown or the new design is refused.
+        """
+        return Design(self._core.with_settings([(key, _toml(value)) for key, value in values.items()]))
+
+    def set(self, path: str, value: Setting) -> Design:
+        """The same design with another value at a dotted path of the file, rows counted from 0 or by their name:
+        ``design.set("sprags.inner_arcs[1].radius_mm", 4.1)``, ``design.set("scenarios[high-10].amplitude_nm", 9)``.
+
+        Raises :class:`DesignError`.
+        """
+        return Design(self._core.with_settings([(path, _toml(value))]))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the design file. A file that is there is not replaced."""
+        with open(path, "x", encoding="utf-8", newline="") as file:
+            file.write(self.text)
+
+    def check(self) -> Check:
+        """Hold the design against each of its limits.
+
+        Raises :class:`NoClutch` where no clutch comes about.
+        """
+        return check_of(self._core.check())
+
+    def stiffness(
+        self,
+        torques_nm: Iterable[float] | None = None,
+        *,
+        laws: Sequence[str] = (),
+        max_torque_nm: float | None = None,
+    ) -> Stiffness:
+        """The static curve at rest, at torques in N m or at 20 even ones up to ``max_torque_nm`` (the design's peak torque
+        where that is left out), by the contact laws named, or the design's own (:func:`contact_laws`).
+
+        Raises ``ValueError`` for a torque that is not above 0, :class:`NoClutch`.
+        """
+        torques = [] if torques_nm is None else [float(t) for t in torques_nm]
+        if torques and max_torque_nm is not None:
+            raise ValueError("torques_nm and max_torque_nm: give one of the two")
+        laws = [laws] if isinstance(laws, str) else list(laws)
+        return stiffness_of(self._core.stiffness(torques, laws, max_torque_nm))
+
+    def simulate(
+        self,
+        scenario: str,
+        *,
+        tolerance: float | None = None,
+        step_s: float | None = None,
+        rows: int | None = None,
+        window_s: tuple[float, float] | None = None,
+        most_steps: int | None = None,
+        full: bool = False,
+        method: str = "event",
+        band_m_s: float | None = None,
+    ) -> Simulation:
+        """Run one scenario: verdict, figures with their errors, history. Options are those of the command ``simulate``.
+
+        Raises ``KeyError`` where there is no such scenario, ``ValueError`` for an option that makes no sense.
+        """
+        if method not in ("event", "published"):
+            raise ValueError(f"method {method!r}: allowed: event, published")
+        if rows is not None and rows < 2:
+            raise ValueError(f"rows {rows}: allowed: 2 or more")
+        if most_steps is not None and most_steps < 1:
+            raise ValueError(f"most_steps {most_steps}: allowed: 1 or more")
+        if method == "event" and band_m_s is not None:
+            raise ValueError("band_m_s: only with method published")
+        if method == "published":
+            for name, value in (("tolerance", tolerance), ("window_s", window_s), ("most_steps", most_steps)):
+                if value is not None:
+                    raise ValueError(f"{name}: only with method event")
+            if band_m_s is not None and not 0.0 < band_m_s < float("inf"):
+                raise ValueError(f"band_m_s {band_m_s}: allowed: a finite number above 0")
+        return simulation_of(
+            self._core.simulate(
+                scenario, method == "published", band_m_s, tolerance, step_s, rows, window_s, most_steps, full
+            )
+        )
+
+    def optimize(
+        self,
+        *,
+        evaluations: int = 500,
+        starts: int | None = None,
+        swarm: int | None = None,
+        tolerance: float = 1e-6,
+        full: bool = False,
+    ) -> Optimum:
+        """Search for a better design as the table ``[optimize]`` of the file says; nothing is written. ``evaluations``: most
+        of each climb; ``starts``: number of climbs, left open 8 to 32; ``swarm``: evaluations of a particle swarm first.
+
+        Raises ``ValueError`` where the design has no such table.
+        """
+        if evaluations < 1 or (starts is not None and starts < 1):
+            raise ValueError("evaluations and starts: allowed: 1 or more")
+        if swarm is not None and swarm < 80:
+            raise ValueError(f"swarm {swarm}: allowed: 80 or more")
+        if not 1e-13 <= tolerance <= 1e-3:
+            raise ValueError(f"tolerance {tolerance}: allowed: 1e-13 to 1e-3; 1e-6 serves well")
+        common, body, design = self._core.optimize(evaluations, starts, swarm, tolerance, full)
+        return optimum_of(common, body, Design(design))
+
+    def problem(self, *, full: bool = False) -> Problem:
+        """The variables of ``[optimize]`` and the margins at their values, for optimisers of others. ``full`` leaves nothing
+        out that a scene cannot feel.
+
+        Raises ``ValueError`` where the design has no such table.
+        """
+        return Problem(self, full=full)
+
+    def evaluate(self, x: Iterable[float]) -> Evaluation:
+        """Margins at the values ``x`` of the variables of ``[optimize]``, as the command ``evaluate`` has them.
+
+        Raises ``ValueError`` for another number of values, and for one out of its bounds.
+        """
+        if self._problem is None:
+            self._problem = self.problem()
+        return self._problem.evaluate(x)
+
+    def drawing_svg(self, what: str = "sprag") -> str:
+        """A drawing to scale: ``sprag``, ``clutch`` or ``centres`` (arc centres)."""
+        names = ("sprag", "clutch", "centres")
+        if what not in names:
+            raise ValueError(f"drawing {what!r}: allowed: {', '.join(names)}")
+        return self._core.drawings()[names.index(what)]
+
+    def _repr_html_(self) -> str:
+        title = f"<p><b>{html.escape(self.name)}</b> <code>{self.hash[:12]}</code></p>"
+        try:
+            return title + self.drawing_svg()
+        except ValueError as why:
+            return f"{title}<p>{html.escape(str(why))}</p>"
+
+    def __repr__(self) -> str:
+        return f"<Design {self.name!r} {self.hash[:12]}>"
+
+    def __eq__(self, other: object) -> bool:
+        return self.hash == other.hash if isinstance(other, Design) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.hash)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Design.parse, (self.text, str(self.folder), self._core.file)
+
+
+class Problem:
+    """The variables of a design's ``[optimize]`` and the margins at their values. Safe to use from several threads."""
+
+    __slots__ = ("_core", "_names", "aim", "design", "full", "variables")
+
+    def __init__(self, design: Design, *, full: bool = False) -> None:
+        self._core = design._core.problem(full)
+        self._names: tuple[list[str], list[str]] | None = None
+        about = json.loads(self._core.about)
+        self.design = design
+        """The design."""
+        self.full = full
+        self.aim: str = about["aim"]
+        """What is made better."""
+        self.variables: tuple[Variable, ...] = tuple(_object(Variable, v) for v in about["variables"])
+        """The variables in the order of the vector."""
+
+    @property
+    def bounds(self) -> list[tuple[float, float]]:
+        """Least and greatest value of each variable, as scipy takes them."""
+        return [(v.min, v.max) for v in self.variables]
+
+    @property
+    def start(self) -> list[float]:
+        """Values to start from."""
+        return [v.start for v in self.variables]
+
+    def _rows(self) -> tuple[list[str], list[str]]:
+        if self._names is None:
+            self._names = self._core.names(self.start)
+        return self._names
+
+    @property
+    def objectives(self) -> list[str]:
+        """Codes of the objectives."""
+        return self._rows()[0]
+
+    @property
+    def limits(self) -> list[str]:
+        """Codes of the limits."""
+        return self._rows()[1]
+
+    def evaluate(self, x: Iterable[float]) -> Evaluation:
+        """Margins at ``x``. What is no clutch has ``refused``.
+
+        Raises ``ValueError`` for another number of values, and for one out of its bounds.
+        """
+        values = [float(v) for v in x]
+        objectives, limits, least, violation, feasible, refused = self._core.evaluate(values)
+        return Evaluation(tuple(values), tuple(objectives), tuple(limits), least, violation, feasible, refused)
+
+    def design_at(self, x: Iterable[float]) -> Design:
+        """The design with the values ``x``, and with the limits of ``[optimize]``, so that ``check`` holds it to what was
+        searched for."""
+        text = self._core.file_at([float(v) for v in x])
+        return Design.parse(text, self.design.folder, self.design._core.file)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _problem, (self.design, self.full)
+
+
+def _problem(design: Design, full: bool) -> Problem:
+    return Problem(design, full=full)

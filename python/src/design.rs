@@ -1,0 +1,242 @@
+//! The class `_core.Design`: a checked design and the questions to it.
+
+use crate::errors::{self, json};
+use crate::pool::compute;
+use crate::problem::Problem;
+use crate::simulated::Simulated;
+use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use serde_json::{Value, json as object};
+use sprag_design::answer::check::NoCheck;
+use sprag_design::answer::simulation::{self, Method, NoAnswer};
+use sprag_design::answer::stiffness::{self, NoStiffness};
+use sprag_design::answer::{LeftOut, search};
+use sprag_design::design::LAWS;
+use sprag_design::report::{Drawing, SpragPose};
+use sprag_design::{Follow, NoSearch, place_profile};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A checked design.
+#[pyclass(frozen, module = "sprag_design._core")]
+pub struct Design {
+    design: Arc<sprag_design::Design>,
+    /// What stands for the file in messages.
+    file: String,
+}
+
+/// What all answers share.
+fn common(seconds: f64, left_out: &[LeftOut], error_estimate: Value) -> PyResult<String> {
+    json(&object!({ "run_time_s": seconds, "left_out": left_out, "error_estimate": error_estimate }))
+}
+
+/// The same while Ctrl-C has no answer: it is raised before anybody looks.
+fn stopped() -> PyErr {
+    PyRuntimeError::new_err("stopped")
+}
+
+impl Design {
+    fn of(
+        py: Python<'_>,
+        found: Result<sprag_design::Design, sprag_design::DesignError>,
+        file: String,
+    ) -> PyResult<Self> {
+        match found {
+            Ok(design) => Ok(Self { design: Arc::new(design), file }),
+            Err(why) => Err(errors::refused(py, &why)),
+        }
+    }
+}
+
+#[pymethods]
+impl Design {
+    /// Read and check a design file.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let found = py.detach(|| sprag_design::Design::read(&path));
+        Self::of(py, found, path.display().to_string())
+    }
+
+    /// Check the text of a design file that would lie in `folder`.
+    #[staticmethod]
+    fn parse(py: Python<'_>, source: &str, folder: PathBuf, file: String) -> PyResult<Self> {
+        let found = py.detach(|| sprag_design::Design::parse_in(&folder, source, &file));
+        Self::of(py, found, file)
+    }
+
+    /// The same design with values set: dotted path or short name, value as TOML.
+    fn with_settings(&self, py: Python<'_>, settings: Vec<(String, String)>) -> PyResult<Self> {
+        let found = py.detach(|| self.design.with(&settings, &self.file));
+        Self::of(py, found, self.file.clone())
+    }
+
+    /// Name of the design.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.design.name
+    }
+
+    /// SHA-256 of its text and its histories.
+    #[getter]
+    fn hash(&self) -> &str {
+        &self.design.hash
+    }
+
+    /// Its text.
+    #[getter]
+    fn source(&self) -> &str {
+        &self.design.source
+    }
+
+    /// Folder from which its histories are named.
+    #[getter]
+    fn folder(&self) -> PathBuf {
+        self.design.folder.clone()
+    }
+
+    /// What stands for the file in messages.
+    #[getter]
+    fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Names of its scenarios.
+    #[getter]
+    fn scenarios(&self) -> Vec<String> {
+        self.design.scenarios.iter().map(|s| s.name.clone()).collect()
+    }
+
+    /// Common keys and figures of the margin check, each as JSON.
+    fn check(&self, py: Python<'_>) -> PyResult<(String, String, String)> {
+        let (design, follow) = (Arc::clone(&self.design), Follow::new());
+        let stop = follow.clone();
+        let answer = compute(py, &stop, move || {
+            let started = Instant::now();
+            design.check(&follow).map(|a| (a, started.elapsed().as_secs_f64()))
+        })?;
+        match answer {
+            Ok((a, seconds)) => {
+                Ok((common(seconds, &a.left_out, object!(a.errors))?, json(&a.body)?, a.body.verdict()))
+            }
+            Err(NoCheck::NoClutch(why)) => Err(errors::no_clutch(py, &why)),
+            Err(NoCheck::Stopped) => Err(stopped()),
+        }
+    }
+
+    /// Common keys and figures of the static curve, each as JSON.
+    fn stiffness(
+        &self,
+        py: Python<'_>,
+        torques_nm: Vec<f64>,
+        laws: Vec<String>,
+        max_torque_nm: Option<f64>,
+    ) -> PyResult<(String, String)> {
+        let law = |key: &String| {
+            let known = || LAWS.iter().map(|law| law.key).collect::<Vec<_>>().join(", ");
+            LAWS.iter()
+                .find(|law| law.key == key)
+                .map(|law| law.name)
+                .ok_or_else(|| PyValueError::new_err(format!("contact law {key:?}: allowed: {}", known())))
+        };
+        let laws = laws.iter().map(law).collect::<PyResult<Vec<_>>>()?;
+        let (design, stop) = (Arc::clone(&self.design), Follow::new());
+        let ask = stiffness::Ask { laws, torques_nm, max_torque_nm, follow: stop.clone() };
+        let answer = compute(py, &stop, move || {
+            let started = Instant::now();
+            design.stiffness(&ask).map(|a| (a, started.elapsed().as_secs_f64()))
+        })?;
+        match answer {
+            Ok((a, seconds)) => {
+                Ok((common(seconds, &a.left_out, object!(a.error_relative))?, json(&a.body)?))
+            }
+            Err(NoStiffness::NoClutch(why)) => Err(errors::no_clutch(py, &why)),
+            Err(why @ NoStiffness::Torque(_)) => Err(PyValueError::new_err(why.to_string())),
+            Err(NoStiffness::Stopped) => Err(stopped()),
+        }
+    }
+
+    /// Simulate one scenario.
+    #[pyo3(signature = (scenario, published, band_m_s, tolerance, step_s, rows, window_s, most_steps, full))]
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        scenario: String,
+        published: bool,
+        band_m_s: Option<f64>,
+        tolerance: Option<f64>,
+        step_s: Option<f64>,
+        rows: Option<usize>,
+        window_s: Option<[f64; 2]>,
+        most_steps: Option<u64>,
+        full: bool,
+    ) -> PyResult<Simulated> {
+        let (design, stop) = (Arc::clone(&self.design), Follow::new());
+        let ask = simulation::Ask {
+            method: if published { Method::Published { band_m_s } } else { Method::Event },
+            tolerance,
+            step_s,
+            most_steps,
+            most_events: None,
+            rows,
+            window_s,
+            full,
+            follow: stop.clone(),
+        };
+        let answer = compute(py, &stop, move || {
+            let started = Instant::now();
+            design.simulate(&scenario, &ask).map(|a| (a, started.elapsed().as_secs_f64()))
+        })?;
+        match answer {
+            Ok((a, seconds)) => {
+                let error = a.simulation().and_then(|s| s.error).map(|e| object!(e.theta_inner_rad));
+                let common = common(seconds, &a.left_out, error.unwrap_or(Value::Null))?;
+                Ok(Simulated::new(a, common))
+            }
+            Err(why @ NoAnswer::NoSuchScenario { .. }) => Err(PyKeyError::new_err(why.to_string())),
+            Err(why @ NoAnswer::Refused(_)) => Err(PyValueError::new_err(why.to_string())),
+        }
+    }
+
+    /// Search for a better design: common keys and figures as JSON, and the design found.
+    fn optimize(
+        &self,
+        py: Python<'_>,
+        evaluations: usize,
+        starts: Option<usize>,
+        swarm: Option<usize>,
+        tolerance: f64,
+        full: bool,
+    ) -> PyResult<(String, String, Self)> {
+        let (design, stop) = (Arc::clone(&self.design), Follow::new());
+        let ask = search::Ask { evaluations, starts, swarm, tolerance, full, follow: stop.clone() };
+        let answer = compute(py, &stop, move || {
+            let started = Instant::now();
+            design.optimise(&ask).map(|a| (a, started.elapsed().as_secs_f64()))
+        })?;
+        match answer {
+            Ok((a, seconds)) => {
+                let common = common(seconds, &a.left_out, object!(a.body.objective_error))?;
+                let found = a.design(&self.design, &self.file);
+                Ok((common, json(&a.body)?, Self::of(py, found, self.file.clone())?))
+            }
+            Err(NoSearch::Stopped) => Err(stopped()),
+            Err(why @ NoSearch::Start(_)) => Err(errors::no_clutch(py, &why)),
+            Err(why) => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
+        }
+    }
+
+    /// The vector of variables and its margins.
+    fn problem(&self, full: bool) -> PyResult<Problem> {
+        Problem::new(&self.design, &self.file, full)
+    }
+
+    /// Drawings as SVG: one sprag large, the whole clutch, the arc centres.
+    fn drawings(&self, py: Python<'_>) -> PyResult<(String, String, String)> {
+        let profile = place_profile(&self.design.clutch).map_err(|why| errors::no_clutch(py, &why))?;
+        let clutch = &self.design.clutch;
+        let drawing =
+            Drawing::of(clutch, vec![SpragPose::at_rest(&self.design.name, &clutch.sprags, &profile)]);
+        Ok((drawing.detail_svg(), drawing.clutch_svg(), drawing.centres_svg()))
+    }
+}

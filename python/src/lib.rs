@@ -1,0 +1,38 @@
+//! `sprag_design._core`: the library's answers for the Python package `sprag_design`, which puts them into classes.
+//!
+//! In: a design's text or path, questions as numbers and names. Out: JSON of the library's serde types, histories as bytes,
+//! drawings, exceptions with their problems. Absent: figures of its own. No thread holds Python's lock while it computes.
+
+mod design;
+mod errors;
+mod pool;
+mod problem;
+mod simulated;
+
+use pyo3::prelude::*;
+use std::ffi::OsString;
+
+/// Run the command `sprag-design` with these arguments, the first the program's name; the exit code.
+#[pyfunction]
+fn run_command(py: Python<'_>, args: Vec<OsString>) -> u8 {
+    py.detach(|| sprag_design::cli::run_from(args))
+}
+
+/// Names of the contact laws.
+#[pyfunction]
+fn contact_laws() -> Vec<&'static str> {
+    sprag_design::design::LAWS.iter().map(|law| law.key).collect()
+}
+
+/// Compiled part of sprag_design.
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", sprag_design::cli::output::VERSION)?;
+    module.add_class::<design::Design>()?;
+    module.add_class::<problem::Problem>()?;
+    module.add_class::<simulated::Simulated>()?;
+    module.add_function(wrap_pyfunction!(run_command, module)?)?;
+    module.add_function(wrap_pyfunction!(contact_laws, module)?)?;
+    module.add_function(wrap_pyfunction!(pool::forked, module)?)?;
+    Ok(())
+}

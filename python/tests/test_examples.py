@@ -1,0 +1,43 @@
+"""README and examples run as they are."""
+
+from __future__ import annotations
+
+import re
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from .conftest import MULTI_ARC, ROOT
+
+PYTHON = Path(__file__).resolve().parents[1]
+
+
+def test_the_readme_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib").use("Agg")
+    pytest.importorskip("pandas")
+    monkeypatch.chdir(ROOT)
+    blocks = re.findall(r"```python\n(.*?)```", (PYTHON / "README.md").read_text(), re.S)
+    assert len(blocks) >= 3
+    names: dict[str, object] = {}
+    for block in blocks:
+        exec(compile(block, "README.md", "exec"), names)
+
+
+@pytest.mark.parametrize(("example", "needs"), [("with_scipy", "scipy"), ("with_optuna", "optuna"), ("with_openmdao", "openmdao")])
+def test_an_example_finds_a_better_design(example: str, needs: str, tmp_path: Path) -> None:
+    pytest.importorskip(needs)
+    words = [sys.executable, str(PYTHON / "examples" / f"{example}.py"), str(MULTI_ARC), "--quick"]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=600, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    found = re.search(r"least objective (\S+) -> (\S+)", done.stdout)
+    assert found and float(found[2]) > float(found[1]), done.stdout
+
+
+def test_the_module_is_the_command(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", ["sprag_design", "materials"])
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_module("sprag_design", run_name="__main__")
+    assert ended.value.code == 0 and capfd.readouterr().out

@@ -1,0 +1,424 @@
+//! The margins as table and as JSON.
+
+use super::overrun::Section;
+use super::{run_out, running};
+use crate::margin::{Demand, Margin, When};
+use crate::report::{Cell, Column, Table, Unit, significant};
+use crate::wedge::EndReason;
+use serde::Serialize;
+
+/// A demand that no friction meets, in words.
+pub(crate) const NONE_SUFFICES: &str = "none suffices";
+/// A scene whose load goes beyond the end of the curve.
+pub(crate) const OVERLOADED: &str = "overloaded";
+/// What stands for the demand of a row whose torque lies beyond the end of the curve.
+const NOT_REACHED: &str = "not reached";
+/// What stands for the demand of a run that met its limit of work.
+pub(super) const NOT_COMPUTED: &str = "not computed";
+/// What stands for the margin where nothing is demanded.
+const NO_DEMAND: &str = "no demand";
+
+/// One margin of the JSON.
+#[derive(Debug, Clone, Serialize)]
+pub struct Row {
+    /// Code for scripts, such as `hoop-inner`, `slip:high-6`.
+    pub code: String,
+    /// Name for people.
+    pub name: String,
+    /// `None` where no friction suffices, the scene is overloaded or the curve ends below the row's torque.
+    pub demand: Option<f64>,
+    /// Allowable, in `unit`; of slip the wanted slip margin.
+    pub allowable: f64,
+    /// Unit of demand and allowable; `1` of a pure number.
+    pub unit: &'static str,
+    /// Margin as a number; 0 or more is held.
+    pub margin: f64,
+    /// Torque at which the limit would be reached, N m, where it depends on torque.
+    pub torque_capacity_nm: Option<f64>,
+    /// Whether the limit is not reached before the curve ends: the capacity is then at least that much.
+    pub capacity_beyond_end: bool,
+    /// Whether it counts for the verdict; the others are shown only.
+    pub required: bool,
+    /// False where a run met its limit of work: neither held nor broken.
+    pub computed: bool,
+    /// Whether the row's scene or torque goes beyond the end of the curve.
+    pub overloaded: bool,
+    /// Whether the limit is held.
+    pub held: bool,
+    /// Of slip rows mu_s over the friction required, less 1; null elsewhere.
+    pub slip_margin: Option<f64>,
+}
+
+/// The required limit with the least margin.
+#[derive(Debug, Clone, Serialize)]
+pub struct Deciding {
+    /// Its code.
+    pub code: String,
+    /// Its name.
+    pub name: String,
+    /// Its margin.
+    pub margin: f64,
+    /// The margin in words.
+    #[serde(skip)]
+    words: String,
+}
+
+/// The lowest torque at which a limit would be reached.
+#[derive(Debug, Clone, Serialize)]
+pub struct Capacity {
+    /// Code of the limit that sets it.
+    pub code: String,
+    /// Name of that limit.
+    pub name: String,
+    /// The torque, N m.
+    pub torque_capacity_nm: f64,
+}
+
+/// End of the static curve.
+#[derive(Debug, Clone, Serialize)]
+pub struct End {
+    /// Why it ends.
+    pub reason: &'static str,
+    /// Torque there, N m.
+    pub torque_nm: f64,
+}
+
+/// What the margins were read from.
+#[derive(Debug, Clone)]
+pub(super) struct Source {
+    /// Why the static curve ends.
+    pub(super) end: EndReason,
+    /// Torque at its end, N m.
+    pub(super) end_torque_nm: f64,
+    /// Largest torque at which a limit is held, N m; 0 without one.
+    pub(super) asked_nm: f64,
+    /// Overrun speed at which the sprags lift off, rad/s, if they do up to `searched_to_rad_s`.
+    pub(super) lift_off_rad_s: Option<f64>,
+    /// How far a lift-off was looked for, rad/s.
+    pub(super) searched_to_rad_s: f64,
+    /// Overrun against speed.
+    pub(super) overrun: Section,
+    /// Radii as made and as run, where they differ.
+    pub(super) running: Option<running::Section>,
+    /// Load round the circumference, where the axes lie apart.
+    pub(super) run_out: Option<run_out::Section>,
+}
+
+/// Keys of `check`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Body {
+    /// One row for each limit.
+    pub margins: Vec<Row>,
+    /// Whether every required limit is held.
+    pub pass: bool,
+    /// The required limit with the least margin.
+    pub deciding: Option<Deciding>,
+    /// The lowest torque at which a required limit would be reached.
+    pub lowest_torque_capacity: Option<Capacity>,
+    /// The lowest among the limits that are held at nominal torque.
+    pub nominal_torque_capacity: Option<Capacity>,
+    /// The lowest among the limits that are held at peak torque.
+    pub peak_torque_capacity: Option<Capacity>,
+    /// Where the static curve ends, which may be below the torques of the limits.
+    pub end: End,
+    #[serde(skip)]
+    asked_nm: f64,
+    /// Null: contact is kept up to `lift_off_searched_to_rpm`.
+    pub lift_off_rpm: Option<f64>,
+    /// How far a lift-off was looked for, rev/min.
+    pub lift_off_searched_to_rpm: f64,
+    /// Overrun against speed.
+    pub overrun: Section,
+    /// Null: the races run as made.
+    pub running: Option<running::Section>,
+    /// Null: the design names no eccentricity.
+    pub run_out: Option<run_out::Section>,
+}
+
+impl Body {
+    pub(super) fn new(rows: &[Margin], source: Source) -> Self {
+        let rpm = |rad_s| Unit::Rpm.from_si(rad_s);
+        let required = || rows.iter().filter(|r| r.required);
+        let lowest = |counts: &dyn Fn(&Margin) -> bool| {
+            required()
+                .filter(|r| counts(r))
+                .filter_map(|r| Some((r, r.torque_capacity_nm?)))
+                // A limit that the curve never reaches sets nothing; the end of the curve does.
+                .filter(|(r, c)| !is_beyond(r, *c, source.end_torque_nm))
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                .map(|(r, torque_capacity_nm)| Capacity {
+                    code: r.code(),
+                    name: r.name.clone(),
+                    torque_capacity_nm,
+                })
+        };
+        let nominal = |r: &Margin| r.limit.when == When::Nominal;
+        Self {
+            margins: rows.iter().map(|r| row(r, source.end_torque_nm)).collect(),
+            pass: required().all(Margin::held),
+            deciding: required().min_by(|a, b| a.margin().total_cmp(&b.margin())).map(|r| Deciding {
+                code: r.code(),
+                name: r.name.clone(),
+                margin: r.margin(),
+                words: margin_words(r),
+            }),
+            lowest_torque_capacity: lowest(&|_| true),
+            nominal_torque_capacity: lowest(&nominal),
+            peak_torque_capacity: lowest(&|r| !nominal(r)),
+            end: End { reason: source.end.name(), torque_nm: source.end_torque_nm },
+            asked_nm: source.asked_nm,
+            lift_off_rpm: source.lift_off_rad_s.map(rpm),
+            lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
+            overrun: source.overrun,
+            running: source.running,
+            run_out: source.run_out,
+        }
+    }
+
+    /// Code and torque, N m, of the limits that set the nominal and the peak capacity.
+    pub fn capacities(&self) -> Vec<(String, f64)> {
+        let both = [&self.nominal_torque_capacity, &self.peak_torque_capacity].into_iter().flatten();
+        both.map(|c| (c.code.clone(), c.torque_capacity_nm)).collect()
+    }
+
+    /// Whether every required limit is held; `None` where that is not known, because a run met its limit of work.
+    pub fn held(&self) -> Option<bool> {
+        let unknown = self.margins.iter().any(|r| r.required && !r.computed);
+        (self.pass || !unknown).then_some(self.pass)
+    }
+
+    /// Codes of the rows that are shown only and would not hold.
+    pub fn shown_broken(&self) -> Vec<&str> {
+        let broken = self.margins.iter().filter(|r| !r.required && r.computed && !r.held);
+        broken.map(|r| r.code.as_str()).collect()
+    }
+
+    /// The same in words, behind a banner that says that all is held.
+    fn but_shown(&self) -> String {
+        /// Codes that a line has room for.
+        const NAMED: usize = 4;
+        let codes = self.shown_broken();
+        let named = codes.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ");
+        match codes.len() {
+            0 => String::new(),
+            n if n > NAMED => {
+                format!("; {n} rows shown only would not hold: {named} and {} more", n - NAMED)
+            }
+            1 => format!("; 1 row shown only would not hold: {named}"),
+            n => format!("; {n} rows shown only would not hold: {named}"),
+        }
+    }
+
+    /// The answer in one line.
+    pub fn verdict(&self) -> String {
+        let required: Vec<&Row> = self.margins.iter().filter(|r| r.required).collect();
+        let broken = required.iter().filter(|r| !r.held).count();
+        let unknown = required.iter().filter(|r| !r.computed).count();
+        match &self.deciding {
+            None => format!("HELD: the design names no limit that could be broken{}", self.but_shown()),
+            Some(d) if self.pass => format!(
+                "HELD: all {} required limits; {} decides, {}{}",
+                required.len(),
+                d.code,
+                d.words,
+                self.but_shown()
+            ),
+            Some(_) if unknown > 0 => format!(
+                "NOT COMPUTED: {unknown} of {} required rows, whose runs met their limit of work; {} others not held",
+                required.len(),
+                broken - unknown
+            ),
+            Some(d) => format!(
+                "NOT HELD: {broken} of {} required limits; {} decides, {}",
+                required.len(),
+                d.code,
+                d.words
+            ),
+        }
+    }
+
+    /// Torque capacity, an early end of the curve and lift-off, a line each.
+    pub fn remarks(&self) -> Vec<String> {
+        let capacities = [("nominal", &self.nominal_torque_capacity), ("peak", &self.peak_torque_capacity)];
+        let capacity = capacities.into_iter().filter_map(|(kind, capacity)| {
+            let c = capacity.as_ref()?;
+            let torque = Unit::NewtonMetre.show(c.torque_capacity_nm, 4);
+            Some(format!("Torque capacity, {kind}: {torque}, set by {} ({})", c.code, c.name))
+        });
+        let early = (self.end.torque_nm < self.asked_nm).then(|| {
+            format!(
+                "The curve ends ({}) at {}, below {}: a limit held beyond is not reached, and its margin is what the \
+                 torque lacks, end/torque − 1, or less",
+                self.end.reason,
+                Unit::NewtonMetre.show(self.end.torque_nm, 4),
+                Unit::NewtonMetre.show_plain(self.asked_nm, 4)
+            )
+        });
+        let running = self.running.iter().flat_map(running::Section::remarks);
+        let run_out = self.run_out.iter().flat_map(run_out::Section::remarks);
+        let searched = format!("{:.0}", self.lift_off_searched_to_rpm);
+        let lift_off = match self.lift_off_rpm {
+            Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
+            None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
+        };
+        let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
+        capacity.chain(early).chain(overrun).chain(running).chain(run_out).collect()
+    }
+}
+
+fn row(r: &Margin, end_torque_nm: f64) -> Row {
+    Row {
+        code: r.code(),
+        name: r.name.clone(),
+        demand: demand(r),
+        allowable: r.shown_allowable(),
+        unit: r.limit.unit,
+        margin: r.margin(),
+        torque_capacity_nm: r.torque_capacity_nm,
+        capacity_beyond_end: ends_first(r, end_torque_nm),
+        required: r.required,
+        computed: r.computed(),
+        overloaded: r.overloaded(),
+        held: r.held(),
+        slip_margin: r.slip_margin(),
+    }
+}
+
+/// Demand as a number; none where no friction suffices or the torque is not reached.
+fn demand(r: &Margin) -> Option<f64> {
+    r.demand_in_unit().filter(|_| !r.overloaded())
+}
+
+/// The table for people: codes, not sentences, so that it fits a terminal. A limit that is not reached before the
+/// curve ends, at `end_torque_nm`, has a capacity beyond it.
+pub(crate) fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("code", "Limit"),
+        Column::number("demand", "Demand", Unit::One, 4),
+        Column::number("allowable", "Allowable", Unit::One, 4),
+        Column::text("unit", "Unit"),
+        Column::number("margin", "Margin", Unit::Percent, 3),
+        Column::number("torque_capacity_nm", "Reached at", Unit::NewtonMetre, 4),
+        Column::text("verdict", "Verdict"),
+    ]);
+    for r in rows {
+        table.row(vec![
+            r.code().into(),
+            demand_cell(r),
+            allowable_cell(r),
+            unit_cell(r),
+            margin_cell(r),
+            r.torque_capacity_nm.map_or(Cell::Empty, |c| capacity_cell(r, c, end_torque_nm)),
+            verdict(r),
+        ]);
+    }
+    table
+}
+
+/// The demand as people read it.
+pub(crate) fn demand_cell(r: &Margin) -> Cell {
+    match r.demand {
+        Demand::Value(_) | Demand::MoreThan(_) => r.demand_in_unit().into(),
+        // Friction has no demand at all then, a torque one at the end of the curve.
+        Demand::Overloaded { at_end: Some(_), .. } => NOT_REACHED.into(),
+        Demand::Overloaded { at_end: None, .. } => OVERLOADED.into(),
+        Demand::NoneSuffices => NONE_SUFFICES.into(),
+        Demand::NotComputed => NOT_COMPUTED.into(),
+    }
+}
+
+/// The allowable as people read it; of slip the margin that is wanted.
+pub(crate) fn allowable_cell(r: &Margin) -> Cell {
+    if r.is_slip() { wanted_text(r).into() } else { r.shown_allowable().into() }
+}
+
+/// The unit of demand and allowable as people read it.
+pub(crate) fn unit_cell(r: &Margin) -> Cell {
+    if r.limit.unit == "1" { "".into() } else { r.limit.unit.into() }
+}
+
+/// The margin as people read it, for a column in percent; of slip the slip margin.
+pub(crate) fn margin_cell(r: &Margin) -> Cell {
+    r.shown_margin().map_or(NO_DEMAND.into(), Cell::from)
+}
+
+fn capacity_cell(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> Cell {
+    if is_beyond(r, capacity_nm, end_torque_nm) {
+        format!("> {}", significant(end_torque_nm, 4)).into()
+    } else {
+        capacity_nm.into()
+    }
+}
+
+/// Whether the limit is not reached before the curve ends; the two limits that are the end itself are.
+pub(crate) fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> bool {
+    let is_end = r.limit.ends_curve && !r.off_centre;
+    !is_end && capacity_nm >= end_torque_nm * (1.0 - 1e-9)
+}
+
+/// Whether the limit has a capacity, and that lies at the end of the curve or beyond.
+pub(crate) fn ends_first(r: &Margin, end_torque_nm: f64) -> bool {
+    r.torque_capacity_nm.is_some_and(|c| is_beyond(r, c, end_torque_nm))
+}
+
+fn verdict(r: &Margin) -> Cell {
+    match (r.required, r.held()) {
+        (true, _) if !r.computed() => Cell::Verdict(false, "NOT COMPUTED".into()),
+        (false, _) if !r.computed() => "shown only, not computed".into(),
+        (true, true) => Cell::Verdict(true, "held".into()),
+        (true, false) => Cell::Verdict(false, "NOT HELD".into()),
+        (false, true) => "shown only".into(),
+        (false, false) => "shown only, would not hold".into(),
+    }
+}
+
+/// The table for programs: every number in full, nothing but numbers in number columns.
+pub(crate) fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("code", "Code"),
+        Column::text("name", "Limit"),
+        Column::number("demand", "Demand", Unit::One, 5),
+        Column::number("allowable", "Allowable", Unit::One, 5),
+        Column::text("unit", "Unit"),
+        Column::number("margin", "Margin", Unit::One, 5),
+        Column::number("torque_capacity_nm", "Torque capacity", Unit::NewtonMetre, 5),
+        Column::text("required", "Required"),
+        Column::text("held", "Held"),
+        Column::text("capacity_beyond_end", "Capacity beyond the end of the curve"),
+        Column::number("slip_margin", "Slip margin", Unit::One, 5),
+    ]);
+    for r in rows {
+        table.row(vec![
+            r.code().into(),
+            r.name.as_str().into(),
+            demand(r).into(),
+            r.shown_allowable().into(),
+            r.limit.unit.into(),
+            r.margin().into(),
+            r.torque_capacity_nm.into(),
+            r.required.to_string().into(),
+            r.held().to_string().into(),
+            ends_first(r, end_torque_nm).to_string().into(),
+            r.slip_margin().into(),
+        ]);
+    }
+    table
+}
+
+/// A margin in percent; a limit that nothing demands has none.
+pub(crate) fn margin_text(row: &Margin) -> String {
+    row.shown_margin().map_or(NO_DEMAND.to_owned(), |margin| Unit::Percent.show(margin, 3))
+}
+
+/// The same with the word margin before it, of slip with what is wanted.
+fn margin_words(row: &Margin) -> String {
+    match row.is_slip() {
+        true => format!("slip margin {}, {}", margin_text(row), wanted_text(row)),
+        false => format!("margin {}", margin_text(row)),
+    }
+}
+
+/// The slip margin that is wanted of a row.
+fn wanted_text(row: &Margin) -> String {
+    format!("{} wanted", Unit::Percent.show(row.shown_allowable(), 3))
+}

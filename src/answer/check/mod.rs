@@ -1,0 +1,198 @@
+//! What the margin check answers: rows, verdict, torque capacities, overrun, radii as run, load round the circumference.
+
+mod body;
+pub mod overrun;
+pub mod run_out;
+pub mod running;
+#[cfg(test)]
+mod tests;
+
+pub use body::{Body, Capacity, Deciding, End, Row};
+pub(crate) use body::{
+    NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, is_beyond, margin_cell,
+    margin_text, people_table, unit_cell,
+};
+
+use super::left_out::{LeftOut, left_out, off_centre};
+use crate::design::{Design, Scenario};
+use crate::follow::Follow;
+use crate::margin::{
+    LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
+};
+use crate::scenario::Settings;
+use crate::wedge::straddling_error;
+use body::Source;
+use rayon::prelude::*;
+use serde::{Serialize, Serializer};
+use std::f64::consts::PI;
+use std::fmt;
+
+/// Speed up to which a lift-off of the sprags is looked for, rad/s: 60 000 rpm, beyond any clutch of this kind.
+pub(crate) const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * PI / 30.0;
+
+/// A design held against each of its limits. As JSON it is the object of `check --json` without the keys that all commands
+/// share; those are fields here.
+#[derive(Debug, Clone)]
+pub struct CheckAnswer {
+    /// What the static rows were read from.
+    pub state: LoadState,
+    /// The rows, SI.
+    pub rows: Vec<Margin>,
+    /// How many of them are no scene's; they come first.
+    pub static_rows: usize,
+    /// Demand of the scenes in which something is to stick, in their order.
+    pub scenes: Vec<(String, SceneDemand)>,
+    /// How far off the answer is.
+    pub errors: Errors,
+    /// What the model leaves out, each with its cost.
+    pub left_out: Vec<LeftOut>,
+    /// The figures by their keys in JSON.
+    pub body: Body,
+}
+
+/// How far off a check is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Errors {
+    /// Of the static curve, by its own size.
+    pub statics_relative: f64,
+    /// Largest change of a finite scenario margin when the tolerance is ten times finer; none without scenarios.
+    pub scenario_margins: Option<f64>,
+    /// Of inner Hertz pressure, while a junction lies under the contact.
+    pub hertz_at_junctions_relative: f64,
+}
+
+impl Serialize for CheckAnswer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.body.serialize(serializer)
+    }
+}
+
+/// Why a design was not checked.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoCheck {
+    /// There is no clutch to speak of.
+    NoClutch(NoMargins),
+    /// [`Follow`] was stopped.
+    Stopped,
+}
+
+impl fmt::Display for NoCheck {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoClutch(why) => why.fmt(f),
+            Self::Stopped => write!(f, "stopped before every margin was known"),
+        }
+    }
+}
+
+impl std::error::Error for NoCheck {}
+
+impl Design {
+    /// Hold the design against each of its limits, all scenarios side by side: rows, verdict, torque capacities, overrun.
+    ///
+    /// ```
+    /// use sprag_design::{Design, Follow};
+    ///
+    /// let design = Design::read("designs/huang2017-multi-arc.toml".as_ref())?;
+    /// let answer = design.check(&Follow::nobody())?;
+    /// let deciding = answer.body.deciding.as_ref().ok_or("no limits")?;
+    /// assert_eq!(answer.body.held(), Some(deciding.margin >= -sprag_design::margin::RESOLUTION));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`NoCheck`].
+    pub fn check(&self, follow: &Follow) -> Result<CheckAnswer, NoCheck> {
+        check(self, follow, &|| ())
+    }
+}
+
+/// As [`Design::check`]; `done` is told of every scenario that is done, from any thread.
+///
+/// # Errors
+/// [`NoCheck`].
+pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Result<CheckAnswer, NoCheck> {
+    let (state, mut rows, ring) = static_margins(design, true).map_err(NoCheck::NoClutch)?;
+    let static_rows = rows.len();
+    let found: Vec<Option<SceneFound>> =
+        design.scenarios.par_iter().map(|scenario| scene(design, scenario, follow, done)).collect();
+    let (mut scenario_margins, mut scenes) = (None, Vec::new());
+    for (found, scenario) in found.into_iter().zip(&design.scenarios) {
+        let SceneFound { demand, margins, error } = found.ok_or(NoCheck::Stopped)?;
+        rows.extend(margins);
+        scenes.extend(demand.map(|demand| (scenario.name.clone(), demand)));
+        scenario_margins = Some(error.max(scenario_margins.unwrap_or(0.0)));
+    }
+    let limits = &design.limits;
+    let lift_off_rad_s = lift_off_rad_s(design, &state, LIFT_OFF_TO_RAD_S);
+    let track_m = design.clutch.races.outer_radius_m;
+    let up_to = overrun::up_to_rad_s(limits, lift_off_rad_s, track_m);
+    let course = overrun::curve(design, &state, up_to, lift_off_rad_s)
+        .map_err(|why| NoCheck::NoClutch(NoMargins::Curve(why)))?;
+    let source = Source {
+        end: state.curve.end().0,
+        end_torque_nm: state.curve.end_torque_nm(),
+        asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
+        lift_off_rad_s,
+        searched_to_rad_s: LIFT_OFF_TO_RAD_S,
+        overrun: overrun::Section::new(&course, limits),
+        running: running::Section::new(design, &state),
+        run_out: ring.as_ref().map(|ring| run_out::Section::new(design, &state, ring)),
+    };
+    let list = left_out(&design.clutch);
+    let left_out = match &source.run_out {
+        Some(section) => off_centre(list, section.left_out()),
+        None => list,
+    };
+    let errors = Errors {
+        statics_relative: state.curve.truncation(),
+        scenario_margins,
+        hertz_at_junctions_relative: straddling_error(&design.clutch),
+    };
+    let body = Body::new(&rows, source);
+    Ok(CheckAnswer { state, rows, static_rows, scenes, errors, left_out, body })
+}
+
+/// One scenario: demand and margins at the finer tolerance, and how far those are off.
+struct SceneFound {
+    /// None of a steady overrun: nothing is to stick.
+    demand: Option<SceneDemand>,
+    margins: Vec<Margin>,
+    error: f64,
+}
+
+/// Settings at which scenes are evaluated: ten times finer than a single run, which then says how far it is off.
+pub(crate) fn fine(follow: &Follow) -> Settings {
+    let coarse = Settings { follow: follow.unseen(), ..Settings::default() };
+    Settings { tolerance: 0.1 * coarse.tolerance, ..coarse }
+}
+
+/// One scenario at two tolerances; nothing once somebody asked to stop.
+fn scene(
+    design: &Design,
+    scenario: &Scenario,
+    follow: &Follow,
+    done: &(dyn Fn() + Sync),
+) -> Option<SceneFound> {
+    if scenario.kind.is_overrun() {
+        done();
+        return Some(SceneFound { demand: None, margins: Vec::new(), error: 0.0 });
+    }
+    let coarse = Settings { follow: follow.unseen(), ..Settings::default() };
+    let required = design.check_scenarios.contains(&scenario.name);
+    let at = |settings: &Settings| {
+        (!follow.stopped()).then(|| {
+            let demand = scene_demand(scenario, settings);
+            let rows = scene_rows(scenario, &demand, &design.limits, required);
+            (demand, rows)
+        })
+    };
+    let ((_, coarse), (demand, margins)) = (at(&coarse)?, at(&fine(follow))?);
+    // Rows of a run that was cut short are none.
+    if follow.stopped() {
+        return None;
+    }
+    let error = coarse.iter().zip(&margins).map(|(a, b)| (a.margin() - b.margin()).abs()).fold(0.0, f64::max);
+    done();
+    Some(SceneFound { demand: Some(demand), margins, error })
+}

@@ -1,0 +1,197 @@
+//! Overrun in the margin check: words, JSON, table.
+
+use crate::design::{Design, Limits};
+use crate::margin::{LoadState, OverrunCurve, OverrunPoint, overrun_curve};
+use crate::report::{Column, Table, Unit};
+use crate::wedge::NoCurve;
+use serde::Serialize;
+
+/// Speed of the tracks beyond which nobody runs such a clutch, m/s: a choice that ends the plots where the sprags
+/// never lift off.
+const FASTEST_M_S: f64 = 50.0;
+
+/// How far the curve goes, rad/s: beyond lift-off and the speed up to which contact is wanted.
+pub(super) fn up_to_rad_s(limits: &Limits, lift_off_rad_s: Option<f64>, track_m: f64) -> f64 {
+    let wanted = limits.keep_contact_to_rad_s.unwrap_or(0.0);
+    let beyond = 1.25 * lift_off_rad_s.unwrap_or(0.0).max(wanted);
+    if lift_off_rad_s.is_some() && beyond > 0.0 { beyond } else { beyond.max(FASTEST_M_S / track_m) }
+}
+
+/// Overrun up to `up_to_rad_s`, lift-off among the speeds: there drag and force at A end.
+///
+/// # Errors
+/// [`NoCurve`] as [`overrun_curve`].
+pub(super) fn curve(
+    design: &Design,
+    state: &LoadState,
+    up_to_rad_s: f64,
+    lift_off_rad_s: Option<f64>,
+) -> Result<OverrunCurve, NoCurve> {
+    let mut curve = overrun_curve(design, state, up_to_rad_s)?;
+    if let Some(speed) = lift_off_rad_s.filter(|&speed| speed > 0.0 && speed < up_to_rad_s) {
+        let there = overrun_curve(design, state, speed)?;
+        let pairs = [(&mut curve.outer_race, there.outer_race), (&mut curve.inner_race, there.inner_race)];
+        for (points, there) in pairs {
+            // A curve that ends early does not reach lift-off.
+            if let Some(last) = there.last().filter(|p| p.speed_rad_s >= speed) {
+                let at = points.partition_point(|p| p.speed_rad_s < speed);
+                points.insert(at, *last);
+            }
+        }
+    }
+    Ok(curve)
+}
+
+/// One speed of the JSON.
+#[derive(Debug, Clone, Serialize)]
+pub struct Row {
+    /// Race that runs: `outer` or `inner`; the other stands.
+    pub race: &'static str,
+    /// Its speed, rev/min.
+    pub speed_rpm: f64,
+    /// Drag of the whole clutch, N m.
+    pub drag_torque_nm: f64,
+    /// Normal force at A of one sprag, N.
+    pub normal_inner_n: f64,
+    /// The same at B, N.
+    pub normal_outer_n: f64,
+    /// Coefficient of friction at A at that speed.
+    pub friction: f64,
+    /// Of a small swing of the sprags about the equilibrium, + grows; null where they are off or nothing slides.
+    pub growth_rate_per_s: Option<f64>,
+    /// Frequency of that swing, Hz.
+    pub swing_frequency_hz: Option<f64>,
+    #[serde(skip)]
+    grows: bool,
+    /// Whether the sprags are off the inner race.
+    pub lifted_off: bool,
+    /// Growth of the outer track by rotation, um.
+    pub outer_race_growth_um: f64,
+    /// Hoop stress of the outer race by rotation, MPa.
+    pub rotation_hoop_outer_mpa: f64,
+}
+
+/// `overrun` of the JSON.
+#[derive(Debug, Clone, Serialize)]
+pub struct Section {
+    /// engaging, disengaging or neutral: what the centrifugal force does to the sprags.
+    pub centrifugal: &'static str,
+    /// Azimuth of C_e ahead of the centroid at first contact at rest.
+    pub gamma_deg: f64,
+    /// Drag torque with either race at rest.
+    pub drag_torque_slow_nm: f64,
+    /// All speeds looked at: outer race runs, then inner race.
+    pub points: Vec<Row>,
+    /// That the equilibrium does not stay; null where it does.
+    pub warning: Option<String>,
+}
+
+/// What an equilibrium does not say: the fastest growth of the swing among the speeds looked at, up to `wanted_rpm` of the
+/// outer race where contact is to be kept.
+fn warning(points: &[Row], wanted_rpm: Option<f64>) -> Option<String> {
+    let within = |p: &&Row| p.race == "inner" || wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
+    let growth = |p: &Row| p.growth_rate_per_s.unwrap_or(0.0);
+    let p =
+        points.iter().filter(|p| p.grows).filter(within).max_by(|a, b| growth(a).total_cmp(&growth(b)))?;
+    let held = if wanted_rpm.is_some() { ", and so is keep-contact" } else { "" };
+    Some(format!(
+        "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}, {:.0} rpm of the {} race \
+         (fastest of the speeds looked at; races at held speeds). Drag and forces are those of the equilibrium{held}; a \
+         transient scenario shows what the sprags do",
+        Unit::PerSecond.show(growth(p), 3),
+        Unit::Hertz.show(p.swing_frequency_hz?, 3),
+        p.speed_rpm,
+        p.race,
+    ))
+}
+
+impl Section {
+    pub(super) fn new(curve: &OverrunCurve, limits: &Limits) -> Self {
+        let row = |race: &'static str, p: &OverrunPoint| Row {
+            race,
+            speed_rpm: Unit::Rpm.from_si(p.speed_rad_s),
+            drag_torque_nm: p.state.drag_torque_nm,
+            normal_inner_n: p.state.normal_inner_n,
+            normal_outer_n: p.state.normal_outer_n,
+            friction: p.friction,
+            growth_rate_per_s: p.swing.map(|s| s.growth_rate_per_s),
+            swing_frequency_hz: p.swing.map(|s| s.frequency_hz),
+            grows: p.swing.is_some_and(|s| s.grows()),
+            lifted_off: p.state.normal_inner_n <= 0.0,
+            outer_race_growth_um: Unit::Micrometre.from_si(p.growth_m),
+            rotation_hoop_outer_mpa: Unit::Megapascal.from_si(p.rotation_hoop_pa),
+        };
+        let outer = curve.outer_race.iter().map(|p| row("outer", p));
+        let points: Vec<Row> = outer.chain(curve.inner_race.iter().map(|p| row("inner", p))).collect();
+        let wanted_rpm = limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
+        Self {
+            centrifugal: match curve.gamma_rad {
+                g if g > 0.0 => "engaging",
+                g if g < 0.0 => "disengaging",
+                _ => "neutral",
+            },
+            gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
+            drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
+            warning: warning(&points, wanted_rpm),
+            points,
+        }
+    }
+
+    /// Drag, and whether the equilibrium stays, a line each.
+    pub fn remarks(&self) -> impl Iterator<Item = String> {
+        std::iter::once(self.remark()).chain(self.warning.clone())
+    }
+
+    /// Drag in one line; lift-off has its own, and the last speed looked at is not it.
+    pub(crate) fn remark(&self) -> String {
+        let last = |race: &str| self.points.iter().rev().find(|p| p.race == race);
+        let slow = Unit::NewtonMetre.show(self.drag_torque_slow_nm, 3);
+        let at = |race: &str| {
+            last(race).map_or(String::new(), |p| {
+                let drag = match p.lifted_off {
+                    true => "none (the sprags are off by then)".to_owned(),
+                    false => Unit::NewtonMetre.show(p.drag_torque_nm, 3),
+                };
+                format!("at {:.0} rpm of the {race} race {drag}", p.speed_rpm)
+            })
+        };
+        format!(
+            "Overrun: drag {slow} when slow; {}; {}; the centrifugal force is {} (gamma {:.3} deg)",
+            at("outer"),
+            at("inner"),
+            self.centrifugal,
+            self.gamma_deg
+        )
+    }
+
+    /// All speeds, for `--overrun-csv` and the page.
+    pub(crate) fn table(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::text("race", "Race that runs"),
+            Column::number("speed_rpm", "Speed, rpm", Unit::One, 5),
+            Column::number("drag_torque_nm", "Drag torque", Unit::NewtonMetre, 4),
+            Column::number("normal_inner_n", "Normal force at A", Unit::Newton, 4),
+            Column::number("normal_outer_n", "Normal force at B", Unit::Newton, 4),
+            Column::number("friction", "Friction at A", Unit::One, 4),
+            Column::number("growth_rate_per_s", "Growth of the swing, 1/s", Unit::One, 4),
+            Column::number("swing_frequency_hz", "Swing, Hz", Unit::One, 4),
+            Column::number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4),
+            Column::number("rotation_hoop_outer_mpa", "Hoop by rotation, outer race, MPa", Unit::One, 4),
+        ]);
+        for p in &self.points {
+            table.row(vec![
+                p.race.into(),
+                p.speed_rpm.into(),
+                p.drag_torque_nm.into(),
+                p.normal_inner_n.into(),
+                p.normal_outer_n.into(),
+                p.friction.into(),
+                p.growth_rate_per_s.into(),
+                p.swing_frequency_hz.into(),
+                p.outer_race_growth_um.into(),
+                p.rotation_hoop_outer_mpa.into(),
+            ]);
+        }
+        table
+    }
+}

@@ -1,0 +1,147 @@
+//! What a scene leaves out beside what every answer leaves out, with the cost where the run itself shows it.
+
+use super::{Effect, Ran};
+use crate::answer::left_out::{LeftOut, left_out};
+use crate::design::{ContactLaw, ScenarioKind};
+use crate::dynamics::Neglected;
+use crate::report::Unit;
+use crate::scenario::{overrun_swing, place_profile};
+use crate::wedge::WedgeCurve;
+
+/// The list for `scene`; `damping`: what contact damping would change.
+pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
+    let mut list = left_out(&scene.design.clutch);
+    list.extend(scene.planned.iter().map(|t| LeftOut::new(t.term, &t.why, &t.cost)));
+    let mut add = |term: &str, why: &str, cost: &str| list.push(LeftOut::new(term, why, cost));
+    let kind = &scene.scenario.kind;
+    if !kind.is_at_rest() {
+        add(
+            "lubricant film and temperature",
+            "friction is the law (12) of the sliding speed alone",
+            "not estimated",
+        );
+        add(
+            "mass and friction of the cage",
+            "the cage is free and massless, the spring reacts on it",
+            "not estimated",
+        );
+    }
+    if scene.method == "equilibrium" {
+        list.extend(static_outer_force(scene));
+        return list;
+    }
+    if scene.design.clutch.hunt_crossley_s_per_m == 0.0 {
+        let cost = damping.map_or("not estimated".to_owned(), Effect::words);
+        add(
+            "contact damping",
+            "the contacts are elastic, as in the paper; damped are only the races against one another",
+            &cost,
+        );
+    }
+    add(
+        "impact where a contact closes",
+        "velocities are continuous at touch, nothing bounces",
+        "not estimated; none where the contact stays closed",
+    );
+    add(
+        "torsional waves and bending of races and shafts",
+        "the races are rigid in rotation, their growth is quasi-static",
+        "not estimated",
+    );
+    if !matches!(scene.design.clutch.contact, ContactLaw::Slice { .. }) {
+        add(
+            "pressure along the length over time",
+            "the load is spread as the contact law spreads it at rest",
+            "none on the motion; edge pressure in time not estimated: take the slice law",
+        );
+    }
+    let neglected = scene.simulation().map_or(Neglected::default(), |s| s.neglected);
+    add(
+        "radial inertia of the sprag",
+        "N_be closes the radial balance without m_g OC_g''",
+        &radial_inertia(&neglected, scene.design.clutch.sprags.mass_kg),
+    );
+    let speed = match kind {
+        ScenarioKind::TorsionalExcitation { speed_rad_s, .. } => *speed_rad_s,
+        ScenarioKind::Transient { .. } => {
+            scene.outcome.as_ref().map_or(0.0, |(p, _)| p.model.curve.speed_rad_s())
+        }
+        _ => 0.0,
+    };
+    add(
+        "growth of the races by changes of speed",
+        if scene.scenario.speed_history.is_some() {
+            "the wedge curve is that at one speed, the middle of the history in Omega^2; centrifugal force follows it"
+        } else if speed == 0.0 {
+            "the wedge curve is that at rest; speed enters through phi'^2 alone"
+        } else {
+            "the wedge curve is that at the mean speed; its fluctuation enters through phi'^2 alone"
+        },
+        &growth(scene, neglected.outer_rate_rad_s, speed),
+    );
+    if speed != 0.0 {
+        add("growth of the inner race by rotation", "(7) is the outer race's alone", "not estimated");
+    }
+    list
+}
+
+/// Why a run in steady overrun settles beside the equilibrium, and by how much ([`crate::dynamics::swing()`]).
+fn static_outer_force(scene: &Ran) -> Option<LeftOut> {
+    let (prepared, s) = scene.outcome.as_ref().ok()?;
+    let swing = overrun_swing(&scene.scenario, prepared)?;
+    let off = swing.normal_inner_n / s.overrun?.normal_inner_n - 1.0;
+    Some(LeftOut::new(
+        "what friction changes of N_be in the approach of the outer contact, in runs",
+        "runs take that approach for a function of alpha, as under a static load, so that stick keeps its energy; this \
+         equilibrium has the N_be of the radial equation",
+        &format!("runs settle at a normal force at A that is {} off this one", Unit::Percent.show(off, 2)),
+    ))
+}
+
+/// m_g OC_g' alpha'' at its largest while A carries load, beside N_be then.
+fn radial_inertia(neglected: &Neglected, mass_kg: f64) -> String {
+    if neglected.radial_m_s2 == 0.0 {
+        return "not estimated: the inner contact carries nothing".to_owned();
+    }
+    format!(
+        "at most {} per sprag over this run, where N_be is {}",
+        Unit::Newton.show(mass_kg * neglected.radial_m_s2, 2),
+        Unit::Newton.show(neglected.normal_outer_n, 3)
+    )
+}
+
+/// Growth (7) of the outer race that its own `fluctuation` about the mean `speed` would add, rad/s.
+fn growth(scene: &Ran, fluctuation: f64, speed: f64) -> String {
+    let Ok((prepared, _)) = &scene.outcome else { return "not estimated".to_owned() };
+    let race = &prepared.model.curve.statics().elastic.outer_race;
+    if let Some(history) = &scene.scenario.speed_history {
+        return growth_over(scene, history);
+    }
+    let change = race.centrifugal_bore_growth_m(speed + fluctuation) - race.centrifugal_bore_growth_m(speed);
+    format!("outer race track within {} over this run", Unit::Micrometre.show(change, 2))
+}
+
+/// What one wedge curve for a history of speeds leaves out: the windup at the largest torque by the curves at the
+/// extremes.
+fn growth_over(scene: &Ran, history: &[[f64; 2]]) -> String {
+    let ends = [
+        history.iter().map(|r| r[1]).fold(f64::INFINITY, f64::min),
+        history.iter().map(|r| r[1]).fold(0.0, f64::max),
+    ];
+    let at = |speed: f64| {
+        let curve =
+            WedgeCurve::build(&scene.design.clutch, &place_profile(&scene.design.clutch).ok()?, speed)
+                .ok()?;
+        let windup =
+            scene.scenario.held_torque_nm().and_then(|t| curve.at_torque(t)).map_or(0.0, |p| p.windup_rad);
+        Some((windup, curve.first_contact_rad()))
+    };
+    match ends.map(at) {
+        [Some(low), Some(high)] => format!(
+            "between the slowest and the fastest, {} of windup at the largest torque, {} of sprag rotation at first contact",
+            Unit::Radian.show((high.0 - low.0).abs(), 2),
+            Unit::Radian.show((high.1 - low.1).abs(), 2)
+        ),
+        _ => "not estimated: no curve at one of the extremes".to_owned(),
+    }
+}

@@ -1,0 +1,181 @@
+//! What became of a scene: verdict, figures with their errors, events, notes, what was left out, history.
+
+mod ask;
+mod body;
+mod damping;
+mod errors;
+mod history;
+mod left_out;
+mod notes;
+mod unfelt;
+mod verdict;
+
+pub use ask::{Ask, Method, Refused, Setting};
+pub use body::{Body, Energy, Equilibrium, Extreme, Extremes, Fast, Slip, Slips};
+pub use damping::Effect;
+pub use errors::Errors;
+pub use history::{History, Row, Values, word};
+pub use verdict::LIFT_OFF_SEARCH_RAD_S;
+
+use super::left_out::LeftOut;
+use crate::design::{Design, Scenario};
+use crate::fidelity::{self, Term};
+use crate::scenario::{NoScenario, Prepared, Simulation, prepare, simulate_published};
+use serde::{Serialize, Serializer};
+use std::fmt;
+
+/// A scene that has run, before it is looked at once more for what contact damping changes.
+#[derive(Debug, Clone)]
+pub struct Ran {
+    /// The scenario.
+    pub scenario: Scenario,
+    /// The design with the scenario's overrides in its clutch.
+    pub design: Design,
+    /// `event`, `published`, or `equilibrium` where nothing is integrated.
+    pub method: &'static str,
+    /// Model and start that were run, and what happened; an error where the clutch has no such start.
+    pub outcome: Result<(Prepared, Simulation), NoScenario>,
+    /// Terms that the planner left out.
+    pub planned: Vec<Term>,
+    /// Terms that it looked at and kept.
+    pub kept: Vec<Term>,
+}
+
+/// What became of a scene. As JSON it is the object of `simulate --json` without the keys that all commands share; those are
+/// fields here.
+#[derive(Debug, Clone)]
+pub struct SimulationAnswer {
+    /// What ran.
+    pub ran: Ran,
+    /// What contact damping changes, where both runs came to an answer.
+    pub damping: Option<Effect>,
+    /// What the model leaves out, each with its cost.
+    pub left_out: Vec<LeftOut>,
+    /// The figures by their keys in JSON.
+    pub body: Body,
+}
+
+impl Serialize for SimulationAnswer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.body.serialize(serializer)
+    }
+}
+
+impl std::ops::Deref for SimulationAnswer {
+    type Target = Ran;
+
+    fn deref(&self) -> &Ran {
+        &self.ran
+    }
+}
+
+/// Why a scene was not simulated. What can happen to a clutch is an answer, also that it has no such start.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoAnswer {
+    /// The design has no scenario of this name; those that it has.
+    NoSuchScenario {
+        /// Name asked for.
+        name: String,
+        /// Names of the design's.
+        known: Vec<String>,
+    },
+    /// A setting makes no sense.
+    Refused(Refused),
+}
+
+impl fmt::Display for NoAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchScenario { name, known } => {
+                write!(f, "no scenario {name}; the design has: {}", known.join(", "))
+            }
+            Self::Refused(refused) => refused.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoAnswer {}
+
+/// Simulate the scenario `name` of `design`.
+///
+/// # Errors
+/// [`NoAnswer`].
+pub fn simulate(design: &Design, name: &str, ask: &Ask) -> Result<SimulationAnswer, NoAnswer> {
+    let scenario = design.scenario(name).ok_or_else(|| NoAnswer::NoSuchScenario {
+        name: name.to_owned(),
+        known: design.scenarios.iter().map(|s| s.name.clone()).collect(),
+    })?;
+    ask.validate_for(scenario).map_err(NoAnswer::Refused)?;
+    let ran = Ran::new(design, scenario, ask, &mut |_| ());
+    let damping = ran.damping_effect(ask);
+    Ok(SimulationAnswer::new(ran, damping, ask))
+}
+
+impl Design {
+    /// Simulate the scenario `name`: verdict, figures with errors, its history on request, what was left out.
+    ///
+    /// ```
+    /// use sprag_design::{Design, answer::simulation::Ask};
+    ///
+    /// let design = Design::read("designs/huang2017-multi-arc.toml".as_ref())?;
+    /// let answer = design.simulate("low-6", &Ask::default())?;
+    /// assert_eq!(answer.verdict(), Some("sticks"));
+    /// assert!(answer.body.slip_margin.is_some_and(|margin| margin > 0.0));
+    /// let history = answer.history();
+    /// assert_eq!(history.numbers("time_s").map(<[f64]>::len), history.numbers("normal_inner_n").map(<[f64]>::len));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`NoAnswer`].
+    pub fn simulate(&self, name: &str, ask: &Ask) -> Result<SimulationAnswer, NoAnswer> {
+        simulate(self, name, ask)
+    }
+}
+
+impl Ran {
+    /// Run `scenario` of `design`. `progress` is told the steps taken, of [`Ask::published_steps`]; the event method tells
+    /// [`Ask::follow`].
+    pub fn new(design: &Design, scenario: &Scenario, ask: &Ask, progress: &mut dyn FnMut(u64)) -> Self {
+        let settings = ask.settings(scenario);
+        let found = if ask.is_published() {
+            prepare(scenario).and_then(|prepared| {
+                let (step_s, band_m_s) = (ask.published_step_s(), ask.published_band_m_s());
+                let simulation = simulate_published(scenario, &settings, step_s, band_m_s, &mut |steps| {
+                    progress(steps);
+                    !ask.follow.stopped()
+                })?;
+                Ok(((prepared, simulation), Vec::new(), Vec::new()))
+            })
+        } else {
+            fidelity::simulate(scenario, &settings, ask.full)
+                .map(|planned| ((planned.prepared, planned.simulation), planned.left_out, planned.kept))
+        };
+        let (outcome, planned, kept) = match found {
+            Ok((outcome, planned, kept)) => (Ok(outcome), planned, kept),
+            Err(why) => (Err(why), Vec::new(), Vec::new()),
+        };
+        let method = match ask.method {
+            _ if scenario.kind.duration_s().is_none() => "equilibrium",
+            Method::Event => "event",
+            Method::Published { .. } => "published",
+        };
+        let own = Design { clutch: scenario.clutch.clone(), ..design.clone() };
+        Self { scenario: scenario.clone(), design: own, method, outcome, planned, kept }
+    }
+
+    /// What happened; `None` where the clutch has no such start.
+    pub fn simulation(&self) -> Option<&Simulation> {
+        self.outcome.as_ref().ok().map(|(_, s)| s)
+    }
+}
+
+impl SimulationAnswer {
+    /// All that is said of a scene that has run.
+    pub fn new(ran: Ran, damping: Option<Effect>, ask: &Ask) -> Self {
+        let left_out = left_out::of(&ran, damping.as_ref());
+        let notes = notes::of(&ran, damping.as_ref(), ask);
+        let body = Body::of(&ran, notes);
+        Self { ran, damping, left_out, body }
+    }
+}

@@ -1,0 +1,234 @@
+//! What the stiffness study answers: the static curve at rest by contact law, at the torques asked for.
+
+mod body;
+mod junctions;
+
+pub use body::{Body, Curve, End, Law, Point};
+pub use junctions::{Junction, junctions};
+
+use super::left_out::{LeftOut, at_rest, left_out};
+use crate::design::{Clutch, ContactLaw, Design, LawName};
+use crate::follow::Follow;
+use crate::margin::NoMargins;
+use crate::profile::Profile;
+use crate::scenario::place_profile;
+use crate::wedge::{SMALLEST_TORQUE_NM, StaticPoint, WedgeCurve};
+use rayon::prelude::*;
+use serde::{Serialize, Serializer};
+use std::fmt;
+
+/// Rows of an even table.
+const EVEN_ROWS: usize = 20;
+
+/// Which curves, and where they are read. The default: the design's own law, 20 even rows.
+#[derive(Debug, Clone, Default)]
+pub struct Ask {
+    /// Contact laws, each counted once; none: the design's.
+    pub laws: Vec<LawName>,
+    /// Torques, N m; none: an even table.
+    pub torques_nm: Vec<f64>,
+    /// Largest torque of an even table, N m; `None`: the design's peak torque, or the first end of a curve if that is less.
+    pub max_torque_nm: Option<f64>,
+    /// Ends the computation.
+    pub follow: Follow,
+}
+
+/// One law's curve and the rows asked for.
+#[derive(Debug, Clone)]
+pub struct LawCurve {
+    /// The law.
+    pub name: LawName,
+    /// The clutch with this law.
+    pub clutch: Clutch,
+    /// Its curve at rest.
+    pub curve: WedgeCurve,
+    /// The same with local deformation alone.
+    pub local: WedgeCurve,
+    /// Static point at each torque of the table; none beyond the curve's end.
+    pub rows: Vec<(f64, Option<StaticPoint>)>,
+}
+
+/// Curves with what they leave out. As JSON it is the object of `stiffness --json` without the keys that all commands share.
+#[derive(Debug, Clone)]
+pub struct StiffnessAnswer {
+    /// The curves.
+    pub laws: Vec<LawCurve>,
+    /// Largest relative error of the curves.
+    pub error_relative: f64,
+    /// What the model leaves out, each with its cost.
+    pub left_out: Vec<LeftOut>,
+    /// The figures by their keys in JSON.
+    pub body: Body,
+}
+
+impl Serialize for StiffnessAnswer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.body.serialize(serializer)
+    }
+}
+
+/// Why there are no curves.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoStiffness {
+    /// There is no clutch to speak of.
+    NoClutch(NoMargins),
+    /// A torque, N m, that is none or smaller than the curve resolves.
+    Torque(f64),
+    /// [`Follow`] was stopped.
+    Stopped,
+}
+
+impl fmt::Display for NoStiffness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoClutch(why) => why.fmt(f),
+            Self::Torque(torque) if torque.abs() < SMALLEST_TORQUE_NM => {
+                write!(f, "a torque of {torque:e} Nm is too small: allowed from {SMALLEST_TORQUE_NM:e} Nm up")
+            }
+            Self::Torque(torque) => {
+                write!(
+                    f,
+                    "a torque of {torque} Nm: allowed are finite ones from {SMALLEST_TORQUE_NM:e} Nm up"
+                )
+            }
+            Self::Stopped => write!(f, "stopped before every curve was known"),
+        }
+    }
+}
+
+impl std::error::Error for NoStiffness {}
+
+impl Ask {
+    /// Refuse torques that no curve is read at.
+    ///
+    /// # Errors
+    /// [`NoStiffness::Torque`].
+    pub fn validate(&self) -> Result<(), NoStiffness> {
+        let least = self.max_torque_nm.map(|t| t / EVEN_ROWS as f64);
+        let wrong = |t: &f64| !(*t >= SMALLEST_TORQUE_NM && t.is_finite());
+        match self.torques_nm.iter().copied().chain(least).find(wrong) {
+            Some(torque) => Err(NoStiffness::Torque(torque)),
+            None => Ok(()),
+        }
+    }
+
+    /// Each law once, in the order asked; the design's own if none was.
+    pub fn laws_of(&self, design: &ContactLaw) -> Vec<LawName> {
+        let mut list: Vec<LawName> = Vec::new();
+        for &name in &self.laws {
+            if !list.contains(&name) {
+                list.push(name);
+            }
+        }
+        if list.is_empty() { vec![design.name()] } else { list }
+    }
+}
+
+impl Design {
+    /// The static curve at rest, torque against windup, forces, angles, stiffness, pressure, by contact law.
+    ///
+    /// ```
+    /// use sprag_design::{Design, answer::stiffness::Ask};
+    ///
+    /// let design = Design::read("designs/huang2017-multi-arc.toml".as_ref())?;
+    /// let answer = design.stiffness(&Ask { torques_nm: vec![3.34, 16.8], ..Ask::default() })?;
+    /// let points = &answer.body.laws[0].curve.points;
+    /// assert!((points[1].windup_deg - 1.975).abs() < 0.03);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`NoStiffness`].
+    pub fn stiffness(&self, ask: &Ask) -> Result<StiffnessAnswer, NoStiffness> {
+        ask.validate()?;
+        let profile =
+            place_profile(&self.clutch).map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
+        Ok(StiffnessAnswer::of(curves(self, &profile, ask, &|| ())?))
+    }
+}
+
+impl StiffnessAnswer {
+    /// All that is said of curves.
+    pub fn of(laws: Vec<LawCurve>) -> Self {
+        // A term that one of the laws compared does hold is left out by the others all the same.
+        let mut terms: Vec<LeftOut> = Vec::new();
+        for term in laws.iter().flat_map(|l| left_out(&l.clutch)) {
+            if terms.iter().all(|t| t.term != term.term) {
+                terms.push(term);
+            }
+        }
+        terms.push(at_rest());
+        let error_relative = laws.iter().map(|l| l.curve.truncation()).fold(0.0, f64::max);
+        Self { body: Body::of(&laws), laws, error_relative, left_out: terms }
+    }
+}
+
+/// Curves of the laws asked for, side by side, and their rows; `done` is told of every law that is done.
+///
+/// # Errors
+/// [`NoStiffness`].
+pub fn curves(
+    design: &Design,
+    profile: &Profile,
+    ask: &Ask,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<LawCurve>, NoStiffness> {
+    let none = |e| NoStiffness::NoClutch(NoMargins::Curve(e));
+    let curves = ask
+        .laws_of(&design.clutch.contact)
+        .into_par_iter()
+        .map(|name| {
+            if ask.follow.stopped() {
+                return Err(NoStiffness::Stopped);
+            }
+            let contact = name.beside(&design.clutch.contact);
+            let clutch = Clutch { contact, ..design.clutch.clone() };
+            let curve = WedgeCurve::build(&clutch, profile, 0.0).map_err(none)?;
+            let local = WedgeCurve::build_local(&clutch, profile).map_err(none)?;
+            done();
+            Ok((name, clutch, curve, local))
+        })
+        .collect::<Result<Vec<_>, NoStiffness>>()?;
+    let torques = torques(ask, design, &curves);
+    let laws = curves.into_par_iter().map(|(name, clutch, curve, local)| {
+        let rows = torques.iter().map(|&t| (t, curve.at_torque(t))).collect();
+        LawCurve { name, clutch, curve, local, rows }
+    });
+    Ok(laws.collect())
+}
+
+/// Torques of the table, N m: those asked for, or an even table up to the largest asked for, else up to the
+/// design's peak torque or the first end of a curve, whichever comes first.
+fn torques(ask: &Ask, design: &Design, curves: &[(LawName, Clutch, WedgeCurve, WedgeCurve)]) -> Vec<f64> {
+    if !ask.torques_nm.is_empty() {
+        return ask.torques_nm.clone();
+    }
+    let first_end = curves.iter().map(|c| c.2.end_torque_nm()).fold(f64::INFINITY, f64::min);
+    let largest = ask
+        .max_torque_nm
+        .unwrap_or_else(|| design.limits.peak_torque_nm.map_or(first_end, |peak| peak.min(first_end)));
+    (1..=EVEN_ROWS).map(|i| largest * i as f64 / EVEN_ROWS as f64).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_law_once_and_the_designs_own_by_default() {
+        use LawName::{Din26281, Hertz, Roller};
+        let asked = |laws: &[LawName]| Ask { laws: laws.to_vec(), ..Ask::default() };
+        assert_eq!(asked(&[Hertz, Roller, Hertz]).laws_of(&ContactLaw::Din26281), [Hertz, Roller]);
+        assert_eq!(asked(&[]).laws_of(&ContactLaw::Din26281), [Din26281]);
+    }
+
+    #[test]
+    fn a_torque_that_is_none_is_refused_with_what_is_allowed() {
+        for (torque, word) in
+            [(f64::NAN, "NaN"), (-1.0, "-1 Nm"), (1e-9, "too small"), (f64::INFINITY, "inf")]
+        {
+            let why = Ask { torques_nm: vec![3.0, torque], ..Ask::default() }.validate();
+            assert!(why.is_err_and(|w| w.to_string().contains(word)), "{torque}");
+        }
+    }
+}

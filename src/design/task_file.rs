@@ -1,0 +1,52 @@
+//! `[check]` and `[optimize]` as written.
+//!
+//! In: TOML text. Out: these structs, in the file's units; see [`super::file`]. Absent: rules that join several keys.
+//! Equations: none. The doc comments are the schema's descriptions.
+
+use super::limits::LimitsFile;
+use super::objective::ObjectiveFile;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// What `check` holds the design to.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CheckFile {
+    /// Names of the scenarios that must hold; the others are shown only.
+    pub scenarios: Vec<String>,
+}
+
+/// Task of the optimiser.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OptimizeFile {
+    /// What is made better: slip-margin (the smallest over the scenarios), torque-capacity, peak-pressure, windup (at
+    /// nominal torque) or stiffness-curve (windups as in target).
+    pub objective: ObjectiveFile,
+    /// Names of the scenarios whose smallest slip margin is maximised, or which are limits of another objective.
+    #[schemars(length(min = 1))]
+    pub scenarios: Vec<String>,
+    /// Wanted windups of stiffness-curve: pairs of torque, N m, and windup, deg.
+    #[serde(default)]
+    pub target: Vec<[f64; 2]>,
+    /// Design variables.
+    #[schemars(length(min = 1))]
+    pub variables: Vec<VariableFile>,
+    /// Limits that replace those of the limits table for the search and are written into the new file.
+    #[serde(default)]
+    pub limits: LimitsFile,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+/// One design variable with its bounds, in the unit of its name.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct VariableFile {
+    /// Name of the variable, such as r_i2_mm.
+    pub name: String,
+    /// Lower bound.
+    pub min: f64,
+    /// Upper bound.
+    pub max: f64,
+}

@@ -1,0 +1,418 @@
+//! Every limit that is held, once: code, key, name, unit, when, allowable, demand, rule of its margin, explanation.
+
+use super::body::body_stress_pa;
+use super::hoop::{Which, hoop_pa};
+use super::limits::{Limit, Of, When};
+use super::load::Case;
+use super::row::Rule;
+use super::sprag::grip;
+use super::subsurface::{case_m, core_allowed, inner, outer, shear_below};
+use crate::design::{Design, Limits};
+use crate::wedge::StaticPoint;
+
+const PRESSURE: Limit = Limit {
+    code: "",
+    key: Some("hertz_nominal_mpa"),
+    name: |_| "",
+    unit: "MPa",
+    per_si: 1e-6,
+    when: When::Nominal,
+    rule: Rule::Ratio,
+    explanation: "Largest pressure p_0 in the contact of one sprag with the race, by Hertz's line contact with the curvature \
+                  that the contact law averages over the patch. Larger radii of the arcs, longer or more sprags, or a larger wedge \
+                  angle lower it.",
+    ends_curve: false,
+    of: Of::Room,
+};
+
+const HOOP: Limit = Limit {
+    when: When::Peak,
+    explanation: "Hoop stress of the race as a ring under the sprags' mean pressure (Lame), at its bore and track; a fit adds \
+                  its own stress, and the larger magnitude, loaded or at rest, counts. A thicker race or a larger \
+                  wedge angle lowers it.",
+    ..PRESSURE
+};
+
+const BENDING: Limit = Limit {
+    explanation: "Hoop stress of the race with the bending between the sprags, which press at single places: the mean of Lame \
+                  and what a ring under evenly spaced forces bends. More sprags or a thicker race lower it.",
+    ..HOOP
+};
+
+const SHEAR: Limit = Limit {
+    key: Some("case_shear_mpa"),
+    when: When::Peak,
+    explanation: "Largest shear stress below the contact, 0.300 p_0 at 0.786 half widths for Hertz's line contact: it starts \
+                  pitting in the hardened case. What lowers the Hertz pressure lowers it.",
+    of: Of::shear(|_, l| l.case_shear_pa, |c, p| shear_below(c, inner(p), 0.0)),
+    ..PRESSURE
+};
+
+const CORE: Limit = Limit {
+    key: Some("core_shear_mpa"),
+    explanation: "Largest shear stress below the contact at the depth of the hardened case and deeper, where the soft core \
+                  bears it (Hertz's line contact). A deeper case or a lower pressure lowers it.",
+    of: Of::shear(core_allowed, |c, p| shear_below(c, inner(p), case_m(c))),
+    ..SHEAR
+};
+
+const EQUIVALENT: Limit = Limit {
+    explanation: "Equivalent stress (von Mises) of the race under the mean pressure of the sprags on its track, by Lame for a \
+                  thick ring. A thicker race or a larger wedge angle lowers it.",
+    ..PRESSURE
+};
+
+const GAP: Limit = Limit {
+    code: "gap-nominal",
+    key: Some("gap_nominal_mm"),
+    name: |_| "opening of the race gap, nominal torque",
+    unit: "mm",
+    per_si: 1e3,
+    explanation: "What the gap between the tracks opens under load, by the growth of both races, against what the allowed gap \
+                  leaves of it above the gap at rest. Thicker races or a larger wedge angle lower it.",
+    of: Of::clutch(|d, l| opening(l.gap_nominal_m, d), gap_opening_m),
+    ..PRESSURE
+};
+
+const GRIP: Limit = Limit {
+    code: "grip-inner",
+    key: None,
+    name: |l| match l.axial_load_n {
+        None => "largest static tan omega up to peak torque against mu_s",
+        Some(_) => {
+            "friction for torque and axial load at A, peak torque, or tan omega below it, against mu_s"
+        }
+    },
+    unit: "1",
+    per_si: 1.0,
+    when: When::Peak,
+    explanation: "Friction that a contact needs to hold its sprag, tangential over normal force, the largest up to peak torque, \
+                  against the static coefficient mu_s. An axial load adds to the tangential force as a vector. A smaller wedge \
+                  angle lowers it and raises the forces.",
+    of: Of::sprag(static_friction, |d, l, p| grip(d, l, p)[0], Some(|p| p.tan_omega)),
+    ..PRESSURE
+};
+
+/// The friction that both contacts need at A.
+pub(super) static GRIP_INNER: Limit = GRIP;
+
+/// Turn left on the profile.
+pub static END_OF_PROFILE: Limit = Limit {
+    code: "end-of-profile",
+    name: |_| "contact turn on the profile, peak torque",
+    unit: "rad",
+    explanation: "How far the contact has turned on the sprag's inner arcs at peak torque, against where the last arc ends. A \
+                  longer last arc or less windup leaves more.",
+    ends_curve: true,
+    of: Of::sprag(
+        |d, _| d.clutch.sprags.inner_arcs.last().map(|a| a.until_rad),
+        |_, _, p| p.contact_turn_rad,
+        None,
+    ),
+    ..GRIP
+};
+
+/// Contact in overrun.
+pub static KEEP_CONTACT: Limit = Limit {
+    code: "keep-contact",
+    key: Some("keep_contact_to_rpm"),
+    name: |_| "centrifugal opening moment against spring moment at the keep-contact speed",
+    unit: "mNm",
+    per_si: 1e3,
+    when: When::Overrun,
+    rule: Rule::Share,
+    explanation: "Moment of the centrifugal force that lifts a sprag off the inner race in overrun, about its centroid, against \
+                  that of the energizing spring, at the speed up to which contact is to be kept. A stiffer spring, or a \
+                  centroid less far ahead of the sprag's outer centre, keeps contact.",
+    of: Of::KeepContact,
+    ..GRIP
+};
+
+/// Friction that a scenario needs.
+pub static SLIP: Limit = Limit {
+    code: "slip",
+    key: Some("slip_margin"),
+    name: |_| "friction that {scene} needs to stick; its slip margin is mu_s over it, less 1",
+    when: When::Scene,
+    rule: Rule::Slip,
+    explanation: "Static friction from which on the scenario sticks throughout, by a run that rolls without slip, or by \
+                  bisection where that run unloads the contact. Its slip margin mu_s/mu_required - 1 is held against the wanted \
+                  one, limits.slip_margin. A smaller wedge angle, more preload or more damping raises it.",
+    of: Of::Slip,
+    ..GRIP
+};
+
+/// Normal force in a scenario.
+pub static CONTACT: Limit = Limit {
+    code: "contact",
+    key: None,
+    name: |_| "smallest normal force in {scene} over the static one",
+    rule: Rule::Itself,
+    explanation: "Smallest normal force of the inner contact while the scenario rolls, over the static one; below zero the \
+                  contact would have to pull, and opens. More preload or a stiffer spring keeps it closed.",
+    of: Of::Contact,
+    ..SLIP
+};
+
+const ROOM: Limit = Limit {
+    name: |_| "half width left until the flank no longer closes the profile, over the half width",
+    when: When::Outline,
+    rule: Rule::Difference,
+    explanation: "What a flank of the sprag may still move until outline and arcs no longer meet, over its half width, less a \
+                  fixed room. Asked only while flanks are variables of the optimiser.",
+    of: Of::Room,
+    ..GRIP
+};
+
+/// All of them, in the order of the rows.
+pub static LIMITS: &[&Limit] = &[
+    &Limit {
+        code: "hertz-nominal-inner",
+        name: |_| "Hertz pressure, inner contact, nominal torque",
+        of: Of::sprag(|_, l| l.hertz_nominal_pa, |_, _, p| p.hertz_inner_pa, None),
+        ..PRESSURE
+    },
+    &Limit {
+        code: "hertz-nominal-outer",
+        name: |_| "Hertz pressure, outer contact, nominal torque",
+        of: Of::sprag(|_, l| l.hertz_nominal_pa, |_, _, p| p.hertz_outer_pa, None),
+        ..PRESSURE
+    },
+    &GAP,
+    &Limit {
+        code: "windup-nominal",
+        key: Some("windup_nominal_deg"),
+        name: |_| "windup, nominal torque",
+        unit: "deg",
+        per_si: 180.0 / std::f64::consts::PI,
+        explanation: "Turn of the races against each other from first contact to nominal torque, by the curve of the wedge. \
+                      Stiffer races, more sprags or a larger wedge angle lower it.",
+        of: Of::clutch(|_, l| l.windup_nominal_rad, |_, p| p.windup_rad),
+        ..GAP
+    },
+    &Limit {
+        code: "equivalent-inner",
+        key: Some("equivalent_inner_mpa"),
+        name: |_| "equivalent stress of the inner race, nominal torque",
+        of: Of::clutch(
+            |_, l| l.equivalent_inner_pa,
+            |c, p| c.elastic().inner_race.equivalent_pa(c.count(), p.normal_inner_n),
+        ),
+        ..EQUIVALENT
+    },
+    &Limit {
+        code: "equivalent-outer",
+        key: Some("equivalent_outer_mpa"),
+        name: |_| "equivalent stress of the outer race, nominal torque",
+        of: Of::clutch(
+            |_, l| l.equivalent_outer_pa,
+            |c, p| c.elastic().outer_race.equivalent_pa(c.count(), p.normal_outer_n),
+        ),
+        ..EQUIVALENT
+    },
+    &Limit {
+        code: "gap-peak",
+        key: Some("gap_peak_mm"),
+        name: |_| "opening of the race gap, peak torque",
+        when: When::Peak,
+        of: Of::clutch(|d, l| opening(l.gap_peak_m, d), gap_opening_m),
+        ..GAP
+    },
+    &Limit {
+        code: "hertz-peak-inner",
+        key: Some("hertz_peak_mpa"),
+        name: |_| "Hertz pressure, inner contact, peak torque",
+        when: When::Peak,
+        of: Of::sprag(|_, l| l.hertz_peak_pa, |_, _, p| p.hertz_inner_pa, None),
+        ..PRESSURE
+    },
+    &Limit {
+        code: "hertz-peak-outer",
+        key: Some("hertz_peak_mpa"),
+        name: |_| "Hertz pressure, outer contact, peak torque",
+        when: When::Peak,
+        of: Of::sprag(|_, l| l.hertz_peak_pa, |_, _, p| p.hertz_outer_pa, None),
+        ..PRESSURE
+    },
+    &Limit {
+        code: "hoop-inner",
+        key: Some("hoop_inner_mpa"),
+        name: |_| "mean hoop stress, inner race, peak torque (magnitude)",
+        of: Of::clutch(|_, l| l.hoop_inner_pa, |c, p| hoop_pa(c, p, Which::Inner, false)),
+        ..HOOP
+    },
+    &Limit {
+        code: "hoop-outer",
+        key: Some("hoop_outer_mpa"),
+        name: |_| "mean hoop stress, outer race, peak torque",
+        of: Of::clutch(|_, l| l.hoop_outer_pa, |c, p| hoop_pa(c, p, Which::Outer, false)),
+        ..HOOP
+    },
+    &Limit {
+        code: "hoop-inner-bending",
+        key: Some("hoop_inner_bending_mpa"),
+        name: |_| "hoop stress with ring bending, inner race, peak torque (magnitude)",
+        of: Of::beside(
+            |l| l.hoop_inner_pa,
+            |_, l| l.hoop_inner_bending_pa,
+            |c, p| hoop_pa(c, p, Which::Inner, true),
+        ),
+        ..BENDING
+    },
+    &Limit {
+        code: "hoop-outer-bending",
+        key: Some("hoop_outer_bending_mpa"),
+        name: |_| "hoop stress with ring bending, outer race, peak torque",
+        of: Of::beside(
+            |l| l.hoop_outer_pa,
+            |_, l| l.hoop_outer_bending_pa,
+            |c, p| hoop_pa(c, p, Which::Outer, true),
+        ),
+        ..BENDING
+    },
+    &Limit {
+        code: "body-yield",
+        key: Some("body_yield_mpa"),
+        name: |_| "compression of the sprag's body half way between the contacts, peak torque",
+        explanation: "Largest compression in the narrowest section of the sprag, strut force over the section and its bending \
+                      where the strut has moved off the middle (Roark 12.4). Wider flanks or a longer sprag lower it.",
+        of: Of::clutch(|_, l| l.body_yield_pa, |c, p| body_stress_pa(c.design, c.state, p)),
+        ..HOOP
+    },
+    &Limit {
+        code: "subsurface-inner",
+        name: |_| "largest shear below the inner contact, peak torque",
+        ..SHEAR
+    },
+    &Limit {
+        code: "subsurface-outer",
+        name: |_| "largest shear below the outer contact, peak torque",
+        of: Of::shear(|_, l| l.case_shear_pa, |c, p| shear_below(c, outer(p), 0.0)),
+        ..SHEAR
+    },
+    &Limit {
+        code: "subsurface-core-inner",
+        name: |_| "largest shear beneath the case at the inner contact, peak torque",
+        ..CORE
+    },
+    &Limit {
+        code: "subsurface-core-outer",
+        name: |_| "largest shear beneath the case at the outer contact, peak torque",
+        of: Of::shear(core_allowed, |c, p| shear_below(c, outer(p), case_m(c))),
+        ..CORE
+    },
+    &END_OF_PROFILE,
+    &Limit {
+        code: "roll-over",
+        name: |_| "peak torque against roll-over torque",
+        unit: "Nm",
+        explanation: "Peak torque against that at which the strut stands upright and the sprag rolls over. More height of the \
+                      sprag against the gap, or stiffer races, raise it.",
+        ends_curve: true,
+        of: Of::RollOver,
+        ..GRIP
+    },
+    &GRIP_INNER,
+    &Limit {
+        code: "grip-outer",
+        name: |l| match l.axial_load_n {
+            None => "largest static tan nu up to peak torque against mu_s",
+            Some(_) => {
+                "friction for torque and axial load at B, peak torque, or tan nu below it, against mu_s"
+            }
+        },
+        of: Of::sprag(static_friction, |d, l, p| grip(d, l, p)[1], Some(|p| p.tan_nu)),
+        ..GRIP
+    },
+    &Limit {
+        code: "axial-from",
+        key: Some("axial_load_n"),
+        name: |_| "torque from which on friction carries the axial load, against nominal torque",
+        unit: "Nm",
+        rule: Rule::Onset,
+        explanation: "Torque from which on, up to peak torque, the friction of both contacts carries the axial load as well: \
+                      below it the normal forces are too small. Shown only.",
+        of: Of::AxialFrom,
+        ..GRIP
+    },
+    &Limit {
+        code: "neighbours",
+        name: |_| "clearance between neighbouring sprags up to peak torque",
+        unit: "mm",
+        per_si: 1e3,
+        rule: Rule::Clearance,
+        explanation: "Smallest distance between the outlines of neighbouring sprags from no load up to peak torque. Fewer or \
+                      narrower sprags leave more.",
+        of: Of::Neighbours,
+        ..GRIP
+    },
+    &Limit {
+        code: "re-engagement",
+        name: |_| "tan omega at first contact against mu_c",
+        when: When::FirstContact,
+        explanation: "Friction that the inner contact needs when it begins to carry, tan omega at first contact, against the \
+                      kinetic coefficient mu_c, which is all that a sliding contact has. A smaller wedge angle at first \
+                      contact lowers it.",
+        of: Of::ReEngagement,
+        ..GRIP
+    },
+    &KEEP_CONTACT,
+    &Limit {
+        code: "lift-off",
+        key: Some("lift_off_by_rpm"),
+        name: |_| "spring moment against centrifugal opening moment at the speed by which the sprags must be off",
+        rule: Rule::Reserve,
+        explanation: "Moment of the energizing spring against that of the centrifugal force, at the overrun speed by which the \
+                      sprags are to have lifted off the inner race. A softer spring, or a centroid farther ahead of the \
+                      sprag's outer centre, lifts off earlier.",
+        of: Of::LiftOff,
+        ..KEEP_CONTACT
+    },
+    &SLIP,
+    &CONTACT,
+    &Limit {
+        code: "hertz",
+        key: Some("hertz_peak_mpa"),
+        name: |_| "largest Hertz pressure, inner contact, in {scene} if it rolls throughout",
+        when: When::Scene,
+        of: Of::ScenePressure,
+        ..PRESSURE
+    },
+    &Limit {
+        code: "run-out-end",
+        name: |_| "peak torque against that at which the first sprag off centre comes to its end",
+        unit: "Nm",
+        explanation: "Peak torque against that at which the first sprag of a clutch off centre rolls over or leaves its \
+                      profile. Less eccentricity raises it.",
+        ends_curve: true,
+        of: Of::RunOutEnd,
+        ..GRIP
+    },
+    &Limit {
+        code: "run-out-share",
+        name: |_| "largest normal force of a sprag over the mean, against that of the Hertz limit (p_0^2 ~ N)",
+        when: When::Nominal,
+        explanation: "Largest normal force of a sprag of a clutch off centre over the mean of all, against that with which its \
+                      pressure would meet the Hertz limit (p_0^2 ~ N). Less eccentricity lowers it. Shown only.",
+        of: Of::RunOutShare,
+        ..GRIP
+    },
+    &Limit { code: "flank-rear-inside", ..ROOM },
+    &Limit { code: "flank-rear-outside", ..ROOM },
+    &Limit { code: "flank-front-inside", ..ROOM },
+    &Limit { code: "flank-front-outside", ..ROOM },
+];
+
+/// What an allowed gap leaves above the gap at rest, m.
+fn opening(gap_m: Option<f64>, design: &Design) -> Option<f64> {
+    let r = &design.clutch.races;
+    gap_m.map(|gap| gap - (r.outer_radius_m - r.inner_radius_m))
+}
+
+fn gap_opening_m(case: &Case, p: &StaticPoint) -> f64 {
+    case.elastic().gap_opening_m(p.normal_inner_n, p.normal_outer_n)
+}
+
+fn static_friction(design: &Design, _: &Limits) -> Option<f64> {
+    Some(design.clutch.friction.static_)
+}

@@ -1,0 +1,208 @@
+//! The one object that the page talks to.
+
+use super::look::{Look, Seen};
+use super::scene::{SceneLook, SceneRow, scene_look, scene_row};
+use crate::design::{Design, DesignError, with_setting};
+use crate::margin::NoMargins;
+use crate::scenario::{NoScenario, Settings};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Why a question has no answer: a sentence, and the faults of the file where it is that.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refused {
+    /// In words.
+    pub message: String,
+    /// As `--json` prints a refused design; null otherwise.
+    pub problems: Value,
+}
+
+impl Refused {
+    fn said(message: impl Into<String>) -> Self {
+        Self { message: message.into(), problems: Value::Null }
+    }
+}
+
+impl From<DesignError> for Refused {
+    fn from(error: DesignError) -> Self {
+        let first = error.problems().first().map(|p| {
+            let line = p.place.as_ref().map_or(String::new(), |at| format!("line {}: ", at.line));
+            format!("{line}{}: found {}; allowed: {}. {}", p.key, p.found, p.allowed, p.help)
+        });
+        Self { message: first.unwrap_or_else(|| error.to_string()), problems: error.to_json() }
+    }
+}
+
+impl From<NoMargins> for Refused {
+    fn from(why: NoMargins) -> Self {
+        Self::said(why.to_string())
+    }
+}
+
+impl From<NoScenario> for Refused {
+    fn from(why: NoScenario) -> Self {
+        Self::said(why.to_string())
+    }
+}
+
+/// Answers questions about texts; keeps the statics of the last few.
+#[derive(Debug, Default)]
+pub struct Engine {
+    /// Name of the file in messages.
+    file: String,
+    /// Where histories are looked for.
+    folder: PathBuf,
+    kept: Mutex<Vec<(String, Arc<Seen>)>>,
+}
+
+/// Texts that are kept: now, the pinned one, and a step back for each.
+const KEPT: usize = 4;
+
+impl Engine {
+    /// For the design in `file`, whose histories lie in `folder`.
+    pub fn new(file: &str, folder: PathBuf) -> Self {
+        Self { file: file.to_owned(), folder, kept: Mutex::default() }
+    }
+
+    fn design(&self, text: &str) -> Result<Design, Refused> {
+        Ok(Design::parse_in(&self.folder, text, &self.file)?)
+    }
+
+    fn seen(&self, text: &str) -> Result<Arc<Seen>, Refused> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(at) = kept.iter().position(|(t, _)| t == text) {
+            let entry = kept.remove(at);
+            let seen = entry.1.clone();
+            kept.push(entry);
+            return Ok(seen);
+        }
+        drop(kept);
+        let seen = Arc::new(Seen::new(self.design(text)?)?);
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.push((text.to_owned(), seen.clone()));
+        let over = kept.len().saturating_sub(KEPT);
+        kept.drain(..over);
+        Ok(seen)
+    }
+
+    /// Statics of a text, with a pinned one as ghost.
+    ///
+    /// # Errors
+    /// [`Refused`] where the text is no design or the clutch has no curve; a pinned text that is refused is left out.
+    pub fn check(&self, text: &str, pinned: Option<&str>) -> Result<Look, Refused> {
+        let pinned = pinned.and_then(|text| self.seen(text).ok());
+        Ok(self.seen(text)?.look(pinned.as_deref()))
+    }
+
+    /// Margins and demand of one scenario.
+    ///
+    /// # Errors
+    /// [`Refused`].
+    pub fn scene_row(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneRow, Refused> {
+        let seen = self.seen(text)?;
+        let scenario =
+            seen.design.scenario(name).ok_or_else(|| Refused::said(format!("no scenario {name:?}")))?;
+        Ok(scene_row(&seen.design, scenario, settings))
+    }
+
+    /// The course of one scenario.
+    ///
+    /// # Errors
+    /// [`Refused`].
+    pub fn scene(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneLook, Refused> {
+        let seen = self.seen(text)?;
+        let scenario =
+            seen.design.scenario(name).ok_or_else(|| Refused::said(format!("no scenario {name:?}")))?;
+        Ok(scene_look(scenario, settings)?)
+    }
+
+    /// The text with a value set, its comments kept. The new text may still be refused by [`Engine::check`].
+    ///
+    /// # Errors
+    /// [`Refused`] where there is no such key.
+    pub fn set(&self, text: &str, path: &str, value: &str) -> Result<String, Refused> {
+        with_setting(text, path, value).map_err(|why| Refused::said(why.to_string()))
+    }
+
+    /// A question as the page puts it: `ask` names it, `question` is an object of texts. The answer, or an object with
+    /// `message` and `problems`.
+    ///
+    /// # Errors
+    /// That object.
+    pub fn ask(&self, ask: &str, question: &Value, settings: &Settings) -> Result<Value, Value> {
+        let text = |key: &str| question.get(key).and_then(Value::as_str);
+        let need = |key: &str| {
+            text(key).ok_or_else(|| Refused::said(format!("the question {ask} has no text {key}")))
+        };
+        let answer = || -> Result<Value, Refused> {
+            let json =
+                |value: Result<Value, serde_json::Error>| value.map_err(|e| Refused::said(e.to_string()));
+            match ask {
+                "check" => json(serde_json::to_value(self.check(need("text")?, text("pinned"))?)),
+                "scene_row" => {
+                    json(serde_json::to_value(self.scene_row(need("text")?, need("name")?, settings)?))
+                }
+                "scene" => json(serde_json::to_value(self.scene(need("text")?, need("name")?, settings)?)),
+                "change" => {
+                    let text = self.set(need("text")?, need("path")?, need("value")?)?;
+                    let look = self.check(&text, question.get("pinned").and_then(Value::as_str))?;
+                    Ok(json!({ "text": text, "look": look }))
+                }
+                other => Err(Refused::said(format!("no question {other:?}"))),
+            }
+        };
+        answer().map_err(|r| json!({ "message": r.message, "problems": r.problems }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DESIGN: &str = include_str!("../../designs/huang2017-multi-arc.toml");
+
+    fn engine() -> Engine {
+        Engine::new("designs/huang2017-multi-arc.toml", PathBuf::from("designs"))
+    }
+
+    #[test]
+    fn a_changed_radius_changes_margins_and_the_ghost_is_drawn() {
+        let engine = engine();
+        let before = engine.check(DESIGN, None).unwrap();
+        let text = engine.set(DESIGN, "r_i2_mm", "4.2").unwrap();
+        let now = engine.check(&text, Some(DESIGN)).unwrap();
+        let margin =
+            |look: &Look| look.margins.iter().find(|m| m.code == "hertz-nominal-inner").unwrap().margin;
+        assert_ne!(margin(&before), margin(&now));
+        assert!(now.windup_svg.contains("pinned") && !before.windup_svg.contains("pinned"));
+        assert!(now.picture.unwrap().svg.contains("class=\"ghost\""));
+        assert!(now.margins.windows(2).all(|w| !w[1].required || w[0].margin <= w[1].margin));
+        assert!(now.poses.windows(2).all(|w| w[0].torque_nm <= w[1].torque_nm));
+    }
+
+    #[test]
+    fn a_scene_is_played_and_asked_for_its_margin() {
+        let engine = engine();
+        let settings = Settings::default();
+        let row = engine.scene_row(DESIGN, "low-10", &settings).unwrap();
+        assert!(row.required_friction.is_some() && row.margins.len() >= 2);
+        assert_eq!(engine.scene_row(DESIGN, "high-10", &settings).unwrap().required_friction, None);
+        let scene = engine.scene(DESIGN, "high-10", &settings).unwrap();
+        assert_eq!(scene.t_s.len(), scene.forces_n.len());
+        assert!(scene.t_s.len() > 500 && scene.plots.len() == 3);
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_its_line() {
+        let engine = engine();
+        let text = engine.set(DESIGN, "sprags.count", "-3").unwrap();
+        let refused = engine.check(&text, None).unwrap_err();
+        assert!(refused.message.contains("line") && refused.message.contains("-3"), "{}", refused.message);
+        let asked = |ask: &str, question: Value| engine.ask(ask, &question, &Settings::default());
+        assert!(asked("check", json!({ "text": DESIGN })).is_ok());
+        assert!(asked("check", json!({})).unwrap_err()["message"].as_str().unwrap().contains("no text text"));
+        assert!(asked("nothing", json!({})).is_err());
+        assert!(asked("scene", json!({ "text": DESIGN, "name": "nobody" })).is_err());
+    }
+}

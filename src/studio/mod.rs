@@ -1,0 +1,23 @@
+//! The live page: questions about the text of a design, answered at once, and the page that asks them.
+//!
+//! In: the text of a design file, a pinned one beside it. Out: [`Look`], [`SceneLook`], changed texts; the page. Absent: the server,
+//! paths. Equations: none; every figure is that of `margin`, `wedge` and `scenario`.
+
+mod engine;
+mod fields;
+mod look;
+mod scene;
+mod search;
+
+pub use engine::{Engine, Refused};
+pub use fields::{Field, fields};
+pub use look::{Look, MarginRow, Pose, Tone};
+pub use scene::{SceneLook, SceneRow};
+pub use search::{Progress, Searching};
+
+/// The page as one file; what is between the marks `<!--engine-->` is put in by whoever serves it.
+pub fn page() -> String {
+    include_str!("page.html")
+        .replace("/*style*/", concat!(include_str!("../report/page.css"), "\n", include_str!("studio.css")))
+        .replace("/*script*/", include_str!("studio.js"))
+}

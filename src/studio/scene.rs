@@ -1,0 +1,146 @@
+//! What a scenario says, and its course to be played.
+
+use super::look::{MarginRow, row};
+use crate::design::{Design, Scenario};
+use crate::dynamics::{Grip, Place, Sample};
+use crate::margin::{SceneDemand, scene_demand, scene_rows};
+use crate::report::{Plot, Unit, significant};
+use crate::scenario::{NoScenario, Settings, prepare, simulate_prepared};
+use serde::Serialize;
+
+/// The demand of one scenario on friction, without its course.
+#[derive(Debug, Clone, Serialize)]
+pub struct SceneRow {
+    /// Its name.
+    pub name: String,
+    /// Friction from which on it sticks; none where no friction suffices.
+    pub required_friction: Option<f64>,
+    /// Static friction of the scenario.
+    pub static_friction: f64,
+    /// Its margins.
+    pub margins: Vec<MarginRow>,
+    /// Why it has none, or what came of it.
+    pub note: Option<String>,
+}
+
+/// The course of a scenario.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct SceneLook {
+    /// Its name.
+    pub name: String,
+    /// Verdict, in words.
+    pub verdict: String,
+    /// Figures, in words.
+    pub facts: Vec<(String, String)>,
+    /// Times, s.
+    pub t_s: Vec<f64>,
+    /// alpha, rad.
+    pub alpha_rad: Vec<f64>,
+    /// theta_bi - theta_be, rad.
+    pub relative_rad: Vec<f64>,
+    /// N_bi, T_bi, N_be, T_be, N.
+    pub forces_n: Vec<[f64; 4]>,
+    /// What each contact does: 0 sticks, 1 slips with the race ahead, -1 behind, 2 open.
+    pub modes: Vec<[i8; 2]>,
+    /// Plots over time, as SVG: torque of the clutch, demand on friction, angle.
+    pub plots: Vec<String>,
+    /// Where time runs in the plots, as parts of their width: from and to.
+    pub frame: [f64; 2],
+}
+
+/// Samples of a course: more than a plot of the page can tell apart.
+const SAMPLES: usize = 900;
+/// Width of the plots, px: as wide as the page shows them, so that their letters keep theirs.
+const WIDTH: f64 = 480.0;
+
+/// Demand and margins of a scenario.
+pub fn scene_row(design: &Design, scenario: &Scenario, settings: &Settings) -> SceneRow {
+    let name = scenario.name.clone();
+    let static_friction = scenario.clutch.friction.static_;
+    if scenario.kind.is_overrun() {
+        let note = Some("steady overrun: nothing is to stick".to_owned());
+        return SceneRow { name, required_friction: None, static_friction, margins: Vec::new(), note };
+    }
+    let found: SceneDemand = scene_demand(scenario, settings);
+    let required = design.check_scenarios.contains(&scenario.name);
+    let margins = scene_rows(scenario, &found, &design.limits, required).iter().map(row).collect();
+    let note = found.demand.as_ref().err().map(ToString::to_string);
+    let required_friction = found.demand.as_ref().ok().and_then(|d| d.required_friction);
+    SceneRow { name, required_friction, static_friction, margins, note }
+}
+
+/// The course of a scenario, `settings` with samples or without.
+///
+/// # Errors
+/// [`NoScenario`].
+pub fn scene_look(scenario: &Scenario, settings: &Settings) -> Result<SceneLook, NoScenario> {
+    let prepared = prepare(scenario)?;
+    let s = simulate_prepared(&prepared, &Settings { samples: SAMPLES, ..settings.clone() }, false);
+    let mut facts = vec![("reached".to_owned(), Unit::Second.show(s.t_s, 4))];
+    let mut fact = |name: &str, value: String| facts.push((name.to_owned(), value));
+    if let Some(d) = &s.demand {
+        fact(
+            "required friction μ",
+            d.required_friction.map_or("none suffices".into(), |f| significant(f, 4)),
+        );
+        fact("slip margin", Unit::Percent.show(d.slip_margin, 3));
+        fact("contact margin", Unit::Percent.show(d.contact_margin, 3));
+    }
+    fact("net slip, inner", Unit::Micrometre.show(s.inner.net_m, 3));
+    fact("largest normal force, inner", Unit::Newton.show(s.peaks.normal_max_n, 4));
+    fact("largest Hertz pressure", Unit::Megapascal.show(s.hertz_peak_pa, 4));
+    fact("contact lost", Unit::Millisecond.show(s.contact_lost_s, 3));
+    let samples = &s.samples;
+    let column = |f: &dyn Fn(&Sample) -> f64| samples.iter().map(f).collect::<Vec<_>>();
+    let over = |f: &dyn Fn(&Sample) -> f64| samples.iter().map(|p| [p.t * 1e3, f(p)]).collect::<Vec<_>>();
+    let count = scenario.clutch.sprags.count as f64;
+    let oa = |p: &Sample| prepared.model.point(p.mode.place, p.state[0]).oa;
+    let ratio = |t: f64, n: f64| if n > 0.0 { (t / n).abs() } else { f64::NAN };
+    let sized = |plot: Plot| plot.sized(WIDTH, 170.0).to_svg();
+    let plots = if samples.is_empty() {
+        Vec::new()
+    } else {
+        vec![
+            sized(
+                Plot::new("Time, ms", "Clutch torque, Nm")
+                    .curve("torque", over(&|p| count * p.forces.t_bi * oa(p))),
+            ),
+            sized(
+                Plot::new("Time, ms", "|T|/N")
+                    .curve("inner", over(&|p| ratio(p.forces.t_bi, p.forces.n_bi)))
+                    .curve("outer", over(&|p| ratio(p.forces.t_be, p.forces.n_be)))
+                    .level(scenario.clutch.friction.static_, "μₛ"),
+            ),
+            sized(
+                Plot::new("Time, ms", "Windup, deg")
+                    .curve("windup", over(&|p| Unit::Degree.from_si(p.state[3] - p.state[2]))),
+            ),
+        ]
+    };
+    let mode = |grip: Grip| match grip {
+        Grip::Stick => 0,
+        Grip::Slip(v) if v > 0.0 => 1,
+        Grip::Slip(_) => -1,
+    };
+    Ok(SceneLook {
+        name: scenario.name.clone(),
+        verdict: s.verdict.map_or("no verdict", |v| v.name()).to_owned(),
+        facts,
+        t_s: column(&|p| p.t),
+        alpha_rad: column(&|p| p.state[0]),
+        relative_rad: column(&|p| p.state[2] - p.state[3]),
+        forces_n: samples
+            .iter()
+            .map(|p| [p.forces.n_bi, p.forces.t_bi, p.forces.n_be, p.forces.t_be])
+            .collect(),
+        modes: samples
+            .iter()
+            .map(|p| {
+                let inner = if p.mode.place == Place::Open { 2 } else { mode(p.mode.inner) };
+                [inner, mode(p.mode.outer)]
+            })
+            .collect(),
+        plots,
+        frame: Plot::frame(WIDTH),
+    })
+}

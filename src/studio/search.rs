@@ -1,0 +1,137 @@
+//! A search of the optimiser beside the page: begun, followed, stopped.
+
+use crate::answer::search::{MOST_STARTS, STARTS};
+use crate::design::Design;
+use crate::follow::Follow;
+use crate::optimise::{
+    Desk, Entry, Fidelity, Method, NoSearch, ProblemId, Record, Search, Settings, realise, search,
+};
+use crate::report::significant;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// How a search stands.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Progress {
+    /// Whether it goes on.
+    pub running: bool,
+    /// In one sentence.
+    pub said: String,
+    /// The design file found.
+    pub text: Option<String>,
+}
+
+#[derive(Debug)]
+struct Shared {
+    follow: Follow,
+    evaluations: AtomicUsize,
+    done: Mutex<Option<Progress>>,
+}
+
+/// A search that runs in a thread of its own.
+#[derive(Debug, Clone)]
+pub struct Searching(Arc<Shared>);
+
+impl Searching {
+    /// Begin it.
+    pub fn begin(design: Design) -> Self {
+        let mine = Self(Arc::new(Shared {
+            follow: Follow::new(),
+            evaluations: AtomicUsize::new(0),
+            done: Mutex::default(),
+        }));
+        let shared = mine.0.clone();
+        std::thread::spawn(move || {
+            let told = tell(&design, &shared);
+            *shared.done.lock().unwrap_or_else(PoisonError::into_inner) = Some(told);
+        });
+        mine
+    }
+
+    /// End it at the next safe point.
+    pub fn stop(&self) {
+        self.0.follow.stop();
+    }
+
+    /// How it stands.
+    pub fn progress(&self) -> Progress {
+        let done = self.0.done.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        done.unwrap_or_else(|| {
+            let said = format!("searching: {} evaluations", self.0.evaluations.load(Ordering::Relaxed));
+            Progress { running: true, said, text: None }
+        })
+    }
+}
+
+struct Counter<'a>(&'a AtomicUsize);
+
+impl Record for Counter<'_> {
+    fn evaluated(&mut self, _problem: &ProblemId, _entry: &Entry) {
+        self.0.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+fn tell(design: &Design, shared: &Shared) -> Progress {
+    let mut counter = Counter(&shared.evaluations);
+    let desk = Desk::new(&shared.follow, &mut counter);
+    let seed = design.optimize.as_ref().map_or(0, |task| task.seed);
+    let method =
+        Method { climb: Settings::default(), starts: STARTS, most_starts: MOST_STARTS, swarm: None, seed };
+    match search(design, &method, Fidelity::default(), &desk) {
+        Ok(found) => {
+            let made = made(design, &found, &method, &desk);
+            Progress {
+                running: false,
+                said: sentence(&found, made.is_some()),
+                text: Some(made.unwrap_or(found.file)),
+            }
+        }
+        Err(why) => Progress { running: false, said: format!("no search: {why}"), text: None },
+    }
+}
+
+/// The same with flanks, where the search had a free centroid: the clutch that can be made.
+fn made(design: &Design, found: &Search, method: &Method, desk: &Desk) -> Option<String> {
+    let task = design.optimize.as_ref().filter(|_| found.feasible())?;
+    let realised: Result<_, NoSearch> = realise(found, task, method, desk);
+    let realised = realised.ok()??;
+    let further = realised.search.filter(|s| s.feasible()).map(|s| s.file);
+    Some(further.unwrap_or(realised.file))
+}
+
+fn sentence(found: &Search, made: bool) -> String {
+    let (before, after) = (significant(found.objective.0, 4), significant(found.objective.1, 4));
+    let what = format!("{}: {before} → {after}, {} evaluations", found.aim.name(), found.evaluations);
+    match (found.feasible(), made) {
+        (true, false) => format!("{what}; every limit held."),
+        (true, true) => {
+            format!("{what} with a free centroid; the design is the one with flanks that come nearest to it.")
+        }
+        (false, _) => format!("{what}; not held: {}.", found.not_held().join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn a_search_can_be_followed_and_stopped() {
+        let text = include_str!("../../designs/huang2017-multi-arc.toml");
+        let design = Design::parse(text, "a.toml").unwrap();
+        let searching = Searching::begin(design);
+        let mut seen = searching.progress();
+        assert!(seen.running);
+        while seen.running && !seen.said.contains("searching: 1") {
+            std::thread::sleep(Duration::from_millis(5));
+            seen = searching.progress();
+        }
+        searching.stop();
+        while seen.running {
+            std::thread::sleep(Duration::from_millis(5));
+            seen = searching.progress();
+        }
+        assert!(seen.said.contains("evaluations") || seen.said.contains("stopped"), "{}", seen.said);
+    }
+}
