@@ -43,7 +43,10 @@ impl Subject {
         let engaging: Vec<_> = design.scenarios.iter().filter(|s| !s.kind.is_overrun()).collect();
         let scenes: Vec<Scene> = engaging
             .par_iter()
-            .map(|s| Scene { name: s.name.clone(), found: scene_demand(s, settings) })
+            .map(|s| Scene {
+                name: s.name.clone(),
+                found: scene_demand(s, Some(state.at_rest(&design)), settings),
+            })
             .collect();
         for (scenario, scene) in engaging.iter().zip(&scenes) {
             let required = design.check_scenarios.contains(&scenario.name);

@@ -33,7 +33,7 @@ pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<
         return whole(settings);
     }
     // What a shortened curve does not carry, the whole one may.
-    let Ok((Plan { reduction, mut left_out, mut kept }, prepared)) = plan(scenario) else {
+    let Ok((Plan { reduction, mut left_out, mut kept }, prepared)) = plan(scenario, None) else {
         return whole(settings);
     };
     let simulation = simulate_prepared(&prepared, settings, true);

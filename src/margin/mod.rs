@@ -26,7 +26,7 @@ pub use scenes::{SceneDemand, scene_demand};
 pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIMITS, SLIP};
 
 use crate::design::{Design, Limits, Scenario};
-use crate::scenario::{Settings, place_profile};
+use crate::scenario::{AtRest, Settings, place_profile};
 use crate::wedge::{NoCurve, WedgeCurve};
 
 /// Why no margins can be computed.
@@ -71,7 +71,7 @@ pub fn margins(
     for scenario in &design.scenarios {
         let required = scenes.contains(&scenario.name);
         if required || others {
-            rows.extend(scene_margins(scenario, limits, required, settings));
+            rows.extend(scene_margins(scenario, limits, required, Some(state.at_rest(design)), settings));
         }
     }
     Ok(rows)
@@ -106,17 +106,18 @@ pub fn load_margins(design: &Design, limits: &Limits, capacities: bool, state: &
 
 /// The margins of one scenario, slip, contact and, with a limit on it, Hertz pressure; none of a steady overrun, where A slides and nothing is to
 /// stick (limits `keep-contact` and `lift-off` hold that). Scenarios know nothing of one another, so a caller may
-/// take them in parallel.
+/// take them in parallel; `known`: a curve that need not be built again.
 pub fn scene_margins(
     scenario: &Scenario,
     limits: &Limits,
     required: bool,
+    known: Option<AtRest>,
     settings: &Settings,
 ) -> Vec<Margin> {
     if scenario.kind.is_overrun() {
         return Vec::new();
     }
-    scene_rows(scenario, &scene_demand(scenario, settings), limits, required)
+    scene_rows(scenario, &scene_demand(scenario, known, settings), limits, required)
 }
 
 /// The same margins from a demand that is known.

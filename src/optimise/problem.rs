@@ -9,7 +9,7 @@ use crate::design::{
 };
 use crate::fidelity;
 use crate::margin::{Margin, RunOut, SceneDemand, load_state, run_out_margins, scene_margins, scene_rows};
-use crate::scenario::{Settings, demand};
+use crate::scenario::{AtRest, Settings, demand};
 
 /// How an evaluation is computed.
 #[derive(Debug, Clone)]
@@ -245,7 +245,7 @@ impl ClutchProblem {
         }
         let scenes = |rows: &mut Vec<Margin>, wanted: &dyn Fn(&String) -> bool| {
             for scenario in design.scenarios.iter().filter(|s| wanted(&s.name)) {
-                rows.extend(self.scene(scenario));
+                rows.extend(self.scene(scenario, state.at_rest(design)));
                 // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
                 if let Some(row) = rows.iter().find(|r| !r.computed()) {
                     return Err(Failure::Refused(row.name.clone()));
@@ -269,13 +269,13 @@ impl ClutchProblem {
         Ok(Looked { rows, measures: measures_of_goals })
     }
 
-    fn scene(&self, scenario: &crate::design::Scenario) -> Vec<Margin> {
+    fn scene(&self, scenario: &crate::design::Scenario, known: AtRest) -> Vec<Margin> {
         let Fidelity { settings, reduced } = &self.fidelity;
         if !reduced {
-            return scene_margins(scenario, &self.limits, true, settings);
+            return scene_margins(scenario, &self.limits, true, Some(known), settings);
         }
-        let whole = || scene_margins(scenario, &self.limits, true, settings);
-        let Ok((plan, prepared)) = fidelity::plan(scenario) else { return whole() };
+        let whole = || scene_margins(scenario, &self.limits, true, Some(known), settings);
+        let Ok((plan, prepared)) = fidelity::plan(scenario, Some(known)) else { return whole() };
         let found = demand(&prepared, settings);
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {

@@ -139,7 +139,8 @@ pub struct Look {
 pub struct Seen {
     /// The design.
     pub design: Design,
-    state: LoadState,
+    /// Its load state.
+    pub state: LoadState,
     rows: Vec<Margin>,
     samples: Vec<(StaticPoint, Closure)>,
 }

@@ -115,7 +115,7 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
     let (state, mut rows, ring) = static_margins(design, true).map_err(NoCheck::NoClutch)?;
     let static_rows = rows.len();
     let found: Vec<Option<SceneFound>> =
-        design.scenarios.par_iter().map(|scenario| scene(design, scenario, follow, done)).collect();
+        design.scenarios.par_iter().map(|scenario| scene(design, &state, scenario, follow, done)).collect();
     let (mut scenario_margins, mut scenes) = (None, Vec::new());
     for (found, scenario) in found.into_iter().zip(&design.scenarios) {
         let SceneFound { demand, margins, error } = found.ok_or(NoCheck::Stopped)?;
@@ -170,6 +170,7 @@ pub(crate) fn fine(follow: &Follow) -> Settings {
 /// One scenario at two tolerances; nothing once somebody asked to stop.
 fn scene(
     design: &Design,
+    state: &LoadState,
     scenario: &Scenario,
     follow: &Follow,
     done: &(dyn Fn() + Sync),
@@ -182,7 +183,7 @@ fn scene(
     let required = design.check_scenarios.contains(&scenario.name);
     let at = |settings: &Settings| {
         (!follow.stopped()).then(|| {
-            let demand = scene_demand(scenario, settings);
+            let demand = scene_demand(scenario, Some(state.at_rest(design)), settings);
             let rows = scene_rows(scenario, &demand, &design.limits, required);
             (demand, rows)
         })
