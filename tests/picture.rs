@@ -3,7 +3,7 @@
 //! Remake it with `REMAKE=1 cargo test -r the_picture` (no long flags: an XML comment holds no double hyphen).
 
 use sprag_design::cli::parts::{drawing, pose_at_rest, pose_at_torque};
-use sprag_design::{Design, WedgeCurve, place_profile};
+use sprag_design::{Design, WedgeCurve};
 use std::path::Path;
 
 const DESIGN: &str = "designs/huang2017-multi-arc.toml";
@@ -12,7 +12,7 @@ const PICTURE: &str = "reports/sprag.svg";
 fn draw() -> String {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let design = Design::read(&root.join(DESIGN)).unwrap();
-    let profile = place_profile(&design.clutch).unwrap();
+    let profile = design.clutch.profile().unwrap();
     let curve = WedgeCurve::build(&design.clutch, &profile, 0.0).unwrap();
     let rest = pose_at_rest("first contact", &design, &profile);
     let loaded = pose_at_torque(&rest, &curve, 110.0).unwrap();

@@ -3,7 +3,8 @@
 use super::limits::{Limit, Of};
 use super::row::{Demand, Margin};
 use super::table::LIMITS;
-use crate::design::{Limits, Scenario};
+use crate::clutch::Scenario;
+use crate::design::Limits;
 use crate::scenario::{self, NoScenario, Prepared, Settings, prepare};
 
 /// Rolling demand of one scenario, with the Hertz pressure that comes with it.

@@ -269,7 +269,7 @@ impl ClutchProblem {
         Ok(Looked { rows, measures: measures_of_goals })
     }
 
-    fn scene(&self, scenario: &crate::design::Scenario) -> Vec<Margin> {
+    fn scene(&self, scenario: &crate::clutch::Scenario) -> Vec<Margin> {
         let Fidelity { settings, reduced } = &self.fidelity;
         if !reduced {
             return scene_margins(scenario, &self.limits, true, settings);
