@@ -1,6 +1,7 @@
 //! What the planner leaves out, against everything, on every scenario of `designs/`.
 
-use sprag_design::design::{Design, Scenario, ScenarioKind};
+use sprag_design::clutch::{Scenario, ScenarioKind};
+use sprag_design::design::Design;
 use sprag_design::fidelity::{Planned, plan, simulate};
 use sprag_design::scenario::Settings;
 use std::path::Path;

@@ -4,7 +4,7 @@
 
 use sprag_design::cli::parts::{drawing, pose_at_rest, pose_at_torque};
 use sprag_design::design::{allowed, schema};
-use sprag_design::{Design, WedgeCurve, place_profile};
+use sprag_design::{Design, WedgeCurve};
 use std::path::Path;
 
 const DESIGN: &str = "designs/huang2017-multi-arc.toml";
@@ -13,7 +13,7 @@ const PICTURE: &str = "reports/sprag.svg";
 fn draw() -> String {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let design = Design::read(&root.join(DESIGN)).unwrap();
-    let profile = place_profile(&design.clutch).unwrap();
+    let profile = design.clutch.profile().unwrap();
     let curve = WedgeCurve::build(&design.clutch, &profile, 0.0).unwrap();
     let rest = pose_at_rest("first contact", &design, &profile);
     let loaded = pose_at_torque(&rest, &curve, 110.0).unwrap();
@@ -60,7 +60,9 @@ fn values(designs: &[toml::Value], path: &str) -> Option<[f64; 2]> {
 
 /// One table of the file and those within it, as sections of the page.
 fn section(path: &str, table: &serde_json::Value, designs: &[toml::Value], page: &mut String) {
-    let text = |v: &serde_json::Value| v["description"].as_str().unwrap_or_default().replace('|', "\\|").replace('\n', " ");
+    let text = |v: &serde_json::Value| {
+        v["description"].as_str().unwrap_or_default().replace('|', "\\|").replace('\n', " ")
+    };
     let heading = match path.strip_suffix("[]") {
         Some(array) => format!("`[[{array}]]`"),
         None if path.is_empty() => "At the top".to_owned(),

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::design::Scenario;
+use crate::clutch::Scenario;
 use crate::dynamics::{PublishedSettings, Run, RunSettings, Stop, published, run};
 use crate::fidelity::{self, Plan};
 use crate::follow::Follow;

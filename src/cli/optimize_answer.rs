@@ -11,7 +11,6 @@ use crate::design::{Design, Objective};
 use crate::margin::Margin;
 use crate::optimise::{Search, Status};
 use crate::report::{Cell, Column, Curve, Dash, Page, Plot, Table, Unit, error_beside, significant};
-use crate::scenario::place_profile;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -418,7 +417,7 @@ impl Told<'_> {
     /// Profiles before and after, to scale, one over the other.
     fn draw(&self, page: &mut Page) {
         let Ok(after) = Design::parse_in(&self.design.folder, &self.found.file, "optimum") else { return };
-        let (Ok(p), Ok(q)) = (place_profile(&self.design.clutch), place_profile(&after.clutch)) else {
+        let (Ok(p), Ok(q)) = (self.design.clutch.profile(), after.clutch.profile()) else {
             return;
         };
         parts::draw_sheet(page, &after, &q);

@@ -10,7 +10,7 @@ use super::parts::{self, Answer};
 use crate::design::Design;
 use crate::margin::{Margin, load_state};
 use crate::report::{Cell, Column, Screen, Table, Unit};
-use crate::scenario::{Settings, place_profile};
+use crate::scenario::Settings;
 use crate::size::{Ask, NoSize, Sized, Tried, size};
 use clap::Args;
 use serde_json::{Value, json};
@@ -109,7 +109,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.write_report(|| {
         let mut page = parts::page("First design", design, context);
         page.verdict(true, &verdict(&sized));
-        if let Ok(profile) = place_profile(&design.clutch) {
+        if let Ok(profile) = design.clutch.profile() {
             parts::draw_sheet(&mut page, design, &profile);
         }
         page.heading("Race spaces tried").table("", &tried_table(&sized.tried, Some(sized.taken)));

@@ -1,6 +1,7 @@
 //! One of the designs, with all that is compared.
 
-use crate::design::{Clutch, Design};
+use crate::clutch::Clutch;
+use crate::design::Design;
 use crate::margin::{
     LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
 };

@@ -4,13 +4,13 @@
 //! single keys ([`super::file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
 //! at first contact is asked of `profile`.
 
+use super::Limits;
 use super::contact_file::{ContactFile, StateFile};
 use super::file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
-use super::law::{ContactLaw, LawName, ROLLER_COEFFICIENT};
 use super::limits::{LIMIT_KEYS, LimitsFile};
-use super::{Clutch, Friction, Limits, Races, Spring, StressState};
 use super::{axial, eccentricity, geometry, running, steels};
+use crate::clutch::{Clutch, ContactLaw, Friction, LawName, ROLLER_COEFFICIENT, Races, Spring, StressState};
 
 /// mm to m. Division, because 1e-3 is no binary fraction: 4.68 mm becomes the double nearest to 4.68e-3 m
 /// oftener than by a product.

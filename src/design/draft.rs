@@ -5,6 +5,8 @@
 
 use std::f64::consts::PI;
 
+use crate::numeric::rounded;
+
 /// What a new design file says; one inner arc, steel, the law `elastic`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draft {
@@ -185,11 +187,6 @@ fn mm(m: f64) -> String {
 /// So many significant digits, as TOML.
 fn digits(value: f64, digits: usize) -> String {
     float(rounded(value, digits))
-}
-
-/// `value` to so many significant digits: the double that this decimal reads as, whose shortest text has no more of them.
-pub fn rounded(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
 /// A TOML float: always with a point or an exponent.

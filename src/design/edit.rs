@@ -7,8 +7,9 @@ use std::fmt;
 
 use toml_edit::{DocumentMut, Item, Table, Value};
 
+use super::shape;
 use super::variables::{variable_names, variable_path};
-use super::{Flanks, shape};
+use crate::profile::Flanks;
 
 /// Why a value cannot be written.
 #[derive(Debug, Clone, PartialEq, Eq)]

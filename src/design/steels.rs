@@ -2,11 +2,12 @@
 //!
 //! In: `[material]`. Out: [`Materials`], expansions, limits. Absent: the library itself (`material`). Equations: none.
 
+use super::Limits;
 use super::file::{BodyFile, MaterialFile};
 use super::findings::Findings;
 use super::limits::LimitsFile;
 use super::shape::nearest;
-use super::{Limits, Materials};
+use crate::clutch::Materials;
 use crate::material::{Material, STEELS, Steel, steel};
 
 /// The keys that a material has; the first three make it complete where it has no name.

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use crate::design::Clutch;
+use crate::clutch::Clutch;
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
 use crate::wedge::{WedgeCurve, WedgePoint};

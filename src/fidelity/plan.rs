@@ -1,6 +1,6 @@
 //! Which terms a scene cannot feel, before it runs.
 
-use crate::design::Scenario;
+use crate::clutch::Scenario;
 use crate::scenario::{AtRest, NoScenario, Prepared, Reduction, prepare_reduced};
 
 /// One term, left out or kept.

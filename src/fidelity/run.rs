@@ -1,7 +1,7 @@
 //! A scene run by its plan, or in full.
 
 use super::plan::{Plan, Term, plan};
-use crate::design::Scenario;
+use crate::clutch::Scenario;
 use crate::dynamics::Stop;
 use crate::scenario::{NoScenario, Prepared, Settings, Simulation, prepare, simulate_prepared};
 use crate::wedge::asks_for_slices;

@@ -25,8 +25,9 @@ pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins}
 pub use scenes::{SceneDemand, scene_demand};
 pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIMITS, SLIP};
 
-use crate::design::{Design, Limits, Scenario};
-use crate::scenario::{AtRest, Settings, place_profile};
+use crate::clutch::Scenario;
+use crate::design::{Design, Limits};
+use crate::scenario::{AtRest, Settings};
 use crate::wedge::{NoCurve, WedgeCurve};
 
 /// Why no margins can be computed.
@@ -127,7 +128,7 @@ pub fn scene_rows(scenario: &Scenario, found: &SceneDemand, limits: &Limits, req
 
 /// The curve of a design at rest.
 fn curve_at_rest(design: &Design) -> Result<(crate::profile::Profile, WedgeCurve), NoMargins> {
-    let profile = place_profile(&design.clutch).map_err(NoMargins::Profile)?;
+    let profile = design.clutch.profile().map_err(NoMargins::Profile)?;
     let curve = WedgeCurve::build(&design.clutch, &profile, 0.0).map_err(NoMargins::Curve)?;
     Ok((profile, curve))
 }

@@ -3,7 +3,8 @@
 use super::limits::{Limit, Of};
 use super::row::{Demand, Margin};
 use super::table::LIMITS;
-use crate::design::{Limits, Scenario};
+use crate::clutch::Scenario;
+use crate::design::Limits;
 use crate::scenario::{self, AtRest, NoScenario, Prepared, Reduction, Settings, prepare_reduced};
 
 /// Rolling demand of one scenario, with the Hertz pressure that comes with it.

@@ -269,7 +269,7 @@ impl ClutchProblem {
         Ok(Looked { rows, measures: measures_of_goals })
     }
 
-    fn scene(&self, scenario: &crate::design::Scenario, known: AtRest) -> Vec<Margin> {
+    fn scene(&self, scenario: &crate::clutch::Scenario, known: AtRest) -> Vec<Margin> {
         let Fidelity { settings, reduced } = &self.fidelity;
         if !reduced {
             return scene_margins(scenario, &self.limits, true, Some(known), settings);

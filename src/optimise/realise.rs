@@ -12,8 +12,9 @@ use super::search::{NoSearch, Search, search_problem};
 use super::settings::Settings;
 use super::smooth::ROOM as ROOM_LEFT;
 use super::starts::Method;
-use crate::design::{Design, Flanks, Optimize, OptimizeVariable, with_flanks};
+use crate::design::{Design, Optimize, OptimizeVariable, with_flanks};
 use crate::margin::load_state;
+use crate::profile::Flanks;
 use crate::profile::{MassProperties, Outline, Profile, STEEPEST_RAD, clearance_m};
 
 /// Neighbours keep clear by this at least, mm: a choice, above what rounding of the file leaves.

@@ -3,7 +3,8 @@
 use super::desk::Desk;
 use super::outcome::Outcome;
 use super::problem::ClutchProblem;
-use crate::design::{Design, ScenarioKind, with_keys};
+use crate::clutch::ScenarioKind;
+use crate::design::{Design, with_keys};
 use crate::margin::Margin;
 
 /// Factor between looks while a value that frees is sought.

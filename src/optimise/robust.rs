@@ -13,7 +13,7 @@ use super::outcome::{Cause, Status};
 use super::problem::{ClutchProblem, Names};
 use super::search::{NoSearch, refused};
 use super::starts::Method;
-use crate::design::Tolerances;
+use crate::clutch::Tolerances;
 
 /// Limits farther away than this need no corner of their own: a choice; each corner is a whole evaluation more.
 const NEAR: f64 = 0.2;

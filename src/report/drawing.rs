@@ -13,7 +13,7 @@ mod sheet;
 
 pub use live::{Live, live};
 
-use crate::design::{Clutch, Sprags};
+use crate::clutch::{Clutch, Sprags};
 use crate::profile::{Outline, Profile};
 
 /// Chords of a drawn outline leave its arcs by no more than this, m.

@@ -1,13 +1,13 @@
 //! From a scenario of the design to a model with an initial state.
 
-use crate::design::{Clutch, Scenario, ScenarioKind, Start};
+use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{
     Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
     settled, settled_end_torque_nm, settled_point,
 };
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
-use crate::profile::{Profile, ProfileError};
+use crate::profile::ProfileError;
 use crate::wedge::{NoCurve, StaticPoint, WedgeCurve};
 
 /// Why a scenario has no start. A named outcome, not a fault of the file.
@@ -106,22 +106,6 @@ impl Prepared {
     }
 }
 
-/// The profile of a clutch.
-///
-/// # Errors
-/// [`ProfileError`]; a design that was read from a file has none.
-pub fn place_profile(clutch: &Clutch) -> Result<Profile, ProfileError> {
-    let s = &clutch.sprags;
-    let arcs: Vec<(f64, f64)> = s.inner_arcs.iter().map(|a| (a.radius_m, a.until_rad)).collect();
-    Profile::new(
-        s.outer_radius_m,
-        s.centre_distance_m,
-        &arcs,
-        clutch.races.inner_radius_m,
-        clutch.races.outer_radius_m,
-    )
-}
-
 /// What the model of a scenario may do without.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Reduction {
@@ -175,7 +159,7 @@ fn at_start(
     known: Option<AtRest>,
 ) -> Result<Prepared, NoScenario> {
     let clutch = &scenario.clutch;
-    let profile = place_profile(clutch).map_err(NoScenario::Profile)?;
+    let profile = clutch.profile().map_err(NoScenario::Profile)?;
     let build = |speed: f64| {
         WedgeCurve::build_reaching(clutch, &profile, speed, reduction.reach_nm).map_err(NoScenario::Curve)
     };

@@ -4,10 +4,11 @@ use std::fmt;
 
 use super::ask::{Ask, BadAsk};
 use super::proportions::{COUNTS, LENGTHS, SPACES_M, draft, lengthen, spring};
-use crate::design::{Design, Draft, rounded};
+use crate::design::{Design, Draft};
 use crate::margin::{KEEP_CONTACT, LoadState, Margin, load_margins, load_state, margins};
+use crate::numeric::rounded;
 use crate::profile::Outline;
-use crate::scenario::{Settings, place_profile};
+use crate::scenario::Settings;
 
 /// Margin that a first design keeps on every limit: a choice, so that rounding and the optimiser find room.
 const KEPT: f64 = 0.02;
@@ -240,7 +241,7 @@ fn finish(ask: &Ask, mut draft: Draft, settings: &Settings) -> Result<(Design, V
         draft.until_rad = 1.3 * peak.contact_turn_rad + 0.02;
         let mut ended = design.clutch.clone();
         ended.sprags.inner_arcs[0].until_rad = draft.until_rad;
-        let profile = place_profile(&ended).map_err(|e| e.to_string())?;
+        let profile = ended.profile().map_err(|e| e.to_string())?;
         let (rear, front) = Outline::narrowest_flanks(&profile).map_err(|e| e.to_string())?;
         // A sprag is no needle: at least a fifth of the race space to either side, where the arcs reach that far.
         let space = draft.races_m[2] - draft.races_m[1];

@@ -1,7 +1,8 @@
 //! What a scenario says, and its course to be played.
 
 use super::look::{MarginRow, row};
-use crate::design::{Design, Scenario};
+use crate::clutch::Scenario;
+use crate::design::Design;
 use crate::dynamics::{Grip, Place, Sample};
 use crate::margin::{LoadState, SceneDemand, scene_demand, scene_rows};
 use crate::report::{Plot, Unit, significant};

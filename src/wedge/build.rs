@@ -4,7 +4,7 @@ use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
 use super::patch::InnerCurvature;
 use super::table::{ArcBuilder, ArcTable};
-use crate::design::{Carrier, Clutch};
+use crate::clutch::{Carrier, Clutch};
 use crate::numeric::root;
 use crate::profile::Profile;
 

@@ -1,10 +1,10 @@
 //! What yields when a sprag is pressed between the races: every compliance of one design, ready to evaluate.
 
 use super::axial::shaped;
+use crate::clutch::{Clutch, ContactLaw, StressState};
 use crate::contact::{
     Approach, ContactError, CurvedApproach, HertzBody, LayerBody, LineContact, SliceRatio, layer_transition_m,
 };
-use crate::design::{Clutch, ContactLaw, StressState};
 use crate::kinematics::Deformations;
 use crate::material::{Material, PlaneState};
 use crate::numeric::dual::Dual;

@@ -14,7 +14,8 @@ pub(crate) use body::{
 };
 
 use super::left_out::{LeftOut, left_out, off_centre};
-use crate::design::{Design, Scenario};
+use crate::clutch::Scenario;
+use crate::design::Design;
 use crate::follow::Follow;
 use crate::margin::{
     LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,

@@ -1,7 +1,7 @@
 //! The figures of a simulation as people read them: a table with errors.
 
 use crate::answer::simulation::{LIFT_OFF_SEARCH_RAD_S, Ran};
-use crate::design::ScenarioKind;
+use crate::clutch::ScenarioKind;
 use crate::margin::LIFT_OFF_ERROR;
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::scenario::{Demand, Figure, Group, Prepared, Quantity, Simulation, figures_of, overrun_swing};

@@ -4,11 +4,11 @@ use super::facts;
 use crate::answer::simulation::{Ran, Row, SimulationAnswer, word};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
-use crate::design::ScenarioKind;
+use crate::clutch::ScenarioKind;
 use crate::dynamics::Mode;
 use crate::report::plot::Dash;
 use crate::report::{Curve, Page, Plot, Span, Strip, Unit};
-use crate::scenario::{Prepared, Simulation, place_profile};
+use crate::scenario::{Prepared, Simulation};
 use crate::wedge::{Lengthwise, Side, along};
 
 const TIME: &str = "Time, ms";
@@ -371,7 +371,7 @@ fn strip(s: &Simulation) -> Strip {
 
 /// The sprag where the scenario starts, over first contact.
 fn draw(page: &mut Page, scene: &Ran, prepared: &Prepared) {
-    let Ok(profile) = place_profile(&scene.design.clutch) else { return };
+    let Ok(profile) = scene.design.clutch.profile() else { return };
     let rest = parts::pose_at_rest("first contact", &scene.design, &profile);
     let loaded =
         scene.scenario.held_torque_nm().and_then(|t| parts::pose_at_torque(&rest, &prepared.model.curve, t));
