@@ -10,9 +10,7 @@ use super::exit::{Exit, Failure};
 use super::origin::Kind;
 use super::parts::{self, Answer};
 use crate::answer::check::{Body, CheckAnswer, NONE_SUFFICES, NoCheck, OVERLOADED, check, csv_table};
-pub(super) use crate::answer::check::{
-    allowable_cell, demand_cell, ends_first, margin_cell, margin_text, people_table, unit_cell,
-};
+pub(super) use crate::answer::check::{ends_first, margin_cell, margin_text, people_table};
 use crate::design::Design;
 use crate::margin::{Demand, Margin};
 use crate::report::{Screen, greek};

@@ -4,19 +4,16 @@ use super::Context;
 use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
-use super::optimize_file::{file_text, further_text};
-use super::optimize_story::{NEAREST, REALISED, ROBUST, Story};
+use super::optimize_answer::Told;
+use super::optimize_file::{NEAREST, REALISED, ROBUST, file_text, further_files, further_text};
 use super::origin::Kind;
 use super::output::TOOL;
+use super::parts;
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
-use super::{optimize_answer as answer, parts};
-use crate::answer::search::{MOST_STARTS, STARTS};
+use crate::answer::search::{Ask, SearchAnswer};
 use crate::design::{Design, EditError, Objective, Optimize};
-use crate::optimise::{
-    Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, alone,
-    front, is_centroid, loosened, realise, relief, robust, search, spread,
-};
+use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record, Status, is_centroid};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -110,7 +107,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
             "the design has no [optimize] table; add one with objective, scenarios and variables".into(),
         ));
     };
-    let aims = aims(args)?;
+    refuse_front(args)?;
     if args.robust && design.tolerances.is_none() {
         return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
     }
@@ -146,16 +143,21 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         if drawn { "" } else { " (this search draws nothing at random)" },
         if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
     ));
-    let climb = Settings { max_evaluations: args.evaluations as usize, ..Settings::default() };
-    let swarm = args.global.map(|n| n as usize);
-    let (starts, most_starts) = args.starts.map_or((STARTS, MOST_STARTS), |n| (n as usize, n as usize));
-    let method = Method { climb, starts, most_starts, swarm, seed: task.seed };
-    let settings = crate::scenario::Settings { tolerance: args.tolerance, ..Default::default() };
-    let fidelity = Fidelity { settings, reduced: !args.full };
+    let ask = Ask {
+        evaluations: args.evaluations as usize,
+        starts: args.starts.map(|n| n as usize),
+        swarm: args.global.map(|n| n as usize),
+        tolerance: args.tolerance,
+        full: args.full,
+        front: args.pareto.clone(),
+        front_steps: args.points as usize,
+        robust: args.robust,
+        draws: args.draws as usize,
+        follow: context.follow.clone(),
+    };
     let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
     let started = Instant::now();
-    let desk = Desk::new(&context.follow, &mut keeper);
-    let story = tell(&design, &task, &aims, args, (&method, fidelity), &desk);
+    let answer = design.optimise_recorded(&ask, &mut keeper);
     let run_time_s = started.elapsed().as_secs_f64();
     let Keeper { progress, file, .. } = keeper;
     drop(progress);
@@ -165,8 +167,8 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
             file.path().display()
         ));
     }
-    let story = match story {
-        Ok(story) => story,
+    let answer = match answer {
+        Ok(answer) => answer,
         Err(NoSearch::Stopped) => return Err(Failure::Interrupted),
         Err(why) => {
             if args.journal.is_none() && !args.resume {
@@ -175,96 +177,31 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
             return Err(at(why.to_string()));
         }
     };
-    finish(&design, &story, (&new, &histories), (file, args.journal.is_some()), run_time_s, context)
+    finish(&design, &answer, (&new, &histories), (file, args.journal.is_some()), run_time_s, context)
 }
 
-/// Objectives of `--pareto`, two or three different ones, or none.
-fn aims(args: &OptimizeArgs) -> Result<Vec<Objective>, Failure> {
-    let aims = args.pareto.clone();
+/// Two or three different objectives of `--pareto`, or none.
+fn refuse_front(args: &OptimizeArgs) -> Result<(), Failure> {
+    let aims = &args.pareto;
     let twice = aims.iter().enumerate().any(|(i, a)| aims[..i].contains(a));
     if !aims.is_empty() && (twice || !(2..=3).contains(&aims.len())) {
         return Err(Failure::malformed("--pareto: two or three different objectives are needed"));
     }
-    Ok(aims)
-}
-
-/// Everything that was asked, in order; what a stop cuts off is left out.
-fn tell(
-    design: &Design,
-    task: &Optimize,
-    aims: &[Objective],
-    args: &OptimizeArgs,
-    (method, fidelity): (&Method, Fidelity),
-    desk: &Desk,
-) -> Result<Story, NoSearch> {
-    let found = search(design, method, fidelity, desk)?;
-    let mut story = Story {
-        found,
-        realised: None,
-        relief: None,
-        loosened: Vec::new(),
-        alone: Vec::new(),
-        front: None,
-        made: None,
-        robust: None,
-        wants_robust: args.robust,
-        why: Vec::new(),
-    };
-    let ended = matches!(story.found.outcome.status, Status::Infeasible { .. } | Status::Stalled(_));
-    if ended && !story.found.feasible() {
-        let (problem, outcome) = (&story.found.problem, &story.found.outcome);
-        story.relief = Some(relief(design, problem, outcome, desk));
-        if !desk.stopped() {
-            story.loosened = loosened(design, &story.found, desk);
-            story.alone = alone(&story.found, desk);
-        }
-    }
-    if !story.found.feasible() {
-        return Ok(story);
-    }
-    if story.found.wants_centroid() && !desk.stopped() {
-        match realise(&story.found, task, method, desk) {
-            Ok(realised) => story.realised = realised,
-            Err(why) => story.why.push(format!("the centroid cannot be realised: {why}")),
-        }
-    }
-    if !aims.is_empty() && !desk.stopped() {
-        match front(&story.found, task, aims, args.points as usize, method, desk) {
-            Ok(front) => story.front = Some(front),
-            Err(why) => story.why.push(format!("no front: {why}")),
-        }
-    }
-    if let (true, Some(of), false) = (args.robust, &design.tolerances, desk.stopped()) {
-        let (problem, x) = (&story.found.problem, &story.found.outcome.x);
-        let draws = (args.draws as usize, method.seed);
-        story.made = spread(problem, x, of, draws, desk).map_err(|why| story.why.push(why.to_string())).ok();
-        let (lo, hi) = story.found.bounds();
-        match robust(problem, x, (&lo, &hi), of, draws, method, desk) {
-            Ok(robust) => story.robust = Some(robust),
-            Err(why) => story.why.push(format!("no robust design: {why}")),
-        }
-        // Corners and draws that were not looked at are none at which the clutch is impossible.
-        if desk.stopped() {
-            (story.made, story.robust) = (None, None);
-        }
-    }
-    if desk.stopped() {
-        story.why.push("stopped by Ctrl-C; what was not reached is left out".to_owned());
-    }
-    Ok(story)
+    Ok(())
 }
 
 /// Write the designs and tell the story.
 fn finish(
     design: &Design,
-    story: &Story,
+    answer: &SearchAnswer,
     (new, histories): (&Path, &Histories),
     (file, keep): (JournalFile, bool),
     run_time_s: f64,
     context: &Context,
 ) -> Result<Exit, Failure> {
+    let story = &answer.story;
     let found = &story.found;
-    let interrupted = found.outcome.status == Status::Interrupted || context.follow.stopped();
+    let interrupted = story.status() == &Status::Interrupted;
     let feasible = found.feasible();
     let better = feasible && (found.improved() || !found.start_feasible());
     let mut written = None;
@@ -278,7 +215,7 @@ fn finish(
     };
     if feasible && (better || !interrupted) && histories.write(&context.outputs) {
         written = write(new, file_text(design, found, context)).then_some(new);
-        for (ending, what, text) in story.other_files() {
+        for (ending, what, text) in further_files(story) {
             let path = new.with_extension(format!("{ending}.toml"));
             if write(&path, further_text(design, what, text)) {
                 beside.push(path);
@@ -294,11 +231,11 @@ fn finish(
         }
     }
     let journal = keep.then(|| file.path().to_path_buf());
-    let answer = answer::Told { design, story, found, written, beside, journal, run_time_s, interrupted };
-    context.outputs.write_csv(&answer.csv_table());
-    context.outputs.write_report(|| answer.page(context));
-    answer.json().print(context)?;
-    context.answer(&answer.text(context))?;
+    let told = Told { design, answer, written, beside, journal, run_time_s };
+    context.outputs.write_csv(&story.csv_table());
+    context.outputs.write_report(|| told.page(context));
+    told.json().print(context)?;
+    context.answer(&told.text(context))?;
     let whole = file.failed.is_none() && file.unused().is_none();
     if !interrupted && !keep && whole && context.outputs.unwritten().is_empty() {
         // The search is over and its answer is safe: nothing is left to resume, no row was promised to stay.
@@ -306,7 +243,7 @@ fn finish(
     }
     Ok(if interrupted {
         Exit::Interrupted
-    } else if feasible && answer.not_robust().is_none() {
+    } else if feasible && story.not_robust().is_none() {
         Exit::Held
     } else {
         Exit::NotHeld

@@ -4,6 +4,7 @@
 use super::Context;
 use super::origin::WRITTEN_BY;
 use super::output::VERSION;
+use crate::answer::search::Story;
 use crate::design::{Design, EditError, with_notes};
 use crate::optimise::Search;
 
@@ -41,6 +42,36 @@ pub fn file_text(design: &Design, found: &Search, context: &Context) -> Result<S
 /// As [`file_text`].
 pub fn further_text(design: &Design, what: &str, text: &str) -> Result<String, EditError> {
     Ok(format!("{WRITTEN_BY} optimize {VERSION}: {what}\n{END}\n{}", body(design, text)?))
+}
+
+/// Middle of the name of the design with flanks for a centroid that was free.
+pub const REALISED: &str = "realised";
+/// Middle of the name of the robust design.
+pub const ROBUST: &str = "robust";
+/// Middle of the name of the nearest design where none is feasible.
+pub const NEAREST: &str = "nearest";
+
+/// Further design files: middle of the name, what it is, text.
+pub fn further_files(story: &Story) -> Vec<(&'static str, &'static str, &str)> {
+    let mut files = Vec::new();
+    if let Some(realised) = &story.realised {
+        let best = realised.search.as_ref().filter(|s| s.feasible());
+        let text = best.map_or(&realised.file, |s| &s.file);
+        let what = if best.is_some() {
+            "flanks searched in place of the centroid"
+        } else {
+            "flanks nearest to the wanted centroid"
+        };
+        files.push((REALISED, what, text.as_str()));
+    }
+    if let Some(robust) = &story.robust {
+        let what = match robust.made.held() {
+            true => "held at every corner of [tolerances]",
+            false => "as near as was found to holding every corner of [tolerances], not held at all",
+        };
+        files.push((ROBUST, what, robust.file.as_str()));
+    }
+    files
 }
 
 /// Last line of a head.

@@ -118,6 +118,8 @@ pub enum NoSearch {
     Start(Failure),
     /// The question was refused.
     Refused(Refusal),
+    /// What is asked beside the search is out of range, with what is allowed.
+    Asked(String),
     /// No variable is left that moves a margin.
     NothingMoves(Vec<String>),
     /// Stopped before anything was found.
@@ -130,6 +132,7 @@ impl std::fmt::Display for NoSearch {
             Self::NoTask => write!(f, "the design has no [optimize] table"),
             Self::Start(e) => write!(f, "the given design cannot be evaluated: {e}"),
             Self::Refused(e) => write!(f, "{e}"),
+            Self::Asked(what) => write!(f, "{what}"),
             Self::NothingMoves(names) => {
                 write!(f, "no variable moves any margin, so there is nothing to search: {}", names.join(", "))
             }
