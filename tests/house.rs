@@ -25,6 +25,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("dynamics", &["follow", "numeric", "ode", "design", "kinematics", "friction", "wedge"]),
     // A scenario may be given another friction law, so it names that law.
     ("scenario", &["follow", "numeric", "design", "profile", "friction", "wedge", "dynamics"]),
+    // Begins as a scene does.
+    ("element", &["follow", "design", "dynamics", "scenario"]),
     ("fidelity", &["numeric", "design", "profile", "contact", "wedge", "dynamics", "scenario"]),
     ("accuracy", &["follow", "design", "dynamics", "scenario", "fidelity"]),
     (
