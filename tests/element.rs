@@ -290,6 +290,40 @@ fn a_restored_state_goes_on_to_the_bit() {
     assert!(modes.len() > 2, "{modes:?}");
 }
 
+/// Friction and inertia change on the way: angles and speeds stay, accelerations follow; the same clutch is no change.
+#[test]
+fn another_clutch_goes_on_from_the_same_motion() {
+    let clutch = design("huang2017-multi-arc").clutch;
+    let beginning = Beginning { torque_nm: 16.8, speed_rad_s: 50.0, ..Beginning::default() };
+    let mut element = Element::new(&clutch, &beginning, &Settings::default()).unwrap();
+    let torques = still(-20.0, 18.0);
+    element.advance(1e-3, torques).unwrap();
+    let mut heavy = clutch.clone();
+    heavy.races.outer_inertia_kg_m2 *= 2.0;
+    heavy.friction.static_ = 0.2;
+    let mut other = element.exchanged(&heavy).unwrap();
+    let mut same = element.exchanged(&clutch).unwrap();
+    let (before, after) = (element.motion(), other.motion());
+    for i in 0..2 {
+        assert_eq!(before.flanges[i].angle_rad, after.flanges[i].angle_rad);
+        assert_eq!(before.flanges[i].speed_rad_s, after.flanges[i].speed_rad_s);
+    }
+    let ratio = before.flanges[1].acceleration_rad_s2 / after.flanges[1].acceleration_rad_s2;
+    assert!((ratio - 2.0).abs() < 0.05, "{ratio}");
+    for each in [&mut element, &mut other, &mut same] {
+        assert_eq!(each.advance(1e-3, torques).unwrap().stop, Stop::Finished);
+    }
+    let angle = |e: &Element| e.motion().flanges[0].angle_rad;
+    assert!((angle(&element) - angle(&same)).abs() < 1e-12);
+    assert!((angle(&element) - angle(&other)).abs() > 1e-7);
+    let far = Beginning { torque_nm: 60.0, ..Beginning::default() };
+    let far = Element::new(&clutch, &far, &Settings::default()).unwrap();
+    let mut short = clutch.clone();
+    short.sprags.inner_arcs.truncate(1);
+    let mut short = far.exchanged(&short).unwrap();
+    assert_eq!(short.advance(1e-4, still(-60.0, 60.0)).unwrap().stop, Stop::CurveEnd);
+}
+
 /// Hours of overrun turn the races thousands of times; what follows is the same.
 #[test]
 fn time_and_turns_behind_it_do_not_matter() {

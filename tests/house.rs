@@ -64,8 +64,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
-            "answer", "follow", "material", "profile", "design", "wedge", "dynamics", "scenario", "fidelity",
-            "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export", "import",
+            "answer", "follow", "material", "profile", "design", "wedge", "dynamics", "scenario", "element",
+            "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export", "import",
             "studio",
         ],
     ),

@@ -56,6 +56,15 @@ impl Memory {
         back
     }
 
+    /// The same motion in another model, whose contacts may end elsewhere and hold the races at another windup.
+    pub fn moved_to(&self, model: &Model) -> Self {
+        let place = match self.mode.place {
+            Place::Arc(_) => Place::Arc(model.curve.arc_at(self.state[0])),
+            other => other,
+        };
+        Self { mode: Mode { place, ..self.mode }, phase_rad: None, ..*self }
+    }
+
     /// Whether it may be of a run of `model`: numbers are finite, and its places exist.
     pub fn fits(&self, model: &Model) -> bool {
         let finite = |x: &f64| x.is_finite();

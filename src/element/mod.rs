@@ -293,6 +293,23 @@ impl Element {
         }
     }
 
+    /// This motion, gone on with by another clutch: where a number of the design changes on the way. Angles and speeds stay,
+    /// forces follow the new curve.
+    ///
+    /// # Errors
+    /// As [`Element::new`], where the other is no clutch.
+    pub fn exchanged(&self, clutch: &Clutch) -> Result<Self, NoElement> {
+        let beginning = Beginning {
+            speed_rad_s: self.model.curve.speed_rad_s(),
+            abutment_nm_per_rad: self.model.loads.abutment_nm_per_rad,
+            ..Beginning::default()
+        };
+        let mut other = Self::new(clutch, &beginning, &self.settings)?;
+        other.at = Saved { memory: self.at.memory.moved_to(&other.model), ..self.at };
+        other.apply(self.at.torques_nm);
+        Ok(other)
+    }
+
     /// Where it stands.
     pub fn save(&self) -> Saved {
         self.at
