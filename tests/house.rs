@@ -26,6 +26,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("dynamics", &["follow", "numeric", "ode", "clutch", "kinematics", "friction", "wedge"]),
     // A scenario may be given another friction law, so it names that law.
     ("scenario", &["follow", "numeric", "clutch", "profile", "friction", "wedge", "dynamics"]),
+    // Begins as a scene does.
+    ("element", &["follow", "clutch", "dynamics", "scenario"]),
     ("fidelity", &["numeric", "clutch", "profile", "contact", "wedge", "dynamics", "scenario"]),
     ("accuracy", &["follow", "numeric", "clutch", "dynamics", "scenario", "fidelity"]),
     (
@@ -78,8 +80,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export",
-            "import", "studio",
+            "element", "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report",
+            "export", "import", "studio",
         ],
     ),
 ];

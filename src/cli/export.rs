@@ -1,6 +1,7 @@
 //! `export`: the design for other programs, and their results read back.
 
 mod deck;
+mod fmu;
 mod geometry;
 mod result;
 
@@ -21,11 +22,15 @@ Examples:
   ccx -i clutch
   sprag-design export designs/huang2017-single-arc.toml --format calculix --read clutch.dat --torques 3.34,10,16.8
   sprag-design export designs/huang2017-multi-arc.toml --format calculix --variant solid --mesh 0.05 -o solid.inp
+  sprag-design export designs/starter.toml --format fmu -o clutch.fmu
 
 Drawings, solids and tables are in mm, at first contact without load, as made: before press fits, at the reference temperature.
 A sprag has its origin in C_e, y outward; races and clutch lie about the axis O. Seen so, the clutch engages when the inner race
 turns counterclockwise against the outer one. dxf: release 12, closed polylines with bulges for exact arcs, layers SPRAG, RACES,
 CENTRES, CENTRE_LINES, ARC_ENDS, TEXT. step: AP214, prisms with square ends; the clutch is an assembly.
+
+fmu: the clutch between two flanges, torques in, motion out, for co-simulation. The library inside is built by fmu/build.sh
+of the source; it serves both versions of FMI, on the platform that it was built on.
 
 A deck holds one sector, meshed, and needs nothing else. CalculiX: apt-get install calculix-ccx.";
 
@@ -42,6 +47,8 @@ pub enum Format {
     Csv,
     /// Finite-element deck of one sector for CalculiX
     Calculix,
+    /// Unit for co-simulation (FMI)
+    Fmu,
 }
 
 impl Format {
@@ -52,6 +59,7 @@ impl Format {
             Self::Svg => Kind::Svg,
             Self::Csv => Kind::Table,
             Self::Calculix => Kind::Deck,
+            Self::Fmu => Kind::Unit,
         }
     }
 
@@ -62,6 +70,7 @@ impl Format {
             Self::Svg => "svg",
             Self::Csv => "csv",
             Self::Calculix => "calculix",
+            Self::Fmu => "fmu",
         }
     }
 }
@@ -86,6 +95,17 @@ pub enum TableName {
     Arcs,
     /// Points on the surfaces
     Points,
+}
+
+/// Versions of FMI by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FmiName {
+    /// FMI 2.0, which every tool reads
+    #[value(name = "2")]
+    Two,
+    /// FMI 3.0
+    #[value(name = "3")]
+    Three,
 }
 
 /// Variants of the deck by name.
@@ -123,6 +143,12 @@ pub struct ExportArgs {
     /// csv, points: the most that a chord between two points leaves its arc, mm [default: 0.001]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = positive)]
     pub deviation_mm: Option<f64>,
+    /// fmu: version of FMI [default: 2]
+    #[arg(long, value_enum)]
+    pub fmi: Option<FmiName>,
+    /// fmu: the library that fmu/build.sh has built [default: looked for beside this program]
+    #[arg(long, value_name = "PATH")]
+    pub library: Option<PathBuf>,
     /// calculix: where the material is held along the axis [default: layer]
     #[arg(long, value_enum)]
     pub variant: Option<VariantName>,
@@ -152,13 +178,15 @@ pub struct ExportArgs {
 /// [`Failure`].
 pub fn run(args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
     refuse_meaningless(args)?;
-    let inputs: Vec<_> = std::iter::once(&args.file).chain(&args.read).map(PathBuf::as_path).collect();
+    let inputs: Vec<_> =
+        std::iter::once(&args.file).chain(&args.read).chain(&args.library).map(PathBuf::as_path).collect();
     let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), args.format.kind())).collect();
     context.outputs.check(&inputs, &others)?;
     let design = parts::read_design(&args.file, context)?;
     match (&args.read, args.format) {
         (Some(dat), _) => result::run(&design, dat, &args.torques, context),
         (None, Format::Calculix) => deck::run(&design, args, context),
+        (None, Format::Fmu) => fmu::run(&design, args, context),
         (None, _) => geometry::run(&design, args, context),
     }
 }
@@ -166,11 +194,14 @@ pub fn run(args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
 /// Refuse flags that mean nothing to the format.
 fn refuse_meaningless(args: &ExportArgs) -> Result<(), Failure> {
     let deck = args.format == Format::Calculix;
+    let unit = args.format == Format::Fmu;
     let points = args.table == Some(TableName::Points);
     let given = [
-        ("part", args.part.is_some(), !deck, "dxf, step, svg, csv"),
+        ("part", args.part.is_some(), !deck && !unit, "dxf, step, svg, csv"),
         ("table", args.table.is_some(), args.format == Format::Csv, "csv"),
         ("deviation-mm", args.deviation_mm.is_some(), points, "csv with --table points"),
+        ("fmi", args.fmi.is_some(), unit, "fmu"),
+        ("library", args.library.is_some(), unit, "fmu"),
         ("variant", args.variant.is_some(), deck, "calculix"),
         ("mesh", args.mesh.is_some(), deck, "calculix"),
         ("torque", args.torque.is_some(), deck, "calculix"),

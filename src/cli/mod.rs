@@ -107,7 +107,7 @@ enum Command {
     Size(size::SizeArgs),
     /// Find unknown parameters from measured or published numbers, and what these cannot tell apart
     Identify(identify::IdentifyArgs),
-    /// Write the design as a drawing (DXF, SVG), a solid (STEP), a table of arcs or a CalculiX deck
+    /// Write the design as a drawing (DXF, SVG), a solid (STEP), a table of arcs, a CalculiX deck or a co-simulation unit (FMU)
     Export(export::ExportArgs),
     /// A drawn or measured sprag (DXF, or a table of points) as a design file
     Import(import::ImportArgs),

@@ -12,6 +12,8 @@ pub const WRITTEN_BY: &str = "# Written by sprag-design";
 const DECK_FACT: &str = "** sprag-design ";
 /// First word in the second line of a drawing or solid, behind what its format wants there.
 const MARK: &str = "sprag-design ";
+/// Words in the description of a unit.
+const UNIT: &str = "generationTool=\"sprag-design ";
 /// First words of a page.
 const PAGE: &str = "<!-- sprag-design ";
 /// As much of a file as is looked at, bytes.
@@ -36,10 +38,12 @@ pub enum Kind {
     Svg,
     /// A solid, STEP.
     Step,
+    /// A co-simulation unit, FMU.
+    Unit,
 }
 
 /// Endings that name a kind, and endings of files that this tool never writes.
-const ENDINGS: [(&str, Option<Kind>); 19] = [
+const ENDINGS: [(&str, Option<Kind>); 20] = [
     ("csv", Some(Kind::Table)),
     ("html", Some(Kind::Page)),
     ("htm", Some(Kind::Page)),
@@ -49,6 +53,7 @@ const ENDINGS: [(&str, Option<Kind>); 19] = [
     ("svg", Some(Kind::Svg)),
     ("step", Some(Kind::Step)),
     ("stp", Some(Kind::Step)),
+    ("fmu", Some(Kind::Unit)),
     ("json", None),
     ("pdf", None),
     ("png", None),
@@ -73,6 +78,7 @@ impl Kind {
             Self::Dxf => "DXF drawing",
             Self::Svg => "SVG drawing",
             Self::Step => "STEP solid",
+            Self::Unit => "co-simulation unit",
         }
     }
 
@@ -85,6 +91,7 @@ impl Kind {
             Self::Dxf => ".dxf",
             Self::Svg => ".svg",
             Self::Step => ".step or .stp",
+            Self::Unit => ".fmu",
         }
     }
 
@@ -132,6 +139,8 @@ impl Kind {
                 .nth(1)
                 .and_then(|line| line.strip_prefix("/* "))
                 .is_some_and(|l| l.starts_with(MARK)),
+            // Its description comes first, as it is.
+            Self::Unit => head.starts_with("PK") && head.contains(UNIT),
             Self::Journal => true,
             Self::Table => !is_history(head) && head.lines().next().is_some_and(is_our_header),
         }
@@ -157,6 +166,7 @@ mod tests {
             (Kind::Dxf, "999\nsprag-design 1; design 0\n", "  0\nSECTION\n  2\nHEADER\n"),
             (Kind::Svg, "<svg>\n<desc>sprag-design 1</desc>\n", "<svg>\n<g/>\n"),
             (Kind::Step, "ISO-10303-21;\n/* sprag-design 1 */\n", "ISO-10303-21;\nHEADER;\n"),
+            (Kind::Unit, "PK<a generationTool=\"sprag-design 1\">", "PK<a generationTool=\"other 1\">"),
             (Kind::Table, "code,name,demand\n1,2,3\n", "Time [s];Torque\n"),
             (Kind::Table, "label,races.inner_radius_mm,torque_nm\n", "time_s,torque_nm\n0,1\n"),
             (Kind::Table, "model,design\n", "notes\n"),
@@ -183,6 +193,8 @@ mod tests {
             (Kind::Deck, "a", true),
             (Kind::Deck, "a.pdf", false),
             (Kind::Step, "a.STP", true),
+            (Kind::Unit, "a.fmu", true),
+            (Kind::Unit, "a.zip", false),
             (Kind::Dxf, "a.svg", false),
         ] {
             assert_eq!(kind.fits(Path::new(name)).is_ok(), fits, "{kind:?} {name}");

@@ -38,19 +38,19 @@ pub(super) struct Driver<'a> {
     pub(super) audit: Option<Audit>,
     pub(super) zeno: Zeno,
     /// When the mode has changed last, s, and at which event.
-    landed: (f64, usize),
-    stepper: Adaptive<N_STATE>,
+    pub(super) landed: (f64, usize),
+    pub(super) stepper: Adaptive<N_STATE>,
     /// Slope and look at the present state where the last step has left them.
     pub(super) slope: Option<State>,
     pub(super) seen: Option<Look>,
     /// Path of slip at A that ends the run, as slip under load does, m.
     pub(super) most_slip_m: Option<f64>,
     /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
-    lengths: [f64; KINDS],
+    pub(super) lengths: [f64; KINDS],
 }
 
 /// Kinds of mode.
-const KINDS: usize = 8;
+pub(super) const KINDS: usize = 8;
 
 /// Which contacts hold, for the memory of step lengths.
 fn kind(mode: &Mode) -> usize {
@@ -100,7 +100,7 @@ impl<'a> Driver<'a> {
     }
 
     /// A contact that cannot hold where the run begins lets go at once.
-    fn begin(&mut self) {
+    pub(super) fn begin(&mut self) {
         let mut now = look(self.model, &self.run.mode, 0.0, &self.run.state, !self.settings.rolling).events;
         (now[LOWER], now[UPPER]) = (1.0, 1.0);
         if now[INNER] < 0.0 || now[OUTER] < 0.0 {
@@ -108,7 +108,7 @@ impl<'a> Driver<'a> {
         }
     }
 
-    fn integrate(&mut self) {
+    pub(super) fn integrate(&mut self) {
         let (trail, mut room, mut looks) = (Trail::new(), Room::new(), Looks::new());
         while self.run.t_s < self.settings.duration_s {
             if self.settings.follow.stopped() {
@@ -422,7 +422,7 @@ impl<'a> Driver<'a> {
         self.run.stop = why;
     }
 
-    fn finish(mut self) -> Run {
+    pub(super) fn finish(mut self) -> Run {
         self.run.energy = self.balance();
         self.sample_extremes();
         if matches!(self.run.stop, Stop::StepLimit | Stop::EventLimit) {

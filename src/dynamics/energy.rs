@@ -28,9 +28,9 @@ pub struct EnergyBalance {
     pub race_damping_j: f64,
     /// Hunt-Crossley damping of the contacts.
     pub contact_damping_j: f64,
-    /// Torque on the inner race: preload, step or history.
+    /// Torque on the inner race: preload, step, history or flange.
     pub torque_inner_j: f64,
-    /// Excitation of the outer race.
+    /// Torque on the outer race: excitation or flange.
     pub torque_outer_j: f64,
     /// Change of the mean speed.
     pub frame_j: f64,
@@ -76,6 +76,7 @@ impl Model {
         let (speed, spin) = self.mean_speed(t);
         let in_curve = self.curve.speed_rad_s();
         let open = mode.place == Place::Open;
+        let [torque_inner, torque_outer] = self.torques_nm(t);
         let slips = |grip: Grip| f64::from(u8::from(matches!(grip, Grip::Slip(_))));
         let frame = if open {
             self.mass_kg * p.oc_g * p.oc_g_slope * (speed * speed - in_curve * in_curve)
@@ -91,8 +92,8 @@ impl Model {
             -n * f.t_be * f.v_b * slips(mode.outer),
             -self.damping_nm_s_per_rad * (di - de).powi(2),
             n * self.damped(&p, speed, da).1 * da,
-            (self.loads.inner_nm - self.drive.torque_at(t)) * di,
-            self.loads.amplitude_nm * (self.loads.omega_rad_s * t).sin() * de,
+            torque_inner * di,
+            torque_outer * de,
             n * frame * da - spin * slowed,
         ]
     }

@@ -1,10 +1,11 @@
 //! Accelerations and contact forces in a given mode.
 
 use nalgebra::{Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
 
+use super::drive::{Drive, Loads};
 use crate::clutch::Clutch;
 use crate::friction::Stribeck;
-use crate::numeric::course::Course;
 use crate::wedge::{WedgeCurve, WedgePoint};
 
 /// Length of the state: 4 angles (rad), 4 rates (rad/s), signed slip distances at A and B (m).
@@ -13,7 +14,7 @@ pub const N_STATE: usize = 10;
 pub type State = [f64; N_STATE];
 
 /// What one contact does.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Grip {
     /// Rolls without slip; the force is a constraint.
     Stick,
@@ -22,7 +23,7 @@ pub enum Grip {
 }
 
 /// Where the inner contact is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Place {
     /// No normal force at A.
     Open,
@@ -33,7 +34,7 @@ pub enum Place {
 }
 
 /// Mode of motion: within one, everything is smooth.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Mode {
     /// Where A is.
     pub place: Place,
@@ -41,55 +42,6 @@ pub struct Mode {
     pub inner: Grip,
     /// Grip at B.
     pub outer: Grip,
-}
-
-/// Torques from outside.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Loads {
-    /// Constant torque C_bi on the inner race, N m.
-    pub inner_nm: f64,
-    /// Amplitude of C_be = amplitude sin(omega t) on the outer race, N m.
-    pub amplitude_nm: f64,
-    /// Angular frequency omega, rad/s.
-    pub omega_rad_s: f64,
-    /// Abutment stiffness k_ab on the outer race, N m/rad.
-    pub abutment_nm_per_rad: f64,
-}
-
-/// What acts over time beside [`Loads`]; nothing by default.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Drive {
-    /// Engaging torque on the inner race, added as C_bi = -torque, N m.
-    pub torque_nm: Option<Course>,
-    /// Mean speed Omega(t), rad/s, in place of the curve's; angles are measured from its integral.
-    pub speed_rad_s: Option<Course>,
-}
-
-impl Drive {
-    fn courses(&self) -> impl Iterator<Item = &Course> {
-        self.torque_nm.iter().chain(&self.speed_rad_s)
-    }
-
-    /// First time after `t` (s) at which a course has a knot: no step may cross it.
-    pub fn next_break_s(&self, t: f64) -> f64 {
-        self.courses().filter_map(|c| c.next_knot(t)).fold(f64::INFINITY, f64::min)
-    }
-
-    /// `t`, or the first time beyond a knot that a step ended at.
-    pub fn past_break_s(&self, t: f64) -> f64 {
-        self.courses().fold(t, |t, c| c.past_knot(t))
-    }
-
-    /// The same with time counted from `t` (s).
-    pub fn from(&self, t: f64) -> Self {
-        let later = |c: &Option<Course>| c.as_ref().map(|c| c.from(t));
-        Self { torque_nm: later(&self.torque_nm), speed_rad_s: later(&self.speed_rad_s) }
-    }
-
-    /// Engaging torque at `t`, N m.
-    pub fn torque_at(&self, t: f64) -> f64 {
-        self.torque_nm.as_ref().map_or(0.0, |c| c.at(t).0)
-    }
 }
 
 /// A clutch under loads, ready to be integrated.
@@ -298,10 +250,9 @@ impl Model {
         let orbit = self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g;
         let f_phi = -n * (2.0 * swing * da * phi_rate + orbit * spin);
         let drag = self.damping_nm_s_per_rad * (di - de);
-        let f_i = self.loads.inner_nm - self.drive.torque_at(t) - drag - self.inner_inertia_kg_m2 * spin;
-        let f_e = self.loads.amplitude_nm * (self.loads.omega_rad_s * t).sin() + drag
-            - self.loads.abutment_nm_per_rad * y[3]
-            - self.outer_inertia_kg_m2 * spin;
+        let [torque_i, torque_e] = self.torques_nm(t);
+        let f_i = torque_i - drag - self.inner_inertia_kg_m2 * spin;
+        let f_e = torque_e + drag - self.loads.abutment_nm_per_rad * y[3] - self.outer_inertia_kg_m2 * spin;
         let inverse = self.sprag_inverse(p.oc_g);
         let free = inverse * Vector2::new(f_alpha, f_phi);
         let (free_i, free_e) = (f_i / self.inner_inertia_kg_m2, f_e / self.outer_inertia_kg_m2);

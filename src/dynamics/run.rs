@@ -6,6 +6,7 @@ use super::events::{FIGURES, N_BI};
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 use crate::follow::Follow;
 use crate::ode::step::{Counters, Tolerance};
+use serde::{Deserialize, Serialize};
 
 /// Settings of a run.
 #[derive(Debug, Clone)]
@@ -63,7 +64,7 @@ impl Neglected {
 }
 
 /// Why a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stop {
     /// The end of the scenario.
     Finished,

@@ -2,7 +2,8 @@
 
 use nalgebra::Matrix2;
 
-use super::model::{Grip, Loads, Mode, Model, N_STATE, Place};
+use super::drive::Loads;
+use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::start::Overrun;
 use crate::clutch::Clutch;
 use crate::numeric::root;

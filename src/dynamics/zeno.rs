@@ -14,14 +14,14 @@ use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER};
 use super::model::{Grip, Mode, Place, State};
 
 const CYCLE: usize = 4;
-const KEPT: usize = 3 * CYCLE + 1;
+pub(super) const KEPT: usize = 3 * CYCLE + 1;
 /// Largest ratio of one span to the last that counts as shrinking: a choice.
 const SHRINKS: f64 = 0.9;
 
 /// The last changes of mode: when, and which event functions fell.
 #[derive(Debug, Clone)]
 pub(super) struct Zeno {
-    last: [(f64, [bool; EVENTS]); KEPT],
+    pub(super) last: [(f64, [bool; EVENTS]); KEPT],
 }
 
 /// Where a sequence leads.

@@ -10,6 +10,7 @@ use super::radau5::Radau;
 use super::rhs::RightHandSide;
 use super::step::{Counters, Room, Step, Tolerance};
 use nalgebra::{Const, DimMin};
+use serde::{Deserialize, Serialize};
 
 /// Shortest step that is still taken, s.
 const SHORTEST_STEP: f64 = 1e-15;
@@ -47,6 +48,16 @@ where
     radau: Radau<N>,
 }
 
+/// What the control of steps knows apart from the right-hand side: plain numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Pace {
+    /// Length to try next, s.
+    pub h: f64,
+    implicit: bool,
+    short: u32,
+    patience: u32,
+}
+
 impl<const N: usize> Adaptive<N>
 where
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
@@ -56,6 +67,18 @@ where
     pub fn new(tolerance: Tolerance<N>, h: f64, floor: f64) -> Self {
         let radau = Radau::new();
         Self { h, tolerance, floor, implicit: false, short: 0, patience: PATIENCE, radau }
+    }
+
+    /// Its pace at present.
+    pub fn pace(&self) -> Pace {
+        Pace { h: self.h, implicit: self.implicit, short: self.short, patience: self.patience }
+    }
+
+    /// Go on at `pace`, as after [`Self::forget`].
+    pub fn go_on_at(&mut self, pace: Pace) {
+        (self.h, self.implicit, self.short, self.patience) =
+            (pace.h, pace.implicit, pace.short, pace.patience);
+        self.forget();
     }
 
     /// The right-hand side has changed: nothing known of the old one holds.

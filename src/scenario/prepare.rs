@@ -236,7 +236,7 @@ fn at_start(
             let jump = vec![[step_time_s, preload_nm], [step_time_s, preload_nm + torque_step_nm]];
             let torque = Course::new(scenario.torque_history.clone().unwrap_or(jump));
             let speed = scenario.speed_history.clone().and_then(Course::new);
-            let drive = Drive { torque_nm: torque, speed_rad_s: speed };
+            let drive = Drive { torque_nm: torque, speed_rad_s: speed, ..Drive::default() };
             let at_start = drive.speed_rad_s.as_ref().map_or(speed_rad_s, |c| c.at(0.0).0);
             // The growth of the races is that of one speed: the middle of the extremes in Omega^2, which drives it.
             let of_curve = drive.speed_rad_s.as_ref().map_or(speed_rad_s, |c| {

@@ -64,7 +64,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         Format::Dxf => dxf(part, &subject),
         Format::Svg => svg(part, &subject),
         Format::Step => step(part, &subject),
-        Format::Csv | Format::Calculix => csv(part, &subject, args, deviation_mm)?,
+        Format::Csv | Format::Calculix | Format::Fmu => csv(part, &subject, args, deviation_mm)?,
     };
     let written = match &args.output {
         Some(path) => context.outputs.write(path, args.format.kind(), text.as_bytes()).then_some(path),

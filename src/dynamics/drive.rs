@@ -1,0 +1,86 @@
+//! What acts on the races from outside.
+
+use super::model::Model;
+use crate::numeric::course::Course;
+
+/// Torques from outside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loads {
+    /// Constant torque C_bi on the inner race, N m.
+    pub inner_nm: f64,
+    /// Amplitude of C_be = amplitude sin(omega t) on the outer race, N m.
+    pub amplitude_nm: f64,
+    /// Angular frequency omega, rad/s.
+    pub omega_rad_s: f64,
+    /// Abutment stiffness k_ab on the outer race, N m/rad.
+    pub abutment_nm_per_rad: f64,
+}
+
+/// A torque that is straight over time.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Ramp {
+    /// At t = 0, N m.
+    pub start_nm: f64,
+    /// N m/s.
+    pub rate_nm_per_s: f64,
+}
+
+/// What acts over time beside [`Loads`]; nothing by default.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Drive {
+    /// Engaging torque on the inner race, added as C_bi = -torque, N m.
+    pub torque_nm: Option<Course>,
+    /// Mean speed Omega(t), rad/s, in place of the curve's; angles are measured from its integral.
+    pub speed_rad_s: Option<Course>,
+    /// Torques that the flanges pass on to the inner and to the outer race, added to C_bi and C_be.
+    pub flanges: Option<[Ramp; 2]>,
+}
+
+impl Drive {
+    fn courses(&self) -> impl Iterator<Item = &Course> {
+        self.torque_nm.iter().chain(&self.speed_rad_s)
+    }
+
+    /// First time after `t` (s) at which a course has a knot: no step may cross it.
+    pub fn next_break_s(&self, t: f64) -> f64 {
+        self.courses().filter_map(|c| c.next_knot(t)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// `t`, or the first time beyond a knot that a step ended at.
+    pub fn past_break_s(&self, t: f64) -> f64 {
+        self.courses().fold(t, |t, c| c.past_knot(t))
+    }
+
+    /// The same with time counted from `t` (s).
+    pub fn from(&self, t: f64) -> Self {
+        let later = |c: &Option<Course>| c.as_ref().map(|c| c.from(t));
+        let flanges = self.flanges.map(|both| both.map(|r| Ramp { start_nm: r.at(t), ..r }));
+        Self { torque_nm: later(&self.torque_nm), speed_rad_s: later(&self.speed_rad_s), flanges }
+    }
+
+    /// Engaging torque at `t`, N m.
+    pub fn torque_at(&self, t: f64) -> f64 {
+        self.torque_nm.as_ref().map_or(0.0, |c| c.at(t).0)
+    }
+}
+
+impl Ramp {
+    /// At `t` (s), N m.
+    #[inline]
+    pub fn at(&self, t: f64) -> f64 {
+        self.start_nm + self.rate_nm_per_s * t
+    }
+}
+
+impl Model {
+    /// C_bi and C_be at `t` (s), N m.
+    #[inline(always)]
+    pub fn torques_nm(&self, t: f64) -> [f64; 2] {
+        let inner = self.loads.inner_nm - self.drive.torque_at(t);
+        let outer = self.loads.amplitude_nm * (self.loads.omega_rad_s * t).sin();
+        match &self.drive.flanges {
+            Some([more_inner, more_outer]) => [inner + more_inner.at(t), outer + more_outer.at(t)],
+            None => [inner, outer],
+        }
+    }
+}

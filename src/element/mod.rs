@@ -1,0 +1,360 @@
+//! A clutch as an element between two flanges: torques in, motion out, step by step, for programs that integrate the rest.
+//!
+//! In: a clutch, how it begins, torques of both flanges over each step. Out: [`Element`], which can be saved and restored.
+//! Absent: what lies beyond the flanges; an integrator of its own (a step is a run of `dynamics` that goes on where the last
+//! has ended). Equations: none, (13) and (15) are those of `dynamics`.
+//!
+//! # Conventions
+//! Flange 0 is the inner race, flange 1 the outer one. Angles, speeds and torques are absolute and share the sense in which A
+//! lies ahead of B; a torque is what the flange passes on to its race. The clutch engages under a torque on the inner race
+//! that is negative against that on the outer one: it then holds an inner race that lags behind, theta_inner - theta_outer
+//! having fallen by the windup, and lets one run ahead.
+
+mod motion;
+
+pub use motion::{Contact, Flange, Motion};
+
+use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
+use crate::dynamics::{Drive, Memory, Model, Ramp, Run, RunSettings, SlipRecord, Stop, go_on};
+use crate::follow::Follow;
+use crate::scenario::{NoScenario, prepare};
+use serde::{Deserialize, Serialize};
+
+/// How an element begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beginning {
+    /// Time, s. A label: nothing depends on it.
+    pub t_s: f64,
+    /// Speed of the outer race, rad/s, and of the inner one unless that overruns. The growth of the races by centrifugal
+    /// force stays that of this speed; the centrifugal force on the sprags follows the motion.
+    pub speed_rad_s: f64,
+    /// How much faster the inner race is, rad/s, at least 0: above 0 the sprags are in steady overrun, else in balance.
+    pub overrun_rad_s: f64,
+    /// Engaging torque in that balance, N m, at least 0: -torque at the inner flange, +torque at the outer one or its
+    /// abutment. Means nothing in overrun.
+    pub torque_nm: f64,
+    /// Whether the spring takes part in the balance.
+    pub start: Start,
+    /// Angle of the outer race, rad, without the turn of an abutment; the inner race has turned against it by the windup of
+    /// that torque.
+    pub angle_rad: f64,
+    /// Stiffness that ties the outer race to what turns at `speed_rad_s`, N m/rad; 0: free.
+    pub abutment_nm_per_rad: f64,
+}
+
+impl Default for Beginning {
+    /// At rest without load at t = 0, nothing tied.
+    fn default() -> Self {
+        Self {
+            t_s: 0.0,
+            speed_rad_s: 0.0,
+            overrun_rad_s: 0.0,
+            torque_nm: 0.0,
+            start: Start::Settled,
+            angle_rad: 0.0,
+            abutment_nm_per_rad: 0.0,
+        }
+    }
+}
+
+/// How an element is integrated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Relative tolerance of a step of the integrator. Default 1e-8.
+    pub tolerance: f64,
+    /// Longest step of the integrator, s; `None`: as long as it is advanced.
+    pub longest_step_s: Option<f64>,
+    /// Steps of the integrator, rejected ones included, and twice the mode changes, before an advance ends with a name.
+    /// Default 200 000.
+    pub most_steps: u64,
+    /// Whether [`Run::energy`] is made up. Default no.
+    pub energy: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { tolerance: 1e-8, longest_step_s: None, most_steps: 200_000, energy: false }
+    }
+}
+
+/// Tolerances of a step that can be kept: above, estimates mean little, below, rounding.
+const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
+
+/// Torque of a flange over one advance, straight between its ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Torque {
+    /// At the start, N m.
+    pub start_nm: f64,
+    /// At the end, N m.
+    pub end_nm: f64,
+}
+
+impl Torque {
+    /// The same throughout.
+    pub fn constant(torque_nm: f64) -> Self {
+        Self { start_nm: torque_nm, end_nm: torque_nm }
+    }
+}
+
+/// What was asked makes no sense.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Malformed {
+    /// What was given, and what is allowed.
+    pub what: String,
+}
+
+impl std::fmt::Display for Malformed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.what)
+    }
+}
+
+impl std::error::Error for Malformed {}
+
+/// Why there is no element.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoElement {
+    /// A number of the question is none that is allowed.
+    Malformed(Malformed),
+    /// The clutch cannot begin so.
+    NoStart(NoScenario),
+}
+
+impl std::fmt::Display for NoElement {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Malformed(why) => write!(f, "{why}"),
+            Self::NoStart(why) => write!(f, "{why}"),
+        }
+    }
+}
+
+impl std::error::Error for NoElement {}
+
+/// Where an element stands. Numbers only, all finite: through `serde` and back it is the same to the bit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Saved {
+    t_s: f64,
+    /// Since the beginning, s.
+    elapsed_s: f64,
+    /// What the races have turned beside the mean speed and what `memory` says, rad.
+    turned_rad: [f64; 2],
+    /// Torques at the end of the last advance, N m.
+    torques_nm: [f64; 2],
+    /// Since the beginning: time in slip (s), path and net slip (m), at A and B.
+    slips: [[f64; 3]; 2],
+    ended: Option<Stop>,
+    memory: Memory,
+}
+
+/// A clutch between two flanges.
+#[derive(Debug, Clone)]
+pub struct Element {
+    model: Model,
+    settings: Settings,
+    at: Saved,
+}
+
+/// Turn of a race from which on it is counted anew, rad, so that errors stay those of small angles. A choice.
+const FULL_TURN_RAD: f64 = 1.0;
+
+fn check(name: &str, value: f64, allowed: impl Fn(f64) -> bool, words: &str) -> Result<(), Malformed> {
+    if value.is_finite() && allowed(value) {
+        return Ok(());
+    }
+    Err(Malformed { what: format!("{name}: found {value}, {words} is allowed") })
+}
+
+impl Element {
+    /// `clutch`, beginning as `beginning` says.
+    ///
+    /// # Errors
+    /// [`NoElement`] for numbers out of range, and where the clutch cannot carry the start.
+    pub fn new(clutch: &Clutch, beginning: &Beginning, settings: &Settings) -> Result<Self, NoElement> {
+        let b = beginning;
+        let any = |_: f64| true;
+        let least_0 = |x: f64| x >= 0.0;
+        let [finest, coarsest] = TOLERANCES;
+        let checks = [
+            check("start time (s)", b.t_s, any, "a finite number"),
+            check("speed (rad/s)", b.speed_rad_s, any, "a finite number"),
+            check("overrun (rad/s)", b.overrun_rad_s, least_0, "a number from 0 on"),
+            check("torque at the start (Nm)", b.torque_nm, least_0, "a number from 0 on"),
+            check("angle (rad)", b.angle_rad, any, "a finite number"),
+            check("abutment stiffness (Nm/rad)", b.abutment_nm_per_rad, least_0, "a number from 0 on"),
+            check("tolerance", settings.tolerance, |x| (finest..=coarsest).contains(&x), "1e-13 to 1e-3"),
+            check(
+                "longest step (s)",
+                settings.longest_step_s.unwrap_or(1.0),
+                |x| x > 0.0,
+                "a number above 0",
+            ),
+        ];
+        checks.into_iter().collect::<Result<Vec<()>, _>>().map_err(NoElement::Malformed)?;
+        let scene = Scenario {
+            name: String::new(),
+            kind: ScenarioKind::Transient {
+                preload_nm: b.torque_nm,
+                torque_step_nm: 0.0,
+                step_time_s: 0.0,
+                abutment_stiffness_nm_per_rad: b.abutment_nm_per_rad,
+                duration_s: 1.0,
+                speed_rad_s: b.speed_rad_s,
+                overrun_rad_s: b.overrun_rad_s,
+            },
+            start: b.start,
+            clutch: clutch.clone(),
+            torque_history: None,
+            speed_history: None,
+            overrides: Vec::new(),
+        };
+        let prepared = prepare(&scene).map_err(NoElement::NoStart)?;
+        let torque_nm = if b.overrun_rad_s > 0.0 { 0.0 } else { b.torque_nm };
+        let outer_nm = if b.abutment_nm_per_rad > 0.0 { 0.0 } else { torque_nm };
+        let mut model = prepared.model;
+        model.drive = Drive::default();
+        let at = Saved {
+            t_s: b.t_s,
+            elapsed_s: 0.0,
+            turned_rad: [b.angle_rad; 2],
+            torques_nm: [-torque_nm, outer_nm],
+            slips: [[0.0; 3]; 2],
+            ended: None,
+            memory: Memory::new(prepared.state, prepared.mode),
+        };
+        let mut element = Self { model, settings: *settings, at };
+        element.apply(at.torques_nm);
+        Ok(element)
+    }
+
+    /// Torques of inner and outer flange from now on, N m, which change accelerations and forces at once. An advance names
+    /// its own.
+    pub fn apply(&mut self, torques_nm: [f64; 2]) {
+        self.at.torques_nm = torques_nm;
+        let constant = |start_nm| Ramp { start_nm, rate_nm_per_s: 0.0 };
+        self.model.drive.flanges = Some(torques_nm.map(constant));
+    }
+
+    /// Move on by `dt_s` (s) under the torques of inner and outer flange. The run says what happened on the way, its time
+    /// counted from here; where it has not [finished](Stop::Finished) the element stands where that ended.
+    ///
+    /// # Errors
+    /// [`Malformed`]: a step that is not above 0, a torque that is no number, an element that has come to its end.
+    pub fn advance(&mut self, dt_s: f64, torques: [Torque; 2]) -> Result<Run, Malformed> {
+        check("step (s)", dt_s, |x| x > 0.0, "a number above 0")?;
+        for (name, torque) in [("inner", torques[0]), ("outer", torques[1])] {
+            for nm in [torque.start_nm, torque.end_nm] {
+                check(&format!("torque of the {name} flange (Nm)"), nm, |_| true, "a finite number")?;
+            }
+        }
+        if let Some(stop) = self.at.ended {
+            let what = format!("the element has come to its end ({}): restore it or begin anew", stop.name());
+            return Err(Malformed { what });
+        }
+        self.model.drive.flanges = Some(
+            torques.map(|t| Ramp { start_nm: t.start_nm, rate_nm_per_s: (t.end_nm - t.start_nm) / dt_s }),
+        );
+        let (run, memory) = go_on(&self.model, &self.at.memory, &self.run_settings(dt_s));
+        let finished = run.stop == Stop::Finished;
+        let reached_s = if finished { dt_s } else { run.t_s };
+        let at = &mut self.at;
+        at.t_s += reached_s;
+        at.elapsed_s += reached_s;
+        for (sum, slip) in at.slips.iter_mut().zip([run.inner, run.outer]) {
+            for (sum, more) in sum.iter_mut().zip([slip.time_s, slip.distance_m, slip.net_m]) {
+                *sum += more;
+            }
+        }
+        at.ended = matches!(run.stop, Stop::CurveEnd | Stop::FellAway | Stop::NotFinite).then_some(run.stop);
+        at.memory = memory;
+        let [inner, outer] = [memory.state()[2], memory.state()[3]];
+        if inner.abs().max(outer.abs()) > FULL_TURN_RAD {
+            // An abutment knows where the outer race is.
+            let outer = if self.model.loads.abutment_nm_per_rad > 0.0 { 0.0 } else { outer };
+            at.memory = memory.turned_back(inner, outer);
+            at.turned_rad = [at.turned_rad[0] + inner, at.turned_rad[1] + outer];
+        }
+        self.apply(torques.map(|t| t.start_nm + (t.end_nm - t.start_nm) * (reached_s / dt_s)));
+        Ok(run)
+    }
+
+    fn run_settings(&self, dt_s: f64) -> RunSettings {
+        RunSettings {
+            tolerance: self.settings.tolerance,
+            duration_s: dt_s,
+            longest_step_s: self.settings.longest_step_s.map_or(dt_s, |longest_s| longest_s.min(dt_s)),
+            most_events: self.settings.most_steps / 2,
+            most_steps: self.settings.most_steps,
+            samples: 0,
+            rolling: false,
+            energy: self.settings.energy,
+            history: Default::default(),
+            follow: Follow::nobody(),
+        }
+    }
+
+    /// This motion, gone on with by another clutch: where a number of the design changes on the way. Angles and speeds stay,
+    /// forces follow the new curve.
+    ///
+    /// # Errors
+    /// As [`Element::new`], where the other is no clutch.
+    pub fn exchanged(&self, clutch: &Clutch) -> Result<Self, NoElement> {
+        let beginning = Beginning {
+            speed_rad_s: self.model.curve.speed_rad_s(),
+            abutment_nm_per_rad: self.model.loads.abutment_nm_per_rad,
+            ..Beginning::default()
+        };
+        let mut other = Self::new(clutch, &beginning, &self.settings)?;
+        other.at = Saved { memory: self.at.memory.moved_to(&other.model), ..self.at };
+        other.apply(self.at.torques_nm);
+        Ok(other)
+    }
+
+    /// Where it stands.
+    pub fn save(&self) -> Saved {
+        self.at
+    }
+
+    /// Stand where `saved` says.
+    ///
+    /// # Errors
+    /// [`Malformed`] where that cannot have been saved from an element of this clutch.
+    pub fn restore(&mut self, saved: &Saved) -> Result<(), Malformed> {
+        let numbers =
+            [saved.t_s, saved.elapsed_s].into_iter().chain(saved.turned_rad).chain(saved.torques_nm);
+        let mut numbers = numbers.chain(saved.slips.into_iter().flatten());
+        if !saved.memory.fits(&self.model) || !numbers.all(f64::is_finite) {
+            let what = "the state to be restored: found one that no element of this clutch has".to_owned();
+            return Err(Malformed { what });
+        }
+        self.at = *saved;
+        self.apply(saved.torques_nm);
+        Ok(())
+    }
+
+    /// Time, s.
+    pub fn t_s(&self) -> f64 {
+        self.at.t_s
+    }
+
+    /// Why it has come to its end, if it has: no advance leads on from there.
+    pub fn ended(&self) -> Option<Stop> {
+        self.at.ended
+    }
+
+    /// Slip at A and B since the beginning.
+    pub fn slips(&self) -> [SlipRecord; 2] {
+        self.at.slips.map(|[time_s, distance_m, net_m]| SlipRecord { time_s, distance_m, net_m })
+    }
+
+    /// The clutch in its equations of motion: angles counted from [`Element::save`]'s own, rates from the speed at the
+    /// beginning.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// State and mode in those.
+    pub fn memory(&self) -> &Memory {
+        &self.at.memory
+    }
+}
