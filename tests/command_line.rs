@@ -33,8 +33,8 @@ fn misuse_is_code_2_with_nothing_on_standard_output() {
         &[][..],
         &["frob"],
         &["check"],
-        &["check", "Cargo.toml", "--json", "--frob"],
-        &["check", "Cargo.toml", "--json", "--threads", "many"],
+        &["check", "Cargo.toml", "--frob"],
+        &["check", "Cargo.toml", "--threads", "many"],
         &["check", "Cargo.toml", "--csv", "no-such-folder/a.csv"],
     ] {
         let output = run(args);

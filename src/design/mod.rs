@@ -42,7 +42,7 @@ pub use clutch::{
     Races, Running, Sprags, Spring, StressState, TrackRun,
 };
 pub use diagnostic::{DesignError, Place, Problem, shown, unprintable};
-pub use draft::{Draft, KINETIC_SHARE, rounded};
+pub use draft::{Draft, DraftScene, KINETIC_SHARE, rounded};
 pub use edit::{
     EditError, content, value_at, with_flanks, with_keys, with_limits, with_sprag, with_values,
     without_variables,
@@ -57,6 +57,7 @@ pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
 pub use question::{Optimize, OptimizeVariable, Scenario, ScenarioKind, Start};
 pub use set::with_setting;
 pub use shape::{allowed, keys_of, nearest, schema, shape_of};
+pub use steels::beside_the_name;
 pub use tolerances_file::Tolerances;
 pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
 

@@ -128,6 +128,19 @@ pub static KEEP_CONTACT: Limit = Limit {
     ..GRIP
 };
 
+/// No contact in overrun.
+pub static LIFT_OFF: Limit = Limit {
+    code: "lift-off",
+    key: Some("lift_off_by_rpm"),
+    name: |_| "spring moment against centrifugal opening moment at the speed by which the sprags must be off",
+    rule: Rule::Reserve,
+    explanation: "Moment of the energizing spring against that of the centrifugal force, at the overrun speed by which the \
+                      sprags are to have lifted off the inner race. A softer spring, or a centroid farther ahead of the \
+                      sprag's outer centre, lifts off earlier.",
+    of: Of::LiftOff,
+    ..KEEP_CONTACT
+};
+
 /// Friction that a scenario needs.
 pub static SLIP: Limit = Limit {
     code: "slip",
@@ -357,17 +370,7 @@ pub static LIMITS: &[&Limit] = &[
         ..GRIP
     },
     &KEEP_CONTACT,
-    &Limit {
-        code: "lift-off",
-        key: Some("lift_off_by_rpm"),
-        name: |_| "spring moment against centrifugal opening moment at the speed by which the sprags must be off",
-        rule: Rule::Reserve,
-        explanation: "Moment of the energizing spring against that of the centrifugal force, at the overrun speed by which the \
-                      sprags are to have lifted off the inner race. A softer spring, or a centroid farther ahead of the \
-                      sprag's outer centre, lifts off earlier.",
-        of: Of::LiftOff,
-        ..KEEP_CONTACT
-    },
+    &LIFT_OFF,
     &SLIP,
     &CONTACT,
     &Limit {
