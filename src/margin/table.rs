@@ -35,7 +35,8 @@ const HOOP: Limit = Limit {
 
 const BENDING: Limit = Limit {
     explanation: "Hoop stress of the race with the bending between the sprags, which press at single places: the mean of Lame \
-                  and what a ring under evenly spaced forces bends. More sprags or a thicker race lower it.",
+                  and what a ring under evenly spaced forces bends. Shown only where the file limits the mean stress alone, as makers' \
+                  allowed stresses do; its own key makes it count. More sprags or a thicker race lower it.",
     ..HOOP
 };
 
@@ -354,7 +355,8 @@ pub static LIMITS: &[&Limit] = &[
         unit: "mm",
         per_si: 1e3,
         rule: Rule::Clearance,
-        explanation: "Smallest distance between the outlines of neighbouring sprags from no load up to peak torque. Fewer or \
+        explanation: "Smallest distance between the outlines of neighbouring sprags from no load up to peak torque; they must not \
+                      touch, so the demand is 0, and the margin is that distance over the race gap. Fewer or \
                       narrower sprags leave more.",
         of: Of::Neighbours,
         ..GRIP
