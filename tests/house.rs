@@ -51,7 +51,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Asks for margins and static points as they are; knows no law.
     ("identify", &["follow", "numeric", "design", "wedge", "margin"]),
     // A first design: proportions, then whatever the margins say.
-    ("size", &["numeric", "design", "profile", "scenario", "margin"]),
+    ("size", &["numeric", "material", "clutch", "design", "profile", "scenario", "margin"]),
     // Files beside one another, then whatever the margins say.
     ("compare", &["clutch", "design", "profile", "wedge", "scenario", "margin"]),
     // Units and drawings: a profile to draw, no physics.

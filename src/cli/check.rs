@@ -30,6 +30,9 @@ pub(super) const REACHED_AT: &str =
 /// What the margin of a slip row is.
 const SLIP_MARGIN: &str = "Margin of slip rows: the slip margin, static over required friction less 1, held from the wanted one up\n";
 
+/// What a row that is not required is.
+const SHOWN_ONLY: &str = "Shown only: for information, without a say in the verdict; `explain` with the limit's name says which key makes it count\n";
+
 /// Arguments of `check`.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
@@ -101,6 +104,9 @@ fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> String {
     for line in body.remarks().into_iter().chain(overrunning(design)) {
         out.push_str(&greek(&line));
         out.push('\n');
+    }
+    if check.rows.iter().any(|r| !r.required) {
+        out.push_str(SHOWN_ONLY);
     }
     out.push_str(REACHED_AT);
     out.push('\n');

@@ -18,6 +18,7 @@ pub use tolerances::Tolerances;
 
 use crate::material::Material;
 use crate::profile::{Flanks, Profile, ProfileError};
+use std::f64::consts::PI;
 
 /// Where the sprag's mass, inertia and centroid come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -272,5 +273,16 @@ impl Clutch {
         let (sprag, race) = (0.5 * self.sprags.length_m, 0.5 * self.races.width_m);
         let offset = self.axial.offset_m;
         (offset + sprag).min(race) - (offset - sprag).max(-race)
+    }
+    /// Masses of all sprags, of the inner and of the outer race (plain rings as wide as `races.width_mm`), kg.
+    pub fn masses_kg(&self) -> [f64; 3] {
+        let (s, r, m) = (&self.sprags, &self.races, &self.materials);
+        let ring =
+            |inner: f64, outer: f64, density: f64| PI * (outer * outer - inner * inner) * r.width_m * density;
+        [
+            s.count as f64 * s.mass_kg,
+            ring(r.inner_bore_radius_m, r.inner_radius_m, m.inner_race.density_kg_m3),
+            ring(r.outer_radius_m, r.outer_outside_radius_m, m.outer_race.density_kg_m3),
+        ]
     }
 }

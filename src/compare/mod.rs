@@ -5,7 +5,7 @@
 
 mod subject;
 
-pub use subject::{Scene, Subject, masses_kg};
+pub use subject::{Scene, Subject};
 
 use crate::design::{Design, Input, inputs};
 use crate::margin::Margin;

@@ -1,6 +1,5 @@
 //! One of the designs, with all that is compared.
 
-use crate::clutch::Clutch;
 use crate::design::Design;
 use crate::margin::{
     LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
@@ -8,7 +7,6 @@ use crate::margin::{
 use crate::scenario::Settings;
 use crate::wedge::StaticPoint;
 use rayon::prelude::*;
-use std::f64::consts::PI;
 
 /// A scene and what it demands.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,16 +74,4 @@ impl Subject {
     pub fn peak(&self) -> Option<StaticPoint> {
         self.design.limits.peak_torque_nm.and_then(|t| self.state.curve.at_torque(t))
     }
-}
-
-/// Masses of all sprags, of the inner and of the outer race (plain rings as wide as `races.width_mm`), kg.
-pub fn masses_kg(clutch: &Clutch) -> [f64; 3] {
-    let (s, r, m) = (&clutch.sprags, &clutch.races, &clutch.materials);
-    let ring =
-        |inner: f64, outer: f64, density: f64| PI * (outer * outer - inner * inner) * r.width_m * density;
-    [
-        s.count as f64 * s.mass_kg,
-        ring(r.inner_bore_radius_m, r.inner_radius_m, m.inner_race.density_kg_m3),
-        ring(r.outer_radius_m, r.outer_outside_radius_m, m.outer_race.density_kg_m3),
-    ]
 }

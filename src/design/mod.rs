@@ -34,7 +34,7 @@ mod tolerances_file;
 mod variables;
 
 pub use diagnostic::{DesignError, Place, Problem, shown, unprintable};
-pub use draft::{Draft, KINETIC_SHARE};
+pub use draft::{Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
     EditError, content, value_at, with_flanks, with_keys, with_limits, with_sprag, with_values,
     without_variables,
@@ -47,6 +47,7 @@ pub use objective::{Objective, Optimize, OptimizeVariable};
 pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
 pub use set::with_setting;
 pub use shape::{allowed, keys_of, nearest, schema, shape_of};
+pub use steels::beside_the_name;
 pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
 
 use crate::clutch::{Clutch, Scenario, Tolerances};

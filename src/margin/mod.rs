@@ -19,11 +19,11 @@ mod table;
 pub use capacity::{Course, courses, nominal_capacity};
 pub use limits::{Limit, When, limit_of};
 pub use load::{LoadState, load_state};
-pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
+pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve};
 pub use row::{Demand, Margin, RESOLUTION, Rule};
 pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
-pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIMITS, SLIP};
+pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
 
 use crate::clutch::Scenario;
 use crate::design::{Design, Limits};

@@ -177,6 +177,11 @@ impl Drawing {
         clutch::svg(self)
     }
 
+    /// The same small and without radii, at a scale at which a radius of `widest_m`, m, would just find room.
+    pub fn small_svg(&self, widest_m: f64) -> String {
+        clutch::small(self, widest_m)
+    }
+
     /// One sprag large: outline, contacts, strut, centres, junctions, centroid, dimensions.
     pub fn detail_svg(&self) -> String {
         detail::svg(self)

@@ -334,9 +334,14 @@ $("mode").addEventListener("change", () => {
   const name = $("mode").value;
   state.scene = null;
   $("course").hidden = $("play").hidden = $("slowly").hidden = true;
-  $("scrub").value = name ? 0 : 600;
+  $("scrub").value = name ? 0 : nominal();
   if (name) newest("scene", (signal) => play(name, signal)).catch(complain); else pose();
 });
+// Where the torque's slider stands at nominal torque, or where nobody names one a good way up.
+function nominal() {
+  const { end, asked_nm, nominal_nm } = state.look, top = Math.min(end[0], 1.5 * asked_nm || end[0]);
+  return nominal_nm > 0 ? Math.min(1000, (1000 * nominal_nm) / top) : 600;
+}
 function stop() { state.playing = false; $("play").textContent = "Play"; }
 $("play").addEventListener("click", () => {
   if (state.playing) return stop();
@@ -442,8 +447,9 @@ async function load(first) {
     state.text = state.saved = first.text;
     $("file").textContent = first.file;
     $("filename").value = first.save_as;
-    $("scrub").value = 600;
     await look();
+    $("scrub").value = nominal();
+    pose();
   } catch (error) { complain(error); $("banner").textContent = error.message || String(error); $("banner").className = "verdict broken"; }
 }
 $("load").hidden = !window.sprag;

@@ -10,12 +10,12 @@ mod tests;
 pub use body::{Body, Capacity, Deciding, End, Row};
 pub(crate) use body::{
     NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, is_beyond, margin_cell,
-    margin_text, people_table, unit_cell,
+    margin_text, margin_words, people_table, unit_cell,
 };
 
 use super::left_out::{LeftOut, left_out, off_centre};
 use crate::clutch::Scenario;
-use crate::design::Design;
+use crate::design::{Design, beside_the_name};
 use crate::follow::Follow;
 use crate::margin::{
     LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
@@ -135,6 +135,7 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
         end_torque_nm: state.curve.end_torque_nm(),
         asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
         lift_off_rad_s,
+        materials: beside_the_name(&design.source),
         searched_to_rad_s: LIFT_OFF_TO_RAD_S,
         overrun: overrun::Section::new(&course, limits),
         running: running::Section::new(design, &state),

@@ -25,17 +25,23 @@ pub(super) fn page(scene: &SimulationAnswer, answer: &Answer<&SimulationAnswer>,
     page.verdict(scene.held(), &scene.verdict_line());
     page.paragraph(&described(scene));
     page.list(&scene.body.notes);
-    page.table("", &facts::table(scene));
+    let (first, all) = facts::first_and_all(facts::table(scene));
+    page.table("", &first);
     if let Ok((prepared, simulation)) = &scene.outcome {
         if scene.method != "equilibrium" {
             histories(&mut page, scene, prepared, simulation);
-            if let Some(table) = facts::beside_rolling(simulation) {
-                page.heading("Against pure rolling").paragraph(
+        }
+        if let Some(all) = all {
+            page.folded("All figures of this scene, with their errors", |page| {
+                page.table("", &all);
+            });
+        }
+        if let Some(table) = facts::beside_rolling(simulation).filter(|_| scene.method != "equilibrium") {
+            page.heading("Against pure rolling").paragraph(
                     "The second column is a run of its own in which both contacts roll whatever friction that takes; \
                      below zero, the normal force is the tension that rolling would need.",
                 );
-                page.table("", &table);
-            }
+            page.table("", &table);
         }
         draw(&mut page, scene, prepared);
     }
@@ -168,7 +174,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
     normal.curves.push(Curve { dash: Dash::Dashed, ..outer });
     page.figure(&normal.to_svg(), &format!("Normal forces; the smallest {}.", phase(scene, s.peaks.at_s[2])));
     friction(page, scene, prepared, s, &rows);
-    page.figure(&strip(s).to_svg(), "What each contact does, from the located changes of mode.");
+    page.figure(&strip(s).to_svg(), "What each contact does; each change is located in time.");
     slip(page, s, &rows);
     pressures(page, scene, prepared, s, &rows);
 }
