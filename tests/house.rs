@@ -57,7 +57,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Units and drawings: a profile to draw, no physics.
     ("report", &["profile", "clutch"]),
     // A finite-element deck is a whole clutch, and its own curve says how far to turn it.
-    ("export", &["numeric", "material", "profile", "clutch", "wedge"]),
+    ("export", &["numeric", "material", "profile", "clutch", "design", "wedge"]),
     // An outline is a profile and flanks; races are two radii, so no design.
     ("import", &["profile"]),
     // What is computed is put into words and units here: all but the command.
@@ -114,7 +114,9 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/identify/observation.rs", "the columns of a file of observations"),
     ("src/identify/predict.rs", "predictions in the units of those columns"),
     ("src/size/ask.rs", "words and ranges of a question, as it is typed"),
-    ("src/size/search.rs", "words of the new file"),
+    ("src/size/finish.rs", "words of the new file"),
+    ("src/size/purpose.rs", "what is taken of a drive where nobody says: numbers and keys of the new file"),
+    ("src/wedge/elastic.rs", "words of an error"),
 ];
 
 /// Longest file, lines: beyond it, look for the second thing in it. No reason to cut one thing in two.
