@@ -115,6 +115,7 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/identify/predict.rs", "predictions in the units of those columns"),
     ("src/size/ask.rs", "words and ranges of a question, as it is typed"),
     ("src/size/finish.rs", "words of the new file"),
+    ("src/size/search.rs", "words of what was tried"),
     ("src/size/purpose.rs", "what is taken of a drive where nobody says: numbers and keys of the new file"),
     ("src/wedge/elastic.rs", "words of an error"),
 ];
