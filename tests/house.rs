@@ -65,8 +65,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "design", "wedge", "dynamics", "scenario", "element",
-            "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export", "import",
-            "studio",
+            "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export",
+            "import", "studio",
         ],
     ),
 ];
