@@ -32,5 +32,6 @@ stage "environment"
 stage "units"
 library=$(ls "$built"/*sprag_design_fmu.{so,dylib,dll} 2>/dev/null | head -n 1)
 ls -sh "$library"
-"$work/venv/bin/python" tests/units.py "$TOOL" "$library" ../designs/huang2017-multi-arc.toml "$work"
+"$work/venv/bin/python" tests/units.py "$TOOL" "$library" ../designs/huang2017-multi-arc.toml "$work" \
+    ../docs/src/co-simulation.md
 stage "done"
