@@ -24,7 +24,7 @@ fn folder(name: &str) -> PathBuf {
 
 #[test]
 fn other_formats_and_senseless_flags_are_refused_with_code_2() {
-    for format in ["dwg", "iges", "fmu"] {
+    for format in ["dwg", "iges", "stl"] {
         let (code, text) = code(&["export", SINGLE, "--format", format]);
         assert_eq!(code, Some(2));
         assert!(text.contains(format) && text.contains("calculix"), "{text}");
@@ -42,6 +42,71 @@ fn other_formats_and_senseless_flags_are_refused_with_code_2() {
         let (code, text) = code(&[&["export", SINGLE, "--format", "calculix"], flags].concat());
         assert_eq!(code, Some(2), "{flags:?}");
         assert!(text.contains(word), "{flags:?}: {text}");
+    }
+}
+
+/// A library of a co-simulation unit is a cdylib of its own; to be packed it need only say whose it is.
+#[test]
+fn a_unit_holds_description_library_and_design() {
+    let folder = folder("export-fmu");
+    let (library, unit) = (folder.join("library.so"), folder.join("clutch.fmu"));
+    let (library_arg, unit_arg) = (library.to_str().unwrap(), unit.to_str().unwrap());
+    let ours =
+        format!("\x7fELF sprag-design-fmu library {}; {}", env!("CARGO_PKG_VERSION"), "code ".repeat(1000));
+    let export = |design: &str, more: &[&str]| {
+        let args = ["export", design, "--format", "fmu", "--library", library_arg, "-o", unit_arg];
+        code(&[&args[..], more].concat())
+    };
+    let refused = |design: &str, more: &[&str], words: &str| {
+        let (code, text) = export(design, more);
+        assert!(code == Some(2) && text.contains(words), "{words}: {code:?} {text}");
+    };
+    // What a run before has left.
+    for path in [&library, &unit] {
+        let _ = std::fs::remove_file(path);
+    }
+    refused(SINGLE, &[], "found no such file; build it by fmu/build.sh");
+    std::fs::write(&library, "sprag-design-fmu library 0.0.1;").unwrap();
+    refused(SINGLE, &[], "found no library of sprag-design");
+    std::fs::write(&library, &ours).unwrap();
+    refused(SINGLE, &["--part", "clutch"], "--part has no meaning here");
+    refused(SINGLE, &["--csv", "a.csv"], "--csv and --report have no meaning here");
+    assert_eq!(code(&["export", SINGLE, "--format", "fmu"]).0, Some(2));
+    assert_eq!(code(&["export", SINGLE, "--format", "dxf", "--fmi", "3"]).0, Some(2));
+    std::fs::write(&unit, "somebody else's").unwrap();
+    refused(SINGLE, &[], "has written; name another file");
+    std::fs::remove_file(&unit).unwrap();
+    // A design whose scenes have histories takes them along.
+    for (fmi, place, token) in [("2", "linux64", "guid="), ("3", "x86_64-linux", "instantiationToken=")] {
+        if cfg!(not(all(target_os = "linux", target_arch = "x86_64"))) {
+            continue;
+        }
+        assert_eq!(export("designs/huang2017-bench.toml", &["--fmi", fmi]).0, Some(0));
+        let bytes = std::fs::read(&unit).unwrap();
+        let archive = rawzip::ZipArchive::from_slice(&bytes).unwrap();
+        let mut entries = archive.entries();
+        let mut files = Vec::new();
+        while let Some(entry) = entries.next_entry().unwrap() {
+            let name = entry.file_path().try_normalize().unwrap().as_ref().to_owned();
+            let packed = archive.get_entry(entry.wayfinder()).unwrap().data().to_vec();
+            let stored = entry.compression_method() == rawzip::CompressionMethod::STORE;
+            let content =
+                if stored { packed } else { miniz_oxide::inflate::decompress_to_vec(&packed).unwrap() };
+            assert_eq!(rawzip::crc32(&content), entry.crc32(), "{name}");
+            files.push((name, content));
+        }
+        let content =
+            |name: &str| &files.iter().find(|(n, _)| n == name).unwrap_or_else(|| panic!("{name}")).1;
+        assert_eq!(files[0].0, "modelDescription.xml");
+        let about = String::from_utf8(files[0].1.clone()).unwrap();
+        assert!(about.contains(token) && about.contains("name=\"friction.static\""), "{about}");
+        assert_eq!(content(&format!("binaries/{place}/sprag_clutch.so")), ours.as_bytes());
+        assert_eq!(content("resources/design.toml"), &std::fs::read("designs/huang2017-bench.toml").unwrap());
+        let history = "engaging-in-and-out.csv";
+        assert_eq!(
+            content(&format!("resources/{history}")),
+            &std::fs::read(format!("designs/{history}")).unwrap()
+        );
     }
 }
 

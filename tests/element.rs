@@ -347,12 +347,13 @@ fn malformed_questions_are_refused_in_words() {
     let b = Beginning::default();
     for (b, said) in [
         (Beginning { torque_nm: f64::NAN, ..b }, "torque at the start (Nm): found NaN"),
-        (Beginning { torque_nm: -1.0, ..b }, "a number from 0 on is allowed"),
+        (Beginning { torque_nm: -1.0, ..b }, "torque at the start (Nm): found -1, 0 to 1e9 is allowed"),
         (Beginning { overrun_rad_s: f64::INFINITY, ..b }, "overrun (rad/s): found inf"),
         (Beginning { speed_rad_s: f64::NAN, ..b }, "speed"),
         (Beginning { abutment_nm_per_rad: -5.0, ..b }, "abutment"),
         (Beginning { torque_nm: 1e6, ..b }, "is not carried: the curve ends at"),
-        (Beginning { speed_rad_s: 1e7, ..b }, "no wedge curve"),
+        (Beginning { speed_rad_s: 1e6, ..b }, "no wedge curve"),
+        (Beginning { speed_rad_s: 1e200, ..b }, "at most 1e6 either way is allowed"),
     ] {
         let got = new(b, Settings::default());
         assert!(got.contains(said), "{got}");
@@ -362,10 +363,12 @@ fn malformed_questions_are_refused_in_words() {
     }
     let mut element = Element::new(&clutch, &b, &Settings::default()).unwrap();
     let saved = element.save();
-    for dt_s in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
+    for dt_s in [0.0, -1e-3, 1e-300, f64::NAN, f64::INFINITY] {
         assert!(element.advance(dt_s, still(0.0, 0.0)).unwrap_err().to_string().contains("step (s)"));
     }
-    for torques in [still(f64::NAN, 0.0), still(0.0, f64::NEG_INFINITY)] {
+    for torques in [still(f64::NAN, 0.0), still(0.0, f64::NEG_INFINITY), still(1e300, 0.0)] {
+        let now = torques.map(|t| t.start_nm);
+        assert!(element.apply(now).unwrap_err().to_string().contains("flange (Nm)"));
         assert!(element.advance(1e-3, torques).unwrap_err().to_string().contains("flange (Nm)"));
     }
     assert_eq!(element.save(), saved);

@@ -152,10 +152,12 @@ impl Slave {
                 self.values[at] = value;
             }
             Role::Input => {
-                self.values[at] = value;
+                let before = std::mem::replace(&mut self.values[at], value);
                 let torques = self.torques();
-                if let Some(element) = &mut self.element {
-                    element.apply(torques);
+                let applied = self.element.as_mut().map_or(Ok(()), |element| element.apply(torques));
+                if let Err(why) = applied {
+                    self.values[at] = before;
+                    return Err(why.to_string());
                 }
             }
         }
@@ -232,7 +234,7 @@ impl Slave {
                 _ => Element::new(&clutch, &self.beginning(), &self.settings()),
             };
             let mut element = made.map_err(|why| why.to_string())?;
-            element.apply(self.torques());
+            element.apply(self.torques()).map_err(|why| why.to_string())?;
             (self.element, self.fresh) = (Some(element), true);
         }
         self.element.as_mut().ok_or_else(|| "no element".to_owned())

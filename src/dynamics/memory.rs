@@ -12,6 +12,9 @@ use super::run::{Run, RunSettings};
 use super::zeno::KEPT;
 use crate::ode::adaptive::Pace;
 
+/// Larger than any angle (rad), rate (rad/s) or distance (m) of a clutch, and small enough that nothing overflows.
+const LARGEST: f64 = 1e15;
+
 /// Where a run stands, and what it needs to go on as if it had not been interrupted. Numbers only, all finite: written
 /// and read back it is the same to the bit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -65,9 +68,9 @@ impl Memory {
         Self { mode: Mode { place, ..self.mode }, phase_rad: None, ..*self }
     }
 
-    /// Whether it may be of a run of `model`: numbers are finite, and its places exist.
+    /// Whether it may be of a run of `model`: numbers are those of a machine, and its places exist.
     pub fn fits(&self, model: &Model) -> bool {
-        let finite = |x: &f64| x.is_finite();
+        let finite = |x: &f64| x.abs() < LARGEST;
         let place = match self.mode.place {
             Place::Open => true,
             Place::Arc(k) => k < model.curve.arc_count(),

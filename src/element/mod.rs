@@ -77,6 +77,8 @@ impl Default for Settings {
     }
 }
 
+/// Shortest and longest advance, s.
+const STEPS_S: [f64; 2] = [1e-15, 1e9];
 /// Tolerances of a step that can be kept: above, estimates mean little, below, rounding.
 const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
 
@@ -158,11 +160,26 @@ pub struct Element {
 /// Turn of a race from which on it is counted anew, rad, so that errors stay those of small angles. A choice.
 const FULL_TURN_RAD: f64 = 1.0;
 
-fn check(name: &str, value: f64, allowed: impl Fn(f64) -> bool, words: &str) -> Result<(), Malformed> {
-    if value.is_finite() && allowed(value) {
+/// Refuse what is outside of a range, in which nothing overflows.
+fn check(name: &str, value: f64, [least, most]: [f64; 2]) -> Result<(), Malformed> {
+    if (least..=most).contains(&value) {
         return Ok(());
     }
-    Err(Malformed { what: format!("{name}: found {value}, {words} is allowed") })
+    let allowed = if least == -most {
+        format!("at most {most:e} either way")
+    } else {
+        // Zero without a power of ten.
+        format!("{} to {most:e}", if least == 0.0 { "0".to_owned() } else { format!("{least:e}") })
+    };
+    Err(Malformed { what: format!("{name}: found {value}, {allowed} is allowed") })
+}
+
+/// Largest torque of a flange either way, N m.
+const MOST_NM: f64 = 1e9;
+
+fn check_torque(race: usize, torque_nm: f64) -> Result<(), Malformed> {
+    let name = ["torque of the inner flange (Nm)", "torque of the outer flange (Nm)"][race];
+    check(name, torque_nm, [-MOST_NM, MOST_NM])
 }
 
 impl Element {
@@ -172,23 +189,17 @@ impl Element {
     /// [`NoElement`] for numbers out of range, and where the clutch cannot carry the start.
     pub fn new(clutch: &Clutch, beginning: &Beginning, settings: &Settings) -> Result<Self, NoElement> {
         let b = beginning;
-        let any = |_: f64| true;
-        let least_0 = |x: f64| x >= 0.0;
-        let [finest, coarsest] = TOLERANCES;
+        let either_way = |most: f64| [-most, most];
+        let longest_s = settings.longest_step_s.unwrap_or(1.0);
         let checks = [
-            check("start time (s)", b.t_s, any, "a finite number"),
-            check("speed (rad/s)", b.speed_rad_s, any, "a finite number"),
-            check("overrun (rad/s)", b.overrun_rad_s, least_0, "a number from 0 on"),
-            check("torque at the start (Nm)", b.torque_nm, least_0, "a number from 0 on"),
-            check("angle (rad)", b.angle_rad, any, "a finite number"),
-            check("abutment stiffness (Nm/rad)", b.abutment_nm_per_rad, least_0, "a number from 0 on"),
-            check("tolerance", settings.tolerance, |x| (finest..=coarsest).contains(&x), "1e-13 to 1e-3"),
-            check(
-                "longest step (s)",
-                settings.longest_step_s.unwrap_or(1.0),
-                |x| x > 0.0,
-                "a number above 0",
-            ),
+            check("start time (s)", b.t_s, either_way(1e15)),
+            check("speed (rad/s)", b.speed_rad_s, either_way(1e6)),
+            check("overrun (rad/s)", b.overrun_rad_s, [0.0, 1e6]),
+            check("torque at the start (Nm)", b.torque_nm, [0.0, MOST_NM]),
+            check("angle (rad)", b.angle_rad, either_way(1e12)),
+            check("abutment stiffness (Nm/rad)", b.abutment_nm_per_rad, [0.0, 1e15]),
+            check("tolerance", settings.tolerance, TOLERANCES),
+            check("longest step (s)", longest_s, STEPS_S),
         ];
         checks.into_iter().collect::<Result<Vec<()>, _>>().map_err(NoElement::Malformed)?;
         let scene = Scenario {
@@ -223,13 +234,22 @@ impl Element {
             memory: Memory::new(prepared.state, prepared.mode),
         };
         let mut element = Self { model, settings: *settings, at };
-        element.apply(at.torques_nm);
+        element.under(at.torques_nm);
         Ok(element)
     }
 
     /// Torques of inner and outer flange from now on, N m, which change accelerations and forces at once. An advance names
     /// its own.
-    pub fn apply(&mut self, torques_nm: [f64; 2]) {
+    ///
+    /// # Errors
+    /// [`Malformed`]: a torque that is no number, or beyond any machine's.
+    pub fn apply(&mut self, torques_nm: [f64; 2]) -> Result<(), Malformed> {
+        [0, 1].into_iter().try_for_each(|race| check_torque(race, torques_nm[race]))?;
+        self.under(torques_nm);
+        Ok(())
+    }
+
+    fn under(&mut self, torques_nm: [f64; 2]) {
         self.at.torques_nm = torques_nm;
         let constant = |start_nm| Ramp { start_nm, rate_nm_per_s: 0.0 };
         self.model.drive.flanges = Some(torques_nm.map(constant));
@@ -239,13 +259,12 @@ impl Element {
     /// counted from here; where it has not [finished](Stop::Finished) the element stands where that ended.
     ///
     /// # Errors
-    /// [`Malformed`]: a step that is not above 0, a torque that is no number, an element that has come to its end.
+    /// [`Malformed`]: a step that is not above 0, a torque that is no number or beyond any machine's, an element that has come
+    /// to its end.
     pub fn advance(&mut self, dt_s: f64, torques: [Torque; 2]) -> Result<Run, Malformed> {
-        check("step (s)", dt_s, |x| x > 0.0, "a number above 0")?;
-        for (name, torque) in [("inner", torques[0]), ("outer", torques[1])] {
-            for nm in [torque.start_nm, torque.end_nm] {
-                check(&format!("torque of the {name} flange (Nm)"), nm, |_| true, "a finite number")?;
-            }
+        check("step (s)", dt_s, STEPS_S)?;
+        for (race, torque) in torques.iter().enumerate() {
+            check_torque(race, torque.start_nm).and_then(|()| check_torque(race, torque.end_nm))?;
         }
         if let Some(stop) = self.at.ended {
             let what = format!("the element has come to its end ({}): restore it or begin anew", stop.name());
@@ -274,7 +293,7 @@ impl Element {
             at.memory = memory.turned_back(inner, outer);
             at.turned_rad = [at.turned_rad[0] + inner, at.turned_rad[1] + outer];
         }
-        self.apply(torques.map(|t| t.start_nm + (t.end_nm - t.start_nm) * (reached_s / dt_s)));
+        self.under(torques.map(|t| t.start_nm + (t.end_nm - t.start_nm) * (reached_s / dt_s)));
         Ok(run)
     }
 
@@ -306,7 +325,7 @@ impl Element {
         };
         let mut other = Self::new(clutch, &beginning, &self.settings)?;
         other.at = Saved { memory: self.at.memory.moved_to(&other.model), ..self.at };
-        other.apply(self.at.torques_nm);
+        other.under(self.at.torques_nm);
         Ok(other)
     }
 
@@ -323,12 +342,13 @@ impl Element {
         let numbers =
             [saved.t_s, saved.elapsed_s].into_iter().chain(saved.turned_rad).chain(saved.torques_nm);
         let mut numbers = numbers.chain(saved.slips.into_iter().flatten());
-        if !saved.memory.fits(&self.model) || !numbers.all(f64::is_finite) {
+        let torques = [0, 1].into_iter().all(|race| check_torque(race, saved.torques_nm[race]).is_ok());
+        if !saved.memory.fits(&self.model) || !torques || !numbers.all(f64::is_finite) {
             let what = "the state to be restored: found one that no element of this clutch has".to_owned();
             return Err(Malformed { what });
         }
         self.at = *saved;
-        self.apply(saved.torques_nm);
+        self.under(saved.torques_nm);
         Ok(())
     }
 

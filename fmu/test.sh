@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Build the library of co-simulation units, export one of each version of FMI, validate and run them under FMPy.
+# fmu/test.sh
+# PYTHON: the interpreter. WORK: folder of the environment and of the units, kept for the next time.
+# TOOL: a sprag-design that is built already. PROFILE=dev builds in a fraction of the time what runs slower.
+set -euo pipefail
+cd "$(dirname "$0")"
+stage() { printf '\n-- fmu: %s (at %d s)\n' "$1" "$SECONDS"; }
+
+python=${PYTHON:-python3}
+export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$(cd .. && pwd)/target}
+profile=${PROFILE:-release}
+built=$CARGO_TARGET_DIR/$([ "$profile" = dev ] && echo debug || echo "$profile")
+work=${WORK:-$CARGO_TARGET_DIR/fmu}
+mkdir -p "$work"
+
+cargo fmt --check
+
+stage "library"
+PROFILE=$profile ./build.sh --quiet
+# The paths of URIs.
+cargo test --profile "$profile" --locked --quiet
+if [ -z "${TOOL:-}" ]; then
+    cargo build --profile "$profile" --locked --quiet --manifest-path ../Cargo.toml
+    TOOL=$built/sprag-design
+fi
+
+stage "environment"
+[ -x "$work/venv/bin/python" ] || "$python" -m venv "$work/venv"
+"$work/venv/bin/python" -m pip --quiet --disable-pip-version-check install "fmpy==0.3.32"
+
+stage "units"
+library=$(ls "$built"/*sprag_design_fmu.{so,dylib,dll} 2>/dev/null | head -n 1)
+ls -sh "$library"
+"$work/venv/bin/python" tests/units.py "$TOOL" "$library" ../designs/huang2017-multi-arc.toml "$work" \
+    ../docs/src/co-simulation.md
+stage "done"
