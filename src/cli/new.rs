@@ -273,7 +273,7 @@ impl Questions<'_> {
     /// Ask until the answer will do.
     fn until<T>(&self, question: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<T, Failure> {
         loop {
-            output::ask(&format!("{question}: "));
+            output::ask(&format!("{question}{} ", if question.ends_with('?') { "" } else { ":" }));
             match read(self.line()?.trim()) {
                 Ok(answer) => return Ok(answer),
                 Err(why) => output::note(&format!("  {why}")),

@@ -1,6 +1,7 @@
 //! What is asked of a new clutch.
 
 use super::purpose::Purpose;
+use crate::design::rounded;
 use crate::material::{STEELS, Steel};
 use std::f64::consts::PI;
 use std::fmt;
@@ -191,8 +192,8 @@ impl Ask {
                 let space = if unit.is_empty() { "" } else { " " };
                 return Err(BadAsk {
                     what,
-                    found: format!("{shown}{space}{unit}"),
-                    allowed: format!("{least} to {most}{space}{unit}"),
+                    found: format!("{}{space}{unit}", rounded(shown, 12)),
+                    allowed: format!("{} to {}{space}{unit}", rounded(least, 12), rounded(most, 12)),
                 });
             }
         }

@@ -146,8 +146,17 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
     let curve = |value: &dyn Fn(&Row) -> f64| over_time(&rows, value);
     let least_at = s.peaks.at_s[2] * 1e3;
     page.heading("Histories");
-    let torque = plot("Torque of the clutch, Nm").curve("", curve(&|r| r.torque_nm));
-    page.figure(&torque.to_svg(), "Torque on the inner race, positive in the sense that the clutch carries.");
+    // The cause first; what swings acts on the outer race.
+    let loads = &prepared.model.loads;
+    let outside = |r: &Row| r.acting[0] + loads.amplitude_nm * (loads.omega_rad_s * r.sample.t).sin();
+    let cause = Curve::new("from outside", curve(&outside)).coloured(5);
+    let mut torque = plot("Torque, Nm").curve("in the clutch", curve(&|r| r.torque_nm));
+    torque.curves.push(Curve { dash: Dash::Dashed, ..cause });
+    page.figure(
+        &torque.to_svg(),
+        "Torque from outside, on both races together, and what the clutch carries, positive in the sense in which it does; the rest \
+         speeds the races up.",
+    );
     let turning = if rows.iter().any(|r| r.acting[1] != 0.0) { ", relative to the mean speed" } else { "" };
     let largest_rad = largest(&rows, &|r| r.sample.state[2].abs().max(r.sample.state[3].abs()));
     let (unit, per_rad) = if largest_rad < FOUR_DIGITS * 1e-3 { ("mrad", 1e3) } else { ("rad", 1.0) };

@@ -185,10 +185,11 @@ fn tried_table(tried: &[Tried], taken: Option<usize>) -> Table {
         table.row(vec![
             t.space_m.into(),
             t.count.into(),
-            t.length_m.into(),
+            // Of what finds no room there is no length.
+            if t.carries_nm > 0.0 { t.length_m.into() } else { Cell::Empty },
             of(|made| 2.0 * made.design.clutch.races.outer_outside_radius_m),
             of(|made| made.mass_kg),
-            t.carries_nm.into(),
+            if t.carries_nm > 0.0 { t.carries_nm.into() } else { Cell::Empty },
             t.decided_by.as_str().into(),
             Cell::Verdict(t.held, word.to_owned()),
         ]);
