@@ -207,9 +207,21 @@ impl Design {
         swarm: Option<usize>,
         tolerance: f64,
         full: bool,
+        step_mm: Option<f64>,
+        reserve: Option<f64>,
     ) -> PyResult<(String, String, Self)> {
         let (design, stop) = (Arc::clone(&self.design), Follow::new());
-        let ask = search::Ask { evaluations, starts, swarm, tolerance, full, follow: stop.clone() };
+        let ask = search::Ask {
+            evaluations,
+            starts,
+            swarm,
+            tolerance,
+            full,
+            step_mm,
+            reserve,
+            follow: stop.clone(),
+            ..search::Ask::default()
+        };
         let answer = compute(py, &stop, move || {
             let started = Instant::now();
             design.optimise(&ask).map(|a| (a, started.elapsed().as_secs_f64()))

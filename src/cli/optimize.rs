@@ -5,15 +5,15 @@ use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
 use super::optimize_answer::Told;
-use super::optimize_file::{NEAREST, REALISED, ROBUST, file_text, further_files, further_text};
+use super::optimize_file::{NEAREST, ROBUST, file_text, further_files, further_text};
 use super::origin::Kind;
 use super::output::TOOL;
 use super::parts;
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
 use crate::answer::search::{Ask, SearchAnswer};
-use crate::design::{Design, EditError, Objective, Optimize};
-use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record, Status, is_centroid};
+use crate::design::{Design, EditError, Objective};
+use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record, Status};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -23,6 +23,7 @@ Examples:
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --report better.html
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --resume
   sprag-design optimize designs/huang2017-multi-arc.toml --json --quiet > best.json
+  sprag-design optimize designs/huang2017-multi-arc.toml --reserve 0.05 --step-mm 0.01
   sprag-design optimize designs/huang2017-multi-arc.toml --starts 8 --global 2000 --journal search.csv
   sprag-design optimize designs/huang2017-multi-arc.toml --pareto slip-margin,torque-capacity --report front.html
 
@@ -34,8 +35,14 @@ value or a history makes another problem. Rows by another version of the program
 are kept and not used. One search at a time writes a journal; a second is refused.
 
 In NEW.toml each value that the search has changed says so behind it, with what it was; the design's histories are copied
-beside it. A design with a free centroid is written once more with flanks that give it, as NEW.realised.toml; the design of
---robust is NEW.robust.toml. No output replaces FILE, nor without --force a file that this tool did not write.
+beside it. The design of --robust is NEW.robust.toml. No output replaces FILE, nor without --force a file that this tool did not write.
+
+Where the centroid is a variable, flanks that give it are sought next and searched on in its place: NEW.toml is that sprag. What
+the free centroid came to is shown as a bound. Lengths are then put on multiples of --step-mm, to the side that holds every
+limit; where no such point is near, that is told and the lengths stay as they are.
+
+Evaluations are points of the clutch that the search asks for. One that is asked for twice is computed once and has one row in
+the journal, so that the journal has fewer rows.
 
 Where no design holds every limit, NEW.toml is not written: the nearest one goes to NEW.nearest.toml, whose first line says what
 it does not hold.
@@ -82,6 +89,13 @@ pub struct OptimizeArgs {
     /// Draws within the tolerances
     #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(10..=100_000))]
     pub draws: u32,
+    /// Step in which lengths can be made, mm: those of the optimum are rounded to multiples of it that hold every limit; 0: no
+    /// rounding [default: step_mm of the file, 0.005 there]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = share)]
+    pub step_mm: Option<f64>,
+    /// What every limit keeps of its margin: 0.05 holds each with 5 % to spare [default: reserve of the file, 0 there]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, value_parser = share)]
+    pub reserve: Option<f64>,
     /// Run everything in the search too, and leave nothing out that a scene cannot feel
     #[arg(long)]
     pub full: bool,
@@ -111,7 +125,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     if args.robust && design.tolerances.is_none() {
         return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
     }
-    let beside = beside(&new, &task, args);
+    let beside = beside(&new, args);
     let others: Vec<_> = beside.iter().map(|path| (path.as_path(), Kind::Design)).collect();
     context.outputs.check(&[&args.file], &others)?;
     let (model, said) = (journal::model(), design.content_hash());
@@ -153,6 +167,8 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         front_steps: args.points as usize,
         robust: args.robust,
         draws: args.draws as usize,
+        step_mm: args.step_mm,
+        reserve: args.reserve,
         follow: context.follow.clone(),
     };
     let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
@@ -180,6 +196,12 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     finish(&design, &answer, (&new, &histories), (file, args.journal.is_some()), run_time_s, context)
 }
 
+/// A number from 0 to 1.
+fn share(text: &str) -> Result<f64, String> {
+    let value: Option<f64> = text.parse().ok();
+    value.filter(|v| (0.0..=1.0).contains(v)).ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
+}
+
 /// Two or three different objectives of `--pareto`, or none.
 fn refuse_front(args: &OptimizeArgs) -> Result<(), Failure> {
     let aims = &args.pareto;
@@ -200,10 +222,10 @@ fn finish(
     context: &Context,
 ) -> Result<Exit, Failure> {
     let story = &answer.story;
-    let found = &story.found;
     let interrupted = story.status() == &Status::Interrupted;
-    let feasible = found.feasible();
-    let better = feasible && (found.improved() || !found.start_feasible());
+    // Stopped before there were flanks: the best so far is better than nothing, and says what it lacks.
+    let feasible = story.feasible() && (story.makeable() || interrupted);
+    let better = feasible && (story.improved() || !story.found.start_feasible());
     let mut written = None;
     let mut beside = Vec::new();
     let write = |path: &Path, text: Result<String, EditError>| match readable(design, path, text) {
@@ -214,7 +236,7 @@ fn finish(
         }
     };
     if feasible && (better || !interrupted) && histories.write(&context.outputs) {
-        written = write(new, file_text(design, found, context)).then_some(new);
+        written = write(new, file_text(design, story, context)).then_some(new);
         for (ending, what, text) in further_files(story) {
             let path = new.with_extension(format!("{ending}.toml"));
             if write(&path, further_text(design, what, text)) {
@@ -224,9 +246,12 @@ fn finish(
     }
     if !feasible && !interrupted {
         let path = new.with_extension(format!("{NEAREST}.toml"));
-        let what =
-            format!("the nearest design found, NOT FEASIBLE: not held: {}", found.not_held().join(", "));
-        if histories.write(&context.outputs) && write(&path, further_text(design, &what, &found.file)) {
+        let why = match story.feasible() {
+            true => "no flanks give its centroid".to_owned(),
+            false => format!("not held: {}", story.not_held().join(", ")),
+        };
+        let what = format!("the nearest design found, NOT FEASIBLE: {why}");
+        if histories.write(&context.outputs) && write(&path, further_text(design, &what, story.file())) {
             beside.push(path);
         }
     }
@@ -271,15 +296,9 @@ fn output_path(args: &OptimizeArgs) -> PathBuf {
 }
 
 /// Names of the further designs that this search may write.
-fn beside(new: &Path, task: &Optimize, args: &OptimizeArgs) -> Vec<PathBuf> {
-    let realised = task.variables.iter().any(|v| is_centroid(&v.name)).then_some(REALISED);
+fn beside(new: &Path, args: &OptimizeArgs) -> Vec<PathBuf> {
     let robust = args.robust.then_some(ROBUST);
-    realised
-        .into_iter()
-        .chain(robust)
-        .chain([NEAREST])
-        .map(|ending| new.with_extension(format!("{ending}.toml")))
-        .collect()
+    robust.into_iter().chain([NEAREST]).map(|ending| new.with_extension(format!("{ending}.toml"))).collect()
 }
 
 /// Progress and journal.

@@ -94,7 +94,10 @@ impl Told<'_> {
     pub fn page(&self, context: &Context) -> Page {
         let story = self.story();
         let mut page = parts::page("Optimisation", self.design, context);
-        page.verdict(story.found.feasible() && story.not_robust().is_none(), &story.verdict(&HINTS));
+        page.verdict(
+            story.feasible() && story.makeable() && story.not_robust().is_none(),
+            &story.verdict(&HINTS),
+        );
         if let Some(path) = self.written {
             page.paragraph(&format!("New design: {}", path.display()));
         }

@@ -36,8 +36,8 @@ mod variables;
 pub use diagnostic::{DesignError, Place, Problem, shown, unprintable};
 pub use draft::{Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
-    EditError, content, value_at, with_flanks, with_keys, with_limits, with_sprag, with_values,
-    without_variables,
+    EditError, content, other_variables, value_at, with_flanks, with_keys, with_limits, with_sprag,
+    with_values,
 };
 pub use history::is_history;
 pub use inputs::{Input, inputs, unit_of_path};

@@ -115,6 +115,10 @@ pub struct Optimize {
     pub variables: Vec<OptimizeVariable>,
     /// `[limits]` with the sharper ones of `[optimize]` put in.
     pub limits: Limits,
+    /// Step in which lengths can be made, mm; 0: any.
+    pub step_mm: f64,
+    /// What every margin keeps beyond its limit.
+    pub reserve: f64,
     /// Seed of everything random.
     pub seed: u64,
 }

@@ -1,8 +1,8 @@
 //! What is asked of a new clutch.
 
 use super::purpose::Purpose;
-use crate::design::rounded;
 use crate::material::{STEELS, Steel};
+use crate::numeric::rounded;
 use std::f64::consts::PI;
 use std::fmt;
 

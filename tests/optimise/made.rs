@@ -36,7 +36,8 @@ fn the_optimum_with_a_free_centroid_can_be_made() {
     // Another inertia at 12 000 rpm costs little.
     assert!((made.objective - found.objective.1).abs() < 1e-3, "{} {}", made.objective, found.objective.1);
     assert!(made.looked.rows.iter().all(|m| m.held()));
-    let on = made.search.expect("searched on");
+    assert!(made.searched);
+    let on = &made.made;
     println!("{:?} -> {:?}", made.objective, on.objective);
     assert!(on.feasible() && on.objective.1 >= made.objective - 1e-6);
 }

@@ -4,6 +4,7 @@ use super::Story;
 use super::made::{Made, RobustFound};
 use super::realised::Flanked;
 use super::relief::Relief;
+use super::steps::{Bound, Steps};
 use super::words::price_sentence;
 use crate::margin::Margin;
 use crate::optimise::{Branch, Front, Influence, Names, PriceKind, Search, Start, Status, Variable};
@@ -137,6 +138,8 @@ pub struct Body {
     pub aim: &'static str,
     /// Whether every margin of the design found is held.
     pub feasible: bool,
+    /// Whether it can be made: a search that is stopped may have a free centroid, for which there are no flanks yet.
+    pub makeable: bool,
     /// Codes of those that are not.
     pub not_held: Vec<String>,
     /// The design found.
@@ -179,6 +182,14 @@ pub struct Body {
     pub relief: Option<Relief>,
     /// Flanks for a free centroid.
     pub realised: Option<Flanked>,
+    /// What the search came to with its centroid free and its mass given: a bound, no flanks were asked for.
+    pub free_centroid: Option<Bound>,
+    /// The answer before its lengths were put in steps: a bound.
+    pub unrounded: Option<Bound>,
+    /// Its lengths in steps.
+    pub steps: Option<Steps>,
+    /// What every limit keeps of its margin.
+    pub reserve: f64,
     /// The optimum as it may be made.
     pub tolerances: Option<Made>,
     /// The design that holds at every corner.
@@ -189,40 +200,40 @@ pub struct Body {
 
 impl Body {
     pub(super) fn of(story: &Story) -> Self {
-        let found = &story.found;
-        let (before, after) = found.objective;
+        let (found, made) = (&story.found, story.made());
+        let (before, after) = story.objective();
         let fighting = match story.status() {
             Status::Infeasible { fighting, .. } => fighting.as_slice(),
             _ => &[],
         };
-        let changes = found.best.iter().zip(&found.as_searched);
+        let changes = story.margins().iter().zip(story.as_searched());
         Self {
             status: story.status().name(),
             aim: found.aim.name(),
-            feasible: found.feasible(),
-            not_held: found.not_held(),
-            best: Found {
-                variables: values(found, |v| v.best),
-                objective: after,
-                margins: rows(&found.best),
-            },
+            feasible: story.feasible(),
+            makeable: story.makeable(),
+            not_held: story.not_held(),
+            best: Found { variables: best(story), objective: after, margins: rows(story.margins()) },
             in_file: values(found, |v| v.given),
             start: Found {
                 variables: values(found, |v| v.start),
                 objective: before,
                 margins: rows(&found.start),
             },
-            objective_error: found.objective_error,
-            evaluations: found.evaluations,
+            objective_error: story.objective_error(),
+            evaluations: story.evaluations(),
             failed_evaluations: found.outcome.failures,
             active_constraints: story.active(),
-            fighting_limits: fighting.iter().filter_map(|&i| found.names.limits.get(i).cloned()).collect(),
+            fighting_limits: fighting
+                .iter()
+                .filter_map(|&i| story.last().names.limits.get(i).cloned())
+                .collect(),
             dropped_variables: found.variables.iter().filter(|v| v.dropped).map(|v| v.name.clone()).collect(),
             influence: Slopes::of(None, &found.names, &found.influence),
-            sensitivities: found
+            sensitivities: made
                 .sensitivity
                 .as_ref()
-                .map(|s| Slopes::of(Some(found.searched.clone()), &found.names, s)),
+                .map(|s| Slopes::of(Some(made.searched.clone()), &made.names, s)),
             pareto: pareto(story),
             seed: story.seed,
             starts: found.starts.iter().map(Climb::start).collect(),
@@ -237,7 +248,7 @@ impl Body {
                 .filter(|b| !b.values.is_empty())
                 .map(Climb::branch)
                 .collect(),
-            prices: found.prices.iter().map(|p| Price::of(found, p)).collect(),
+            prices: made.prices.iter().map(|p| Price::of(made, p)).collect(),
             change_in_full: changes
                 .map(|(full, searched)| CodeChange {
                     code: full.code(),
@@ -246,7 +257,11 @@ impl Body {
                 .collect(),
             relief: story.relief.as_ref().map(|r| Relief::of(story, r)),
             realised: story.realised.as_ref().map(Flanked::of),
-            tolerances: story.made.as_ref().map(Made::of),
+            free_centroid: story.realised.as_ref().map(|_| Bound::of(found)),
+            unrounded: story.on_grid().map(|_| Bound::of(made)),
+            steps: story.stepped.as_ref().map(Steps::of),
+            reserve: found.problem.reserve(),
+            tolerances: story.within.as_ref().map(Made::of),
             robust: story.robust.as_ref().map(|r| RobustFound::of(story, r)),
             not_done: story.why.clone(),
         }
@@ -255,6 +270,11 @@ impl Body {
 
 pub(super) fn values(found: &Search, pick: fn(&Variable) -> f64) -> Named {
     found.variables.iter().map(|v| (v.name.clone(), pick(v))).collect()
+}
+
+/// The answer's variables.
+fn best(story: &Story) -> Named {
+    story.made().variables.iter().map(|v| (v.name.clone(), story.value(v))).collect()
 }
 
 fn rows(list: &[Margin]) -> Vec<Row> {
@@ -276,11 +296,9 @@ fn pareto(story: &Story) -> Vec<Point> {
     };
     match &story.front {
         Some(front) => front.points.iter().map(|p| point(front, &p.x, &p.values)).collect(),
-        None => vec![Point {
-            variables: values(&story.found, |v| v.best),
-            objectives: None,
-            objective: Some(story.found.objective.1),
-        }],
+        None => {
+            vec![Point { variables: best(story), objectives: None, objective: Some(story.objective().1) }]
+        }
     }
 }
 

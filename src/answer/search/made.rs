@@ -113,7 +113,7 @@ impl Made {
 impl RobustFound {
     pub(super) fn of(story: &Story, r: &RobustSearch) -> Self {
         Self {
-            variables: story.found.searched.iter().cloned().zip(r.x.iter().copied()).collect(),
+            variables: story.made().searched.iter().cloned().zip(r.x.iter().copied()).collect(),
             ended: story.robust_status(r).name(),
             held_at: r.held_at.clone(),
             rounds: r.rounds,

@@ -5,6 +5,7 @@ mod made;
 mod parts;
 mod realised;
 mod relief;
+mod steps;
 mod story;
 mod tables;
 mod words;
@@ -13,6 +14,7 @@ pub use body::{Body, Climb, CodeChange, Found, Optima, Point, Price, Row, Slopes
 pub use made::{Course, Made, MadeRow, NotHeldAt, RobustFound};
 pub use realised::{CodeMargin, Flanked, Flanks, SearchedOn};
 pub use relief::{Alone, Freed, Loosened, Relief};
+pub use steps::{Bound, Steps};
 pub use story::Story;
 pub use words::Hints;
 
@@ -49,6 +51,10 @@ pub struct Ask {
     pub robust: bool,
     /// Draws within the tolerances; at least 1.
     pub draws: usize,
+    /// Step of the answer's lengths, mm, 0 to 1; 0: none; `None`: that of the file.
+    pub step_mm: Option<f64>,
+    /// What every limit keeps of its margin, 0 to 1; `None`: that of the file.
+    pub reserve: Option<f64>,
     /// Ends the search; the best design so far is the answer.
     pub follow: Follow,
 }
@@ -65,6 +71,8 @@ impl Default for Ask {
             front_steps: 8,
             robust: false,
             draws: 200,
+            step_mm: None,
+            reserve: None,
             follow: Follow::default(),
         }
     }
@@ -90,6 +98,12 @@ impl Ask {
             "a robust design needs a [tolerances] table: what the clutch is made to"
         } else if self.robust && self.draws == 0 {
             "at least one draw within the tolerances is needed"
+        } else if self.step_mm.is_some_and(|step| !(0.0..=1.0).contains(&step)) {
+            "the step of lengths must lie within 0 and 1 mm"
+        } else if self.reserve.is_some_and(|share| !(0.0..=1.0).contains(&share)) {
+            "the reserve on limits must lie within 0 and 1"
+        } else if self.evaluations == 0 {
+            "at least one evaluation is needed"
         } else if self.starts == Some(0) {
             "at least one start is needed"
         } else if !(1e-13..=1e-3).contains(&self.tolerance) {
@@ -124,7 +138,7 @@ impl SearchAnswer {
     /// # Errors
     /// As [`Design::parse`], where a history of the design has gone meanwhile.
     pub fn design(&self, given: &Design, name_for_errors: &str) -> Result<Design, DesignError> {
-        Design::parse_in(&given.folder, &self.story.found.file, name_for_errors)
+        Design::parse_in(&given.folder, self.story.file(), name_for_errors)
     }
 }
 

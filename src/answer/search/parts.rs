@@ -1,10 +1,10 @@
 //! What was found beside the optimum, part by part: sentences, tables, plots.
 
-use super::Story;
 use super::relief::relief_parts;
 use super::words::{Hints, gain, optima_line, price_sentence, shown};
+use super::{Story, steps};
 use crate::design::Objective;
-use crate::optimise::{Branch, Front, Realised, Robust, Start};
+use crate::optimise::{Branch, Front, Realised, Robust, Search, Start};
 use crate::report::{Cell, Column, Plot, Table, Unit, significant};
 
 fn start_table(starts: &[Start]) -> Table {
@@ -128,16 +128,23 @@ impl Story {
                 vec![("Each whole number with a continuous search inside", branch_table(&found.branches))];
             parts.push(Part { heading: "Whole numbers", tables, ..Part::default() });
         }
-        if !found.prices.is_empty() {
-            let lines = found.prices.iter().map(|p| price_sentence(aim, p)).collect();
+        if !self.made().prices.is_empty() {
+            let lines = self.made().prices.iter().map(|p| price_sentence(aim, p)).collect();
             parts.push(Part { heading: "What holds the optimum", lines, ..Part::default() });
         }
         parts.extend(self.relief.iter().flat_map(|relief| relief_parts(self, relief)));
         if let Some(realised) = &self.realised {
-            parts.push(Part { heading: "Centroid", lines: realised_lines(aim, realised), ..Part::default() });
+            parts.push(Part {
+                heading: "Centroid",
+                lines: realised_lines(found, realised),
+                ..Part::default()
+            });
+        }
+        if let Some(stepped) = &self.stepped {
+            parts.push(Part { heading: "Steps", lines: steps::lines(self, stepped), ..Part::default() });
         }
         parts.extend(self.front.as_ref().map(front_part));
-        parts.extend(self.made.as_ref().map(|made| self.made_part(made)));
+        parts.extend(self.within.as_ref().map(|made| self.made_part(made)));
         if !self.why.is_empty() {
             parts.push(Part { heading: "Not done", lines: self.why.clone(), ..Part::default() });
         }
@@ -228,7 +235,8 @@ fn front_part(front: &Front) -> Part {
     Part { heading: "Front", lines, tables: vec![("Points of the front", front_table(front))], plots }
 }
 
-fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
+fn realised_lines(found: &Search, r: &Realised) -> Vec<String> {
+    let aim = found.aim;
     let n = &r.nearest;
     let f = &n.flanks;
     let mm = |m: f64| significant(m * 1e3, 5);
@@ -254,7 +262,9 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
         significant(n.given.1, 4)
     );
     let mut lines = vec![format!(
-        "the optimum above has no flanks yet that give it: its centroid {} was free, its mass given",
+        "with its centroid free and its mass given (a bound) the search came to {} {}, the centroid at {}",
+        aim.words(),
+        shown(aim, found.objective.1),
         at(n.wanted_m)
     )];
     lines.push(if n.reached() {
@@ -269,7 +279,7 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
             shown(aim, r.objective)
         )
     });
-    if let Some(s) = &r.search {
+    if let Some(s) = r.searched.then_some(&r.made) {
         let ended = s.outcome.status.name();
         let values: Vec<String> =
             s.variables.iter().map(|v| format!("{} {}", v.name, significant(v.best, 5))).collect();

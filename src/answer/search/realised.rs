@@ -77,7 +77,7 @@ impl Flanked {
     pub(super) fn of(r: &Realised) -> Self {
         let n = &r.nearest;
         let f = &n.flanks;
-        let searched_on = r.search.as_ref().map(|s| SearchedOn {
+        let searched_on = r.searched.then_some(&r.made).map(|s| SearchedOn {
             variables: values(s, |v| v.best),
             objective: s.objective.1,
             feasible: s.feasible(),

@@ -6,11 +6,16 @@ use crate::margin::Margin;
 use crate::optimise::NO_INFLUENCE;
 use crate::report::{Cell, Column, Table, Unit};
 
-fn held_cell(m: &Margin) -> Cell {
-    Cell::Verdict(m.held(), if m.held() { "held" } else { "NOT HELD" }.to_owned())
-}
-
 impl Story {
+    fn held_cell(&self, m: &Margin) -> Cell {
+        let word = match (self.held(m), m.held()) {
+            (true, _) => "held",
+            (false, true) => "within the reserve",
+            (false, false) => "NOT HELD",
+        };
+        Cell::Verdict(self.held(m), word.to_owned())
+    }
+
     /// Margins before and after, as `check` shows them.
     pub(crate) fn margin_table(&self) -> Table {
         let mut table = Table::new(vec![
@@ -23,16 +28,17 @@ impl Story {
             Column::number("margin_after", "Margin after", Unit::Percent, 3),
             Column::text("held", "Held"),
         ]);
-        for (a, b) in self.found.start.iter().zip(&self.found.best) {
+        for b in self.margins() {
+            let a = self.before(b);
             table.row(vec![
                 b.code().into(),
-                demand_cell(a),
+                a.map_or(Cell::Empty, demand_cell),
                 demand_cell(b),
                 allowable_cell(b),
                 unit_cell(b),
-                margin_cell(a),
+                a.map_or(Cell::Empty, margin_cell),
                 margin_cell(b),
-                held_cell(b),
+                self.held_cell(b),
             ]);
         }
         table
@@ -50,17 +56,18 @@ impl Story {
             Column::number("margin_after", "Margin after", Unit::One, 4),
             Column::text("held", "Held"),
         ]);
-        for (a, b) in self.found.start.iter().zip(&self.found.best) {
+        for b in self.margins() {
+            let a = self.before(b);
             let demand = |m: &Margin| m.demand_in_unit().map_or(Cell::Empty, Cell::Si);
             table.row(vec![
                 b.code().into(),
                 b.limit.unit.into(),
-                demand(a),
+                a.map_or(Cell::Empty, demand),
                 demand(b),
                 b.shown_allowable().into(),
-                a.margin().into(),
+                a.map_or(Cell::Empty, |a| a.margin().into()),
                 b.margin().into(),
-                held_cell(b),
+                self.held_cell(b),
             ]);
         }
         table
@@ -76,23 +83,26 @@ impl Story {
             Column::number("after", "After", Unit::One, 6),
             Column::text("note", "Note"),
         ]);
-        for v in &self.found.variables {
-            let note = if v.dropped {
-                "without influence, dropped"
-            } else if v.best == v.min {
-                "at its lower bound"
-            } else if v.best == v.max {
-                "at its upper bound"
-            } else {
-                ""
+        for v in &self.made().variables {
+            let before = self.found.variables.iter().find(|f| f.name == v.name);
+            let bound = match (v.best == v.min, v.best == v.max) {
+                (true, _) => Some("lower"),
+                (_, true) => Some("upper"),
+                _ => None,
+            };
+            let note = match bound {
+                _ if v.dropped => "without influence, dropped".to_owned(),
+                Some(bound) if self.value(v) == v.best => format!("at its {bound} bound"),
+                Some(bound) => format!("a step from its {bound} bound"),
+                None => String::new(),
             };
             table.row(vec![
                 v.name.as_str().into(),
                 v.min.into(),
                 v.max.into(),
-                v.start.into(),
-                v.best.into(),
-                note.into(),
+                before.map_or(Cell::Empty, |f| f.start.into()),
+                self.value(v).into(),
+                note.as_str().into(),
             ]);
         }
         table

@@ -102,12 +102,15 @@ impl Story {
     /// How it ended, in one sentence.
     pub fn verdict(&self, hints: &Hints) -> String {
         let found = &self.found;
-        let (before, after) = found.objective;
+        let (before, after) = self.objective();
         let why = match self.status() {
             Status::Converged => "converged".to_owned(),
             Status::Infeasible { least_violation, fighting } => {
-                let names: Vec<&str> =
-                    fighting.iter().filter_map(|&i| found.names.limits.get(i)).map(String::as_str).collect();
+                let names: Vec<&str> = fighting
+                    .iter()
+                    .filter_map(|&i| self.last().names.limits.get(i))
+                    .map(String::as_str)
+                    .collect();
                 if let Some(said) = self.out_of_reach() {
                     return said;
                 }
@@ -121,23 +124,36 @@ impl Story {
             Status::Interrupted => hints.stopped.to_owned(),
             Status::Stalled(cause) => format!("stalled ({cause:?})"),
         };
-        if found.feasible() {
+        if self.feasible() {
+            let reserve = found.problem.reserve();
             format!(
-                "{} {} -> {} ({}), every limit held{}; {why} after {} evaluations{}{}",
+                "{} {} -> {} ({}), every limit held{}{}; {why} after {} evaluations{}{}{}",
                 found.aim.words(),
                 shown(found.aim, before),
                 shown(found.aim, after),
-                error_beside(after, SHOWN_DIGITS, found.objective_error),
+                error_beside(after, SHOWN_DIGITS, self.objective_error()),
+                if reserve > 0.0 {
+                    format!(" with {} % to spare", significant(100.0 * reserve, 2))
+                } else {
+                    String::new()
+                },
                 self.start_not_held(),
-                found.evaluations,
-                if found.wants_centroid() { "; no flanks give its centroid yet" } else { "" },
+                self.evaluations(),
+                self.on_grid()
+                    .and(self.stepped.as_ref())
+                    .map_or(String::new(), |s| format!("; lengths in steps of {} mm", s.step_mm)),
+                if self.makeable() {
+                    ""
+                } else {
+                    "; NO FLANKS are known that give its centroid, so it cannot be made"
+                },
                 self.not_robust().map_or(String::new(), |why| format!("; {why}"))
             )
         } else {
             format!(
                 "no feasible design found: {why} after {} evaluations; not held: {}{}",
-                found.evaluations,
-                found.not_held().join(", "),
+                self.evaluations(),
+                self.not_held().join(", "),
                 self.worst()
             )
         }
@@ -145,7 +161,8 @@ impl Story {
 
     /// The limits that the design searched from does not hold, in words behind a design that holds all.
     fn start_not_held(&self) -> String {
-        let broken: Vec<String> = self.found.start.iter().filter(|m| !m.held()).map(Margin::code).collect();
+        let broken: Vec<String> =
+            self.found.start.iter().filter(|m| !self.held(m)).map(Margin::code).collect();
         match broken.len() {
             0 => String::new(),
             n => format!(
@@ -158,7 +175,7 @@ impl Story {
 
     /// The worst margin of a design that does not hold all, the nearest one found.
     fn worst(&self) -> String {
-        let rows = self.found.best.iter().filter(|m| !m.held());
+        let rows = self.margins().iter().filter(|m| !self.held(m));
         rows.min_by(|a, b| a.margin().total_cmp(&b.margin())).map_or(String::new(), |m| {
             format!("; worst margin of this nearest design: {}, {}", margin_text(m), m.code())
         })
@@ -168,11 +185,13 @@ impl Story {
     fn out_of_reach(&self) -> Option<String> {
         let found = &self.found;
         let wanted = found.problem.limits().slip_margin?;
-        (found.aim == Objective::SlipMargin && found.best.iter().filter(|m| !m.held()).all(Margin::is_slip)).then(|| {
+        (found.aim == Objective::SlipMargin
+            && self.margins().iter().filter(|m| !self.held(m)).all(Margin::is_slip))
+        .then(|| {
             format!(
                 "infeasible: the largest {} found is {}, and slip_margin asks for {}; it is held down by {}",
                 found.aim.words(),
-                shown(found.aim, found.objective.1),
+                shown(found.aim, self.objective().1),
                 significant(wanted, 4),
                 self.active().join(", ")
             )
@@ -181,9 +200,9 @@ impl Story {
 
     /// What holds the optimum where it is: objectives, limits, bounds.
     pub fn active(&self) -> Vec<String> {
-        let a = &self.found.outcome.active;
-        let n = &self.found.names;
-        let free = &self.found.searched;
+        let a = &self.made().outcome.active;
+        let n = &self.made().names;
+        let free = &self.made().searched;
         let objectives = a.objectives.iter().filter_map(|&i| n.objectives.get(i)).cloned();
         let limits = a.limits.iter().filter_map(|&i| n.limits.get(i)).cloned();
         let lower = a.lower.iter().filter_map(|&i| free.get(i)).map(|s| format!("{s} at its lower bound"));
@@ -205,7 +224,7 @@ impl Story {
 
     /// What the optimum gained or lost when it was looked at with everything.
     pub fn in_full(&self) -> String {
-        let changes = self.found.best.iter().zip(&self.found.as_searched);
+        let changes = self.margins().iter().zip(self.as_searched());
         let most = changes
             .map(|(a, b)| ((a.margin() - b.margin()).abs(), a.code()))
             .max_by(|a, b| a.0.total_cmp(&b.0));
