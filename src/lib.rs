@@ -58,8 +58,9 @@
 //!
 //! All are on by default; with `default-features = false` the library is built alone.
 //!
-//! * `cli`: the room [`cli`] and the command `sprag-design`; needs `report`.
+//! * `cli`: the room [`cli`] and the command `sprag-design`; needs `report` and `validation`.
 //! * `report`: the rooms [`report`], [`answer`], whose words have units, and [`studio`].
+//! * `validation`: the room [`accuracy`] and the reference [`contact::half_space`], with its Fourier transform.
 //! * `faer`: scattered slices of a contact are solved by the crate faer; without it by nalgebra, slower for thousands
 //!   of slices and with other roundings. The matrix of Eq. (2) as a whole is there with it alone.
 //!
@@ -88,6 +89,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(feature = "validation")]
 pub mod accuracy;
 #[cfg(feature = "report")]
 pub mod answer;

@@ -9,6 +9,7 @@ mod axial;
 mod dense;
 mod edge;
 mod end_profile;
+#[cfg(feature = "validation")]
 pub mod half_space;
 mod influence;
 mod junction;
