@@ -83,10 +83,16 @@
 //! let answer = simulate(scene, &Settings::default())?;
 //! assert_eq!(answer.verdict, Some(Verdict::Sticks));
 //!
-//! // Margins: every limit of the file.
-//! let rows = margins(&design, &design.limits, &[], false, false, &Settings::default())?;
+//! // Margins: every limit of the file, with the scenes that it is to hold in.
+//! let rows = margins(&design, &design.check_scenarios, &Settings::default())?;
 //! assert!(rows.iter().any(|row| row.code() == "hertz-peak-inner"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! With the feature `report` a design answers as the command does, `examples/first_steps.rs`:
+//!
+//! ```ignore
+#![cfg_attr(feature = "report", doc = include_str!("../examples/first_steps.rs"))]
 //! ```
 
 #[cfg(feature = "validation")]

@@ -315,8 +315,8 @@ fn built(draft: &mut Draft) -> Result<Design, Obstacle> {
 
 /// Every margin with the scenarios named in the file, all held.
 fn checked(design: &Design, settings: &Settings) -> Result<Vec<Margin>, Obstacle> {
-    let rows = margins(design, &design.limits, &design.check_scenarios, false, true, settings)
-        .map_err(|e| Obstacle::Other(e.to_string()))?;
+    let rows =
+        margins(design, &design.check_scenarios, settings).map_err(|e| Obstacle::Other(e.to_string()))?;
     match rows.iter().filter(|r| r.required).find(|r| !r.held()) {
         Some(row) => Err(Obstacle::Margin(row.code())),
         None => Ok(rows),
