@@ -16,12 +16,12 @@ mod sprag;
 mod subsurface;
 mod table;
 
-pub use capacity::{Course, courses, nominal_capacity};
+pub use capacity::{DemandCourse, courses, nominal_capacity};
 pub use limits::{Limit, When, limit_of};
 pub use load::{LoadState, load_state};
 pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
 pub use row::{Demand, Margin, RESOLUTION, Rule};
-pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins};
+pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
 pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIMITS, SLIP};
 

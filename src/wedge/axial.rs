@@ -4,7 +4,7 @@ use crate::clutch::{self, Clutch, ContactLaw};
 #[cfg(feature = "validation")]
 use crate::contact::half_space::{HalfSpaceLine, HalfSpaceStatus};
 use crate::contact::{
-    Approach, AxialFit, ContactError, Edge, EndProfile, Flank, LineContact, Peak, RollerLaw, ShapedLaw,
+    Approach, AxialFit, ContactError, Edge, EndDrop, Flank, LineContact, Peak, RollerLaw, ShapedLaw,
     SliceCompliance, SliceContact, SliceRatio, SliceStatus,
 };
 use crate::material::PlaneState;
@@ -165,14 +165,14 @@ fn fit(clutch: &Clutch, contact: &LineContact, side: Side) -> Result<AxialFit, C
     // A profile is made for a load on the whole sprag.
     let whole = LineContact { length_m: sprag_m, ..*contact };
     let profile = match &axial.end_profile {
-        clutch::EndProfile::Square => EndProfile::Square,
-        clutch::EndProfile::Lundberg { design_load_n } => EndProfile::lundberg(&whole, *design_load_n)?,
-        clutch::EndProfile::Crown { radius_m } => EndProfile::crown_radius(*radius_m, sprag_m)?,
-        clutch::EndProfile::EndRelief { length_m, radius_m } => EndProfile::end_relief(*length_m, *radius_m)?,
+        clutch::EndProfile::Square => EndDrop::Square,
+        clutch::EndProfile::Lundberg { design_load_n } => EndDrop::lundberg(&whole, *design_load_n)?,
+        clutch::EndProfile::Crown { radius_m } => EndDrop::crown_radius(*radius_m, sprag_m)?,
+        clutch::EndProfile::EndRelief { length_m, radius_m } => EndDrop::end_relief(*length_m, *radius_m)?,
         clutch::EndProfile::FujiwaraKawase { design_load_n, load_factor, crowned_ratio, end_drop_m } => {
-            EndProfile::fujiwara_kawase(&whole, *design_load_n, *load_factor, *crowned_ratio, *end_drop_m)?
+            EndDrop::fujiwara_kawase(&whole, *design_load_n, *load_factor, *crowned_ratio, *end_drop_m)?
         }
-        clutch::EndProfile::Table { points_m } => EndProfile::table(points_m.clone())?,
+        clutch::EndProfile::Table { points_m } => EndDrop::table(points_m.clone())?,
     };
     let tilt_rad = match side {
         Side::Inner => axial.tilt_rad,
