@@ -59,8 +59,9 @@
 //!
 //! All are on by default; with `default-features = false` the library is built alone.
 //!
-//! * `cli`: the room [`cli`] and the command `sprag-design`; needs `report`.
+//! * `cli`: the room [`cli`] and the command `sprag-design`; needs `report` and `validation`.
 //! * `report`: the rooms [`report`], [`answer`], whose words have units, and [`studio`].
+//! * `validation`: the room [`accuracy`] and the reference [`contact::half_space`], with its Fourier transform.
 //! * `faer`: scattered slices of a contact are solved by the crate faer; without it by nalgebra, slower for thousands
 //!   of slices and with other roundings. The matrix of Eq. (2) as a whole is there with it alone.
 //!
@@ -83,12 +84,19 @@
 //! let answer = simulate(scene, &Settings::default())?;
 //! assert_eq!(answer.verdict, Some(Verdict::Sticks));
 //!
-//! // Margins: every limit of the file.
-//! let rows = margins(&design, &design.limits, &[], false, false, &Settings::default())?;
+//! // Margins: every limit of the file, with the scenes that it is to hold in.
+//! let rows = margins(&design, &design.check_scenarios, &Settings::default())?;
 //! assert!(rows.iter().any(|row| row.code() == "hertz-peak-inner"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! With the feature `report` a design answers as the command does, `examples/first_steps.rs`:
+//!
+//! ```ignore
+#![cfg_attr(feature = "report", doc = include_str!("../examples/first_steps.rs"))]
+//! ```
 
+#[cfg(feature = "validation")]
 pub mod accuracy;
 #[cfg(feature = "report")]
 pub mod answer;
