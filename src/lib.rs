@@ -63,7 +63,7 @@
 //! * `report`: the rooms [`report`], [`answer`], whose words have units, and [`studio`].
 //! * `validation`: the room [`accuracy`] and the reference [`contact::half_space`], with its Fourier transform.
 //! * `faer`: scattered slices of a contact are solved by the crate faer; without it by nalgebra, slower for thousands
-//!   of slices and with other roundings. The matrix of Eq. (2) as a whole is there with it alone.
+//!   of slices and with other roundings.
 //!
 //! # From a file to an answer
 //!

@@ -21,9 +21,9 @@ fn by_clarabel(normal_n: f64, half_width_m: f64, gap_m: &[f64], unit_m: f64) -> 
     let unit_n = normal_n / n as f64;
     let s = n as f64 * RollerLaw::new(&c, 3.944e-5).unwrap().approach_m(normal_n) / normal_n;
     let w = influence_m_per_pa(half_width_m, LENGTH_M / n as f64, n, c.contact_modulus_pa);
-    let matrix = weighted_influence_m_per_n(&w, s);
+    let row = weighted_influence_m_per_n(&w, s);
     let upper: Vec<Vec<f64>> = (0..n)
-        .map(|j| (0..n).map(|k| if k >= j { matrix[(j, k)] * unit_n / unit_m } else { 0.0 }).collect())
+        .map(|j| (0..n).map(|k| if k >= j { row[k - j] * unit_n / unit_m } else { 0.0 }).collect())
         .collect();
     let linear: Vec<f64> = gap_m.iter().map(|g| g / unit_m).collect();
     let mut rows = vec![vec![1.0; n]];
