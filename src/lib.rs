@@ -31,7 +31,7 @@
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
 //! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |
-//! | 4 | [`size`] | a first design from bore, torque, speed, safety, friction |
+//! | 4 | [`size`] | a first design from space, torques, speeds, friction, steel and what it is for |
 //! | 4 | [`compare`] | designs side by side: what differs in their files, and what comes of it |
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
 //! | 5 | [`export`] | a clutch as drawing, solid, table or finite-element deck, and the solver's result read back |
