@@ -42,7 +42,8 @@ fn the_main_job_finds_the_known_optimum_and_check_holds_it() {
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
     let told = json(&out);
     let best = &told["best"];
-    assert_eq!(best["variables"]["r_i2_mm"], 3.6);
+    assert_eq!(told["unrounded"]["variables"]["r_i2_mm"], 3.6);
+    assert!((best["variables"]["r_i2_mm"].as_f64().unwrap() - 3.6).abs() < 0.006);
     let r_i3 = best["variables"]["r_i3_mm"].as_f64().unwrap();
     assert!((4.15..4.22).contains(&r_i3), "{r_i3}");
     let objective = best["objective"].as_f64().unwrap();
@@ -235,17 +236,15 @@ fn a_design_written_elsewhere_finds_its_histories_and_says_what_was_changed() {
         std::fs::read_to_string(to).unwrap()
     };
     let text = search(&design, &new);
-    for file in [&new] {
-        let text = std::fs::read_to_string(file).unwrap();
-        assert!(text.contains("torque_history_csv = \"pull.csv\"   # measured"), "{text}");
-        let checked = tool(&["check", file.to_str().unwrap(), "--quiet"]);
-        assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stderr));
-    }
+    assert!(text.contains("torque_history_csv = \"pull.csv\"   # measured"), "{text}");
+    let checked = tool(&["check", new.to_str().unwrap(), "--quiet"]);
+    assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stderr));
     let line = |text: &str, start: &str| text.lines().find(|l| l.starts_with(start)).unwrap().to_owned();
     let keep = line(&text, "keep_contact_to_rpm");
     assert!(keep.ends_with("changed by optimize from 4500") && keep.matches('#').count() == 1, "{keep}");
-    let centroid = line(&text, "centroid = {");
-    assert!(centroid.contains("changed by optimize: x_mm from 0.1935, y_mm from 0.5288"), "{centroid}");
+    // The centroid follows from the flanks that were found for it.
+    let flanks = line(&text, "flanks = {");
+    assert!(flanks.ends_with("added by optimize") && !text.contains("\ncentroid = {"), "{flanks}");
     for arc in [
         "section 4; junction assumed; changed by optimize: radius_mm from 4.08",
         "assumed; changed by optimize: radius_mm from 4.15",
@@ -302,7 +301,7 @@ fn a_kept_journal_is_csv_and_spares_a_second_search_the_work() {
     let (first, second) = (json(&first), json(&second));
     assert_eq!(first["best"], second["best"]);
     assert_eq!(first["realised"], second["realised"]);
-    assert!(first["realised"]["reached"] == true && folder.join("new.realised.toml").exists());
+    assert!(first["realised"]["reached"] == true && first["makeable"] == true);
     assert!(first["prices"].as_array().unwrap().iter().any(|p| p["of"] == "hoop-inner"));
     assert_eq!(
         first["change_in_full"].as_array().unwrap().len(),
