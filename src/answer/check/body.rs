@@ -8,9 +8,9 @@ use crate::wedge::EndReason;
 use serde::Serialize;
 
 /// A demand that no friction meets, in words.
-pub(crate) const NONE_SUFFICES: &str = "none suffices";
+pub const NONE_SUFFICES: &str = "none suffices";
 /// A scene whose load goes beyond the end of the curve.
-pub(crate) const OVERLOADED: &str = "overloaded";
+pub const OVERLOADED: &str = "overloaded";
 /// What stands for the demand of a row whose torque lies beyond the end of the curve.
 const NOT_REACHED: &str = "not reached";
 /// What stands for the demand of a run that met its limit of work.
@@ -296,7 +296,7 @@ fn demand(r: &Margin) -> Option<f64> {
 
 /// The table for people: codes, not sentences, so that it fits a terminal. A limit that is not reached before the
 /// curve ends, at `end_torque_nm`, has a capacity beyond it.
-pub(crate) fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
+pub fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
     let mut table = Table::new(vec![
         Column::text("code", "Limit"),
         Column::number("demand", "Demand", Unit::One, 4),
@@ -321,7 +321,7 @@ pub(crate) fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
 }
 
 /// The demand as people read it.
-pub(crate) fn demand_cell(r: &Margin) -> Cell {
+pub fn demand_cell(r: &Margin) -> Cell {
     match r.demand {
         Demand::Value(_) | Demand::MoreThan(_) => r.demand_in_unit().into(),
         // Friction has no demand at all then, a torque one at the end of the curve.
@@ -333,17 +333,17 @@ pub(crate) fn demand_cell(r: &Margin) -> Cell {
 }
 
 /// The allowable as people read it; of slip the margin that is wanted.
-pub(crate) fn allowable_cell(r: &Margin) -> Cell {
+pub fn allowable_cell(r: &Margin) -> Cell {
     if r.is_slip() { wanted_text(r).into() } else { r.shown_allowable().into() }
 }
 
 /// The unit of demand and allowable as people read it.
-pub(crate) fn unit_cell(r: &Margin) -> Cell {
+pub fn unit_cell(r: &Margin) -> Cell {
     if r.limit.unit == "1" { "".into() } else { r.limit.unit.into() }
 }
 
 /// The margin as people read it, for a column in percent; of slip the slip margin.
-pub(crate) fn margin_cell(r: &Margin) -> Cell {
+pub fn margin_cell(r: &Margin) -> Cell {
     r.shown_margin().map_or(NO_DEMAND.into(), Cell::from)
 }
 
@@ -356,13 +356,13 @@ fn capacity_cell(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> Cell {
 }
 
 /// Whether the limit is not reached before the curve ends; the two limits that are the end itself are.
-pub(crate) fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> bool {
+pub fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> bool {
     let is_end = r.limit.ends_curve && !r.off_centre;
     !is_end && capacity_nm >= end_torque_nm * (1.0 - 1e-9)
 }
 
 /// Whether the limit has a capacity, and that lies at the end of the curve or beyond.
-pub(crate) fn ends_first(r: &Margin, end_torque_nm: f64) -> bool {
+pub fn ends_first(r: &Margin, end_torque_nm: f64) -> bool {
     r.torque_capacity_nm.is_some_and(|c| is_beyond(r, c, end_torque_nm))
 }
 
@@ -378,7 +378,7 @@ fn verdict(r: &Margin) -> Cell {
 }
 
 /// The table for programs: every number in full, nothing but numbers in number columns.
-pub(crate) fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
+pub fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
     let mut table = Table::new(vec![
         Column::text("code", "Code"),
         Column::text("name", "Limit"),
@@ -411,12 +411,12 @@ pub(crate) fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
 }
 
 /// A margin in percent; a limit that nothing demands has none.
-pub(crate) fn margin_text(row: &Margin) -> String {
+pub fn margin_text(row: &Margin) -> String {
     row.shown_margin().map_or(NO_DEMAND.to_owned(), |margin| Unit::Percent.show(margin, 3))
 }
 
 /// The same with the word margin before it, of slip with what is wanted.
-pub(crate) fn margin_words(row: &Margin) -> String {
+pub fn margin_words(row: &Margin) -> String {
     match row.is_slip() {
         true => format!("slip margin {}, {}", margin_text(row), wanted_text(row)),
         false => format!("margin {}", margin_text(row)),

@@ -8,7 +8,7 @@ pub mod running;
 mod tests;
 
 pub use body::{Body, Capacity, Deciding, End, Row};
-pub(crate) use body::{
+pub use body::{
     NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, is_beyond, margin_cell,
     margin_text, margin_words, people_table, unit_cell,
 };

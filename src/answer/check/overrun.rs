@@ -143,7 +143,7 @@ impl Section {
     }
 
     /// Drag in one line; lift-off has its own, and the last speed looked at is not it.
-    pub(crate) fn remark(&self) -> String {
+    pub fn remark(&self) -> String {
         let last = |race: &str| self.points.iter().rev().find(|p| p.race == race);
         let slow = Unit::NewtonMetre.show(self.drag_torque_slow_nm, 3);
         let at = |race: &str| {
@@ -171,7 +171,7 @@ impl Section {
     }
 
     /// All speeds, for `--overrun-csv` and the page.
-    pub(crate) fn table(&self) -> Table {
+    pub fn table(&self) -> Table {
         let mut table = Table::new(vec![
             Column::text("race", "Race that runs"),
             Column::number("speed_rpm", "Speed, rpm", Unit::One, 5),

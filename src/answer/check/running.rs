@@ -110,7 +110,8 @@ impl Section {
         ]
     }
 
-    pub(crate) fn table(&self) -> Table {
+    /// Radii as made and as run, what they fit and how they turned.
+    pub fn table(&self) -> Table {
         let mut table = Table::new(vec![
             Column::text("track", "Track"),
             Column::number("as_made_mm", "As made, mm", Unit::One, 7),

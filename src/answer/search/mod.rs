@@ -12,6 +12,7 @@ mod words;
 
 pub use body::{Body, Climb, CodeChange, Found, Optima, Point, Price, Row, Slopes};
 pub use made::{Course, Made, MadeRow, NotHeldAt, RobustFound};
+pub use parts::Part;
 pub use realised::{CodeMargin, Flanked, Flanks, SearchedOn};
 pub use relief::{Alone, Freed, Loosened, Relief};
 pub use steps::{Bound, Steps};

@@ -101,7 +101,7 @@ fn front_table(front: &Front) -> Table {
 
 /// One part of an answer: heading, sentences, tables with captions, plots with captions.
 #[derive(Default)]
-pub(crate) struct Part {
+pub struct Part {
     /// Heading.
     pub heading: &'static str,
     /// Sentences.
@@ -114,7 +114,7 @@ pub(crate) struct Part {
 
 impl Story {
     /// Parts of the text and of the page, in order.
-    pub(crate) fn parts(&self, hints: &Hints) -> Vec<Part> {
+    pub fn parts(&self, hints: &Hints) -> Vec<Part> {
         let found = &self.found;
         let aim = found.aim;
         let mut parts = Vec::new();

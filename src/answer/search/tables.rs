@@ -17,7 +17,7 @@ impl Story {
     }
 
     /// Margins before and after, as `check` shows them.
-    pub(crate) fn margin_table(&self) -> Table {
+    pub fn margin_table(&self) -> Table {
         let mut table = Table::new(vec![
             Column::text("code", "Limit"),
             Column::number("demand_before", "Demand before", Unit::One, 4),
@@ -45,7 +45,7 @@ impl Story {
     }
 
     /// The same for programs: every number in full.
-    pub(crate) fn csv_table(&self) -> Table {
+    pub fn csv_table(&self) -> Table {
         let mut table = Table::new(vec![
             Column::text("code", "Limit"),
             Column::text("unit", "Unit"),
@@ -74,7 +74,7 @@ impl Story {
     }
 
     /// Variables before and after, with their bounds.
-    pub(crate) fn variable_table(&self) -> Table {
+    pub fn variable_table(&self) -> Table {
         let mut table = Table::new(vec![
             Column::text("variable", "Variable"),
             Column::number("min", "From", Unit::One, 6),
@@ -109,7 +109,7 @@ impl Story {
     }
 
     /// Change of each margin over the whole range of each variable, at the start.
-    pub(crate) fn influence_table(&self) -> Table {
+    pub fn influence_table(&self) -> Table {
         let mut columns = vec![Column::text("margin", "Margin")];
         for v in &self.found.continuous {
             columns.push(Column::number(v, v, Unit::One, 3));
