@@ -2,10 +2,10 @@
 //! sides and steps printed first do not depend on the machine, so compare those across machines and versions.
 
 use divan::{Bencher, black_box};
-use sprag_design::design::StressState;
+use sprag_design::clutch::StressState;
 use sprag_design::dynamics::{Grip, Mode, Place, PublishedSettings, RunSettings, published, run};
 use sprag_design::scenario::{Prepared, demand, prepare};
-use sprag_design::{ContactLaw, Design, Settings, WedgeCurve, place_profile, simulate};
+use sprag_design::{ContactLaw, Design, Settings, WedgeCurve, simulate};
 use std::time::Instant;
 
 const SOURCE: &str = include_str!("../designs/huang2017-multi-arc.toml");
@@ -82,7 +82,7 @@ fn beside_the_published_scheme() {
 #[divan::bench(args = [0.0, 12_000.0])]
 fn build_curve(bencher: Bencher, rpm: f64) {
     let design = design();
-    let profile = place_profile(&design.clutch).expect("profile");
+    let profile = design.clutch.profile().expect("profile");
     let speed = rpm * std::f64::consts::PI / 30.0;
     bencher.bench(|| WedgeCurve::build(black_box(&design.clutch), &profile, speed));
 }
@@ -96,7 +96,7 @@ fn build_curve_that_knows_the_radius(bencher: Bencher, law: &str) {
         "elastic" => ContactLaw::Elastic { state: StressState::Layer },
         _ => ContactLaw::Slice { coefficient: 3.944e-5 },
     };
-    let profile = place_profile(&clutch).expect("profile");
+    let profile = clutch.profile().expect("profile");
     bencher.bench(|| WedgeCurve::build(black_box(&clutch), &profile, 0.0));
 }
 

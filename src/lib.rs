@@ -17,7 +17,8 @@
 //! | 1 | [`material`] | elastic constants, density, a library of steels |
 //! | 1 | [`profile`] | tangent arcs, outline, mass properties, crowding of neighbours |
 //! | 1 | [`race`] | growth and hoop stress of rings, press fits, body compression |
-//! | 1 | [`design`] | the design file, checked; the only way in for mm, degrees, GPa |
+//! | 1 | [`clutch`] | the nouns, SI: a clutch and its parts, radii as run, what happens to it |
+//! | 1 | [`design`] | the design file, read, checked, changed; the only way in for mm, degrees, GPa |
 //! | 2 | [`kinematics`] | lengths, angles, levers, rolling ratios |
 //! | 2 | [`contact`] | local line contact: roller law, Hertz, slices |
 //! | 2 | [`friction`] | coefficient over speed |
@@ -66,13 +67,13 @@
 //! # From a file to an answer
 //!
 //! ```
-//! use sprag_design::{Design, Settings, Verdict, WedgeCurve, margins, place_profile, simulate};
+//! use sprag_design::{Design, Settings, Verdict, WedgeCurve, margins, simulate};
 //!
 //! let path = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/huang2017-multi-arc.toml");
 //! let design = Design::read(path.as_ref())?;
 //!
 //! // Statics: the curve at rest, read at 16.8 Nm.
-//! let profile = place_profile(&design.clutch)?;
+//! let profile = design.clutch.profile()?;
 //! let curve = WedgeCurve::build(&design.clutch, &profile, 0.0)?;
 //! let point = curve.at_torque(16.8).ok_or("not carried")?;
 //! assert!((point.windup_rad.to_degrees() - 1.975).abs() < 0.03);
@@ -93,6 +94,7 @@ pub mod accuracy;
 pub mod answer;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod clutch;
 pub mod compare;
 pub mod contact;
 pub mod design;
@@ -120,14 +122,15 @@ pub mod size;
 pub mod studio;
 pub mod wedge;
 
-pub use design::{Clutch, ContactLaw, Design, DesignError, Limits, Scenario, ScenarioKind};
+pub use clutch::{Clutch, ContactLaw, Scenario, ScenarioKind};
+pub use design::{Design, DesignError, Limits};
 pub use dynamics::Stop;
 pub use follow::Follow;
 pub use margin::{Margin, NoMargins, margins};
 pub use material::Material;
 pub use optimise::{NoSearch, Search, search};
 pub use profile::{Outline, Profile, ProfileError};
-pub use scenario::{NoScenario, Settings, Simulation, Verdict, place_profile, simulate};
+pub use scenario::{NoScenario, Settings, Simulation, Verdict, simulate};
 pub use wedge::{EndReason, NoCurve, StaticPoint, WedgeCurve};
 
 #[doc = include_str!("equations.md")]

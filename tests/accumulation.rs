@@ -1,6 +1,7 @@
 //! Sequences of mode changes that accumulate in a finite time, and what a run that gives up says.
 
-use sprag_design::design::{Design, ScenarioKind};
+use sprag_design::clutch::ScenarioKind;
+use sprag_design::design::Design;
 use sprag_design::dynamics::{Grip, RunSettings, Stop, run};
 use sprag_design::numeric::course::Course;
 use sprag_design::scenario::{Settings, prepare, simulate};

@@ -1,9 +1,9 @@
 //! Clutches whose sprags are shaped along the axis, tilted, or not as long as the races.
 
 use sprag_design::WedgeCurve;
+use sprag_design::clutch::{Clutch, ContactLaw, EndProfile, StressState};
 use sprag_design::contact::{Edge, Peak};
-use sprag_design::design::{Clutch, ContactLaw, Design, EndProfile, StressState};
-use sprag_design::scenario::place_profile;
+use sprag_design::design::Design;
 use sprag_design::wedge::{Along, Lengthwise, Side, along};
 
 const SINGLE: &str = include_str!("../designs/huang2017-single-arc.toml");
@@ -17,7 +17,7 @@ fn clutch(contact: &str) -> Clutch {
 }
 
 fn curve(clutch: &Clutch) -> WedgeCurve {
-    WedgeCurve::build(clutch, &place_profile(clutch).unwrap(), 0.0).unwrap()
+    WedgeCurve::build(clutch, &clutch.profile().unwrap(), 0.0).unwrap()
 }
 
 fn windup_deg(contact: &str) -> f64 {

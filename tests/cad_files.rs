@@ -6,7 +6,7 @@ mod program;
 use program::Folder;
 use sprag_design::export::{Part, Subject, dxf::dxf, rows, step::step, svg::svg};
 use sprag_design::profile::Segment;
-use sprag_design::{Design, Outline, Profile, place_profile};
+use sprag_design::{Design, Outline, Profile};
 use std::collections::BTreeMap;
 
 /// A circular arc or a line, mm: first point, last point, and centre, radius, angle turned counterclockwise.
@@ -25,7 +25,7 @@ fn designs() -> Vec<Design> {
 
 fn closed(design: &Design) -> (sprag_design::Clutch, Profile, Outline) {
     let made = design.as_made().unwrap();
-    let profile = place_profile(&made).unwrap();
+    let profile = made.profile().unwrap();
     let outline = Outline::closed(&profile, &made.sprags.flanks.unwrap()).unwrap();
     (made, profile, outline)
 }

@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use program::{Folder, json, run, stdout};
 use sprag_design::export::{Part, Subject, dxf::dxf};
 use sprag_design::import::{NoImport, Sprag, Wanted, read_dxf, read_points, sprag};
-use sprag_design::{Design, Outline, place_profile};
+use sprag_design::{Design, Outline};
 use std::fmt::Write;
 
 type Point = Vector2<f64>;
@@ -15,12 +15,12 @@ type Point = Vector2<f64>;
 const TEMPLATE: &str = "designs/starter.toml";
 
 fn outline(design: &Design) -> Outline {
-    let profile = place_profile(&design.clutch).unwrap();
+    let profile = design.clutch.profile().unwrap();
     Outline::closed(&profile, &design.clutch.sprags.flanks.unwrap()).unwrap()
 }
 
 fn drawing(design: &Design) -> String {
-    let (profile, outline) = (place_profile(&design.clutch).unwrap(), outline(design));
+    let (profile, outline) = (design.clutch.profile().unwrap(), outline(design));
     let subject = Subject {
         name: &design.name,
         hash: &design.hash,
@@ -180,7 +180,7 @@ fn five_micrometres_of_noise_leave_the_radii_within_two() {
 fn a_logarithmic_spiral_is_followed_by_arcs() {
     let design = Design::read("designs/huang2017-single-arc.toml".as_ref()).unwrap();
     let mut points = measured(&outline(&design), 600);
-    let centre = place_profile(&design.clutch).unwrap().arcs[0].centre_m;
+    let centre = design.clutch.profile().unwrap().arcs[0].centre_m;
     for p in points.iter_mut().take(601) {
         let out = *p - centre;
         let angle = out.y.atan2(out.x) + std::f64::consts::FRAC_PI_2;

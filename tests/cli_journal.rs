@@ -142,11 +142,11 @@ fn half_a_line_is_dropped_and_the_next_row_stands_alone() {
     }
 }
 
-/// The file with flanks in place of the centroid is named after the output: that name may be the input's.
+/// The file of the nearest design is named after the output: that name may be the input's.
 #[test]
 fn a_file_beside_the_output_replaces_neither_the_input_nor_somebody_elses() {
     let folder = Folder::new();
-    let (new, beside) = (folder.path("better.toml"), folder.path("better.realised.toml"));
+    let (new, beside) = (folder.path("better.toml"), folder.path("better.nearest.toml"));
     std::fs::copy(MULTI, &beside).unwrap();
     let before = std::fs::read(&beside).unwrap();
     for (design, word) in
@@ -154,9 +154,9 @@ fn a_file_beside_the_output_replaces_neither_the_input_nor_somebody_elses() {
     {
         let out = search(design, &new, &[]);
         assert_eq!(out.status.code(), Some(2), "{}", said(&out));
-        assert!(said(&out).contains("better.realised.toml") && said(&out).contains(word), "{}", said(&out));
+        assert!(said(&out).contains("better.nearest.toml") && said(&out).contains(word), "{}", said(&out));
         assert_eq!(std::fs::read(&beside).unwrap(), before);
-        assert_eq!(folder.names(), ["better.realised.toml"]);
+        assert_eq!(folder.names(), ["better.nearest.toml"]);
     }
 }
 

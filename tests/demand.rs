@@ -1,6 +1,7 @@
 //! The friction that a scene needs to stick: one definition, whatever the contact does.
 
-use sprag_design::design::{Design, Scenario, ScenarioKind};
+use sprag_design::clutch::{Scenario, ScenarioKind};
+use sprag_design::design::Design;
 use sprag_design::dynamics::{RunSettings, run};
 use sprag_design::scenario::{Settings, Simulation, Verdict, prepare, simulate};
 use std::path::Path;

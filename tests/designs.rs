@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use sprag_design::clutch::{ContactLaw, MassSource, Scenario, ScenarioKind};
 use sprag_design::design::{
-    ContactLaw, Design, EditError, Flanks, MassSource, Scenario, ScenarioKind, schema, variable_names,
-    variable_path, with_limits, with_values,
+    Design, EditError, schema, variable_names, variable_path, with_limits, with_values,
 };
 use sprag_design::margin::{load_state, margins};
+use sprag_design::profile::Flanks;
 use sprag_design::profile::Outline;
-use sprag_design::scenario::{Settings, place_profile};
+use sprag_design::scenario::Settings;
 
 const MULTI: &str = include_str!("../designs/huang2017-multi-arc.toml");
 const SINGLE: &str = include_str!("../designs/huang2017-single-arc.toml");
@@ -226,7 +227,7 @@ fn mass_inertia_and_centroid_left_out_come_from_the_outline() {
 
     const SAGITTA_M: f64 = 1e-10;
     // Polygon of the outline, by the shoelace: a second way to the same integrals.
-    let profile = place_profile(&design.clutch).unwrap_or_else(|e| panic!("{e}"));
+    let profile = design.clutch.profile().unwrap_or_else(|e| panic!("{e}"));
     let outline = Outline::new(&profile, 2.525e-3, 2.525e-3).unwrap_or_else(|e| panic!("{e}"));
     let points = outline.polyline(SAGITTA_M);
     let (mut area, mut first, mut polar) = (0.0, [0.0; 2], 0.0);
@@ -284,7 +285,7 @@ fn a_design_with_neither_width_nor_flanks_is_a_design() {
         assert!(all.contains(&"neighbours".to_owned()));
         all.retain(|code| code != "neighbours");
         assert_eq!(some, all, "every other row stays");
-        let profile = place_profile(&open.clutch).unwrap_or_else(|e| panic!("{e}"));
+        let profile = open.clutch.profile().unwrap_or_else(|e| panic!("{e}"));
         assert!(Outline::narrowest(&profile).is_ok(), "and it can be drawn");
     }
 }

@@ -1,13 +1,14 @@
 //! Dynamics of the paper's scenes: converged figures, the published scheme beside them, energy, overrun.
 
 use sprag_design::Follow;
-use sprag_design::design::{Clutch, ContactLaw, Design, Scenario, ScenarioKind, StressState};
+use sprag_design::clutch::{Clutch, ContactLaw, Scenario, ScenarioKind, StressState};
+use sprag_design::design::Design;
 use sprag_design::dynamics::{
     Grip, Loads, Mode, Model, Place, PublishedSettings, Run, RunSettings, Stop, alpha_max_rad, overrun,
     preloaded, published, run,
 };
 use sprag_design::margin::{lift_off_rad_s, load_state};
-use sprag_design::scenario::{Prepared, Settings, place_profile, prepare, simulate};
+use sprag_design::scenario::{Prepared, Settings, prepare, simulate};
 use sprag_design::wedge::{InnerCurvature, WedgeCurve};
 use std::path::Path;
 
@@ -205,7 +206,7 @@ fn a_run_can_be_stopped_from_outside() {
 fn swinging(clutch: &Clutch, rule: InnerCurvature, held_nm: f64, load_nm: f64) -> (Model, [f64; 10], Place) {
     let mut clutch = clutch.clone();
     clutch.races.viscous_damping_nm_s_per_rad = 0.0;
-    let curve = WedgeCurve::build_with(&clutch, &place_profile(&clutch).unwrap(), 0.0, rule).unwrap();
+    let curve = WedgeCurve::build_with(&clutch, &clutch.profile().unwrap(), 0.0, rule).unwrap();
     let alpha_max = alpha_max_rad(&clutch, &curve);
     let loads =
         Loads { inner_nm: -held_nm, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 5000.0 };

@@ -6,8 +6,8 @@
 
 use std::path::Path;
 
-use sprag_design::design::{Clutch, ContactLaw, Design, StressState};
-use sprag_design::scenario::place_profile;
+use sprag_design::clutch::{Clutch, ContactLaw, StressState};
+use sprag_design::design::Design;
 use sprag_design::wedge::WedgeCurve;
 
 fn curve(law: ContactLaw, change: impl Fn(&mut Clutch)) -> WedgeCurve {
@@ -18,7 +18,7 @@ fn curve_of(design: &str, law: ContactLaw, change: impl Fn(&mut Clutch)) -> Wedg
     let mut clutch = Design::read(Path::new(&format!("designs/{design}.toml"))).unwrap().clutch;
     clutch.contact = law;
     change(&mut clutch);
-    let profile = place_profile(&clutch).unwrap();
+    let profile = clutch.profile().unwrap();
     WedgeCurve::build(&clutch, &profile, 0.0).unwrap()
 }
 

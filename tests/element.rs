@@ -1,11 +1,11 @@
 //! The clutch as an element between two flanges, held against scenes, against balances that know nothing of the integrator,
 //! and against itself.
 
-use sprag_design::design::{Clutch, Start};
+use sprag_design::clutch::{Clutch, Start};
 use sprag_design::dynamics::{Place, RunSettings, run};
 use sprag_design::element::{Beginning, Element, Saved, Settings, Torque};
 use sprag_design::scenario::{Prepared, prepare};
-use sprag_design::{Design, Follow, Stop, WedgeCurve, place_profile, simulate};
+use sprag_design::{Design, Follow, Stop, WedgeCurve, simulate};
 
 fn design(name: &str) -> Design {
     let path = format!("{}/designs/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -225,7 +225,7 @@ fn engaged_races_swing_at_the_frequency_of_two_inertias_on_the_curve() {
     let mut element =
         Element::new(&clutch, &beginning, &Settings { tolerance: 1e-10, ..Settings::default() }).unwrap();
     // T = 1/2 x' M x', V = 1/2 k (theta_i - theta_e)^2; alpha' = (theta_e' - theta_i')/rho, phi' = theta_i' + rho_i alpha'.
-    let curve = WedgeCurve::build(&clutch, &place_profile(&clutch).unwrap(), 0.0).unwrap();
+    let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
     let k = curve.at_torque(torque_nm).unwrap().k_tangent_nm_per_rad;
     let p = curve.in_arc(0, element.memory().state()[0]);
     let rho = p.rho_i + p.rho_e;

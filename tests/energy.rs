@@ -1,6 +1,7 @@
 //! Where the energy of every scene goes: works of friction, damping and torques against what moves and is stored.
 
-use sprag_design::design::{Design, ScenarioKind};
+use sprag_design::clutch::ScenarioKind;
+use sprag_design::design::Design;
 use sprag_design::dynamics::{EnergyBalance, RunSettings, run};
 use sprag_design::scenario::{Settings, prepare, simulate};
 use std::path::Path;
@@ -28,7 +29,7 @@ fn every_scene_of_the_designs_balances_to_the_tolerance() {
 /// Balance of the multi-arc clutch in high-10, changed.
 fn changed(
     tolerance: f64,
-    change: impl Fn(&mut sprag_design::design::Scenario),
+    change: impl Fn(&mut sprag_design::clutch::Scenario),
 ) -> (EnergyBalance, f64, f64) {
     let design = Design::read(Path::new("designs/huang2017-multi-arc.toml")).unwrap();
     let mut scene = design.scenario("high-10").unwrap().clone();

@@ -80,7 +80,7 @@ fn answered(name: &str, text: &str) -> Design {
         Ok(s) => format!("{:?}", s.verdict),
         Err(why) => format!("not started: {why}"),
     };
-    for row in scene_margins(scene, &design.limits, true, &Settings::default()) {
+    for row in scene_margins(scene, &design.limits, true, None, &Settings::default()) {
         assert!(!row.margin().is_nan() && !row.demand.value().is_some_and(f64::is_nan), "{name}: {row:?}");
     }
     let end_nm = state.curve.end_torque_nm();

@@ -1,6 +1,7 @@
 //! What the planner leaves out, against everything, on every scenario of `designs/`.
 
-use sprag_design::design::{Design, Scenario, ScenarioKind};
+use sprag_design::clutch::{Scenario, ScenarioKind};
+use sprag_design::design::Design;
 use sprag_design::fidelity::{Planned, plan, simulate};
 use sprag_design::scenario::Settings;
 use std::path::Path;
@@ -86,7 +87,7 @@ fn a_curve_that_was_cut_too_short_is_built_again() {
     scenario.torque_history = Some(vec![[0.0, 3.0], [1.0, 3.0]]);
     // 1.41e-3 kg m^2 at 20 000 rad/s^2: 28 Nm.
     scenario.speed_history = Some(vec![[0.0, 0.0], [0.02, 400.0]]);
-    let (plan, cut) = plan(&scenario).unwrap();
+    let (plan, cut) = plan(&scenario, None).unwrap();
     let short = cut.model.curve.arc_count();
     assert!(plan.reduction.reach_nm.is_some() && short < 3);
     let pair = both(&scenario);

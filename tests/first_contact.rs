@@ -1,6 +1,7 @@
 //! First contact, where rho has an infinite slope: what rolling demands there shows only nanoseconds from it.
 
-use sprag_design::design::{Design, Scenario, ScenarioKind};
+use sprag_design::clutch::{Scenario, ScenarioKind};
+use sprag_design::design::Design;
 use sprag_design::dynamics::{Run, RunSettings, Stop, run};
 use sprag_design::scenario::{Settings, Verdict, prepare, simulate};
 use std::path::Path;

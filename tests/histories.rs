@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use sprag_design::design::{Design, DesignError, Scenario, ScenarioKind};
+use sprag_design::clutch::{Scenario, ScenarioKind};
+use sprag_design::design::{Design, DesignError};
 use sprag_design::optimise::{ClutchProblem, Fidelity};
 use sprag_design::{Follow, Settings};
 

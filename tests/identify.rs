@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use sprag_design::design::{Design, with_values};
 use sprag_design::identify::{Identified, NoFit, Settings, Tied, Unknown, Use, identify, observations};
-use sprag_design::{Follow, WedgeCurve, place_profile};
+use sprag_design::{Follow, WedgeCurve};
 
 const MULTI: &str = include_str!("../designs/huang2017-multi-arc.toml");
 const TORQUES: [f64; 14] =
@@ -22,7 +22,7 @@ fn bench(planted: &[(&str, f64)], noise: f64) -> String {
         -0.634,
     ];
     let clutch = design(planted).clutch;
-    let curve = WedgeCurve::build(&clutch, &place_profile(&clutch).unwrap(), 0.0).unwrap();
+    let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
     let mut csv = "torque_nm,windup_deg\n".to_owned();
     for (torque, z) in TORQUES.iter().zip(SAMPLE) {
         let windup = curve.at_torque(*torque).unwrap().windup_rad.to_degrees();
@@ -116,7 +116,7 @@ fn width_and_modulus_are_one_number_to_a_windup() {
         1,
     );
     let design = Design::parse(&text, "x.toml").unwrap();
-    let curve = WedgeCurve::build(&design.clutch, &place_profile(&design.clutch).unwrap(), 0.0).unwrap();
+    let curve = WedgeCurve::build(&design.clutch, &design.clutch.profile().unwrap(), 0.0).unwrap();
     let mut csv = "torque_nm,windup_deg\n".to_owned();
     for torque in TORQUES {
         writeln!(csv, "{torque},{}", curve.at_torque(torque).unwrap().windup_rad.to_degrees()).unwrap();
@@ -140,7 +140,7 @@ fn rows_may_change_the_clutch_and_rows_held_back_take_no_part() {
         let text = with_values(MULTI, &[("centre_distance_mm", planted)]).unwrap();
         let text = text.replacen("count = 12 ", &format!("count = {count} "), 1);
         let clutch = Design::parse(&text, "x.toml").unwrap().clutch;
-        let curve = WedgeCurve::build(&clutch, &place_profile(&clutch).unwrap(), 0.0).unwrap();
+        let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
         writeln!(
             csv,
             "{count} sprags,{purpose},{count},20,{}",

@@ -1,7 +1,7 @@
 //! Junctions of the inner profile under a contact patch that is as wide as an arc is long.
 mod common;
 
-use sprag_design::design::{Clutch, ContactLaw, InnerArc, StressState};
+use sprag_design::clutch::{Clutch, ContactLaw, InnerArc, StressState};
 use sprag_design::profile::Profile;
 use sprag_design::wedge::{InnerCurvature, StaticPoint, WedgeCurve};
 

@@ -1,6 +1,7 @@
 //! Scenes that are long: limits of work, samples beside the equidistant ones, what the equations leave out.
 
-use sprag_design::design::{Design, Scenario, ScenarioKind};
+use sprag_design::clutch::{Scenario, ScenarioKind};
+use sprag_design::design::Design;
 use sprag_design::dynamics::{History, Stop};
 use sprag_design::fidelity;
 use sprag_design::scenario::{Settings, prepare, simulate};

@@ -7,7 +7,7 @@ mod thresholds;
 
 use sprag_design::design::Design;
 use sprag_design::scenario::{Settings, simulate};
-use sprag_design::{Verdict, WedgeCurve, place_profile};
+use sprag_design::{Verdict, WedgeCurve};
 use statement::{AT_THRESHOLD, STATEMENTS, remark};
 use thresholds::{UNKNOWNS, all, flip};
 
@@ -38,7 +38,7 @@ fn all_nine_hold_and_the_one_at_its_threshold_says_so() {
 #[test]
 fn kinetic_friction_below_tan_omega_lets_the_slip_run_away() {
     let design = design();
-    let curve = WedgeCurve::build(&design.clutch, &place_profile(&design.clutch).unwrap(), 0.0).unwrap();
+    let curve = WedgeCurve::build(&design.clutch, &design.clutch.profile().unwrap(), 0.0).unwrap();
     let needed = curve.at_torque(16.8).unwrap().tan_omega;
     let kinetic = UNKNOWNS.iter().find(|u| u.symbol == "mu_c" && u.cells == (6..9)).unwrap();
     let found = flip(&design, &STATEMENTS[8], kinetic, false).unwrap();

@@ -8,12 +8,13 @@ use program::*;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use sprag_design::design::{Clutch, Design};
+use sprag_design::clutch::Clutch;
+use sprag_design::design::Design;
 use sprag_design::dynamics::{
     Forces, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, RunSettings, Stop, Swing, alpha_max_rad,
     overrun, run as integrate, swing,
 };
-use sprag_design::scenario::{place_profile, sliding_friction};
+use sprag_design::scenario::sliding_friction;
 use sprag_design::wedge::WedgeCurve;
 
 /// The clutch of Table 1 between races that keep their speeds: nothing brakes them and they are heavy.
@@ -27,7 +28,7 @@ fn between_heavy_races() -> Clutch {
 
 /// Steady overrun at `speed_rpm` of the outer race, the inner one ahead by `overrun_rpm`.
 fn steady(clutch: &Clutch, speed_rpm: f64, overrun_rpm: f64) -> (Model, Overrun, f64) {
-    let profile = place_profile(clutch).unwrap();
+    let profile = clutch.profile().unwrap();
     let build = |speed| WedgeCurve::build_reaching(clutch, &profile, speed, Some(0.0)).unwrap();
     let curve = build(speed_rpm * PI / 30.0);
     let alpha_max = alpha_max_rad(clutch, &build(0.0));

@@ -1,9 +1,10 @@
 //! The scenes beside torsional excitation: engagement, transients from files, Vernay's friction, contact damping.
 
-use sprag_design::design::{Design, Scenario, ScenarioKind};
+use sprag_design::clutch::{Scenario, ScenarioKind};
+use sprag_design::design::Design;
 use sprag_design::dynamics::{Grip, Mode, Place, Run, RunSettings, Stop, preloaded, run};
 use sprag_design::margin::{lift_off_rad_s, load_state};
-use sprag_design::scenario::{Prepared, Settings, Verdict, place_profile, prepare, simulate};
+use sprag_design::scenario::{Prepared, Settings, Verdict, prepare, simulate};
 use sprag_design::wedge::WedgeCurve;
 use std::path::Path;
 
@@ -178,7 +179,7 @@ fn contact_damping_takes_the_energy_that_it_should() {
     let mut clutch = design().clutch;
     clutch.races.viscous_damping_nm_s_per_rad = 0.0;
     clutch.hunt_crossley_s_per_m = 2.0;
-    let curve = WedgeCurve::build(&clutch, &place_profile(&clutch).unwrap(), 0.0).unwrap();
+    let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
     let loads = sprag_design::dynamics::Loads {
         inner_nm: -16.8,
         amplitude_nm: 0.0,

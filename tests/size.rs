@@ -9,11 +9,26 @@ use std::f64::consts::PI;
 
 use sprag_design::design::Design;
 use sprag_design::margin::{load_margins, load_state, margins};
+use sprag_design::material::steel;
 use sprag_design::scenario::Settings;
-use sprag_design::size::{Ask, NoSize, Sized, size};
+use sprag_design::size::{Ask, NoSize, PURPOSES, Sized, Wish, size};
+
+fn stderr(output: &std::process::Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn wish(bore_mm: f64, torque_nm: f64) -> Wish {
+    Wish { bore_m: Some(bore_mm / 1e3), torque_nm: Some(torque_nm), ..Wish::default() }
+}
 
 fn ask(bore_mm: f64, torque_nm: f64, rpm: f64, safety: f64, friction: f64) -> Ask {
-    Ask { bore_m: bore_mm / 1e3, torque_nm, speed_rad_s: rpm * PI / 30.0, safety, friction }
+    Wish {
+        keep_contact_rad_s: Some(rpm * PI / 30.0),
+        peak_over_nominal: Some(safety),
+        friction: Some(friction),
+        ..wish(bore_mm, torque_nm)
+    }
+    .ask()
 }
 
 fn sized(ask: &Ask) -> Result<Sized, NoSize> {
@@ -39,7 +54,7 @@ fn every_size_of_the_grid_holds_its_own_file() {
         let ask = ask(bore, torque, rpm, safety, friction);
         let sized = sized(&ask).unwrap_or_else(|why| panic!("{ask:?}: {why}"));
         // Read anew from the text alone.
-        let design = Design::parse(&sized.design.source, "again.toml").unwrap();
+        let design = Design::parse(&sized.made.design.source, "again.toml").unwrap();
         let rows =
             margins(&design, &design.limits, &design.check_scenarios, true, true, &Settings::default())
                 .unwrap();
@@ -70,15 +85,16 @@ fn the_width_is_the_shortest_that_the_limits_allow() {
     let ask = ask(40.0, 1000.0, 0.0, 1.3, 0.11);
     let sized = sized(&ask).unwrap();
     // A millimetre shorter keeps less than the 2 % that a first design keeps.
-    let s = &sized.design.clutch.sprags;
+    let s = &sized.made.design.clutch.sprags;
     let (old, new) = (1e3 * s.length_m, 1e3 * s.length_m - 1.0);
-    let race = 1e3 * sized.design.clutch.races.width_m;
+    let race = 1e3 * sized.made.design.clutch.races.width_m;
     let text = sized
+        .made
         .design
         .source
         .replacen(&format!("length_mm = {old:?}"), &format!("length_mm = {new:?}"), 1)
         .replacen(&format!("width_mm = {race:?}"), &format!("width_mm = {:?}", race - 1.0), 1);
-    assert_ne!(text, sized.design.source);
+    assert_ne!(text, sized.made.design.source);
     let shorter = Design::parse(&text, "shorter.toml").unwrap();
     let state = load_state(&shorter).unwrap();
     let rows = load_margins(&shorter, &shorter.limits, false, &state);
@@ -98,7 +114,7 @@ fn what_is_impossible_names_the_limit_and_the_nearest() {
     let why = NoSize::None { tried }.to_string();
     assert!(why.contains("nearest carries") && why.contains("held up by"), "{why}");
     // What is said to be possible is possible.
-    let nearly = Ask { torque_nm: 0.9 * best, ..ask };
+    let nearly = Ask { torque_nm: 0.9 * best, peak_nm: 0.9 * 1.3 * best, ..ask };
     assert!(sized(&nearly).is_ok(), "{best}");
 }
 
@@ -107,8 +123,8 @@ fn nonsense_is_refused_with_what_is_allowed() {
     for (bad, words) in [
         (ask(0.0, 100.0, 0.0, 1.3, 0.11), ["bore", "1 to 2000 mm"]),
         (ask(40.0, -1.0, 0.0, 1.3, 0.11), ["torque", "0.001 to 10000000 Nm"]),
-        (ask(40.0, 100.0, -3.0, 1.3, 0.11), ["speed", "0 to 60000 rpm"]),
-        (ask(40.0, 100.0, 0.0, 0.5, 0.11), ["safety", "1 to 10"]),
+        (ask(40.0, 100.0, -3.0, 1.3, 0.11), ["keep-contact-rpm", "0 to 60000 rpm"]),
+        (ask(40.0, 100.0, 0.0, 0.5, 0.11), ["peak", "100 to 1000 Nm"]),
         (ask(40.0, 100.0, 0.0, 1.3, f64::NAN), ["friction", "0.03 to 0.5"]),
         (ask(f64::INFINITY, 100.0, 0.0, 1.3, 0.1), ["bore", "found inf mm"]),
     ] {
@@ -143,6 +159,14 @@ fn the_command_writes_a_file_for_check_and_its_exit_codes_say_how_it_went() {
     is_self_contained(&page);
     let check = run(&["check", &new, "--json", "--quiet"]);
     assert_eq!(check.status.code(), Some(0), "{}", stdout(&check));
+    // An edited design is not lost to a second run.
+    std::fs::write(&new, std::fs::read_to_string(&new).unwrap() + "# my own work\n").unwrap();
+    let again = with(&["-o", &new]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(std::fs::read_to_string(&new).unwrap().ends_with("# my own work\n"));
+    assert!(stderr(&again).contains("--force"), "{}", stderr(&again));
+    assert_eq!(with(&["-o", &new, "--force"]).status.code(), Some(0));
+    std::fs::remove_file(&new).unwrap();
     let heavy = run(&["size", "--bore", "40", "--torque", "50000", "-o", &new]);
     assert_eq!(heavy.status.code(), Some(1));
     assert!(stdout(&heavy).contains("nearest carries"), "{}", stdout(&heavy));
@@ -151,5 +175,80 @@ fn the_command_writes_a_file_for_check_and_its_exit_codes_say_how_it_went() {
         let at = args.iter().position(|a| *a == bad[0]).unwrap();
         args[at + 1] = bad[1];
         assert_eq!(run(&args).status.code(), Some(2), "{bad:?}");
+    }
+}
+
+#[test]
+fn what_an_engineer_asks_for_is_kept_or_named_as_what_prevents_it() {
+    let most = [0.105, 0.025];
+    let asked = Wish { outside_m: Some(most[0]), width_m: Some(most[1]), ..wish(40.0, 600.0) };
+    let sized_small = sized(&asked.ask()).unwrap();
+    for made in sized_small.tried.iter().filter_map(|t| t.made.as_ref()) {
+        let r = made.design.clutch.races;
+        assert!(2.0 * r.outer_outside_radius_m <= most[0] + 1e-9 && r.width_m <= most[1] + 1e-9, "{r:?}");
+    }
+    let Err(NoSize::None { tried }) = sized(&Wish { outside_m: Some(0.06), ..asked }.ask()) else {
+        panic!("60 mm about a bore of 40")
+    };
+    assert!(tried.iter().any(|t| t.decided_by == "outside"), "{tried:?}");
+    // A peak alone is a nominal torque by the factor.
+    let peak = Wish { torque_nm: None, peak_nm: Some(780.0), ..asked }.ask();
+    assert!((peak.torque_nm - 600.0).abs() < 1e-9);
+    // A softer steel is held at peak torque as `from_material` says, and asks for more.
+    let soft = sized(&Wish { steel: steel("20MnCr5"), ..wish(40.0, 600.0) }.ask()).unwrap();
+    let hard = sized(&wish(40.0, 600.0).ask()).unwrap();
+    assert_eq!(soft.made.design.limits.hoop_inner_pa, Some(600e6));
+    assert!(soft.made.mass_kg > hard.made.mass_kg);
+    // Drag is the spring's, and its heat at the sliding speed.
+    let drag = hard.made.drag.unwrap();
+    assert!(drag.torque_nm > 0.0 && drag.heat_w() == drag.torque_nm * drag.sliding_rad_s);
+}
+
+#[test]
+fn sprags_that_are_to_lift_off_are_off_by_that_speed_and_on_below() {
+    let rad_s = |rpm: f64| rpm * PI / 30.0;
+    let ask = Wish {
+        keep_contact_rad_s: Some(rad_s(250.0)),
+        lift_off_rad_s: Some(rad_s(900.0)),
+        outer_rad_s: Some(rad_s(900.0)),
+        ..wish(40.0, 500.0)
+    };
+    let made = sized(&ask.ask()).unwrap().made;
+    let state = load_state(&made.design).unwrap();
+    let off = sprag_design::margin::lift_off_rad_s(&made.design, &state, rad_s(2000.0)).unwrap();
+    assert!(rad_s(250.0) < off && off < rad_s(900.0), "{off}");
+    assert_eq!(made.drag.unwrap().torque_nm, 0.0);
+}
+
+#[test]
+fn every_purpose_gives_a_file_that_is_held_and_tells_its_guesses() {
+    let folder = Folder::new();
+    for purpose in &PURPOSES {
+        let file = folder.path(&format!("{}.toml", purpose.name));
+        let args = ["new", "--for", purpose.name, "--bore", "30", "--torque", "200", "-o", &file];
+        let made = run(&args);
+        assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+        assert!(stdout(&made).contains("sprag-design studio"), "{}", stdout(&made));
+        let design = Design::read(file.as_ref()).unwrap();
+        assert!(
+            design.scenario("engage").is_some() && design.source.contains("# guess"),
+            "{}",
+            design.source
+        );
+        assert_eq!(design.check_scenarios.contains(&"swing".to_owned()), purpose.excitation.is_some());
+    }
+}
+
+#[test]
+fn new_names_what_it_needs_where_nobody_can_be_asked() {
+    for (args, words) in [
+        (&["new"][..], "--for PURPOSE, --bore MM, --torque NM or --peak NM, -o NEW.toml"),
+        (&["new", "--for", "starter", "--bore", "40", "-o", "x.toml"], "needed: --torque NM or --peak NM"),
+        (&["new", "--for", "winch", "--bore", "40"], "backstop"),
+        (&["size", "--bore", "40", "-o", "x.toml"], "needed: --torque NM or --peak NM"),
+    ] {
+        let refused = run(args);
+        assert_eq!(refused.status.code(), Some(2), "{args:?}");
+        assert!(stderr(&refused).contains(words), "{}", stderr(&refused));
     }
 }

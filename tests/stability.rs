@@ -6,7 +6,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use sprag_design::accuracy::{Case, Judged, Outcome, WorkLimit, cases, judge, map};
-use sprag_design::design::Clutch;
+use sprag_design::clutch::Clutch;
 use sprag_design::{Design, Follow};
 
 const SEED: u64 = 1;

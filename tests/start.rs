@@ -1,6 +1,7 @@
 //! One load, one start: a static load, what a damped transient comes to, and the start of a torsional excitation.
 
-use sprag_design::design::{Design, Scenario, ScenarioKind, Start};
+use sprag_design::clutch::{Scenario, ScenarioKind, Start};
+use sprag_design::design::Design;
 use sprag_design::dynamics::settled;
 use sprag_design::kinematics::levers;
 use sprag_design::scenario::{Prepared, Settings, prepare, simulate};

@@ -1,7 +1,8 @@
 //! What an error stated by `simulate` is worth: on all scenes of the test set every figure is held against a run whose
 //! steps are a thousand times finer.
 
-use sprag_design::design::{Design, Scenario, ScenarioKind};
+use sprag_design::clutch::{Scenario, ScenarioKind};
+use sprag_design::design::Design;
 use sprag_design::scenario::{ErrorEstimate, FIGURES, Settings, Simulation, simulate};
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Statics against independent tables and exact identities.
 mod common;
 
-use sprag_design::design::{Clutch, ContactLaw, StressState};
+use sprag_design::clutch::{Clutch, ContactLaw, StressState};
 use sprag_design::profile::Profile;
 use sprag_design::wedge::WedgeCurve;
 

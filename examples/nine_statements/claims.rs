@@ -3,7 +3,8 @@
 use std::error::Error;
 
 use rayon::prelude::*;
-use sprag_design::design::{Design, Scenario, ScenarioKind};
+use sprag_design::clutch::{Scenario, ScenarioKind};
+use sprag_design::design::Design;
 use sprag_design::dynamics::{Grip, Mode, Peaks, Place, RunSettings, Sample, rolling};
 use sprag_design::report::plot::Curve;
 use sprag_design::report::{Cell, Column, Page, Plot, Table, Unit, significant};

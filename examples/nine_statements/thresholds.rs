@@ -1,7 +1,8 @@
 //! How far an unknown can move before a statement flips.
 
 use rayon::prelude::*;
-use sprag_design::design::{Design, Friction, Scenario, ScenarioKind};
+use sprag_design::clutch::{Friction, Scenario, ScenarioKind};
+use sprag_design::design::Design;
 use sprag_design::scenario::{Settings, simulate};
 
 use crate::statement::{STATEMENTS, Statement};

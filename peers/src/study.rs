@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use cpu_time::ThreadTime;
-use sprag_design::design::Scenario;
+use sprag_design::clutch::Scenario;
 use sprag_design::dynamics::{PublishedSettings, RunSettings, Stop, published, run};
 use sprag_design::scenario::{NoScenario, Prepared, prepare};
 

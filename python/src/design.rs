@@ -11,9 +11,9 @@ use sprag_design::answer::check::NoCheck;
 use sprag_design::answer::simulation::{self, Method, NoAnswer};
 use sprag_design::answer::stiffness::{self, NoStiffness};
 use sprag_design::answer::{LeftOut, search};
-use sprag_design::design::LAWS;
+use sprag_design::clutch::LAWS;
 use sprag_design::report::{Drawing, SpragPose};
-use sprag_design::{Follow, NoSearch, place_profile};
+use sprag_design::{Follow, NoSearch};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -207,9 +207,21 @@ impl Design {
         swarm: Option<usize>,
         tolerance: f64,
         full: bool,
+        step_mm: Option<f64>,
+        reserve: Option<f64>,
     ) -> PyResult<(String, String, Self)> {
         let (design, stop) = (Arc::clone(&self.design), Follow::new());
-        let ask = search::Ask { evaluations, starts, swarm, tolerance, full, follow: stop.clone() };
+        let ask = search::Ask {
+            evaluations,
+            starts,
+            swarm,
+            tolerance,
+            full,
+            step_mm,
+            reserve,
+            follow: stop.clone(),
+            ..search::Ask::default()
+        };
         let answer = compute(py, &stop, move || {
             let started = Instant::now();
             design.optimise(&ask).map(|a| (a, started.elapsed().as_secs_f64()))
@@ -233,7 +245,7 @@ impl Design {
 
     /// Drawings as SVG: one sprag large, the whole clutch, the arc centres.
     fn drawings(&self, py: Python<'_>) -> PyResult<(String, String, String)> {
-        let profile = place_profile(&self.design.clutch).map_err(|why| errors::no_clutch(py, &why))?;
+        let profile = self.design.clutch.profile().map_err(|why| errors::no_clutch(py, &why))?;
         let clutch = &self.design.clutch;
         let drawing =
             Drawing::of(clutch, vec![SpragPose::at_rest(&self.design.name, &clutch.sprags, &profile)]);

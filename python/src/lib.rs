@@ -21,7 +21,7 @@ fn run_command(py: Python<'_>, args: Vec<OsString>) -> u8 {
 /// Names of the contact laws.
 #[pyfunction]
 fn contact_laws() -> Vec<&'static str> {
-    sprag_design::design::LAWS.iter().map(|law| law.key).collect()
+    sprag_design::clutch::LAWS.iter().map(|law| law.key).collect()
 }
 
 /// Compiled part of sprag_design.

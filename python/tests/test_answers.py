@@ -86,7 +86,8 @@ def test_optimize_is_that_of_the_command(design: sd.Design, command: Command, tm
     for key in ("status", "feasible", "best", "start", "in_file", "evaluations", "error_estimate", "dropped_variables"):
         assert answer[key] == command_says[key], key
     assert found.feasible and found.design.evaluate(found.best.variables.values()).feasible
-    assert list(found.best.variables) == [v.name for v in design.problem().variables]
+    assert list(found.best.variables) == [v.name for v in found.design.problem().variables]
+    assert found.makeable and found.free_centroid is not None and found.steps is not None and found.steps.found
     # What the command writes has notes on what was changed, and says the same.
     assert sd.Design.load(better).check().to_dict()["margins"] == found.design.check().to_dict()["margins"]
 

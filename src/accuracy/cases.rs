@@ -1,6 +1,7 @@
 //! The cases of the stability map: corners and random places of a wide box, from a seed.
 
-use crate::design::{Clutch, Friction, Scenario, ScenarioKind, Start};
+use crate::clutch::{Clutch, Friction, Scenario, ScenarioKind, Start};
+use crate::numeric::rounded;
 
 /// One axis of the box.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,15 +77,10 @@ fn case(seed: u64, number: usize) -> Case {
             p.high
         } else {
             // Evenly in the logarithm.
-            rounded((p.low.ln() + along * (p.high / p.low).ln()).exp())
+            rounded((p.low.ln() + along * (p.high / p.low).ln()).exp(), 4)
         }
     });
     Case { number, values }
-}
-
-/// Four digits, by way of the decimal that is printed.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 impl Case {

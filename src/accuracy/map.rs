@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::cases::Case;
-use crate::design::Clutch;
+use crate::clutch::Clutch;
 use crate::dynamics::Stop;
 use crate::fidelity;
 use crate::follow::Follow;

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::design::Scenario;
+use crate::clutch::Scenario;
 use crate::dynamics::{PublishedSettings, Run, RunSettings, Stop, published, run};
 use crate::fidelity::{self, Plan};
 use crate::follow::Follow;
@@ -133,9 +133,9 @@ pub fn precision(
     done: &dyn Fn(),
 ) -> Result<Option<Precision>, NoScenario> {
     let full = prepare(scenario)?;
-    let (plan, reduced) = fidelity::plan(scenario)?;
+    let (plan, reduced) = fidelity::plan(scenario, None)?;
     let (_, whole_s) = timed(settings, || drop(prepare(scenario)));
-    let (_, planned_s) = timed(settings, || drop(fidelity::plan(scenario)));
+    let (_, planned_s) = timed(settings, || drop(fidelity::plan(scenario, None)));
     let bench = Bench { full, reduced, settings };
     let fine = bench.reference(TIGHTEST, REFERENCE_STEPS);
     let coarse = bench.reference(10.0 * TIGHTEST, 0.5 * REFERENCE_STEPS);

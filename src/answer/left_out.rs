@@ -1,6 +1,6 @@
 //! What the model leaves out, why, and what that costs: every answer says it.
 
-use crate::design::{Clutch, ContactLaw};
+use crate::clutch::{Clutch, ContactLaw};
 use crate::report::Unit;
 use crate::wedge::{even_load_error, straddling_error};
 use serde::Serialize;

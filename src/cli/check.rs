@@ -10,9 +10,7 @@ use super::exit::{Exit, Failure};
 use super::origin::Kind;
 use super::parts::{self, Answer};
 use crate::answer::check::{Body, CheckAnswer, NONE_SUFFICES, NoCheck, OVERLOADED, check, csv_table};
-pub(super) use crate::answer::check::{
-    allowable_cell, demand_cell, ends_first, margin_cell, margin_text, people_table, unit_cell,
-};
+pub(super) use crate::answer::check::{ends_first, margin_cell, margin_text, people_table};
 use crate::design::Design;
 use crate::margin::{Demand, Margin};
 use crate::report::{Screen, greek};
@@ -31,6 +29,9 @@ pub(super) const REACHED_AT: &str =
     "Reached at: torque at which the limit would be reached; >: not before the curve ends";
 /// What the margin of a slip row is.
 const SLIP_MARGIN: &str = "Margin of slip rows: the slip margin, static over required friction less 1, held from the wanted one up\n";
+
+/// What a row that is not required is.
+const SHOWN_ONLY: &str = "Shown only: for information, without a say in the verdict; `explain` with the limit's name says which key makes it count\n";
 
 /// Arguments of `check`.
 #[derive(Debug, Clone, Args)]
@@ -103,6 +104,9 @@ fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> String {
     for line in body.remarks().into_iter().chain(overrunning(design)) {
         out.push_str(&greek(&line));
         out.push('\n');
+    }
+    if check.rows.iter().any(|r| !r.required) {
+        out.push_str(SHOWN_ONLY);
     }
     out.push_str(REACHED_AT);
     out.push('\n');

@@ -2,9 +2,8 @@
 
 use super::exit::{Exit, Failure};
 use super::{Context, output};
-use crate::design::{
-    LAWS, Objective, VARIABLES, allowed, keys_of, nearest, shape_of, unit_of_key, variable_path,
-};
+use crate::clutch::LAWS;
+use crate::design::{Objective, VARIABLES, allowed, keys_of, nearest, shape_of, unit_of_key, variable_path};
 use crate::margin::{LIMITS, limit_of};
 use clap::Args;
 use serde_json::json;

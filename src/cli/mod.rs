@@ -6,6 +6,7 @@
 
 pub mod accuracy;
 pub mod check;
+mod command_line;
 pub mod compare;
 pub mod evaluate;
 pub mod exit;
@@ -17,12 +18,10 @@ pub mod import;
 pub mod interrupt;
 pub mod journal;
 pub mod materials;
+pub mod new;
 pub mod optimize;
 pub mod optimize_answer;
 pub mod optimize_file;
-pub mod optimize_json;
-mod optimize_relief;
-pub mod optimize_story;
 pub mod origin;
 pub mod output;
 pub mod parts;
@@ -34,10 +33,10 @@ pub mod stiffness;
 pub mod studio;
 
 use crate::answer::left_out;
-use crate::design::unprintable;
 use crate::follow::Follow;
 use crate::report::Screen;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use command_line::{command_line, missing_value};
 use exit::{Exit, Failure};
 use output::Outputs;
 use progress::Progress;
@@ -49,6 +48,7 @@ use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
 Examples:
+  sprag-design new
   sprag-design check designs/huang2017-multi-arc.toml
   sprag-design sheet designs/huang2017-multi-arc.toml
   sprag-design compare before.toml after.toml --report compare.html
@@ -62,14 +62,13 @@ Examples:
 Exit codes:
   0 done, all margins held     1 a margin is not held, or no feasible design found
   2 malformed command line or design file     3 answer not computed or not written
-  130 stopped by Ctrl-C; what had been found is written
+  130 stopped by Ctrl-C; what had been found is written (studio: 0, Ctrl-C is how it ends)
   141 the reader of the answers of evaluate has gone before the last
 
 A file that is there already is replaced only if this tool has written it (its first lines say so; of a table: the names of
 its columns); --force replaces any. What cannot be written costs no answer: it is printed, with exit code 3.
 With --json whatever is refused or fails is one JSON object too: tool, version, error (message; of a refused design file
-also file and problems), with the same exit code. An option that there is not, or a value that is none of its kind, is
-refused in words alone.";
+also file and problems), with the same exit code.";
 
 #[derive(Debug, Parser)]
 #[command(
@@ -106,7 +105,9 @@ enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Error against run time of every method and fidelity, and the stability map
     Accuracy(accuracy::AccuracyArgs),
-    /// A first design file from bore, torque, speed, safety and friction
+    /// Your own clutch: asks what it is for, its space, torque and speeds, and writes the design file
+    New(new::NewArgs),
+    /// A first design file from space, torque, speeds, friction and steel
     Size(size::SizeArgs),
     /// Find unknown parameters from measured or published numbers, and what these cannot tell apart
     Identify(identify::IdentifyArgs),
@@ -214,7 +215,13 @@ fn ended(args: Vec<String>) -> Exit {
         Ok(cli) => cli,
         Err(e) if e.use_stderr() => {
             // The message repeats what was typed.
-            output::note(e.render().to_string().trim_end());
+            let message = e.render().to_string();
+            if args.iter().take_while(|arg| *arg != "--").any(|arg| arg == "--json") {
+                let _ = output::print_json(&json!({
+                    "tool": output::TOOL, "version": output::VERSION, "error": { "message": message.trim_end() },
+                }));
+            }
+            output::note(message.trim_end());
             return Exit::Malformed;
         }
         Err(help_or_version) => {
@@ -266,6 +273,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Evaluate(args) => evaluate::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
+        Command::New(args) => new::run(&args, &context),
         Command::Size(args) => size::run(&args, &context),
         Command::Identify(args) => identify::run(&args, &context),
         Command::Export(args) => export::run(&args, &context),
@@ -284,8 +292,9 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
 }
 
 /// Commands, why common options mean nothing to them, and which.
-const MEANINGLESS: [(&str, &str, &[&str]); 7] = [
+const MEANINGLESS: [(&str, &str, &[&str]); 8] = [
     ("explain", "its answer is a few words", &["csv", "report", "set", "force", "threads", "quiet"]),
+    ("new", "it makes a design, it reads none", &["set"]),
     ("size", "it makes a design, it reads none", &["set"]),
     ("studio", "its answers are shown in the browser", &["json", "csv", "report", "force"]),
     ("materials", "steels are a table, they have no page", &["report", "set", "threads", "quiet"]),
@@ -313,6 +322,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Optimize(_) => "optimize",
         Command::Evaluate(_) => "evaluate",
         Command::Accuracy(_) => "accuracy",
+        Command::New(_) => "new",
         Command::Size(_) => "size",
         Command::Identify(_) => "identify",
         Command::Export(_) => "export",
@@ -371,52 +381,6 @@ fn context(common: Common, args: &[String]) -> Result<Context, Failure> {
         command_line: command_line(args.iter().cloned()),
         follow,
     })
-}
-
-/// The command line as a shell would take it again, on one line; the program by its name, not by its path.
-fn command_line(args: impl Iterator<Item = String>) -> String {
-    let quoted = |arg: String| {
-        let plain = |c: char| c.is_alphanumeric() || "-_./=,:+@%".contains(c);
-        if !arg.is_empty() && arg.chars().all(plain) {
-            arg
-        } else if arg.chars().any(unprintable) {
-            // What bash, zsh and ksh read back as these characters.
-            let escaped = |c: char| match c {
-                '\\' | '\'' => format!("\\{c}"),
-                '\n' => "\\n".to_owned(),
-                c if unprintable(c) => format!("\\u{:04x}", u32::from(c)),
-                c => c.to_string(),
-            };
-            format!("$'{}'", arg.chars().map(escaped).collect::<String>())
-        } else {
-            format!("'{}'", arg.replace('\'', "'\\''"))
-        }
-    };
-    std::iter::once(output::TOOL.to_owned()).chain(args.skip(1).map(quoted)).collect::<Vec<_>>().join(" ")
-}
-
-/// The refusal of an option without its value. Options for numbers take what begins with a hyphen, so that -1e-6 is
-/// refused as a number; they would take the next option too.
-fn missing_value(args: &[String]) -> Option<clap::Error> {
-    let mut root = command();
-    root.build();
-    let command = args.iter().skip(1).find_map(|arg| root.find_subcommand(arg)).cloned()?;
-    let option = |text: &str| {
-        let name = text.split('=').next().unwrap_or(text);
-        command.get_arguments().find(|a| {
-            a.get_long().is_some_and(|long| name.strip_prefix("--") == Some(long))
-                || a.get_short().is_some_and(|short| name == format!("-{short}"))
-        })
-    };
-    // Behind -- there are no options.
-    let until = args.iter().position(|arg| arg == "--").unwrap_or(args.len());
-    let pair = args[..until].windows(2).find(|pair| {
-        let greedy =
-            option(&pair[0]).is_some_and(|a| a.is_allow_hyphen_values_set() && !pair[0].contains('='));
-        greedy && option(&pair[1]).is_some()
-    })?;
-    let message = format!("a value is required for '{}' but none was supplied", option(&pair[0])?);
-    Some(command.clone().error(clap::error::ErrorKind::InvalidValue, message))
 }
 
 /// A path and a value, for `--set`.

@@ -4,19 +4,16 @@ use super::Context;
 use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
-use super::optimize_file::{file_text, further_text};
-use super::optimize_story::{NEAREST, REALISED, ROBUST, Story};
+use super::optimize_answer::Told;
+use super::optimize_file::{NEAREST, ROBUST, file_text, further_files, further_text};
 use super::origin::Kind;
 use super::output::TOOL;
+use super::parts;
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
-use super::{optimize_answer as answer, parts};
-use crate::answer::search::{MOST_STARTS, STARTS};
-use crate::design::{Design, EditError, Objective, Optimize};
-use crate::optimise::{
-    Desk, Entry, Fidelity, Iteration, Journal, Method, NoSearch, ProblemId, Record, Settings, Status, alone,
-    front, is_centroid, loosened, realise, relief, robust, search, spread,
-};
+use crate::answer::search::{Ask, SearchAnswer};
+use crate::design::{Design, EditError, Objective};
+use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record, Status};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -26,6 +23,7 @@ Examples:
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --report better.html
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --resume
   sprag-design optimize designs/huang2017-multi-arc.toml --json --quiet > best.json
+  sprag-design optimize designs/huang2017-multi-arc.toml --reserve 0.05 --step-mm 0.01
   sprag-design optimize designs/huang2017-multi-arc.toml --starts 8 --global 2000 --journal search.csv
   sprag-design optimize designs/huang2017-multi-arc.toml --pareto slip-margin,torque-capacity --report front.html
 
@@ -37,8 +35,14 @@ value or a history makes another problem. Rows by another version of the program
 are kept and not used. One search at a time writes a journal; a second is refused.
 
 In NEW.toml each value that the search has changed says so behind it, with what it was; the design's histories are copied
-beside it. A design with a free centroid is written once more with flanks that give it, as NEW.realised.toml; the design of
---robust is NEW.robust.toml. No output replaces FILE, nor without --force a file that this tool did not write.
+beside it. The design of --robust is NEW.robust.toml. No output replaces FILE, nor without --force a file that this tool did not write.
+
+Where the centroid is a variable, flanks that give it are sought next and searched on in its place: NEW.toml is that sprag. What
+the free centroid came to is shown as a bound. Lengths are then put on multiples of --step-mm, to the side that holds every
+limit; where no such point is near, that is told and the lengths stay as they are.
+
+Evaluations are points of the clutch that the search asks for. One that is asked for twice is computed once and has one row in
+the journal, so that the journal has fewer rows.
 
 Where no design holds every limit, NEW.toml is not written: the nearest one goes to NEW.nearest.toml, whose first line says what
 it does not hold.
@@ -85,6 +89,13 @@ pub struct OptimizeArgs {
     /// Draws within the tolerances
     #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(10..=100_000))]
     pub draws: u32,
+    /// Step in which lengths can be made, mm: those of the optimum are rounded to multiples of it that hold every limit; 0: no
+    /// rounding [default: step_mm of the file, 0.005 there]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = share)]
+    pub step_mm: Option<f64>,
+    /// What every limit keeps of its margin: 0.05 holds each with 5 % to spare [default: reserve of the file, 0 there]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, value_parser = share)]
+    pub reserve: Option<f64>,
     /// Run everything in the search too, and leave nothing out that a scene cannot feel
     #[arg(long)]
     pub full: bool,
@@ -110,11 +121,11 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
             "the design has no [optimize] table; add one with objective, scenarios and variables".into(),
         ));
     };
-    let aims = aims(args)?;
+    refuse_front(args)?;
     if args.robust && design.tolerances.is_none() {
         return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
     }
-    let beside = beside(&new, &task, args);
+    let beside = beside(&new, args);
     let others: Vec<_> = beside.iter().map(|path| (path.as_path(), Kind::Design)).collect();
     context.outputs.check(&[&args.file], &others)?;
     let (model, said) = (journal::model(), design.content_hash());
@@ -146,16 +157,23 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         if drawn { "" } else { " (this search draws nothing at random)" },
         if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
     ));
-    let climb = Settings { max_evaluations: args.evaluations as usize, ..Settings::default() };
-    let swarm = args.global.map(|n| n as usize);
-    let (starts, most_starts) = args.starts.map_or((STARTS, MOST_STARTS), |n| (n as usize, n as usize));
-    let method = Method { climb, starts, most_starts, swarm, seed: task.seed };
-    let settings = crate::scenario::Settings { tolerance: args.tolerance, ..Default::default() };
-    let fidelity = Fidelity { settings, reduced: !args.full };
+    let ask = Ask {
+        evaluations: args.evaluations as usize,
+        starts: args.starts.map(|n| n as usize),
+        swarm: args.global.map(|n| n as usize),
+        tolerance: args.tolerance,
+        full: args.full,
+        front: args.pareto.clone(),
+        front_steps: args.points as usize,
+        robust: args.robust,
+        draws: args.draws as usize,
+        step_mm: args.step_mm,
+        reserve: args.reserve,
+        follow: context.follow.clone(),
+    };
     let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
     let started = Instant::now();
-    let desk = Desk::new(&context.follow, &mut keeper);
-    let story = tell(&design, &task, &aims, args, (&method, fidelity), &desk);
+    let answer = design.optimise_recorded(&ask, &mut keeper);
     let run_time_s = started.elapsed().as_secs_f64();
     let Keeper { progress, file, .. } = keeper;
     drop(progress);
@@ -165,8 +183,8 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
             file.path().display()
         ));
     }
-    let story = match story {
-        Ok(story) => story,
+    let answer = match answer {
+        Ok(answer) => answer,
         Err(NoSearch::Stopped) => return Err(Failure::Interrupted),
         Err(why) => {
             if args.journal.is_none() && !args.resume {
@@ -175,98 +193,39 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
             return Err(at(why.to_string()));
         }
     };
-    finish(&design, &story, (&new, &histories), (file, args.journal.is_some()), run_time_s, context)
+    finish(&design, &answer, (&new, &histories), (file, args.journal.is_some()), run_time_s, context)
 }
 
-/// Objectives of `--pareto`, two or three different ones, or none.
-fn aims(args: &OptimizeArgs) -> Result<Vec<Objective>, Failure> {
-    let aims = args.pareto.clone();
+/// A number from 0 to 1.
+fn share(text: &str) -> Result<f64, String> {
+    let value: Option<f64> = text.parse().ok();
+    value.filter(|v| (0.0..=1.0).contains(v)).ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
+}
+
+/// Two or three different objectives of `--pareto`, or none.
+fn refuse_front(args: &OptimizeArgs) -> Result<(), Failure> {
+    let aims = &args.pareto;
     let twice = aims.iter().enumerate().any(|(i, a)| aims[..i].contains(a));
     if !aims.is_empty() && (twice || !(2..=3).contains(&aims.len())) {
         return Err(Failure::malformed("--pareto: two or three different objectives are needed"));
     }
-    Ok(aims)
-}
-
-/// Everything that was asked, in order; what a stop cuts off is left out.
-fn tell(
-    design: &Design,
-    task: &Optimize,
-    aims: &[Objective],
-    args: &OptimizeArgs,
-    (method, fidelity): (&Method, Fidelity),
-    desk: &Desk,
-) -> Result<Story, NoSearch> {
-    let found = search(design, method, fidelity, desk)?;
-    let mut story = Story {
-        found,
-        realised: None,
-        relief: None,
-        loosened: Vec::new(),
-        alone: Vec::new(),
-        front: None,
-        made: None,
-        robust: None,
-        wants_robust: args.robust,
-        why: Vec::new(),
-    };
-    let ended = matches!(story.found.outcome.status, Status::Infeasible { .. } | Status::Stalled(_));
-    if ended && !story.found.feasible() {
-        let (problem, outcome) = (&story.found.problem, &story.found.outcome);
-        story.relief = Some(relief(design, problem, outcome, desk));
-        if !desk.stopped() {
-            story.loosened = loosened(design, &story.found, desk);
-            story.alone = alone(&story.found, desk);
-        }
-    }
-    if !story.found.feasible() {
-        return Ok(story);
-    }
-    if story.found.wants_centroid() && !desk.stopped() {
-        match realise(&story.found, task, method, desk) {
-            Ok(realised) => story.realised = realised,
-            Err(why) => story.why.push(format!("the centroid cannot be realised: {why}")),
-        }
-    }
-    if !aims.is_empty() && !desk.stopped() {
-        match front(&story.found, task, aims, args.points as usize, method, desk) {
-            Ok(front) => story.front = Some(front),
-            Err(why) => story.why.push(format!("no front: {why}")),
-        }
-    }
-    if let (true, Some(of), false) = (args.robust, &design.tolerances, desk.stopped()) {
-        let (problem, x) = (&story.found.problem, &story.found.outcome.x);
-        let draws = (args.draws as usize, method.seed);
-        story.made = spread(problem, x, of, draws, desk).map_err(|why| story.why.push(why.to_string())).ok();
-        let (lo, hi) = story.found.bounds();
-        match robust(problem, x, (&lo, &hi), of, draws, method, desk) {
-            Ok(robust) => story.robust = Some(robust),
-            Err(why) => story.why.push(format!("no robust design: {why}")),
-        }
-        // Corners and draws that were not looked at are none at which the clutch is impossible.
-        if desk.stopped() {
-            (story.made, story.robust) = (None, None);
-        }
-    }
-    if desk.stopped() {
-        story.why.push("stopped by Ctrl-C; what was not reached is left out".to_owned());
-    }
-    Ok(story)
+    Ok(())
 }
 
 /// Write the designs and tell the story.
 fn finish(
     design: &Design,
-    story: &Story,
+    answer: &SearchAnswer,
     (new, histories): (&Path, &Histories),
     (file, keep): (JournalFile, bool),
     run_time_s: f64,
     context: &Context,
 ) -> Result<Exit, Failure> {
-    let found = &story.found;
-    let interrupted = found.outcome.status == Status::Interrupted || context.follow.stopped();
-    let feasible = found.feasible();
-    let better = feasible && (found.improved() || !found.start_feasible());
+    let story = &answer.story;
+    let interrupted = story.status() == &Status::Interrupted;
+    // Stopped before there were flanks: the best so far is better than nothing, and says what it lacks.
+    let feasible = story.feasible() && (story.makeable() || interrupted);
+    let better = feasible && (story.improved() || !story.found.start_feasible());
     let mut written = None;
     let mut beside = Vec::new();
     let write = |path: &Path, text: Result<String, EditError>| match readable(design, path, text) {
@@ -277,8 +236,8 @@ fn finish(
         }
     };
     if feasible && (better || !interrupted) && histories.write(&context.outputs) {
-        written = write(new, file_text(design, found, context)).then_some(new);
-        for (ending, what, text) in story.other_files() {
+        written = write(new, file_text(design, story, context)).then_some(new);
+        for (ending, what, text) in further_files(story) {
             let path = new.with_extension(format!("{ending}.toml"));
             if write(&path, further_text(design, what, text)) {
                 beside.push(path);
@@ -287,18 +246,21 @@ fn finish(
     }
     if !feasible && !interrupted {
         let path = new.with_extension(format!("{NEAREST}.toml"));
-        let what =
-            format!("the nearest design found, NOT FEASIBLE: not held: {}", found.not_held().join(", "));
-        if histories.write(&context.outputs) && write(&path, further_text(design, &what, &found.file)) {
+        let why = match story.feasible() {
+            true => "no flanks give its centroid".to_owned(),
+            false => format!("not held: {}", story.not_held().join(", ")),
+        };
+        let what = format!("the nearest design found, NOT FEASIBLE: {why}");
+        if histories.write(&context.outputs) && write(&path, further_text(design, &what, story.file())) {
             beside.push(path);
         }
     }
     let journal = keep.then(|| file.path().to_path_buf());
-    let answer = answer::Told { design, story, found, written, beside, journal, run_time_s, interrupted };
-    context.outputs.write_csv(&answer.csv_table());
-    context.outputs.write_report(|| answer.page(context));
-    answer.json().print(context)?;
-    context.answer(&answer.text(context))?;
+    let told = Told { design, answer, written, beside, journal, run_time_s };
+    context.outputs.write_csv(&story.csv_table());
+    context.outputs.write_report(|| told.page(context));
+    told.json().print(context)?;
+    context.answer(&told.text(context))?;
     let whole = file.failed.is_none() && file.unused().is_none();
     if !interrupted && !keep && whole && context.outputs.unwritten().is_empty() {
         // The search is over and its answer is safe: nothing is left to resume, no row was promised to stay.
@@ -306,7 +268,7 @@ fn finish(
     }
     Ok(if interrupted {
         Exit::Interrupted
-    } else if feasible && answer.not_robust().is_none() {
+    } else if feasible && story.not_robust().is_none() {
         Exit::Held
     } else {
         Exit::NotHeld
@@ -334,15 +296,9 @@ fn output_path(args: &OptimizeArgs) -> PathBuf {
 }
 
 /// Names of the further designs that this search may write.
-fn beside(new: &Path, task: &Optimize, args: &OptimizeArgs) -> Vec<PathBuf> {
-    let realised = task.variables.iter().any(|v| is_centroid(&v.name)).then_some(REALISED);
+fn beside(new: &Path, args: &OptimizeArgs) -> Vec<PathBuf> {
     let robust = args.robust.then_some(ROBUST);
-    realised
-        .into_iter()
-        .chain(robust)
-        .chain([NEAREST])
-        .map(|ending| new.with_extension(format!("{ending}.toml")))
-        .collect()
+    robust.into_iter().chain([NEAREST]).map(|ending| new.with_extension(format!("{ending}.toml"))).collect()
 }
 
 /// Progress and journal.

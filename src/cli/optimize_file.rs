@@ -4,35 +4,41 @@
 use super::Context;
 use super::origin::WRITTEN_BY;
 use super::output::VERSION;
+use crate::answer::search::Story;
 use crate::design::{Design, EditError, with_notes};
-use crate::optimise::Search;
+use crate::optimise::Variable;
 
 /// The new design file.
 ///
 /// # Errors
 /// [`EditError`] where the text found is no design file.
-pub fn file_text(design: &Design, found: &Search, context: &Context) -> Result<String, EditError> {
-    let changes: String = found
-        .variables
-        .iter()
-        .filter(|v| v.best != v.given)
-        .map(|v| format!("#   {}: {} -> {}\n", v.name, v.given, v.best))
-        .collect();
-    let not_real = match found.wants_centroid() {
-        true => "# The centroid was free and the mass given: no flanks that give them are in this file.\n",
-        false => "",
+pub fn file_text(design: &Design, story: &Story, context: &Context) -> Result<String, EditError> {
+    let found = &story.found;
+    let change = |v: &Variable| {
+        let after = story.value(v);
+        match found.variables.iter().find(|f| f.name == v.name) {
+            Some(f) if f.given == after => None,
+            Some(f) => Some(format!("#   {}: {} -> {after}\n", v.name, f.given)),
+            None => Some(format!("#   {}: {after}, chosen for the centroid\n", v.name)),
+        }
     };
+    let changes: String = story.made().variables.iter().filter_map(change).collect();
+    let not_real = match story.makeable() {
+        false => "# The centroid was free and the mass given: no flanks that give them are in this file.\n",
+        true => "",
+    };
+    let (before, after) = story.objective();
     let head = format!(
         "{WRITTEN_BY} optimize {VERSION} from {:?} (sha256 {})\n# by: {}\n# {} {:.6} -> {:.6} {}\n{not_real}{changes}{END}\n",
         design.name,
         design.hash,
         context.command_line,
         found.aim.words(),
-        found.objective.0,
-        found.objective.1,
+        before,
+        after,
         found.aim.unit(),
     );
-    Ok(head + &body(design, &found.file)?)
+    Ok(head + &body(design, story.file())?)
 }
 
 /// A further design file: `what` it is in a few words.
@@ -41,6 +47,24 @@ pub fn file_text(design: &Design, found: &Search, context: &Context) -> Result<S
 /// As [`file_text`].
 pub fn further_text(design: &Design, what: &str, text: &str) -> Result<String, EditError> {
     Ok(format!("{WRITTEN_BY} optimize {VERSION}: {what}\n{END}\n{}", body(design, text)?))
+}
+
+/// Middle of the name of the robust design.
+pub const ROBUST: &str = "robust";
+/// Middle of the name of the nearest design where none is feasible.
+pub const NEAREST: &str = "nearest";
+
+/// Further design files: middle of the name, what it is, text.
+pub fn further_files(story: &Story) -> Vec<(&'static str, &'static str, &str)> {
+    let mut files = Vec::new();
+    if let Some(robust) = &story.robust {
+        let what = match robust.made.held() {
+            true => "held at every corner of [tolerances]",
+            false => "as near as was found to holding every corner of [tolerances], not held at all",
+        };
+        files.push((ROBUST, what, robust.file.as_str()));
+    }
+    files
 }
 
 /// Last line of a head.

@@ -83,6 +83,12 @@ pub fn note_painted(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
+/// A question on standard error; its answer comes on the same line.
+pub fn ask(text: &str) {
+    let mut out = io::stderr().lock();
+    let _ = write!(out, "{}", shown(text)).and_then(|()| out.flush());
+}
+
 /// A path as it is shown on a terminal.
 pub fn path_text(path: &Path) -> String {
     shown(&path.display().to_string())
@@ -168,6 +174,22 @@ impl Outputs {
         own.into_iter()
             .filter_map(|(path, kind)| Some((path.as_deref()?, kind)))
             .try_for_each(|(path, kind)| self.may_replace(path, kind).map_err(|why| refused(path, &why)))
+    }
+
+    /// Refuse a file that is there already, whoever has written it: of a command that reads no design and would put a new one
+    /// in the place of an edited one.
+    ///
+    /// # Errors
+    /// [`Failure::Malformed`] naming the path.
+    pub fn refuse_work(&self, path: &Path) -> Result<(), Failure> {
+        let empty = fs::metadata(path).map_or(true, |m| m.len() == 0);
+        if self.force || is_special(path) || empty {
+            return Ok(());
+        }
+        Err(refused(
+            path,
+            "exists, and may hold work of yours; name another file, or replace it with --force",
+        ))
     }
 
     /// Whether what stands at `path` may be replaced by a file of this kind; why not.

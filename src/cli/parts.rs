@@ -5,7 +5,6 @@ use super::exit::Failure;
 use super::left_out::LeftOut;
 use super::output::{self, Envelope, TOOL, VERSION};
 pub use crate::answer::stiffness::junctions;
-use crate::compare::masses_kg;
 use crate::design::{Design, Input, inputs};
 use crate::margin::NoMargins;
 use crate::profile::Profile;
@@ -34,6 +33,9 @@ pub fn no_clutch(file: &Path, why: &NoMargins) -> Failure {
     let keys = match why {
         NoMargins::Outline(_) => "sprags.flanks, sprags.inner_arcs",
         NoMargins::Curve(NoCurve::NoElastic(NoElastic::Race(_))) => "races, material",
+        NoMargins::Curve(NoCurve::NoElastic(NoElastic::ThinRace { .. })) => {
+            "races.inner_bore_radius_mm with races.inner_radius_mm, races.outer_outside_radius_mm with races.outer_radius_mm"
+        }
         NoMargins::Curve(NoCurve::NoElastic(NoElastic::Contact(_))) => "contact, material, sprags.length_mm",
         NoMargins::Curve(NoCurve::NoConvergence) => {
             "contact, material, sprags.length_mm, sprags.inner_arcs, races"
@@ -173,7 +175,7 @@ pub fn draw_sheet(page: &mut Page, design: &Design, profile: &Profile) {
     let (s, r) = (&design.clutch.sprags, &design.clutch.races);
     let mm = |m: f64| Unit::Millimetre.show_plain(m, 6);
     let gram = |kg: f64| Unit::Gram.show(kg, 4);
-    let [sprags, inner, outer] = masses_kg(&design.clutch);
+    let [sprags, inner, outer] = design.clutch.masses_kg();
     let notes = [
         format!("{} sprags {} long,", s.count, mm(s.length_m)),
         format!("races {} wide,", mm(r.width_m)),

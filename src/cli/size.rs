@@ -1,52 +1,145 @@
 //! `size`: a first design file from what a clutch shall do.
 
+pub mod answer;
+
 use super::Context;
-use super::check::{REACHED_AT, ends_first, people_table};
 use super::exit::{Exit, Failure};
-use super::left_out::left_out;
 use super::origin::Kind;
-use super::output::{TOOL, VERSION, path_text, print_json};
-use super::parts::{self, Answer};
-use crate::design::Design;
-use crate::margin::{Margin, load_state};
-use crate::report::{Cell, Column, Screen, Table, Unit};
-use crate::scenario::{Settings, place_profile};
-use crate::size::{Ask, NoSize, Sized, Tried, size};
+use crate::design::nearest;
+use crate::material::{STEELS, Steel, steel};
+use crate::size::Wish;
 use clap::Args;
-use serde_json::{Value, json};
+use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
-  sprag-design size --bore 40 --torque 1000 --speed 3000 --safety 1.3 --friction 0.11 -o new.toml
-  sprag-design check new.toml
-  sprag-design optimize new.toml -o better.toml
+  sprag-design size --bore 40 --torque 1000 --speed 3000 -o mine.toml
+  sprag-design size --bore 40 --peak 1300 --outside 110 --width 25 --material 16MnCr5 -o mine.toml
+  sprag-design check mine.toml
+  sprag-design optimize mine.toml -o better.toml
 
 Every race space of one family of similar sprags is tried; the smallest ring from bore to outside is taken. The file that
-is written holds its limits, with a static scenario at nominal torque and a torque step up to it, and an optimize table.
+is written holds its limits, with a static scenario at nominal torque and a torque step up to it, and an optimize table. A
+file that is there already is replaced only with --force. `new` asks the same questions one by one, and adds the scenes of a
+purpose.
 
 Exit codes: 0 written; 1 no clutch of the family does it, with the limit that prevents it and the nearest possible.";
+
+/// What `size` and `new` have in common: space, torque, speeds, friction, steel.
+#[derive(Debug, Clone, Args, Default)]
+pub struct WishArgs {
+    /// Bore of the inner race, diameter, mm
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub bore: Option<f64>,
+    /// Nominal torque, carried day by day, Nm
+    #[arg(long, value_name = "NM", allow_hyphen_values = true)]
+    pub torque: Option<f64>,
+    /// Peak torque, at the worst, Nm; in place of --torque or beside it
+    #[arg(long, value_name = "NM", allow_hyphen_values = true)]
+    pub peak: Option<f64>,
+    /// Peak torque over nominal torque, where only one of them is named [default: 1.3, or that of the purpose]
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true)]
+    pub safety: Option<f64>,
+    /// Largest outer diameter, mm [default: 1.4 times the outer track]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub outside: Option<f64>,
+    /// Largest width of the races, mm
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub width: Option<f64>,
+    /// Speed of the outer race up to which the sprags keep contact in overrun, rpm; 0: not asked
+    #[arg(
+        long = "keep-contact-rpm",
+        visible_alias = "speed",
+        value_name = "RPM",
+        allow_hyphen_values = true
+    )]
+    pub keep_contact: Option<f64>,
+    /// Speed of the outer race by which the sprags must be off the inner race, rpm; 0: they stay on
+    #[arg(long = "lift-off-rpm", value_name = "RPM", allow_hyphen_values = true)]
+    pub lift_off: Option<f64>,
+    /// Speed of the inner race in overrun, rpm: for drag and heat
+    #[arg(long = "inner-rpm", value_name = "RPM", allow_hyphen_values = true)]
+    pub inner: Option<f64>,
+    /// Speed of the outer race in overrun, rpm, in the same sense [default: that of --keep-contact-rpm]
+    #[arg(long = "outer-rpm", value_name = "RPM", allow_hyphen_values = true)]
+    pub outer: Option<f64>,
+    /// Static friction [default: 0.11, by GMN 9050]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true)]
+    pub friction: Option<f64>,
+    /// Steel of sprags and races, by its name in `materials` [default: 100Cr6]; brings the allowed stresses
+    #[arg(long, value_name = "STEEL", value_parser = a_steel)]
+    pub material: Option<&'static Steel>,
+}
+
+impl WishArgs {
+    /// The same in SI; nothing but the unit changes.
+    pub fn wish(&self) -> Wish {
+        let m = |mm: Option<f64>| mm.map(|mm| mm / 1e3);
+        let rad_s = |rpm: Option<f64>| rpm.map(|rpm| rpm * PI / 30.0);
+        Wish {
+            purpose: None,
+            bore_m: m(self.bore),
+            torque_nm: self.torque,
+            peak_nm: self.peak,
+            peak_over_nominal: self.safety,
+            outside_m: m(self.outside),
+            width_m: m(self.width),
+            inner_rad_s: rad_s(self.inner),
+            outer_rad_s: rad_s(self.outer),
+            keep_contact_rad_s: rad_s(self.keep_contact),
+            lift_off_rad_s: rad_s(self.lift_off),
+            friction: self.friction,
+            steel: self.material,
+            engagements: None,
+        }
+    }
+
+    /// Options without which there is no question, as typed.
+    pub fn missing(&self) -> Vec<&'static str> {
+        let mut missing = Vec::new();
+        if self.bore.is_none() {
+            missing.push("--bore MM");
+        }
+        if self.torque.is_none() && self.peak.is_none() {
+            missing.push("--torque NM or --peak NM");
+        }
+        missing
+    }
+
+    /// Refuse a factor beside both torques that it joins, and one that makes the peak the lower.
+    ///
+    /// # Errors
+    /// [`Failure::Malformed`].
+    pub fn check_safety(&self) -> Result<(), Failure> {
+        match self.safety {
+            Some(_) if self.torque.is_some() && self.peak.is_some() => Err(Failure::malformed(
+                "--safety: it is --peak over --torque, and both are named; leave one of the three",
+            )),
+            Some(safety) if !(1.0..=10.0).contains(&safety) => {
+                Err(Failure::malformed(format!("--safety: found {safety}; allowed: 1 to 10")))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A steel of the library, by name.
+pub fn a_steel(name: &str) -> Result<&'static Steel, String> {
+    steel(name).ok_or_else(|| {
+        let names: Vec<&str> = STEELS.iter().map(|s| s.name).collect();
+        let like = nearest(name, &names).map_or(String::new(), |like| format!("did you mean {like}? "));
+        format!("{like}the library has {}", names.join(", "))
+    })
+}
 
 /// Arguments of `size`.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SizeArgs {
-    /// Bore of the inner race, diameter, mm
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
-    pub bore: f64,
-    /// Nominal torque, Nm
-    #[arg(long, value_name = "NM", allow_hyphen_values = true)]
-    pub torque: f64,
-    /// Speed of the outer race up to which the sprags keep contact in overrun, rpm [0: not asked]
-    #[arg(long, value_name = "RPM", default_value_t = 0.0, allow_hyphen_values = true)]
-    pub speed: f64,
-    /// Peak torque over nominal torque
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.3, allow_hyphen_values = true)]
-    pub safety: f64,
-    /// Static friction
-    #[arg(long, value_name = "MU", default_value_t = 0.11, allow_hyphen_values = true)]
-    pub friction: f64,
+    /// What the clutch shall do.
+    #[command(flatten)]
+    pub wish: WishArgs,
     /// Where to write the design file
     #[arg(long, short, value_name = "NEW.toml")]
     pub output: PathBuf,
@@ -57,145 +150,21 @@ pub struct SizeArgs {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
-    context.outputs.check(&[], &[(&args.output, Kind::Design)])?;
-    context.outputs.refuse_foreign()?;
-    let ask = Ask {
-        bore_m: args.bore / 1e3,
-        torque_nm: args.torque,
-        speed_rad_s: args.speed * std::f64::consts::PI / 30.0,
-        safety: args.safety,
-        friction: args.friction,
-    };
-    let started = Instant::now();
-    let settings = Settings { follow: context.follow.unseen(), ..Settings::default() };
-    let sized = size(&ask, &settings);
-    let run_time_s = started.elapsed().as_secs_f64();
-    if context.follow.stopped() {
-        return Err(Failure::Interrupted);
+    may_write(&args.output, context)?;
+    let missing = args.wish.missing();
+    if !missing.is_empty() {
+        return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
     }
-    let sized = match sized {
-        Ok(sized) => sized,
-        Err(NoSize::Ask(why)) => return Err(Failure::malformed(format!("--{why}"))),
-        Err(why @ NoSize::None { .. }) => {
-            let NoSize::None { tried } = &why else { return Ok(Exit::NotHeld) };
-            if context.json {
-                print_json(
-                    &json!({ "tool": TOOL, "version": VERSION, "sized": false, "why": why.to_string(), "tried": rows_of(tried, None) }),
-                )?;
-            }
-            context.outputs.write_csv(&tried_table(tried, None));
-            context.answer(&format!("{}\n{why}\n", tried_table(tried, None).to_text(context.screen)))?;
-            return Ok(Exit::NotHeld);
-        }
-    };
-    let design = &sized.design;
-    let written = context.outputs.write(&args.output, Kind::Design, design.source.as_bytes());
-    let written = written.then_some(args.output.as_path());
-    // Of a design whose margins are known there is a curve.
-    let end_nm = load_state(design).map_or(f64::INFINITY, |state| state.curve.end_torque_nm());
-    let answer = Answer {
-        design,
-        run_time_s,
-        left_out: left_out(&design.clutch),
-        error_estimate: None,
-        body: json!({
-            "sized": true,
-            "written": written.map(|path| path.display().to_string()),
-            "tried": rows_of(&sized.tried, Some(sized.taken)),
-            "margins": sized.margins.iter().map(|r| margin_json(r, end_nm)).collect::<Vec<_>>(),
-        }),
-    };
-    context.outputs.write_csv(&tried_table(&sized.tried, Some(sized.taken)));
-    context.outputs.write_report(|| {
-        let mut page = parts::page("First design", design, context);
-        page.verdict(true, &verdict(&sized));
-        if let Ok(profile) = place_profile(&design.clutch) {
-            parts::draw_sheet(&mut page, design, &profile);
-        }
-        page.heading("Race spaces tried").table("", &tried_table(&sized.tried, Some(sized.taken)));
-        page.heading("Margins").table(REACHED_AT, &people_table(&sized.margins, end_nm));
-        answer.close(&mut page);
-        page
-    });
-    answer.print(context)?;
-    context.answer(&text(&sized, end_nm, written, context.screen))?;
-    Ok(Exit::Held)
+    args.wish.check_safety()?;
+    answer::answer(&args.wish.wish().ask(), &args.output, "First design", context)
 }
 
-fn verdict(sized: &Sized) -> String {
-    let s = &sized.design.clutch.sprags;
-    let space = sized.tried[sized.taken].space_m;
-    format!(
-        "{} sprags of {} in a race space of {}; {} decides",
-        s.count,
-        Unit::Millimetre.show_plain(s.length_m, 4),
-        Unit::Millimetre.show_plain(space, 4),
-        sized.tried[sized.taken].decided_by
-    )
-}
-
-fn text(sized: &Sized, end_nm: f64, written: Option<&Path>, screen: Screen) -> String {
-    let design: &Design = &sized.design;
-    format!(
-        "{}  {}\n\n{}\n{}\n{}\n{REACHED_AT}\n{}\n",
-        design.name,
-        design.hash.get(..12).unwrap_or(&design.hash),
-        tried_table(&sized.tried, Some(sized.taken)).to_text(screen),
-        people_table(&sized.margins, end_nm).to_text(screen),
-        verdict(sized),
-        written.map_or("no design written".to_owned(), |path| format!("written to {}", path_text(path)))
-    )
-}
-
-fn tried_table(tried: &[Tried], taken: Option<usize>) -> Table {
-    let mut table = Table::new(vec![
-        Column::number("race_space_mm", "Race space", Unit::Millimetre, 4),
-        Column::number("count", "Sprags", Unit::One, 3),
-        Column::number("length_mm", "Length", Unit::Millimetre, 4),
-        Column::number("volume_cm3", "Volume, cm3", Unit::One, 4),
-        Column::number("carries_nm", "Carries", Unit::NewtonMetre, 4),
-        Column::text("decided_by", "Decided by"),
-        Column::text("verdict", ""),
-    ]);
-    for (i, t) in tried.iter().enumerate() {
-        let word = if taken == Some(i) {
-            "taken"
-        } else if t.held {
-            "possible"
-        } else {
-            "NOT POSSIBLE"
-        };
-        table.row(vec![
-            t.space_m.into(),
-            t.count.into(),
-            t.length_m.into(),
-            if t.held { Cell::Si(1e6 * t.volume_m3) } else { Cell::Empty },
-            t.carries_nm.into(),
-            t.decided_by.as_str().into(),
-            Cell::Verdict(t.held, word.to_owned()),
-        ]);
-    }
-    table
-}
-
-fn rows_of(tried: &[Tried], taken: Option<usize>) -> Vec<Value> {
-    tried
-        .iter()
-        .enumerate()
-        .map(|(i, t)| {
-            json!({
-                "race_space_mm": Unit::Millimetre.from_si(t.space_m), "count": t.count,
-                "length_mm": Unit::Millimetre.from_si(t.length_m), "carries_nm": t.carries_nm,
-                "decided_by": t.decided_by, "possible": t.held, "taken": taken == Some(i),
-            })
-        })
-        .collect()
-}
-
-fn margin_json(r: &Margin, end_nm: f64) -> Value {
-    json!({
-        "code": r.code(), "demand": r.demand_in_unit(), "allowable": r.shown_allowable(), "unit": r.limit.unit,
-        "margin": r.margin(), "slip_margin": r.slip_margin(),
-        "torque_capacity_nm": r.torque_capacity_nm, "capacity_beyond_end": ends_first(r, end_nm), "held": r.held(),
-    })
+/// Refuse an output that cannot be written, or that would cost somebody's work.
+///
+/// # Errors
+/// [`Failure::Malformed`].
+pub fn may_write(output: &Path, context: &Context) -> Result<(), Failure> {
+    context.outputs.check(&[], &[(output, Kind::Design)])?;
+    context.outputs.refuse_work(output)?;
+    context.outputs.refuse_foreign()
 }

@@ -10,11 +10,11 @@ use super::exit::{Exit, Failure};
 use super::parts::{self, Answer};
 use super::{Context, positive};
 use crate::answer::stiffness::{self, Ask, LawCurve, NoStiffness, StiffnessAnswer, curves};
-use crate::design::{Design, LawName};
+use crate::clutch::LawName;
+use crate::design::Design;
 use crate::margin::NoMargins;
 use crate::profile::Profile;
 use crate::report::Unit;
-use crate::scenario::place_profile;
 use clap::Args;
 use fem::{Fem, FemJson};
 pub use pressure::PressureName;
@@ -127,8 +127,8 @@ pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
 fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<Study, Failure> {
     let design = parts::read_design(&args.files[i], context)?;
     let fem = args.fem.get(i).map(|path| Fem::read(path, args.fem_model.as_deref())).transpose()?;
-    let profile = place_profile(&design.clutch)
-        .map_err(|e| parts::no_clutch(&args.files[i], &NoMargins::Profile(e)))?;
+    let profile =
+        design.clutch.profile().map_err(|e| parts::no_clutch(&args.files[i], &NoMargins::Profile(e)))?;
     let started = Instant::now();
     let ask = args.ask(context);
     let count = ask.laws_of(&design.clutch.contact).len() as u64;

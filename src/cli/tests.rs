@@ -33,7 +33,7 @@ fn lists_and_common_flags_are_read_behind_the_command() {
     let cli = parse("sprag-design stiffness a.toml --contact roller,slice --torques 3.34,50 --json --csv c.csv -q --threads 2")
         .unwrap();
     let Command::Stiffness(args) = cli.command else { panic!() };
-    assert_eq!(args.contact, [crate::design::LawName::Roller, crate::design::LawName::Slice]);
+    assert_eq!(args.contact, [crate::clutch::LawName::Roller, crate::clutch::LawName::Slice]);
     assert_eq!(args.torques, [3.34, 50.0]);
     assert!(cli.common.json && cli.common.quiet && cli.common.threads == Some(2));
 }

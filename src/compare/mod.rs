@@ -5,7 +5,7 @@
 
 mod subject;
 
-pub use subject::{Scene, Subject, masses_kg};
+pub use subject::{Scene, Subject};
 
 use crate::design::{Design, Input, inputs};
 use crate::margin::Margin;
@@ -102,7 +102,6 @@ fn reach_m(profile: &Profile, turn_rad: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::design::with_setting;
-    use crate::scenario::place_profile;
 
     const TEXT: &str = include_str!("../../designs/huang2017-multi-arc.toml");
 
@@ -133,7 +132,7 @@ mod tests {
 
     #[test]
     fn a_larger_second_arc_stands_proud_from_its_junction_on() {
-        let place = |d: &Design| place_profile(&d.clutch).unwrap();
+        let place = |d: &Design| d.clutch.profile().unwrap();
         let (a, b) = (place(&design(&[])), place(&design(&[("r_i2_mm", "4.2")])));
         let proud = proud_m(&a, &b);
         assert!(proud_m(&a, &a).iter().all(|p| p[1] == 0.0));

@@ -1,13 +1,12 @@
 //! One of the designs, with all that is compared.
 
-use crate::design::{Clutch, Design};
+use crate::design::Design;
 use crate::margin::{
     LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
 };
 use crate::scenario::Settings;
 use crate::wedge::StaticPoint;
 use rayon::prelude::*;
-use std::f64::consts::PI;
 
 /// A scene and what it demands.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +42,10 @@ impl Subject {
         let engaging: Vec<_> = design.scenarios.iter().filter(|s| !s.kind.is_overrun()).collect();
         let scenes: Vec<Scene> = engaging
             .par_iter()
-            .map(|s| Scene { name: s.name.clone(), found: scene_demand(s, settings) })
+            .map(|s| Scene {
+                name: s.name.clone(),
+                found: scene_demand(s, Some(state.at_rest(&design)), settings),
+            })
             .collect();
         for (scenario, scene) in engaging.iter().zip(&scenes) {
             let required = design.check_scenarios.contains(&scenario.name);
@@ -72,16 +74,4 @@ impl Subject {
     pub fn peak(&self) -> Option<StaticPoint> {
         self.design.limits.peak_torque_nm.and_then(|t| self.state.curve.at_torque(t))
     }
-}
-
-/// Masses of all sprags, of the inner and of the outer race (plain rings as wide as `races.width_mm`), kg.
-pub fn masses_kg(clutch: &Clutch) -> [f64; 3] {
-    let (s, r, m) = (&clutch.sprags, &clutch.races, &clutch.materials);
-    let ring =
-        |inner: f64, outer: f64, density: f64| PI * (outer * outer - inner * inner) * r.width_m * density;
-    [
-        s.count as f64 * s.mass_kg,
-        ring(r.inner_bore_radius_m, r.inner_radius_m, m.inner_race.density_kg_m3),
-        ring(r.outer_radius_m, r.outer_outside_radius_m, m.outer_race.density_kg_m3),
-    ]
 }

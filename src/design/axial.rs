@@ -7,7 +7,7 @@ use super::check::m;
 use super::contact_file::{EndKindFile, EndProfileFile};
 use super::file::DesignFile;
 use super::findings::Findings;
-use super::{Axial, EndProfile};
+use crate::clutch::{Axial, EndProfile};
 
 const PROFILE: &str = "contact.end_profile";
 /// Fewest slices that know a shape: of fewer, each is a step in the force.

@@ -4,13 +4,16 @@
 //! single keys ([`super::file`]), scenarios, the optimiser's task. Equations: none of its own; triangle (9)
 //! at first contact is asked of `profile`.
 
+use super::Limits;
 use super::contact_file::{ContactFile, StateFile};
 use super::file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
-use super::law::{ContactLaw, LawName, ROLLER_COEFFICIENT};
 use super::limits::{LIMIT_KEYS, LimitsFile};
-use super::{Clutch, Friction, Limits, Races, Spring, StressState};
 use super::{axial, eccentricity, geometry, running, steels};
+use crate::clutch::{
+    Clutch, ContactLaw, Friction, LawName, Materials, ROLLER_COEFFICIENT, Races, Spring, StressState,
+};
+use std::f64::consts::FRAC_PI_2;
 
 /// mm to m. Division, because 1e-3 is no binary fraction: 4.68 mm becomes the double nearest to 4.68e-3 m
 /// oftener than by a product.
@@ -30,9 +33,9 @@ pub(super) fn pa(mpa: f64) -> f64 {
 
 /// The clutch of a file, or `None` with the reasons in `out`.
 pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
-    let races = races(&file.races, out);
-    let friction = friction(file, out);
     let materials = steels::materials(&file.material, out);
+    let races = races(&file.races, materials.as_ref(), out);
+    let friction = friction(file, out);
     let contact = contact(&file.contact, out);
     let hunt_crossley_s_per_m = file.contact.hunt_crossley_s_per_m;
     let spring = Spring {
@@ -65,7 +68,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
     })
 }
 
-fn races(file: &RacesFile, out: &mut Findings) -> Option<Races> {
+fn races(file: &RacesFile, materials: Option<&Materials>, out: &mut Findings) -> Option<Races> {
     let radii = [
         ("races.inner_bore_radius_mm", file.inner_bore_radius_mm),
         ("races.inner_radius_mm", file.inner_radius_mm),
@@ -84,14 +87,20 @@ fn races(file: &RacesFile, out: &mut Findings) -> Option<Races> {
             );
         }
     }
+    // A plain ring; without materials the file is refused anyway.
+    let [inner, outer] =
+        materials.map_or([0.0; 2], |m| [m.inner_race.density_kg_m3, m.outer_race.density_kg_m3]);
+    let ring = |from_mm: f64, until_mm: f64, density: f64| {
+        FRAC_PI_2 * density * m(file.width_mm) * (m(until_mm).powi(4) - m(from_mm).powi(4))
+    };
     in_order.then(|| Races {
         inner_bore_radius_m: m(file.inner_bore_radius_mm),
         inner_radius_m: m(file.inner_radius_mm),
         outer_radius_m: m(file.outer_radius_mm),
         outer_outside_radius_m: m(file.outer_outside_radius_mm),
         width_m: m(file.width_mm),
-        inner_inertia_kg_m2: file.inner_inertia_kg_m2,
-        outer_inertia_kg_m2: file.outer_inertia_kg_m2,
+        inner_inertia_kg_m2: file.inner_inertia_kg_m2.unwrap_or_else(|| ring(radii[0].1, radii[1].1, inner)),
+        outer_inertia_kg_m2: file.outer_inertia_kg_m2.unwrap_or_else(|| ring(radii[2].1, radii[3].1, outer)),
         viscous_damping_nm_s_per_rad: file.viscous_damping_nm_s_per_rad,
         eccentricity: file.eccentricity.as_ref().map(eccentricity::si),
     })

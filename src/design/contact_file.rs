@@ -3,7 +3,7 @@
 //! In: TOML. Out: structs in the file's units, ranges stated in their schema. Absent: rules that join keys
 //! ([`super::check`], [`super::axial`]). Equations: none.
 
-use super::law::LawName;
+use crate::clutch::LawName;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -5,7 +5,25 @@
 
 use std::f64::consts::PI;
 
-/// What a new design file says; one inner arc, steel, the law `elastic`.
+use crate::numeric::rounded;
+
+/// A scene of a new design file beside the two that every one has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DraftScene {
+    /// Name.
+    pub name: &'static str,
+    /// Kind, as the file names it.
+    pub kind: &'static str,
+    /// What it stands for: a comment line without its #.
+    pub why: String,
+    /// Key, value in the file's unit, where the value comes from.
+    pub keys: Vec<(&'static str, f64, &'static str)>,
+    /// Whether `check` holds the design to it, or only shows it.
+    pub held: bool,
+}
+
+/// What a new design file says; one inner arc, a steel of the library, the law `elastic`. The races' inertias are left to
+/// their radii.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draft {
     /// Name.
@@ -30,24 +48,34 @@ pub struct Draft {
     pub races_m: [f64; 4],
     /// Axial width of the races, m.
     pub width_m: f64,
-    /// I_bi, I_be, kg m^2.
-    pub inertias_kg_m2: [f64; 2],
     /// K_r, N m/rad per sprag.
     pub spring_nm_per_rad: f64,
     /// C_f, N m.
     pub drag_nm: f64,
+    /// The steel of sprags and races, by its name in the library.
+    pub steel: &'static str,
+    /// Its density, kg/m^3.
+    pub density_kg_m3: f64,
     /// mu_s; mu_c is 0.9 of it.
     pub friction: f64,
+    /// Where mu_s comes from.
+    pub friction_from: &'static str,
     /// Nominal and peak torque, N m.
     pub torques_nm: [f64; 2],
+    /// Where each comes from.
+    pub torques_from: [&'static str; 2],
     /// Race gap at nominal and peak torque, m.
     pub gaps_m: [f64; 2],
-    /// Overrun speed up to which contact is kept and mean speed of the scene with the torque step, rad/s; 0: none.
+    /// Overrun speed up to which contact is kept, and that by which the sprags are off, rad/s; `None`: not asked.
+    pub contact_rad_s: [Option<f64>; 2],
+    /// Mean speed of the scene with the torque step, rad/s.
     pub speed_rad_s: f64,
     /// How long the scene with the torque step lasts, s; the step comes after a tenth of it.
     pub step_duration_s: f64,
     /// Stiffness of the abutment that holds the outer race in that scene, N m/rad.
     pub abutment_nm_per_rad: f64,
+    /// Further scenes.
+    pub scenes: Vec<DraftScene>,
 }
 
 /// mu_c over mu_s of a draft.
@@ -60,7 +88,6 @@ impl Draft {
         let [bore, track, outer, outside] = self.races_m.map(mm);
         let [nominal, peak] = self.torques_nm.map(|t| digits(t, 6));
         let [gap_nominal, gap_peak] = self.gaps_m.map(mm);
-        let [inner_inertia, outer_inertia] = self.inertias_kg_m2.map(|i| digits(i, 4));
         let (r_e, r_i, e_1, length) =
             (mm(self.outer_radius_m), mm(self.inner_radius_m), mm(self.centre_distance_m), mm(self.length_m));
         let body = match self.flanks_m {
@@ -71,18 +98,28 @@ impl Draft {
             ),
             None => format!(
                 "mass_kg = {}\ninertia_kg_m2 = {}\ncentroid = {{ x_mm = 0.0, y_mm = 0.0 }}",
-                digits(7850.0 * self.length_m * (self.outer_radius_m + self.inner_radius_m).powi(2) * 0.6, 4),
-                digits(1e-2 * self.length_m * 7850.0 * self.outer_radius_m.powi(4), 4)
+                digits(
+                    self.density_kg_m3
+                        * self.length_m
+                        * (self.outer_radius_m + self.inner_radius_m).powi(2)
+                        * 0.6,
+                    4
+                ),
+                digits(1e-2 * self.length_m * self.density_kg_m3 * self.outer_radius_m.powi(4), 4)
             ),
         };
         // Without damping the step is felt twice, so that the crest is at nominal torque: 0.6 + 2 * 0.2.
         let (preload, torque_step) =
             (digits(0.6 * self.torques_nm[0], 6), digits(0.2 * self.torques_nm[0], 6));
-        let rpm = digits(self.speed_rad_s * 30.0 / PI, 8);
-        let keep = match self.speed_rad_s > 0.0 {
-            true => format!("keep_contact_to_rpm = {rpm}    # asked for\n"),
-            false => String::new(),
-        };
+        let rpm = |rad_s: f64| digits(rad_s * 30.0 / PI, 8);
+        let contact = ["keep_contact_to_rpm", "lift_off_by_rpm"];
+        let asked = contact.into_iter().zip(self.contact_rad_s);
+        let contact: String = asked
+            .filter_map(|(key, speed)| Some(format!("{key} = {}    # asked for\n", rpm(speed?))))
+            .collect();
+        let held: String =
+            self.scenes.iter().filter(|s| s.held).map(|s| format!(", \"{}\"", s.name)).collect();
+        let scenes: String = self.scenes.iter().map(DraftScene::to_toml).collect();
         format!(
             r#"{why}schema = 1
 name = "{name}"
@@ -101,37 +138,31 @@ inner_radius_mm = {track}
 outer_radius_mm = {outer}
 outer_outside_radius_mm = {outside}
 width_mm = {width}
-inner_inertia_kg_m2 = {inner_inertia}       # the rings alone, without what is fixed to them
-outer_inertia_kg_m2 = {outer_inertia}
+# inner_inertia_kg_m2, outer_inertia_kg_m2: absent, so those of the rings alone, without what is fixed to them
 viscous_damping_nm_s_per_rad = 0.1  # assumed
 
 [spring]
 stiffness_nm_per_rad = {spring}
 drag_torque_nm = {drag}
 
-[material]                          # bearing steel
-youngs_modulus_gpa = 206.0
-poisson_ratio = 0.3
-density_kg_m3 = 7850.0
+[material]
+name = "{steel}"                     # `sprag-design materials` lists them
 
 [friction]
-static = {friction}                 # asked for
+static = {friction}                 # {friction_from}
 kinetic = {kinetic}                 # assumed: 0.9 of it
 decay_s_per_m = 5.0                 # assumed
 
 [limits]
-nominal_torque_nm = {nominal}       # asked for
-peak_torque_nm = {peak}             # nominal times the safety asked for
-hertz_nominal_mpa = 4200.0          # GMN 9050
-hertz_peak_mpa = 4600.0             # GMN 9050
+from_material = true                # Hertz pressures and race stresses of that steel
+nominal_torque_nm = {nominal}       # {nominal_from}
+peak_torque_nm = {peak}             # {peak_from}
 gap_nominal_mm = {gap_nominal}      # GMN 9050: 8.46 mm of a gap of 8.33, in proportion
 gap_peak_mm = {gap_peak}            # GMN 9050: 8.60 mm of a gap of 8.33, in proportion
-equivalent_inner_mpa = 750.0        # GMN 9050, 100Cr6
-equivalent_outer_mpa = 750.0        # GMN 9050, 100Cr6
 slip_margin = 0.1                   # choice
-{keep}
+{contact}
 [check]
-scenarios = ["rated-static", "rated-step"]
+scenarios = ["rated-static", "rated-step"{held}]
 
 [[scenarios]]
 name = "rated-static"
@@ -147,11 +178,11 @@ torque_step_nm = {torque_step}
 step_time_s = {step_time}
 abutment_stiffness_nm_per_rad = {abutment}
 duration_s = {duration}
-speed_rpm = {rpm}
-
+speed_rpm = {speed}
+{scenes}
 [optimize]
 objective = "slip-margin"
-scenarios = ["rated-static", "rated-step"]
+scenarios = ["rated-static", "rated-step"{held}]
 variables = [
   {{ name = "r_i1_mm", min = {ri_min}, max = {ri_max} }},
   {{ name = "centre_distance_mm", min = {e_min}, max = {e_max} }},
@@ -164,7 +195,12 @@ seed = 1
             width = mm(self.width_m),
             spring = digits(self.spring_nm_per_rad, 4),
             drag = digits(self.drag_nm, 4),
+            steel = self.steel,
             friction = digits(self.friction, 6),
+            friction_from = self.friction_from,
+            nominal_from = self.torques_from[0],
+            peak_from = self.torques_from[1],
+            speed = rpm(self.speed_rad_s),
             kinetic = digits(KINETIC_SHARE * self.friction, 6),
             abutment = digits(self.abutment_nm_per_rad, 4),
             step_time = digits(0.1 * self.step_duration_s, 4),
@@ -177,6 +213,18 @@ seed = 1
     }
 }
 
+impl DraftScene {
+    fn to_toml(&self) -> String {
+        let key = |(key, value, from): &(&str, f64, &str)| {
+            let line = format!("{key} = {}", digits(*value, 6));
+            if from.is_empty() { format!("{line}\n") } else { format!("{line:<40} # {from}\n") }
+        };
+        let keys: String = self.keys.iter().map(key).collect();
+        let Self { name, kind, why, .. } = self;
+        format!("\n# {why}\n[[scenarios]]\nname = \"{name}\"\nkind = \"{kind}\"\n{keys}")
+    }
+}
+
 /// mm to 0.1 um.
 fn mm(m: f64) -> String {
     float((m * 1e7).round() / 1e4)
@@ -185,11 +233,6 @@ fn mm(m: f64) -> String {
 /// So many significant digits, as TOML.
 fn digits(value: f64, digits: usize) -> String {
     float(rounded(value, digits))
-}
-
-/// `value` to so many significant digits: the double that this decimal reads as, whose shortest text has no more of them.
-pub fn rounded(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
 /// A TOML float: always with a point or an exponent.

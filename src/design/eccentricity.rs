@@ -8,7 +8,7 @@ use super::check::m;
 use super::file::{CarrierFile, EccentricityFile};
 use super::findings::Findings;
 use super::geometry::mm;
-use super::{Carrier, Eccentricity, Races, Sprags};
+use crate::clutch::{Carrier, Eccentricity, Races, Sprags};
 
 pub(super) fn si(file: &EccentricityFile) -> Eccentricity {
     Eccentricity {

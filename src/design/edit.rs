@@ -7,8 +7,9 @@ use std::fmt;
 
 use toml_edit::{DocumentMut, Item, Table, Value};
 
+use super::shape;
 use super::variables::{variable_names, variable_path};
-use super::{Flanks, shape};
+use crate::profile::Flanks;
 
 /// Why a value cannot be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -153,12 +154,24 @@ pub fn with_sprag(
     Ok(document.to_string())
 }
 
-/// The text without those variables of `[optimize]` whose name `drop` picks.
+/// The text with other variables of `[optimize]`: without those whose name `drop` picks, with `more` behind the others, each
+/// with its bounds. Where there is no such table nothing changes.
 ///
 /// # Errors
 /// [`EditError`].
-pub fn without_variables(source: &str, drop: &dyn Fn(&str) -> bool) -> Result<String, EditError> {
+pub fn other_variables(
+    source: &str,
+    drop: &dyn Fn(&str) -> bool,
+    more: &[(&str, (f64, f64))],
+) -> Result<String, EditError> {
     let mut document = parse(source)?;
+    let row = |name: &str, (min, max): (f64, f64)| -> Result<toml_edit::InlineTable, EditError> {
+        let mut row = toml_edit::InlineTable::new();
+        row.insert("name", Value::from(name));
+        row.insert("min", finite(name, min)?);
+        row.insert("max", finite(name, max)?);
+        Ok(row)
+    };
     match document.get_mut("optimize").and_then(|o| o.get_mut("variables")) {
         Some(Item::Value(Value::Array(rows))) => {
             let name = |row: &Value| {
@@ -166,13 +179,24 @@ pub fn without_variables(source: &str, drop: &dyn Fn(&str) -> bool) -> Result<St
                     .and_then(|t| t.get("name")?.as_str().map(str::to_owned))
                     .unwrap_or_default()
             };
+            // A line of its own, as far in as the first; no comment of another's.
+            let lead = rows.iter().next().and_then(|first| first.decor().prefix()?.as_str());
+            let lead = lead.map_or(" ", |text| &text[text.rfind('\n').unwrap_or(0)..]).to_owned();
             rows.retain(|row| !drop(&name(row)));
+            for &(name, bounds) in more {
+                let mut value = Value::InlineTable(row(name, bounds)?);
+                value.decor_mut().set_prefix(lead.as_str());
+                rows.push_formatted(value);
+            }
         }
         Some(Item::ArrayOfTables(rows)) => {
             rows.retain(|row| {
                 let name = row.get("name").and_then(Item::as_str);
                 !name.is_some_and(drop)
             });
+            for &(name, bounds) in more {
+                rows.push(row(name, bounds)?.into_table());
+            }
         }
         _ => {}
     }
@@ -264,9 +288,10 @@ pub(super) fn parse(source: &str) -> Result<DocumentMut, EditError> {
     source.parse().map_err(|e: toml_edit::TomlError| EditError::Syntax(e.message().to_owned()))
 }
 
+/// A number as a value; of a zero without its sign.
 fn finite(name: &str, value: f64) -> Result<Value, EditError> {
     if value.is_finite() {
-        Ok(Value::from(value))
+        Ok(Value::from(value + 0.0))
     } else {
         Err(EditError::NotFinite { name: name.to_owned() })
     }

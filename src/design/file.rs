@@ -152,12 +152,13 @@ pub(super) struct RacesFile {
     /// Axial width of both races, l of (5), mm; at least the sprags' length.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub width_mm: f64,
-    /// Inertia I_bi of the inner race, kg m^2.
+    /// Inertia I_bi of the inner race and all that is fixed to it, kg m^2; absent: that of the ring alone, by its radii, width
+    /// and density.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub inner_inertia_kg_m2: f64,
-    /// Inertia I_be of the outer race, kg m^2.
+    pub inner_inertia_kg_m2: Option<f64>,
+    /// Inertia I_be of the outer race and all that is fixed to it, kg m^2; absent: that of the ring alone.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub outer_inertia_kg_m2: f64,
+    pub outer_inertia_kg_m2: Option<f64>,
     /// Viscous damping C_rl between the races, N m s/rad.
     #[schemars(extend("minimum" = 0))]
     pub viscous_damping_nm_s_per_rad: f64,

@@ -7,7 +7,7 @@ use super::check::m;
 use super::file::SpragsFile;
 use super::findings::Findings;
 use super::outline;
-use super::{InnerArc, MassSource, Materials, Races, Sprags};
+use crate::clutch::{InnerArc, MassSource, Materials, Races, Sprags};
 use crate::profile::{Profile, ProfileError};
 
 /// Mass m_g kg, inertia I_g about the centroid kg m^2, centroid in the body frame m.

@@ -1,11 +1,10 @@
-//! The checked, immutable clutch design, SI.
+//! The design file: read, checked, changed; the checked, immutable design that comes of it.
 //!
-//! In: a design file (TOML, mm, rad, GPa, rev/min). Out: [`Design`], or [`DesignError`] with every key at fault.
-//! Absent: any physics; a law is only named here. Equations: none; Table 1 of the paper is a `Design`.
+//! In: a design file (TOML, mm, rad, GPa, rev/min). Out: [`Design`], SI, or [`DesignError`] with every key at fault; texts
+//! with values changed. Absent: any physics; what a clutch is (`clutch`). Equations: none.
 
 mod axial;
 mod check;
-mod clutch;
 mod contact_file;
 mod diagnostic;
 mod document;
@@ -17,14 +16,11 @@ mod findings;
 mod geometry;
 mod history;
 mod inputs;
-mod kinds;
-mod law;
 mod limits;
 mod notes;
 mod objective;
 mod open;
 mod outline;
-mod question;
 mod read;
 mod running;
 mod scenario_file;
@@ -37,28 +33,24 @@ mod task_file;
 mod tolerances_file;
 mod variables;
 
-pub use clutch::{
-    Axial, Carrier, Clutch, Eccentricity, EndProfile, Flanks, Friction, InnerArc, MassSource, Materials,
-    Races, Running, Sprags, Spring, StressState, TrackRun,
-};
 pub use diagnostic::{DesignError, Place, Problem, shown, unprintable};
-pub use draft::{Draft, KINETIC_SHARE, rounded};
+pub use draft::{Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
-    EditError, content, value_at, with_flanks, with_keys, with_limits, with_sprag, with_values,
-    without_variables,
+    EditError, content, other_variables, value_at, with_flanks, with_keys, with_limits, with_sprag,
+    with_values,
 };
 pub use history::is_history;
 pub use inputs::{Input, inputs, unit_of_path};
-pub use law::{ContactLaw, LAWS, LawFacts, LawName};
 pub use limits::{LIMIT_KEYS, LimitKey, Limits};
 pub use notes::with_notes;
-pub use objective::Objective;
+pub use objective::{Objective, Optimize, OptimizeVariable};
 pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
-pub use question::{Optimize, OptimizeVariable, Scenario, ScenarioKind, Start};
 pub use set::with_setting;
 pub use shape::{allowed, keys_of, nearest, schema, shape_of};
-pub use tolerances_file::Tolerances;
+pub use steels::beside_the_name;
 pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
+
+use crate::clutch::{Clutch, Scenario, Tolerances};
 
 /// A checked clutch design. Built only by reading a file; never changed afterwards.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,8 @@
-//! What the optimiser can be asked to make better.
+//! What the optimiser can be asked: what is made better, by which variables.
 //!
-//! In: nothing. Out: [`Objective`]. Absent: how one is computed (`optimise`). Equations: none.
+//! In: nothing. Out: [`Objective`], [`Optimize`]. Absent: how one is computed (`optimise`). Equations: none.
 
+use super::Limits;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -84,7 +85,45 @@ impl std::str::FromStr for Objective {
     }
 }
 
-/// The same as written: without a doc comment per variant, which the schema's reader does not know.
+/// One variable of the optimiser, in the unit of its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OptimizeVariable {
+    /// Name as in the file, e.g. `r_i2_mm`.
+    pub name: String,
+    /// Lower bound in the name's unit.
+    pub min: f64,
+    /// Upper bound in the name's unit.
+    pub max: f64,
+    /// Value in the file, in the name's unit.
+    pub given: f64,
+    /// Where the search starts: the value in the file, or the bound nearest to it where it lies outside.
+    pub start: f64,
+    /// Whether it takes whole numbers only.
+    pub whole: bool,
+}
+
+/// What `optimize` shall do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Optimize {
+    /// What is made better.
+    pub objective: Objective,
+    /// Wanted windups of [`Objective::StiffnessCurve`]: (torque, N m; windup, rad).
+    pub target: Vec<[f64; 2]>,
+    /// Scenarios whose smallest slip margin is maximised, or which are limits of another objective.
+    pub scenarios: Vec<String>,
+    /// Design variables.
+    pub variables: Vec<OptimizeVariable>,
+    /// `[limits]` with the sharper ones of `[optimize]` put in.
+    pub limits: Limits,
+    /// Step in which lengths can be made, mm; 0: any.
+    pub step_mm: f64,
+    /// What every margin keeps beyond its limit.
+    pub reserve: f64,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+/// An objective as written: without a doc comment per variant, which the schema's reader does not know.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum ObjectiveFile {

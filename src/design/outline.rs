@@ -3,12 +3,11 @@
 //! In: the `[sprags]` table, the placed profile. Out: [`Flanks`], [`Outline`]. Absent: the geometry itself
 //! (`profile`), neighbours under load (`margin`). Equations: none.
 
-use super::Flanks;
 use super::check::m;
 use super::file::SpragsFile;
 use super::findings::Findings;
 use super::geometry::{arc_key, mm};
-use crate::profile::{Outline, OutlineError, Profile, STEEPEST_RAD, Side, clearance_m};
+use crate::profile::{Flanks, Outline, OutlineError, Profile, STEEPEST_RAD, Side, clearance_m};
 
 /// The flanks that a file names, or both at half of its width; none where it has neither.
 pub(super) fn flanks(file: &SpragsFile) -> Option<Flanks> {

@@ -57,8 +57,17 @@ impl Design {
                 let (allowed, help) = match why {
                     EditError::UnknownName { known, .. } => {
                         let near: Vec<&str> = known.iter().map(String::as_str).collect();
-                        let help = shape::nearest(key, &near).map(|k| format!("did you mean {k}?"));
-                        (known.join(", "), help)
+                        let there = || Some(shape::paths_that_end_in(key)).filter(|paths| !paths.is_empty());
+                        let like =
+                            shape::nearest(key, &near).map(str::to_owned).or_else(|| Some(there()?.join(" or ")));
+                        let help = like.unwrap_or_else(|| {
+                            "`sprag-design explain` lists every name, `explain sprags` the keys of a table".to_owned()
+                        });
+                        let help = match help.starts_with('`') {
+                            true => help,
+                            false => format!("did you mean {help}?"),
+                        };
+                        (known.join(", "), Some(help))
                     }
                     other => (other.to_string(), None),
                 };

@@ -10,8 +10,9 @@ use super::file::DesignFile;
 use super::findings::Findings;
 use super::history::HistoryKind;
 use super::scenario_file::{KindFile, ScenarioFile, StartFile};
+use super::shape;
 use super::steels::{self, BODIES, MATERIAL_KEYS};
-use super::{Clutch, Scenario, ScenarioKind, Start, shape};
+use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 
 /// Kind, its name, the keys it must have, those it may have.
 type KindKeys = (KindFile, &'static str, &'static [&'static str], &'static [&'static str]);
@@ -53,6 +54,18 @@ const KINDS: [KindKeys; 5] = [
         ],
     ),
 ];
+
+impl Scenario {
+    /// Names of inputs that the paper does not publish.
+    pub fn assumptions(&self) -> &'static [&'static str] {
+        match self.kind {
+            ScenarioKind::Engagement { .. } => {
+                &["free_run_rpm", "reversing_torque_nm", "stop_stiffness_nm_per_rad"]
+            }
+            _ => &[],
+        }
+    }
+}
 
 /// Keys of a transient of which at least one is needed.
 const CHANGES: [&str; 4] = ["torque_step_nm", "torque_history_csv", "speed_history_csv", "overrun_rpm"];

@@ -6,9 +6,9 @@
 use toml_edit::{Item, Table, Value};
 
 use super::edit::{EditError, arcs, parse, replace};
-use super::law::{LAWS, LawFacts};
 use super::shape;
 use super::variables::{variable_names, variable_path};
+use crate::clutch::{LAWS, LawFacts};
 
 /// The text with `value` at `path`: a dotted path of the file, a row of an array by its number from 0 or by its `name`
 /// (`scenarios[high-10].amplitude_nm`), or a variable's short name (`r_i2_mm`). A key that is not there is added, also its

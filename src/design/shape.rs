@@ -78,6 +78,16 @@ pub(super) fn is_known(path: &str) -> bool {
     !path.is_empty() && shape_of(path).is_some()
 }
 
+/// Dotted paths of two steps whose last is `name`, or all but: `count` is `sprags.count`.
+pub(super) fn paths_that_end_in(name: &str) -> Vec<String> {
+    let last = name.rsplit('.').next().unwrap_or(name);
+    let tables = keys_of("");
+    let paths = || tables.iter().flat_map(|t| keys_of(t).into_iter().map(move |key| (*t, key)));
+    let all: Vec<&str> = paths().map(|(_, key)| key).collect();
+    let like = nearest(last, &all);
+    paths().filter(|(_, key)| Some(*key) == like).map(|(table, key)| format!("{table}.{key}")).collect()
+}
+
 /// "number" or "integer" where the key at a dotted path holds one.
 pub(super) fn kind_of(path: &str) -> Option<&'static str> {
     let kind = shape_of(path)?.get("type").and_then(Value::as_str)?;

@@ -2,11 +2,13 @@
 //!
 //! In: `[material]`. Out: [`Materials`], expansions, limits. Absent: the library itself (`material`). Equations: none.
 
+use super::Limits;
 use super::file::{BodyFile, MaterialFile};
 use super::findings::Findings;
+use super::inputs::{Input, inputs};
 use super::limits::LimitsFile;
 use super::shape::nearest;
-use super::{Limits, Materials};
+use crate::clutch::Materials;
 use crate::material::{Material, STEELS, Steel, steel};
 
 /// The keys that a material has; the first three make it complete where it has no name.
@@ -144,6 +146,28 @@ pub(super) fn expansions(file: &MaterialFile, out: &mut Findings) -> Option<[f64
         *expansion = value;
     }
     Some(found)
+}
+
+/// Of each table of a file that names a steel beside numbers of its own: that the numbers win, a sentence each.
+pub fn beside_the_name(source: &str) -> Vec<String> {
+    let all = inputs(source);
+    let names = all.iter().filter(|i| i.path.starts_with("material.") && i.path.ends_with(".name"));
+    let told = |name: &Input| {
+        let table = name.path.strip_suffix(".name")?;
+        let own: Vec<&str> = MATERIAL_KEYS
+            .into_iter()
+            .filter(|key| *key != "name" && all.iter().any(|i| i.path == format!("{table}.{key}")))
+            .collect();
+        (!own.is_empty()).then(|| {
+            format!(
+                "Note: [{table}] names {} and gives {} by number, which win over the name; remove the numbers to take those \
+                 of the steel",
+                name.text,
+                own.join(", ")
+            )
+        })
+    };
+    names.filter_map(told).collect()
 }
 
 /// `base` with the limits that the library allows the named materials: the lower Hertz pressure of sprag and races where

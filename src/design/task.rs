@@ -64,6 +64,8 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
             })
             .collect(),
         limits,
+        step_mm: task.step_mm,
+        reserve: task.reserve,
         seed: task.seed,
     }
 }

@@ -35,8 +35,22 @@ pub(super) struct OptimizeFile {
     /// Limits that replace those of the limits table for the search and are written into the new file.
     #[serde(default)]
     pub limits: LimitsFile,
+    /// Step in which lengths can be made, mm: those of the optimum are rounded to multiples of it, to a side that holds every
+    /// limit. 0: no rounding.
+    #[serde(default = "step_mm")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub step_mm: f64,
+    /// What every margin keeps beyond its limit: 0.05 holds each limit with 5 % to spare.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub reserve: f64,
     /// Seed of everything random.
     pub seed: u64,
+}
+
+/// What grinding of profiles keeps to without special care: a choice.
+fn step_mm() -> f64 {
+    0.005
 }
 
 /// One design variable with its bounds, in the unit of its name.

@@ -4,6 +4,7 @@
 //! comments are the schema's descriptions.
 
 use super::check::m;
+use crate::clutch::Tolerances;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -49,27 +50,6 @@ pub(super) struct TolerancesFile {
 /// Thermal expansion of steel, 1/K: 11.5e-6 (bearing and case-hardening steels, 20-100 C, DIN EN ISO 683-17).
 fn steel() -> f64 {
     11.5e-6
-}
-
-/// Half ranges of what a clutch is made to, SI; 0 where nothing varies.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Tolerances {
-    /// Inner track radius, m.
-    pub inner_race_radius_m: f64,
-    /// Outer track radius, m.
-    pub outer_race_radius_m: f64,
-    /// r_e, m.
-    pub sprag_outer_radius_m: f64,
-    /// All r_ik together, m.
-    pub sprag_inner_radius_m: f64,
-    /// Eccentricity of the races of unknown amount, all sprags in the worst gap, m.
-    pub run_out_m: f64,
-    /// mu_s.
-    pub friction: f64,
-    /// Inner race above outer race, K.
-    pub temperature_k: f64,
-    /// Thermal expansion of the races, 1/K.
-    pub expansion_per_k: f64,
 }
 
 impl TolerancesFile {

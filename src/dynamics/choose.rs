@@ -161,7 +161,7 @@ mod tests {
     }
 
     /// A clutch of the paper's shape with random inertias, friction and loads, at a random state with v = 0.
-    fn case(curve: &WedgeCurve, clutch: &crate::design::Clutch, seed: &mut u64) -> (Model, State, Place) {
+    fn case(curve: &WedgeCurve, clutch: &crate::clutch::Clutch, seed: &mut u64) -> (Model, State, Place) {
         let mut clutch = clutch.clone();
         clutch.sprags.mass_kg *= between(seed, 0.1, 10.0);
         clutch.sprags.inertia_kg_m2 *= between(seed, 0.1, 10.0);

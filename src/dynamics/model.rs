@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
 use super::drive::{Drive, Loads};
-use crate::design::Clutch;
+use crate::clutch::Clutch;
 use crate::friction::Stribeck;
 use crate::wedge::{WedgeCurve, WedgePoint};
 

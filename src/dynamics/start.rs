@@ -1,7 +1,7 @@
 //! Where runs start: spring preset, preload equilibrium, steady overrun.
 
 use super::model::{Model, Place, State};
-use crate::design::Clutch;
+use crate::clutch::Clutch;
 use crate::kinematics::levers;
 use crate::numeric::root;
 use crate::wedge::{StaticPoint, WedgeCurve, WedgePoint};

@@ -5,7 +5,7 @@ use nalgebra::Matrix2;
 use super::drive::Loads;
 use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::start::Overrun;
-use crate::design::Clutch;
+use crate::clutch::Clutch;
 use crate::numeric::root;
 use crate::wedge::WedgeCurve;
 

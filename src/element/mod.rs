@@ -14,7 +14,7 @@ mod motion;
 
 pub use motion::{Contact, Flange, Motion};
 
-use crate::design::{Clutch, Scenario, ScenarioKind, Start};
+use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{Drive, Memory, Model, Ramp, Run, RunSettings, SlipRecord, Stop, go_on};
 use crate::follow::Follow;
 use crate::scenario::{NoScenario, prepare};

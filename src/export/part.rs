@@ -5,7 +5,7 @@
 //! about O, x to the right, y up, C_e of the first sprag on +y. Seen so, the clutch engages when the inner race turns
 //! counterclockwise against the outer one.
 
-use crate::design::{Clutch, MassSource};
+use crate::clutch::{Clutch, MassSource};
 use crate::profile::{Outline, Profile, Segment};
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

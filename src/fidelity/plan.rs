@@ -1,7 +1,7 @@
 //! Which terms a scene cannot feel, before it runs.
 
-use crate::design::Scenario;
-use crate::scenario::{NoScenario, Prepared, Reduction, prepare_reduced};
+use crate::clutch::Scenario;
+use crate::scenario::{AtRest, NoScenario, Prepared, Reduction, prepare_reduced};
 
 /// One term, left out or kept.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,11 +37,11 @@ pub struct Plan {
 /// is repeated with all of them.
 const REACH: f64 = 2.5;
 
-/// Decide for `scenario`.
+/// Decide for `scenario`; `known`: a curve that need not be built again.
 ///
 /// # Errors
 /// [`NoScenario`] where the scenario has no start.
-pub fn plan(scenario: &Scenario) -> Result<(Plan, Prepared), NoScenario> {
+pub fn plan(scenario: &Scenario, known: Option<AtRest>) -> Result<(Plan, Prepared), NoScenario> {
     let (torque, speed) = (scenario.largest_torque_nm(), scenario.mean_speed_rad_s());
     let reach_nm = Some(REACH * torque);
     let mut reduction = Reduction { reach_nm };
@@ -49,7 +49,7 @@ pub fn plan(scenario: &Scenario) -> Result<(Plan, Prepared), NoScenario> {
     if speed == 0.0 {
         left_out.push(Term::free("centrifugal growth of the races", "the scene is at rest"));
     }
-    let prepared = prepare_reduced(scenario, &reduction)?;
+    let prepared = prepare_reduced(scenario, &reduction, known)?;
     let all = scenario.clutch.sprags.inner_arcs.len();
     let built = prepared.model.curve.first_arc() + prepared.model.curve.arc_count();
     if prepared.model.curve.end().0 == crate::wedge::EndReason::NotBuilt {

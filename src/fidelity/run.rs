@@ -1,7 +1,7 @@
 //! A scene run by its plan, or in full.
 
 use super::plan::{Plan, Term, plan};
-use crate::design::Scenario;
+use crate::clutch::Scenario;
 use crate::dynamics::Stop;
 use crate::scenario::{NoScenario, Prepared, Settings, Simulation, prepare, simulate_prepared};
 use crate::wedge::asks_for_slices;
@@ -33,7 +33,7 @@ pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<
         return whole(settings);
     }
     // What a shortened curve does not carry, the whole one may.
-    let Ok((Plan { reduction, mut left_out, mut kept }, prepared)) = plan(scenario) else {
+    let Ok((Plan { reduction, mut left_out, mut kept }, prepared)) = plan(scenario, None) else {
         return whole(settings);
     };
     let simulation = simulate_prepared(&prepared, settings, true);

@@ -3,7 +3,7 @@
 //! In: sliding speed, coefficients of a design. Out: coefficient and its slope. Absent: forces, directions, memory, any notion of
 //! sticking (the room that holds the state decides that). Equations: (12).
 
-use crate::design::Friction;
+use crate::clutch::Friction;
 
 /// Exponentially decaying friction law.
 ///

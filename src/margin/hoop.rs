@@ -1,7 +1,7 @@
 //! Hoop stress of the races: Lame's mean and with the bending between the sprags.
 
 use super::load::Case;
-use crate::design::TrackRun;
+use crate::clutch::TrackRun;
 use crate::race::Race;
 use crate::wedge::StaticPoint;
 

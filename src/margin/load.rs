@@ -9,6 +9,7 @@ use super::{NoMargins, curve_at_rest};
 use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
 use crate::profile::{Outline, Profile, clearance_m};
+use crate::scenario::AtRest;
 use crate::wedge::{Elastic, EndReason, StaticPoint, WedgeCurve};
 
 /// What the static limits are read from: the wedge without its energizing spring, which at such torques presses by parts in
@@ -25,6 +26,13 @@ pub struct LoadState {
     pub alpha_max_rad: f64,
     /// tan omega at first contact.
     pub first_tan_omega: f64,
+}
+
+impl LoadState {
+    /// The curve of `design`, whose state this is, for its scenes.
+    pub fn at_rest<'a>(&'a self, design: &'a Design) -> AtRest<'a> {
+        AtRest { clutch: &design.clutch, curve: &self.curve }
+    }
 }
 
 /// Build it.

@@ -19,14 +19,15 @@ mod table;
 pub use capacity::{Course, courses, nominal_capacity};
 pub use limits::{Limit, When, limit_of};
 pub use load::{LoadState, load_state};
-pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_curve};
+pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve};
 pub use row::{Demand, Margin, RESOLUTION, Rule};
 pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
-pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIMITS, SLIP};
+pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
 
-use crate::design::{Design, Limits, Scenario};
-use crate::scenario::{Settings, place_profile};
+use crate::clutch::Scenario;
+use crate::design::{Design, Limits};
+use crate::scenario::{AtRest, Settings};
 use crate::wedge::{NoCurve, WedgeCurve};
 
 /// Why no margins can be computed.
@@ -71,7 +72,7 @@ pub fn margins(
     for scenario in &design.scenarios {
         let required = scenes.contains(&scenario.name);
         if required || others {
-            rows.extend(scene_margins(scenario, limits, required, settings));
+            rows.extend(scene_margins(scenario, limits, required, Some(state.at_rest(design)), settings));
         }
     }
     Ok(rows)
@@ -106,17 +107,18 @@ pub fn load_margins(design: &Design, limits: &Limits, capacities: bool, state: &
 
 /// The margins of one scenario, slip, contact and, with a limit on it, Hertz pressure; none of a steady overrun, where A slides and nothing is to
 /// stick (limits `keep-contact` and `lift-off` hold that). Scenarios know nothing of one another, so a caller may
-/// take them in parallel.
+/// take them in parallel; `known`: a curve that need not be built again.
 pub fn scene_margins(
     scenario: &Scenario,
     limits: &Limits,
     required: bool,
+    known: Option<AtRest>,
     settings: &Settings,
 ) -> Vec<Margin> {
     if scenario.kind.is_overrun() {
         return Vec::new();
     }
-    scene_rows(scenario, &scene_demand(scenario, settings), limits, required)
+    scene_rows(scenario, &scene_demand(scenario, known, settings), limits, required)
 }
 
 /// The same margins from a demand that is known.
@@ -126,7 +128,7 @@ pub fn scene_rows(scenario: &Scenario, found: &SceneDemand, limits: &Limits, req
 
 /// The curve of a design at rest.
 fn curve_at_rest(design: &Design) -> Result<(crate::profile::Profile, WedgeCurve), NoMargins> {
-    let profile = place_profile(&design.clutch).map_err(NoMargins::Profile)?;
+    let profile = design.clutch.profile().map_err(NoMargins::Profile)?;
     let curve = WedgeCurve::build(&design.clutch, &profile, 0.0).map_err(NoMargins::Curve)?;
     Ok((profile, curve))
 }

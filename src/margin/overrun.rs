@@ -16,7 +16,7 @@ use crate::wedge::{FIRST_CONTACT_N, NoCurve, WedgeCurve};
 /// One steady overrun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OverrunPoint {
-    /// Speed of the race that runs, the other one at rest, rad/s, not negative.
+    /// Speed at which the inner contact slides: that of the race that runs, the other one at rest, rad/s, not negative.
     pub speed_rad_s: f64,
     /// Friction coefficient of the sliding inner contact at that speed, pure number.
     pub friction: f64,
@@ -49,27 +49,44 @@ const SPEEDS: usize = 25;
 /// # Errors
 /// [`NoCurve`] where the curve at rest cannot be built; a speed at which there is no first contact ends the curve.
 pub fn overrun_curve(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Result<OverrunCurve, NoCurve> {
-    let clutch = &design.clutch;
-    let ring = &state.curve.statics().elastic.outer_race;
-    let point = |curve: &WedgeCurve, speed_rad_s: f64| {
-        let mu = sliding_friction(clutch, speed_rad_s);
-        let found = overrun(clutch, curve, state.alpha_max_rad, mu);
-        OverrunPoint {
-            speed_rad_s,
-            friction: mu,
-            state: found,
-            swing: swing(clutch, curve, state.alpha_max_rad, &found, speed_rad_s),
-            growth_m: ring.centrifugal_bore_growth_m(curve.speed_rad_s()),
-            rotation_hoop_pa: ring.rotating_bore_hoop_pa(curve.speed_rad_s()),
-        }
-    };
     // The first arc is all that overrun feels.
-    let build = |speed: f64| WedgeCurve::build_reaching(clutch, &state.profile, speed, Some(0.0));
+    let build = |speed: f64| WedgeCurve::build_reaching(&design.clutch, &state.profile, speed, Some(0.0));
+    let point = |curve: &WedgeCurve, speed: f64| point(design, state, curve, speed);
     let rest = build(0.0)?;
     let speeds = (0..SPEEDS).map(|i| up_to_rad_s * i as f64 / (SPEEDS - 1) as f64);
     let inner_race = speeds.clone().map(|speed| point(&rest, speed)).collect();
     let outer_race = speeds.map_while(|speed| build(speed).ok().map(|curve| point(&curve, speed))).collect();
     Ok(OverrunCurve { outer_race, inner_race, gamma_rad: state.curve.statics().gamma0_rad() })
+}
+
+/// The steady overrun in which the outer race runs at `outer_rad_s` and the inner one slides past it at `sliding_rad_s`.
+///
+/// # Errors
+/// [`NoCurve`] where there is no first contact at that speed.
+pub fn overrun_at(
+    design: &Design,
+    state: &LoadState,
+    outer_rad_s: f64,
+    sliding_rad_s: f64,
+) -> Result<OverrunPoint, NoCurve> {
+    let curve = WedgeCurve::build_reaching(&design.clutch, &state.profile, outer_rad_s, Some(0.0))?;
+    Ok(point(design, state, &curve, sliding_rad_s))
+}
+
+/// The sprags at the speed of `curve`, sliding at `speed_rad_s`.
+fn point(design: &Design, state: &LoadState, curve: &WedgeCurve, speed_rad_s: f64) -> OverrunPoint {
+    let clutch = &design.clutch;
+    let ring = &state.curve.statics().elastic.outer_race;
+    let mu = sliding_friction(clutch, speed_rad_s);
+    let found = overrun(clutch, curve, state.alpha_max_rad, mu);
+    OverrunPoint {
+        speed_rad_s,
+        friction: mu,
+        state: found,
+        swing: swing(clutch, curve, state.alpha_max_rad, &found, speed_rad_s),
+        growth_m: ring.centrifugal_bore_growth_m(curve.speed_rad_s()),
+        rotation_hoop_pa: ring.rotating_bore_hoop_pa(curve.speed_rad_s()),
+    }
 }
 
 /// (opening moment of the centrifugal force, closing moment of the spring) on one sprag about G at first contact

@@ -28,7 +28,8 @@ pub use balance::{Round, SpragLoad, Stop, Survey};
 pub use rows::run_out_margins;
 
 use super::LoadState;
-use crate::design::{Carrier, Design};
+use crate::clutch::Carrier;
+use crate::design::Design;
 use crate::wedge::{EndReason, NoCurve, WedgeCurve};
 use std::f64::consts::TAU;
 

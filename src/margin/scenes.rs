@@ -3,8 +3,9 @@
 use super::limits::{Limit, Of};
 use super::row::{Demand, Margin};
 use super::table::LIMITS;
-use crate::design::{Limits, Scenario};
-use crate::scenario::{self, NoScenario, Prepared, Settings, prepare};
+use crate::clutch::Scenario;
+use crate::design::Limits;
+use crate::scenario::{self, AtRest, NoScenario, Prepared, Reduction, Settings, prepare_reduced};
 
 /// Rolling demand of one scenario, with the Hertz pressure that comes with it.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,10 +36,10 @@ impl SceneDemand {
     }
 }
 
-/// Evaluate one scenario's rolling demand.
-pub fn scene_demand(scene: &Scenario, settings: &Settings) -> SceneDemand {
+/// Evaluate one scenario's rolling demand; `known`: a curve that need not be built again.
+pub fn scene_demand(scene: &Scenario, known: Option<AtRest>, settings: &Settings) -> SceneDemand {
     let static_friction = scene.clutch.friction.static_;
-    match prepare(scene) {
+    match prepare_reduced(scene, &Reduction::default(), known) {
         Ok(p) => SceneDemand::of(scene, &p, scenario::demand(&p, settings)),
         Err(e) => SceneDemand { demand: Err(e), static_friction, hertz_peak_pa: 0.0 },
     }

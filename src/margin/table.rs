@@ -35,7 +35,8 @@ const HOOP: Limit = Limit {
 
 const BENDING: Limit = Limit {
     explanation: "Hoop stress of the race with the bending between the sprags, which press at single places: the mean of Lame \
-                  and what a ring under evenly spaced forces bends. More sprags or a thicker race lower it.",
+                  and what a ring under evenly spaced forces bends. Shown only where the file limits the mean stress alone, as makers' \
+                  allowed stresses do; its own key makes it count. More sprags or a thicker race lower it.",
     ..HOOP
 };
 
@@ -126,6 +127,19 @@ pub static KEEP_CONTACT: Limit = Limit {
                   centroid less far ahead of the sprag's outer centre, keeps contact.",
     of: Of::KeepContact,
     ..GRIP
+};
+
+/// No contact in overrun.
+pub static LIFT_OFF: Limit = Limit {
+    code: "lift-off",
+    key: Some("lift_off_by_rpm"),
+    name: |_| "spring moment against centrifugal opening moment at the speed by which the sprags must be off",
+    rule: Rule::Reserve,
+    explanation: "Moment of the energizing spring against that of the centrifugal force, at the overrun speed by which the \
+                      sprags are to have lifted off the inner race. A softer spring, or a centroid farther ahead of the \
+                      sprag's outer centre, lifts off earlier.",
+    of: Of::LiftOff,
+    ..KEEP_CONTACT
 };
 
 /// Friction that a scenario needs.
@@ -341,7 +355,8 @@ pub static LIMITS: &[&Limit] = &[
         unit: "mm",
         per_si: 1e3,
         rule: Rule::Clearance,
-        explanation: "Smallest distance between the outlines of neighbouring sprags from no load up to peak torque. Fewer or \
+        explanation: "Smallest distance between the outlines of neighbouring sprags from no load up to peak torque; they must not \
+                      touch, so the demand is 0, and the margin is that distance over the race gap. Fewer or \
                       narrower sprags leave more.",
         of: Of::Neighbours,
         ..GRIP
@@ -357,17 +372,7 @@ pub static LIMITS: &[&Limit] = &[
         ..GRIP
     },
     &KEEP_CONTACT,
-    &Limit {
-        code: "lift-off",
-        key: Some("lift_off_by_rpm"),
-        name: |_| "spring moment against centrifugal opening moment at the speed by which the sprags must be off",
-        rule: Rule::Reserve,
-        explanation: "Moment of the energizing spring against that of the centrifugal force, at the overrun speed by which the \
-                      sprags are to have lifted off the inner race. A softer spring, or a centroid farther ahead of the \
-                      sprag's outer centre, lifts off earlier.",
-        of: Of::LiftOff,
-        ..KEEP_CONTACT
-    },
+    &LIFT_OFF,
     &SLIP,
     &CONTACT,
     &Limit {

@@ -1,5 +1,5 @@
 //! Numerical tools that never heard of a machine part: duals, bracketed roots, quadrature, Chebyshev curves,
-//! Toeplitz systems, courses over time, quantiles.
+//! Toeplitz systems, courses over time, quantiles, decimals.
 //!
 //! In: functions of one variable, rows of matrices. Out: roots, integrals, approximations with a stated error.
 //! Absent: physics, units. Equations: none of the paper's.
@@ -13,3 +13,8 @@ pub mod quadrature;
 pub mod root;
 pub mod student;
 pub mod toeplitz;
+
+/// `value` to so many significant digits: the double that this decimal reads as, whose shortest text has no more of them.
+pub fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}

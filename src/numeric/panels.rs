@@ -3,6 +3,7 @@
 //! Built once, then evaluated without allocation: one Clenshaw recurrence serves all lanes.
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Degree of every panel. Sixteen leaves 1e-13 on the panels that the wedge curve uses (tested there).
 pub const DEGREE: usize = 16;
@@ -69,10 +70,8 @@ impl<const M: usize> Panel<M> {
     /// Fit the values of all lanes at the nodes.
     fn fit(from: f64, until: f64, grade: Grade, values: &[[f64; M]; NODES]) -> Self {
         let mut coefficients = [[0.0; M]; NODES];
-        for (k, row) in coefficients.iter_mut().enumerate() {
-            let scale = if k == 0 { 1.0 } else { 2.0 } / NODES as f64;
-            for (j, value) in values.iter().enumerate() {
-                let c = scale * (PI * k as f64 * (j as f64 + 0.5) / NODES as f64).cos();
+        for (row, weights) in coefficients.iter_mut().zip(WEIGHTS.iter()) {
+            for (value, c) in values.iter().zip(weights) {
                 for lane in 0..M {
                     row[lane] += c * value[lane];
                 }
@@ -196,6 +195,14 @@ impl<const M: usize> Panels<M> {
         &self.panels[self.panels[..last].partition_point(|p| p.until < x)]
     }
 }
+
+/// What the value at node j adds to the coefficient of T_k.
+static WEIGHTS: LazyLock<[[f64; NODES]; NODES]> = LazyLock::new(|| {
+    std::array::from_fn(|k| {
+        let scale = if k == 0 { 1.0 } else { 2.0 } / NODES as f64;
+        std::array::from_fn(|j| scale * (PI * k as f64 * (j as f64 + 0.5) / NODES as f64).cos())
+    })
+});
 
 fn node(j: usize) -> f64 {
     (PI * (j as f64 + 0.5) / NODES as f64).cos()

@@ -7,6 +7,7 @@
 
 use super::panels::{DEGREE, Grade, Panels};
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Pieces of a panel.
 pub const PIECES: usize = 8;
@@ -39,7 +40,7 @@ impl<const M: usize> Pieces<M> {
         last: &Panels<C>,
     ) -> Self {
         const { assert!(A + B + C == M, "a lane for each function") };
-        let basis = Basis::new();
+        let basis = &*BASIS;
         let mut out = Self { panels: Vec::new(), powers: Vec::new() };
         for (i, (from, until, grade)) in panels.spans().enumerate() {
             let scale = if grade == Grade::Smooth { 2.0 / (until - from) } else { 1.0 / (until - from) };
@@ -95,6 +96,8 @@ struct Basis {
     /// weight[k][j]: what the value at node j adds to the coefficient of v^k.
     weight: [[f64; POINTS]; POINTS],
 }
+
+static BASIS: LazyLock<Basis> = LazyLock::new(Basis::new);
 
 impl Basis {
     fn new() -> Self {

@@ -1,8 +1,8 @@
 //! A clutch as it may be made: every quantity with a tolerance somewhere in its range.
 
-use crate::design::{Clutch, Design, InnerArc, Tolerances};
+use crate::clutch::{Clutch, InnerArc, Tolerances};
+use crate::design::Design;
 use crate::profile::ProfileError;
-use crate::scenario::place_profile;
 
 /// Names of the tolerances, in the order of a corner's shares.
 pub const TOLERANCES: [&str; 7] = [
@@ -111,7 +111,7 @@ fn made_as(clutch: &Clutch, corner: &Corner) -> Result<Clutch, ProfileError> {
     races.inner_radius_m *= 1.0 + s[6] * t.temperature_k * t.expansion_per_k;
     races.outer_radius_m += s[1] * t.outer_race_radius_m + s[4] * t.run_out_m;
     let (inner, outer) = (races.inner_radius_m, races.outer_radius_m);
-    let body = place_profile(clutch)?;
+    let body = clutch.profile()?;
     let seat = body.reseated(s[2] * t.sprag_outer_radius_m, s[3] * t.sprag_inner_radius_m, inner, outer)?;
     let sprags = &mut made.sprags;
     sprags.outer_radius_m = seat.outer_radius_m;

@@ -18,6 +18,8 @@ use crate::margin::{CONTACT, Demand, Margin};
 
 /// Farthest a dimension goes from its value, as a share of it: a choice, beyond it is another clutch.
 const REACH: f64 = 0.2;
+/// Dimensions of the races that are asked for beside those of the sprag.
+const RINGS: [&str; 3] = ["races.width_mm", "races.outer_outside_radius_mm", "races.inner_bore_radius_mm"];
 /// Farthest a limit goes, as a factor.
 const FACTOR: f64 = 4.0;
 /// Share of a limit's value by which it is moved to see whether it bears on what does not hold.
@@ -83,18 +85,22 @@ impl Evaluate for LetGo<'_> {
             Number::Dimension => self.problem.look_at(x)?,
         };
         let off = (value - self.given) / self.range;
-        Ok(Evaluation { objectives: vec![-off, off], limits: with_slopes(&looked.rows), tie_break: 0.0 })
+        Ok(Evaluation {
+            objectives: vec![-off, off],
+            limits: with_slopes(self.problem, &looked.rows),
+            tie_break: 0.0,
+        })
     }
 }
 
 /// Margins, where a contact opens that of the contact for the slip margin too: that friction cannot suffice has no slope.
-fn with_slopes(rows: &[Margin]) -> Vec<f64> {
+fn with_slopes(problem: &ClutchProblem, rows: &[Margin]) -> Vec<f64> {
     let contact = |row: &Margin| {
         let lost = row.is_slip() && !matches!(row.demand, Demand::Value(_));
         let of = |r: &&Margin| r.limit == &CONTACT && (&r.scene, &r.corner) == (&row.scene, &row.corner);
         rows.iter().filter(|_| lost).find(of).filter(|r| r.margin() < 0.0)
     };
-    rows.iter().map(|row| contact(row).unwrap_or(row).margin()).collect()
+    rows.iter().map(|row| problem.left(contact(row).unwrap_or(row))).collect()
 }
 
 /// One limit alone, as large as it gets.
@@ -107,7 +113,8 @@ impl Evaluate for OneLimit<'_> {
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
         let looked = self.problem.look_at(x)?;
         let row = looked.rows.iter().find(|r| r.is_of(self.row));
-        let margin = row.ok_or_else(|| Failure::Refused(format!("no {}", self.row.code())))?.margin();
+        let row = row.ok_or_else(|| Failure::Refused(format!("no {}", self.row.code())))?;
+        let margin = self.problem.left(row);
         Ok(Evaluation { objectives: vec![margin], limits: Vec::new(), tie_break: 0.0 })
     }
 }
@@ -122,7 +129,7 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
     let x = &found.outcome.x;
     let (Ok(text), Ok(here)) = (problem.file_at(x), problem.look_at(x)) else { return Vec::new() };
     desk.begins("what would free it");
-    let tight: Vec<&Margin> = here.rows.iter().filter(|m| m.margin() < TIGHT).collect();
+    let tight: Vec<&Margin> = here.rows.iter().filter(|m| problem.left(m) < TIGHT).collect();
     let eased = |rows: &[Margin]| {
         tight.iter().any(|m| rows.iter().any(|r| r.is_of(m) && r.margin() > m.margin() + 1e-9))
     };
@@ -144,7 +151,8 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
     }
     let arcs = design.clutch.sprags.inner_arcs.len();
     let known: Vec<Option<String>> = found.variables.iter().map(|v| variable_path(&v.name, arcs)).collect();
-    for name in variable_names(arcs) {
+    let dimensions = variable_names(arcs).into_iter().chain(RINGS.map(str::to_owned));
+    for name in dimensions {
         let path = variable_path(&name, arcs);
         let value = path.as_ref().and_then(|path| value_at(&text, path)).filter(|v| *v != 0.0);
         let Some(value) = value.filter(|_| !known.contains(&path) && !is_whole(&name, arcs)) else {
@@ -197,5 +205,5 @@ pub fn alone(found: &Search, desk: &Desk) -> Vec<Alone> {
         let changes = changes.map(|i| (problem.variables()[i].clone(), outcome.x[i])).collect();
         Some(Alone { code: row.code(), margin: outcome.evaluation.least_margin(), changes })
     };
-    here.rows.iter().filter(|m| !m.held()).filter_map(one).collect()
+    here.rows.iter().filter(|m| !problem.held(m)).filter_map(one).collect()
 }

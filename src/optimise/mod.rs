@@ -1,7 +1,7 @@
 //! A clutch as a vector: made better under limits and bounds, by SQP, from several starts, at corners, on fronts.
 //!
 //! In: a problem as [`Evaluate`] (margins at x, or a failure), a start and a box; or a `Design` with its task.
-//! Out: [`Outcome`] of a climb; [`Search`], [`Front`], [`Robust`], [`Realised`], [`Relief`], [`Loosened`] of a design. Absent: files.
+//! Out: [`Outcome`] of a climb; [`Search`], [`Front`], [`Robust`], [`Realised`], [`Stepped`], [`Relief`], [`Loosened`] of a design. Absent: files.
 //! Equations: those of the methods, named in `sqp`, `swarm`, `pareto`, `robust`; none of the paper.
 
 mod branch;
@@ -12,6 +12,7 @@ mod driver;
 mod evaluate;
 mod freed;
 mod goal;
+mod grid;
 mod hessian;
 mod influence;
 mod journal;
@@ -42,6 +43,7 @@ pub use driver::maximise_least_margin;
 pub use evaluate::{Evaluate, Evaluation, Failure, Part};
 pub use freed::{Alone, Loosened, alone, loosened};
 pub use goal::{Goal, Measure};
+pub use grid::{OffGrid, OnGrid, Stepped, stepped};
 pub use influence::{Influence, NO_INFLUENCE, influence};
 pub use journal::{Entry, Journal, Run, Watch};
 pub use outcome::{Active, Cause, Iteration, Outcome, Refusal, Residuals, Status, Tried};

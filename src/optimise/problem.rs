@@ -5,11 +5,13 @@ use super::evaluate::{Evaluate, Evaluation, Failure};
 use super::goal::{Goal, Measure, measures};
 use super::smooth;
 use crate::design::{
-    Design, EditError, LIMIT_KEYS, Limits, Objective, Optimize, content, with_limits, with_values,
+    Design, EditError, LIMIT_KEYS, LimitKey, Limits, Objective, Optimize, content, with_limits, with_values,
 };
 use crate::fidelity;
-use crate::margin::{Margin, RunOut, SceneDemand, load_state, run_out_margins, scene_margins, scene_rows};
-use crate::scenario::{Settings, demand};
+use crate::margin::{
+    Margin, RESOLUTION, RunOut, SceneDemand, load_state, run_out_margins, scene_margins, scene_rows,
+};
+use crate::scenario::{AtRest, Settings, demand};
 
 /// How an evaluation is computed.
 #[derive(Debug, Clone)]
@@ -69,6 +71,8 @@ pub struct ClutchProblem {
     scenarios: Vec<String>,
     goals: Vec<Goal>,
     corners: Vec<Corner>,
+    /// What every limit keeps of its margin.
+    reserve: f64,
     fidelity: Fidelity,
     /// Scenarios of `[check]`.
     checked: Vec<String>,
@@ -107,6 +111,7 @@ impl ClutchProblem {
             scenarios: task.scenarios.clone(),
             goals: vec![Goal::plain(task.objective, &task.limits)],
             corners: vec![Corner::NOMINAL],
+            reserve: task.reserve,
             fidelity,
             checked: design.check_scenarios.clone(),
             as_checked: false,
@@ -194,8 +199,11 @@ impl ClutchProblem {
         let histories = &self.histories;
         let fidelity = self.fidelity.identity();
         let checked = if self.as_checked { format!("{:?}", self.checked) } else { String::new() };
+        // Nothing where there is none, so that earlier journals stay valid.
+        let reserve =
+            if self.reserve > 0.0 { format!("reserve {:?}\n", self.reserve) } else { String::new() };
         format!(
-            "{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
+            "{reserve}{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
             self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners
         )
     }
@@ -245,7 +253,7 @@ impl ClutchProblem {
         }
         let scenes = |rows: &mut Vec<Margin>, wanted: &dyn Fn(&String) -> bool| {
             for scenario in design.scenarios.iter().filter(|s| wanted(&s.name)) {
-                rows.extend(self.scene(scenario));
+                rows.extend(self.scene(scenario, state.at_rest(design)));
                 // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
                 if let Some(row) = rows.iter().find(|r| !r.computed()) {
                     return Err(Failure::Refused(row.name.clone()));
@@ -269,13 +277,13 @@ impl ClutchProblem {
         Ok(Looked { rows, measures: measures_of_goals })
     }
 
-    fn scene(&self, scenario: &crate::design::Scenario) -> Vec<Margin> {
+    fn scene(&self, scenario: &crate::clutch::Scenario, known: AtRest) -> Vec<Margin> {
         let Fidelity { settings, reduced } = &self.fidelity;
         if !reduced {
-            return scene_margins(scenario, &self.limits, true, settings);
+            return scene_margins(scenario, &self.limits, true, Some(known), settings);
         }
-        let whole = || scene_margins(scenario, &self.limits, true, settings);
-        let Ok((plan, prepared)) = fidelity::plan(scenario) else { return whole() };
+        let whole = || scene_margins(scenario, &self.limits, true, Some(known), settings);
+        let Ok((plan, prepared)) = fidelity::plan(scenario, Some(known)) else { return whole() };
         let found = demand(&prepared, settings);
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {
@@ -322,6 +330,21 @@ impl ClutchProblem {
         !self.is_raised(m)
     }
 
+    /// What every limit keeps of its margin.
+    pub fn reserve(&self) -> f64 {
+        self.reserve
+    }
+
+    /// A margin as a constraint, 0 or more being held: what is left of it beyond the reserve.
+    pub fn left(&self, m: &Margin) -> f64 {
+        m.margin() - self.reserve
+    }
+
+    /// Whether a margin is held with the reserve.
+    pub fn held(&self, m: &Margin) -> bool {
+        self.left(m) >= -RESOLUTION
+    }
+
     /// Names in the order of [`Evaluation`].
     pub fn names(&self, looked: &Looked) -> Names {
         Names {
@@ -342,7 +365,7 @@ impl ClutchProblem {
         let pressed = self.goals.iter().any(|g| g.objective == Objective::PeakPressure);
         Evaluation {
             objectives: looked.measures.iter().map(|m| self.goals[m.goal].scaled(m.value)).collect(),
-            limits: self.limit_rows(&looked.rows).iter().map(|m| m.margin()).collect(),
+            limits: self.limit_rows(&looked.rows).iter().map(|m| self.left(m)).collect(),
             // MPa to GPa.
             tie_break: match pressed {
                 true => 0.0,
@@ -364,7 +387,9 @@ impl ClutchProblem {
     /// # Errors
     /// [`EditError`].
     pub fn finished_file(&self, x: &[f64]) -> Result<String, EditError> {
-        with_all_limits(&self.file_at(x)?, &self.limits)
+        let text = self.file_at(x)?;
+        let said = self.parsed(&text).map_or_else(|_| Limits::default(), |design| design.limits);
+        with_sharper_limits(&text, &said, &self.limits)
     }
 }
 
@@ -374,9 +399,11 @@ impl Evaluate for ClutchProblem {
     }
 }
 
-/// `text` with every limit of `sharper` written into `[limits]`.
-fn with_all_limits(text: &str, sharper: &Limits) -> Result<String, EditError> {
+/// `text`, which says `said`, with what `sharper` says otherwise written into `[limits]`: what follows from the material goes
+/// on following from it.
+fn with_sharper_limits(text: &str, said: &Limits, sharper: &Limits) -> Result<String, EditError> {
+    let other = |key: &&LimitKey| key.value(sharper) != key.value(said);
     let values: Vec<(&str, f64)> =
-        LIMIT_KEYS.iter().filter_map(|key| Some((key.name, key.value(sharper)?))).collect();
+        LIMIT_KEYS.iter().filter(other).filter_map(|key| Some((key.name, key.value(sharper)?))).collect();
     with_limits(text, &values)
 }

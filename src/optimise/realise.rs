@@ -6,14 +6,17 @@
 use super::desk::Desk;
 use super::driver::maximise_least_margin;
 use super::evaluate::{Evaluate, Evaluation, Failure};
+use super::influence::Influence;
 use super::journal::Run;
-use super::problem::Looked;
-use super::search::{NoSearch, Search, search_problem};
+use super::outcome::Outcome;
+use super::problem::{ClutchProblem, Looked};
+use super::search::{NoSearch, Search, Variable, search_problem};
 use super::settings::Settings;
 use super::smooth::ROOM as ROOM_LEFT;
 use super::starts::Method;
-use crate::design::{Design, Flanks, Optimize, OptimizeVariable, with_flanks};
+use crate::design::{Design, EditError, Optimize, OptimizeVariable, other_variables, with_flanks};
 use crate::margin::load_state;
+use crate::profile::Flanks;
 use crate::profile::{MassProperties, Outline, Profile, STEEPEST_RAD, clearance_m};
 
 /// Neighbours keep clear by this at least, mm: a choice, above what rounding of the file leaves.
@@ -59,8 +62,10 @@ pub struct Realised {
     pub objective: f64,
     /// Design file with these flanks.
     pub file: String,
-    /// The search carried on with the flanks as variables in place of the centroid; none where it could not begin.
-    pub search: Option<Box<Search>>,
+    /// The clutch that can be made: the search carried on with the flanks as variables in place of the centroid.
+    pub made: Box<Search>,
+    /// Whether that search was begun; else `made` stands where the nearest flanks are.
+    pub searched: bool,
 }
 
 /// Flanks as a vector: half widths in mm, leans in rad.
@@ -134,7 +139,6 @@ pub fn realise(
     desk.begins("flanks for the centroid");
     let (nearest, ranges) = nearest(&optimum).map_err(fail)?;
     let text = with_flanks(&found.file, &nearest.flanks).map_err(|e| fail(e.to_string()))?;
-    let text = without_centroid(&text, task);
     let others: Vec<String> = found.searched.iter().filter(|n| !is_centroid(n)).cloned().collect();
     let x: Vec<f64> = found
         .searched
@@ -143,20 +147,63 @@ pub fn realise(
         .filter(|(n, _)| !is_centroid(n))
         .map(|(_, x)| *x)
         .collect();
-    let problem = found.problem.on(text.clone()).over(others.clone());
+    let joint = joint_task(task, found, &nearest.flanks, &ranges);
+    let text = with_flank_variables(&text, &joint).map_err(|e| fail(e.to_string()))?;
+    let problem = found.problem.on(text.clone()).over(others);
     let full = problem.at_fidelity(problem.fidelity().sharper());
     let looked = full.look_at(&x).map_err(NoSearch::Start)?;
     let objective = full.value(&looked, 0);
-    let joint = joint_task(task, found, &nearest.flanks, &ranges);
     desk.begins("search with flanks in place of the centroid");
-    let search = search_problem(
-        &problem.over(joint.variables.iter().map(|v| v.name.clone()).collect()),
-        &joint,
-        &method.carried_on(),
-        desk,
-    );
-    let search = search.ok().map(Box::new);
-    Ok(Some(Realised { nearest, looked, objective, file: text, search }))
+    let problem = problem.over(joint.variables.iter().map(|v| v.name.clone()).collect());
+    let (made, searched) = match search_problem(&problem, &joint, &method.carried_on(), desk) {
+        Ok(search) => (search, true),
+        Err(_) => (standing(found, &problem, &joint)?, false),
+    };
+    Ok(Some(Realised { nearest, looked, objective, file: text, made: Box::new(made), searched }))
+}
+
+/// A search with flanks that was not begun: its start as the answer.
+fn standing(found: &Search, problem: &ClutchProblem, joint: &Optimize) -> Result<Search, NoSearch> {
+    let variables: Vec<Variable> = joint
+        .variables
+        .iter()
+        .map(|v| Variable {
+            name: v.name.clone(),
+            min: v.min,
+            max: v.max,
+            given: v.given,
+            start: v.start,
+            best: v.start,
+            dropped: false,
+        })
+        .collect();
+    let x: Vec<f64> = variables.iter().map(|v| v.start).collect();
+    let as_searched = problem.look_at(&x).map_err(NoSearch::Start)?;
+    let best = problem.at_fidelity(problem.fidelity().sharper()).look_at(&x).map_err(NoSearch::Start)?;
+    let file = problem.finished_file(&x).map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
+    let (after, before) = (problem.value(&best, 0), problem.value(&as_searched, 0));
+    let evaluation = problem.evaluation(&as_searched);
+    Ok(Search {
+        names: problem.names(&as_searched),
+        start: best.rows.clone(),
+        objective: (after, after),
+        objective_error: (after - before).abs(),
+        best: best.rows,
+        as_searched: as_searched.rows,
+        influence: Influence::default(),
+        continuous: Vec::new(),
+        sensitivity: None,
+        prices: Vec::new(),
+        searched: variables.iter().map(|v| v.name.clone()).collect(),
+        starts: Vec::new(),
+        branches: Vec::new(),
+        outcome: Outcome::stopped_at(x, evaluation),
+        variables,
+        file,
+        problem: problem.clone(),
+        evaluations: 2,
+        ..found.clone()
+    })
 }
 
 /// Whether a variable is a coordinate of the sprag's centroid.
@@ -253,7 +300,7 @@ fn joint_task(task: &Optimize, found: &Search, flanks: &Flanks, ranges: &[(f64, 
     let mut variables: Vec<OptimizeVariable> = task
         .variables
         .iter()
-        .filter(|v| !is_centroid(&v.name) && !v.name.starts_with("flank_") && !v.whole)
+        .filter(|v| !is_centroid(&v.name) && !is_flank(&v.name) && !v.whole)
         .cloned()
         .map(|v| {
             let start = found.variables.iter().find(|f| f.name == v.name).map_or(v.start, |f| f.best);
@@ -277,10 +324,21 @@ fn joint_task(task: &Optimize, found: &Search, flanks: &Flanks, ranges: &[(f64, 
 }
 
 /// `[optimize]` variables of the centroid give way to the flanks, so that the file can be searched again.
-fn without_centroid(text: &str, task: &Optimize) -> String {
-    if task.variables.iter().any(|v| is_centroid(&v.name)) {
-        crate::design::without_variables(text, &|name| is_centroid(name)).unwrap_or_else(|_| text.to_owned())
-    } else {
-        text.to_owned()
-    }
+fn with_flank_variables(text: &str, joint: &Optimize) -> Result<String, EditError> {
+    // Bounds of lengths to whole micrometres, outwards.
+    let outwards = |v: &OptimizeVariable| match v.name.ends_with("_mm") {
+        true => ((v.min * 1e3).floor() / 1e3, (v.max * 1e3).ceil() / 1e3),
+        false => (v.min, v.max),
+    };
+    let flanks: Vec<(&str, (f64, f64))> = joint
+        .variables
+        .iter()
+        .filter(|v| is_flank(&v.name))
+        .map(|v| (v.name.as_str(), outwards(v)))
+        .collect();
+    other_variables(text, &|name| is_centroid(name) || is_flank(name), &flanks)
+}
+
+fn is_flank(name: &str) -> bool {
+    name.starts_with("flank_") || name.starts_with("sprags.flanks.")
 }

@@ -3,7 +3,8 @@
 use super::desk::Desk;
 use super::outcome::Outcome;
 use super::problem::ClutchProblem;
-use crate::design::{Design, ScenarioKind, with_keys};
+use crate::clutch::ScenarioKind;
+use crate::design::{Design, with_keys};
 use crate::margin::Margin;
 
 /// Factor between looks while a value that frees is sought.
@@ -52,7 +53,7 @@ pub fn relief(design: &Design, problem: &ClutchProblem, outcome: &Outcome, desk:
         return told;
     };
     desk.begins("what would free it");
-    let failing = |m: &&Margin| !m.held();
+    let failing = |m: &&Margin| !problem.held(m);
     let of_scene = |m: &Margin, name: &str| m.scene.as_deref() == Some(name);
     let rows = || looked.rows.iter().filter(failing);
     told.other_limits =
@@ -66,7 +67,7 @@ pub fn relief(design: &Design, problem: &ClutchProblem, outcome: &Outcome, desk:
             told.evaluations += 1;
             let changed = with_keys(&text, &[(key, value)]).ok()?;
             let found = alone.look(&alone.parsed(&changed).ok()?).ok()?;
-            Some(found.rows.iter().filter(|m| of_scene(m, &scene.name)).all(Margin::held))
+            Some(found.rows.iter().filter(|m| of_scene(m, &scene.name)).all(|m| alone.held(m)))
         };
         let mut turn = |key: String, what, unit, given: f64, ways: &[f64]| {
             let mut best =

@@ -13,7 +13,7 @@ use super::outcome::{Cause, Status};
 use super::problem::{ClutchProblem, Names};
 use super::search::{NoSearch, refused};
 use super::starts::Method;
-use crate::design::Tolerances;
+use crate::clutch::Tolerances;
 
 /// Limits farther away than this need no corner of their own: a choice; each corner is a whole evaluation more.
 const NEAR: f64 = 0.2;
@@ -141,7 +141,9 @@ pub fn spread(
         ends.iter().zip(&at_ends).filter(|(_, e)| e.is_err()).map(|(c, _)| c.name()).collect();
     let good: Vec<&Evaluation> = at_draws.iter().filter_map(|e| e.as_ref().ok()).collect();
     let count = nominal.objectives.len();
-    let row = |e: &Evaluation, j: usize| if j < count { e.objectives[j] } else { e.limits[j - count] };
+    let row = |e: &Evaluation, j: usize| {
+        if j < count { e.objectives[j] } else { e.limits[j - count] + problem.reserve() }
+    };
     let code = |names: &Names, j: usize| {
         if j < count { names.objectives[j].clone() } else { names.limits[j - count].clone() }
     };

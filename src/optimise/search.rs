@@ -80,17 +80,17 @@ pub struct Search {
 impl Search {
     /// Whether every margin of the design found is held.
     pub fn feasible(&self) -> bool {
-        self.best.iter().all(Margin::held)
+        self.best.iter().all(|m| self.problem.held(m))
     }
 
     /// Codes of the margins that the design found does not hold.
     pub fn not_held(&self) -> Vec<String> {
-        self.best.iter().filter(|m| !m.held()).map(Margin::code).collect()
+        self.best.iter().filter(|m| !self.problem.held(m)).map(Margin::code).collect()
     }
 
     /// Whether every margin of the given design was held.
     pub fn start_feasible(&self) -> bool {
-        self.start.iter().all(Margin::held)
+        self.start.iter().all(|m| self.problem.held(m))
     }
 
     /// Whether the objective is better than that of the given design.
@@ -118,6 +118,8 @@ pub enum NoSearch {
     Start(Failure),
     /// The question was refused.
     Refused(Refusal),
+    /// What is asked beside the search is out of range, with what is allowed.
+    Asked(String),
     /// No variable is left that moves a margin.
     NothingMoves(Vec<String>),
     /// Stopped before anything was found.
@@ -130,6 +132,7 @@ impl std::fmt::Display for NoSearch {
             Self::NoTask => write!(f, "the design has no [optimize] table"),
             Self::Start(e) => write!(f, "the given design cannot be evaluated: {e}"),
             Self::Refused(e) => write!(f, "{e}"),
+            Self::Asked(what) => write!(f, "{what}"),
             Self::NothingMoves(names) => {
                 write!(f, "no variable moves any margin, so there is nothing to search: {}", names.join(", "))
             }
@@ -283,7 +286,8 @@ pub fn search_problem(
         None => Vec::new(),
     };
     // A slip margin that is raised is no limit of the climb: where the best of it is less than is wanted, no design is one.
-    let short = best.rows.iter().filter(|m| problem.is_raised(m) && !m.held()).map(|m| -m.margin());
+    let short =
+        best.rows.iter().filter(|m| problem.is_raised(m) && !problem.held(m)).map(|m| -problem.left(m));
     let short = short.fold(0.0, f64::max);
     if outcome.status == Status::Converged && short > 0.0 {
         let fighting = outcome.active.limits.clone();

@@ -112,17 +112,14 @@ impl Profile {
         let oc_i = inner_race_m + arcs[0].0;
         let oc_e = outer_race_m - outer_radius_m;
         let e = centre_distance_m;
-        // (9): cos beta = (OC_i^2 + OC_e^2 - C_iC_e^2)/(2 OC_i OC_e), as 2 sin^2(beta/2) for digits.
-        let versed = (e * e - (oc_i - oc_e).powi(2)) / (2.0 * oc_i * oc_e);
-        if !(versed > 0.0 && versed < 1.0 && oc_e > 0.0) {
+        let Some(beta0) = azimuth_between(oc_i, oc_e, e) else {
             let height = outer_radius_m + arcs[0].0;
             return Err(ProfileError::DoesNotSpan {
                 least_m: height - e,
                 reach_m: height + e,
                 gap_m: outer_race_m - inner_race_m,
             });
-        }
-        let beta0 = 2.0 * (versed / 2.0).sqrt().asin();
+        };
         let mut placed: Vec<ProfileArc> = Vec::with_capacity(arcs.len());
         let mut centre = Vector2::new(oc_i * beta0.sin(), oc_i * beta0.cos() - oc_e);
         let mut from = 0.0;
@@ -150,6 +147,13 @@ impl Profile {
     pub fn end_turn_rad(&self) -> f64 {
         self.arcs.last().map_or(0.0, |a| a.until_rad)
     }
+}
+
+/// Angle beta at O, rad, of the triangle O C_i C_e with the sides OC_i, OC_e and C_iC_e, m; `None` unless it is one with less
+/// than a right angle there. (9) with its first line taken by half angles, cos beta = 1 - 2 sin^2(beta/2), for digits.
+pub(crate) fn azimuth_between(oc_i: f64, oc_e: f64, centre_distance: f64) -> Option<f64> {
+    let versed = (centre_distance * centre_distance - (oc_i - oc_e).powi(2)) / (2.0 * oc_i * oc_e);
+    (versed > 0.0 && versed < 1.0 && oc_e > 0.0).then(|| 2.0 * (0.5 * versed).sqrt().asin())
 }
 
 fn direction(beta0: f64, turn: f64) -> Vector2<f64> {

@@ -103,6 +103,11 @@ impl Race {
         }
     }
 
+    /// From the track to the other rim, m.
+    pub fn wall_m(&self) -> f64 {
+        self.outside_m - self.bore_m
+    }
+
     /// Axial width, m.
     pub fn width_m(&self) -> f64 {
         self.width_m

@@ -13,7 +13,7 @@ mod sheet;
 
 pub use live::{Live, live};
 
-use crate::design::{Clutch, Sprags};
+use crate::clutch::{Clutch, Sprags};
 use crate::profile::{Outline, Profile};
 
 /// Chords of a drawn outline leave its arcs by no more than this, m.
@@ -175,6 +175,11 @@ impl Drawing {
     /// The whole clutch with all its sprags and the radii of its races.
     pub fn clutch_svg(&self) -> String {
         clutch::svg(self)
+    }
+
+    /// The same small and without radii, at a scale at which a radius of `widest_m`, m, would just find room.
+    pub fn small_svg(&self, widest_m: f64) -> String {
+        clutch::small(self, widest_m)
     }
 
     /// One sprag large: outline, contacts, strut, centres, junctions, centroid, dimensions.

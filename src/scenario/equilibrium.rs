@@ -5,7 +5,7 @@ use super::demand::demand;
 use super::error::Scales;
 use super::prepare::Prepared;
 use super::simulate::{Settings, hertz_at, hertz_peak};
-use crate::design::{Scenario, ScenarioKind, Start};
+use crate::clutch::{Scenario, ScenarioKind, Start};
 use crate::dynamics::{Neglected, Peaks, SlipRecord, Stop, Swing, swing};
 use crate::wedge::StaticPoint;
 

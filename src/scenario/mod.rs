@@ -17,6 +17,6 @@ pub use equilibrium::overrun_swing;
 pub use error::Scales;
 pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures_of};
 pub use prepare::{
-    FreeRun, NoScenario, Prepared, Reduction, place_profile, prepare, prepare_reduced, sliding_friction,
+    AtRest, FreeRun, NoScenario, Prepared, Reduction, prepare, prepare_reduced, sliding_friction,
 };
 pub use simulate::{Settings, published_steps, simulate, simulate_prepared, simulate_published};

@@ -1,13 +1,13 @@
 //! From a scenario of the design to a model with an initial state.
 
-use crate::design::{Clutch, Scenario, ScenarioKind, Start};
+use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{
     Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
     settled, settled_end_torque_nm, settled_point,
 };
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
-use crate::profile::{Profile, ProfileError};
+use crate::profile::ProfileError;
 use crate::wedge::{NoCurve, StaticPoint, WedgeCurve};
 
 /// Why a scenario has no start. A named outcome, not a fault of the file.
@@ -106,22 +106,6 @@ impl Prepared {
     }
 }
 
-/// The profile of a clutch.
-///
-/// # Errors
-/// [`ProfileError`]; a design that was read from a file has none.
-pub fn place_profile(clutch: &Clutch) -> Result<Profile, ProfileError> {
-    let s = &clutch.sprags;
-    let arcs: Vec<(f64, f64)> = s.inner_arcs.iter().map(|a| (a.radius_m, a.until_rad)).collect();
-    Profile::new(
-        s.outer_radius_m,
-        s.centre_distance_m,
-        &arcs,
-        clutch.races.inner_radius_m,
-        clutch.races.outer_radius_m,
-    )
-}
-
 /// What the model of a scenario may do without.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Reduction {
@@ -129,20 +113,33 @@ pub struct Reduction {
     pub reach_nm: Option<f64>,
 }
 
+/// The whole curve at rest of a clutch, where it is known already: its scenes need not build it again.
+#[derive(Debug, Clone, Copy)]
+pub struct AtRest<'a> {
+    /// The clutch.
+    pub clutch: &'a Clutch,
+    /// Its curve at rest, all arcs.
+    pub curve: &'a WedgeCurve,
+}
+
 /// Build model and initial state.
 ///
 /// # Errors
 /// [`NoScenario`] where the clutch cannot carry the scenario's start.
 pub fn prepare(scenario: &Scenario) -> Result<Prepared, NoScenario> {
-    prepare_reduced(scenario, &Reduction::default())
+    prepare_reduced(scenario, &Reduction::default(), None)
 }
 
-/// As [`prepare`], without what `reduction` names.
+/// As [`prepare`], without what `reduction` names, and with the curve at rest that is `known`.
 ///
 /// # Errors
 /// As [`prepare`].
-pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoScenario> {
-    let mut prepared = at_start(scenario, reduction)?;
+pub fn prepare_reduced(
+    scenario: &Scenario,
+    reduction: &Reduction,
+    known: Option<AtRest>,
+) -> Result<Prepared, NoScenario> {
+    let mut prepared = at_start(scenario, reduction, known)?;
     prepared.start = scenario.start;
     let model = &mut prepared.model;
     // A curve that ends before is one that the scene meets the end of.
@@ -156,13 +153,20 @@ pub fn prepare_reduced(scenario: &Scenario, reduction: &Reduction) -> Result<Pre
 /// What part of the load that a scene's largest torque gives at rest a contact must carry to count as loaded: a choice.
 const LOADED: f64 = 0.01;
 
-fn at_start(scenario: &Scenario, reduction: &Reduction) -> Result<Prepared, NoScenario> {
+fn at_start(
+    scenario: &Scenario,
+    reduction: &Reduction,
+    known: Option<AtRest>,
+) -> Result<Prepared, NoScenario> {
     let clutch = &scenario.clutch;
-    let profile = place_profile(clutch).map_err(NoScenario::Profile)?;
+    let profile = clutch.profile().map_err(NoScenario::Profile)?;
     let build = |speed: f64| {
         WedgeCurve::build_reaching(clutch, &profile, speed, reduction.reach_nm).map_err(NoScenario::Curve)
     };
-    let at_rest = build(0.0)?;
+    let at_rest = match known.filter(|k| k.clutch == clutch) {
+        Some(known) => known.curve.reaching(reduction.reach_nm),
+        None => build(0.0)?,
+    };
     let alpha_max = alpha_max_rad(clutch, &at_rest);
     let stuck = |place| Mode { place, inner: Grip::Stick, outer: Grip::Stick };
     let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };

@@ -6,7 +6,7 @@ use super::equilibrium::steady;
 use super::error::Scales;
 use super::figures::ErrorEstimate;
 use super::prepare::{NoScenario, Prepared, prepare};
-use crate::design::Scenario;
+use crate::clutch::Scenario;
 use crate::dynamics::{Grip, History, Place, PublishedSettings, Run, SlipRecord, Stop, published, run};
 use crate::follow::Follow;
 

@@ -1,12 +1,17 @@
 //! A first design from what a clutch shall do.
 //!
-//! In: [`Ask`]: bore, torque, speed, safety, friction. Out: [`Sized`], a design file that holds its own limits, or what stands
-//! in the way and how near one comes. Absent: the search for a better one (`optimise`), allowables other than those in the
-//! file. Equations: triangle (9) turned round for e_1; the rest is asked of `margin`.
+//! In: [`Wish`], filled up to an [`Ask`]: space, torques, speeds, friction, steel, purpose. Out: [`Sized`], a design file that holds its own limits with
+//! the alternatives to it, or what stands in the way and how near one comes. Absent: the search for a better one
+//! (`optimise`), allowables other than those in the file. Equations: triangle (9) turned round for e_1; the rest is asked of
+//! `margin`.
 
 mod ask;
+mod finish;
 mod proportions;
+mod purpose;
 mod search;
 
-pub use ask::{Ask, BadAsk};
+pub use ask::{Ask, BadAsk, FRICTION, PEAK_OVER_NOMINAL, Wish, torques_nm};
+pub use finish::{Drag, Made};
+pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
 pub use search::{NoSize, Sized, Tried, size};

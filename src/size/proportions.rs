@@ -34,14 +34,24 @@ const WALLS: (f64, f64) = (0.15, 0.5);
 /// Normal force of the spring on a sprag in slow overrun, N, at a race space of 8.33 mm: Table 1's 1.25 N rounded up.
 const SPRING_N: f64 = 1.5;
 
-const STEEL_KG_M3: f64 = 7850.0;
+/// Races wider than the sprags, over the race space: 3 mm of 8.33.
+const WIDER: f64 = 0.36;
+
+/// Outside over outer track, from the catalogue.
+const OUTSIDE: f64 = 1.4;
+
+/// Longest sprags, m: of the race space, or of the width asked for.
+pub(super) fn longest_m(ask: &Ask, space_m: f64) -> f64 {
+    let most = LENGTHS.1 * space_m;
+    ask.width_m.map_or(most, |width| most.min(width - WIDER * space_m))
+}
 
 /// Sprags at first contact between races with the race space `space_m`, the profile's end and flanks still open.
 pub(super) fn draft(ask: &Ask, space_m: f64) -> Draft {
     let bore = 0.5 * ask.bore_m;
     let track = bore + (WALLS.0 * ask.bore_m).max(WALLS.1 * space_m);
     let outer = track + space_m;
-    let outside = 1.4 * outer;
+    let outside = ask.outside_m.map_or(OUTSIDE * outer, |d| (OUTSIDE * outer).min(0.5 * d));
     let (r_e, r_i) = (ARCS.0 * space_m, ARCS.1 * space_m);
     let count = (std::f64::consts::PI * (track + outer) / (PITCH * space_m)).floor() as usize;
     let mut draft = Draft {
@@ -56,31 +66,32 @@ pub(super) fn draft(ask: &Ask, space_m: f64) -> Draft {
         flanks_m: None,
         races_m: [bore, track, outer, outside],
         width_m: 0.0,
-        inertias_kg_m2: [0.0; 2],
         spring_nm_per_rad: 0.0,
         drag_nm: 0.0,
+        steel: ask.steel.name,
+        density_kg_m3: ask.steel.material.density_kg_m3,
         friction: ask.friction,
-        torques_nm: [ask.torque_nm, ask.safety * ask.torque_nm],
+        friction_from: ask.from[0],
+        torques_nm: [ask.torque_nm, ask.peak_nm],
+        torques_from: [ask.from[1], ask.from[2]],
         gaps_m: [8.46, 8.60].map(|gap| gap / 8.33 * space_m),
-        speed_rad_s: ask.speed_rad_s,
+        contact_rad_s: [ask.keep_contact_rad_s.filter(|&w| w > 0.0), ask.lift_off_rad_s],
+        // The clutch carries torque below the speed by which the sprags are off.
+        speed_rad_s: ask.keep_contact_rad_s.unwrap_or(0.0),
         step_duration_s: 0.02,
         abutment_nm_per_rad: 10.0 * ask.torque_nm,
+        scenes: Vec::new(),
     };
-    lengthen(&mut draft, LENGTHS.1 * space_m);
+    lengthen(&mut draft, longest_m(ask, space_m));
     spring(&mut draft, SPRING_N * (space_m / 8.33e-3).powi(2));
     draft
 }
 
-/// Length of the sprags and all that goes with it: races 0.36 of the race space wider (3 mm of 8.33), their inertias.
+/// Length of the sprags and all that goes with it: races wider than they are.
 pub(super) fn lengthen(draft: &mut Draft, length_m: f64) {
-    let [bore, track, outer, outside] = draft.races_m;
+    let [_, track, outer, _] = draft.races_m;
     draft.length_m = length_m;
-    draft.width_m = length_m + 0.36 * (outer - track);
-    // (pi/2) rho w (R^4 - r^4)
-    let ring = |r: f64, big: f64| {
-        std::f64::consts::FRAC_PI_2 * STEEL_KG_M3 * draft.width_m * (big.powi(4) - r.powi(4))
-    };
-    draft.inertias_kg_m2 = [ring(bore, track), ring(outer, outside)];
+    draft.width_m = length_m + WIDER * (outer - track);
 }
 
 /// A spring that presses each sprag with `normal_n` in slow overrun: drag by a coefficient of 0.1, and the stiffness with

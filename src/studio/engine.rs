@@ -103,7 +103,7 @@ impl Engine {
         let seen = self.seen(text)?;
         let scenario =
             seen.design.scenario(name).ok_or_else(|| Refused::said(format!("no scenario {name:?}")))?;
-        Ok(scene_row(&seen.design, scenario, settings))
+        Ok(scene_row(&seen.design, &seen.state, scenario, settings))
     }
 
     /// The course of one scenario.

@@ -126,6 +126,8 @@ pub struct Look {
     pub pinned_poses: Vec<Pose>,
     /// Torque at the end of the curve, N m, and why it ends.
     pub end: (f64, &'static str),
+    /// Nominal torque, N m; 0: the limits name none.
+    pub nominal_nm: f64,
     /// Largest torque that a limit names, N m.
     pub asked_nm: f64,
     /// Torque over windup, as SVG.
@@ -139,7 +141,8 @@ pub struct Look {
 pub struct Seen {
     /// The design.
     pub design: Design,
-    state: LoadState,
+    /// Its load state.
+    pub state: LoadState,
     rows: Vec<Margin>,
     samples: Vec<(StaticPoint, Closure)>,
 }
@@ -181,6 +184,7 @@ impl Seen {
             poses: self.samples.iter().map(Pose::new).collect(),
             pinned_poses: pinned.iter().flat_map(|p| p.samples.iter().map(Pose::new)).collect(),
             end: (self.state.curve.end_torque_nm(), self.state.curve.end().0.name()),
+            nominal_nm: limits.nominal_torque_nm.unwrap_or(0.0),
             asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
             windup_svg: self.windup(pinned).to_svg(),
             tangent_svg: self.tangent(pinned).to_svg(),

@@ -1,9 +1,10 @@
 //! What a scenario says, and its course to be played.
 
 use super::look::{MarginRow, row};
-use crate::design::{Design, Scenario};
+use crate::clutch::Scenario;
+use crate::design::Design;
 use crate::dynamics::{Grip, Place, Sample};
-use crate::margin::{SceneDemand, scene_demand, scene_rows};
+use crate::margin::{LoadState, SceneDemand, scene_demand, scene_rows};
 use crate::report::{Plot, Unit, significant};
 use crate::scenario::{NoScenario, Settings, prepare, simulate_prepared};
 use serde::Serialize;
@@ -53,15 +54,15 @@ const SAMPLES: usize = 900;
 /// Width of the plots, px: as wide as the page shows them, so that their letters keep theirs.
 const WIDTH: f64 = 480.0;
 
-/// Demand and margins of a scenario.
-pub fn scene_row(design: &Design, scenario: &Scenario, settings: &Settings) -> SceneRow {
+/// Demand and margins of a scenario of `design`, whose load state is `state`.
+pub fn scene_row(design: &Design, state: &LoadState, scenario: &Scenario, settings: &Settings) -> SceneRow {
     let name = scenario.name.clone();
     let static_friction = scenario.clutch.friction.static_;
     if scenario.kind.is_overrun() {
         let note = Some("steady overrun: nothing is to stick".to_owned());
         return SceneRow { name, required_friction: None, static_friction, margins: Vec::new(), note };
     }
-    let found: SceneDemand = scene_demand(scenario, settings);
+    let found: SceneDemand = scene_demand(scenario, Some(state.at_rest(design)), settings);
     let required = design.check_scenarios.contains(&scenario.name);
     let margins = scene_rows(scenario, &found, &design.limits, required).iter().map(row).collect();
     let note = found.demand.as_ref().err().map(ToString::to_string);

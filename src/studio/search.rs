@@ -1,12 +1,9 @@
 //! A search of the optimiser beside the page: begun, followed, stopped.
 
-use crate::answer::search::{MOST_STARTS, STARTS};
+use crate::answer::search::{Ask, Hints};
 use crate::design::Design;
 use crate::follow::Follow;
-use crate::optimise::{
-    Desk, Entry, Fidelity, Method, NoSearch, ProblemId, Record, Search, Settings, realise, search,
-};
-use crate::report::significant;
+use crate::optimise::{Entry, ProblemId, Record};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -72,42 +69,14 @@ impl Record for Counter<'_> {
 }
 
 fn tell(design: &Design, shared: &Shared) -> Progress {
-    let mut counter = Counter(&shared.evaluations);
-    let desk = Desk::new(&shared.follow, &mut counter);
-    let seed = design.optimize.as_ref().map_or(0, |task| task.seed);
-    let method =
-        Method { climb: Settings::default(), starts: STARTS, most_starts: MOST_STARTS, swarm: None, seed };
-    match search(design, &method, Fidelity::default(), &desk) {
-        Ok(found) => {
-            let made = made(design, &found, &method, &desk);
-            Progress {
-                running: false,
-                said: sentence(&found, made.is_some()),
-                text: Some(made.unwrap_or(found.file)),
-            }
+    let ask = Ask { follow: shared.follow.clone(), ..Ask::default() };
+    match design.optimise_recorded(&ask, &mut Counter(&shared.evaluations)) {
+        Ok(answer) => {
+            let story = &answer.story;
+            let said = story.verdict(&Hints::default());
+            Progress { running: false, said, text: Some(story.file().to_owned()) }
         }
         Err(why) => Progress { running: false, said: format!("no search: {why}"), text: None },
-    }
-}
-
-/// The same with flanks, where the search had a free centroid: the clutch that can be made.
-fn made(design: &Design, found: &Search, method: &Method, desk: &Desk) -> Option<String> {
-    let task = design.optimize.as_ref().filter(|_| found.feasible())?;
-    let realised: Result<_, NoSearch> = realise(found, task, method, desk);
-    let realised = realised.ok()??;
-    let further = realised.search.filter(|s| s.feasible()).map(|s| s.file);
-    Some(further.unwrap_or(realised.file))
-}
-
-fn sentence(found: &Search, made: bool) -> String {
-    let (before, after) = (significant(found.objective.0, 4), significant(found.objective.1, 4));
-    let what = format!("{}: {before} → {after}, {} evaluations", found.aim.name(), found.evaluations);
-    match (found.feasible(), made) {
-        (true, false) => format!("{what}; every limit held."),
-        (true, true) => {
-            format!("{what} with a free centroid; the design is the one with flanks that come nearest to it.")
-        }
-        (false, _) => format!("{what}; not held: {}.", found.not_held().join(", ")),
     }
 }
 

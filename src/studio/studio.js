@@ -7,7 +7,11 @@ const thisPage = Math.random().toString(36).slice(2);
 /* A question to the engine. `sprag` is the engine within the page where there is no server. */
 const engine = {
   async ask(what, question, signal) {
-    if (window.sprag) return window.sprag.ask(what, question);
+    if (window.sprag) {
+      const found = await window.sprag.ask(what, question);
+      signal?.throwIfAborted();
+      return found;
+    }
     let answer;
     try {
       answer = await fetch("ask/" + what, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ ...question, page: thisPage }), signal });
@@ -93,6 +97,7 @@ function buttons() {
   $("redo").disabled = state.redo.length === 0;
   $("swap").disabled = $("unpin").disabled = state.pinned === null;
   $("optimise").disabled = !state.look?.has_task || !!window.sprag;
+  if (window.sprag) $("optimise").title = "Searches need the program: sprag-design studio";
 }
 
 /* Margins ---------------------------------------------------------------------------------------------------------- */
@@ -329,9 +334,14 @@ $("mode").addEventListener("change", () => {
   const name = $("mode").value;
   state.scene = null;
   $("course").hidden = $("play").hidden = $("slowly").hidden = true;
-  $("scrub").value = name ? 0 : 600;
+  $("scrub").value = name ? 0 : nominal();
   if (name) newest("scene", (signal) => play(name, signal)).catch(complain); else pose();
 });
+// Where the torque's slider stands at nominal torque, or where nobody names one a good way up.
+function nominal() {
+  const { end, asked_nm, nominal_nm } = state.look, top = Math.min(end[0], 1.5 * asked_nm || end[0]);
+  return nominal_nm > 0 ? Math.min(1000, (1000 * nominal_nm) / top) : 600;
+}
 function stop() { state.playing = false; $("play").textContent = "Play"; }
 $("play").addEventListener("click", () => {
   if (state.playing) return stop();
@@ -389,8 +399,9 @@ $("save").addEventListener("click", () => {
   if (window.sprag) {
     const link = document.createElement("a");
     link.href = URL.createObjectURL(new Blob([state.text], { type: "application/toml" }));
-    link.download = "design.toml";
+    link.download = $("filename").value;
     link.click();
+    state.saved = state.text;
     return;
   }
   $("saving").returnValue = "";
@@ -430,13 +441,23 @@ $("optimise").addEventListener("click", async () => {
   } catch (error) { complain(error); } finally { searching = false; $("optimise").textContent = "Optimise"; }
 });
 
-(async () => {
+async function load(first) {
   try {
-    const first = await engine.ask("open", {});
+    if (state.text) { state.undo.push(state.text); state.redo = []; }
     state.text = state.saved = first.text;
     $("file").textContent = first.file;
     $("filename").value = first.save_as;
-    $("scrub").value = 600;
     await look();
+    $("scrub").value = nominal();
+    pose();
   } catch (error) { complain(error); $("banner").textContent = error.message || String(error); $("banner").className = "verdict broken"; }
-})();
+}
+$("load").hidden = !window.sprag;
+const chosen = $("load").querySelector("input");
+$("load").addEventListener("click", (event) => event.target !== chosen && chosen.click());
+chosen.addEventListener("change", async () => {
+  const file = chosen.files[0];
+  chosen.value = "";
+  if (file) await load({ text: await file.text(), file: file.name, save_as: file.name });
+});
+engine.ask("open", {}).then(load, complain);

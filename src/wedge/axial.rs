@@ -1,11 +1,11 @@
 //! How the contacts of a clutch are loaded along the axis.
 
+use crate::clutch::{self, Clutch, ContactLaw};
 use crate::contact::half_space::{HalfSpaceLine, HalfSpaceStatus};
 use crate::contact::{
     Approach, AxialFit, ContactError, Edge, EndProfile, Flank, LineContact, Peak, RollerLaw, ShapedLaw,
     SliceCompliance, SliceContact, SliceRatio, SliceStatus,
 };
-use crate::design::{self, Clutch, ContactLaw};
 use crate::material::PlaneState;
 
 /// Which contact of a sprag.
@@ -152,14 +152,14 @@ fn fit(clutch: &Clutch, contact: &LineContact, side: Side) -> Result<AxialFit, C
     // A profile is made for a load on the whole sprag.
     let whole = LineContact { length_m: sprag_m, ..*contact };
     let profile = match &axial.end_profile {
-        design::EndProfile::Square => EndProfile::Square,
-        design::EndProfile::Lundberg { design_load_n } => EndProfile::lundberg(&whole, *design_load_n)?,
-        design::EndProfile::Crown { radius_m } => EndProfile::crown_radius(*radius_m, sprag_m)?,
-        design::EndProfile::EndRelief { length_m, radius_m } => EndProfile::end_relief(*length_m, *radius_m)?,
-        design::EndProfile::FujiwaraKawase { design_load_n, load_factor, crowned_ratio, end_drop_m } => {
+        clutch::EndProfile::Square => EndProfile::Square,
+        clutch::EndProfile::Lundberg { design_load_n } => EndProfile::lundberg(&whole, *design_load_n)?,
+        clutch::EndProfile::Crown { radius_m } => EndProfile::crown_radius(*radius_m, sprag_m)?,
+        clutch::EndProfile::EndRelief { length_m, radius_m } => EndProfile::end_relief(*length_m, *radius_m)?,
+        clutch::EndProfile::FujiwaraKawase { design_load_n, load_factor, crowned_ratio, end_drop_m } => {
             EndProfile::fujiwara_kawase(&whole, *design_load_n, *load_factor, *crowned_ratio, *end_drop_m)?
         }
-        design::EndProfile::Table { points_m } => EndProfile::table(points_m.clone())?,
+        clutch::EndProfile::Table { points_m } => EndProfile::table(points_m.clone())?,
     };
     let tilt_rad = match side {
         Side::Inner => axial.tilt_rad,

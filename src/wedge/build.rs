@@ -4,7 +4,7 @@ use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
 use super::patch::InnerCurvature;
 use super::table::{ArcBuilder, ArcTable};
-use crate::design::{Carrier, Clutch};
+use crate::clutch::{Carrier, Clutch};
 use crate::numeric::root;
 use crate::profile::Profile;
 
@@ -132,9 +132,7 @@ impl WedgeCurve {
                 end = reason;
                 break;
             }
-            if let (Some(reach), Ok(c)) = (reach_nm, statics.closure(k, n_until, speed_rad_s, shift))
-                && c.torque_nm(statics.count).v > reach
-            {
+            if reach_nm.is_some_and(|reach| arcs[arcs.len() - 1].torque_until_nm > reach) {
                 end = EndReason::NotBuilt;
                 break;
             }
@@ -143,6 +141,17 @@ impl WedgeCurve {
             return Err(NoCurve::NoFirstContact);
         }
         Ok(Self { statics, speed_rad_s, exponent, alpha0, first, arcs, end, touch })
+    }
+
+    /// This curve without the arcs after the one that carries `reach_nm` (N m): what [`Self::build_reaching`] builds, for who has
+    /// the whole curve already.
+    pub fn reaching(&self, reach_nm: Option<f64>) -> Self {
+        let carries = |a: &ArcTable| reach_nm.is_some_and(|reach| a.torque_until_nm > reach);
+        // The last arc ends for a reason of its own.
+        match self.arcs.iter().position(carries).filter(|k| k + 1 < self.arcs.len()) {
+            Some(k) => Self { arcs: self.arcs[..=k].to_vec(), end: EndReason::NotBuilt, ..self.clone() },
+            None => self.clone(),
+        }
     }
 }
 
@@ -163,23 +172,29 @@ pub(super) fn arc_end(
     let beta0 = statics.profile.beta0_rad;
     let last = k + 1 == statics.profile.arcs.len();
     let state = |n: f64| statics.closure(k, n, speed, shift).ok();
-    // Positive while the arc goes on: turn left over, and torque still rising.
-    let left = |n: f64| state(n).map_or(-1.0, |c| until - c.turn_rad(beta0));
-    let rising = |n: f64| state(n).map_or(-1.0, |c| c.torque_nm(1).d);
+    // Positive while the arc goes on: turn left over, and torque still rising; both negative where nothing is in balance.
+    let both = |n: f64| state(n).map(|c| [until - c.turn_rad(beta0), c.torque_nm(1).d]);
+    let left = |n: f64| both(n).map_or(-1.0, |[left, _]| left);
+    let rising = |n: f64| both(n).map_or(-1.0, |[_, rising]| rising);
     let (mut a, mut n) = (n_from.max(FIRST_CONTACT_N), (1.02 * n_from).max(1.0));
+    let (mut at_a, mut at_n) = (None, both(n));
     for _ in 0..4000 {
-        if left(n) <= 0.0 && state(n).is_some() || rising(n) <= 0.0 {
+        if at_n.is_none_or(|[left, rising]| left <= 0.0 || rising <= 0.0) {
             break;
         }
-        a = n;
+        (a, at_a) = (n, at_n);
         n *= 1.1;
+        at_n = both(n);
     }
-    let off = state(n).is_some() && left(n) <= 0.0;
-    let n_off = if off { root::bracketed(a, n, left(a), left(n), 1e-15 * n, left)? } else { n };
-    if rising(n_off) > 0.0 && off {
+    let [left_a, rising_a] = at_a.or_else(|| both(a)).unwrap_or([-1.0; 2]);
+    let [left_n, rising_n] = at_n.unwrap_or([-1.0; 2]);
+    let off = at_n.is_some() && left_n <= 0.0;
+    let n_off = if off { root::bracketed(a, n, left_a, left_n, 1e-15 * n, left)? } else { n };
+    let rising_off = if off { rising(n_off) } else { rising_n };
+    if rising_off > 0.0 && off {
         return Some((n_off, last.then_some(EndReason::OffProfile)));
     }
-    let n_over = root::bracketed(a, n_off, rising(a), rising(n_off), 1e-12 * n, rising)?;
+    let n_over = root::bracketed(a, n_off, rising_a, rising_off, 1e-12 * n, rising)?;
     // Stay where the closure exists.
     let n_over = if state(n_over).is_some() { n_over } else { n_over * (1.0 - 1e-9) };
     state(n_over).filter(|_| n_over > n_from)?;

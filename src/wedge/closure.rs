@@ -3,7 +3,7 @@
 use super::elastic::{Elastic, NoElastic};
 use super::off_centre::turned;
 use super::patch::{InnerApproach, InnerCurvature};
-use crate::design::{Carrier, Clutch};
+use crate::clutch::{Carrier, Clutch};
 use crate::kinematics::{self, Deformations, Lengths, Radii};
 use crate::numeric::dual::Dual;
 use crate::profile::Profile;

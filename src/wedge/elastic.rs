@@ -1,10 +1,10 @@
 //! What yields when a sprag is pressed between the races: every compliance of one design, ready to evaluate.
 
 use super::axial::shaped;
+use crate::clutch::{Clutch, ContactLaw, StressState};
 use crate::contact::{
     Approach, ContactError, CurvedApproach, HertzBody, LayerBody, LineContact, SliceRatio, layer_transition_m,
 };
-use crate::design::{Clutch, ContactLaw, StressState};
 use crate::kinematics::Deformations;
 use crate::material::{Material, PlaneState};
 use crate::numeric::dual::Dual;
@@ -17,6 +17,11 @@ pub enum NoElastic {
     Contact(ContactError),
     /// A race.
     Race(RaceError),
+    /// A race too thin for what it is taken to be: a half-plane that ends in a ring. Its wall, m.
+    ThinRace {
+        /// Wall, m.
+        wall_m: f64,
+    },
 }
 
 impl std::fmt::Display for NoElastic {
@@ -24,6 +29,11 @@ impl std::fmt::Display for NoElastic {
         match self {
             Self::Contact(why) => write!(f, "the contact law cannot be set up: {why}"),
             Self::Race(why) => write!(f, "a race cannot be set up: {why}"),
+            Self::ThinRace { wall_m } => write!(
+                f,
+                "a race with a wall of {:.4} mm between its track and its other face is too thin to be a ring that bends",
+                wall_m * 1e3
+            ),
         }
     }
 }
@@ -101,20 +111,22 @@ impl Elastic {
         };
         let half_height_m = 0.5 * (r.outer_radius_m - r.inner_radius_m);
         let half = [race(true, m.inner_race)?, race(false, m.outer_race)?];
-        let law = |contact: &LineContact, side: &Race, wall_m: f64| match (clutch.contact, &ratio) {
-            (ContactLaw::Elastic { state }, _) => elastic_law(contact, clutch, side, state),
-            (ContactLaw::Roller { coefficient }, _) => Approach::roller(contact, coefficient),
-            (ContactLaw::Slice { coefficient }, Some(ratio)) => {
-                Approach::slice(contact, coefficient, ratio.clone())
-            }
-            (ContactLaw::Hertz, _) => Approach::hertz(
-                contact,
-                [
-                    HertzBody { material: m.sprag, depth_m: half_height_m },
-                    HertzBody { material: *side.material(), depth_m: wall_m },
-                ],
-            ),
-            _ => Approach::din26281(contact),
+        let law = |contact: &LineContact, side: &Race, wall_m: f64| -> Result<Approach, NoElastic> {
+            Ok(match (clutch.contact, &ratio) {
+                (ContactLaw::Elastic { state }, _) => return elastic_law(contact, clutch, side, state),
+                (ContactLaw::Roller { coefficient }, _) => Approach::roller(contact, coefficient),
+                (ContactLaw::Slice { coefficient }, Some(ratio)) => {
+                    Approach::slice(contact, coefficient, ratio.clone())
+                }
+                (ContactLaw::Hertz, _) => Approach::hertz(
+                    contact,
+                    [
+                        HertzBody { material: m.sprag, depth_m: half_height_m },
+                        HertzBody { material: *side.material(), depth_m: wall_m },
+                    ],
+                ),
+                _ => Approach::din26281(contact),
+            }?)
         };
         let inner_wall_m = r.inner_radius_m - r.inner_bore_radius_m;
         let outer_wall_m = r.outer_outside_radius_m - r.outer_radius_m;
@@ -210,7 +222,7 @@ fn elastic_law(
     clutch: &Clutch,
     race: &Race,
     state: StressState,
-) -> Result<Approach, ContactError> {
+) -> Result<Approach, NoElastic> {
     let sprag = clutch.materials.sprag;
     let height_m = clutch.races.outer_radius_m - clutch.races.inner_radius_m;
     let (far, transitions) = match state {
@@ -222,11 +234,14 @@ fn elastic_law(
     };
     let disc_depth_m = height_m * (0.5 * far.transverse_ratio(sprag.poisson_ratio) - 0.5).exp();
     let ring_depth_m = race.effective_depth_m(clutch.sprags.count, far);
-    Approach::layered(
+    if !ring_depth_m.is_finite() {
+        return Err(NoElastic::ThinRace { wall_m: race.wall_m() });
+    }
+    Ok(Approach::layered(
         contact,
         [
             LayerBody { material: sprag, depth_m: disc_depth_m, transition_m: transitions[0] },
             LayerBody { material: *race.material(), depth_m: ring_depth_m, transition_m: transitions[1] },
         ],
-    )
+    )?)
 }

@@ -3,7 +3,7 @@
 
 use super::closure::Statics;
 use super::curve::{WedgeCurve, WedgePoint};
-use crate::design::Carrier;
+use crate::clutch::Carrier;
 use crate::kinematics::{Deformations, Radii, beta_off_centre, lengths};
 use crate::numeric::dual::Dual;
 

@@ -9,8 +9,8 @@
 
 use super::closure::{Closure, Statics};
 use super::curve::WedgeCurve;
+use crate::clutch::{Clutch, InnerArc};
 use crate::contact::{LineContact, step_peak_error};
-use crate::design::{Clutch, InnerArc};
 use crate::numeric::{dual::Dual, root};
 
 /// The curvature that a law which knows the radius is given at A.

@@ -1,8 +1,9 @@
 //! Table 1's clutch in SI, written out by hand so that the statics are tested without the file reader.
 #![allow(dead_code)]
 
-use sprag_design::design::*;
+use sprag_design::clutch::*;
 use sprag_design::material::Material;
+use sprag_design::profile::Flanks;
 use sprag_design::profile::Profile;
 
 pub const SINGLE: [(f64, f64); 1] = [(4.02e-3, 0.45)];

@@ -132,8 +132,8 @@ fn warm_tracks_grow_by_alpha_r_delta_t() {
     println!("first contact turned by {turn} rad");
     assert!((run.first_turn_rad - turn).abs() < 1e-9 && turn < 0.0);
     // Junctions stay where they are on the sprag: distance of the first from C_e.
-    let place = |c: &sprag_design::design::Clutch| {
-        let p = sprag_design::scenario::place_profile(c).unwrap();
+    let place = |c: &sprag_design::clutch::Clutch| {
+        let p = c.profile().unwrap();
         let arc = p.arcs[0];
         (arc.centre_m + arc.radius_m * p.contact_direction(arc.until_rad)).norm()
     };

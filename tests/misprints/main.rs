@@ -7,7 +7,7 @@ mod common;
 mod geometry;
 mod motion;
 
-use sprag_design::design::Clutch;
+use sprag_design::clutch::Clutch;
 use sprag_design::wedge::{Closure, WedgeCurve};
 
 const COUNT: f64 = 12.0;

@@ -2,10 +2,10 @@
 
 use super::clutch::{HUANG, PEER_A, changed, design, problem, search_with, task};
 use sprag_design::Follow;
-use sprag_design::design::{Design, MassSource};
+use sprag_design::clutch::MassSource;
+use sprag_design::design::Design;
 use sprag_design::optimise::*;
 use sprag_design::profile::{Flanks, Outline, clearance_m};
-use sprag_design::scenario::place_profile;
 
 fn realised(design: &Design) -> (Search, Realised) {
     let method = Method::default();
@@ -36,7 +36,8 @@ fn the_optimum_with_a_free_centroid_can_be_made() {
     // Another inertia at 12 000 rpm costs little.
     assert!((made.objective - found.objective.1).abs() < 1e-3, "{} {}", made.objective, found.objective.1);
     assert!(made.looked.rows.iter().all(|m| m.held()));
-    let on = made.search.expect("searched on");
+    assert!(made.searched);
+    let on = &made.made;
     println!("{:?} -> {:?}", made.objective, on.objective);
     assert!(on.feasible() && on.objective.1 >= made.objective - 1e-6);
 }
@@ -66,7 +67,7 @@ fn a_centroid_out_of_reach_has_a_nearest() {
     let near = &made.nearest;
     assert!(!near.reached() && near.distance_m > 0.3e-3, "{near:?}");
     let optimum = Design::parse(&found.file, "x.toml").unwrap();
-    let profile = place_profile(&optimum.clutch).unwrap();
+    let profile = optimum.clutch.profile().unwrap();
     let mut random = fastrand::Rng::with_seed(5);
     let mut closed = 0;
     for _ in 0..20_000 {

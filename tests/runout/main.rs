@@ -7,7 +7,7 @@ mod common;
 mod ring;
 mod sprag;
 
-use sprag_design::design::Carrier;
+use sprag_design::clutch::Carrier;
 
 type Vector = nalgebra::Vector2<f64>;
 

@@ -2,7 +2,8 @@
 
 use super::Vector;
 use super::common::{MULTI, clutch};
-use sprag_design::design::{Carrier, Design};
+use sprag_design::clutch::Carrier;
+use sprag_design::design::Design;
 use sprag_design::margin::{LoadState, Margin, RunOut, load_margins, load_state, run_out_margins};
 use sprag_design::wedge::{StaticPoint, WedgeCurve};
 

@@ -2,7 +2,7 @@
 
 use super::common::{MULTI, SINGLE, clutch};
 use super::{CARRIERS, Vector};
-use sprag_design::design::Carrier;
+use sprag_design::clutch::Carrier;
 use sprag_design::wedge::{Closure, WedgeCurve};
 
 const OFFSETS: [[f64; 2]; 5] = [[0.0, 0.0], [-30e-6, 0.0], [20e-6, 0.0], [0.0, 25e-6], [-15e-6, -40e-6]];

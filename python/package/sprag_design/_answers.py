@@ -675,6 +675,42 @@ class Found:
 
 
 @dataclass(frozen=True)
+class Bound:
+    """A design that bounds the answer and is none itself."""
+
+    variables: dict[str, float]
+    """Values of its variables."""
+    objective: float
+    """The objective, in its own unit."""
+    evaluations: int
+    """Evaluations of the clutch."""
+
+
+@dataclass(frozen=True)
+class CodeMargin:
+    """A margin in short."""
+
+    code: str
+    margin: float
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Lengths in steps that can be made."""
+
+    step_mm: float
+    """The step, mm."""
+    variables: tuple[str, ...]
+    """Variables that have it."""
+    found: bool
+    """Whether a point near the optimum holds every limit, so that it is the answer."""
+    not_held: tuple[CodeMargin, ...]
+    """Else what the nearest point does not hold; margins less the reserve."""
+    evaluations: int
+    """Evaluations of the clutch."""
+
+
+@dataclass(frozen=True)
 class Optimum(_Common):
     """What a search for a better design found."""
 
@@ -703,6 +739,46 @@ class Optimum(_Common):
     """Limits that no design near holds together."""
     dropped_variables: tuple[str, ...]
     """Variables that move no margin."""
+    makeable: bool
+    """Whether it can be made: a search that is stopped may have a free centroid, for which there are no flanks yet."""
+    free_centroid: Bound | None
+    """What the search came to with its centroid free and its mass given."""
+    unrounded: Bound | None
+    """The answer before its lengths were put in steps."""
+    steps: Steps | None
+    """Its lengths in steps."""
+    reserve: float
+    """What every limit keeps of its margin."""
+    active_constraints: tuple[str, ...]
+    """What holds the optimum where it is."""
+    prices: tuple[dict[str, Any], ...]
+    """What each active limit and bound costs."""
+    influence: dict[str, Any]
+    """Change of each margin over the whole range of each variable, at the start."""
+    sensitivities: dict[str, Any] | None
+    """The same at the optimum."""
+    starts: tuple[dict[str, Any], ...]
+    """Climbs."""
+    optima: dict[str, Any]
+    """Optima that they met, and how many are to be expected."""
+    whole_numbers: tuple[dict[str, Any], ...]
+    """Whole numbers that were tried."""
+    change_in_full: tuple[dict[str, Any], ...]
+    """What margins gained or lost when they were looked at in full."""
+    realised: dict[str, Any] | None
+    """Flanks for a free centroid."""
+    relief: dict[str, Any] | None
+    """What would free an infeasible problem."""
+    pareto: tuple[dict[str, Any], ...]
+    """Points of the front, or the optimum as the only one."""
+    tolerances: dict[str, Any] | None
+    """The optimum as it may be made."""
+    robust: dict[str, Any] | None
+    """The design that holds at every corner of the tolerances."""
+    seed: int
+    """Seed of everything random."""
+    not_done: tuple[str, ...]
+    """What was asked and could not be done."""
 
     def to_pandas(self) -> pd.DataFrame:
         """Variables before and after. Needs pandas."""
@@ -717,7 +793,8 @@ def optimum_of(common: str, body: str, design: Design) -> Optimum:
     names = [v.name for v in design.problem().variables]
 
     def ordered(values: dict[str, float]) -> dict[str, float]:
-        return {name: values[name] for name in names}
+        known = {name: values[name] for name in names if name in values}
+        return known | values
 
     inside = {k: data[k] | {"variables": ordered(data[k]["variables"])} for k in ("best", "start")}
     return _object(Optimum, data | inside | {"in_file": ordered(data["in_file"])}, design=design, **shared)

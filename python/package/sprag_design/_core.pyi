@@ -44,7 +44,14 @@ class Design:
         full: bool,
     ) -> Simulated: ...
     def optimize(
-        self, evaluations: int, starts: int | None, swarm: int | None, tolerance: float, full: bool
+        self,
+        evaluations: int,
+        starts: int | None,
+        swarm: int | None,
+        tolerance: float,
+        full: bool,
+        step_mm: float | None,
+        reserve: float | None,
     ) -> tuple[str, str, Design]: ...
     def problem(self, full: bool) -> Problem: ...
     def drawings(self) -> tuple[str, str, str]: ...

@@ -185,9 +185,13 @@ class Design:
         swarm: int | None = None,
         tolerance: float = 1e-6,
         full: bool = False,
+        step_mm: float | None = None,
+        reserve: float | None = None,
     ) -> Optimum:
         """Search for a better design as the table ``[optimize]`` of the file says; nothing is written. ``evaluations``: most
-        of each climb; ``starts``: number of climbs, left open 8 to 32; ``swarm``: evaluations of a particle swarm first.
+        of each climb; ``starts``: number of climbs, left open 8 to 32; ``swarm``: evaluations of a particle swarm first;
+        ``step_mm``: step in which lengths can be made, mm, 0 for none, left open that of the file; ``reserve``: what every limit
+        keeps of its margin, left open that of the file.
 
         Raises ``ValueError`` where the design has no such table.
         """
@@ -197,7 +201,10 @@ class Design:
             raise ValueError(f"swarm {swarm}: allowed: 80 or more")
         if not 1e-13 <= tolerance <= 1e-3:
             raise ValueError(f"tolerance {tolerance}: allowed: 1e-13 to 1e-3; 1e-6 serves well")
-        common, body, design = self._core.optimize(evaluations, starts, swarm, tolerance, full)
+        for name, value in ("step_mm", step_mm), ("reserve", reserve):
+            if value is not None and not 0 <= value <= 1:
+                raise ValueError(f"{name} {value}: allowed: 0 to 1")
+        common, body, design = self._core.optimize(evaluations, starts, swarm, tolerance, full, step_mm, reserve)
         return optimum_of(common, body, Design(design))
 
     def problem(self, *, full: bool = False) -> Problem:

@@ -96,6 +96,8 @@ pub(super) struct Source {
     pub(super) lift_off_rad_s: Option<f64>,
     /// How far a lift-off was looked for, rad/s.
     pub(super) searched_to_rad_s: f64,
+    /// What the names of the materials do not decide.
+    pub(super) materials: Vec<String>,
     /// Overrun against speed.
     pub(super) overrun: Section,
     /// Radii as made and as run, where they differ.
@@ -123,6 +125,8 @@ pub struct Body {
     pub end: End,
     #[serde(skip)]
     asked_nm: f64,
+    #[serde(skip)]
+    materials: Vec<String>,
     /// Null: contact is kept up to `lift_off_searched_to_rpm`.
     pub lift_off_rpm: Option<f64>,
     /// How far a lift-off was looked for, rev/min.
@@ -167,6 +171,7 @@ impl Body {
             peak_torque_capacity: lowest(&|r| !nominal(r)),
             end: End { reason: source.end.name(), torque_nm: source.end_torque_nm },
             asked_nm: source.asked_nm,
+            materials: source.materials,
             lift_off_rpm: source.lift_off_rad_s.map(rpm),
             lift_off_searched_to_rpm: rpm(source.searched_to_rad_s),
             overrun: source.overrun,
@@ -202,10 +207,9 @@ impl Body {
         match codes.len() {
             0 => String::new(),
             n if n > NAMED => {
-                format!("; {n} rows shown only would not hold: {named} and {} more", n - NAMED)
+                format!("; beside them, for information only, would not hold: {named} and {} more", n - NAMED)
             }
-            1 => format!("; 1 row shown only would not hold: {named}"),
-            n => format!("; {n} rows shown only would not hold: {named}"),
+            _ => format!("; beside them, for information only, would not hold: {named}"),
         }
     }
 
@@ -262,7 +266,8 @@ impl Body {
             None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
         };
         let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
-        capacity.chain(early).chain(overrun).chain(running).chain(run_out).collect()
+        let materials = self.materials.iter().cloned();
+        capacity.chain(early).chain(overrun).chain(running).chain(run_out).chain(materials).collect()
     }
 }
 
@@ -411,7 +416,7 @@ pub(crate) fn margin_text(row: &Margin) -> String {
 }
 
 /// The same with the word margin before it, of slip with what is wanted.
-fn margin_words(row: &Margin) -> String {
+pub(crate) fn margin_words(row: &Margin) -> String {
     match row.is_slip() {
         true => format!("slip margin {}, {}", margin_text(row), wanted_text(row)),
         false => format!("margin {}", margin_text(row)),

@@ -10,11 +10,12 @@ mod tests;
 pub use body::{Body, Capacity, Deciding, End, Row};
 pub(crate) use body::{
     NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, is_beyond, margin_cell,
-    margin_text, people_table, unit_cell,
+    margin_text, margin_words, people_table, unit_cell,
 };
 
 use super::left_out::{LeftOut, left_out, off_centre};
-use crate::design::{Design, Scenario};
+use crate::clutch::Scenario;
+use crate::design::{Design, beside_the_name};
 use crate::follow::Follow;
 use crate::margin::{
     LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
@@ -115,7 +116,7 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
     let (state, mut rows, ring) = static_margins(design, true).map_err(NoCheck::NoClutch)?;
     let static_rows = rows.len();
     let found: Vec<Option<SceneFound>> =
-        design.scenarios.par_iter().map(|scenario| scene(design, scenario, follow, done)).collect();
+        design.scenarios.par_iter().map(|scenario| scene(design, &state, scenario, follow, done)).collect();
     let (mut scenario_margins, mut scenes) = (None, Vec::new());
     for (found, scenario) in found.into_iter().zip(&design.scenarios) {
         let SceneFound { demand, margins, error } = found.ok_or(NoCheck::Stopped)?;
@@ -134,6 +135,7 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
         end_torque_nm: state.curve.end_torque_nm(),
         asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
         lift_off_rad_s,
+        materials: beside_the_name(&design.source),
         searched_to_rad_s: LIFT_OFF_TO_RAD_S,
         overrun: overrun::Section::new(&course, limits),
         running: running::Section::new(design, &state),
@@ -170,6 +172,7 @@ pub(crate) fn fine(follow: &Follow) -> Settings {
 /// One scenario at two tolerances; nothing once somebody asked to stop.
 fn scene(
     design: &Design,
+    state: &LoadState,
     scenario: &Scenario,
     follow: &Follow,
     done: &(dyn Fn() + Sync),
@@ -182,7 +185,7 @@ fn scene(
     let required = design.check_scenarios.contains(&scenario.name);
     let at = |settings: &Settings| {
         (!follow.stopped()).then(|| {
-            let demand = scene_demand(scenario, settings);
+            let demand = scene_demand(scenario, Some(state.at_rest(design)), settings);
             let rows = scene_rows(scenario, &demand, &design.limits, required);
             (demand, rows)
         })

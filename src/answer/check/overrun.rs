@@ -156,11 +156,17 @@ impl Section {
             })
         };
         format!(
-            "Overrun: drag {slow} when slow; {}; {}; the centrifugal force is {} (gamma {:.3} deg)",
+            "Overrun: drag {slow} when slow; {}; {}; the centrifugal force is {} (gamma {:.3} deg: the centroid lies {} the \
+             sprag's outer centre)",
             at("outer"),
             at("inner"),
             self.centrifugal,
-            self.gamma_deg
+            self.gamma_deg,
+            match self.gamma_deg {
+                g if g > 0.0 => "behind",
+                g if g < 0.0 => "ahead of",
+                _ => "over",
+            }
         )
     }
 

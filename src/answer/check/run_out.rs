@@ -1,7 +1,8 @@
 //! Races off centre in the margin check: words, JSON, what stays left out.
 
 use crate::answer::left_out::LeftOut;
-use crate::design::{Carrier, Design};
+use crate::clutch::Carrier;
+use crate::design::Design;
 use crate::margin::{LoadState, Round, RunOut, Survey};
 use crate::report::{Unit, significant};
 use serde::Serialize;

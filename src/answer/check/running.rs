@@ -1,6 +1,7 @@
 //! Radii as made and as run, in words and JSON.
 
-use crate::design::{Design, TrackRun};
+use crate::clutch::TrackRun;
+use crate::design::Design;
 use crate::margin::LoadState;
 use crate::report::{Column, Table, Unit};
 use serde::Serialize;

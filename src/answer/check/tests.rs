@@ -22,6 +22,7 @@ fn margin(code: &str, margin: f64, capacity: Option<f64>) -> Margin {
 fn source(lift_off_rad_s: Option<f64>) -> Source {
     let curve = OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 };
     Source {
+        materials: Vec::new(),
         end: EndReason::OffProfile,
         end_torque_nm: 50.0,
         asked_nm: 110.0,

@@ -1,6 +1,6 @@
 //! How a scene is to be simulated.
 
-use crate::design::Scenario;
+use crate::clutch::Scenario;
 use crate::dynamics::History;
 use crate::follow::Follow;
 use crate::report::plain;

@@ -1,7 +1,7 @@
 //! What contact damping changes: the same scene with and without it.
 
 use super::{Ask, Ran};
-use crate::design::Scenario;
+use crate::clutch::Scenario;
 use crate::report::Unit;
 use crate::scenario::{Settings, Verdict, prepare, simulate_prepared};
 

@@ -1,7 +1,7 @@
 //! The history of a scene: one row per sample, and as columns by the names that the CSV has.
 
 use super::Ran;
-use crate::design::Clutch;
+use crate::clutch::Clutch;
 use crate::dynamics::{Grip, Mode, Place, Sample};
 use crate::report::Unit;
 use crate::scenario::Prepared;

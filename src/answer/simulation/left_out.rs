@@ -2,10 +2,10 @@
 
 use super::{Effect, Ran};
 use crate::answer::left_out::{LeftOut, left_out};
-use crate::design::{ContactLaw, ScenarioKind};
+use crate::clutch::{ContactLaw, ScenarioKind};
 use crate::dynamics::Neglected;
 use crate::report::Unit;
-use crate::scenario::{overrun_swing, place_profile};
+use crate::scenario::overrun_swing;
 use crate::wedge::WedgeCurve;
 
 /// The list for `scene`; `damping`: what contact damping would change.
@@ -130,8 +130,7 @@ fn growth_over(scene: &Ran, history: &[[f64; 2]]) -> String {
     ];
     let at = |speed: f64| {
         let curve =
-            WedgeCurve::build(&scene.design.clutch, &place_profile(&scene.design.clutch).ok()?, speed)
-                .ok()?;
+            WedgeCurve::build(&scene.design.clutch, &scene.design.clutch.profile().ok()?, speed).ok()?;
         let windup =
             scene.scenario.held_torque_nm().and_then(|t| curve.at_torque(t)).map_or(0.0, |p| p.windup_rad);
         Some((windup, curve.first_contact_rad()))

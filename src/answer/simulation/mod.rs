@@ -18,7 +18,8 @@ pub use history::{History, Row, Values, word};
 pub use verdict::LIFT_OFF_SEARCH_RAD_S;
 
 use super::left_out::LeftOut;
-use crate::design::{Design, Scenario};
+use crate::clutch::Scenario;
+use crate::design::Design;
 use crate::fidelity::{self, Term};
 use crate::scenario::{NoScenario, Prepared, Simulation, prepare, simulate_published};
 use serde::{Serialize, Serializer};

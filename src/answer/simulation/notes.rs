@@ -2,7 +2,7 @@
 
 use super::ask::MOST_ROWS;
 use super::{Ask, Effect, Ran};
-use crate::design::Scenario;
+use crate::clutch::Scenario;
 use crate::dynamics::{Stop, Swing};
 use crate::report::Unit;
 use crate::scenario::{Simulation, overrun_swing};

@@ -1,6 +1,6 @@
 //! What a transient says of times after its end: often milliseconds in place of seconds.
 
-use crate::design::{Scenario, ScenarioKind};
+use crate::clutch::{Scenario, ScenarioKind};
 
 /// A sentence for the step and for each history of which the scene feels no change.
 pub(super) fn notes(scenario: &Scenario) -> Vec<String> {

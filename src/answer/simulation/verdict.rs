@@ -1,7 +1,7 @@
 //! The verdict in words, and what of the clutch the figures of a scene are held against.
 
 use super::Ran;
-use crate::design::ScenarioKind;
+use crate::clutch::ScenarioKind;
 use crate::dynamics::{Stop, Swing};
 use crate::margin::{lift_off_rad_s as lift_off, load_state};
 use crate::report::Unit;

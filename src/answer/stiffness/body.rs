@@ -2,7 +2,7 @@
 
 use super::LawCurve;
 use super::junctions::{Junction, junctions};
-use crate::design::LawName;
+use crate::clutch::LawName;
 use crate::report::Unit;
 use crate::wedge::{StaticPoint, straddling_error};
 use serde::Serialize;

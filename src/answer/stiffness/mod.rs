@@ -7,11 +7,11 @@ pub use body::{Body, Curve, End, Law, Point};
 pub use junctions::{Junction, junctions};
 
 use super::left_out::{LeftOut, at_rest, left_out};
-use crate::design::{Clutch, ContactLaw, Design, LawName};
+use crate::clutch::{Clutch, ContactLaw, LawName};
+use crate::design::Design;
 use crate::follow::Follow;
 use crate::margin::NoMargins;
 use crate::profile::Profile;
-use crate::scenario::place_profile;
 use crate::wedge::{SMALLEST_TORQUE_NM, StaticPoint, WedgeCurve};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
@@ -141,8 +141,7 @@ impl Design {
     /// [`NoStiffness`].
     pub fn stiffness(&self, ask: &Ask) -> Result<StiffnessAnswer, NoStiffness> {
         ask.validate()?;
-        let profile =
-            place_profile(&self.clutch).map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
+        let profile = self.clutch.profile().map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
         Ok(StiffnessAnswer::of(curves(self, &profile, ask, &|| ())?))
     }
 }

@@ -16,12 +16,7 @@ pub(super) fn opened(
     context: &Context,
 ) -> (Page, Vec<String>) {
     let mut page = parts::page(title, design, context);
-    let tone = match (check.body.pass, check.body.shown_broken().as_slice()) {
-        (true, []) => Tone::Good,
-        (true, _) => Tone::Soft,
-        (false, _) => Tone::Bad,
-    };
-    page.verdict_in(tone, &check.body.verdict());
+    page.verdict(check.body.pass, &check.body.verdict());
     let (capacities, remarks) = said_first(&check.body);
     page.list(capacities);
     parts::draw_sheet(&mut page, design, &check.state.profile);

@@ -7,7 +7,6 @@ use crate::cli::Context;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::output::path_text;
 use crate::cli::parts::{self, Answer};
-use crate::compare::masses_kg;
 use crate::design::Design;
 use crate::margin::{Margin, SceneDemand};
 use crate::material::Material;
@@ -176,7 +175,7 @@ fn materials(design: &Design) -> Table {
         ("inner race".into(), &m.inner_race),
         ("outer race".into(), &m.outer_race),
     ];
-    for ((name, m), mass) in bodies.into_iter().zip(masses_kg(&design.clutch)) {
+    for ((name, m), mass) in bodies.into_iter().zip(design.clutch.masses_kg()) {
         let row = [m.youngs_modulus_pa, m.poisson_ratio, m.density_kg_m3, mass];
         let mut cells: Vec<Cell> = vec![name.into()];
         cells.extend(row.map(Cell::Si));

@@ -1,7 +1,7 @@
 //! The figures that stand side by side beside the margins.
 
 use crate::cli::check::ends_first;
-use crate::compare::{Subject, masses_kg};
+use crate::compare::Subject;
 use crate::margin::When;
 use crate::report::Unit;
 use crate::wedge::StaticPoint;
@@ -91,6 +91,6 @@ pub(super) const FIGURES: [Figure; 18] = [
     }),
     figure("lift_off_rpm", "lift-off in overrun", Unit::Rpm, |s| s.lift_off_rad_s),
     figure("mass_g", "mass, sprags and races", Unit::Gram, |s| {
-        Some(masses_kg(&s.design.clutch).iter().sum())
+        Some(s.design.clutch.masses_kg().iter().sum())
     }),
 ];

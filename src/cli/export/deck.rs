@@ -8,7 +8,6 @@ use crate::design::Design;
 use crate::export::calculix::{Options, Variant, deck};
 use crate::margin::NoMargins;
 use crate::profile::Outline;
-use crate::scenario::place_profile;
 
 /// Layers along half a sprag's length in a solid deck.
 const SOLID_LAYERS: usize = 4;
@@ -51,7 +50,7 @@ fn text(design: &Design, variant: Variant, args: &ExportArgs) -> Result<String, 
         .torque
         .or(design.limits.nominal_torque_nm)
         .ok_or_else(|| Failure::malformed("--torque is needed: the design names no nominal torque"))?;
-    let profile = place_profile(clutch).map_err(|e| parts::no_clutch(&args.file, &NoMargins::Profile(e)))?;
+    let profile = clutch.profile().map_err(|e| parts::no_clutch(&args.file, &NoMargins::Profile(e)))?;
     let outline = match clutch.sprags.flanks {
         Some(flanks) => Outline::closed(&profile, &flanks),
         None => Outline::narrowest(&profile),

@@ -5,13 +5,13 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::left_out::LeftOut;
 use crate::cli::parts::Answer;
 use crate::cli::{Context, output, parts};
-use crate::design::{Clutch, Design, EndProfile};
+use crate::clutch::{Clutch, EndProfile};
+use crate::design::Design;
 use crate::export::rows::{Point, Row, arcs, points};
 use crate::export::{Part, Subject, dxf::dxf, step::step, svg::svg};
 use crate::margin::NoMargins;
 use crate::profile::{Outline, Profile};
 use crate::report::{Cell, Column, Table, Unit};
-use crate::scenario::place_profile;
 use serde_json::{Value, json};
 use std::time::Instant;
 
@@ -40,7 +40,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     }
     let started = Instant::now();
     let made = design.as_made().map_err(|refused| Failure::Malformed(miette::Report::new(refused)))?;
-    let profile = place_profile(&made).map_err(|e| parts::no_clutch(&args.file, &NoMargins::Profile(e)))?;
+    let profile = made.profile().map_err(|e| parts::no_clutch(&args.file, &NoMargins::Profile(e)))?;
     let part = part(args.part.unwrap_or(PartName::Sprag));
     let outline = match made.sprags.flanks {
         Some(flanks) => Some(

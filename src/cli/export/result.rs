@@ -7,7 +7,6 @@ use crate::cli::parts::{self, Answer};
 use crate::design::{Design, MOST_RESULT, read_text};
 use crate::export::calculix::{Facts, Row, at_torque, read};
 use crate::report::{Cell, Column, Table, Unit};
-use crate::scenario::place_profile;
 use crate::wedge::{StaticPoint, WedgeCurve};
 use serde::Serialize;
 use std::path::Path;
@@ -68,8 +67,7 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
     if rows.is_empty() {
         return Err(Failure::malformed("the result holds none of the torques asked for"));
     }
-    let curve =
-        place_profile(&design.clutch).ok().and_then(|p| WedgeCurve::build(&design.clutch, &p, 0.0).ok());
+    let curve = design.clutch.profile().ok().and_then(|p| WedgeCurve::build(&design.clutch, &p, 0.0).ok());
     let law: Vec<Option<StaticPoint>> =
         rows.iter().map(|r| curve.as_ref().and_then(|c| c.at_torque(r.torque_nm))).collect();
     let run_time_s = started.elapsed().as_secs_f64();

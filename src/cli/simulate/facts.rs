@@ -1,7 +1,7 @@
 //! The figures of a simulation as people read them: a table with errors.
 
 use crate::answer::simulation::{LIFT_OFF_SEARCH_RAD_S, Ran};
-use crate::design::ScenarioKind;
+use crate::clutch::ScenarioKind;
 use crate::margin::LIFT_OFF_ERROR;
 use crate::report::{Cell, Column, Table, Unit, significant};
 use crate::scenario::{Demand, Figure, Group, Prepared, Quantity, Simulation, figures_of, overrun_swing};
@@ -64,6 +64,41 @@ pub(super) fn table(scene: &Ran) -> Table {
         Ok((prepared, s)) => motion(&mut facts, scene, prepared, s),
     }
     facts.table
+}
+
+/// What a page shows before its curves: most of all it says what decides the verdict, and how hard the contacts are used.
+const FIRST: [&str; 10] = [
+    "slip margin",
+    "contact margin",
+    "static friction needed to stick",
+    "largest |T|/N, inner",
+    "smallest normal force, inner",
+    "largest normal force, inner",
+    "largest Hertz pressure",
+    "net slip, inner contact",
+    "slip time, inner contact",
+    "time without contact",
+];
+
+/// The figures of [`FIRST`], and all of them where there are more than that.
+pub(super) fn first_and_all(table: Table) -> (Table, Option<Table>) {
+    if table.rows.len() <= FIRST.len() {
+        return (table, None);
+    }
+    let name = |row: &[Cell]| match row.first() {
+        Some(Cell::Text(name)) => name.clone(),
+        _ => String::new(),
+    };
+    let is = |row: &[Cell], first: &str| {
+        name(row).strip_prefix(first).is_some_and(|rest| rest.is_empty() || rest.starts_with(" ("))
+    };
+    let rows = FIRST.iter().filter_map(|first| table.rows.iter().find(|row| is(row, first)).cloned());
+    let mut rows: Vec<Vec<Cell>> = rows.collect();
+    // Of a state at rest the first are what it is about: torque, windup, forces.
+    if rows.len() < FIRST.len() / 2 {
+        rows = table.rows.iter().take(FIRST.len()).cloned().collect();
+    }
+    (Table { rows, ..table.clone() }, Some(table))
 }
 
 /// From `value` - `error` to `value` + `error`; what cannot be negative begins at 0.
@@ -139,7 +174,7 @@ fn motion(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation) {
         );
         f.word("energy balance", &balance);
     }
-    f.count("changes of mode", s.events);
+    f.count("changes between sticking, slipping and open", s.events);
     f.count("steps, all runs", s.steps);
     f.count("steps refused, all runs", s.rejections);
     f.count("right-hand sides, all runs", s.rhs_evaluations);

@@ -4,11 +4,11 @@ use super::facts;
 use crate::answer::simulation::{Ran, Row, SimulationAnswer, word};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
-use crate::design::ScenarioKind;
+use crate::clutch::ScenarioKind;
 use crate::dynamics::Mode;
 use crate::report::plot::Dash;
 use crate::report::{Curve, Page, Plot, Span, Strip, Unit};
-use crate::scenario::{Prepared, Simulation, place_profile};
+use crate::scenario::{Prepared, Simulation};
 use crate::wedge::{Lengthwise, Side, along};
 
 const TIME: &str = "Time, ms";
@@ -25,17 +25,23 @@ pub(super) fn page(scene: &SimulationAnswer, answer: &Answer<&SimulationAnswer>,
     page.verdict(scene.held(), &scene.verdict_line());
     page.paragraph(&described(scene));
     page.list(&scene.body.notes);
-    page.table("", &facts::table(scene));
+    let (first, all) = facts::first_and_all(facts::table(scene));
+    page.table("", &first);
     if let Ok((prepared, simulation)) = &scene.outcome {
         if scene.method != "equilibrium" {
             histories(&mut page, scene, prepared, simulation);
-            if let Some(table) = facts::beside_rolling(simulation) {
-                page.heading("Against pure rolling").paragraph(
+        }
+        if let Some(all) = all {
+            page.folded("All figures of this scene, with their errors", |page| {
+                page.table("", &all);
+            });
+        }
+        if let Some(table) = facts::beside_rolling(simulation).filter(|_| scene.method != "equilibrium") {
+            page.heading("Against pure rolling").paragraph(
                     "The second column is a run of its own in which both contacts roll whatever friction that takes; \
                      below zero, the normal force is the tension that rolling would need.",
                 );
-                page.table("", &table);
-            }
+            page.table("", &table);
         }
         draw(&mut page, scene, prepared);
     }
@@ -140,8 +146,17 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
     let curve = |value: &dyn Fn(&Row) -> f64| over_time(&rows, value);
     let least_at = s.peaks.at_s[2] * 1e3;
     page.heading("Histories");
-    let torque = plot("Torque of the clutch, Nm").curve("", curve(&|r| r.torque_nm));
-    page.figure(&torque.to_svg(), "Torque on the inner race, positive in the sense that the clutch carries.");
+    // The cause first; what swings acts on the outer race.
+    let loads = &prepared.model.loads;
+    let outside = |r: &Row| r.acting[0] + loads.amplitude_nm * (loads.omega_rad_s * r.sample.t).sin();
+    let cause = Curve::new("from outside", curve(&outside)).coloured(5);
+    let mut torque = plot("Torque, Nm").curve("in the clutch", curve(&|r| r.torque_nm));
+    torque.curves.push(Curve { dash: Dash::Dashed, ..cause });
+    page.figure(
+        &torque.to_svg(),
+        "Torque from outside, on both races together, and what the clutch carries, positive in the sense in which it does; the rest \
+         speeds the races up.",
+    );
     let turning = if rows.iter().any(|r| r.acting[1] != 0.0) { ", relative to the mean speed" } else { "" };
     let largest_rad = largest(&rows, &|r| r.sample.state[2].abs().max(r.sample.state[3].abs()));
     let (unit, per_rad) = if largest_rad < FOUR_DIGITS * 1e-3 { ("mrad", 1e3) } else { ("rad", 1.0) };
@@ -168,7 +183,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
     normal.curves.push(Curve { dash: Dash::Dashed, ..outer });
     page.figure(&normal.to_svg(), &format!("Normal forces; the smallest {}.", phase(scene, s.peaks.at_s[2])));
     friction(page, scene, prepared, s, &rows);
-    page.figure(&strip(s).to_svg(), "What each contact does, from the located changes of mode.");
+    page.figure(&strip(s).to_svg(), "What each contact does; each change is located in time.");
     slip(page, s, &rows);
     pressures(page, scene, prepared, s, &rows);
 }
@@ -371,7 +386,7 @@ fn strip(s: &Simulation) -> Strip {
 
 /// The sprag where the scenario starts, over first contact.
 fn draw(page: &mut Page, scene: &Ran, prepared: &Prepared) {
-    let Ok(profile) = place_profile(&scene.design.clutch) else { return };
+    let Ok(profile) = scene.design.clutch.profile() else { return };
     let rest = parts::pose_at_rest("first contact", &scene.design, &profile);
     let loaded =
         scene.scenario.held_torque_nm().and_then(|t| parts::pose_at_torque(&rest, &prepared.model.curve, t));

@@ -1,6 +1,6 @@
 //! The contact laws that can be asked for.
 
-use crate::design::{LAWS, LawName};
+use crate::clutch::{LAWS, LawName};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 

@@ -27,7 +27,7 @@ mod write;
 pub use facts::Facts;
 pub use read::{NoRows, Row, at_torque, read};
 
-use crate::design::{Clutch, InnerArc};
+use crate::clutch::{Clutch, InnerArc};
 use crate::profile::{Outline, Profile};
 use crate::wedge::{StaticPoint, WedgeCurve};
 use mesh::{Block, Grid, Section, Sector, axial};
@@ -264,7 +264,7 @@ fn largest(end_nm: f64, fits: impl Fn(f64) -> bool) -> Option<f64> {
         return None;
     }
     let digit = 10f64.powi(low.log10().floor() as i32 - 2);
-    let most = crate::design::rounded((low / digit).floor() * digit, 3);
+    let most = crate::numeric::rounded((low / digit).floor() * digit, 3);
     fits(most).then_some(most)
 }
 

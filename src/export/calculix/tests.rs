@@ -1,10 +1,9 @@
 use super::*;
 use crate::design::Design;
-use crate::scenario::place_profile;
 
 fn design(text: &str) -> (Design, Profile, Outline) {
     let design = Design::parse(text, "design").unwrap();
-    let profile = place_profile(&design.clutch).unwrap();
+    let profile = design.clutch.profile().unwrap();
     let flanks = design.clutch.sprags.flanks.unwrap();
     let outline = Outline::closed(&profile, &flanks).unwrap();
     (design, profile, outline)

@@ -2,7 +2,7 @@
 
 use super::mesh::Block;
 use super::{Model, Options, Variant};
-use crate::design::Clutch;
+use crate::clutch::Clutch;
 use crate::material::Material;
 use std::fmt::Write;
 

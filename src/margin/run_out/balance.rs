@@ -1,7 +1,7 @@
 //! Which windup, and which shift of a race that is not held, carry a torque.
 
 use super::{RunOut, rotated};
-use crate::design::Carrier;
+use crate::clutch::Carrier;
 use crate::numeric::root;
 use crate::wedge::{EndReason, StaticPoint, WedgeCurve};
 use nalgebra::{Matrix3, Vector2, Vector3};

@@ -43,6 +43,18 @@ pub fn svg(drawing: &Drawing) -> String {
     svg.finish()
 }
 
+/// Side of the small picture, px.
+const SMALL: f64 = 200.0;
+
+pub fn small(drawing: &Drawing, widest_m: f64) -> String {
+    let mut svg = Svg::new(SMALL, SMALL, "The clutch, all sprags at first contact");
+    let [.., outside] = drawing.race_radii_m;
+    if outside > 0.0 && outside.is_finite() && widest_m >= outside {
+        draw(&mut svg, drawing, [SMALL / 2.0, SMALL / 2.0], (SMALL / 2.0 - 4.0) / widest_m);
+    }
+    svg.finish()
+}
+
 /// Races and all sprags about `o`, px, at `scale` pixels per metre.
 pub(super) fn draw(svg: &mut Svg, drawing: &Drawing, o: [f64; 2], scale: f64) {
     let [bore, inner, outer, outside] = drawing.race_radii_m;

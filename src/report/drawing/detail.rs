@@ -212,9 +212,11 @@ fn draw_notes(svg: &mut Svg, view: &View, notes: &[Note]) {
     for left in [true, false] {
         let side: Vec<&Note> = notes.iter().filter(|n| n.left == left).collect();
         let wanted: Vec<f64> = side.iter().map(|n| n.wanted).collect();
-        let x = if left { columns[0] - 12.0 } else { width - columns[1] + 24.0 };
+        let column = if left { columns[0] - 12.0 } else { width - columns[1] + 24.0 };
         let bend = if left { 14.0 } else { -14.0 };
         for (note, y) in side.iter().zip(spread(&wanted, PITCH, 46.0, height - 50.0)) {
+            // A name longer than its column leans into the drawing: nothing of it is cut.
+            let x = if left { column.max(text_width(&note.text, 12.0) + 2.0) } else { column };
             let knee = [x + bend, y - 4.0];
             let start = [x + bend / 3.0, y - 4.0];
             svg.path(

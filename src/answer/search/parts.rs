@@ -1,91 +1,11 @@
-//! What `optimize` found beside the optimum: sentences, tables and JSON of its parts.
+//! What was found beside the optimum, part by part: sentences, tables, plots.
 
-use super::optimize_relief::relief_parts;
+use super::relief::relief_parts;
+use super::words::{Hints, gain, optima_line, price_sentence, shown};
+use super::{Story, steps};
 use crate::design::Objective;
-use crate::optimise::{
-    Alone, Branch, Front, Loosened, Optima, Price, PriceKind, Realised, Relief, Robust, RobustSearch, Search,
-    Start, Status,
-};
+use crate::optimise::{Branch, Front, Realised, Robust, Search, Start};
 use crate::report::{Cell, Column, Plot, Table, Unit, significant};
-
-/// Everything that was asked of one search.
-pub struct Story {
-    /// The search.
-    pub found: Search,
-    /// Flanks for a centroid that was free.
-    pub realised: Option<Realised>,
-    /// What would free an infeasible problem.
-    pub relief: Option<Relief>,
-    /// Single numbers let go in an infeasible problem, the variables with them.
-    pub loosened: Vec<Loosened>,
-    /// What the limits that do not hold come to one by one.
-    pub alone: Vec<Alone>,
-    /// Front.
-    pub front: Option<Front>,
-    /// The optimum as it may be made.
-    pub made: Option<Robust>,
-    /// The optimum that holds at every corner.
-    pub robust: Option<RobustSearch>,
-    /// Whether a robust design was asked for.
-    pub wants_robust: bool,
-    /// What was asked and could not be done.
-    pub why: Vec<String>,
-}
-
-/// Middle of the name of the design with flanks for a centroid that was free.
-pub const REALISED: &str = "realised";
-/// Middle of the name of the robust design.
-pub const ROBUST: &str = "robust";
-/// Middle of the name of the nearest design where none is feasible.
-pub const NEAREST: &str = "nearest";
-
-/// Digits to which an objective is shown.
-pub const SHOWN_DIGITS: usize = 5;
-
-/// A value of an objective with its unit.
-pub fn shown(aim: Objective, value: f64) -> String {
-    match aim.unit() {
-        "" => significant(value, SHOWN_DIGITS),
-        unit => format!("{} {unit}", significant(value, SHOWN_DIGITS)),
-    }
-}
-
-/// A gain of an objective, more being better, as it is spoken of.
-fn gain(aim: Objective, gain: f64) -> String {
-    match aim {
-        Objective::SlipMargin => format!("{} % slip margin", significant(100.0 * gain, 2)),
-        Objective::TorqueCapacity => format!("{} Nm of torque capacity", significant(gain, 2)),
-        Objective::PeakPressure => format!("{} MPa less pressure", significant(gain, 2)),
-        Objective::Windup => format!("{} deg less windup", significant(gain, 2)),
-        Objective::StiffnessCurve => {
-            format!("{} % less departure from the target", significant(100.0 * gain, 2))
-        }
-    }
-}
-
-/// About one percent of a value, as 1, 2 or 5 times a power of ten.
-fn round_step(value: f64) -> f64 {
-    let wanted = 0.01 * value.abs().max(1e-9);
-    let power = 10_f64.powf(wanted.log10().floor());
-    let digit = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .min_by(|a, b| (a * power - wanted).abs().total_cmp(&(b * power - wanted).abs()));
-    digit.unwrap_or(1.0) * power
-}
-
-/// "raising the allowable of hoop-inner by 10 MPa would buy 0.8 % slip margin".
-pub fn sentence(aim: Objective, price: &Price) -> String {
-    let step = round_step(price.value);
-    let bought = gain(aim, price.gain_per_unit * step);
-    let unit = if price.unit == "1" { "" } else { &price.unit };
-    let by = format!("{} {unit}", significant(step, 1)).trim_end().to_owned();
-    match price.kind {
-        PriceKind::Limit => format!("raising the allowable of {} by {by} would buy {bought}", price.of),
-        PriceKind::Margin => format!("asking {by} less of {} would buy {bought}", price.of),
-        PriceKind::Lower => format!("lowering the lower bound of {} by {by} would buy {bought}", price.of),
-        PriceKind::Upper => format!("raising the upper bound of {} by {by} would buy {bought}", price.of),
-    }
-}
 
 fn start_table(starts: &[Start]) -> Table {
     let mut table = Table::new(vec![
@@ -106,31 +26,6 @@ fn start_table(starts: &[Start]) -> Table {
         ]);
     }
     table
-}
-
-/// What the ends of the climbs say of optima that none has met.
-fn optima_line(optima: &Optima) -> String {
-    let Optima { climbs, seen } = *optima;
-    if climbs == 0 {
-        return "No climb converged within the limits".into();
-    }
-    let met = format!(
-        "{climbs} climbs converged within the limits, to {seen} {}",
-        if seen == 1 { "optimum" } else { "optima" }
-    );
-    match optima.expected() {
-        Some(e) if optima.enough() => {
-            format!(
-                "{met}: others are not to be expected ({} in all; Boender and Rinnooy Kan 1987)",
-                significant(e, 2)
-            )
-        }
-        Some(e) => format!(
-            "{met}: {} in all are to be expected (Boender and Rinnooy Kan 1987), try more --starts",
-            significant(e, 2)
-        ),
-        None => format!("{met}: too few to tell whether there are others, try more --starts"),
-    }
 }
 
 fn finite(v: f64) -> Cell {
@@ -206,7 +101,7 @@ fn front_table(front: &Front) -> Table {
 
 /// One part of an answer: heading, sentences, tables with captions, plots with captions.
 #[derive(Default)]
-pub struct Part {
+pub(crate) struct Part {
     /// Heading.
     pub heading: &'static str,
     /// Sentences.
@@ -219,13 +114,13 @@ pub struct Part {
 
 impl Story {
     /// Parts of the text and of the page, in order.
-    pub fn parts(&self) -> Vec<Part> {
+    pub(crate) fn parts(&self, hints: &Hints) -> Vec<Part> {
         let found = &self.found;
         let aim = found.aim;
         let mut parts = Vec::new();
         if found.starts.len() > 1 {
             let tables = vec![("Climbs, each from its own start", start_table(&found.starts))];
-            let lines = vec![optima_line(&found.optima)];
+            let lines = vec![optima_line(&found.optima, hints)];
             parts.push(Part { heading: "Starts", lines, tables, ..Part::default() });
         }
         if found.branches.len() > 1 {
@@ -233,16 +128,23 @@ impl Story {
                 vec![("Each whole number with a continuous search inside", branch_table(&found.branches))];
             parts.push(Part { heading: "Whole numbers", tables, ..Part::default() });
         }
-        if !found.prices.is_empty() {
-            let lines = found.prices.iter().map(|p| sentence(aim, p)).collect();
+        if !self.made().prices.is_empty() {
+            let lines = self.made().prices.iter().map(|p| price_sentence(aim, p)).collect();
             parts.push(Part { heading: "What holds the optimum", lines, ..Part::default() });
         }
         parts.extend(self.relief.iter().flat_map(|relief| relief_parts(self, relief)));
         if let Some(realised) = &self.realised {
-            parts.push(Part { heading: "Centroid", lines: realised_lines(aim, realised), ..Part::default() });
+            parts.push(Part {
+                heading: "Centroid",
+                lines: realised_lines(found, realised),
+                ..Part::default()
+            });
+        }
+        if let Some(stepped) = &self.stepped {
+            parts.push(Part { heading: "Steps", lines: steps::lines(self, stepped), ..Part::default() });
         }
         parts.extend(self.front.as_ref().map(front_part));
-        parts.extend(self.made.as_ref().map(|made| self.made_part(made)));
+        parts.extend(self.within.as_ref().map(|made| self.made_part(made)));
         if !self.why.is_empty() {
             parts.push(Part { heading: "Not done", lines: self.why.clone(), ..Part::default() });
         }
@@ -296,34 +198,6 @@ impl Story {
         }
         Part { heading: "Within the tolerances", lines, tables, ..Part::default() }
     }
-
-    /// How the search at the corners ended; where there was nothing to do, that of the optimum.
-    pub fn robust_status<'s>(&'s self, robust: &'s RobustSearch) -> &'s Status {
-        if robust.rounds == 0 { &self.found.outcome.status } else { &robust.status }
-    }
-
-    /// Further design files: ending, what it is, text.
-    pub fn other_files(&self) -> Vec<(&'static str, &'static str, &str)> {
-        let mut files = Vec::new();
-        if let Some(realised) = &self.realised {
-            let best = realised.search.as_ref().filter(|s| s.feasible());
-            let text = best.map_or(&realised.file, |s| &s.file);
-            let what = if best.is_some() {
-                "flanks searched in place of the centroid"
-            } else {
-                "flanks nearest to the wanted centroid"
-            };
-            files.push((REALISED, what, text.as_str()));
-        }
-        if let Some(robust) = &self.robust {
-            let what = match robust.made.held() {
-                true => "held at every corner of [tolerances]",
-                false => "as near as was found to holding every corner of [tolerances], not held at all",
-            };
-            files.push((ROBUST, what, robust.file.as_str()));
-        }
-        files
-    }
 }
 
 /// Limits that are not held, each with its worst corner.
@@ -361,7 +235,8 @@ fn front_part(front: &Front) -> Part {
     Part { heading: "Front", lines, tables: vec![("Points of the front", front_table(front))], plots }
 }
 
-fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
+fn realised_lines(found: &Search, r: &Realised) -> Vec<String> {
+    let aim = found.aim;
     let n = &r.nearest;
     let f = &n.flanks;
     let mm = |m: f64| significant(m * 1e3, 5);
@@ -387,7 +262,9 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
         significant(n.given.1, 4)
     );
     let mut lines = vec![format!(
-        "the optimum above has no flanks yet that give it: its centroid {} was free, its mass given",
+        "with its centroid free and its mass given (a bound) the search came to {} {}, the centroid at {}",
+        aim.words(),
+        shown(aim, found.objective.1),
         at(n.wanted_m)
     )];
     lines.push(if n.reached() {
@@ -402,7 +279,7 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
             shown(aim, r.objective)
         )
     });
-    if let Some(s) = &r.search {
+    if let Some(s) = r.searched.then_some(&r.made) {
         let ended = s.outcome.status.name();
         let values: Vec<String> =
             s.variables.iter().map(|v| format!("{} {}", v.name, significant(v.best, 5))).collect();
@@ -416,22 +293,4 @@ fn realised_lines(aim: Objective, r: &Realised) -> Vec<String> {
         ));
     }
     lines
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_price_is_a_sentence() {
-        let price = Price {
-            of: "hertz-peak-inner".into(),
-            kind: PriceKind::Limit,
-            unit: "MPa".into(),
-            gain_per_unit: 8e-5,
-            value: 4600.0,
-        };
-        let said = sentence(Objective::SlipMargin, &price);
-        assert_eq!(said, "raising the allowable of hertz-peak-inner by 50 MPa would buy 0.40 % slip margin");
-    }
 }

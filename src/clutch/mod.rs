@@ -1,9 +1,24 @@
-//! The nouns of a clutch: sprags, races, spring, materials, friction, contact, how they lie along the axis.
+//! The nouns: a clutch and its parts as it runs, what it is made to, what happens to it.
 //!
-//! In: nothing. Out: [`Clutch`] and its parts, SI. Absent: limits and questions. Equations: none.
+//! In: values in SI. Out: [`Clutch`], [`Running`], [`Tolerances`], [`Scenario`]; the contact laws by name. Absent: files and
+//! their units (`design`), allowables (`margin`), how anything is answered. Equations: none of its own; triangle (9) is asked
+//! of `profile`, Lame's press fit of `race`. Table 1 of the paper is a `Clutch`.
+
+mod kinds;
+mod law;
+mod question;
+mod running;
+mod tolerances;
+
+pub(crate) use law::ROLLER_COEFFICIENT;
+pub use law::{ContactLaw, LAWS, LawFacts, LawName};
+pub use question::{Scenario, ScenarioKind, Start};
+pub use running::{Fits, Joint, NotRunning, Running, TrackRun};
+pub use tolerances::Tolerances;
 
 use crate::material::Material;
-pub use crate::profile::Flanks;
+use crate::profile::{Flanks, Profile, ProfileError};
+use std::f64::consts::PI;
 
 /// Where the sprag's mass, inertia and centroid come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,41 +113,6 @@ pub enum Carrier {
     OuterRace,
     /// The same of the inner race.
     InnerRace,
-}
-
-/// How one track came from its radius as made to that as run, without load.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TrackRun {
-    /// Radius as made, at the reference temperature, m.
-    pub made_m: f64,
-    /// What the fit adds, m, outward positive.
-    pub by_fit_m: f64,
-    /// What the temperature adds, m.
-    pub by_temperature_m: f64,
-    /// Radius that would have to be made for the gap, in terms of the warm sprag, to be what [`Self::made_m`] draws, m.
-    pub to_make_m: f64,
-    /// Pressure at the joint with shaft or housing, Pa; 0 without one.
-    pub joint_pressure_pa: f64,
-    /// Radius of that joint as run, the race's other rim, m.
-    pub joint_m: f64,
-    /// Hoop stress of the race at its track by the fit alone, Pa, tension positive.
-    pub hoop_at_track_pa: f64,
-    /// The same at the joint.
-    pub hoop_at_joint_pa: f64,
-}
-
-/// Fits and temperatures. Races and sprags of the clutch are those as run: a race joined with shaft or housing counts as
-/// one piece with it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Running {
-    /// Inner track.
-    pub inner: TrackRun,
-    /// Outer track.
-    pub outer: TrackRun,
-    /// Sizes of the sprags as run over those as made, pure number.
-    pub sprag_scale: f64,
-    /// Turn of the contact on the sprag at first contact as run, since that as made, rad; positive in engagement.
-    pub first_turn_rad: f64,
 }
 
 /// Energizing spring, per sprag.
@@ -260,18 +240,49 @@ pub struct Clutch {
     /// Friction.
     pub friction: Friction,
     /// Local contact law.
-    pub contact: super::law::ContactLaw,
+    pub contact: ContactLaw,
     /// How sprag and race lie along the axis.
     pub axial: Axial,
     /// Hunt and Crossley's damping of both contacts: N is raised by this times the rate of approach, s/m; 0: none.
     pub hunt_crossley_s_per_m: f64,
 }
 
+impl Sprags {
+    /// Their profile between `races`.
+    ///
+    /// # Errors
+    /// [`ProfileError`].
+    pub fn profile(&self, races: &Races) -> Result<Profile, ProfileError> {
+        let arcs: Vec<(f64, f64)> = self.inner_arcs.iter().map(|a| (a.radius_m, a.until_rad)).collect();
+        let (r_e, e) = (self.outer_radius_m, self.centre_distance_m);
+        Profile::new(r_e, e, &arcs, races.inner_radius_m, races.outer_radius_m)
+    }
+}
+
 impl Clutch {
+    /// The sprags' profile between the races as run.
+    ///
+    /// # Errors
+    /// [`ProfileError`]; a design that was read from a file has none.
+    pub fn profile(&self) -> Result<Profile, ProfileError> {
+        self.sprags.profile(&self.races)
+    }
+
     /// Length over which sprag and race overlap along the axis, m.
     pub fn contact_length_m(&self) -> f64 {
         let (sprag, race) = (0.5 * self.sprags.length_m, 0.5 * self.races.width_m);
         let offset = self.axial.offset_m;
         (offset + sprag).min(race) - (offset - sprag).max(-race)
+    }
+    /// Masses of all sprags, of the inner and of the outer race (plain rings as wide as `races.width_mm`), kg.
+    pub fn masses_kg(&self) -> [f64; 3] {
+        let (s, r, m) = (&self.sprags, &self.races, &self.materials);
+        let ring =
+            |inner: f64, outer: f64, density: f64| PI * (outer * outer - inner * inner) * r.width_m * density;
+        [
+            s.count as f64 * s.mass_kg,
+            ring(r.inner_bore_radius_m, r.inner_radius_m, m.inner_race.density_kg_m3),
+            ring(r.outer_radius_m, r.outer_outside_radius_m, m.outer_race.density_kg_m3),
+        ]
     }
 }

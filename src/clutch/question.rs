@@ -1,10 +1,8 @@
-//! What is asked of a clutch: scenarios, the optimiser's task.
+//! What is asked of a clutch: scenarios.
 //!
-//! In: nothing. Out: [`Scenario`], [`Optimize`], SI. Absent: how they are answered. Equations: none.
+//! In: nothing. Out: [`Scenario`], SI. Absent: how one is answered. Equations: none.
 
-use super::Limits;
-use super::clutch::Clutch;
-use super::objective::Objective;
+use super::Clutch;
 
 /// What happens to the clutch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,38 +93,4 @@ pub struct Scenario {
     pub torque_history: Option<Vec<[f64; 2]>>,
     /// Mean speed over time, (s, rad/s).
     pub speed_history: Option<Vec<[f64; 2]>>,
-}
-
-/// One variable of the optimiser, in the unit of its name.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OptimizeVariable {
-    /// Name as in the file, e.g. `r_i2_mm`.
-    pub name: String,
-    /// Lower bound in the name's unit.
-    pub min: f64,
-    /// Upper bound in the name's unit.
-    pub max: f64,
-    /// Value in the file, in the name's unit.
-    pub given: f64,
-    /// Where the search starts: the value in the file, or the bound nearest to it where it lies outside.
-    pub start: f64,
-    /// Whether it takes whole numbers only.
-    pub whole: bool,
-}
-
-/// What `optimize` shall do.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Optimize {
-    /// What is made better.
-    pub objective: Objective,
-    /// Wanted windups of [`Objective::StiffnessCurve`]: (torque, N m; windup, rad).
-    pub target: Vec<[f64; 2]>,
-    /// Scenarios whose smallest slip margin is maximised, or which are limits of another objective.
-    pub scenarios: Vec<String>,
-    /// Design variables.
-    pub variables: Vec<OptimizeVariable>,
-    /// `[limits]` with the sharper ones of `[optimize]` put in.
-    pub limits: Limits,
-    /// Seed of everything random.
-    pub seed: u64,
 }

@@ -2,7 +2,7 @@
 //!
 //! A further law is a variant and a row here, its approach in `contact`, and the line of `wedge::Elastic` that builds it.
 
-use super::clutch::{Axial, StressState};
+use super::{Axial, StressState};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -159,7 +159,7 @@ pub const LAWS: [LawFacts; 5] = [
 ];
 
 /// Coefficient of the roller law where a design gives none, mm and N: the public model of the paper's clutch.
-pub(super) const ROLLER_COEFFICIENT: f64 = 3.944e-5;
+pub(crate) const ROLLER_COEFFICIENT: f64 = 3.944e-5;
 
 impl LawName {
     /// What is to be said of it.

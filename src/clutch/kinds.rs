@@ -1,7 +1,7 @@
 //! What the rest of the house asks of a kind of scenario, in place of taking it apart.
 //!
-//! In: a [`ScenarioKind`]. Out: its name, duration, speeds, torques, SI. Absent: keys of the file ([`super::scenarios`]), how it
-//! starts (scenario). Equations: none.
+//! In: a [`ScenarioKind`]. Out: its name, duration, speeds, torques, SI. Absent: keys of the file (`design`), how it
+//! starts (`scenario`). Equations: none.
 
 use super::question::{Scenario, ScenarioKind};
 
@@ -98,16 +98,6 @@ impl Scenario {
                 overrun_rad_s > 0.0 || self.torque_history.as_ref().is_some_and(turns)
             }
             _ => false,
-        }
-    }
-
-    /// Names of inputs that the paper does not publish.
-    pub fn assumptions(&self) -> &'static [&'static str] {
-        match self.kind {
-            ScenarioKind::Engagement { .. } => {
-                &["free_run_rpm", "reversing_torque_nm", "stop_stiffness_nm_per_rad"]
-            }
-            _ => &[],
         }
     }
 }

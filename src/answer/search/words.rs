@@ -1,0 +1,256 @@
+//! Sentences of a search: how it ended, what holds the optimum, what a value is in its unit.
+
+use super::Story;
+use crate::answer::check::margin_text;
+use crate::design::Objective;
+use crate::margin::Margin;
+use crate::optimise::{Optima, Price, PriceKind, Status, Variable};
+use crate::report::{error_beside, significant};
+
+/// Digits to which an objective is shown.
+pub(crate) const SHOWN_DIGITS: usize = 5;
+
+/// What a reader can do about an end, in the words of where it is read: a command names its flags here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Hints {
+    /// Behind "stopped at the evaluation limit".
+    pub evaluation_limit: &'static str,
+    /// What may find further optima.
+    pub more_starts: &'static str,
+    /// How a search was stopped from outside.
+    pub stopped: &'static str,
+}
+
+impl Default for Hints {
+    fn default() -> Self {
+        Self { evaluation_limit: "", more_starts: "search from more starts", stopped: "stopped" }
+    }
+}
+
+/// A value of an objective with its unit.
+pub(crate) fn shown(aim: Objective, value: f64) -> String {
+    match aim.unit() {
+        "" => significant(value, SHOWN_DIGITS),
+        unit => format!("{} {unit}", significant(value, SHOWN_DIGITS)),
+    }
+}
+
+/// A gain of an objective, more being better, as it is spoken of.
+pub(super) fn gain(aim: Objective, gain: f64) -> String {
+    match aim {
+        Objective::SlipMargin => format!("{} % slip margin", significant(100.0 * gain, 2)),
+        Objective::TorqueCapacity => format!("{} Nm of torque capacity", significant(gain, 2)),
+        Objective::PeakPressure => format!("{} MPa less pressure", significant(gain, 2)),
+        Objective::Windup => format!("{} deg less windup", significant(gain, 2)),
+        Objective::StiffnessCurve => {
+            format!("{} % less departure from the target", significant(100.0 * gain, 2))
+        }
+    }
+}
+
+/// About one percent of a value, as 1, 2 or 5 times a power of ten.
+fn round_step(value: f64) -> f64 {
+    let wanted = 0.01 * value.abs().max(1e-9);
+    let power = 10_f64.powf(wanted.log10().floor());
+    let digit = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .min_by(|a, b| (a * power - wanted).abs().total_cmp(&(b * power - wanted).abs()));
+    digit.unwrap_or(1.0) * power
+}
+
+/// "raising the allowable of hoop-inner by 10 MPa would buy 0.8 % slip margin".
+pub(super) fn price_sentence(aim: Objective, price: &Price) -> String {
+    let step = round_step(price.value);
+    let bought = gain(aim, price.gain_per_unit * step);
+    let unit = if price.unit == "1" { "" } else { &price.unit };
+    let by = format!("{} {unit}", significant(step, 1)).trim_end().to_owned();
+    match price.kind {
+        PriceKind::Limit => format!("raising the allowable of {} by {by} would buy {bought}", price.of),
+        PriceKind::Margin => format!("asking {by} less of {} would buy {bought}", price.of),
+        PriceKind::Lower => format!("lowering the lower bound of {} by {by} would buy {bought}", price.of),
+        PriceKind::Upper => format!("raising the upper bound of {} by {by} would buy {bought}", price.of),
+    }
+}
+
+/// What the ends of the climbs say of optima that none has met.
+pub(super) fn optima_line(optima: &Optima, hints: &Hints) -> String {
+    let Optima { climbs, seen } = *optima;
+    if climbs == 0 {
+        return "No climb converged within the limits".into();
+    }
+    let met = format!(
+        "{climbs} climbs converged within the limits, to {seen} {}",
+        if seen == 1 { "optimum" } else { "optima" }
+    );
+    let more = hints.more_starts;
+    match optima.expected() {
+        Some(e) if optima.enough() => {
+            format!(
+                "{met}: others are not to be expected ({} in all; Boender and Rinnooy Kan 1987)",
+                significant(e, 2)
+            )
+        }
+        Some(e) => format!(
+            "{met}: {} in all are to be expected (Boender and Rinnooy Kan 1987), {more}",
+            significant(e, 2)
+        ),
+        None => format!("{met}: too few to tell whether there are others, {more}"),
+    }
+}
+
+impl Story {
+    /// How it ended, in one sentence.
+    pub fn verdict(&self, hints: &Hints) -> String {
+        let found = &self.found;
+        let (before, after) = self.objective();
+        let why = match self.status() {
+            Status::Converged => "converged".to_owned(),
+            Status::Infeasible { least_violation, fighting } => {
+                let names: Vec<&str> = fighting
+                    .iter()
+                    .filter_map(|&i| self.last().names.limits.get(i))
+                    .map(String::as_str)
+                    .collect();
+                if let Some(said) = self.out_of_reach() {
+                    return said;
+                }
+                return format!(
+                    "infeasible: no design within the bounds holds every limit; the least violation is \
+                     {least_violation:.4}, held up by {}",
+                    names.join(" against ")
+                );
+            }
+            Status::EvaluationLimit => format!("stopped at the evaluation limit{}", hints.evaluation_limit),
+            Status::Interrupted => hints.stopped.to_owned(),
+            Status::Stalled(cause) => format!("stalled ({cause:?})"),
+        };
+        if self.feasible() {
+            let reserve = found.problem.reserve();
+            format!(
+                "{} {} -> {} ({}), every limit held{}{}; {why} after {} evaluations{}{}{}",
+                found.aim.words(),
+                shown(found.aim, before),
+                shown(found.aim, after),
+                error_beside(after, SHOWN_DIGITS, self.objective_error()),
+                if reserve > 0.0 {
+                    format!(" with {} % to spare", significant(100.0 * reserve, 2))
+                } else {
+                    String::new()
+                },
+                self.start_not_held(),
+                self.evaluations(),
+                self.on_grid()
+                    .and(self.stepped.as_ref())
+                    .map_or(String::new(), |s| format!("; lengths in steps of {} mm", s.step_mm)),
+                if self.makeable() {
+                    ""
+                } else {
+                    "; NO FLANKS are known that give its centroid, so it cannot be made"
+                },
+                self.not_robust().map_or(String::new(), |why| format!("; {why}"))
+            )
+        } else {
+            format!(
+                "no feasible design found: {why} after {} evaluations; not held: {}{}",
+                self.evaluations(),
+                self.not_held().join(", "),
+                self.worst()
+            )
+        }
+    }
+
+    /// The limits that the design searched from does not hold, in words behind a design that holds all.
+    fn start_not_held(&self) -> String {
+        let broken: Vec<String> =
+            self.found.start.iter().filter(|m| !self.held(m)).map(Margin::code).collect();
+        match broken.len() {
+            0 => String::new(),
+            n => format!(
+                " (the start did not hold {n} {}: {})",
+                if n == 1 { "limit" } else { "limits" },
+                broken.join(", ")
+            ),
+        }
+    }
+
+    /// The worst margin of a design that does not hold all, the nearest one found.
+    fn worst(&self) -> String {
+        let rows = self.margins().iter().filter(|m| !self.held(m));
+        rows.min_by(|a, b| a.margin().total_cmp(&b.margin())).map_or(String::new(), |m| {
+            format!("; worst margin of this nearest design: {}, {}", margin_text(m), m.code())
+        })
+    }
+
+    /// What to say where the best slip margin is less than the wanted one and nothing else is broken.
+    fn out_of_reach(&self) -> Option<String> {
+        let found = &self.found;
+        let wanted = found.problem.limits().slip_margin?;
+        (found.aim == Objective::SlipMargin
+            && self.margins().iter().filter(|m| !self.held(m)).all(Margin::is_slip))
+        .then(|| {
+            format!(
+                "infeasible: the largest {} found is {}, and slip_margin asks for {}; it is held down by {}",
+                found.aim.words(),
+                shown(found.aim, self.objective().1),
+                significant(wanted, 4),
+                self.active().join(", ")
+            )
+        })
+    }
+
+    /// What holds the optimum where it is: objectives, limits, bounds.
+    pub fn active(&self) -> Vec<String> {
+        let a = &self.made().outcome.active;
+        let n = &self.made().names;
+        let free = &self.made().searched;
+        let objectives = a.objectives.iter().filter_map(|&i| n.objectives.get(i)).cloned();
+        let limits = a.limits.iter().filter_map(|&i| n.limits.get(i)).cloned();
+        let lower = a.lower.iter().filter_map(|&i| free.get(i)).map(|s| format!("{s} at its lower bound"));
+        let upper = a.upper.iter().filter_map(|&i| free.get(i)).map(|s| format!("{s} at its upper bound"));
+        objectives.chain(limits).chain(lower).chain(upper).collect()
+    }
+
+    /// Variables whose value in the file lies outside their bounds, a sentence each.
+    pub fn moved_inside(&self) -> Vec<String> {
+        let outside = self.found.variables.iter().filter(|v| v.start != v.given);
+        let line = |v: &Variable| {
+            format!(
+                "{} is {} in the file, outside its bounds {} to {} in [optimize]: the search started from {}.",
+                v.name, v.given, v.min, v.max, v.start
+            )
+        };
+        outside.map(line).collect()
+    }
+
+    /// What the optimum gained or lost when it was looked at with everything.
+    pub fn in_full(&self) -> String {
+        let changes = self.margins().iter().zip(self.as_searched());
+        let most = changes
+            .map(|(a, b)| ((a.margin() - b.margin()).abs(), a.code()))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        match most {
+            Some((change, code)) => format!(
+                "Looked at in full, at a true error of 1e-7 or less: no margin moves by more than {change:.0e} ({code})."
+            ),
+            None => String::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_price_is_a_sentence() {
+        let price = Price {
+            of: "hertz-peak-inner".into(),
+            kind: PriceKind::Limit,
+            unit: "MPa".into(),
+            gain_per_unit: 8e-5,
+            value: 4600.0,
+        };
+        let said = price_sentence(Objective::SlipMargin, &price);
+        assert_eq!(said, "raising the allowable of hertz-peak-inner by 50 MPa would buy 0.40 % slip margin");
+    }
+}

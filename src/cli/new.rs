@@ -1,0 +1,298 @@
+//! `new`: the own clutch, by questions or by flags.
+
+use super::Context;
+use super::exit::{Exit, Failure};
+use super::output;
+use super::size::{WishArgs, a_steel, answer, may_write};
+use crate::follow::Follow;
+use crate::material::STEELS;
+use crate::report::plain;
+use crate::size::{Ask, PURPOSES, Purpose, Wish, purpose};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use std::io::{BufRead, IsTerminal};
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::Duration;
+
+const EXAMPLES: &str = "\
+Examples:
+  sprag-design new
+  sprag-design new --for starter --bore 40 --peak 900 -o starter.toml
+  sprag-design new --for indexing --bore 30 --torque 200 --outside 80 --width 25 -o indexing.toml
+
+On a terminal it asks for what no option has said; a question without an answer takes what stands in brackets. Elsewhere, or
+where --for, --bore, a torque and -o are given, it asks nothing. What nobody says comes of the purpose: its factor of peak
+torque, speeds, swing and engagement stand in the file, each number that is a guess with a comment that says so. The file
+is sized as by `size`; a file that is there already is replaced only with --force.
+
+Exit codes: 0 written; 1 no clutch of the family does it, with the limit that prevents it and the nearest possible.";
+
+/// Arguments of `new`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct NewArgs {
+    /// What the clutch is for
+    #[arg(long = "for", value_name = "PURPOSE", value_parser = PossibleValuesParser::new(PURPOSES.map(|p| p.name)))]
+    pub purpose: Option<String>,
+    /// What it shall do.
+    #[command(flatten)]
+    pub wish: WishArgs,
+    /// Engagements in its life: kept as a comment, no life is computed
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub engagements: Option<f64>,
+    /// Where to write the design file
+    #[arg(long, short, value_name = "NEW.toml")]
+    pub output: Option<PathBuf>,
+}
+
+/// Run the command.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(args: &NewArgs, context: &Context) -> Result<Exit, Failure> {
+    let mut args = args.clone();
+    let missing = args.missing();
+    if !missing.is_empty() {
+        if !std::io::stdin().is_terminal() || context.json {
+            return Err(Failure::malformed(format!(
+                "needed: {}; on a terminal, without them, `new` asks",
+                missing.join(", ")
+            )));
+        }
+        args.wish.check_safety()?;
+        Questions { lines: lines(), follow: &context.follow }.fill(&mut args)?;
+    }
+    args.wish.check_safety()?;
+    let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
+    may_write(&output, context)?;
+    let exit = answer::answer(&args.ask(), &output, "New clutch", context)?;
+    if exit == Exit::Held {
+        let path = output::path_text(&output);
+        context.answer(&format!(
+            "\nNext:\n  sprag-design studio {path}\n  sprag-design check {path}\n  sprag-design optimize {path} -o better.toml\n  \
+             sprag-design sheet {path}\n"
+        ))?;
+    }
+    Ok(exit)
+}
+
+impl NewArgs {
+    fn missing(&self) -> Vec<&'static str> {
+        let mut missing = Vec::new();
+        if self.purpose.is_none() {
+            missing.push("--for PURPOSE");
+        }
+        missing.extend(self.wish.missing());
+        if self.output.is_none() {
+            missing.push("-o NEW.toml");
+        }
+        missing
+    }
+
+    fn purpose(&self) -> Option<&'static Purpose> {
+        self.purpose.as_deref().and_then(purpose)
+    }
+
+    fn ask(&self) -> Ask {
+        Wish { purpose: self.purpose(), engagements: self.engagements, ..self.wish.wish() }.ask()
+    }
+}
+
+/// Lines of standard input as they come: whoever waits for them can be stopped by Ctrl-C meanwhile.
+fn lines() -> Receiver<String> {
+    let (send, receive) = channel();
+    std::thread::spawn(move || {
+        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+            if send.send(line).is_err() {
+                break;
+            }
+        }
+    });
+    receive
+}
+
+/// A number that is asked for: question with unit, name of its option, where it is kept, what holds without an answer, and
+/// whether there must be an answer.
+struct Number {
+    question: &'static str,
+    what: &'static str,
+    at: fn(&mut NewArgs) -> &mut Option<f64>,
+    without: fn(&Ask) -> Option<f64>,
+    needed: bool,
+}
+
+fn rpm(rad_s: f64) -> f64 {
+    rad_s * 30.0 / std::f64::consts::PI
+}
+
+const NUMBERS: [Number; 11] = [
+    Number {
+        question: "Bore of the inner race, diameter, mm",
+        what: "bore",
+        at: |a| &mut a.wish.bore,
+        without: |_| None,
+        needed: true,
+    },
+    Number {
+        question: "Nominal torque, carried day by day, Nm (none: by the peak torque)",
+        what: "torque",
+        at: |a| &mut a.wish.torque,
+        without: |_| None,
+        needed: false,
+    },
+    Number {
+        question: "Peak torque, at the worst, Nm",
+        what: "peak",
+        at: |a| &mut a.wish.peak,
+        without: |ask| Some(ask.peak_nm).filter(|t| t.is_finite()),
+        needed: true,
+    },
+    Number {
+        question: "Largest outer diameter, mm (none: 1.4 times the outer track)",
+        what: "outside",
+        at: |a| &mut a.wish.outside,
+        without: |_| None,
+        needed: false,
+    },
+    Number {
+        question: "Largest width of the races, mm (none: as wide as it must)",
+        what: "width",
+        at: |a| &mut a.wish.width,
+        without: |_| None,
+        needed: false,
+    },
+    Number {
+        question: "Speed of the inner race in overrun, rpm",
+        what: "inner-rpm",
+        at: |a| &mut a.wish.inner,
+        without: |ask| Some(rpm(ask.overrun_rad_s[0])),
+        needed: false,
+    },
+    Number {
+        question: "Speed of the outer race in overrun, in the same sense, rpm",
+        what: "outer-rpm",
+        at: |a| &mut a.wish.outer,
+        without: |ask| Some(rpm(ask.overrun_rad_s[1])),
+        needed: false,
+    },
+    Number {
+        question: "Sprags keep contact up to this speed of the outer race, rpm (0: not asked)",
+        what: "keep-contact-rpm",
+        at: |a| &mut a.wish.keep_contact,
+        without: |ask| Some(rpm(ask.keep_contact_rad_s.unwrap_or(0.0))),
+        needed: false,
+    },
+    Number {
+        question: "Sprags are off by this speed of the outer race, rpm (0: they stay on)",
+        what: "lift-off-rpm",
+        at: |a| &mut a.wish.lift_off,
+        without: |ask| Some(rpm(ask.lift_off_rad_s.unwrap_or(0.0))),
+        needed: false,
+    },
+    Number {
+        question: "Static friction",
+        what: "friction",
+        at: |a| &mut a.wish.friction,
+        without: |ask| Some(ask.friction),
+        needed: false,
+    },
+    Number {
+        question: "Engagements in its life (none: not said; kept as a comment, no life is computed)",
+        what: "engagements",
+        at: |a| &mut a.engagements,
+        without: |_| None,
+        needed: false,
+    },
+];
+
+struct Questions<'a> {
+    lines: Receiver<String>,
+    follow: &'a Follow,
+}
+
+impl Questions<'_> {
+    /// Ask for everything that `args` do not say.
+    fn fill(&self, args: &mut NewArgs) -> Result<(), Failure> {
+        if args.purpose.is_none() {
+            for p in &PURPOSES {
+                output::note(&format!("  {:<11} {}", p.name, p.words));
+            }
+            args.purpose = Some(self.until("What is it for?", |line| match purpose(line) {
+                Some(found) => Ok(found.name.to_owned()),
+                None => Err(format!("one of {}", PURPOSES.map(|p| p.name).join(", "))),
+            })?);
+        }
+        for number in &NUMBERS {
+            if (number.at)(args).is_none() {
+                let value = self.number(number, args)?;
+                *(number.at)(args) = value;
+            }
+        }
+        if args.wish.material.is_none() {
+            let names = STEELS.map(|s| s.name).join(", ");
+            let question = format!("Steel: {names} [{}]", args.ask().steel.name);
+            args.wish.material = self.until(&question, |line| match line {
+                "" => Ok(None),
+                name => a_steel(name).map(Some),
+            })?;
+        }
+        if args.output.is_none() {
+            let name = format!("{}.toml", args.purpose.as_deref().unwrap_or("clutch"));
+            let question = format!("Write to [{name}]");
+            let answer = self.until(&question, |line| Ok(line.to_owned()))?;
+            args.output = Some(PathBuf::from(if answer.is_empty() { name } else { answer }));
+        }
+        Ok(())
+    }
+
+    fn number(&self, number: &Number, args: &NewArgs) -> Result<Option<f64>, Failure> {
+        let without = (number.without)(&args.ask());
+        let shown = match (without, number.needed) {
+            (Some(value), _) => format!(" [{}]", plain(value, 6)),
+            (None, true) => String::new(),
+            (None, false) => " [none]".to_owned(),
+        };
+        self.until(&format!("{}{shown}", number.question), |line| {
+            if line.is_empty() {
+                if number.needed && without.is_none() {
+                    return Err("a number is needed".to_owned());
+                }
+                // What came before may leave no room for what stands in brackets.
+                let fits = without.map_or(Ok(()), |_| args.ask().check_one(number.what));
+                return fits.map(|()| None).map_err(|why| why.to_string());
+            }
+            let value = line.replace(',', ".").parse::<f64>().map_err(|_| "not a number".to_owned())?;
+            let mut with = args.clone();
+            *(number.at)(&mut with) = Some(value);
+            let checked = with.ask().check_one(number.what);
+            checked.map(|()| Some(value)).map_err(|why| why.to_string())
+        })
+    }
+
+    /// Ask until the answer will do.
+    fn until<T>(&self, question: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<T, Failure> {
+        loop {
+            output::ask(&format!("{question}{} ", if question.ends_with('?') { "" } else { ":" }));
+            match read(self.line()?.trim()) {
+                Ok(answer) => return Ok(answer),
+                Err(why) => output::note(&format!("  {why}")),
+            }
+        }
+    }
+
+    fn line(&self) -> Result<String, Failure> {
+        loop {
+            if self.follow.stopped() {
+                return Err(Failure::Interrupted);
+            }
+            match self.lines.recv_timeout(Duration::from_millis(50)) {
+                Ok(line) => return Ok(line),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(Failure::malformed("the answers ended before the last question"));
+                }
+            }
+        }
+    }
+}

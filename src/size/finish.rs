@@ -1,0 +1,248 @@
+//! From a width that holds to a whole design: profile's end, flanks, spring, scenes, and what comes of it.
+
+use super::Ask;
+use super::proportions::{COUNTS, lengthen, longest_m, spring};
+use crate::design::{Design, Draft};
+use crate::margin::{
+    KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state, margins, overrun_at,
+};
+use crate::numeric::rounded;
+use crate::profile::Outline;
+use crate::scenario::Settings;
+use std::f64::consts::PI;
+
+/// Margin that a first design keeps on every limit: a choice, so that rounding and the optimiser find room.
+pub(super) const KEPT: f64 = 0.02;
+
+/// Largest drag of the spring in overrun over the nominal torque.
+const DRAG: f64 = 0.02;
+
+/// Lightest spring over that of the series, where sprags are to lift off: a choice; `designs/starter.toml` has 0.3.
+const LIGHTEST: f64 = 0.25;
+
+/// What the sprags drag in overrun.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drag {
+    /// Of the whole clutch, N m; 0: the sprags are off the inner race.
+    pub torque_nm: f64,
+    /// Speed at which the races slide past one another, rad/s.
+    pub sliding_rad_s: f64,
+}
+
+impl Drag {
+    /// Heat that it makes, W.
+    pub fn heat_w(&self) -> f64 {
+        self.torque_nm * self.sliding_rad_s
+    }
+}
+
+/// A design that holds, with what an engineer asks of it first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Made {
+    /// The design.
+    pub design: Design,
+    /// Every margin with its scenarios.
+    pub margins: Vec<Margin>,
+    /// Its mass, kg.
+    pub mass_kg: f64,
+    /// In the overrun asked for, slow where none is; `None` where there is no first contact at that speed.
+    pub drag: Option<Drag>,
+}
+
+impl Made {
+    /// The required limit with the least margin.
+    pub fn least(&self) -> Option<&Margin> {
+        self.margins.iter().filter(|r| r.required).min_by(|a, b| a.margin().total_cmp(&b.margin()))
+    }
+}
+
+/// A draft as a design with its load state.
+pub(super) fn build(draft: &Draft) -> Result<(Design, LoadState), String> {
+    let design = Design::parse(&draft.to_toml(), "sized.toml").map_err(|e| {
+        e.problems().first().map_or_else(|| e.to_string(), |p| format!("{}: {}", p.key, p.allowed))
+    })?;
+    let state = load_state(&design).map_err(|e| e.to_string())?;
+    Ok((design, state))
+}
+
+/// Profile's end, flanks, spring and scenes; then every margin.
+pub(super) fn finish(ask: &Ask, mut draft: Draft, settings: &Settings) -> Result<Made, String> {
+    const ROUNDS: usize = 6;
+    let mut why = String::new();
+    for _ in 0..ROUNDS {
+        draft.flanks_m = None;
+        draft.until_rad = 1.2;
+        let (design, state) = build(&draft)?;
+        let peak = state.curve.at_torque(draft.torques_nm[1]).ok_or("the curve ends below peak torque")?;
+        let nominal =
+            state.curve.at_torque(draft.torques_nm[0]).ok_or("the curve ends below nominal torque")?;
+        // A third of the turn, and a little for small ones, is left at peak torque.
+        draft.until_rad = 1.3 * peak.contact_turn_rad + 0.02;
+        let mut ended = design.clutch.clone();
+        ended.sprags.inner_arcs[0].until_rad = draft.until_rad;
+        let profile = ended.profile().map_err(|e| e.to_string())?;
+        let (rear, front) = Outline::narrowest_flanks(&profile).map_err(|e| e.to_string())?;
+        // A sprag is no needle: at least a fifth of the race space to either side, where the arcs reach that far.
+        let space = draft.races_m[2] - draft.races_m[1];
+        let least_half = (0.2 * space).min(0.8 * draft.inner_radius_m);
+        draft.flanks_m = Some((rear.max(least_half), front.max(least_half)));
+        let stiffness = nominal.k_secant_nm_per_rad;
+        let races = design.clutch.races;
+        let natural_hz = (stiffness / races.inner_inertia_kg_m2.min(races.outer_inertia_kg_m2)).sqrt()
+            / std::f64::consts::TAU;
+        draft.step_duration_s = (20.0 / natural_hz).max(0.02);
+        draft.abutment_nm_per_rad = 10.0 * stiffness;
+        draft.name = format!(
+            "{}: bore {} mm, {} Nm",
+            ask.purpose.map_or("sized", |p| p.name),
+            short(ask.bore_m * 1e3),
+            short(ask.torque_nm)
+        );
+        draft.scenes = ask.purpose.map_or_else(Vec::new, |purpose| {
+            purpose.scenes(ask, draft.abutment_nm_per_rad, races.inner_inertia_kg_m2)
+        });
+        match sprung(&mut draft).and_then(|()| made(ask, &mut draft, settings)) {
+            Ok(done) => return Ok(done),
+            Err(Obstacle::Neighbours) => {
+                draft.count = (draft.count as f64 * 0.95).floor() as usize;
+                why = "neighbouring sprags overlap".to_owned();
+            }
+            Err(Obstacle::Margin(code)) => why = code,
+            Err(Obstacle::Other(other)) => return Err(other),
+        }
+        if draft.count < COUNTS.0 {
+            break;
+        }
+        // Fewer sprags or dynamics ask for more width.
+        let length_m = (1.06 * draft.length_m * 1e4).ceil() / 1e4;
+        lengthen(&mut draft, length_m);
+        let most = if ask.width_m.is_some() { 1.0 } else { 1.2 };
+        if draft.length_m > most * longest_m(ask, space) {
+            break;
+        }
+    }
+    Err(why)
+}
+
+/// What stands in the way of a draft that its width should carry.
+enum Obstacle {
+    Neighbours,
+    Margin(String),
+    Other(String),
+}
+
+/// A spring that holds the sprags to the race up to the one speed, and a front flank and a spring that let them off by the
+/// other.
+fn sprung(draft: &mut Draft) -> Result<(), Obstacle> {
+    const ROUNDS: usize = 40;
+    let slow_n = normal_n(draft);
+    for _ in 0..ROUNDS {
+        let (design, state) = build(draft).map_err(|why| {
+            if why.starts_with("sprags.count") { Obstacle::Neighbours } else { Obstacle::Other(why) }
+        })?;
+        let rows = load_margins(&design, &design.limits, false, &state);
+        let short = |limit| rows.iter().find(|r| r.limit == limit && r.margin() < KEPT);
+        // The closing moment is in proportion to the spring's force, but for what growth takes from its angle.
+        if let Some(off) = short(&LIFT_OFF) {
+            let closing = off.demand_in_unit().unwrap_or(0.0);
+            let factor = off.allowable_in_unit() / (1.1 * closing);
+            if off.allowable > 0.0 && factor * normal_n(draft) >= LIGHTEST * slow_n {
+                spring(draft, factor * normal_n(draft));
+            } else if let Some((_, front)) = &mut draft.flanks_m {
+                // A centroid farther ahead.
+                *front *= 1.04;
+                spring(draft, LIGHTEST * slow_n);
+            }
+        } else if let Some(keep) = short(&KEEP_CONTACT) {
+            let opening = keep.demand_in_unit().filter(|_| keep.allowable > 0.0);
+            let factor = opening.map_or(4.0, |opening| 1.1 * opening / keep.allowable_in_unit());
+            spring(draft, normal_n(draft) * factor.max(1.1));
+        } else {
+            return Ok(());
+        }
+        if draft.drag_nm > DRAG * draft.torques_nm[0] {
+            return Err(Obstacle::Other(format!(
+                "keep-contact: a spring that holds the sprags against their centrifugal moment would drag with {:.3} Nm, above {DRAG} \
+                 of the nominal torque",
+                draft.drag_nm
+            )));
+        }
+    }
+    Err(Obstacle::Other(
+        if draft.contact_rad_s[1].is_some() {
+            "lift-off: no spring and no flank was found that lets the sprags off by that speed"
+        } else {
+            "keep-contact: no spring was found"
+        }
+        .to_owned(),
+    ))
+}
+
+/// Normal force of the spring on a sprag in slow overrun, N: see [`spring`].
+fn normal_n(draft: &Draft) -> f64 {
+    10.0 * draft.drag_nm / (draft.count as f64 * draft.races_m[1])
+}
+
+/// The finished draft with every margin, all held; what it says of itself is what came of it.
+fn made(ask: &Ask, draft: &mut Draft, settings: &Settings) -> Result<Made, Obstacle> {
+    let (design, state) = build(draft).map_err(Obstacle::Other)?;
+    let rows = margins(&design, &design.limits, &design.check_scenarios, false, true, settings)
+        .map_err(|e| Obstacle::Other(e.to_string()))?;
+    if let Some(row) = rows.iter().filter(|r| r.required).find(|r| !r.held()) {
+        return Err(Obstacle::Margin(row.code()));
+    }
+    let sliding_rad_s = ask.sliding_rad_s();
+    let drag = overrun_at(&design, &state, ask.overrun_rad_s[1], sliding_rad_s).ok();
+    let mut made = Made {
+        mass_kg: design.clutch.masses_kg().iter().sum(),
+        drag: drag.map(|p| Drag { torque_nm: p.state.drag_torque_nm, sliding_rad_s }),
+        design,
+        margins: rows,
+    };
+    draft.why = why_lines(ask, draft, made.least());
+    // The same numbers under other comments.
+    made.design = build(draft).map_err(Obstacle::Other)?.0;
+    Ok(made)
+}
+
+/// For names and comments.
+fn short(value: f64) -> f64 {
+    rounded(value, 7)
+}
+
+fn why_lines(ask: &Ask, draft: &Draft, least: Option<&Margin>) -> Vec<String> {
+    let rpm = |rad_s: f64| short(rad_s * 30.0 / PI);
+    let mut asked = vec![
+        format!("a bore of {} mm", short(ask.bore_m * 1e3)),
+        format!("{} Nm nominal, {} Nm peak", short(ask.torque_nm), short(ask.peak_nm)),
+        format!("friction {}", short(ask.friction)),
+    ];
+    asked.extend(ask.outside_m.map(|m| format!("at most {} mm outside", short(m * 1e3))));
+    asked.extend(ask.width_m.map(|m| format!("at most {} mm wide", short(m * 1e3))));
+    asked.extend(
+        ask.keep_contact_rad_s.filter(|&w| w > 0.0).map(|w| format!("contact kept up to {} rpm", rpm(w))),
+    );
+    asked.extend(ask.lift_off_rad_s.map(|w| format!("lifted off by {} rpm", rpm(w))));
+    let space_mm = short((draft.races_m[2] - draft.races_m[1]) * 1e3);
+    let left = least.map_or_else(String::new, |r| {
+        format!(" The least margin is {} %, {}.", rounded(100.0 * r.margin(), 3), r.code())
+    });
+    let command = if ask.purpose.is_some() { "new" } else { "size" };
+    let mut lines = vec![
+        format!("Written by sprag-design {command} {}", env!("CARGO_PKG_VERSION")),
+        format!("Why this file exists: a first design for {}.", asked.join(", ")),
+        format!(
+            "Race space {space_mm} mm in the proportions of a maker's 8.33 mm series, as wide as its limits ask.{left}"
+        ),
+        "Nothing in it is optimised: check, then optimize.".to_owned(),
+    ];
+    if let Some(purpose) = ask.purpose {
+        lines.push(format!("For: {}, {}.", purpose.name, purpose.words));
+    }
+    if let Some(count) = ask.engagements {
+        lines.push(format!(
+            "Engagements wanted: {count}. Kept as a note: no life is computed, neither fatigue nor wear."
+        ));
+    }
+    lines
+}
