@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use sprag_design::contact::half_space::{HalfSpaceLine, HalfSpaceLineSolution, HalfSpaceStatus};
 use sprag_design::contact::{
-    AxialFit, ContactError, EndProfile, LineContact, Peak, RollerLaw, SliceCompliance, SliceContact,
+    AxialFit, ContactError, EndDrop, LineContact, Peak, RollerLaw, SliceCompliance, SliceContact,
 };
 use sprag_design::material::{Material, PlaneState};
 use sprag_design::report::plot::{Curve, Dash};
@@ -355,11 +355,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         contact_modulus_pa: PlaneState::Strain.contact_modulus_pa(&steel, &steel),
     };
     let shaped = |profile, tilt| AxialFit::shaped(contact.length_m, profile, tilt);
-    let lundberg = EndProfile::lundberg(&contact, DESIGN_N)?;
+    let lundberg = EndDrop::lundberg(&contact, DESIGN_N)?;
     let cases = [
-        Case { name: "Square ends", fit: shaped(EndProfile::Square, 0.0)? },
+        Case { name: "Square ends", fit: shaped(EndDrop::Square, 0.0)? },
         Case { name: "Lundberg profile for 2441 N", fit: shaped(lundberg, 0.0)? },
-        Case { name: "Square ends, tilt 0.5 mrad", fit: shaped(EndProfile::Square, TILT_RAD)? },
+        Case { name: "Square ends, tilt 0.5 mrad", fit: shaped(EndDrop::Square, TILT_RAD)? },
     ];
     let mut page = Page::new(PageHead {
         title: "Contact: error against time".into(),

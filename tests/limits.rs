@@ -59,7 +59,7 @@ fn with(limits: Table, sharper: Table) -> Design {
 /// All rows, those off centre included.
 fn rows(design: &Design) -> Vec<Margin> {
     let scenes = &design.check_scenarios;
-    let mut rows = margins(design, &design.limits, scenes, false, false, &Settings::default()).unwrap();
+    let mut rows = margins(design, scenes, &Settings::default()).unwrap();
     let ring = RunOut::new(design, &load_state(design).unwrap()).unwrap();
     rows.extend(run_out_margins(design, &design.limits, &ring, false));
     rows

@@ -55,9 +55,7 @@ fn every_size_of_the_grid_holds_its_own_file() {
         let sized = sized(&ask).unwrap_or_else(|why| panic!("{ask:?}: {why}"));
         // Read anew from the text alone.
         let design = Design::parse(&sized.made.design.source, "again.toml").unwrap();
-        let rows =
-            margins(&design, &design.limits, &design.check_scenarios, true, true, &Settings::default())
-                .unwrap();
+        let rows = margins(&design, &design.check_scenarios, &Settings::default()).unwrap();
         for row in rows.iter().filter(|r| r.required) {
             assert!(row.held(), "{ask:?}: {row:?}");
         }

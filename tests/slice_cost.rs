@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use sprag_design::contact::{AxialFit, EndProfile, LineContact, RollerLaw, SliceContact};
+use sprag_design::contact::{AxialFit, EndDrop, LineContact, RollerLaw, SliceContact};
 
 #[test]
 #[ignore = "a measurement, printed"]
@@ -17,7 +17,7 @@ fn cost_of_a_slice_solution() {
     );
     for n in [1, 10, 20, 40, 60, 80, 160, 320, 500, 1000, 2000] {
         let slices = SliceContact::new(c, roller, n).unwrap();
-        let cost = |profile: EndProfile, tilt: f64, normal_n: f64| {
+        let cost = |profile: EndDrop, tilt: f64, normal_n: f64| {
             let fit = AxialFit::shaped(6e-3, profile, tilt).unwrap();
             let repeats = (2000 / n).clamp(1, 100);
             let start = Instant::now();
@@ -27,10 +27,10 @@ fn cost_of_a_slice_solution() {
             1e3 * start.elapsed().as_secs_f64() / repeats as f64
         };
         let times = [
-            cost(EndProfile::Square, 0.0, 2441.0),
-            cost(EndProfile::lundberg(&c, 2441.0).unwrap(), 0.0, 2441.0),
-            cost(EndProfile::Square, 1e-3, 200.0),
-            cost(EndProfile::table(wave.clone()).unwrap(), 0.0, 150.0),
+            cost(EndDrop::Square, 0.0, 2441.0),
+            cost(EndDrop::lundberg(&c, 2441.0).unwrap(), 0.0, 2441.0),
+            cost(EndDrop::Square, 1e-3, 200.0),
+            cost(EndDrop::table(wave.clone()).unwrap(), 0.0, 150.0),
         ];
         println!("{n:>7} {:>12.4} {:>12.4} {:>12.4} {:>12.4}", times[0], times[1], times[2], times[3]);
     }

@@ -1,7 +1,7 @@
 //! Identities of the slice contact at the ends of its range.
 
 use sprag_design::contact::{
-    AxialFit, ContactError, EndProfile, LineContact, RollerLaw, SliceCompliance, SliceContact, SliceSolution,
+    AxialFit, ContactError, EndDrop, LineContact, RollerLaw, SliceCompliance, SliceContact, SliceSolution,
     SliceStatus,
 };
 
@@ -36,7 +36,7 @@ fn every_corner_of_the_range_has_a_sound_answer() {
             let c = contact(length_m, modulus);
             for slices in [1, 2, 60, 2000] {
                 for tilt in [0.0, 1e-3] {
-                    let fit = AxialFit::shaped(length_m, EndProfile::Square, tilt).unwrap();
+                    let fit = AxialFit::shaped(length_m, EndDrop::Square, tilt).unwrap();
                     let gap = fit.gaps_m(slices);
                     for law in both(c, slices) {
                         let mut last = 0.0;
@@ -56,8 +56,8 @@ fn every_corner_of_the_range_has_a_sound_answer() {
 #[test]
 fn approach_and_every_load_rise_with_the_force() {
     let c = contact(6e-3, 113e9);
-    let crown = EndProfile::crown_radius(0.5, 6e-3).unwrap();
-    for (profile, tilt) in [(EndProfile::Square, 0.0), (EndProfile::Square, 2e-3), (crown, 1e-3)] {
+    let crown = EndDrop::crown_radius(0.5, 6e-3).unwrap();
+    for (profile, tilt) in [(EndDrop::Square, 0.0), (EndDrop::Square, 2e-3), (crown, 1e-3)] {
         let fit = AxialFit::shaped(6e-3, profile, tilt).unwrap();
         for law in both(c, 60) {
             let mut last = law.solve_along(1e-6, &fit).unwrap();
@@ -78,7 +78,7 @@ fn a_tilt_that_lifts_half_the_length_leaves_the_other_half() {
     let c = contact(6e-3, 113e9);
     for law in both(c, 200) {
         // the force at which half is open, by bisection: the open count falls with the force
-        let fit = AxialFit::shaped(6e-3, EndProfile::Square, 1e-3).unwrap();
+        let fit = AxialFit::shaped(6e-3, EndDrop::Square, 1e-3).unwrap();
         let open = |n: f64| law.solve_along(n, &fit).unwrap().load_n.iter().filter(|q| **q == 0.0).count();
         let (mut low, mut high) = (1e-3f64, 1e5f64);
         for _ in 0..60 {
@@ -89,7 +89,7 @@ fn a_tilt_that_lifts_half_the_length_leaves_the_other_half() {
         assert_eq!(open(high), 100);
         sound(&found, &fit.gaps_m(200), high);
         // mirrored tilt, mirrored loads
-        let mirrored = AxialFit::shaped(6e-3, EndProfile::Square, -1e-3).unwrap();
+        let mirrored = AxialFit::shaped(6e-3, EndDrop::Square, -1e-3).unwrap();
         let other = law.solve_along(high, &mirrored).unwrap();
         for j in 0..200 {
             let off = found.load_n[j] - other.load_n[199 - j];
@@ -101,8 +101,8 @@ fn a_tilt_that_lifts_half_the_length_leaves_the_other_half() {
 #[test]
 fn symmetric_bodies_have_symmetric_loads_at_any_number_of_slices() {
     let c = contact(6e-3, 113e9);
-    let lundberg = EndProfile::lundberg(&c, 2441.0).unwrap();
-    for profile in [EndProfile::Square, lundberg] {
+    let lundberg = EndDrop::lundberg(&c, 2441.0).unwrap();
+    for profile in [EndDrop::Square, lundberg] {
         let fit = AxialFit::shaped(6e-3, profile, 0.0).unwrap();
         for slices in [2, 61, 500, 2000] {
             for law in both(c, slices) {
@@ -119,7 +119,7 @@ fn symmetric_bodies_have_symmetric_loads_at_any_number_of_slices() {
 #[test]
 fn more_slices_tend_to_one_approach() {
     let c = contact(6e-3, 113e9);
-    let fit = AxialFit::shaped(6e-3, EndProfile::crown_radius(0.5, 6e-3).unwrap(), 5e-4).unwrap();
+    let fit = AxialFit::shaped(6e-3, EndDrop::crown_radius(0.5, 6e-3).unwrap(), 5e-4).unwrap();
     for index in [0, 1] {
         let at = |n: usize| both(c, n)[index].solve_along(1000.0, &fit).unwrap().approach_m;
         let finest = at(2000);

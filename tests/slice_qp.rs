@@ -4,7 +4,7 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SupportedConeT};
 use sprag_design::contact::{
-    AxialFit, EndProfile, LineContact, RollerLaw, SliceContact, SliceStatus, influence_m_per_pa,
+    AxialFit, EndDrop, LineContact, RollerLaw, SliceContact, SliceStatus, influence_m_per_pa,
     weighted_influence_m_per_n,
 };
 
@@ -21,9 +21,9 @@ fn by_clarabel(normal_n: f64, half_width_m: f64, gap_m: &[f64], unit_m: f64) -> 
     let unit_n = normal_n / n as f64;
     let s = n as f64 * RollerLaw::new(&c, 3.944e-5).unwrap().approach_m(normal_n) / normal_n;
     let w = influence_m_per_pa(half_width_m, LENGTH_M / n as f64, n, c.contact_modulus_pa);
-    let matrix = weighted_influence_m_per_n(&w, s);
+    let row = weighted_influence_m_per_n(&w, s);
     let upper: Vec<Vec<f64>> = (0..n)
-        .map(|j| (0..n).map(|k| if k >= j { matrix[(j, k)] * unit_n / unit_m } else { 0.0 }).collect())
+        .map(|j| (0..n).map(|k| if k >= j { row[k - j] * unit_n / unit_m } else { 0.0 }).collect())
         .collect();
     let linear: Vec<f64> = gap_m.iter().map(|g| g / unit_m).collect();
     let mut rows = vec![vec![1.0; n]];
@@ -56,15 +56,15 @@ fn by_clarabel(normal_n: f64, half_width_m: f64, gap_m: &[f64], unit_m: f64) -> 
 #[test]
 fn clarabel_finds_the_same_loads_and_approach() {
     let c = contact();
-    let crown = EndProfile::crown_radius(0.225, LENGTH_M).unwrap();
-    let lundberg = EndProfile::lundberg(&c, 2441.0).unwrap();
-    let wave = EndProfile::table(
+    let crown = EndDrop::crown_radius(0.225, LENGTH_M).unwrap();
+    let lundberg = EndDrop::lundberg(&c, 2441.0).unwrap();
+    let wave = EndDrop::table(
         (0..=30).map(|i| [(i as f64 / 15.0 - 1.0) * 3e-3, if i % 3 == 0 { 0.0 } else { 2e-6 }]).collect(),
     );
     let cases = [
-        ("square", EndProfile::Square, 0.0, 2441.0),
+        ("square", EndDrop::Square, 0.0, 2441.0),
         ("crown", crown, 0.0, 300.0),
-        ("tilted", EndProfile::Square, 1.5e-3, 200.0),
+        ("tilted", EndDrop::Square, 1.5e-3, 200.0),
         ("Lundberg, tilted", lundberg, -5e-4, 1000.0),
         ("wavy", wave.unwrap(), 0.0, 150.0),
     ];

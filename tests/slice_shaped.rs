@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use sprag_design::contact::{
-    Approach, AxialFit, EndProfile, HertzBody, LineContact, RollerLaw, ShapedLaw, SliceCompliance,
-    SliceContact, SliceRatio, SliceStatus,
+    Approach, AxialFit, EndDrop, HertzBody, LineContact, RollerLaw, ShapedLaw, SliceCompliance, SliceContact,
+    SliceRatio, SliceStatus,
 };
 use sprag_design::material::Material;
 
@@ -19,13 +19,13 @@ fn fits() -> Vec<(&'static str, AxialFit)> {
     let c = contact();
     let shaped = |profile, tilt| AxialFit::shaped(6e-3, profile, tilt).unwrap();
     vec![
-        ("square", shaped(EndProfile::Square, 0.0)),
-        ("Lundberg", shaped(EndProfile::lundberg(&c, 2441.0).unwrap(), 0.0)),
-        ("crown", shaped(EndProfile::crown_radius(1.0, 6e-3).unwrap(), 0.0)),
-        ("end relief", shaped(EndProfile::end_relief(1e-3, 50e-3).unwrap(), 0.0)),
-        ("tilt 0.2 mrad", shaped(EndProfile::Square, 2e-4)),
-        ("tilt 2 mrad", shaped(EndProfile::Square, 2e-3)),
-        ("Lundberg, tilt 1 mrad", shaped(EndProfile::lundberg(&c, 2441.0).unwrap(), 1e-3)),
+        ("square", shaped(EndDrop::Square, 0.0)),
+        ("Lundberg", shaped(EndDrop::lundberg(&c, 2441.0).unwrap(), 0.0)),
+        ("crown", shaped(EndDrop::crown_radius(1.0, 6e-3).unwrap(), 0.0)),
+        ("end relief", shaped(EndDrop::end_relief(1e-3, 50e-3).unwrap(), 0.0)),
+        ("tilt 0.2 mrad", shaped(EndDrop::Square, 2e-4)),
+        ("tilt 2 mrad", shaped(EndDrop::Square, 2e-3)),
+        ("Lundberg, tilt 1 mrad", shaped(EndDrop::lundberg(&c, 2441.0).unwrap(), 1e-3)),
     ]
 }
 

@@ -5,7 +5,7 @@ use std::panic::catch_unwind;
 use std::path::Path;
 
 use rayon::prelude::*;
-use sprag_design::accuracy::{Case, Judged, Outcome, WorkLimit, cases, judge, map};
+use sprag_design::accuracy::{Case, CaseEnd, Judged, WorkLimit, cases, judge, map};
 use sprag_design::clutch::Clutch;
 use sprag_design::{Design, Follow};
 
@@ -38,10 +38,10 @@ fn corners_and_random_cases_end_with_a_name_and_with_numbers() {
         assert!(j.events <= LIMIT.most_events + 1, "{} events: {}", j.events, what());
         assert!(j.rhs_evaluations <= MOST_RHS, "{} right-hand sides: {}", j.rhs_evaluations, what());
         // An answer without a verdict says why.
-        let named = |o: &Outcome| !matches!(o.name(), "not-finite" | "interrupted");
+        let named = |o: &CaseEnd| !matches!(o.name(), "not-finite" | "interrupted");
         assert!(j.outcomes.iter().all(named), "{:?}: {}", j.outcomes, what());
     }
-    let verdicts = all.iter().filter(|j| matches!(j.outcomes[0], Outcome::Verdict(_))).count();
+    let verdicts = all.iter().filter(|j| matches!(j.outcomes[0], CaseEnd::Verdict(_))).count();
     assert!(verdicts > COUNT / 2, "only {verdicts} verdicts");
 }
 

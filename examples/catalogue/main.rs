@@ -12,7 +12,7 @@ use std::error::Error;
 
 use sprag_design::Follow;
 use sprag_design::design::Design;
-use sprag_design::identify::{Settings, Unknown, identify, observations};
+use sprag_design::identify::{FitSettings, Unknown, identify, observations};
 
 use study::{Case, Study};
 
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 starts: usize|
      -> Result<Case, Box<dyn Error>> {
         let data = observations(&rows::observations(&all, every))?;
-        let settings = Settings { starts, seed: 1, evaluations: 160 };
+        let settings = FitSettings { starts, seed: 1, evaluations: 160 };
         let at = std::time::Instant::now();
         let found = identify(&series, &data, unknowns, &settings, &Follow::nobody())?;
         eprintln!("{name}: {:.0} s, {} evaluations", at.elapsed().as_secs_f64(), found.evaluations);

@@ -31,7 +31,7 @@ impl Default for WorkLimit {
 
 /// How a case ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
+pub enum CaseEnd {
     /// A verdict.
     Verdict(Verdict),
     /// None, for this reason.
@@ -42,7 +42,7 @@ pub enum Outcome {
     NoCurve,
 }
 
-impl Outcome {
+impl CaseEnd {
     /// Name in reports and JSON.
     pub fn name(self) -> &'static str {
         match self {
@@ -110,7 +110,7 @@ pub struct Judged {
     /// The case.
     pub case: Case,
     /// Outcome at the tolerance, and at half of it.
-    pub outcomes: [Outcome; 2],
+    pub outcomes: [CaseEnd; 2],
     /// Whether half the tolerance changes the verdict, neither being `at-threshold`.
     pub verdict_changes: bool,
     /// First figure of the answers that is not finite.
@@ -134,7 +134,7 @@ pub struct Judged {
 impl Judged {
     /// Verdict at the tolerance, and at half of it.
     pub fn verdicts(&self) -> [Option<Verdict>; 2] {
-        self.outcomes.map(Outcome::verdict)
+        self.outcomes.map(CaseEnd::verdict)
     }
 }
 
@@ -147,7 +147,7 @@ pub fn map(clutch: &Clutch, cases: &[Case], limit: &WorkLimit, done: &(dyn Fn() 
         }
         let judged = judge(clutch, case, limit);
         done();
-        (!judged.outcomes.contains(&Outcome::Stopped(Stop::Interrupted))).then_some(judged)
+        (!judged.outcomes.contains(&CaseEnd::Stopped(Stop::Interrupted))).then_some(judged)
     };
     cases.par_iter().with_max_len(1).filter_map(one).collect()
 }
@@ -186,18 +186,18 @@ pub fn judge(clutch: &Clutch, case: &Case, limit: &WorkLimit) -> Judged {
 }
 
 /// Whether one verdict has become another, neither being `at-threshold`.
-fn changes(outcomes: [Outcome; 2]) -> bool {
-    match outcomes.map(Outcome::verdict) {
+fn changes(outcomes: [CaseEnd; 2]) -> bool {
+    match outcomes.map(CaseEnd::verdict) {
         [Some(a), Some(b)] => a != b && a != Verdict::AtThreshold && b != Verdict::AtThreshold,
         _ => false,
     }
 }
 
-fn outcome(answer: &Result<Simulation, NoScenario>) -> Outcome {
+fn outcome(answer: &Result<Simulation, NoScenario>) -> CaseEnd {
     match answer {
-        Ok(s) => s.verdict.map_or(Outcome::Stopped(s.stop), Outcome::Verdict),
-        Err(NoScenario::NotCarried { .. }) => Outcome::NotCarried,
-        Err(_) => Outcome::NoCurve,
+        Ok(s) => s.verdict.map_or(CaseEnd::Stopped(s.stop), CaseEnd::Verdict),
+        Err(NoScenario::NotCarried { .. }) => CaseEnd::NotCarried,
+        Err(_) => CaseEnd::NoCurve,
     }
 }
 
@@ -205,7 +205,7 @@ fn outcome(answer: &Result<Simulation, NoScenario>) -> Outcome {
 fn not_finite(s: &Simulation) -> Option<&'static str> {
     let p = s.peaks;
     let d = s.demand;
-    let demand = |f: fn(&crate::scenario::Demand) -> f64| d.as_ref().map_or(0.0, f);
+    let demand = |f: fn(&crate::scenario::RollingDemand) -> f64| d.as_ref().map_or(0.0, f);
     let slips = [s.inner, s.outer].map(|r| r.time_s + r.distance_m + r.net_m);
     let e = s.error.unwrap_or_default();
     [
@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn what_half_the_tolerance_does_to_a_verdict_is_counted_once() {
-        let made = |outcomes: [Outcome; 2], converged: bool| Judged {
+        let made = |outcomes: [CaseEnd; 2], converged: bool| Judged {
             case: cases(1, 1)[0],
             verdict_changes: changes(outcomes),
             outcomes,
@@ -254,8 +254,8 @@ mod tests {
             fastest_rad_s: None,
         };
         let [sticks, slips, near] =
-            [Verdict::Sticks, Verdict::SlipsEngaging, Verdict::AtThreshold].map(Outcome::Verdict);
-        let limit = Outcome::Stopped(Stop::StepLimit);
+            [Verdict::Sticks, Verdict::SlipsEngaging, Verdict::AtThreshold].map(CaseEnd::Verdict);
+        let limit = CaseEnd::Stopped(Stop::StepLimit);
         let all = [
             made([sticks, sticks], true),
             made([sticks, sticks], false),
@@ -264,7 +264,7 @@ mod tests {
             made([slips, limit], false),
             made([limit, sticks], false),
             made([limit, limit], false),
-            made([Outcome::NotCarried, Outcome::NotCarried], true),
+            made([CaseEnd::NotCarried, CaseEnd::NotCarried], true),
         ];
         let wanted = Halved { verdicts: 5, changed: 1, at_threshold: 1, lost: 1, gained: 1, not_reached: 3 };
         assert_eq!(Halved::of(&all), wanted);

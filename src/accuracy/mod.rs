@@ -8,5 +8,5 @@ mod map;
 mod precision;
 
 pub use cases::{Case, PARAMETERS, Parameter, cases};
-pub use map::{Halved, Judged, Outcome, WorkLimit, judge, map};
-pub use precision::{Method, Point, Precision, PrecisionSettings, precision};
+pub use map::{CaseEnd, Halved, Judged, WorkLimit, judge, map};
+pub use precision::{Point, Precision, PrecisionSettings, Scheme, precision};

@@ -47,7 +47,7 @@ impl PrecisionSettings {
 
 /// A way to an answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Method {
+pub enum Scheme {
     /// One run of the event method at a tolerance per step: theta_bi alone.
     OneRun,
     /// The whole answer at a tolerance asked for: slip margin, error estimate, everything in the model.
@@ -58,7 +58,7 @@ pub enum Method {
     Published(f64),
 }
 
-impl Method {
+impl Scheme {
     /// Name in JSON and CSV.
     pub fn key(self) -> &'static str {
         match self {
@@ -112,7 +112,7 @@ pub struct Precision {
     /// What the planner leaves out.
     pub left_out: Vec<&'static str>,
     /// Methods with their points, the finest setting last.
-    pub methods: Vec<(Method, Vec<Point>)>,
+    pub methods: Vec<(Scheme, Vec<Point>)>,
 }
 
 /// Tolerance per step of the reference run: next to rounding.
@@ -141,8 +141,8 @@ pub fn precision(
     let coarse = bench.reference(10.0 * TIGHTEST, 0.5 * REFERENCE_STEPS);
     let reference = (fine.0.state[2], fine.1);
     let mut methods = Vec::new();
-    let bands = settings.bands_m_s.iter().map(|&band| Method::Published(band));
-    for method in [Method::OneRun, Method::Full, Method::Reduced].into_iter().chain(bands) {
+    let bands = settings.bands_m_s.iter().map(|&band| Scheme::Published(band));
+    for method in [Scheme::OneRun, Scheme::Full, Scheme::Reduced].into_iter().chain(bands) {
         let values = if method.band_m_s().is_some() { &settings.steps_s } else { &settings.tolerances };
         let mut points = Vec::new();
         for &setting in values {
@@ -222,7 +222,7 @@ impl Bench<'_> {
         simulate_prepared(prepared, &s, reduced)
     }
 
-    fn point(&self, method: Method, setting: f64, reference: (f64, f64)) -> Point {
+    fn point(&self, method: Scheme, setting: f64, reference: (f64, f64)) -> Point {
         let bare = |run: &Run, seconds: f64| {
             let error = (run.state[2] - reference.0).abs();
             Point {
@@ -246,13 +246,13 @@ impl Bench<'_> {
         };
         let again = self.settings;
         match method {
-            Method::OneRun => {
+            Scheme::OneRun => {
                 let (run, seconds) = timed(again, || self.run(setting, STEPS));
                 bare(&run, seconds)
             }
-            Method::Full => whole(timed(again, || self.answer(&self.full, setting, false))),
-            Method::Reduced => whole(timed(again, || self.answer(&self.reduced, setting, true))),
-            Method::Published(band_m_s) => {
+            Scheme::Full => whole(timed(again, || self.answer(&self.full, setting, false))),
+            Scheme::Reduced => whole(timed(again, || self.answer(&self.reduced, setting, true))),
+            Scheme::Published(band_m_s) => {
                 let p = &self.full;
                 let s = PublishedSettings { duration_s: p.duration_s, step_s: setting, band_m_s, samples: 0 };
                 let go = || published(&p.model, p.state, &s, &mut |_| !self.interrupted());

@@ -11,7 +11,7 @@ use super::origin::{Kind, WRITTEN_BY};
 use super::output::{TOOL, VERSION};
 use super::parts::{self, Answer};
 use crate::design::{Design, MOST_TABLE, read_text};
-use crate::identify::{Identified, NoFit, Settings, SoFar, Unknown, identify, observations};
+use crate::identify::{FitSettings, Identified, NoFit, SoFar, Unknown, identify, observations};
 use crate::report::Screen;
 use body::{Body, estimates, in_short, residuals, sentences, verdict};
 use clap::Args;
@@ -95,7 +95,7 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
         args.output.as_deref().map(|new| Histories::beside(&design, new)).transpose()?.unwrap_or_default();
     let text = read_text(&args.data, MOST_TABLE).map_err(|e| named(e.to_string()))?;
     let data = observations(&text).map_err(|fault| named(fault.to_string()))?;
-    let settings = Settings {
+    let settings = FitSettings {
         starts: usize::from(args.starts),
         seed: args.seed,
         evaluations: args.evaluations as usize,

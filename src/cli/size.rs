@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "\
 Examples:
   sprag-design size --bore 40 --torque 1000 --speed 3000 -o mine.toml
-  sprag-design size --bore 40 --peak 1300 --outside 110 --width 25 --material 16MnCr5 -o mine.toml
+  sprag-design size --bore 40 --peak 1300 --outside 100 --width 30 --material 20MnCr5 -o mine.toml
   sprag-design check mine.toml
   sprag-design optimize mine.toml -o better.toml
 

@@ -98,7 +98,7 @@ impl Fits {
         materials: &Materials,
     ) -> Result<(Races, Sprags, Running), NotRunning> {
         let scale = 1.0 + self.sprag_growth;
-        let inner_side = Side {
+        let inner_side = MadeRace {
             inner: true,
             track_m: made.inner_radius_m,
             rim_m: made.inner_bore_radius_m,
@@ -107,7 +107,7 @@ impl Fits {
             joint: self.inner,
             growth: self.inner_growth,
         };
-        let outer_side = Side {
+        let outer_side = MadeRace {
             inner: false,
             track_m: made.outer_radius_m,
             rim_m: made.outer_outside_radius_m,
@@ -119,7 +119,7 @@ impl Fits {
         let inner = inner_side.run(scale).ok_or(NotRunning::Rings)?;
         let outer = outer_side.run(scale).ok_or(NotRunning::Rings)?;
         let [track_i, track_e] = [inner, outer].map(|t| t.made_m + t.by_fit_m + t.by_temperature_m);
-        let far = |side: &Side| side.joint.map_or(side.rim_m, |j| j.far_rim_m) * (1.0 + side.growth);
+        let far = |side: &MadeRace| side.joint.map_or(side.rim_m, |j| j.far_rim_m) * (1.0 + side.growth);
         let races = Races {
             inner_bore_radius_m: far(&inner_side),
             inner_radius_m: track_i,
@@ -135,7 +135,7 @@ impl Fits {
 }
 
 /// One race with what it is joined to.
-struct Side {
+struct MadeRace {
     inner: bool,
     track_m: f64,
     rim_m: f64,
@@ -146,7 +146,7 @@ struct Side {
     growth: f64,
 }
 
-impl Side {
+impl MadeRace {
     /// The track made at `track_m`: fitted at the reference temperature, then warmed together with its partner, which is
     /// of the same material and so changes no stress. `None` where the radii are out of order.
     fn made_at(&self, track_m: f64) -> Option<TrackRun> {

@@ -1,6 +1,6 @@
 //! Two bodies side by side along the contact: where they touch, what ends there, how far apart they are.
 
-use super::end_profile::EndProfile;
+use super::end_profile::EndDrop;
 use super::line::{ContactError, LineContact, positive};
 
 /// One body along the contact.
@@ -11,13 +11,13 @@ pub struct Flank {
     /// Middle of the body on an axial scale common to both bodies, m.
     pub middle_m: f64,
     /// Shape along the length.
-    pub profile: EndProfile,
+    pub profile: EndDrop,
 }
 
 impl Flank {
     /// A straight body of `length_m` about the origin.
     pub fn straight(length_m: f64) -> Self {
-        Self { length_m, middle_m: 0.0, profile: EndProfile::Square }
+        Self { length_m, middle_m: 0.0, profile: EndDrop::Square }
     }
 }
 
@@ -101,11 +101,11 @@ impl AxialFit {
 
     /// A straight body of `length_m` within a longer one, no tilt: both ends of body 0 are square.
     pub fn square(length_m: f64) -> Result<Self, ContactError> {
-        Self::shaped(length_m, EndProfile::Square, 0.0)
+        Self::shaped(length_m, EndDrop::Square, 0.0)
     }
 
     /// A body of `length_m` with `profile` in the middle of a straight one twice as long.
-    pub fn shaped(length_m: f64, profile: EndProfile, tilt_rad: f64) -> Result<Self, ContactError> {
+    pub fn shaped(length_m: f64, profile: EndDrop, tilt_rad: f64) -> Result<Self, ContactError> {
         let inner = Flank { length_m, middle_m: 0.0, profile };
         Self::new([inner, Flank::straight(2.0 * length_m)], tilt_rad)
     }
@@ -143,7 +143,7 @@ impl AxialFit {
 
     /// Whether a body that ends at the end (0 or 1) is straight up to it.
     pub(super) fn sharp(&self, end: usize) -> bool {
-        let square = |body: &Flank| body.profile == EndProfile::Square;
+        let square = |body: &Flank| body.profile == EndDrop::Square;
         match self.ends[end] {
             ContactEnd::One { body } => square(&self.bodies[body]),
             ContactEnd::Flush => self.bodies.iter().all(square),
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn drops_add_tilt_opens_and_the_gap_starts_at_the_first_touch() {
-        let crown = |r| EndProfile::crown_radius(r, 6e-3).unwrap();
+        let crown = |r| EndDrop::crown_radius(r, 6e-3).unwrap();
         let bodies = [2.0, 4.0].map(|r| Flank { profile: crown(r), ..Flank::straight(6e-3) });
         let fit = AxialFit::new(bodies.clone(), 0.0).unwrap();
         assert_eq!(fit.gap_m(0.0), 0.0);
@@ -192,13 +192,13 @@ mod tests {
         assert!(tilted.gap_m(-4e-3 / 3.0).abs() < 1e-12);
         assert!((tilted.gap_m(1e-3) / ((7e-3f64 / 3.0).powi(2) / (8.0 / 3.0)) - 1.0).abs() < 1e-5);
         assert!(tilted.gaps_m(7).iter().all(|g| *g >= 0.0));
-        let straight = AxialFit::shaped(6e-3, EndProfile::Square, -1e-3).unwrap();
+        let straight = AxialFit::shaped(6e-3, EndDrop::Square, -1e-3).unwrap();
         assert!(straight.gap_m(3e-3).abs() < 1e-18 && (straight.gap_m(-3e-3) - 6e-6).abs() < 1e-11);
     }
 
     #[test]
     fn a_race_that_ends_first_is_the_sharp_one() {
-        let crown = EndProfile::crown_radius(1.0, 10e-3).unwrap();
+        let crown = EndDrop::crown_radius(1.0, 10e-3).unwrap();
         let sprag = Flank { profile: crown, ..Flank::straight(10e-3) };
         let long = AxialFit::new([sprag.clone(), Flank::straight(8e-3)], 0.0).unwrap();
         assert!(long.sharp(0) && long.sharp(1));
@@ -209,15 +209,12 @@ mod tests {
     #[test]
     fn impossible_fits_are_refused() {
         for tilt in [f64::NAN, f64::INFINITY, 0.2, -0.2] {
-            assert!(matches!(
-                AxialFit::shaped(6e-3, EndProfile::Square, tilt),
-                Err(ContactError::Tilt { .. })
-            ));
+            assert!(matches!(AxialFit::shaped(6e-3, EndDrop::Square, tilt), Err(ContactError::Tilt { .. })));
         }
         assert!(AxialFit::square(0.0).is_err());
         assert!(AxialFit::square(f64::NAN).is_err());
         assert!(pair(6e-3, 6e-3, f64::NAN).is_err());
-        let table = EndProfile::table(vec![[-2e-3, 0.0], [2e-3, 0.0]]).unwrap();
+        let table = EndDrop::table(vec![[-2e-3, 0.0], [2e-3, 0.0]]).unwrap();
         assert!(matches!(AxialFit::shaped(6e-3, table, 0.0), Err(ContactError::Profile { .. })));
     }
 }

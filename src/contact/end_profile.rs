@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 /// y is measured from the middle of the body, b is half the body's length; drops are not negative, m, and
 /// symmetric about y = 0 except for [`Self::Table`]. Drops of two bodies in contact add up.
 #[derive(Debug, Clone, PartialEq)]
-pub enum EndProfile {
+pub enum EndDrop {
     /// Straight to a sharp end: the pressure there has no limit where the other body goes on.
     Square,
     /// z = A ln 1/(1 - (y/b)^2).
@@ -58,7 +58,7 @@ pub struct ProfileTable {
     points_m: Vec<[f64; 2]>,
 }
 
-impl EndProfile {
+impl EndDrop {
     /// Lundberg's profile of a body as long as `contact` for its design load, N.
     pub fn lundberg(contact: &LineContact, design_load_n: f64) -> Result<Self, ContactError> {
         let amplitude_m = logarithmic_amplitude_m(contact, design_load_n)?;
@@ -219,7 +219,7 @@ mod tests {
                 .sum();
             sum / (PI / 4.0) * n / LENGTH / (PI * c.contact_modulus_pa)
         };
-        let profile = EndProfile::lundberg(&c, n).unwrap();
+        let profile = EndDrop::lundberg(&c, n).unwrap();
         let unit = sink(0.0) - sink(3e-3);
         for (y, bound) in [(0.5e-3, 1e-3), (1.5e-3, 1e-3), (2.4e-3, 1e-3), (2.8e-3, 5e-3)] {
             let (found, wanted) = (profile.drop_m(y, LENGTH), sink(0.0) - sink(y));
@@ -231,13 +231,13 @@ mod tests {
     #[test]
     fn fujiwara_and_kawase_tend_to_lundberg_and_end_at_their_drop() {
         let c = contact();
-        let log = EndProfile::lundberg(&c, 1000.0).unwrap();
-        let general = EndProfile::fujiwara_kawase(&c, 1000.0, 1.0, 1.0, 1.0).unwrap();
+        let log = EndDrop::lundberg(&c, 1000.0).unwrap();
+        let general = EndDrop::fujiwara_kawase(&c, 1000.0, 1.0, 1.0, 1.0).unwrap();
         for y in [0.0, 1e-3, -2e-3, 2.9e-3] {
             let (a, b) = (log.drop_m(y, LENGTH), general.drop_m(y, LENGTH));
             assert!((a - b).abs() < 1e-12 * a + 1e-24, "{y}: {a} {b}");
         }
-        let short = EndProfile::fujiwara_kawase(&c, 1000.0, 1.5, 0.4, 9e-6).unwrap();
+        let short = EndDrop::fujiwara_kawase(&c, 1000.0, 1.5, 0.4, 9e-6).unwrap();
         assert_eq!(short.drop_m(1.79e-3, LENGTH), 0.0);
         assert!(short.drop_m(1.9e-3, LENGTH) > 0.0);
         assert!((short.drop_m(-3e-3, LENGTH) / 9e-6 - 1.0).abs() < 1e-12);
@@ -245,32 +245,32 @@ mod tests {
 
     #[test]
     fn arcs_and_tables_drop_as_drawn() {
-        let crown = EndProfile::crown_radius(2.0, LENGTH).unwrap();
+        let crown = EndDrop::crown_radius(2.0, LENGTH).unwrap();
         assert!((crown.drop_m(3e-3, LENGTH) / (9e-6 / 4.0) - 1.0).abs() < 1e-6);
-        let relief = EndProfile::end_relief(0.5e-3, 10e-3).unwrap();
+        let relief = EndDrop::end_relief(0.5e-3, 10e-3).unwrap();
         assert_eq!(relief.drop_m(2.5e-3, LENGTH), 0.0);
         let wanted = 10e-3 - (100e-6f64 - 0.25e-6).sqrt();
         assert!((relief.drop_m(-3e-3, LENGTH) / wanted - 1.0).abs() < 1e-10);
-        let table = EndProfile::table(vec![[-3e-3, 4e-6], [0.0, 0.0], [3e-3, 1e-6]]).unwrap();
+        let table = EndDrop::table(vec![[-3e-3, 4e-6], [0.0, 0.0], [3e-3, 1e-6]]).unwrap();
         assert!((table.drop_m(-1.5e-3, LENGTH) - 2e-6).abs() < 1e-18);
         assert_eq!(table.drop_m(9e-3, LENGTH), 1e-6);
     }
 
     #[test]
     fn impossible_profiles_are_refused_at_their_place() {
-        let at = |profile: Result<EndProfile, ContactError>, place: usize| matches!(profile, Err(ContactError::Profile { at, .. }) if at == place);
-        assert!(at(EndProfile::table(vec![[0.0, 0.0], [1e-3, -1e-9]]), 1));
-        assert!(at(EndProfile::table(vec![[0.0, 0.0], [1e-3, f64::NAN]]), 1));
-        assert!(at(EndProfile::table(vec![[f64::INFINITY, 0.0], [1e-3, 0.0]]), 0));
-        assert!(at(EndProfile::table(vec![[0.0, 0.0], [2e-3, 0.0], [1e-3, 0.0]]), 2));
-        assert!(at(EndProfile::table(vec![[0.0, 0.0], [0.0, 0.0]]), 1));
-        assert!(at(EndProfile::table(vec![[0.0, 0.0]]), 0));
-        assert!(EndProfile::crown_radius(2e-3, LENGTH).is_err());
-        assert!(EndProfile::end_relief(1e-3, 0.5e-3).is_err());
-        assert!(EndProfile::end_relief(f64::NAN, 0.5e-3).is_err());
-        assert!(EndProfile::fujiwara_kawase(&contact(), 1e3, 1.0, 1.1, 1e-6).is_err());
+        let at = |profile: Result<EndDrop, ContactError>, place: usize| matches!(profile, Err(ContactError::Profile { at, .. }) if at == place);
+        assert!(at(EndDrop::table(vec![[0.0, 0.0], [1e-3, -1e-9]]), 1));
+        assert!(at(EndDrop::table(vec![[0.0, 0.0], [1e-3, f64::NAN]]), 1));
+        assert!(at(EndDrop::table(vec![[f64::INFINITY, 0.0], [1e-3, 0.0]]), 0));
+        assert!(at(EndDrop::table(vec![[0.0, 0.0], [2e-3, 0.0], [1e-3, 0.0]]), 2));
+        assert!(at(EndDrop::table(vec![[0.0, 0.0], [0.0, 0.0]]), 1));
+        assert!(at(EndDrop::table(vec![[0.0, 0.0]]), 0));
+        assert!(EndDrop::crown_radius(2e-3, LENGTH).is_err());
+        assert!(EndDrop::end_relief(1e-3, 0.5e-3).is_err());
+        assert!(EndDrop::end_relief(f64::NAN, 0.5e-3).is_err());
+        assert!(EndDrop::fujiwara_kawase(&contact(), 1e3, 1.0, 1.1, 1e-6).is_err());
         for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(EndProfile::lundberg(&contact(), load).is_err());
+            assert!(EndDrop::lundberg(&contact(), load).is_err());
         }
     }
 }

@@ -9,6 +9,7 @@ mod axial;
 mod dense;
 mod edge;
 mod end_profile;
+#[cfg(feature = "validation")]
 pub mod half_space;
 mod influence;
 mod junction;
@@ -24,10 +25,8 @@ pub use approach::{
 };
 pub use axial::{AxialFit, ContactEnd, Flank};
 pub use edge::{Edge, Peak};
-pub use end_profile::{EndProfile, ProfileTable};
-pub use influence::influence_m_per_pa;
-#[cfg(feature = "faer")]
-pub use influence::weighted_influence_m_per_n;
+pub use end_profile::{EndDrop, ProfileTable};
+pub use influence::{influence_m_per_pa, weighted_influence_m_per_n};
 pub use junction::step_peak_error;
 pub use line::{ContactError, LineContact};
 pub use shaped::ShapedLaw;

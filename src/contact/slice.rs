@@ -6,7 +6,7 @@ use super::approach::RollerLaw;
 use super::axial::{AxialFit, slice_middles_m};
 use super::dense::solve_dense;
 use super::edge::{Edge, End, Peak, edges_and_peak};
-use super::influence::{influence_m_per_pa, influence_sum};
+use super::influence::{influence_m_per_pa, weighted_influence_m_per_n};
 use super::line::{ContactError, LineContact, positive};
 use super::slice_ratio::HALF_WIDTH_PER_LENGTH;
 use crate::numeric::toeplitz::{solve_symmetric, times_symmetric};
@@ -208,19 +208,18 @@ impl SliceContact {
         let [low_m, high_m] = HALF_WIDTH_PER_LENGTH.map(|ratio| ratio * length_m);
         let a = half_width_m.clamp(low_m, high_m);
         let mut row = influence_m_per_pa(a, h, n, contact_modulus_pa);
-        let (factor, own) = match self.compliance {
-            // (2): n s/sum w
+        match self.compliance {
             SliceCompliance::Roller(roller) => {
                 let s = n as f64 * roller.approach_m(normal_n) / normal_n;
-                (n as f64 * s / influence_sum(&row), 0.0)
+                weighted_influence_m_per_n(&row, s)
             }
             SliceCompliance::HalfSpace => {
-                (1.0 / (2.0 * a * h), 2.0 / (PI * contact_modulus_pa * h) * (2.0 * LN_2 - 1.0))
+                let factor = 1.0 / (2.0 * a * h);
+                row.iter_mut().for_each(|w| *w *= factor);
+                row[0] += 2.0 / (PI * contact_modulus_pa * h) * (2.0 * LN_2 - 1.0);
+                row
             }
-        };
-        row.iter_mut().for_each(|w| *w *= factor);
-        row[0] += own;
-        row
+        }
     }
 
     fn unloaded(&self) -> SliceSolution {

@@ -46,7 +46,7 @@ const LONGEST_SHOWN: usize = 1000;
 
 /// A place in a design file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct TextPlace {
     /// Line, from 1.
     pub line: usize,
     /// Column in characters, from 1.
@@ -55,7 +55,7 @@ pub struct Place {
     pub span: Range<usize>,
 }
 
-impl Place {
+impl TextPlace {
     /// The place of a byte range of `source`; a range that ends beyond it, or inside a character, is cut.
     pub(super) fn of(source: &str, span: Range<usize>) -> Self {
         let start = floor(source, span.start);
@@ -77,7 +77,7 @@ pub struct Problem {
     /// Dotted path of the key, rows of arrays counted from 0: `sprags.inner_arcs[1].radius_mm`; empty where no key is at fault.
     pub key: String,
     /// Where; `None` where the file could not be read at all.
-    pub place: Option<Place>,
+    pub place: Option<TextPlace>,
     /// What stands there.
     pub found: String,
     /// What may stand there.
@@ -85,7 +85,7 @@ pub struct Problem {
     /// How to mend it.
     pub help: String,
     /// The other keys that take part, with their places.
-    pub also: Vec<(String, Place)>,
+    pub also: Vec<(String, TextPlace)>,
 }
 
 /// Paths count rows from 0, variables and plots the arcs from 1: behind `sprags.inner_arcs[0].radius_mm` the number of the arc
@@ -245,11 +245,11 @@ mod tests {
     fn columns_count_characters_and_spans_never_leave_the_text() {
         let text = "a = 1\nµ = \"é\" # x\n";
         let at = text.find('#').unwrap();
-        let place = Place::of(text, at..at + 1);
+        let place = TextPlace::of(text, at..at + 1);
         assert_eq!((place.line, place.column), (2, 9));
-        assert_eq!(Place::of(text, 7..7).span, 6..6, "inside the µ");
-        assert_eq!(Place::of(text, 900..1000).span, text.len()..text.len());
-        assert_eq!(Place::of("", 0..5), Place { line: 1, column: 1, span: 0..0 });
+        assert_eq!(TextPlace::of(text, 7..7).span, 6..6, "inside the µ");
+        assert_eq!(TextPlace::of(text, 900..1000).span, text.len()..text.len());
+        assert_eq!(TextPlace::of("", 0..5), TextPlace { line: 1, column: 1, span: 0..0 });
     }
 
     #[test]

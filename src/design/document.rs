@@ -8,7 +8,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::diagnostic::{MOST_COLLECTED, Place, Problem};
+use super::diagnostic::{MOST_COLLECTED, Problem, TextPlace};
 
 /// Text and tree of a design file.
 pub(super) struct Document<'a> {
@@ -74,13 +74,13 @@ impl<'a> Document<'a> {
     }
 
     /// The place of a byte range.
-    pub fn place(&self, span: Range<usize>) -> Place {
-        Place::of(self.source, span)
+    pub fn place(&self, span: Range<usize>) -> TextPlace {
+        TextPlace::of(self.source, span)
     }
 
     /// Where a reader looks for the key at `path`: its value; the header for a table; for a key that is
     /// absent, the nearest table above it that is there.
-    pub fn place_of(&self, path: &str) -> Place {
+    pub fn place_of(&self, path: &str) -> TextPlace {
         let mut path = path;
         loop {
             if let Some(entry) = self.entry(path) {
@@ -114,7 +114,7 @@ fn shortened(text: &str) -> String {
 }
 
 fn syntax_problem(source: &str, error: &toml::de::Error) -> Problem {
-    let place = Place::of(source, error.span().unwrap_or(0..0));
+    let place = TextPlace::of(source, error.span().unwrap_or(0..0));
     let (what, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), ""));
     let key = key_on_line(source, place.span.start);
     let text = source[place.span.clone()].trim();

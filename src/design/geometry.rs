@@ -12,13 +12,13 @@ use crate::profile::{Profile, ProfileError};
 
 /// Mass m_g kg, inertia I_g about the centroid kg m^2, centroid in the body frame m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct MassProperties {
+pub(super) struct Mass {
     pub mass_kg: f64,
     pub inertia_kg_m2: f64,
     pub centroid_m: [f64; 2],
 }
 
-impl From<crate::profile::MassProperties> for MassProperties {
+impl From<crate::profile::MassProperties> for Mass {
     fn from(p: crate::profile::MassProperties) -> Self {
         Self { mass_kg: p.mass_kg, inertia_kg_m2: p.inertia_kg_m2, centroid_m: p.centroid_m }
     }
@@ -57,7 +57,7 @@ pub(super) fn sprags(
                 return None;
             };
             let weighed = outline.mass_properties(m(file.length_mm), materials?.sprag.density_kg_m3);
-            (MassProperties::from(weighed), MassSource::FromProfile)
+            (Mass::from(weighed), MassSource::FromProfile)
         }
     };
     if mass_source == MassSource::Given {
@@ -172,11 +172,11 @@ fn profile(file: &SpragsFile, races: &Races, out: &mut Findings) -> Option<Profi
 }
 
 /// `Some(None)`: to come from the profile. `None`: refused.
-fn given_mass(file: &SpragsFile, out: &mut Findings) -> Option<Option<MassProperties>> {
+fn given_mass(file: &SpragsFile, out: &mut Findings) -> Option<Option<Mass>> {
     match (file.mass_kg, file.inertia_kg_m2, &file.centroid) {
         (None, None, None) => Some(None),
         (Some(mass_kg), Some(inertia_kg_m2), Some(c)) => {
-            Some(Some(MassProperties { mass_kg, inertia_kg_m2, centroid_m: [m(c.x_mm), m(c.y_mm)] }))
+            Some(Some(Mass { mass_kg, inertia_kg_m2, centroid_m: [m(c.x_mm), m(c.y_mm)] }))
         }
         (mass, inertia, centroid) => {
             let keys = [

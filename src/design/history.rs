@@ -4,7 +4,7 @@
 //! but numbers: it may be any file. Absent: reading files, what a history does. Equations: none.
 
 use super::check::rad_s;
-use super::diagnostic::{Place, Problem};
+use super::diagnostic::{Problem, TextPlace};
 
 /// Which history a file holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -180,7 +180,7 @@ impl Faults<'_> {
         }
         self.problems.push(Problem {
             key: key.to_owned(),
-            place: Some(Place::of(self.text, span)),
+            place: Some(TextPlace::of(self.text, span)),
             found,
             allowed: allowed.to_owned(),
             help: help.to_owned(),

@@ -33,7 +33,7 @@ mod task_file;
 mod tolerances_file;
 mod variables;
 
-pub use diagnostic::{DesignError, Place, Problem, shown, unprintable};
+pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
 pub use draft::{Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
     EditError, content, other_variables, value_at, with_flanks, with_keys, with_limits, with_sprag,

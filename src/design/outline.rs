@@ -7,7 +7,7 @@ use super::check::m;
 use super::file::SpragsFile;
 use super::findings::Findings;
 use super::geometry::{arc_key, mm};
-use crate::profile::{Flanks, Outline, OutlineError, Profile, STEEPEST_RAD, Side, clearance_m};
+use crate::profile::{FlankSide, Flanks, Outline, OutlineError, Profile, STEEPEST_RAD, clearance_m};
 
 /// The flanks that a file names, or both at half of its width; none where it has neither.
 pub(super) fn flanks(file: &SpragsFile) -> Option<Flanks> {
@@ -35,7 +35,7 @@ pub(super) fn outline(
     };
     let (side, needed) = match why {
         // The shape of the file rules both out.
-        OutlineError::NoArcs => (Side::Front, "at least one inner arc".to_owned()),
+        OutlineError::NoArcs => (FlankSide::Front, "at least one inner arc".to_owned()),
         OutlineError::NotPositive { side, .. } => (side, "more than 0 mm".to_owned()),
         OutlineError::TooSteep { side, .. } => (side, format!("a lean of at most {STEEPEST_RAD} rad")),
         OutlineError::CutsContact { side, needed_m, .. } => {
@@ -45,10 +45,10 @@ pub(super) fn outline(
             (side, format!("less than {} mm", of_key(file, reach_m, f64::floor)))
         }
         OutlineError::CutsInner { needed_m, .. } => {
-            (Side::Front, format!("at least {} mm", of_key(file, needed_m, f64::ceil)))
+            (FlankSide::Front, format!("at least {} mm", of_key(file, needed_m, f64::ceil)))
         }
         OutlineError::CutsOuter { needed_m, .. } => {
-            (Side::Rear, format!("at least {} mm", of_key(file, needed_m, f64::ceil)))
+            (FlankSide::Rear, format!("at least {} mm", of_key(file, needed_m, f64::ceil)))
         }
         OutlineError::NoFlank { side, .. } => {
             (side, "a flank between the arcs, so a narrower one".to_owned())
@@ -56,8 +56,8 @@ pub(super) fn outline(
     };
     let flank = match (&file.flanks, side) {
         (None, _) => "sprags.width_mm",
-        (Some(_), Side::Rear) => "sprags.flanks.rear_mm",
-        (Some(_), Side::Front) => "sprags.flanks.front_mm",
+        (Some(_), FlankSide::Rear) => "sprags.flanks.rear_mm",
+        (Some(_), FlankSide::Front) => "sprags.flanks.front_mm",
     };
     let end = arc_key(file.inner_arcs.len().saturating_sub(1), "until_rad");
     let help = match file.flanks {

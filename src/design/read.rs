@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::diagnostic::{DesignError, Place, Problem};
+use super::diagnostic::{DesignError, Problem, TextPlace};
 use super::document::Document;
 use super::edit::{EditError, content, without_keys};
 use super::file::DesignFile;
@@ -200,7 +200,7 @@ impl Design {
 fn one_problem(name: &str, source: &str, at: usize, found: String, allowed: &str, help: &str) -> DesignError {
     let problem = Problem {
         key: String::new(),
-        place: Some(Place::of(source, at..at + 1)),
+        place: Some(TextPlace::of(source, at..at + 1)),
         found,
         allowed: allowed.to_owned(),
         help: help.to_owned(),

@@ -285,15 +285,17 @@ pub struct Run {
     pub modes: Vec<(f64, Mode)>,
 }
 
-/// Tolerance above which steps do not follow how a slip begins: what they get wrong elsewhere is more.
+/// Tolerance of the steps above which they need not follow how a slip begins: their other errors are larger.
 const COARSE: f64 = 2e-3;
 
 impl RunSettings {
-    /// What the error of a step in `mode` may be. Where both contacts hold, the weighted error over work is least with a
-    /// fifth of it: what is wrong with the state there is wrong with the slip that follows.
-    /// Rates that follow from others have none: of alpha' the slope is infinite at first contact. Slip has next to no absolute
-    /// one, but for coarse steps: where friction falls with speed what begins to slip runs away from 0, and its first steps
-    /// decide when.
+    /// Error allowed of a step in `mode`, by component of the state.
+    ///
+    /// * While both contacts stick: a fifth of the tolerance, with which the least work gives a wanted error. What is wrong with
+    ///   the state then is still wrong in the slip that follows.
+    /// * alpha' and phi': none, as long as a sticking contact determines them; alpha' has an infinite slope at first contact.
+    /// * Slip distances: almost no absolute error. Where friction falls with speed a slip grows from 0 like an exponential,
+    ///   and its first steps decide when it is large. Steps coarser than [`COARSE`] do not follow that; they may err more.
     pub(super) fn tolerance_in(&self, mode: &Mode) -> Tolerance<N_STATE> {
         let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
         let outer = mode.outer == Grip::Stick;

@@ -28,7 +28,7 @@ pub struct Unknown {
 
 /// How the fit is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct FitSettings {
     /// Starts: the design's own values first, the others at random between the bounds.
     pub starts: usize,
     /// Seed of the random starts.
@@ -37,7 +37,7 @@ pub struct Settings {
     pub evaluations: usize,
 }
 
-impl Default for Settings {
+impl Default for FitSettings {
     fn default() -> Self {
         Self { starts: 4, seed: 1, evaluations: 200 }
     }
@@ -234,7 +234,7 @@ pub fn identify(
     design: &Design,
     observations: &[Observation],
     unknowns: &[Unknown],
-    settings: &Settings,
+    settings: &FitSettings,
     follow: &Follow,
 ) -> Result<Identified, NoFit> {
     let stopped = || follow.stopped();
@@ -340,7 +340,7 @@ fn starts(
     problem: &Problem,
     unknowns: &[Unknown],
     before: &[f64],
-    settings: &Settings,
+    settings: &FitSettings,
 ) -> Result<Vec<Vec<f64>>, NoFit> {
     const TRIES: usize = 400;
     let mut random = fastrand::Rng::with_seed(settings.seed);

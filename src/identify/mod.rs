@@ -10,7 +10,7 @@ mod observation;
 mod predict;
 mod statistics;
 
-pub use fit::{Identified, Point, Settings, Unknown, identify};
+pub use fit::{FitSettings, Identified, Point, Unknown, identify};
 pub use no_fit::{NoFit, SoFar};
 pub use observation::{Fault, Kind, Observation, Use, observations};
 pub use predict::{NoPrediction, Prediction, predict};

@@ -53,7 +53,7 @@ pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state:
 
 /// Demand over allowable of one limit along the curve.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Course {
+pub struct DemandCourse {
     /// Code of its row.
     pub code: String,
     /// Whether it counts for the verdict.
@@ -69,12 +69,12 @@ pub fn courses(
     limits: &Limits,
     state: &LoadState,
     points: &[StaticPoint],
-) -> Vec<Course> {
+) -> Vec<DemandCourse> {
     let case = Case { design, limits, state };
     let course = |row: &Margin| {
         let b = bounded(case, row.limit).filter(|_| !row.off_centre && row.corner.is_none())?;
         let points = points.iter().map(|p| [p.torque_nm, (b.demand)(p) / b.allowed]).collect();
-        Some(Course { code: row.code(), required: row.required, points })
+        Some(DemandCourse { code: row.code(), required: row.required, points })
     };
     rows.iter().filter_map(course).collect()
 }

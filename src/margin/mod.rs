@@ -16,12 +16,12 @@ mod sprag;
 mod subsurface;
 mod table;
 
-pub use capacity::{Course, courses, nominal_capacity};
+pub use capacity::{DemandCourse, courses, nominal_capacity};
 pub use limits::{Limit, When, limit_of};
 pub use load::{LoadState, load_state};
 pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve};
 pub use row::{Demand, Margin, RESOLUTION, Rule};
-pub use run_out::{Round, RunOut, Seat, SpragLoad, Stop, Survey, run_out_margins};
+pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
 pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
 
@@ -53,27 +53,16 @@ impl std::fmt::Display for NoMargins {
 
 impl std::error::Error for NoMargins {}
 
-/// All margins of `design` under `limits`: first those of the load state, then those of the scenarios named in
-/// `scenes` (required) and, with `others`, of the remaining ones (shown only). `capacities` asks for the torque
-/// capacity of each limit as well.
+/// All margins of `design`: first those of the load state, each with its torque capacity, then those of the scenarios named in
+/// `scenes`, as a rule [`Design::check_scenarios`].
 ///
 /// # Errors
 /// [`NoMargins`] where there is no clutch to speak of; a scenario that cannot start is a row with margin -1.
-pub fn margins(
-    design: &Design,
-    limits: &Limits,
-    scenes: &[String],
-    others: bool,
-    capacities: bool,
-    settings: &Settings,
-) -> Result<Vec<Margin>, NoMargins> {
+pub fn margins(design: &Design, scenes: &[String], settings: &Settings) -> Result<Vec<Margin>, NoMargins> {
     let state = load_state(design)?;
-    let mut rows = load_margins(design, limits, capacities, &state);
-    for scenario in &design.scenarios {
-        let required = scenes.contains(&scenario.name);
-        if required || others {
-            rows.extend(scene_margins(scenario, limits, required, Some(state.at_rest(design)), settings));
-        }
+    let mut rows = load_margins(design, &design.limits, true, &state);
+    for scenario in design.scenarios.iter().filter(|scenario| scenes.contains(&scenario.name)) {
+        rows.extend(scene_margins(scenario, &design.limits, true, Some(state.at_rest(design)), settings));
     }
     Ok(rows)
 }

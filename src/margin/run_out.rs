@@ -24,7 +24,7 @@
 mod balance;
 mod rows;
 
-pub use balance::{Round, SpragLoad, Stop, Survey};
+pub use balance::{OffCentreEnd, Round, SpragLoad, Survey};
 pub use rows::run_out_margins;
 
 use super::LoadState;
@@ -70,7 +70,7 @@ pub struct RunOut {
     pub stiffness_n_per_m: f64,
     /// Where the clutch comes to its end: in the round in which that is first with the axes held; where the bearings give
     /// way, at most there, and at the last torque that was balanced.
-    pub end: Stop,
+    pub end: OffCentreEnd,
 }
 
 /// Rounds looked at in one turn of the clutch against the offset: every 30 deg, or every place where there are fewer.
@@ -106,7 +106,7 @@ impl RunOut {
             turns: (0..rounds).map(|k| k * count / rounds).collect(),
             carrier: e.carrier,
             stiffness_n_per_m: e.stiffness_n_per_m,
-            end: Stop::EMPTY,
+            end: OffCentreEnd::EMPTY,
         };
         ring.end = ring.find_end();
         Some(ring)

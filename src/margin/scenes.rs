@@ -11,7 +11,7 @@ use crate::scenario::{self, AtRest, NoScenario, Prepared, Reduction, Settings, p
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneDemand {
     /// Demand, or why the scenario cannot start.
-    pub demand: Result<scenario::Demand, NoScenario>,
+    pub demand: Result<scenario::RollingDemand, NoScenario>,
     /// mu_s of the scenario.
     pub static_friction: f64,
     /// Largest p_0 of the rolling run, Pa: the tie-breaker of the optimiser.
@@ -20,7 +20,7 @@ pub struct SceneDemand {
 
 impl SceneDemand {
     /// The demand found for a scenario as it was prepared.
-    pub fn of(scene: &Scenario, prepared: &Prepared, found: scenario::Demand) -> Self {
+    pub fn of(scene: &Scenario, prepared: &Prepared, found: scenario::RollingDemand) -> Self {
         let peak = prepared.model.curve.at_normal(found.normal_max_n[0]);
         let static_friction = scene.clutch.friction.static_;
         Self { demand: Ok(found), static_friction, hertz_peak_pa: peak.map_or(0.0, |r| r.hertz_inner_pa) }

@@ -1,6 +1,6 @@
 //! The two flanks as lines: where they stand, what they need, where they meet the arcs.
 
-use super::{OutlineError, Profile, ProfileArc, Side};
+use super::{FlankSide, OutlineError, Profile, ProfileArc};
 use nalgebra::Vector2;
 
 /// Steepest lean of a flank against the strut line, rad: a choice; a wedge of twice as much is no sprag any more.
@@ -32,10 +32,10 @@ impl Flanks {
     }
 
     /// Distance of one flank from the middle of the strut line, m, and its lean, rad.
-    pub(super) fn side(&self, side: Side) -> (f64, f64) {
+    pub(super) fn side(&self, side: FlankSide) -> (f64, f64) {
         match side {
-            Side::Rear => (self.rear_m, self.rear_tilt_rad),
-            Side::Front => (self.front_m, self.front_tilt_rad),
+            FlankSide::Rear => (self.rear_m, self.rear_tilt_rad),
+            FlankSide::Front => (self.front_m, self.front_tilt_rad),
         }
     }
 }
@@ -63,7 +63,7 @@ impl Strut {
 
 /// One flank: the line through `point` along `up`.
 pub(super) struct Flank {
-    pub side: Side,
+    pub side: FlankSide,
     /// Half width, m.
     given_m: f64,
     point: Vector2<f64>,
@@ -82,7 +82,7 @@ impl Flank {
     /// # Errors
     /// [`OutlineError::NotPositive`], [`OutlineError::TooSteep`], and [`OutlineError::CutsContact`] where the flank
     /// leaves A or B outside.
-    pub fn new(strut: &Strut, side: Side, flanks: &Flanks) -> Result<Self, OutlineError> {
+    pub fn new(strut: &Strut, side: FlankSide, flanks: &Flanks) -> Result<Self, OutlineError> {
         let (given_m, tilt_rad) = flanks.side(side);
         if !(given_m > 0.0 && given_m.is_finite()) {
             return Err(OutlineError::NotPositive { side, given_m });
@@ -91,8 +91,8 @@ impl Flank {
             return Err(OutlineError::TooSteep { side, tilt_rad });
         }
         let sign = match side {
-            Side::Rear => -1.0,
-            Side::Front => 1.0,
+            FlankSide::Rear => -1.0,
+            FlankSide::Front => 1.0,
         };
         let (sin, cos) = tilt_rad.sin_cos();
         let middle = 0.5 * (strut.a + strut.b);

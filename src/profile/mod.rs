@@ -27,7 +27,7 @@ pub use flank::{Flanks, STEEPEST_RAD};
 pub use mass::MassProperties;
 pub use outline::{Outline, Segment};
 pub use reseat::Reseated;
-pub use unclosed::{OutlineError, Side};
+pub use unclosed::{FlankSide, OutlineError};
 
 use nalgebra::Vector2;
 

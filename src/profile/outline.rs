@@ -1,7 +1,7 @@
 //! The closed outline of a sprag: inner arcs, front flank, outer arc, rear flank.
 
 use super::flank::{Flank, Flanks, Strut};
-use super::{OutlineError, Profile, ProfileArc, Side};
+use super::{FlankSide, OutlineError, Profile, ProfileArc};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
@@ -141,8 +141,8 @@ impl Outline {
         };
         let r_e = profile.outer_radius_m;
         let strut = Strut::new(profile, first);
-        let rear = Flank::new(&strut, Side::Rear, flanks)?;
-        let front = Flank::new(&strut, Side::Front, flanks)?;
+        let rear = Flank::new(&strut, FlankSide::Rear, flanks)?;
+        let front = Flank::new(&strut, FlankSide::Front, flanks)?;
 
         // Turn at which the contact direction runs down the flank, and from there to where the flank cuts the arc.
         let inner_turn = |flank: &Flank, arc: &ProfileArc| {
@@ -234,7 +234,7 @@ impl Outline {
         let strut = Strut::new(profile, first);
         let outer_end =
             profile.outer_radius_m * along(outer_contact_azimuth(profile, profile.end_turn_rad()));
-        let side = |side: Side, end: Vector2<f64>, arc: &ProfileArc| -> Result<[f64; 2], OutlineError> {
+        let side = |side: FlankSide, end: Vector2<f64>, arc: &ProfileArc| -> Result<[f64; 2], OutlineError> {
             let flank = Flank::new(&strut, side, flanks)?;
             let given = flank.given_m();
             let need = flank.need(end).max(flank.need(strut.a)).max(flank.need(strut.b));
@@ -242,7 +242,10 @@ impl Outline {
             let reach = reach.min(flank.reach(Vector2::zeros(), profile.outer_radius_m));
             Ok([(given - need) / given, (reach - given) / given])
         };
-        Ok([side(Side::Rear, outer_end, first)?, side(Side::Front, inner_end(profile, last), last)?])
+        Ok([
+            side(FlankSide::Rear, outer_end, first)?,
+            side(FlankSide::Front, inner_end(profile, last), last)?,
+        ])
     }
 
     /// The narrowest sprag: parallel flanks that keep the working profile and 5 % of half width (a choice) beyond it,
@@ -266,7 +269,8 @@ impl Outline {
         let strut = Strut::new(profile, first);
         // Any half width shows the needs of a parallel flank.
         let any = Flanks::parallel(profile.outer_radius_m, profile.outer_radius_m);
-        let (rear, front) = (Flank::new(&strut, Side::Rear, &any)?, Flank::new(&strut, Side::Front, &any)?);
+        let (rear, front) =
+            (Flank::new(&strut, FlankSide::Rear, &any)?, Flank::new(&strut, FlankSide::Front, &any)?);
         let half_width = |flank: &Flank, end: Vector2<f64>, arc: &ProfileArc| {
             let need = flank.need(end);
             let inner = flank.reach(arc.centre_m, arc.radius_m);

@@ -2,7 +2,7 @@
 
 use super::flank::{Flank, Flanks, Strut};
 use super::outline::along;
-use super::{Profile, ProfileError, Side};
+use super::{FlankSide, Profile, ProfileError};
 use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
 
@@ -97,15 +97,15 @@ impl Reseated {
         let [a, b] = self.strut;
         let (middle, up) = (0.5 * (a + b), (b - a).normalize());
         let front = Vector2::new(up.y, -up.x);
-        let side = |side: Side| {
+        let side = |side: FlankSide| {
             let flank = Flank::new(&strut, side, flanks).ok()?;
             let tilt = (flank.sign * flank.up.dot(&front)).atan2(flank.up.dot(&up));
             Some((-flank.need(middle) + flank.given_m(), tilt, flank))
         };
         // The flank meets the new normal through the new middle: its half width there.
         let width = |(apart, tilt, flank): (f64, f64, Flank)| (apart * flank.cos_tilt() / tilt.cos(), tilt);
-        let (rear_m, rear_tilt_rad) = width(side(Side::Rear)?);
-        let (front_m, front_tilt_rad) = width(side(Side::Front)?);
+        let (rear_m, rear_tilt_rad) = width(side(FlankSide::Rear)?);
+        let (front_m, front_tilt_rad) = width(side(FlankSide::Front)?);
         Some(Flanks { rear_m, front_m, rear_tilt_rad, front_tilt_rad })
     }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// The two flanks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+pub enum FlankSide {
     /// Towards negative x: the outer contact travels this way in engagement.
     Rear,
     /// Towards positive x: the inner contact travels this way in engagement.
@@ -19,21 +19,21 @@ pub enum OutlineError {
     /// A half width is not a positive number.
     NotPositive {
         /// The flank.
-        side: Side,
+        side: FlankSide,
         /// Half width given, m.
         given_m: f64,
     },
     /// A flank leans by more than [`STEEPEST_RAD`](super::STEEPEST_RAD).
     TooSteep {
         /// The flank.
-        side: Side,
+        side: FlankSide,
         /// Lean given, rad.
         tilt_rad: f64,
     },
     /// The flank leaves the inner or the outer contact of first contact outside.
     CutsContact {
         /// The flank.
-        side: Side,
+        side: FlankSide,
         /// Half width given, m.
         given_m: f64,
         /// Half width above which both contacts lie inside, m.
@@ -42,7 +42,7 @@ pub enum OutlineError {
     /// The flank passes the inner arc, however far that is extended.
     MissesInner {
         /// The flank.
-        side: Side,
+        side: FlankSide,
         /// Half width given, m.
         given_m: f64,
         /// Half width below which the flank meets the arc, m.
@@ -51,7 +51,7 @@ pub enum OutlineError {
     /// The flank passes the outer arc.
     MissesOuter {
         /// The flank.
-        side: Side,
+        side: FlankSide,
         /// Half width given, m.
         given_m: f64,
         /// Half width below which the flank meets the arc, m.
@@ -78,13 +78,13 @@ pub enum OutlineError {
     /// Inner and outer arc cross before the flank: it has no length.
     NoFlank {
         /// The flank.
-        side: Side,
+        side: FlankSide,
         /// Height of the outer above the inner corner along the strut, m, not positive.
         height_m: f64,
     },
 }
 
-impl fmt::Display for Side {
+impl fmt::Display for FlankSide {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Rear => "rear",

@@ -1,6 +1,6 @@
 //! What a simulation says: the verdict and every figure.
 
-use super::demand::Demand;
+use super::demand::RollingDemand;
 use super::error::Scales;
 use super::figures::ErrorEstimate;
 use crate::dynamics::{
@@ -82,7 +82,7 @@ pub struct Simulation {
     /// N_bi at the start, N.
     pub static_normal_n: f64,
     /// Rolling demand; `None` where the run was interrupted, and in overrun, where nothing is to stick.
-    pub demand: Option<Demand>,
+    pub demand: Option<RollingDemand>,
     /// Whether the friction law was left out: the pure-rolling run is the run.
     pub rolled: bool,
     /// Mode changes.

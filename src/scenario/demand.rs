@@ -9,7 +9,7 @@ use crate::friction::Stribeck;
 
 /// What pure rolling would demand: the basis of slip margin and contact margin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Demand {
+pub struct RollingDemand {
     /// mu_req: the static friction from which on the scene sticks, that is, no contact begins to slip while A carries
     /// [`Model::loaded_n`](crate::dynamics::Model::loaded_n) (1 % of the load of the largest torque) and the path of slip at A
     /// is no more than 1 um. Where the rolling run asks for most while A is loaded, its peak of |T|/N. `None`: no friction up
@@ -84,7 +84,7 @@ pub(super) fn run_settings(
 /// Pure-rolling demand of a prepared scenario; static kinds read it off the curve. An engagement is rolled from
 /// the moment at which it has ceased to overrun. Where rolling would need tension, or unloads the contact and asks for most
 /// there, no peak of |T|/N says what friction suffices: then that is bisected.
-pub fn demand(prepared: &Prepared, settings: &Settings) -> Demand {
+pub fn demand(prepared: &Prepared, settings: &Settings) -> RollingDemand {
     demand_at(prepared, settings, Fineness::single(0.1 * settings.tolerance), None)
 }
 
@@ -94,12 +94,12 @@ pub(super) fn demand_at(
     settings: &Settings,
     fineness: Fineness,
     near: Option<f64>,
-) -> Demand {
+) -> RollingDemand {
     let mu = prepared.model.friction.static_;
     if prepared.duration_s == 0.0 {
         let f = prepared.at_rest();
         let required = f.map(|f| f.tan_omega.max(f.tan_nu));
-        return Demand {
+        return RollingDemand {
             required_friction: required,
             by_bisection: false,
             slip_margin: required.map_or(-1.0, |r| mu / r - 1.0),
@@ -124,8 +124,8 @@ fn unaudited(settings: &Settings) -> Settings {
 const MOST_FRICTION: f64 = 1.0;
 /// Smallest coefficient that is tried, about; where even that suffices it is the answer.
 const LEAST_FRICTION: f64 = 1e-3;
-/// Ratio of one coefficient that is tried to the next, down from mu_s where the scene sticks, until two lie on either side of
-/// the answer: small, because below a friction that does not suffice another may.
+/// Ratio of one coefficient that is tried to the next, on the way down from mu_s: small, because below a friction that does
+/// not suffice another may.
 const DOWN: f64 = 1.2;
 /// Least relative width at which the bisection ends; else it is the tolerance of the runs.
 const NARROWEST: f64 = 1e-12;
@@ -138,7 +138,7 @@ pub(super) fn roll(
     samples: usize,
     per_period: f64,
     near: Option<f64>,
-) -> (Run, Demand) {
+) -> (Run, RollingDemand) {
     let mut s = run_settings(prepared, settings, fineness, samples, per_period);
     let (mut state, mut place) = (prepared.state, prepared.mode.place);
     let mut before = 0;
@@ -159,12 +159,12 @@ pub(super) fn roll(
     let by_bisection = finished && required.is_none();
     required = required.filter(|&mu| mu <= MOST_FRICTION);
     if by_bisection {
-        let (found, work, stopped) = bisected(prepared, settings, fineness, near);
-        required = found;
-        before += work;
-        interrupted |= stopped;
+        let found = bisected(prepared, settings, fineness, near);
+        required = found.required;
+        before += found.rhs_evaluations;
+        interrupted |= found.interrupted;
     }
-    let demand = Demand {
+    let demand = RollingDemand {
         required_friction: required,
         by_bisection,
         slip_margin: required.map_or(-1.0, |q| prepared.model.friction.static_ / q - 1.0),
@@ -186,41 +186,50 @@ fn contact_margin(static_n: f64, rolling: &Rolling) -> f64 {
     if margin.is_finite() { margin } else { 0.0 }
 }
 
-/// The static friction from which on the scene sticks, the kinetic one lowered with it, in the middle of what is left: two
-/// bisections of different width never agree by chance; right-hand sides; whether it was interrupted. Where more friction is
-/// not better throughout it is the limit next to mu_s, below it where the scene sticks, above it where not; `None` where
-/// neither the largest nor one half way there does. Looked for beside `near` first, where a coarser search has ended.
-fn bisected(
-    prepared: &Prepared,
-    settings: &Settings,
-    fineness: Fineness,
-    near: Option<f64>,
-) -> (Option<f64>, u64, bool) {
+/// What [`bisected`] found.
+struct Bisected {
+    /// mu_req: the middle, by ratio, of the last bracket, so that bisections of different width do not agree by chance.
+    /// `None`: the scene sticks neither at [`MOST_FRICTION`] nor half way there.
+    required: Option<f64>,
+    rhs_evaluations: u64,
+    interrupted: bool,
+}
+
+/// The static friction from which on the scene sticks, by whole runs with slip. The kinetic coefficient is lowered with the
+/// static one where it would exceed it.
+///
+/// 1. Bracket. A coarser search has ended at `near`: a narrow bracket about it, then a wider one. Otherwise from mu_s: down in
+///    steps of [`DOWN`] until the scene slips, where it sticks at mu_s; up to [`MOST_FRICTION`] where it slips there.
+/// 2. Bisect, by ratio, until the bracket is as narrow as the tolerance of the runs.
+///
+/// More friction is not always better, so several brackets may exist; this takes the one next to mu_s.
+fn bisected(prepared: &Prepared, settings: &Settings, fineness: Fineness, near: Option<f64>) -> Bisected {
     let s = run_settings(prepared, &unaudited(settings), fineness, 0, STEPS_PER_PERIOD_OF_DEMAND);
     let law = prepared.model.friction;
     let mut model = prepared.model.clone();
-    let (mut work, mut interrupted) = (0, false);
+    let (mut rhs_evaluations, mut interrupted) = (0, false);
     let mut sticks = |mu: f64| {
         model.friction = Stribeck { static_: mu, kinetic: law.kinetic.min(mu), ..law };
         let (state, mode) = prepared.start_under(&model.friction);
         let r = run_while_it_sticks(&model, state, mode, &s, SLIPPED_M);
-        work += r.counters.rhs_evaluations;
+        rhs_evaluations += r.counters.rhs_evaluations;
         interrupted |= r.stop == Stop::Interrupted;
         verdict(prepared, &r, &ErrorEstimate::default()) == Some(Verdict::Sticks)
             && !r.has_slipped(prepared.model.loaded_n, SLIPPED_M)
     };
     let width = fineness.tolerance.max(NARROWEST);
+    // The scene slips at `low` and sticks at `high`.
     let (mut low, mut high) = (law.static_, law.static_);
-    let mut about = |by: f64| {
+    let mut bracket_near = |by: f64| {
         let (low, high) = near.map(|mu| (mu / (1.0 + by), mu * (1.0 + by)))?;
         (sticks(high) && !sticks(low)).then_some((low, high))
     };
-    if let Some(found) = about(30.0 * width).or_else(|| about(1e3 * width)) {
-        (low, high) = found;
+    if let Some(bracket) = bracket_near(30.0 * width).or_else(|| bracket_near(1e3 * width)) {
+        (low, high) = bracket;
     } else if sticks(law.static_) {
         loop {
             if low < LEAST_FRICTION {
-                return (Some(high), work, interrupted);
+                return Bisected { required: Some(high), rhs_evaluations, interrupted };
             }
             (low, high) = (low / DOWN, low);
             if !sticks(low) {
@@ -231,12 +240,12 @@ fn bisected(
         let more = [MOST_FRICTION, (low * MOST_FRICTION).sqrt()].into_iter().filter(|&mu| mu > low);
         match more.into_iter().find(|&mu| sticks(mu)) {
             Some(mu) => high = mu,
-            None => return (None, work, interrupted),
+            None => return Bisected { required: None, rhs_evaluations, interrupted },
         }
     }
     while high > low * (1.0 + width) {
         let middle = (low * high).sqrt();
         if sticks(middle) { high = middle } else { low = middle }
     }
-    (Some((low * high).sqrt()), work, interrupted)
+    Bisected { required: Some((low * high).sqrt()), rhs_evaluations, interrupted }
 }

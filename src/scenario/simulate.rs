@@ -1,7 +1,7 @@
 //! Run a scenario and say what happened.
 
 use super::answer::{GaveUp, Simulation, Verdict};
-use super::demand::{Demand, Fineness, STEPS_PER_PERIOD, demand_at, roll, run_settings};
+use super::demand::{Fineness, RollingDemand, STEPS_PER_PERIOD, demand_at, roll, run_settings};
 use super::equilibrium::steady;
 use super::error::Scales;
 use super::figures::ErrorEstimate;
@@ -167,14 +167,14 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
 struct Try {
     run: Run,
     /// `None`: nothing is to stick, or interrupted.
-    demand: Option<Demand>,
+    demand: Option<RollingDemand>,
     /// Whether the run is the pure-rolling run.
     rolled: bool,
 }
 
 impl Try {
     /// `answered`: coarser runs have come to the end, a run that does not is no answer and needs no demand.
-    fn new(prepared: &Prepared, run: Run, answered: bool, demand: impl FnOnce() -> Demand) -> Self {
+    fn new(prepared: &Prepared, run: Run, answered: bool, demand: impl FnOnce() -> RollingDemand) -> Self {
         // What overruns to the end is not to stick: there is no demand.
         let holds = prepared.overrun.is_none() || run.engaged.is_some();
         let in_vain = run.stop == Stop::Interrupted || answered && run.stop.gave_up();

@@ -186,8 +186,8 @@ fn normal_n(draft: &Draft) -> f64 {
 /// The finished draft with every margin, all held; what it says of itself is what came of it.
 fn made(ask: &Ask, draft: &mut Draft, settings: &Settings) -> Result<Made, Obstacle> {
     let (design, state) = build(draft).map_err(Obstacle::Other)?;
-    let rows = margins(&design, &design.limits, &design.check_scenarios, false, true, settings)
-        .map_err(|e| Obstacle::Other(e.to_string()))?;
+    let rows =
+        margins(&design, &design.check_scenarios, settings).map_err(|e| Obstacle::Other(e.to_string()))?;
     if let Some(row) = rows.iter().filter(|r| r.required).find(|r| !r.held()) {
         return Err(Obstacle::Margin(row.code()));
     }

@@ -43,7 +43,12 @@ const OUTSIDE: f64 = 1.4;
 /// Longest sprags, m: of the race space, or of the width asked for.
 pub(super) fn longest_m(ask: &Ask, space_m: f64) -> f64 {
     let most = LENGTHS.1 * space_m;
-    ask.width_m.map_or(most, |width| most.min(width - WIDER * space_m))
+    ask.width_m.map_or(most, |width| most.min(width - wider_m(space_m)))
+}
+
+/// By how much the races are wider than the sprags, m, to a tenth of a millimetre.
+fn wider_m(space_m: f64) -> f64 {
+    (WIDER * space_m * 1e4).round() / 1e4
 }
 
 /// Sprags at first contact between races with the race space `space_m`, the profile's end and flanks still open.
@@ -91,7 +96,7 @@ pub(super) fn draft(ask: &Ask, space_m: f64) -> Draft {
 pub(super) fn lengthen(draft: &mut Draft, length_m: f64) {
     let [_, track, outer, _] = draft.races_m;
     draft.length_m = length_m;
-    draft.width_m = length_m + WIDER * (outer - track);
+    draft.width_m = length_m + wider_m(outer - track);
 }
 
 /// A spring that presses each sprag with `normal_n` in slow overrun: drag by a coefficient of 0.1, and the stiffness with

@@ -309,11 +309,12 @@ function draw(here, forces, slips, relative, largest) {
   const dot = (at, slip) => `<circle cx="${at[0]}" cy="${at[1]}" r="${slip ? 8 : 4.5}" fill="${slip === 2 ? "none" : slip ? "var(--bad)" : "var(--ink)"}" stroke="${slip ? "var(--bad)" : "var(--paper)"}" stroke-width="1.5"><title>${slip === 2 ? "open" : slip ? "slips" : "sticks"}</title></circle>`;
   const label = (at, text, colour) => `<text x="${at[0] + 12}" y="${at[1] + 4}" fill="${colour}">${text}</text>`;
   const word = (slip) => (slip === 2 ? "open" : slip ? (slip > 0 ? "slips, race ahead" : "slips, race behind") : "");
+  // Lines of the legend are apart by the size of its letters, which a narrow window makes larger.
   svg.querySelector(".forces").innerHTML =
     arrow(a, [s * na, -c * na], "var(--c0)") + arrow(a, [-c * ta, -s * ta], "var(--c3)") +
     arrow(b, [0, nb], "var(--c0)") + arrow(b, [tb, 0], "var(--c3)") +
     dot(a, slips[0]) + dot(b, slips[1]) + label([a[0], a[1] + 14], "A " + word(slips[0]), "var(--ink)") + label([b[0], b[1] - 10], "B " + word(slips[1]), "var(--ink)") +
-    `<text x="12" y="20" fill="var(--c0)">normal force</text><text x="12" y="36" fill="var(--c3)">tangential force</text><text x="12" y="52" fill="var(--soft)">longest arrow: ${short(largest, 3)} N</text>`;
+    `<text x="12" y="4">${[["normal force", "--c0"], ["tangential force", "--c3"], [`longest arrow: ${short(largest, 3)} N`, "--soft"]].map(([line, ink]) => `<tspan x="12" dy="1.25em" fill="var(${ink})">${line}</tspan>`).join("")}</text>`;
 }
 
 /* Scenes, played --------------------------------------------------------------------------------------------------- */

@@ -1,9 +1,10 @@
 //! How the contacts of a clutch are loaded along the axis.
 
 use crate::clutch::{self, Clutch, ContactLaw};
+#[cfg(feature = "validation")]
 use crate::contact::half_space::{HalfSpaceLine, HalfSpaceStatus};
 use crate::contact::{
-    Approach, AxialFit, ContactError, Edge, EndProfile, Flank, LineContact, Peak, RollerLaw, ShapedLaw,
+    Approach, AxialFit, ContactError, Edge, EndDrop, Flank, LineContact, Peak, RollerLaw, ShapedLaw,
     SliceCompliance, SliceContact, SliceRatio, SliceStatus,
 };
 use crate::material::PlaneState;
@@ -23,8 +24,10 @@ pub enum Lengthwise {
     /// By slices: the paper's (1)-(4) with the slice law, slices on half-spaces with the others.
     Slices,
     /// The half-space solved on a grid over the patch, two rows a slice; a thousand times the time.
+    #[cfg(feature = "validation")]
     Reference,
     /// The same with free faces where a body ends: the quarter-space correction.
+    #[cfg(feature = "validation")]
     FreeEnds,
 }
 
@@ -46,6 +49,7 @@ pub struct Along {
 }
 
 /// Cells of the reference across the patch: approaches to 0.05 %, pressures in the middle to 0.1 %.
+#[cfg(feature = "validation")]
 const ACROSS: usize = 64;
 
 /// Load and pressure along the contact `contact` of `clutch` at `side` under `normal_n` (N per sprag).
@@ -62,28 +66,37 @@ pub fn along(
 ) -> Result<Along, ContactError> {
     let fit = fit(clutch, contact, side)?;
     let (cut, slices) = (fit.cut(contact), clutch.axial.slices);
-    if how == Lengthwise::Slices {
-        let law = SliceContact::with_compliance(cut, compliance(clutch, contact)?, slices)?;
-        let s = law.solve_along(normal_n, &fit)?;
-        let converged = !matches!(s.status, SliceStatus::NoConvergence { .. });
-        let (edges, peak) = (s.edges, s.peak);
-        return Ok(Along {
-            y_m: s.y_m,
-            load_n: s.load_n,
-            pressure_pa: s.pressure_pa,
-            edges,
-            peak,
-            converged,
-        });
+    match how {
+        Lengthwise::Slices => {
+            let law = SliceContact::with_compliance(cut, compliance(clutch, contact)?, slices)?;
+            let s = law.solve_along(normal_n, &fit)?;
+            Ok(Along {
+                y_m: s.y_m,
+                load_n: s.load_n,
+                pressure_pa: s.pressure_pa,
+                edges: s.edges,
+                peak: s.peak,
+                converged: !matches!(s.status, SliceStatus::NoConvergence { .. }),
+            })
+        }
+        #[cfg(feature = "validation")]
+        Lengthwise::Reference | Lengthwise::FreeEnds => {
+            let grid = HalfSpaceLine::new(cut, ACROSS, 2 * slices);
+            let m = &clutch.materials;
+            let race = if side == Side::Inner { m.inner_race } else { m.outer_race };
+            let free = how == Lengthwise::FreeEnds;
+            let grid = if free { grid.with_free_ends([m.sprag, race]) } else { grid };
+            let s = grid.solve_along(normal_n, &fit)?;
+            Ok(Along {
+                y_m: s.y_m,
+                load_n: s.load_n,
+                pressure_pa: s.pressure_pa,
+                edges: s.edges,
+                peak: s.peak,
+                converged: matches!(s.status, HalfSpaceStatus::Converged { .. } | HalfSpaceStatus::Unloaded),
+            })
+        }
     }
-    let grid = HalfSpaceLine::new(cut, ACROSS, 2 * slices);
-    let m = &clutch.materials;
-    let race = if side == Side::Inner { m.inner_race } else { m.outer_race };
-    let grid = if how == Lengthwise::FreeEnds { grid.with_free_ends([m.sprag, race]) } else { grid };
-    let s = grid.solve_along(normal_n, &fit)?;
-    let converged = matches!(s.status, HalfSpaceStatus::Converged { .. } | HalfSpaceStatus::Unloaded);
-    let (edges, peak) = (s.edges, s.peak);
-    Ok(Along { y_m: s.y_m, load_n: s.load_n, pressure_pa: s.pressure_pa, edges, peak, converged })
 }
 
 /// By how much (relative) slices under a rigid approach come nearer than the even load that the other laws spread along
@@ -152,14 +165,14 @@ fn fit(clutch: &Clutch, contact: &LineContact, side: Side) -> Result<AxialFit, C
     // A profile is made for a load on the whole sprag.
     let whole = LineContact { length_m: sprag_m, ..*contact };
     let profile = match &axial.end_profile {
-        clutch::EndProfile::Square => EndProfile::Square,
-        clutch::EndProfile::Lundberg { design_load_n } => EndProfile::lundberg(&whole, *design_load_n)?,
-        clutch::EndProfile::Crown { radius_m } => EndProfile::crown_radius(*radius_m, sprag_m)?,
-        clutch::EndProfile::EndRelief { length_m, radius_m } => EndProfile::end_relief(*length_m, *radius_m)?,
+        clutch::EndProfile::Square => EndDrop::Square,
+        clutch::EndProfile::Lundberg { design_load_n } => EndDrop::lundberg(&whole, *design_load_n)?,
+        clutch::EndProfile::Crown { radius_m } => EndDrop::crown_radius(*radius_m, sprag_m)?,
+        clutch::EndProfile::EndRelief { length_m, radius_m } => EndDrop::end_relief(*length_m, *radius_m)?,
         clutch::EndProfile::FujiwaraKawase { design_load_n, load_factor, crowned_ratio, end_drop_m } => {
-            EndProfile::fujiwara_kawase(&whole, *design_load_n, *load_factor, *crowned_ratio, *end_drop_m)?
+            EndDrop::fujiwara_kawase(&whole, *design_load_n, *load_factor, *crowned_ratio, *end_drop_m)?
         }
-        clutch::EndProfile::Table { points_m } => EndProfile::table(points_m.clone())?,
+        clutch::EndProfile::Table { points_m } => EndDrop::table(points_m.clone())?,
     };
     let tilt_rad = match side {
         Side::Inner => axial.tilt_rad,

@@ -139,3 +139,36 @@ fn a_friction_corner_is_the_file_with_that_friction() {
         assert!((a.margin() - b.margin()).abs() < 1e-9, "{} {} {}", a.code(), a.margin(), b.margin());
     }
 }
+
+/// What follows from the material goes on following from it; only what `[optimize] limits` says otherwise is written.
+#[test]
+fn limits_that_follow_from_the_material_are_not_frozen() {
+    let starter = include_str!("../../designs/starter.toml");
+    let task = "\n[optimize]\nobjective = \"slip-margin\"\nscenarios = [\"cranking\"]\n\
+                variables = [{ name = \"r_i1_mm\", min = 4.0, max = 4.1 }]\n\
+                limits = { slip_margin = 0.03 }\nseed = 1\n";
+    let design = Design::parse(&(starter.to_owned() + task), "x.toml").unwrap_or_else(|e| panic!("{e}"));
+    let text = problem(&design).finished_file(&[4.05]).unwrap_or_else(|e| panic!("{e}"));
+    assert!(text.contains("from_material = true") && text.contains("slip_margin = 0.03"), "{text}");
+    assert!(!text.contains("hertz_peak_mpa") && !text.contains("hoop_inner_mpa"), "{text}");
+    let new = Design::parse(&text, "new.toml").unwrap_or_else(|e| panic!("{e}"));
+    let sharper = design.optimize.as_ref().map(|task| task.limits);
+    assert_eq!(Some(new.limits), sharper);
+}
+
+/// A leaning that is nothing has no sign, and flanks in place of a centroid are variables of the next search.
+#[test]
+fn flanks_are_written_without_a_negative_zero_and_as_variables() {
+    let flanks = Flanks { front_tilt_rad: -0.0, ..Flanks::parallel(2.5e-3, 2.0e-3) };
+    let text = sprag_design::design::with_flanks(HUANG, &flanks).unwrap_or_else(|e| panic!("{e}"));
+    assert!(
+        text.contains("front_tilt_rad = 0.0") && !text.contains("-0.0 ") && !text.contains("-0.0}"),
+        "{text}"
+    );
+    let drop = |name: &str| name.starts_with("centroid_");
+    let other = sprag_design::design::other_variables(&text, &drop, &[("flank_rear_mm", (1.0, 3.0))]);
+    let other =
+        Design::parse(&other.unwrap_or_else(|e| panic!("{e}")), "x.toml").unwrap_or_else(|e| panic!("{e}"));
+    let names: Vec<&str> = task(&other).variables.iter().map(|v| v.name.as_str()).collect();
+    assert_eq!(names, ["r_i2_mm", "r_i3_mm", "flank_rear_mm"]);
+}

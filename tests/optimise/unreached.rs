@@ -84,8 +84,7 @@ fn the_wanted_slip_margin_counts_within_the_tolerances() {
     assert!(made.not_held.iter().any(|(code, at)| code == "slip:rated-45" && at == "-friction"));
     let less = with_keys(&found.file, &[("friction.static", 0.11), ("friction.kinetic", 0.0825)]).unwrap();
     let there = Design::parse(&less, "x.toml").unwrap();
-    let rows =
-        margins(&there, &there.limits, &there.check_scenarios, false, false, &Default::default()).unwrap();
+    let rows = margins(&there, &there.check_scenarios, &Default::default()).unwrap();
     assert!(margin(&rows, "slip:rated-45") < 0.0);
     // Some draws have enough friction, and some have not.
     assert!(made.yield_share > 0.0 && made.yield_share < 1.0, "{}", made.yield_share);

@@ -2,7 +2,7 @@
 
 use super::verdict::{WANTED_RAD, gains_over_published, winners};
 use super::{Study, map};
-use crate::accuracy::{Halved, Judged, Method, Outcome, PARAMETERS, Point, Precision};
+use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS, Point, Precision, Scheme};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -50,9 +50,9 @@ fn scene(s: &Precision) -> Value {
     })
 }
 
-fn point(method: Method, p: &Point) -> Value {
+fn point(method: Scheme, p: &Point) -> Value {
     let [tolerance, step_s] = match method {
-        Method::Published(_) => [None, Some(p.setting)],
+        Scheme::Published(_) => [None, Some(p.setting)],
         _ => [Some(p.setting), None],
     };
     json!({
@@ -97,7 +97,7 @@ fn case(c: &Judged) -> Value {
     json!({
         "case": c.case.number,
         "outcome": c.outcomes[0].name(),
-        "outcome_at_half": Outcome::name(c.outcomes[1]),
+        "outcome_at_half": CaseEnd::name(c.outcomes[1]),
         "theta_inner_end_rad": c.theta_inner_rad,
         "not_finite": c.not_finite,
         "time_reached_s": c.t_s,

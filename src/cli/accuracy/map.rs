@@ -1,7 +1,7 @@
 //! The stability map in words, counts and plots.
 
 use super::Study;
-use crate::accuracy::{Halved, Judged, Outcome, PARAMETERS};
+use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS};
 use crate::report::{Bar, Bars, Cell, Column, Curve, Plot, Table, Tone, Unit};
 
 /// Outcomes in the order in which they are listed.
@@ -32,7 +32,7 @@ pub(super) fn by_outcome(study: &Study) -> Vec<(&'static str, Vec<&Judged>)> {
 pub(super) fn summary(study: &Study) -> String {
     let count = |f: fn(&Judged) -> bool| study.cases.iter().filter(|c| f(c)).count();
     let halved = Halved::of(&study.cases);
-    let ran = count(|c| !matches!(c.outcomes[0], Outcome::NotCarried | Outcome::NoCurve));
+    let ran = count(|c| !matches!(c.outcomes[0], CaseEnd::NotCarried | CaseEnd::NoCurve));
     format!(
         "{} cases (seed {}), each run at a tolerance of {:.0e} and at half of it within {} steps and {} changes of mode \
          a run: {ran} start, of which {} end with a verdict, {} at a limit. {}; {} verdicts become at-threshold there, or were \
@@ -62,7 +62,7 @@ pub(super) fn at_half(h: &Halved) -> String {
 /// Counts and worst work by outcome.
 pub(super) fn counts(study: &Study) -> Table {
     let mut table = Table::new(vec![
-        Column::text("outcome", "Outcome"),
+        Column::text("outcome", "CaseEnd"),
         Column::number("cases", "Cases", Unit::One, 6),
         Column::number("not_converged", "Tolerance not reached", Unit::One, 6),
         Column::number("most_events", "Most changes of mode", Unit::One, 6),
@@ -90,7 +90,7 @@ pub(super) fn counts(study: &Study) -> Table {
 pub(super) fn remarkable(study: &Study) -> Vec<String> {
     let mut lines = Vec::new();
     for c in study.cases.iter().filter(|c| c.verdict_changes) {
-        let [a, b] = c.outcomes.map(Outcome::name);
+        let [a, b] = c.outcomes.map(CaseEnd::name);
         lines.push(format!("verdict changes from {a} to {b}: {}", described(c)));
     }
     for c in &study.cases {
@@ -104,7 +104,7 @@ pub(super) fn remarkable(study: &Study) -> Vec<String> {
     };
     for c in study.cases.iter().filter(stopped) {
         let rate = c.fastest_rad_s.map_or(String::new(), |r| format!(", fastest motion {r:.1e} rad/s"));
-        let [a, b] = c.outcomes.map(Outcome::name);
+        let [a, b] = c.outcomes.map(CaseEnd::name);
         let both = if a == b { a.to_owned() } else { format!("{a}, at half the tolerance {b},") };
         lines.push(format!("{both} at {:.3e} s{rate}: {}", c.t_s, described(c)));
     }
@@ -120,7 +120,7 @@ pub(super) fn bars(study: &Study) -> Bars {
     let all = by_outcome(study);
     let most = all.iter().map(|(_, c)| c.len()).max().unwrap_or(1);
     let tone = |c: &Judged| match c.outcomes[0] {
-        Outcome::Verdict(_) => Tone::Plain,
+        CaseEnd::Verdict(_) => Tone::Plain,
         o if o.met_a_limit() => Tone::Bad,
         _ => Tone::Soft,
     };

@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::verdict::{WANTED_RAD, cheapest, gains_over_published, name, sentence};
 use super::{Study, map, tables};
-use crate::accuracy::{Halved, Judged, Method, PARAMETERS, Point, Precision};
+use crate::accuracy::{Halved, Judged, PARAMETERS, Point, Precision, Scheme};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
 use crate::report::plot::Dash;
@@ -56,7 +56,7 @@ const OMISSIONS: [&str; 8] = [
 
 fn verdict(study: &Study) -> (bool, String) {
     let wins = |s: &&Precision| {
-        let ours = s.methods.iter().find(|m| m.0 == Method::OneRun).and_then(|m| cheapest(&m.1));
+        let ours = s.methods.iter().find(|m| m.0 == Scheme::OneRun).and_then(|m| cheapest(&m.1));
         let theirs = s.methods.iter().filter(|m| m.0.band_m_s().is_some()).filter_map(|m| cheapest(&m.1));
         let least = theirs.map(|p| p.seconds).fold(f64::INFINITY, f64::min);
         ours.is_some_and(|p| p.seconds < least)
@@ -111,9 +111,9 @@ fn plot(scene: &Precision, x_title: &str, x: impl Fn(&Point) -> f64) -> Plot {
     for (method, points) in &scene.methods {
         let at = |p: &Point| [x(p), p.theta_error_rad.map_or(f64::NAN, |e| e.max(FLOOR_RAD))];
         let dash = match method {
-            Method::OneRun | Method::Reduced => Dash::Solid,
-            Method::Full => Dash::Dashed,
-            Method::Published(_) => Dash::Dotted,
+            Scheme::OneRun | Scheme::Reduced => Dash::Solid,
+            Scheme::Full => Dash::Dashed,
+            Scheme::Published(_) => Dash::Dotted,
         };
         plot.curves.push(Curve {
             dash,

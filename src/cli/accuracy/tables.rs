@@ -2,7 +2,7 @@
 
 use super::verdict::{name, sentence};
 use super::{Study, map};
-use crate::accuracy::{Method, Point, Precision};
+use crate::accuracy::{Point, Precision, Scheme};
 use crate::report::{Cell, Column, Screen, Table, Unit};
 
 /// Every point of every scene, for programs.
@@ -23,7 +23,7 @@ pub(super) fn points(scenes: &[Precision]) -> Table {
     for scene in scenes {
         for (method, point) in scene.methods.iter().flat_map(|(m, list)| list.iter().map(move |p| (m, p))) {
             let [tolerance, step] = match method {
-                Method::Published(_) => [None, Some(point.setting)],
+                Scheme::Published(_) => [None, Some(point.setting)],
                 _ => [Some(point.setting), None],
             };
             table.row(vec![
@@ -75,7 +75,7 @@ pub(super) fn scene(scene: &Precision) -> Table {
     table
 }
 
-fn shown(method: Method, point: &Point) -> String {
+fn shown(method: Scheme, point: &Point) -> String {
     let unit = if method.band_m_s().is_some() { " s" } else { "" };
     format!("{:e}{unit}", point.setting)
 }

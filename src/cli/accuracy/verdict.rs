@@ -1,6 +1,6 @@
 //! Which setting of each method is the cheapest below a wanted error.
 
-use crate::accuracy::{Method, Point, Precision};
+use crate::accuracy::{Point, Precision, Scheme};
 use crate::report::significant;
 
 /// Error of theta_bi that is wanted, rad: the tool's default tolerance.
@@ -17,8 +17,8 @@ pub(super) fn cheapest(points: &[Point]) -> Option<&Point> {
 }
 
 /// Cheapest point of each method; the published scheme by its best band.
-pub(super) fn winners(scene: &Precision) -> Vec<(Method, Option<&Point>)> {
-    let mut list: Vec<(Method, Option<&Point>)> = Vec::new();
+pub(super) fn winners(scene: &Precision) -> Vec<(Scheme, Option<&Point>)> {
+    let mut list: Vec<(Scheme, Option<&Point>)> = Vec::new();
     for (method, points) in &scene.methods {
         let found = cheapest(points);
         match list.iter_mut().find(|(m, _)| m.key() == method.key()) {
@@ -39,28 +39,28 @@ pub(super) fn winners(scene: &Precision) -> Vec<(Method, Option<&Point>)> {
 }
 
 /// Setting in words.
-pub(super) fn setting(method: Method, point: &Point) -> String {
+pub(super) fn setting(method: Scheme, point: &Point) -> String {
     match method {
-        Method::Published(band) => format!("step {:e} s, band {band:.0e} m/s", point.setting),
+        Scheme::Published(band) => format!("step {:e} s, band {band:.0e} m/s", point.setting),
         _ => format!("tolerance {:e}", point.setting),
     }
 }
 
 /// Name for people.
-pub(super) fn name(method: Method) -> String {
+pub(super) fn name(method: Scheme) -> String {
     match method {
-        Method::OneRun => "event, one run".to_owned(),
-        Method::Full => "event, whole answer, full model".to_owned(),
-        Method::Reduced => "event, whole answer, planned".to_owned(),
-        Method::Published(band) => format!("published, band {band:.0e} m/s"),
+        Scheme::OneRun => "event, one run".to_owned(),
+        Scheme::Full => "event, whole answer, full model".to_owned(),
+        Scheme::Reduced => "event, whole answer, planned".to_owned(),
+        Scheme::Published(band) => format!("published, band {band:.0e} m/s"),
     }
 }
 
 /// Time of the published scheme at its own step over that of one run of the event method at its cheapest: of the fastest and
 /// of the slowest band.
 pub(super) fn gains_over_published(scene: &Precision) -> Option<[f64; 2]> {
-    let ours = winners(scene).into_iter().find(|w| w.0 == Method::OneRun)?.1?.seconds;
-    let at_its_step = |(m, points): &(Method, Vec<Point>)| {
+    let ours = winners(scene).into_iter().find(|w| w.0 == Scheme::OneRun)?.1?.seconds;
+    let at_its_step = |(m, points): &(Scheme, Vec<Point>)| {
         let point = points.iter().find(|p| (p.setting / PUBLISHED_STEP_S - 1.0).abs() < 1e-9);
         point.filter(|p| m.band_m_s().is_some() && p.theta_error_rad.is_some()).map(|p| p.seconds / ours)
     };
@@ -73,7 +73,7 @@ pub(super) fn gains_over_published(scene: &Precision) -> Option<[f64; 2]> {
 pub(super) fn sentence(scene: &Precision) -> String {
     let mut parts = Vec::new();
     let list = winners(scene);
-    let ours = list.iter().find(|w| w.0 == Method::OneRun).and_then(|w| w.1).map(|p| p.seconds);
+    let ours = list.iter().find(|w| w.0 == Scheme::OneRun).and_then(|w| w.1).map(|p| p.seconds);
     for (method, point) in &list {
         let bare = if method.band_m_s().is_some() { "published".to_owned() } else { name(*method) };
         parts.push(match point {
@@ -101,12 +101,12 @@ pub(super) fn sentence(scene: &Precision) -> String {
 }
 
 /// The least error of a method in words, or that none of its settings came to the end of the scene.
-fn best(scene: &Precision, method: Method) -> String {
+fn best(scene: &Precision, method: Scheme) -> String {
     let errors = scene.methods.iter().filter(|(m, _)| m.key() == method.key());
     let least = errors.flat_map(|(_, p)| p).filter_map(|p| p.theta_error_rad).fold(f64::INFINITY, f64::min);
     match (least.is_finite(), method) {
         (true, _) => format!("best error {least:.1e} rad"),
-        (false, Method::Published(_)) => "no step finished".to_owned(),
+        (false, Scheme::Published(_)) => "no step finished".to_owned(),
         (false, _) => "no tolerance finished".to_owned(),
     }
 }

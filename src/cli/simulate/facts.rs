@@ -4,7 +4,9 @@ use crate::answer::simulation::{LIFT_OFF_SEARCH_RAD_S, Ran};
 use crate::clutch::ScenarioKind;
 use crate::margin::LIFT_OFF_ERROR;
 use crate::report::{Cell, Column, Table, Unit, significant};
-use crate::scenario::{Demand, Figure, Group, Prepared, Quantity, Simulation, figures_of, overrun_swing};
+use crate::scenario::{
+    Figure, Group, Prepared, Quantity, RollingDemand, Simulation, figures_of, overrun_swing,
+};
 
 /// To what part figures read off the wedge curve are right: what its iterations stop at.
 const EXACT: f64 = 1e-13;
@@ -250,7 +252,7 @@ fn demand(f: &mut Facts, s: &Simulation) {
 }
 
 /// What stands in place of a number that pure rolling did not give.
-fn instead(quantity: Quantity, d: &Demand) -> Option<String> {
+fn instead(quantity: Quantity, d: &RollingDemand) -> Option<String> {
     match quantity {
         Quantity::Friction if d.required_friction.is_some() => None,
         Quantity::Friction if d.overloaded => {

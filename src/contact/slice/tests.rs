@@ -1,7 +1,7 @@
 //! What (1)-(4) promise, on the inner contact of the Huang clutch.
 
 use super::*;
-use crate::contact::{EndProfile, Flank, SliceRatio};
+use crate::contact::{EndDrop, Flank, SliceRatio};
 
 const E_STAR: f64 = 206e9 / (2.0 * 0.91);
 
@@ -117,7 +117,7 @@ fn a_sharp_end_has_no_value_of_its_own() {
     assert!(matches!(found.peak, Peak::AtEnd { edge: Edge::Singular { .. }, .. }));
     assert!(matches!(slices(1).solve(1.0).unwrap().edges, [Edge::Singular { .. }, Edge::Singular { .. }]));
     // a crown that opens has a peak; overloaded, its ends bear and rise again
-    let crown = AxialFit::shaped(6e-3, EndProfile::crown_radius(0.5, 6e-3).unwrap(), 0.0).unwrap();
+    let crown = AxialFit::shaped(6e-3, EndDrop::crown_radius(0.5, 6e-3).unwrap(), 0.0).unwrap();
     let light = slices(61).solve_along(100.0, &crown).unwrap();
     assert_eq!(light.edges, [Edge::Open; 2]);
     let Peak::Bounded { y_m, pressure_pa } = light.peak else { panic!("{:?}", light.peak) };

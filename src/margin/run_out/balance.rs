@@ -61,7 +61,7 @@ impl Round {
 
 /// Where a clutch off centre comes to its end: the first sprag comes to the end of its own curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stop {
+pub struct OffCentreEnd {
     /// Torque of the whole clutch there, N m.
     pub torque_nm: f64,
     /// The sprag's place, index of a seat; `None`: no sprag carries at all.
@@ -198,9 +198,9 @@ impl RunOut {
         range
     }
 
-    pub(super) fn find_end(&self) -> Stop {
+    pub(super) fn find_end(&self) -> OffCentreEnd {
         let ends = self.turns.iter().map(|&turned| self.end_of(turned));
-        let held = ends.min_by(|a, b| a.torque_nm.total_cmp(&b.torque_nm)).unwrap_or(Stop::EMPTY);
+        let held = ends.min_by(|a, b| a.torque_nm.total_cmp(&b.torque_nm)).unwrap_or(OffCentreEnd::EMPTY);
         let balanced = |torque: f64| self.survey(torque).is_ok();
         if self.stiffness_n_per_m.is_infinite() || balanced(held.torque_nm * (1.0 - 1e-9)) {
             return held;
@@ -210,22 +210,22 @@ impl RunOut {
             let torque = 0.5 * (last + beyond);
             if balanced(torque) { last = torque } else { beyond = torque }
         }
-        Stop { torque_nm: last, ..held }
+        OffCentreEnd { torque_nm: last, ..held }
     }
 
-    fn end_of(&self, turned: usize) -> Stop {
-        let Some((from, until, seat)) = self.windups(turned) else { return Stop::EMPTY };
+    fn end_of(&self, turned: usize) -> OffCentreEnd {
+        let Some((from, until, seat)) = self.windups(turned) else { return OffCentreEnd::EMPTY };
         let reason = self.seats[seat].curve.as_ref().map_or(EndReason::NoConvergence, |c| c.end().0);
         // A sprag at its end before any other touches: nothing is carried.
         let last = self.round(turned, until, [0.0; 2]).ok().filter(|_| until > from);
-        Stop { torque_nm: last.map_or(0.0, |r| r.torque_nm()), seat: Some(seat), reason }
+        OffCentreEnd { torque_nm: last.map_or(0.0, |r| r.torque_nm()), seat: Some(seat), reason }
     }
 
     /// The round that carries `torque_nm`.
     ///
     /// # Errors
-    /// [`Stop`] where a sprag comes to its end before, or no balance of a race that gives way was found.
-    pub fn carrying(&self, turned: usize, torque_nm: f64) -> Result<Round, Stop> {
+    /// [`OffCentreEnd`] where a sprag comes to its end before, or no balance of a race that gives way was found.
+    pub fn carrying(&self, turned: usize, torque_nm: f64) -> Result<Round, OffCentreEnd> {
         let held = self.held(turned, torque_nm)?;
         if self.stiffness_n_per_m.is_infinite() {
             return Ok(held);
@@ -234,7 +234,7 @@ impl RunOut {
     }
 
     /// The axes held: by bracketing in the windup.
-    fn held(&self, turned: usize, torque_nm: f64) -> Result<Round, Stop> {
+    fn held(&self, turned: usize, torque_nm: f64) -> Result<Round, OffCentreEnd> {
         let stop = self.end_of(turned);
         let (Some((from, until, _)), true) = (self.windups(turned), stop.torque_nm >= torque_nm) else {
             return Err(stop);
@@ -247,9 +247,9 @@ impl RunOut {
 
     /// The inner race on its bearings: radial forces of the sprags = stiffness times shift, by Newton in (windup, shift),
     /// each in units of what winds a sprag up alike.
-    fn given_way(&self, held: Round, torque_nm: f64) -> Result<Round, Stop> {
+    fn given_way(&self, held: Round, torque_nm: f64) -> Result<Round, OffCentreEnd> {
         let turned = held.turned;
-        let none = Stop { reason: EndReason::NoConvergence, ..self.end_of(turned) };
+        let none = OffCentreEnd { reason: EndReason::NoConvergence, ..self.end_of(turned) };
         // A shift of the race by `per_rad` is about as much to a sprag as a radian of windup: OA tan omega.
         let normal: f64 = held.loads.iter().map(|l| l.normal_n).sum();
         let per_rad = torque_nm / normal;
@@ -297,11 +297,11 @@ impl RunOut {
     /// All rounds at `torque_nm`.
     ///
     /// # Errors
-    /// The [`Stop`] of the round that ends first.
-    pub fn survey(&self, torque_nm: f64) -> Result<Survey, Stop> {
+    /// The [`OffCentreEnd`] of the round that ends first.
+    pub fn survey(&self, torque_nm: f64) -> Result<Survey, OffCentreEnd> {
         let rounds = self.turns.iter().map(|&turned| self.carrying(turned, torque_nm));
         let mut kept = Vec::with_capacity(self.turns.len());
-        let mut first: Option<Stop> = None;
+        let mut first: Option<OffCentreEnd> = None;
         for round in rounds {
             match round {
                 Ok(round) => kept.push(round),
@@ -325,6 +325,6 @@ impl RunOut {
     }
 }
 
-impl Stop {
+impl OffCentreEnd {
     pub(super) const EMPTY: Self = Self { torque_nm: 0.0, seat: None, reason: EndReason::NoConvergence };
 }

@@ -81,7 +81,7 @@ fn the_narrowest_outline_is_five_per_cent_beyond_the_need_where_the_arcs_leave_t
     // At 1.4 rad the outer contacts lie beyond all that the inner arc reaches: nothing closes that.
     let mut profile = table_1(&[(4.02e-3, 1.4)]);
     let why = Outline::narrowest(&profile);
-    assert!(matches!(why, Err(OutlineError::MissesInner { side: Side::Rear, .. })), "{why:?}");
+    assert!(matches!(why, Err(OutlineError::MissesInner { side: FlankSide::Rear, .. })), "{why:?}");
     profile.arcs.clear();
     assert_eq!(Outline::narrowest(&profile), Err(OutlineError::NoArcs));
 }
@@ -102,20 +102,20 @@ fn impossible_flanks_are_refused() {
     for bad in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
         assert!(matches!(
             Outline::new(&profile, bad, 2.5e-3),
-            Err(OutlineError::NotPositive { side: Side::Rear, .. })
+            Err(OutlineError::NotPositive { side: FlankSide::Rear, .. })
         ));
         assert!(matches!(
             Outline::new(&profile, 2.5e-3, bad),
-            Err(OutlineError::NotPositive { side: Side::Front, .. })
+            Err(OutlineError::NotPositive { side: FlankSide::Front, .. })
         ));
     }
-    let Err(OutlineError::MissesInner { side: Side::Rear, reach_m, .. }) =
+    let Err(OutlineError::MissesInner { side: FlankSide::Rear, reach_m, .. }) =
         Outline::new(&profile, 4.4e-3, 2.5e-3)
     else {
         panic!("4.4 mm is wider than the inner arc")
     };
     assert!(!matches!(Outline::new(&profile, reach_m - 1e-9, 2.5e-3), Err(OutlineError::MissesInner { .. })));
-    let Err(OutlineError::MissesInner { side: Side::Front, reach_m, .. }) =
+    let Err(OutlineError::MissesInner { side: FlankSide::Front, reach_m, .. }) =
         Outline::new(&profile, 2.5e-3, 4.4e-3)
     else {
         panic!("4.4 mm is wider than the inner arc")
