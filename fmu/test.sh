@@ -30,7 +30,7 @@ stage "environment"
 "$work/venv/bin/python" -m pip --quiet --disable-pip-version-check install "fmpy==0.3.32"
 
 stage "units"
-library=$(ls "$built"/*sprag_design_fmu.{so,dylib,dll} 2>/dev/null | head -n 1)
+library=$(find "$built" -maxdepth 1 -name '*sprag_design_fmu.so' -o -maxdepth 1 -name '*sprag_design_fmu.d[yl]l*')
 ls -sh "$library"
 "$work/venv/bin/python" tests/units.py "$TOOL" "$library" ../designs/huang2017-multi-arc.toml "$work" \
     ../docs/src/co-simulation.md

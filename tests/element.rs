@@ -376,7 +376,17 @@ fn malformed_questions_are_refused_in_words() {
     let text = serde_json::to_string(&saved).unwrap().replace("{\"Arc\":0}", "{\"Arc\":7}");
     assert!(text.contains("{\"Arc\":7}"), "{text}");
     assert!(element.restore(&serde_json::from_str(&text).unwrap()).is_err());
+    // One that no machine reaches.
+    let text = serde_json::to_string(&saved).unwrap();
+    let alpha = format!("{:?}", saved_state(&text)[0]);
+    let text = text.replacen(&alpha, "1e16", 1);
+    assert!(element.restore(&serde_json::from_str(&text).unwrap()).is_err());
     assert_eq!(element.save(), saved);
+}
+
+fn saved_state(text: &str) -> Vec<f64> {
+    let value: serde_json::Value = serde_json::from_str(text).unwrap();
+    serde_json::from_value(value["memory"]["state"].clone()).unwrap()
 }
 
 /// Beyond its curve the clutch has come to its end: a result, with a name, and no advance leads on.

@@ -1,7 +1,8 @@
 //! A unit without its C interface: variables by value reference, begin, step, state.
 
 use serde::{Deserialize, Serialize};
-use sprag_design::design::{Start, is_whole};
+use sprag_design::clutch::Start;
+use sprag_design::design::is_whole;
 use sprag_design::element::{Beginning, Element, Motion, Saved, Settings, Torque};
 use sprag_design::export::fmu::{
     FIRST_KEY, Kind, QUANTITIES, Quantity, Role, Subject, Variable, token, variables,

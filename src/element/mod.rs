@@ -235,7 +235,12 @@ impl Element {
         };
         let mut element = Self { model, settings: *settings, at };
         element.under(at.torques_nm);
-        Ok(element)
+        if element.motion().is_finite() {
+            Ok(element)
+        } else {
+            let what = "the clutch: found forces at the start that are no numbers".to_owned();
+            Err(NoElement::Malformed(Malformed { what }))
+        }
     }
 
     /// Torques of inner and outer flange from now on, N m, which change accelerations and forces at once. An advance names
@@ -273,7 +278,8 @@ impl Element {
         self.model.drive.flanges = Some(
             torques.map(|t| Ramp { start_nm: t.start_nm, rate_nm_per_s: (t.end_nm - t.start_nm) / dt_s }),
         );
-        let (run, memory) = go_on(&self.model, &self.at.memory, &self.run_settings(dt_s));
+        let before = self.at;
+        let (mut run, memory) = go_on(&self.model, &self.at.memory, &self.run_settings(dt_s));
         let finished = run.stop == Stop::Finished;
         let reached_s = if finished { dt_s } else { run.t_s };
         let at = &mut self.at;
@@ -294,6 +300,12 @@ impl Element {
             at.turned_rad = [at.turned_rad[0] + inner, at.turned_rad[1] + outer];
         }
         self.under(torques.map(|t| t.start_nm + (t.end_nm - t.start_nm) * (reached_s / dt_s)));
+        if !self.motion().is_finite() {
+            // Nobody can go on from there: it ends where it stood.
+            run.stop = Stop::NotFinite;
+            self.at = Saved { ended: Some(run.stop), ..before };
+            self.under(before.torques_nm);
+        }
         Ok(run)
     }
 
@@ -326,7 +338,12 @@ impl Element {
         let mut other = Self::new(clutch, &beginning, &self.settings)?;
         other.at = Saved { memory: self.at.memory.moved_to(&other.model), ..self.at };
         other.under(self.at.torques_nm);
-        Ok(other)
+        if other.motion().is_finite() {
+            Ok(other)
+        } else {
+            let what = "the other clutch: found forces in this motion that are no numbers".to_owned();
+            Err(NoElement::Malformed(Malformed { what }))
+        }
     }
 
     /// Where it stands.
@@ -342,13 +359,21 @@ impl Element {
         let numbers =
             [saved.t_s, saved.elapsed_s].into_iter().chain(saved.turned_rad).chain(saved.torques_nm);
         let mut numbers = numbers.chain(saved.slips.into_iter().flatten());
+        let refused = || {
+            let what = "the state to be restored: found one that no element of this clutch has".to_owned();
+            Malformed { what }
+        };
         let torques = [0, 1].into_iter().all(|race| check_torque(race, saved.torques_nm[race]).is_ok());
         if !saved.memory.fits(&self.model) || !torques || !numbers.all(f64::is_finite) {
-            let what = "the state to be restored: found one that no element of this clutch has".to_owned();
-            return Err(Malformed { what });
+            return Err(refused());
         }
-        self.at = *saved;
+        let before = std::mem::replace(&mut self.at, *saved);
         self.under(saved.torques_nm);
+        if !self.motion().is_finite() {
+            self.at = before;
+            self.under(before.torques_nm);
+            return Err(refused());
+        }
         Ok(())
     }
 

@@ -47,6 +47,15 @@ pub struct Motion {
     pub alpha_rad: f64,
 }
 
+impl Motion {
+    /// Whether every number is one.
+    pub(super) fn is_finite(&self) -> bool {
+        let flanges = self.flanges.iter().flat_map(|f| [f.angle_rad, f.speed_rad_s, f.acceleration_rad_s2]);
+        let contacts = self.contacts.iter().flat_map(|c| [c.normal_n, c.tangential_n]);
+        flanges.chain(contacts).all(f64::is_finite)
+    }
+}
+
 impl Element {
     /// Motion and forces now, under the torques at the end of the last advance, those of the balance at the beginning, or
     /// those [applied](Element::apply) since.
