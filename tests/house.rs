@@ -109,6 +109,8 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/margin/row.rs", "keys of that table"),
     ("src/margin/limits.rs", "the name of a row, as it is printed"),
     ("src/margin/run_out/rows.rs", "the place of a sprag, as it is printed"),
+    ("src/optimise/freed.rs", "keys of the file that are asked what would free a problem"),
+    ("src/optimise/grid.rs", "steps in which a shop makes lengths, in mm as the variables are"),
     ("src/optimise/goal.rs", "measures of a search near 1: windup in degrees"),
     ("src/optimise/realise.rs", "unknowns near 1, flanks in mm, and the file's keys for them"),
     ("src/identify/observation.rs", "the columns of a file of observations"),
