@@ -8,6 +8,10 @@ use std::path::Path;
 /// Keys of JSON answers that may be null: figures that do not exist for a scene or a design. Another null is a number that
 /// is none.
 const MAY_BE_NULL: &[&str] = &[
+    // Race spaces that `size` tried and that hold no clutch.
+    "outside_mm",
+    "width_mm",
+    "mass_g",
     "at_moved_s",
     "bearing_stiffness_n_per_um",
     "best",
