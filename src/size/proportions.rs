@@ -12,8 +12,9 @@ pub(super) const SPACES_M: [f64; 7] = [2.5e-3, 4.0e-3, 6.0e-3, 8.33e-3, 12.5e-3,
 /// Fewest and most sprags.
 pub(super) const COUNTS: (usize, usize) = (8, 120);
 
-/// Length of a sprag over the race space, least and most: beyond 3 the load along it is anybody's guess.
-pub(super) const LENGTHS: (f64, f64) = (0.4, 3.0);
+/// Length of a sprag over the race space, least and most: one shorter than it is high tilts between the races (the
+/// catalogue's are 1.56 to 2.64), beyond 3 the load along it is anybody's guess.
+pub(super) const LENGTHS: (f64, f64) = (1.0, 3.0);
 
 /// r_e and r_i1 over the race space: their sum makes tan omega all but constant along the profile, their ratio leaves both
 /// contacts near the same pressure as the series that the catalogue's torques identify.

@@ -26,7 +26,7 @@ pub struct Tried {
     /// Nominal torque that it carries at that length with all limits kept, N m.
     pub carries_nm: f64,
     /// Code of the limit with the least margin; what else stands in the way otherwise: `width` and `outside` are those asked
-    /// for.
+    /// for, `count` is a number of sprags outside the family's.
     pub decided_by: String,
     /// Whether it carries what is asked.
     pub held: bool,
@@ -74,7 +74,7 @@ impl fmt::Display for NoSize {
                         b.space_m * 1e3,
                         b.decided_by
                     ),
-                    None => write!(f, "no clutch of this family fits this bore: {}", first_reason(tried)),
+                    None => write!(f, "no clutch of this family fits this bore:{}", first_reason(tried)),
                 }
             }
         }
@@ -82,11 +82,13 @@ impl fmt::Display for NoSize {
 }
 
 fn first_reason(tried: &[Tried]) -> String {
-    tried
-        .iter()
-        .map(|t| format!("{:.2} mm: {}", t.space_m * 1e3, t.decided_by))
-        .collect::<Vec<_>>()
-        .join("; ")
+    let why = |t: &Tried| match t.decided_by.as_str() {
+        "count" => format!("room for {} sprags, the family has {} to {}", t.count, COUNTS.0, COUNTS.1),
+        "width" => format!("sprags as long as the race space are wider than --width leaves ({} sprags)", t.count),
+        "outside" => "the outer race would be too thin within --outside".to_owned(),
+        other => other.to_owned(),
+    };
+    tried.iter().map(|t| format!("\n  race space {:.2} mm: {}", t.space_m * 1e3, why(t))).collect()
 }
 
 impl std::error::Error for NoSize {}
@@ -109,9 +111,6 @@ pub fn size(ask: &Ask, settings: &Settings) -> Result<Sized, NoSize> {
     let mut tried = Vec::new();
     for space_m in SPACES_M {
         let mut draft = draft(ask, space_m);
-        if draft.count < COUNTS.0 || draft.count > COUNTS.1 {
-            continue;
-        }
         let mut one = width(ask, &mut draft, space_m);
         if one.held {
             match finish(ask, draft, settings) {
@@ -161,8 +160,13 @@ fn width(ask: &Ask, draft: &mut Draft, space_m: f64) -> Tried {
         made: None,
     };
     let wall = draft.races_m[3] - draft.races_m[2];
-    if wall < WALL * space_m || high < low {
-        one.decided_by = if high < low { "width" } else { "outside" }.to_owned();
+    let in_the_way = [
+        ("count", !(COUNTS.0..=COUNTS.1).contains(&draft.count)),
+        ("width", high < low),
+        ("outside", wall < WALL * space_m),
+    ];
+    if let Some((what, _)) = in_the_way.iter().find(|(_, bars)| *bars) {
+        one.decided_by = (*what).to_owned();
         return one;
     }
     match at(draft, high) {
