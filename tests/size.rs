@@ -118,7 +118,9 @@ fn what_is_impossible_names_the_limit_and_the_nearest() {
 
 #[test]
 fn a_bore_with_too_little_room_says_how_many_sprags_it_has_room_for() {
-    let Err(NoSize::None { tried }) = sized(&ask(1.0, 1.0, 0.0, 1.3, 0.11)) else { panic!("sprags about 1 mm") };
+    let Err(NoSize::None { tried }) = sized(&ask(1.0, 1.0, 0.0, 1.3, 0.11)) else {
+        panic!("sprags about 1 mm")
+    };
     assert!(tried.len() == 7 && tried.iter().all(|t| t.decided_by == "count" && t.count < 8), "{tried:?}");
     let why = NoSize::None { tried }.to_string();
     assert!(why.contains("race space 2.50 mm: room for 7 sprags, the family has 8 to 120"), "{why}");

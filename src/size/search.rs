@@ -84,7 +84,9 @@ impl fmt::Display for NoSize {
 fn first_reason(tried: &[Tried]) -> String {
     let why = |t: &Tried| match t.decided_by.as_str() {
         "count" => format!("room for {} sprags, the family has {} to {}", t.count, COUNTS.0, COUNTS.1),
-        "width" => format!("sprags as long as the race space are wider than --width leaves ({} sprags)", t.count),
+        "width" => {
+            format!("sprags as long as the race space are wider than --width leaves ({} sprags)", t.count)
+        }
         "outside" => "the outer race would be too thin within --outside".to_owned(),
         other => other.to_owned(),
     };
