@@ -67,6 +67,14 @@ pub fn run(args: &NewArgs, context: &Context) -> Result<Exit, Failure> {
     let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
     may_write(&output, context)?;
     let exit = answer::answer(&args.ask(), &output, "New clutch", context)?;
+    let taken = args.ask().taken();
+    if !taken.is_empty() {
+        let lines: String =
+            taken.iter().map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n")).collect();
+        context.answer(&format!(
+            "\nTaken where nothing was said (an option of `new --help` says otherwise):\n{lines}"
+        ))?;
+    }
     if exit == Exit::Held {
         let path = output::path_text(&output);
         context.answer(&format!(

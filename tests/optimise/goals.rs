@@ -120,7 +120,11 @@ fn links_in_proportion_keep_their_ratio() {
     x.insert(0, 9.0);
     let clutch = both.design_at(&x).unwrap().clutch;
     assert!((clutch.races.width_m - 9e-3).abs() < 1e-15, "{}", clutch.races.width_m);
-    assert!((clutch.spring.drag_torque_nm / (1.5 * 0.0166) - 1.0).abs() < 1e-12, "{}", clutch.spring.drag_torque_nm);
+    assert!(
+        (clutch.spring.drag_torque_nm / (1.5 * 0.0166) - 1.0).abs() < 1e-12,
+        "{}",
+        clutch.spring.drag_torque_nm
+    );
     assert_ne!(both.identity(), scaled(r#""races.width_mm""#).identity());
 }
 
