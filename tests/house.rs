@@ -60,12 +60,13 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("export", &["numeric", "material", "profile", "clutch", "design", "wedge"]),
     // An outline is a profile and flanks; races are two radii, so no design.
     ("import", &["profile"]),
-    // What is computed is put into words and units here: all but the command.
+    // What is computed is put into words, units and pages here: all but the command.
     (
         "answer",
         &[
-            "follow", "profile", "clutch", "design", "wedge", "dynamics", "scenario", "fidelity", "margin",
-            "optimise", "report",
+            "follow", "material", "profile", "clutch", "design", "contact", "wedge", "dynamics", "scenario",
+            "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export",
+            "import",
         ],
     ),
     // Questions about the text of a design, and their answers as a page shows them.

@@ -39,6 +39,14 @@ impl Default for PrecisionSettings {
 }
 
 impl PrecisionSettings {
+    /// The usual settings, without steps of the published scheme below `least_s`, s.
+    pub fn down_to(least_s: f64, follow: &Follow) -> Self {
+        let mut settings = Self { follow: follow.clone(), ..Self::default() };
+        // A hair of room: 1e-7 as typed and as listed are the same step.
+        settings.steps_s.retain(|&s| s >= 0.999 * least_s);
+        settings
+    }
+
     /// Settings that one scene is run at.
     pub fn points(&self) -> usize {
         3 * self.tolerances.len() + self.bands_m_s.len() * self.steps_s.len()

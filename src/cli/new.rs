@@ -1,9 +1,9 @@
 //! `new`: the own clutch, by questions or by flags.
 
-use super::Context;
 use super::exit::{Exit, Failure};
 use super::output;
-use super::size::{WishArgs, a_steel, answer, may_write};
+use super::size::{WishArgs, a_steel, may_write};
+use super::{Context, made};
 use crate::follow::Follow;
 use crate::material::STEELS;
 use crate::report::plain;
@@ -66,7 +66,7 @@ pub fn run(args: &NewArgs, context: &Context) -> Result<Exit, Failure> {
     args.wish.check_safety()?;
     let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
     may_write(&output, context)?;
-    let exit = answer::answer(&args.ask(), &output, "New clutch", context)?;
+    let exit = made::answer(&args.ask(), &output, "New clutch", context)?;
     if exit == Exit::Held {
         let path = output::path_text(&output);
         context.answer(&format!(

@@ -4,14 +4,14 @@ use super::Context;
 use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
-use super::optimize_answer::Told;
-use super::optimize_file::{NEAREST, ROBUST, file_text, further_files, further_text};
 use super::origin::Kind;
 use super::output::TOOL;
 use super::parts;
 use super::progress::Progress;
 use super::simulate::refuse_tolerance;
-use crate::answer::search::{Ask, SearchAnswer};
+use crate::answer::search::{
+    Ask, Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, file_text, further_files, further_text,
+};
 use crate::design::{Design, EditError, Objective};
 use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record, Status};
 use clap::Args;
@@ -49,6 +49,13 @@ it does not hold.
 
 Exit codes: 0 every limit held, with --robust at every corner of the tolerances too; 1 no such design found; 130 stopped by
 Ctrl-C, the best design so far is written if it is better than FILE.";
+
+/// What the command's reader can do about an end.
+const HINTS: Hints = Hints {
+    evaluation_limit: ", which --evaluations raises,",
+    more_starts: "try more --starts",
+    stopped: "stopped by Ctrl-C",
+};
 
 /// Arguments of `optimize`.
 #[derive(Debug, Clone, Args)]
@@ -236,7 +243,7 @@ fn finish(
         }
     };
     if feasible && (better || !interrupted) && histories.write(&context.outputs) {
-        written = write(new, file_text(design, story, context)).then_some(new);
+        written = write(new, file_text(design, story, &context.command_line)).then_some(new);
         for (ending, what, text) in further_files(story) {
             let path = new.with_extension(format!("{ending}.toml"));
             if write(&path, further_text(design, what, text)) {
@@ -256,11 +263,20 @@ fn finish(
         }
     }
     let journal = keep.then(|| file.path().to_path_buf());
-    let told = Told { design, answer, written, beside, journal, run_time_s };
+    let named = |path: &Path| path.display().to_string();
+    let report = SearchReport {
+        design,
+        answer,
+        written: written.map(named),
+        beside: beside.iter().map(|path| named(path)).collect(),
+        journal: journal.as_deref().map(named),
+        provenance: context.provenance(run_time_s),
+        hints: HINTS,
+    };
     context.outputs.write_csv(&story.csv_table());
-    context.outputs.write_report(|| told.page(context));
-    told.json().print(context)?;
-    context.answer(&told.text(context))?;
+    context.outputs.write_report(|| report.page());
+    context.print(&report.envelope())?;
+    context.answer(&report.text(context.screen))?;
     let whole = file.failed.is_none() && file.unused().is_none();
     if !interrupted && !keep && whole && context.outputs.unwritten().is_empty() {
         // The search is over and its answer is safe: nothing is left to resume, no row was promised to stay.

@@ -1,12 +1,10 @@
 //! What a file is by its name, and whether this tool has written it: somebody else's file is not replaced in silence.
 
+pub use crate::answer::WRITTEN_BY;
 use crate::design::is_history;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
-
-/// First words of every design file that this tool writes.
-pub const WRITTEN_BY: &str = "# Written by sprag-design";
 
 /// First words of the facts in a deck.
 const DECK_FACT: &str = "** sprag-design ";

@@ -2,55 +2,15 @@
 
 use super::exit::Failure;
 use super::origin::Kind;
+pub use crate::answer::{TOOL, VERSION};
 use crate::design::shown;
 use crate::report::{Page, Table};
 use serde::Serialize;
-use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// Program name in every output.
-pub const TOOL: &str = env!("CARGO_PKG_NAME");
-/// Program version in every output.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// What every JSON object begins with; the command's own keys follow.
-#[derive(Debug, Serialize)]
-pub struct Envelope<'a, L: Serialize, B: Serialize> {
-    tool: &'static str,
-    version: &'static str,
-    design: &'a str,
-    design_hash: &'a str,
-    run_time_s: f64,
-    left_out: &'a L,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error_estimate: Option<Value>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    unwritten: Vec<String>,
-    #[serde(flatten)]
-    body: &'a B,
-}
-
-impl<'a, L: Serialize, B: Serialize> Envelope<'a, L, B> {
-    /// `run_time_s`: wall time of the computation alone. `left_out`: a list of the terms left out, each
-    /// with its reason and cost. `error_estimate`: a number or an object of numbers. `unwritten`: files that could not be
-    /// written, each with the reason. `body`: a struct or map with the command's own keys.
-    pub fn new(
-        design: &'a str,
-        design_hash: &'a str,
-        run_time_s: f64,
-        left_out: &'a L,
-        error_estimate: Option<Value>,
-        unwritten: Vec<String>,
-        body: &'a B,
-    ) -> Self {
-        let (tool, version) = (TOOL, VERSION);
-        Self { tool, version, design, design_hash, run_time_s, left_out, error_estimate, unwritten, body }
-    }
-}
 
 /// Print to standard output. A reader that has gone (`| head`) is no failure.
 ///

@@ -1,20 +1,14 @@
 //! `simulate`: one scenario in time.
 
-mod facts;
-mod history;
-mod page;
-mod told;
-
+use super::clock::while_told;
 use super::exit::{Exit, Failure};
-use super::parts::{self, Answer};
-use super::{Context, positive};
+use super::{Context, parts, positive};
 use crate::answer::simulation::{self as scene, Ask, Ran, Refused, Setting, SimulationAnswer};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::report::plain;
 use clap::{Args, ValueEnum};
-use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -100,11 +94,11 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     refuse_unknown_to_published(args)?;
     let event = scenario.kind.duration_s().filter(|_| args.method == Method::Event);
     let start = Instant::now();
-    let ran = told::while_told(&scenario.name, event, context, || computed(&design, scenario, &ask, context));
+    let ran = while_told(&scenario.name, event, context, || computed(&design, scenario, &ask, context));
     let run_time_s = start.elapsed().as_secs_f64();
     let other = format!("{}, contact damping changed", scenario.name);
-    let damping = told::while_told(&other, event, context, || ran.damping_effect(&ask));
-    report(&design, &SimulationAnswer::new(ran, damping, &ask), run_time_s, context)
+    let damping = while_told(&other, event, context, || ran.damping_effect(&ask));
+    report(&SimulationAnswer::new(ran, damping, &ask), run_time_s, context)
 }
 
 impl SimulateArgs {
@@ -136,26 +130,13 @@ fn computed(design: &Design, scenario: &Scenario, ask: &Ask, context: &Context) 
     })
 }
 
-fn report(
-    design: &Design,
-    found: &SimulationAnswer,
-    run_time_s: f64,
-    context: &Context,
-) -> Result<Exit, Failure> {
-    let answer = Answer {
-        design,
-        run_time_s,
-        left_out: found.left_out.clone(),
-        error_estimate: found.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
-        body: found,
-    };
+fn report(found: &SimulationAnswer, run_time_s: f64, context: &Context) -> Result<Exit, Failure> {
     if context.outputs.csv.is_some() {
-        context.outputs.write_csv(&history::table(&found.history()));
+        context.outputs.write_csv(&found.history().table());
     }
-    context.outputs.write_report(|| page::page(found, &answer, context));
-    answer.print(context)?;
-    let facts = facts::table(found).to_text(context.screen);
-    context.answer(&format!("{}\n\n{facts}", found.verdict_line()))?;
+    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
+    context.print(&found.envelope(run_time_s))?;
+    context.answer(&found.text(context.screen))?;
     for note in &found.body.notes {
         context.message(&format!("note: {note}"));
     }

@@ -3,7 +3,7 @@
 use super::overrun::Section;
 use super::{run_out, running};
 use crate::margin::{Demand, Margin, When};
-use crate::report::{Cell, Column, Table, Unit, significant};
+use crate::report::{Cell, Column, Table, Unit, greek, significant};
 use crate::wedge::EndReason;
 use serde::Serialize;
 
@@ -239,6 +239,21 @@ impl Body {
                 d.words
             ),
         }
+    }
+
+    /// Torque capacities, a line each.
+    pub fn capacity_lines(&self) -> Vec<String> {
+        self.remarks_greek(true)
+    }
+
+    /// The other remarks, a line each.
+    pub fn other_remarks(&self) -> Vec<String> {
+        self.remarks_greek(false)
+    }
+
+    fn remarks_greek(&self, capacities: bool) -> Vec<String> {
+        let lines = self.remarks().into_iter().map(|line| greek(&line));
+        lines.filter(|line| line.starts_with("Torque capacity") == capacities).collect()
     }
 
     /// Torque capacity, an early end of the curve and lift-off, a line each.

@@ -1,11 +1,16 @@
 //! What the margin check answers: rows, verdict, torque capacities, overrun, radii as run, load round the circumference.
 
 mod body;
+mod charts;
 pub mod overrun;
+mod page;
 pub mod run_out;
 pub mod running;
+mod sections;
+mod sheet;
 #[cfg(test)]
 mod tests;
+mod text;
 
 pub use body::{Body, Capacity, Deciding, End, Row};
 pub use body::{
@@ -13,18 +18,23 @@ pub use body::{
     margin_text, margin_words, people_table, unit_cell,
 };
 
+pub(super) use text::REACHED_AT;
+
 use super::left_out::{LeftOut, left_out, off_centre};
+use super::{Envelope, Provenance};
 use crate::clutch::Scenario;
 use crate::design::{Design, beside_the_name};
 use crate::follow::Follow;
 use crate::margin::{
     LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
 };
+use crate::report::{Page, Screen};
 use crate::scenario::Settings;
 use crate::wedge::straddling_error;
 use body::Source;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -65,6 +75,34 @@ pub struct Errors {
 impl Serialize for CheckAnswer {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.body.serialize(serializer)
+    }
+}
+
+impl CheckAnswer {
+    /// The answer with the keys that all answers share; `run_time_s`: what the check took, s.
+    pub fn envelope<'a>(&'a self, design: &'a Design, run_time_s: f64) -> Envelope<'a, &'a Body> {
+        Envelope {
+            design,
+            run_time_s,
+            left_out: self.left_out.clone(),
+            error_estimate: Some(json!(self.errors)),
+            body: &self.body,
+        }
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, design: &Design, screen: Screen) -> String {
+        text::text(design, self, screen)
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, design: &Design, provenance: &Provenance) -> Page {
+        page::page(design, self, provenance)
+    }
+
+    /// The design sheet: the answer and a dimensioned drawing first, and all inputs.
+    pub fn sheet(&self, design: &Design, provenance: &Provenance) -> Page {
+        sheet::page(design, self, provenance)
     }
 }
 

@@ -1,20 +1,26 @@
 //! What a search for a better design answers: the design found, its margins, how sure that is, and what else was asked of it.
 
 mod body;
+mod evaluator;
+mod file;
 mod made;
 mod parts;
 mod realised;
 mod relief;
+mod report;
 mod steps;
 mod story;
 mod tables;
 mod words;
 
 pub use body::{Body, Climb, CodeChange, Found, Optima, Point, Price, Row, Slopes};
+pub use evaluator::{describe_problem, evaluate_line};
+pub use file::{NEAREST, ROBUST, file_text, further_files, further_text};
 pub use made::{Course, Made, MadeRow, NotHeldAt, RobustFound};
 pub use parts::Part;
 pub use realised::{CodeMargin, Flanked, Flanks, SearchedOn};
 pub use relief::{Alone, Freed, Loosened, Relief};
+pub use report::SearchReport;
 pub use steps::{Bound, Steps};
 pub use story::Story;
 pub use words::Hints;

@@ -4,9 +4,12 @@ mod ask;
 mod body;
 mod damping;
 mod errors;
+mod facts;
 mod history;
 mod left_out;
 mod notes;
+mod page;
+mod table;
 mod unfelt;
 mod verdict;
 
@@ -18,11 +21,14 @@ pub use history::{History, Row, Values, word};
 pub use verdict::LIFT_OFF_SEARCH_RAD_S;
 
 use super::left_out::LeftOut;
+use super::{Envelope, Provenance};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::fidelity::{self, Term};
+use crate::report::{Page, Screen};
 use crate::scenario::{NoScenario, Prepared, Simulation, prepare, simulate_published};
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use std::fmt;
 
 /// A scene that has run, before it is looked at once more for what contact damping changes.
@@ -67,6 +73,29 @@ impl std::ops::Deref for SimulationAnswer {
 
     fn deref(&self) -> &Ran {
         &self.ran
+    }
+}
+
+impl SimulationAnswer {
+    /// The answer with the keys that all answers share; `run_time_s`: what the runs took, s.
+    pub fn envelope(&self, run_time_s: f64) -> Envelope<'_, &Body> {
+        Envelope {
+            design: &self.design,
+            run_time_s,
+            left_out: self.left_out.clone(),
+            error_estimate: self.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
+            body: &self.body,
+        }
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        format!("{}\n\n{}", self.verdict_line(), facts::table(self).to_text(screen))
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, provenance: &Provenance) -> Page {
+        page::page(self, provenance)
     }
 }
 

@@ -1,10 +1,20 @@
 //! What the stiffness study answers: the static curve at rest by contact law, at the torques asked for.
 
 mod body;
+mod fem;
 mod junctions;
+mod page;
+mod pressure;
+mod study;
+mod tables;
 
 pub use body::{Body, Curve, End, Law, Point};
+pub use fem::{Distance, Fem, FemPoint, FemRow};
 pub use junctions::{Junction, junctions};
+pub use page::page;
+pub use pressure::{ContactBody, PeakBody, PressureBody, PressureMap, PressureRow};
+pub use study::{StiffnessStudy, StudyBody};
+pub use tables::csv_table;
 
 use super::left_out::{LeftOut, at_rest, left_out};
 use crate::clutch::{Clutch, ContactLaw, LawName};

@@ -159,22 +159,3 @@ fn a_name_that_is_taken_is_left_alone_and_the_next_one_used() {
     assert_eq!(fs::read(folder.0.join("out.csv")).unwrap(), b"new");
     assert!(stale.iter().all(|path| fs::read(path).unwrap() == b"stale"));
 }
-
-#[test]
-fn the_envelope_comes_first_and_holds_the_body() {
-    #[derive(Serialize)]
-    struct Body {
-        pass: bool,
-        margins: Vec<f64>,
-    }
-    let left_out = ["nothing"];
-    let body = Body { pass: true, margins: vec![0.1, f64::NAN] };
-    let text =
-        serde_json::to_string(&Envelope::new("a", "0f", 0.5, &left_out, None, Vec::new(), &body)).unwrap();
-    assert!(text.starts_with("{\"tool\":\"sprag-design\",\"version\":"), "{text}");
-    let value: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(value["design_hash"], "0f");
-    assert_eq!(value["pass"], true);
-    assert_eq!(value["margins"][1], serde_json::Value::Null);
-    assert!(value.get("error_estimate").is_none());
-}
