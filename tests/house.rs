@@ -81,8 +81,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "element", "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report",
-            "export", "import", "studio",
+            "element", "accuracy", "margin", "optimise", "identify", "size", "report", "export", "import",
+            "studio",
         ],
     ),
 ];
