@@ -85,7 +85,7 @@ impl Scheme {
 
 /// One method at one setting.
 #[derive(Debug, Clone, Copy)]
-pub struct Point {
+pub struct WorkPoint {
     /// Tolerance, pure number, or step, s.
     pub setting: f64,
     /// |theta_bi - reference| at the end, rad; `None`: the run did not come to its end.
@@ -120,7 +120,7 @@ pub struct Precision {
     /// What the planner leaves out.
     pub left_out: Vec<&'static str>,
     /// Methods with their points, the finest setting last.
-    pub methods: Vec<(Scheme, Vec<Point>)>,
+    pub methods: Vec<(Scheme, Vec<WorkPoint>)>,
 }
 
 /// Tolerance per step of the reference run: next to rounding.
@@ -230,10 +230,10 @@ impl Bench<'_> {
         simulate_prepared(prepared, &s, reduced)
     }
 
-    fn point(&self, method: Scheme, setting: f64, reference: (f64, f64)) -> Point {
+    fn point(&self, method: Scheme, setting: f64, reference: (f64, f64)) -> WorkPoint {
         let bare = |run: &Run, seconds: f64| {
             let error = (run.state[2] - reference.0).abs();
-            Point {
+            WorkPoint {
                 setting,
                 theta_error_rad: (run.stop == Stop::Finished).then_some(error),
                 margin_error: None,
@@ -243,7 +243,7 @@ impl Bench<'_> {
                 stop: run.stop,
             }
         };
-        let whole = |(s, seconds): (Simulation, f64)| Point {
+        let whole = |(s, seconds): (Simulation, f64)| WorkPoint {
             setting,
             theta_error_rad: (s.stop == Stop::Finished).then(|| (s.theta_inner_rad - reference.0).abs()),
             margin_error: s.demand.map(|d| (d.slip_margin - reference.1).abs()),

@@ -4,8 +4,8 @@ use super::Envelope;
 use super::left_out::LeftOut;
 use crate::clutch::EndProfile;
 use crate::design::Design;
-use crate::export::rows::{Point, Row, arcs};
-use crate::export::{Part, Subject};
+use crate::export::rows::{SurfacePoint, SurfaceRow, arcs};
+use crate::export::{DrawnClutch, Part};
 use crate::report::{Cell, Column, Table, Unit};
 use serde_json::{Value, json};
 
@@ -18,7 +18,7 @@ pub struct Exported<'a> {
     /// The design.
     pub design: &'a Design,
     /// What is drawn of it.
-    pub subject: &'a Subject<'a>,
+    pub subject: &'a DrawnClutch<'a>,
     /// Which part.
     pub part: Part,
     /// Name of the format.
@@ -80,7 +80,7 @@ impl<'a> Exported<'a> {
 }
 
 /// Every arc and flank, for CSV.
-pub fn arcs_table(rows: &[Row]) -> Table {
+pub fn arcs_table(rows: &[SurfaceRow]) -> Table {
     let length = |key: &str| Column::number(key, key, Unit::Millimetre, 6);
     let mut table = Table::new(vec![
         Column::text("body", "Body"),
@@ -110,7 +110,7 @@ pub fn arcs_table(rows: &[Row]) -> Table {
 }
 
 /// Points on them, for CSV.
-pub fn points_table(points: &[Point]) -> Table {
+pub fn points_table(points: &[SurfacePoint]) -> Table {
     let mut table = Table::new(vec![
         Column::text("body", "Body"),
         Column::text("surface", "Surface"),
@@ -128,7 +128,7 @@ pub fn points_table(points: &[Point]) -> Table {
     table
 }
 
-fn row_json(r: &Row) -> Value {
+fn row_json(r: &SurfaceRow) -> Value {
     let mm = |m: f64| Unit::Millimetre.from_si(m);
     json!({
         "body": r.body,

@@ -4,7 +4,7 @@ use super::left_out::LeftOut;
 use super::page::begun;
 use super::{Envelope, Provenance};
 use crate::design::Design;
-use crate::export::calculix::{Facts, Row};
+use crate::export::calculix::{Facts, ResultRow};
 use crate::report::{Cell, Column, Page, Table, Unit};
 use crate::wedge::{StaticPoint, WedgeCurve};
 use serde::Serialize;
@@ -52,14 +52,14 @@ pub struct FiniteElementPoint {
 pub struct FiniteElements<'a> {
     design: &'a Design,
     facts: &'a Facts,
-    rows: &'a [Row],
+    rows: &'a [ResultRow],
     /// The design's own law at the same torques.
     law: Vec<Option<StaticPoint>>,
 }
 
 impl<'a> FiniteElements<'a> {
     /// `rows` of a result whose deck says `facts`.
-    pub fn of(design: &'a Design, facts: &'a Facts, rows: &'a [Row]) -> Self {
+    pub fn of(design: &'a Design, facts: &'a Facts, rows: &'a [ResultRow]) -> Self {
         let curve =
             design.clutch.profile().ok().and_then(|p| WedgeCurve::build(&design.clutch, &p, 0.0).ok());
         let law = rows.iter().map(|r| curve.as_ref().and_then(|c| c.at_torque(r.torque_nm))).collect();
@@ -91,7 +91,7 @@ impl<'a> FiniteElements<'a> {
     }
 }
 
-fn body(facts: &Facts, rows: &[Row], law: &[Option<StaticPoint>]) -> FiniteElementBody {
+fn body(facts: &Facts, rows: &[ResultRow], law: &[Option<StaticPoint>]) -> FiniteElementBody {
     let points = rows
         .iter()
         .zip(law)
@@ -111,7 +111,7 @@ fn body(facts: &Facts, rows: &[Row], law: &[Option<StaticPoint>]) -> FiniteEleme
     FiniteElementBody { source: "calculix", variant: facts.variant.clone(), mesh_mm: facts.mesh_mm, points }
 }
 
-fn table(rows: &[Row], law: &[Option<StaticPoint>]) -> Table {
+fn table(rows: &[ResultRow], law: &[Option<StaticPoint>]) -> Table {
     let mut table = Table::new(vec![
         Column::number("torque_nm", "Torque", Unit::NewtonMetre, 5),
         Column::number("normal_inner_n", "N inner", Unit::Newton, 5),

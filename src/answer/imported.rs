@@ -3,7 +3,7 @@
 use super::left_out::LeftOut;
 use super::{Envelope, VERSION, WRITTEN_BY};
 use crate::design::{Design, shown};
-use crate::import::{Arcs, Drawn, STANDARD_ERROR, Sprag};
+use crate::import::{Arcs, Drawn, FittedSprag, STANDARD_ERROR};
 use crate::report::{Cell, Column, Screen, Table, Unit};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -17,7 +17,7 @@ pub struct Imported<'a> {
     /// What was read.
     pub drawn: &'a Drawn,
     /// The sprag in it.
-    pub found: &'a Sprag,
+    pub found: &'a FittedSprag,
     /// Name of the design file that gives all else.
     pub template: &'a str,
     /// Whether nobody named it.
@@ -154,11 +154,11 @@ impl Imported<'_> {
     }
 }
 
-fn worst(found: &Sprag, of: fn(&Arcs) -> f64) -> f64 {
+fn worst(found: &FittedSprag, of: fn(&Arcs) -> f64) -> f64 {
     1e6 * of(&found.inner).max(of(&found.outer))
 }
 
-fn table(found: &Sprag) -> Table {
+fn table(found: &FittedSprag) -> Table {
     let mut table = Table::new(vec![
         Column::text("surface", "Surface"),
         Column::number("radius_mm", "Radius", Unit::Millimetre, 7),

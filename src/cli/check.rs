@@ -1,9 +1,9 @@
 //! `check`: the designer margin check.
 
 use super::exit::{Exit, Failure};
-use super::origin::Kind;
+use super::origin::FileKind;
 use super::{Context, parts};
-use crate::answer::check::{Body, CheckAnswer, NoCheck, check, csv_table};
+use crate::answer::check::{CheckAnswer, CheckBody, NoCheck, check, csv_table};
 use crate::design::Design;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ pub struct CheckArgs {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
-    let others: Vec<_> = args.overrun_csv.iter().map(|path| (path.as_path(), Kind::Table)).collect();
+    let others: Vec<_> = args.overrun_csv.iter().map(|path| (path.as_path(), FileKind::Table)).collect();
     context.outputs.check(&[&args.file], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let (found, run_time_s) = checked(&design, &args.file, context)?;
@@ -62,7 +62,7 @@ pub(super) fn checked(
 }
 
 /// What the verdict comes to.
-pub(super) fn exit(body: &Body) -> Exit {
+pub(super) fn exit(body: &CheckBody) -> Exit {
     match body.held() {
         Some(true) => Exit::Held,
         Some(false) => Exit::NotHeld,

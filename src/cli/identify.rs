@@ -2,7 +2,7 @@
 
 use super::exit::{Exit, Failure};
 use super::histories::Histories;
-use super::origin::Kind;
+use super::origin::FileKind;
 use super::output::{TOOL, VERSION};
 use super::{Context, parts};
 use crate::answer::identification::{Identification, StoppedIdentification};
@@ -81,7 +81,7 @@ fn unknown(text: &str) -> Result<Unknown, String> {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
-    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), Kind::Design)).collect();
+    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
     context.outputs.check(&[&args.file, &args.data], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let named = |why: String| Failure::malformed(format!("{}: {why}", args.data.display()));
@@ -139,6 +139,6 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
 fn written(args: &IdentifyArgs, histories: &Histories, text: &str, context: &Context) -> Option<String> {
     let path = args.output.as_deref()?;
     let written =
-        histories.write(&context.outputs) && context.outputs.write(path, Kind::Design, text.as_bytes());
+        histories.write(&context.outputs) && context.outputs.write(path, FileKind::Design, text.as_bytes());
     written.then(|| path.display().to_string())
 }

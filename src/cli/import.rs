@@ -1,7 +1,7 @@
 //! `import`: a drawn or measured sprag as a design file.
 
 use super::exit::{Exit, Failure};
-use super::origin::Kind;
+use super::origin::FileKind;
 use super::{Context, positive};
 use crate::answer::imported::Imported;
 use crate::design::{Design, MOST_TABLE, read_text, with_keys, with_sprag};
@@ -70,7 +70,7 @@ pub struct ImportArgs {
 pub fn run(args: &ImportArgs, context: &Context) -> Result<Exit, Failure> {
     let inputs: Vec<&Path> =
         std::iter::once(&args.file).chain(&args.template).map(PathBuf::as_path).collect();
-    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), Kind::Design)).collect();
+    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
     context.outputs.check(&inputs, &others)?;
     context.outputs.refuse_foreign()?;
     if context.outputs.report.is_some() {
@@ -133,7 +133,7 @@ pub fn run(args: &ImportArgs, context: &Context) -> Result<Exit, Failure> {
     let written = args
         .output
         .as_ref()
-        .filter(|path| context.outputs.write(path, Kind::Design, source.as_bytes()))
+        .filter(|path| context.outputs.write(path, FileKind::Design, source.as_bytes()))
         .map(|path| path.display().to_string());
     context.outputs.write_csv(&answer.csv_table());
     context.print(&answer.envelope(&design, run_time_s, written.as_deref()))?;

@@ -2,11 +2,11 @@
 
 use super::Context;
 use super::exit::{Exit, Failure};
-use super::origin::Kind;
+use super::origin::FileKind;
 use super::output::{TOOL, VERSION, print_json};
 use crate::answer::sizing::{Sizing, tried_json, tried_table};
 use crate::scenario::Settings;
-use crate::size::{Ask, NoSize, size};
+use crate::size::{NoSize, Requirements, size};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -15,7 +15,7 @@ use std::time::Instant;
 ///
 /// # Errors
 /// [`Failure`].
-pub fn answer(ask: &Ask, output: &Path, title: &str, context: &Context) -> Result<Exit, Failure> {
+pub fn answer(ask: &Requirements, output: &Path, title: &str, context: &Context) -> Result<Exit, Failure> {
     let started = Instant::now();
     let settings = Settings { follow: context.follow.unseen(), ..Settings::default() };
     let sized = size(ask, &settings);
@@ -25,7 +25,7 @@ pub fn answer(ask: &Ask, output: &Path, title: &str, context: &Context) -> Resul
     }
     let sized = match sized {
         Ok(sized) => sized,
-        Err(NoSize::Ask(why)) => return Err(Failure::malformed(format!("--{why}"))),
+        Err(NoSize::Requirements(why)) => return Err(Failure::malformed(format!("--{why}"))),
         Err(why @ NoSize::None { .. }) => {
             let NoSize::None { tried } = &why else { return Ok(Exit::NotHeld) };
             if context.json {
@@ -38,7 +38,7 @@ pub fn answer(ask: &Ask, output: &Path, title: &str, context: &Context) -> Resul
             return Ok(Exit::NotHeld);
         }
     };
-    let written = context.outputs.write(output, Kind::Design, sized.made.design.source.as_bytes());
+    let written = context.outputs.write(output, FileKind::Design, sized.made.design.source.as_bytes());
     let written = written.then(|| output.display().to_string());
     let (answer, written) = (Sizing::of(&sized), written.as_deref());
     context.outputs.write_csv(&answer.csv_table());

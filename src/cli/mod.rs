@@ -41,7 +41,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use command_line::{command_line, missing_value};
 use exit::{Exit, Failure};
 use output::Outputs;
-use progress::Progress;
+use progress::ProgressLine;
 use serde::Serialize;
 use serde_json::json;
 use std::ffi::OsString;
@@ -186,8 +186,8 @@ impl Context {
     }
 
     /// A progress line on standard error; `unit` names the steps, `total` counts them if known.
-    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> Progress {
-        Progress::new(!self.quiet, what, unit, total)
+    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> ProgressLine {
+        ProgressLine::new(!self.quiet, what, unit, total)
     }
 
     /// How an answer came about that took `run_time_s`, s.

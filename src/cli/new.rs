@@ -7,7 +7,7 @@ use super::{Context, made};
 use crate::follow::Follow;
 use crate::material::STEELS;
 use crate::report::plain;
-use crate::size::{Ask, PURPOSES, Purpose, Wish, purpose};
+use crate::size::{PURPOSES, Purpose, Requirements, Wish, purpose};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::io::{BufRead, IsTerminal};
@@ -94,7 +94,7 @@ impl NewArgs {
         self.purpose.as_deref().and_then(purpose)
     }
 
-    fn ask(&self) -> Ask {
+    fn ask(&self) -> Requirements {
         Wish { purpose: self.purpose(), engagements: self.engagements, ..self.wish.wish() }.ask()
     }
 }
@@ -118,7 +118,7 @@ struct Number {
     question: &'static str,
     what: &'static str,
     at: fn(&mut NewArgs) -> &mut Option<f64>,
-    without: fn(&Ask) -> Option<f64>,
+    without: fn(&Requirements) -> Option<f64>,
     needed: bool,
 }
 

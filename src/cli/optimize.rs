@@ -4,13 +4,14 @@ use super::Context;
 use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
-use super::origin::Kind;
+use super::origin::FileKind;
 use super::output::TOOL;
 use super::parts;
-use super::progress::Progress;
+use super::progress::ProgressLine;
 use super::simulate::refuse_tolerance;
 use crate::answer::search::{
-    Ask, Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, file_text, further_files, further_text,
+    Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, SearchSettings, file_text, further_files,
+    further_text,
 };
 use crate::design::{Design, EditError, Objective};
 use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record, Status};
@@ -119,7 +120,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     refuse_tolerance(args.tolerance)?;
     let new = output_path(args);
     let record = args.journal.clone().unwrap_or_else(|| journal::path_for(&new));
-    context.outputs.check(&[&args.file], &[(&new, Kind::Design), (&record, Kind::Journal)])?;
+    context.outputs.check(&[&args.file], &[(&new, FileKind::Design), (&record, FileKind::Journal)])?;
     let design = parts::read_design(&args.file, context)?;
     let histories = Histories::beside(&design, &new)?;
     let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
@@ -133,7 +134,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
     }
     let beside = beside(&new, args);
-    let others: Vec<_> = beside.iter().map(|path| (path.as_path(), Kind::Design)).collect();
+    let others: Vec<_> = beside.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
     context.outputs.check(&[&args.file], &others)?;
     let (model, said) = (journal::model(), design.content_hash());
     let file = match (args.resume, args.journal.is_some()) {
@@ -164,7 +165,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         if drawn { "" } else { " (this search draws nothing at random)" },
         if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
     ));
-    let ask = Ask {
+    let ask = SearchSettings {
         evaluations: args.evaluations as usize,
         starts: args.starts.map(|n| n as usize),
         swarm: args.global.map(|n| n as usize),
@@ -236,7 +237,7 @@ fn finish(
     let mut written = None;
     let mut beside = Vec::new();
     let write = |path: &Path, text: Result<String, EditError>| match readable(design, path, text) {
-        Ok(text) => context.outputs.write(path, Kind::Design, text.as_bytes()),
+        Ok(text) => context.outputs.write(path, FileKind::Design, text.as_bytes()),
         Err(why) => {
             context.outputs.lost(why);
             false
@@ -319,14 +320,14 @@ fn beside(new: &Path, args: &OptimizeArgs) -> Vec<PathBuf> {
 
 /// Progress and journal.
 struct Keeper {
-    progress: Progress,
+    progress: ProgressLine,
     file: JournalFile,
     part: String,
     best: Option<f64>,
 }
 
 impl Keeper {
-    fn new(progress: Progress, file: JournalFile) -> Self {
+    fn new(progress: ProgressLine, file: JournalFile) -> Self {
         Self { progress, file, part: "search".to_owned(), best: None }
     }
 }

@@ -1,7 +1,7 @@
 //! Where answers go: standard output, or files written whole or not at all.
 
 use super::exit::Failure;
-use super::origin::Kind;
+use super::origin::FileKind;
 pub use crate::answer::{TOOL, VERSION};
 use crate::design::shown;
 use crate::report::{Page, Table};
@@ -88,13 +88,13 @@ impl Outputs {
     ///
     /// # Errors
     /// [`Failure::Malformed`] naming the path.
-    pub fn check(&self, inputs: &[&Path], others: &[(&Path, Kind)]) -> Result<(), Failure> {
+    pub fn check(&self, inputs: &[&Path], others: &[(&Path, FileKind)]) -> Result<(), Failure> {
         let csv = self
             .csv
             .iter()
             .filter(|path| !is_standard_output(path))
-            .map(|path| (path.as_path(), Kind::Table));
-        let report = self.report.iter().map(|path| (path.as_path(), Kind::Page));
+            .map(|path| (path.as_path(), FileKind::Table));
+        let report = self.report.iter().map(|path| (path.as_path(), FileKind::Page));
         let mut seen: Vec<PathBuf> = Vec::new();
         for (path, kind) in csv.chain(report).chain(others.iter().copied()) {
             if path.is_dir() {
@@ -130,7 +130,7 @@ impl Outputs {
     /// # Errors
     /// [`Failure::Malformed`] naming the path.
     pub fn refuse_foreign(&self) -> Result<(), Failure> {
-        let own = [(&self.csv, Kind::Table), (&self.report, Kind::Page)];
+        let own = [(&self.csv, FileKind::Table), (&self.report, FileKind::Page)];
         own.into_iter()
             .filter_map(|(path, kind)| Some((path.as_deref()?, kind)))
             .try_for_each(|(path, kind)| self.may_replace(path, kind).map_err(|why| refused(path, &why)))
@@ -153,7 +153,7 @@ impl Outputs {
     }
 
     /// Whether what stands at `path` may be replaced by a file of this kind; why not.
-    fn may_replace(&self, path: &Path, kind: Kind) -> Result<(), String> {
+    fn may_replace(&self, path: &Path, kind: FileKind) -> Result<(), String> {
         if self.force || is_standard_output(path) || is_special(path) || !path.exists() || kind.is_ours(path)
         {
             return Ok(());
@@ -166,7 +166,7 @@ impl Outputs {
 
     /// Write a file. What fails is said at once, kept for the answer, and makes the exit code 3; the answer itself does not
     /// wait for a disk. `false`: not written.
-    pub fn write(&self, path: &Path, kind: Kind, bytes: &[u8]) -> bool {
+    pub fn write(&self, path: &Path, kind: FileKind, bytes: &[u8]) -> bool {
         let written = self
             .may_replace(path, kind)
             .map_err(|why| format!("cannot write {}: {why}", path.display()))
@@ -195,7 +195,7 @@ impl Outputs {
     /// Write a table as CSV.
     pub fn write_table(&self, path: &Path, table: &Table) {
         match table.to_csv() {
-            Ok(bytes) => drop(self.write(path, Kind::Table, &bytes)),
+            Ok(bytes) => drop(self.write(path, FileKind::Table, &bytes)),
             Err(why) => self.lost(format!("{}: {why}", path.display())),
         }
     }
@@ -223,7 +223,7 @@ impl Outputs {
     /// Write the page if `--report` was given; it is only made then.
     pub fn write_report(&self, page: impl FnOnce() -> Page) {
         if let Some(path) = &self.report {
-            self.write(path, Kind::Page, page().to_html().as_bytes());
+            self.write(path, FileKind::Page, page().to_html().as_bytes());
         }
     }
 }

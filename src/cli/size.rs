@@ -1,7 +1,7 @@
 //! `size`: a first design file from what a clutch shall do.
 
 use super::exit::{Exit, Failure};
-use super::origin::Kind;
+use super::origin::FileKind;
 use super::{Context, made};
 use crate::design::nearest;
 use crate::material::{STEELS, Steel, steel};
@@ -162,7 +162,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
 /// # Errors
 /// [`Failure::Malformed`].
 pub fn may_write(output: &Path, context: &Context) -> Result<(), Failure> {
-    context.outputs.check(&[], &[(output, Kind::Design)])?;
+    context.outputs.check(&[], &[(output, FileKind::Design)])?;
     context.outputs.refuse_work(output)?;
     context.outputs.refuse_foreign()
 }

@@ -3,7 +3,8 @@
 use super::exit::{Exit, Failure};
 use super::{Context, parts, positive};
 use crate::answer::stiffness::{
-    Ask, Fem, NoStiffness, PressureMap, StiffnessAnswer, StiffnessStudy, csv_table, curves, page,
+    Fem, NoStiffness, PressureMap, StiffnessAnswer, StiffnessSettings, StiffnessStudy, csv_table, curves,
+    page,
 };
 use crate::clutch::LawName;
 use crate::design::{MOST_TABLE, read_text};
@@ -142,8 +143,8 @@ fn read_fem(path: &Path, model: Option<&str>) -> Result<Fem, Failure> {
 }
 
 impl StiffnessArgs {
-    fn ask(&self, context: &Context) -> Ask {
-        Ask {
+    fn ask(&self, context: &Context) -> StiffnessSettings {
+        StiffnessSettings {
             laws: self.contact.clone(),
             torques_nm: self.torques.clone(),
             max_torque_nm: self.max_torque,

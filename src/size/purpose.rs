@@ -1,6 +1,6 @@
 //! What clutches are for, and what is taken of each where nobody says: every number once, with its source or "guess".
 
-use super::Ask;
+use super::Requirements;
 use crate::design::DraftScene;
 use std::f64::consts::PI;
 
@@ -159,7 +159,7 @@ impl Purpose {
     /// Its scenes for a clutch that does what `ask` says, whose outer race is held by `abutment_nm_per_rad`.
     pub(super) fn scenes(
         &self,
-        ask: &Ask,
+        ask: &Requirements,
         abutment_nm_per_rad: f64,
         inner_inertia_kg_m2: f64,
     ) -> Vec<DraftScene> {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::ask::{Ask, BadAsk};
+use super::ask::{BadAsk, Requirements};
 use super::finish::{KEPT, Made, build, finish};
 use super::proportions::{COUNTS, LENGTHS, SPACES_M, draft, lengthen, longest_m};
 use crate::design::Draft;
@@ -49,7 +49,7 @@ pub struct Sized {
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoSize {
     /// The question.
-    Ask(BadAsk),
+    Requirements(BadAsk),
     /// No race space does it.
     None {
         /// Those tried.
@@ -60,7 +60,7 @@ pub enum NoSize {
 impl fmt::Display for NoSize {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Ask(why) => write!(f, "{why}"),
+            Self::Requirements(why) => write!(f, "{why}"),
             Self::None { tried } => {
                 let best = tried.iter().max_by(|a, b| a.carries_nm.total_cmp(&b.carries_nm));
                 match best.filter(|b| b.carries_nm > 0.0) {
@@ -104,8 +104,8 @@ fn least(draft: &Draft) -> Result<(f64, String), String> {
 ///
 /// # Errors
 /// [`NoSize`].
-pub fn size(ask: &Ask, settings: &Settings) -> Result<Sized, NoSize> {
-    ask.check().map_err(NoSize::Ask)?;
+pub fn size(ask: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
+    ask.check().map_err(NoSize::Requirements)?;
     let mut tried = Vec::new();
     for space_m in SPACES_M {
         let mut draft = draft(ask, space_m);
@@ -143,7 +143,7 @@ impl Tried {
 }
 
 /// Shortest sprags that keep every limit, put into `draft`.
-fn width(ask: &Ask, draft: &mut Draft, space_m: f64) -> Tried {
+fn width(ask: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
     let (low, high) = (LENGTHS.0 * space_m, longest_m(ask, space_m));
     let at = |draft: &Draft, length_m: f64| {
         let mut longer = draft.clone();

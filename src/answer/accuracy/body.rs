@@ -2,7 +2,7 @@
 
 use super::verdict::{WANTED_RAD, gains_over_published, winners};
 use super::{AccuracyStudy, map};
-use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS, Point, Precision, Scheme};
+use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS, Precision, Scheme, WorkPoint};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -54,7 +54,7 @@ fn scene(s: &Precision) -> Value {
     })
 }
 
-fn point(method: Scheme, p: &Point) -> Value {
+fn point(method: Scheme, p: &WorkPoint) -> Value {
     let [tolerance, step_s] = match method {
         Scheme::Published(_) => [None, Some(p.setting)],
         _ => [Some(p.setting), None],

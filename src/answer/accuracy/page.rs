@@ -2,7 +2,7 @@
 
 use super::verdict::{WANTED_RAD, cheapest, gains_over_published, name, sentence};
 use super::{AccuracyStudy, map, tables};
-use crate::accuracy::{Halved, Judged, PARAMETERS, Point, Precision, Scheme};
+use crate::accuracy::{Halved, Judged, PARAMETERS, Precision, Scheme, WorkPoint};
 use crate::answer::Provenance;
 use crate::answer::page::{begun, half};
 use crate::design::Design;
@@ -106,11 +106,11 @@ fn reference(s: &Precision) -> String {
     )
 }
 
-fn plot(scene: &Precision, x_title: &str, x: impl Fn(&Point) -> f64) -> Plot {
+fn plot(scene: &Precision, x_title: &str, x: impl Fn(&WorkPoint) -> f64) -> Plot {
     let mut plot = Plot::new(x_title, "Error of θ_bi, rad");
     (plot.log_x, plot.log_y) = (true, true);
     for (method, points) in &scene.methods {
-        let at = |p: &Point| [x(p), p.theta_error_rad.map_or(f64::NAN, |e| e.max(FLOOR_RAD))];
+        let at = |p: &WorkPoint| [x(p), p.theta_error_rad.map_or(f64::NAN, |e| e.max(FLOOR_RAD))];
         let dash = match method {
             Scheme::OneRun | Scheme::Reduced => Dash::Solid,
             Scheme::Full => Dash::Dashed,

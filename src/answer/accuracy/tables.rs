@@ -2,7 +2,7 @@
 
 use super::verdict::{name, sentence};
 use super::{AccuracyStudy, map};
-use crate::accuracy::{Point, Precision, Scheme};
+use crate::accuracy::{Precision, Scheme, WorkPoint};
 use crate::report::{Cell, Column, Screen, Table, Unit};
 
 /// Every point of every scene, for programs.
@@ -75,7 +75,7 @@ pub(super) fn scene(scene: &Precision) -> Table {
     table
 }
 
-fn shown(method: Scheme, point: &Point) -> String {
+fn shown(method: Scheme, point: &WorkPoint) -> String {
     let unit = if method.band_m_s().is_some() { " s" } else { "" };
     format!("{:e}{unit}", point.setting)
 }

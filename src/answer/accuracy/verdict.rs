@@ -1,6 +1,6 @@
 //! Which setting of each method is the cheapest below a wanted error.
 
-use crate::accuracy::{Point, Precision, Scheme};
+use crate::accuracy::{Precision, Scheme, WorkPoint};
 use crate::report::significant;
 
 /// Error of theta_bi that is wanted, rad: the tool's default tolerance.
@@ -10,15 +10,15 @@ const PUBLISHED_STEP_S: f64 = 1e-5;
 
 /// Fastest point of `method` at and beyond which every finer setting stays below [`WANTED_RAD`] too: one that is right
 /// by chance does not count.
-pub(super) fn cheapest(points: &[Point]) -> Option<&Point> {
-    let good = |p: &Point| p.theta_error_rad.is_some_and(|e| e <= WANTED_RAD);
+pub(super) fn cheapest(points: &[WorkPoint]) -> Option<&WorkPoint> {
+    let good = |p: &WorkPoint| p.theta_error_rad.is_some_and(|e| e <= WANTED_RAD);
     let from = points.iter().rposition(|p| !good(p)).map_or(0, |i| i + 1);
     points.get(from..)?.iter().min_by(|a, b| a.seconds.total_cmp(&b.seconds))
 }
 
 /// Cheapest point of each method; the published scheme by its best band.
-pub(super) fn winners(scene: &Precision) -> Vec<(Scheme, Option<&Point>)> {
-    let mut list: Vec<(Scheme, Option<&Point>)> = Vec::new();
+pub(super) fn winners(scene: &Precision) -> Vec<(Scheme, Option<&WorkPoint>)> {
+    let mut list: Vec<(Scheme, Option<&WorkPoint>)> = Vec::new();
     for (method, points) in &scene.methods {
         let found = cheapest(points);
         match list.iter_mut().find(|(m, _)| m.key() == method.key()) {
@@ -39,7 +39,7 @@ pub(super) fn winners(scene: &Precision) -> Vec<(Scheme, Option<&Point>)> {
 }
 
 /// Setting in words.
-pub(super) fn setting(method: Scheme, point: &Point) -> String {
+pub(super) fn setting(method: Scheme, point: &WorkPoint) -> String {
     match method {
         Scheme::Published(band) => format!("step {:e} s, band {band:.0e} m/s", point.setting),
         _ => format!("tolerance {:e}", point.setting),
@@ -60,7 +60,7 @@ pub(super) fn name(method: Scheme) -> String {
 /// of the slowest band.
 pub(super) fn gains_over_published(scene: &Precision) -> Option<[f64; 2]> {
     let ours = winners(scene).into_iter().find(|w| w.0 == Scheme::OneRun)?.1?.seconds;
-    let at_its_step = |(m, points): &(Scheme, Vec<Point>)| {
+    let at_its_step = |(m, points): &(Scheme, Vec<WorkPoint>)| {
         let point = points.iter().find(|p| (p.setting / PUBLISHED_STEP_S - 1.0).abs() < 1e-9);
         point.filter(|p| m.band_m_s().is_some() && p.theta_error_rad.is_some()).map(|p| p.seconds / ours)
     };

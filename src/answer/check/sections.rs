@@ -6,12 +6,12 @@ use crate::report::{Curve, Page, Plot, Unit, greek};
 
 /// Section of the page: overrun.
 pub(super) fn overrun(
-    section: &overrun::Section,
+    section: &overrun::OverrunSection,
     page: &mut Page,
     lift_off_rpm: Option<f64>,
     wanted_rpm: Option<f64>,
 ) {
-    let of = |race: &'static str, value: fn(&overrun::Row) -> f64| {
+    let of = |race: &'static str, value: fn(&overrun::OverrunRow) -> f64| {
         let rows = section.points.iter().filter(|p| p.race == race);
         rows.map(|p| [p.speed_rpm, value(p)]).collect::<Vec<_>>()
     };
@@ -50,7 +50,7 @@ pub(super) fn overrun(
 }
 
 /// Section of the page: load round the circumference.
-pub(super) fn run_out(section: &run_out::Section, page: &mut Page) {
+pub(super) fn run_out(section: &run_out::RunOutSection, page: &mut Page) {
     page.heading("Load round the circumference");
     page.list(section.remarks());
     page.paragraph(

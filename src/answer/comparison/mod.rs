@@ -7,7 +7,7 @@ mod tables;
 use super::check::{LIFT_OFF_TO_RAD_S, fine, margin_text};
 use super::left_out::left_out;
 use super::{Envelope, Provenance};
-use crate::compare::{Row, Scene, Subject, inputs_that_differ, margins, proud_m, scenes};
+use crate::compare::{Scene, SideBySide, Subject, inputs_that_differ, margins, proud_m, scenes};
 use crate::design::{Design, Input};
 use crate::follow::Follow;
 use crate::margin::{Margin, NoMargins};
@@ -22,11 +22,11 @@ pub struct Comparison<'a> {
     /// Where each comes from.
     pub files: &'a [String],
     /// Inputs that differ.
-    pub inputs: Vec<Row<Input>>,
+    pub inputs: Vec<SideBySide<Input>>,
     /// Margins side by side.
-    pub margins: Vec<Row<&'a Margin>>,
+    pub margins: Vec<SideBySide<&'a Margin>>,
     /// Scenes side by side.
-    pub scenes: Vec<Row<&'a Scene>>,
+    pub scenes: Vec<SideBySide<&'a Scene>>,
 }
 
 /// A, B, C ...: short enough for a heading.
@@ -180,12 +180,12 @@ impl<'a> Comparison<'a> {
 }
 
 /// One value of each design; null of a design without it.
-fn values<T>(row: &Row<T>, value: impl Fn(&T) -> Value) -> Vec<Value> {
+fn values<T>(row: &SideBySide<T>, value: impl Fn(&T) -> Value) -> Vec<Value> {
     row.values.iter().map(|v| v.as_ref().map_or(Value::Null, &value)).collect()
 }
 
 /// Unit behind the key of an input.
-fn with_unit(row: &Row<Input>) -> String {
+fn with_unit(row: &SideBySide<Input>) -> String {
     match row.values.iter().flatten().map(|i| i.unit).find(|u| !u.is_empty()) {
         Some(unit) => format!("{}, {unit}", row.key),
         None => row.key.clone(),

@@ -1,6 +1,6 @@
 //! What an identification says: tables and sentences.
 
-use crate::identify::{Doubt, INSEPARABLE, Identified, Point, Tied, Use};
+use crate::identify::{Doubt, FittedPoint, INSEPARABLE, Identified, Tied, Use};
 use crate::report::{Cell, Column, Table, Unit, significant};
 
 pub(super) fn use_name(purpose: Use) -> &'static str {
@@ -155,7 +155,7 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
             .points
             .iter()
             .filter(|p| p.observation.purpose == purpose)
-            .filter_map(Point::relative)
+            .filter_map(FittedPoint::relative)
             .collect();
         if offs.is_empty() {
             continue;

@@ -1,7 +1,7 @@
 //! The HTML report of a simulation.
 
 use super::facts;
-use super::{Ran, Row, SimulationAnswer, word};
+use super::{HistoryRow, Ran, SimulationAnswer, word};
 use crate::answer::Provenance;
 use crate::answer::page::{begun, draw, drawing, pose_at_rest, pose_at_torque};
 use crate::clutch::ScenarioKind;
@@ -143,12 +143,12 @@ fn courses(scene: &Ran) -> [String; 2] {
 
 fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) {
     let rows = scene.rows();
-    let curve = |value: &dyn Fn(&Row) -> f64| over_time(&rows, value);
+    let curve = |value: &dyn Fn(&HistoryRow) -> f64| over_time(&rows, value);
     let least_at = s.peaks.at_s[2] * 1e3;
     page.heading("Histories");
     // The cause first; what swings acts on the outer race.
     let loads = &prepared.model.loads;
-    let outside = |r: &Row| r.acting[0] + loads.amplitude_nm * (loads.omega_rad_s * r.sample.t).sin();
+    let outside = |r: &HistoryRow| r.acting[0] + loads.amplitude_nm * (loads.omega_rad_s * r.sample.t).sin();
     let cause = Curve::new("from outside", curve(&outside)).coloured(5);
     let mut torque = plot("Torque, Nm").curve("in the clutch", curve(&|r| r.torque_nm));
     torque.curves.push(Curve { dash: Dash::Dashed, ..cause });
@@ -192,7 +192,7 @@ fn plot(y_title: &str) -> Plot {
     Plot::new(TIME, y_title).sized(720.0, 300.0)
 }
 
-fn over_time(rows: &[Row], value: &dyn Fn(&Row) -> f64) -> Vec<[f64; 2]> {
+fn over_time(rows: &[HistoryRow], value: &dyn Fn(&HistoryRow) -> f64) -> Vec<[f64; 2]> {
     envelope(rows.iter().map(|r| [r.sample.t * 1e3, value(r)]).collect())
 }
 
@@ -225,7 +225,7 @@ fn envelope(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.chunk_by(|a, b| column(a) == column(b)).flat_map(seen).collect()
 }
 
-fn largest(rows: &[Row], value: &dyn Fn(&Row) -> f64) -> f64 {
+fn largest(rows: &[HistoryRow], value: &dyn Fn(&HistoryRow) -> f64) -> f64 {
     rows.iter().map(value).fold(0.0, f64::max)
 }
 
@@ -237,7 +237,7 @@ fn levels(name: &str, at: &[f64], s: &Simulation) -> Curve {
 }
 
 /// Friction over normal force with its sign (the paper's Figure 9c).
-fn friction(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
+fn friction(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, rows: &[HistoryRow]) {
     let found = || rows.iter().flat_map(|r| r.tan).flatten();
     if found().next().is_none() {
         page.paragraph(
@@ -275,9 +275,9 @@ fn friction(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, r
 }
 
 /// Slip since the clutch engaged: the overrun before would hide it.
-fn slip(page: &mut Page, s: &Simulation, rows: &[Row]) {
+fn slip(page: &mut Page, s: &Simulation, rows: &[HistoryRow]) {
     let (from_s, base) = s.engaged.map_or((0.0, [0.0; 2]), |e| (e.t_s, [e.state[8], e.state[9]]));
-    let slipped = |r: &Row| -> [f64; 2] {
+    let slipped = |r: &HistoryRow| -> [f64; 2] {
         let y = &r.sample.state;
         if r.sample.t < from_s { [0.0; 2] } else { [y[8] - base[0], y[9] - base[1]] }
     };
@@ -301,8 +301,8 @@ fn slip(page: &mut Page, s: &Simulation, rows: &[Row]) {
 }
 
 /// Contact pressure over time (the paper's Figures 9 and 10) and, with slices, along the length.
-fn pressures(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, rows: &[Row]) {
-    let mega = |value: &dyn Fn(&Row) -> f64| over_time(rows, &|r| value(r) / 1e6);
+fn pressures(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, rows: &[HistoryRow]) {
+    let mega = |value: &dyn Fn(&HistoryRow) -> f64| over_time(rows, &|r| value(r) / 1e6);
     let mut plot = plot("Contact pressure, MPa")
         .curve("inner contact", mega(&|r| r.hertz_pa[0]))
         .curve("outer contact", mega(&|r| r.hertz_pa[1]));

@@ -1,9 +1,9 @@
 //! A history as a table, or one row with the equilibrium.
 
-use super::{History, Values};
+use super::{SceneHistory, Values};
 use crate::report::{Cell, Column, Table, Unit};
 
-impl History {
+impl SceneHistory {
     /// The columns under their names, as CSV has them.
     pub fn table(&self) -> Table {
         let history = self;

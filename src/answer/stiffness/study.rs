@@ -2,7 +2,7 @@
 
 use super::fem::{self, Fem, FemPoint};
 use super::pressure::{PressureBody, PressureMap};
-use super::{Body, LawCurve, StiffnessAnswer, tables};
+use super::{LawCurve, StiffnessAnswer, StiffnessBody, tables};
 use crate::answer::Envelope;
 use crate::design::Design;
 use crate::profile::Profile;
@@ -31,7 +31,7 @@ pub struct StiffnessStudy {
 pub struct StudyBody {
     /// The curves.
     #[serde(flatten)]
-    pub curves: Body,
+    pub curves: StiffnessBody,
     /// Finite elements and the distance of each law to them, in the order of the laws.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fem: Option<Vec<FemPoint>>,

@@ -4,7 +4,7 @@ use super::{ExportArgs, FmiName};
 use crate::answer::Envelope;
 use crate::answer::left_out::LeftOut;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::origin::Kind;
+use crate::cli::origin::FileKind;
 use crate::cli::output::{TOOL, VERSION};
 use crate::cli::{Context, parts};
 use crate::design::Design;
@@ -62,7 +62,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     }
     let bytes = packed(&files).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
     let count = variables(design).len();
-    let written = context.outputs.write(path, Kind::Unit, &bytes);
+    let written = context.outputs.write(path, FileKind::Unit, &bytes);
     let version = if fmi == Fmi::Two { "2.0" } else { "3.0" };
     let answer = Envelope {
         design,

@@ -6,7 +6,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::{Context, output, parts};
 use crate::design::Design;
 use crate::export::rows::{arcs, points};
-use crate::export::{Part, Subject, dxf::dxf, step::step, svg::svg};
+use crate::export::{DrawnClutch, Part, dxf::dxf, step::step, svg::svg};
 use crate::margin::NoMargins;
 use crate::profile::{Outline, Profile};
 use std::time::Instant;
@@ -46,7 +46,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     if outline.is_none() && part.has_sprag() && !listed {
         return Err(open(args, &profile));
     }
-    let subject = Subject {
+    let subject = DrawnClutch {
         name: &design.name,
         hash: &design.hash,
         clutch: &made,
@@ -124,7 +124,7 @@ fn open(args: &ExportArgs, profile: &Profile) -> Failure {
     ))
 }
 
-fn csv(part: Part, subject: &Subject, args: &ExportArgs, deviation_mm: f64) -> Result<String, Failure> {
+fn csv(part: Part, subject: &DrawnClutch, args: &ExportArgs, deviation_mm: f64) -> Result<String, Failure> {
     let table = match args.table.unwrap_or(TableName::Arcs) {
         TableName::Arcs => arcs_table(&arcs(part, subject)),
         TableName::Points => points_table(&points(part, subject, 1e-3 * deviation_mm)),

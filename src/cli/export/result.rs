@@ -4,7 +4,7 @@ use crate::answer::finite_elements::FiniteElements;
 use crate::cli::Context;
 use crate::cli::exit::{Exit, Failure};
 use crate::design::{Design, MOST_RESULT, read_text};
-use crate::export::calculix::{Facts, Row, at_torque, read};
+use crate::export::calculix::{Facts, ResultRow, at_torque, read};
 use std::path::Path;
 use std::time::Instant;
 
@@ -29,7 +29,7 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
         )));
     }
     let all = read(&facts, &dat_text).map_err(|e| Failure::malformed(format!("{}: {e}", dat.display())))?;
-    let rows: Vec<Row> = if torques.is_empty() {
+    let rows: Vec<ResultRow> = if torques.is_empty() {
         all.clone()
     } else {
         torques.iter().filter_map(|t| at_torque(&all, *t)).collect()

@@ -92,7 +92,7 @@ fn harmful_outputs_are_refused_before_the_work() {
         (outputs(&same, &html), vec![], "never overwritten"),
         (outputs(&fem, &html), vec![], "is read by this command"),
         (outputs(&csv, &csv), vec![], "two outputs"),
-        (outputs(&csv, &html), vec![(csv.as_path(), Kind::Table)], "two outputs"),
+        (outputs(&csv, &html), vec![(csv.as_path(), FileKind::Table)], "two outputs"),
         (outputs(&folder.0, &html), vec![], "folder"),
         (outputs(&folder.0.join("none").join("a.csv"), &html), vec![], "does not exist"),
     ] {
@@ -121,8 +121,8 @@ fn a_file_of_another_kind_is_not_overwritten() {
         (csv(&page), vec![], "is a page already"),
         (report(&design), vec![], "a page does not overwrite it"),
         (report(&table), vec![], "is a table already"),
-        (none.clone(), vec![(design.as_path(), Kind::Deck)], "is a design file already"),
-        (none.clone(), vec![(table.as_path(), Kind::Design)], "is a table already"),
+        (none.clone(), vec![(design.as_path(), FileKind::Deck)], "is a design file already"),
+        (none.clone(), vec![(table.as_path(), FileKind::Design)], "is a table already"),
     ] {
         let text = message(bad.check(&[], &others).unwrap_err());
         assert!(text.contains(want), "{text} should say {want}");
@@ -139,7 +139,7 @@ fn a_file_of_another_kind_is_not_overwritten() {
     fs::write(&table, "code,name\n1,2\n").unwrap();
     fs::write(&page, "<!-- sprag-design 1 -->\n").unwrap();
     fs::write(&design, "").unwrap();
-    assert!(csv(&table).check(&[], &[(&design, Kind::Design)]).is_ok());
+    assert!(csv(&table).check(&[], &[(&design, FileKind::Design)]).is_ok());
     assert!(csv(&table).refuse_foreign().is_ok() && report(&page).refuse_foreign().is_ok());
 }
 
