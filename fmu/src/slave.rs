@@ -5,7 +5,8 @@ use sprag_design::clutch::Start;
 use sprag_design::design::is_whole;
 use sprag_design::element::{Beginning, Element, Motion, Saved, Settings, Torque};
 use sprag_design::export::fmu::{
-    FIRST_KEY, VariableType, QUANTITIES, ElementQuantity, Role, VariableSubject, ScalarVariable, token, variables,
+    ElementQuantity, FIRST_KEY, QUANTITIES, Role, ScalarVariable, VariableSubject, VariableType, token,
+    variables,
 };
 use sprag_design::{Clutch, Design, Stop};
 use std::path::Path;
@@ -117,7 +118,9 @@ impl Slave {
             let at = self.place(reference, kind)?;
             let value = match (&self.variables[at].subject, self.variables[at].role) {
                 (_, Role::Input | Role::Fixed | Role::Tunable) => self.values[at],
-                (VariableSubject::Own(ElementQuantity::Time), _) => self.element.as_ref().map_or(self.start_s, Element::t_s),
+                (VariableSubject::Own(ElementQuantity::Time), _) => {
+                    self.element.as_ref().map_or(self.start_s, Element::t_s)
+                }
                 (&VariableSubject::Own(quantity), _) => {
                     let element = self.element()?;
                     let motion = *seen.get_or_insert_with(|| element.motion());
