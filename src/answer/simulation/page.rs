@@ -4,7 +4,7 @@ use super::facts;
 use super::{HistoryRow, Ran, SimulationAnswer, word};
 use crate::answer::Provenance;
 use crate::answer::page::{begun, draw, drawing, pose_at_rest, pose_at_torque};
-use crate::clutch::ScenarioKind;
+use crate::clutch::{Phrase, ScenarioKind};
 use crate::dynamics::Mode;
 use crate::report::plot::Dash;
 use crate::report::{Curve, Page, Plot, Span, Strip, Unit};
@@ -51,59 +51,22 @@ pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
 
 /// What the scenario does, in words.
 fn described(scene: &Ran) -> String {
-    let nm = |t: f64| Unit::NewtonMetre.show_plain(t, 5);
-    let overrides = match scene.scenario.overrides.as_slice() {
-        [] => String::new(),
-        some => format!(" Overridden for this scenario: {}.", some.join(", ")),
+    let [torque, speed] = courses(scene);
+    let piece = |phrase: Phrase| match phrase {
+        Phrase::Words(words) => words.to_owned(),
+        Phrase::Torque(nm) => Unit::NewtonMetre.show_plain(nm, 5),
+        Phrase::Frequency(hz) => Unit::Hertz.show_plain(hz, 5),
+        Phrase::Duration(s) => Unit::Second.show_plain(s, 5),
+        Phrase::Speed(rad_s) => Unit::Rpm.show_plain(rad_s, 6),
+        Phrase::TorqueCourse => torque.clone(),
+        Phrase::SpeedCourse => speed.clone(),
+        Phrase::Method => scene.method.to_owned(),
     };
-    let what = match scene.scenario.kind {
-        ScenarioKind::Static { torque_nm } => format!("{} held at rest.", nm(torque_nm)),
-        ScenarioKind::TorsionalExcitation {
-            preload_nm,
-            amplitude_nm,
-            frequency_hz,
-            duration_s,
-            speed_rad_s,
-            ..
-        } => {
-            format!(
-                "Preload {} on the inner race, {} at {} on the outer race, {} long, mean speed {}; method: {}.",
-                nm(preload_nm),
-                nm(amplitude_nm),
-                Unit::Hertz.show_plain(frequency_hz, 5),
-                Unit::Second.show_plain(duration_s, 5),
-                Unit::Rpm.show_plain(speed_rad_s, 6),
-                scene.method
-            )
-        }
-        ScenarioKind::Engagement { free_run_rad_s, reversing_torque_nm, duration_s, .. } => format!(
-            "The inner race runs free at {}, then {} reverses it onto an elastic stop; {} long, method: {}.",
-            Unit::Rpm.show_plain(free_run_rad_s, 6),
-            nm(reversing_torque_nm),
-            Unit::Second.show_plain(duration_s, 5),
-            scene.method
-        ),
-        ScenarioKind::Transient { duration_s, .. } => {
-            let [torque, speed] = courses(scene);
-            let start = match scene.scenario.kind {
-                ScenarioKind::Transient { overrun_rad_s, .. } if overrun_rad_s > 0.0 => {
-                    format!(", from an overrun at {}", Unit::Rpm.show_plain(overrun_rad_s, 6))
-                }
-                _ => String::new(),
-            };
-            let length = Unit::Second.show_plain(duration_s, 5);
-            format!(
-                "Torque on the inner race {torque}, mean speed {speed}{start}; {length} long, method: {}.",
-                scene.method
-            )
-        }
-        ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => format!(
-            "Outer race at {}, the inner race ahead of it by {}.",
-            Unit::Rpm.show_plain(speed_rad_s, 6),
-            Unit::Rpm.show_plain(overrun_rad_s, 6)
-        ),
-    };
-    what + &overrides
+    let what: String = scene.scenario.story().into_iter().map(piece).collect();
+    match scene.scenario.overrides.as_slice() {
+        [] => what,
+        some => format!("{what} Overridden for this scenario: {}.", some.join(", ")),
+    }
 }
 
 /// Course of the torque and of the mean speed of a transient, in words.
