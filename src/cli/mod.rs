@@ -6,6 +6,7 @@
 
 pub mod accuracy;
 pub mod check;
+mod clock;
 mod command_line;
 pub mod compare;
 pub mod evaluate;
@@ -17,29 +18,31 @@ pub mod identify;
 pub mod import;
 pub mod interrupt;
 pub mod journal;
+mod laws;
+mod made;
 pub mod materials;
 pub mod new;
 pub mod optimize;
-pub mod optimize_answer;
-pub mod optimize_file;
 pub mod origin;
 pub mod output;
 pub mod parts;
 pub mod progress;
 pub mod schema;
+pub mod sheet;
 pub mod simulate;
 pub mod size;
 pub mod stiffness;
 pub mod studio;
 
-use crate::answer::left_out;
+use crate::answer::{Envelope, Provenance};
 use crate::follow::Follow;
 use crate::report::Screen;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use command_line::{command_line, missing_value};
 use exit::{Exit, Failure};
 use output::Outputs;
-use progress::Progress;
+use progress::ProgressLine;
+use serde::Serialize;
 use serde_json::json;
 use std::ffi::OsString;
 use std::io::IsTerminal;
@@ -92,7 +95,7 @@ enum Command {
     /// Hold the design against each of its limits: demand, allowable, margin, torque capacity
     Check(check::CheckArgs),
     /// The design sheet: answer, dimensioned drawing, margins, scenes and all inputs, to print on A4
-    Sheet(check::sheet::SheetArgs),
+    Sheet(sheet::SheetArgs),
     /// Two to six designs side by side: inputs that differ, margins, curves, scenes
     Compare(compare::CompareArgs),
     /// Torque against windup, forces, angles and stiffness, for one contact law or several
@@ -184,8 +187,21 @@ impl Context {
     }
 
     /// A progress line on standard error; `unit` names the steps, `total` counts them if known.
-    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> Progress {
-        Progress::new(!self.quiet, what, unit, total)
+    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> ProgressLine {
+        ProgressLine::new(!self.quiet, what, unit, total)
+    }
+
+    /// How an answer came about that took `run_time_s`, s.
+    pub fn provenance(&self, run_time_s: f64) -> Provenance {
+        Provenance { command: self.command_line.clone(), run_time_s }
+    }
+
+    /// The one JSON object of `--json`, with what could not be written until now; nothing without it.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] where standard output cannot be written.
+    pub fn print<B: Serialize>(&self, answer: &Envelope<'_, B>) -> Result<(), Failure> {
+        if self.json { output::print_json(&answer.object(self.outputs.unwritten())) } else { Ok(()) }
     }
 
     /// The answer as text on standard output; nothing with `--json` and with `--csv -`.
@@ -288,7 +304,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
     let exit = match cli.command {
         Command::Studio(args) => studio::run(&args, &context),
         Command::Check(args) => check::run(&args, &context),
-        Command::Sheet(args) => check::sheet::run(&args, &context),
+        Command::Sheet(args) => sheet::run(&args, &context),
         Command::Compare(args) => compare::run(&args, &context),
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),

@@ -1,10 +1,8 @@
 //! `size`: a first design file from what a clutch shall do.
 
-pub mod answer;
-
-use super::Context;
 use super::exit::{Exit, Failure};
-use super::origin::Kind;
+use super::origin::FileKind;
+use super::{Context, made};
 use crate::design::nearest;
 use crate::material::{STEELS, Steel, steel};
 use crate::size::Wish;
@@ -156,7 +154,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
         return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
     }
     args.wish.check_safety()?;
-    answer::answer(&args.wish.wish().ask(), &args.output, "First design", context)
+    made::answer(&args.wish.wish().ask(), &args.output, "First design", context)
 }
 
 /// Refuse an output that cannot be written, or that would cost somebody's work.
@@ -164,7 +162,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
 /// # Errors
 /// [`Failure::Malformed`].
 pub fn may_write(output: &Path, context: &Context) -> Result<(), Failure> {
-    context.outputs.check(&[], &[(output, Kind::Design)])?;
+    context.outputs.check(&[], &[(output, FileKind::Design)])?;
     context.outputs.refuse_work(output)?;
     context.outputs.refuse_foreign()
 }

@@ -4,7 +4,6 @@
 //! their units (`design`), allowables (`margin`), how anything is answered. Equations: none of its own; triangle (9) is asked
 //! of `profile`, Lame's press fit of `race`. Table 1 of the paper is a `Clutch`.
 
-mod kinds;
 mod law;
 mod question;
 mod running;
@@ -12,7 +11,7 @@ mod tolerances;
 
 pub(crate) use law::ROLLER_COEFFICIENT;
 pub use law::{ContactLaw, LAWS, LawFacts, LawName};
-pub use question::{Scenario, ScenarioKind, Start};
+pub use question::{Phrase, Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};
 pub use tolerances::Tolerances;
 

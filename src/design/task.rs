@@ -6,7 +6,7 @@
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::objective::Objective;
-use super::scenario_file::KindFile;
+use super::scenarios::KindFile;
 use super::task_file::{OptimizeFile, VariableFile};
 use super::variables::{is_whole, variable_names, variable_path};
 use super::{Limits, Link, Optimize, OptimizeVariable, check, shape};

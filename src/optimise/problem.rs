@@ -1,7 +1,7 @@
 //! The clutch as a vector and its margins.
 
 use super::corner::{Corner, perturbed};
-use super::evaluate::{Evaluate, Evaluation, Failure};
+use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::goal::{Goal, Measure, measures};
 use super::smooth;
 use crate::design::{
@@ -241,9 +241,9 @@ impl ClutchProblem {
     /// The design at `x`.
     ///
     /// # Errors
-    /// [`Failure::Refused`] with the first reason where the geometry at `x` is impossible.
-    pub fn design_at(&self, x: &[f64]) -> Result<Design, Failure> {
-        let text = self.file_at(x).map_err(|e| Failure::Refused(e.to_string()))?;
+    /// [`NoEvaluation::Refused`] with the first reason where the geometry at `x` is impossible.
+    pub fn design_at(&self, x: &[f64]) -> Result<Design, NoEvaluation> {
+        let text = self.file_at(x).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         self.parsed(&text)
     }
 
@@ -251,10 +251,10 @@ impl ClutchProblem {
     ///
     /// # Errors
     /// As [`Self::design_at`].
-    pub fn parsed(&self, text: &str) -> Result<Design, Failure> {
+    pub fn parsed(&self, text: &str) -> Result<Design, NoEvaluation> {
         Design::parse_in(&self.folder, text, "candidate").map_err(|e| {
             let first = e.problems().first().map_or(String::new(), |p| format!("{}: {}", p.key, p.allowed));
-            Failure::Refused(first)
+            NoEvaluation::Refused(first)
         })
     }
 
@@ -262,9 +262,9 @@ impl ClutchProblem {
     /// the goals raise.
     ///
     /// # Errors
-    /// [`Failure::Refused`] where there is no clutch to speak of.
-    pub fn look(&self, design: &Design) -> Result<Looked, Failure> {
-        let state = load_state(design).map_err(|e| Failure::Refused(e.to_string()))?;
+    /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
+    pub fn look(&self, design: &Design) -> Result<Looked, NoEvaluation> {
+        let state = load_state(design).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
         let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
         rows.retain(|m| m.required);
@@ -276,7 +276,7 @@ impl ClutchProblem {
                 rows.extend(self.scene(scenario, state.at_rest(design)));
                 // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
                 if let Some(row) = rows.iter().find(|r| !r.computed()) {
-                    return Err(Failure::Refused(row.name.clone()));
+                    return Err(NoEvaluation::Refused(row.name.clone()));
                 }
             }
             Ok(())
@@ -315,15 +315,15 @@ impl ClutchProblem {
     /// All required margins at `x`, at every corner.
     ///
     /// # Errors
-    /// [`Failure::Refused`] where there is no clutch at `x`.
-    pub fn look_at(&self, x: &[f64]) -> Result<Looked, Failure> {
+    /// [`NoEvaluation::Refused`] where there is no clutch at `x`.
+    pub fn look_at(&self, x: &[f64]) -> Result<Looked, NoEvaluation> {
         let design = self.design_at(x)?;
         let mut all = Looked { rows: Vec::new(), measures: Vec::new() };
         for corner in &self.corners {
             let mut found = if corner.is_nominal() {
                 self.look(&design)?
             } else {
-                self.look(&perturbed(&design, corner).map_err(|e| Failure::Refused(e.to_string()))?)?
+                self.look(&perturbed(&design, corner).map_err(|e| NoEvaluation::Refused(e.to_string()))?)?
             };
             if !corner.is_nominal() {
                 let name = corner.name();
@@ -414,7 +414,7 @@ impl ClutchProblem {
 }
 
 impl Evaluate for ClutchProblem {
-    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         self.look_at(x).map(|looked| self.evaluation(&looked))
     }
 }

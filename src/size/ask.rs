@@ -8,7 +8,7 @@ use std::fmt;
 
 /// What a new clutch shall do, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ask {
+pub struct Requirements {
     /// Bore of the inner race, diameter, m.
     pub bore_m: f64,
     /// Torque that it carries day by day, N m: the nominal torque.
@@ -50,39 +50,39 @@ pub const FRICTION: f64 = 0.11;
 /// What somebody has said of a new clutch, SI; what is not said comes of the purpose, or is not asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Wish {
-    /// See [`Ask::purpose`].
+    /// See [`Requirements::purpose`].
     pub purpose: Option<&'static Purpose>,
-    /// See [`Ask::bore_m`]; must be said.
+    /// See [`Requirements::bore_m`]; must be said.
     pub bore_m: Option<f64>,
-    /// See [`Ask::torque_nm`]; it or the peak torque must be said.
+    /// See [`Requirements::torque_nm`]; it or the peak torque must be said.
     pub torque_nm: Option<f64>,
-    /// See [`Ask::peak_nm`].
+    /// See [`Requirements::peak_nm`].
     pub peak_nm: Option<f64>,
     /// Peak over nominal torque.
     pub peak_over_nominal: Option<f64>,
-    /// See [`Ask::outside_m`].
+    /// See [`Requirements::outside_m`].
     pub outside_m: Option<f64>,
-    /// See [`Ask::width_m`].
+    /// See [`Requirements::width_m`].
     pub width_m: Option<f64>,
     /// Speed of the inner race in overrun, rad/s.
     pub inner_rad_s: Option<f64>,
     /// The same of the outer race.
     pub outer_rad_s: Option<f64>,
-    /// See [`Ask::keep_contact_rad_s`]; 0: not asked.
+    /// See [`Requirements::keep_contact_rad_s`]; 0: not asked.
     pub keep_contact_rad_s: Option<f64>,
-    /// See [`Ask::lift_off_rad_s`]; 0: they stay on.
+    /// See [`Requirements::lift_off_rad_s`]; 0: they stay on.
     pub lift_off_rad_s: Option<f64>,
-    /// See [`Ask::friction`].
+    /// See [`Requirements::friction`].
     pub friction: Option<f64>,
-    /// See [`Ask::steel`].
+    /// See [`Requirements::steel`].
     pub steel: Option<&'static Steel>,
-    /// See [`Ask::engagements`].
+    /// See [`Requirements::engagements`].
     pub engagements: Option<f64>,
 }
 
 impl Wish {
-    /// The whole question. Bore and torques that nobody has said are no numbers, which [`Ask::check`] refuses.
-    pub fn ask(&self) -> Ask {
+    /// The whole question. Bore and torques that nobody has said are no numbers, which [`Requirements::check`] refuses.
+    pub fn ask(&self) -> Requirements {
         let of = |value: fn(&Purpose) -> f64| self.purpose.map(value);
         let rad_s = |rpm: f64| rpm * PI / 30.0;
         let ratio = self.peak_over_nominal.or(of(|p| p.peak_over_nominal.value)).unwrap_or(PEAK_OVER_NOMINAL);
@@ -97,7 +97,7 @@ impl Wish {
             (None, None) => "1.3 of nominal torque: guess",
             _ => "by the factor asked for",
         };
-        Ask {
+        Requirements {
             bore_m: self.bore_m.unwrap_or(f64::NAN),
             torque_nm,
             peak_nm,
@@ -159,7 +159,7 @@ pub fn torques_nm(nominal: Option<f64>, peak: Option<f64>, ratio: f64) -> Option
     }
 }
 
-impl Ask {
+impl Requirements {
     /// Speed at which the races slide past one another in overrun, rad/s.
     pub fn sliding_rad_s(&self) -> f64 {
         (self.overrun_rad_s[0] - self.overrun_rad_s[1]).abs()

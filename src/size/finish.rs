@@ -1,6 +1,6 @@
 //! From a width that holds to a whole design: profile's end, flanks, spring, scenes, and what comes of it.
 
-use super::Ask;
+use super::Requirements;
 use super::proportions::{COUNTS, lengthen, longest_m, spring};
 use super::purpose::{DRIVE_HZ, STOP};
 use crate::design::{Design, Draft};
@@ -67,7 +67,7 @@ pub(super) fn build(draft: &Draft) -> Result<(Design, LoadState), String> {
 }
 
 /// Profile's end, flanks, spring and scenes; then every margin.
-pub(super) fn finish(ask: &Ask, mut draft: Draft, settings: &Settings) -> Result<Made, String> {
+pub(super) fn finish(ask: &Requirements, mut draft: Draft, settings: &Settings) -> Result<Made, String> {
     const ROUNDS: usize = 6;
     let mut why = String::new();
     for _ in 0..ROUNDS {
@@ -180,7 +180,7 @@ fn normal_n(draft: &Draft) -> f64 {
 }
 
 /// The finished draft with every margin, all held; what it says of itself is what came of it.
-fn made(ask: &Ask, draft: &mut Draft, settings: &Settings) -> Result<Made, Obstacle> {
+fn made(ask: &Requirements, draft: &mut Draft, settings: &Settings) -> Result<Made, Obstacle> {
     let (design, state) = build(draft).map_err(Obstacle::Other)?;
     let rows =
         margins(&design, &design.check_scenarios, settings).map_err(|e| Obstacle::Other(e.to_string()))?;
@@ -206,7 +206,7 @@ fn short(value: f64) -> f64 {
     rounded(value, 7)
 }
 
-fn why_lines(ask: &Ask, draft: &Draft, least: Option<&Margin>) -> Vec<String> {
+fn why_lines(ask: &Requirements, draft: &Draft, least: Option<&Margin>) -> Vec<String> {
     let rpm = |rad_s: f64| short(rad_s * 30.0 / PI);
     let mut asked = vec![
         format!("a bore of {} mm", short(ask.bore_m * 1e3)),

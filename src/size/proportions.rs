@@ -3,7 +3,7 @@
 //! The maker's race space of 8.33 mm with its rules (GMN 9050) is the pattern; others are its likeness, since plane
 //! elasticity knows no length of its own.
 
-use super::Ask;
+use super::Requirements;
 use crate::design::{Draft, KINETIC_SHARE};
 
 /// Race spaces tried, m: preferred numbers about the catalogue's 8.33 mm.
@@ -45,7 +45,7 @@ const WIDER: f64 = 0.36;
 pub(super) const OUTSIDES: [f64; 4] = [1.4, 1.33, 1.27, 1.22];
 
 /// Longest sprags, m: of the race space, or of the width asked for.
-pub(super) fn longest_m(ask: &Ask, space_m: f64) -> f64 {
+pub(super) fn longest_m(ask: &Requirements, space_m: f64) -> f64 {
     let most = LENGTHS.1 * space_m;
     ask.width_m.map_or(most, |width| most.min(width - wider_m(space_m)))
 }
@@ -57,7 +57,7 @@ fn wider_m(space_m: f64) -> f64 {
 
 /// Sprags at first contact between races with the race space `space_m`, walls of [`THICKER`] and [`OUTSIDES`], the profile's
 /// end and flanks still open.
-pub(super) fn draft(ask: &Ask, space_m: f64, [wall, outside]: [f64; 2]) -> Draft {
+pub(super) fn draft(ask: &Requirements, space_m: f64, [wall, outside]: [f64; 2]) -> Draft {
     let bore = 0.5 * ask.bore_m;
     let track = bore + wall * (WALLS.0 * ask.bore_m).max(WALLS.1 * space_m);
     let outer = track + space_m;

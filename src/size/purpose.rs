@@ -1,6 +1,6 @@
 //! What clutches are for, and what is taken of each where nobody says: every number once, with its source or "guess".
 
-use super::Ask;
+use super::Requirements;
 use crate::design::DraftScene;
 use crate::numeric::rounded;
 use std::f64::consts::{PI, TAU};
@@ -170,7 +170,7 @@ impl Purpose {
     /// `inner_inertia_kg_m2` on the inner race.
     pub(super) fn scenes(
         &self,
-        ask: &Ask,
+        ask: &Requirements,
         stiffness_nm_per_rad: f64,
         inner_inertia_kg_m2: f64,
     ) -> Vec<DraftScene> {

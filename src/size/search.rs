@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::ask::{Ask, BadAsk};
+use super::ask::{BadAsk, Requirements};
 use super::finish::{KEPT, Made, build, finish};
 use super::proportions::{COUNTS, LENGTHS, OUTSIDES, SPACES_M, THICKER, draft, lengthen, longest_m};
 use crate::design::Draft;
@@ -49,7 +49,7 @@ pub struct Sized {
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoSize {
     /// The question.
-    Ask(BadAsk),
+    Requirements(BadAsk),
     /// No race space does it.
     None {
         /// Those tried.
@@ -60,7 +60,7 @@ pub enum NoSize {
 impl fmt::Display for NoSize {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Ask(why) => write!(f, "{why}"),
+            Self::Requirements(why) => write!(f, "{why}"),
             Self::None { tried } => {
                 let best = tried.iter().max_by(|a, b| a.carries_nm.total_cmp(&b.carries_nm));
                 match best.filter(|b| b.carries_nm > 0.0) {
@@ -116,8 +116,8 @@ fn least(draft: &Draft) -> Result<(f64, String), String> {
 ///
 /// # Errors
 /// [`NoSize`].
-pub fn size(ask: &Ask, settings: &Settings) -> Result<Sized, NoSize> {
-    ask.check().map_err(NoSize::Ask)?;
+pub fn size(ask: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
+    ask.check().map_err(NoSize::Requirements)?;
     let tried: Vec<Tried> = SPACES_M.iter().filter_map(|&space_m| smallest(ask, space_m, settings)).collect();
     let made = tried.iter().enumerate().filter_map(|(i, t)| Some((i, t.volume_m3, t.made.clone()?)));
     match made.min_by(|a, b| a.1.total_cmp(&b.1)) {
@@ -127,7 +127,7 @@ pub fn size(ask: &Ask, settings: &Settings) -> Result<Sized, NoSize> {
 }
 
 /// The smallest ring of this race space; where none does it, the one that carries most.
-fn smallest(ask: &Ask, space_m: f64, settings: &Settings) -> Option<Tried> {
+fn smallest(ask: &Requirements, space_m: f64, settings: &Settings) -> Option<Tried> {
     let mut best: Option<Tried> = None;
     for walls in THICKER.into_iter().flat_map(|wall| OUTSIDES.map(|outside| [wall, outside])) {
         let mut draft = draft(ask, space_m, walls);
@@ -174,7 +174,7 @@ impl Tried {
 }
 
 /// Shortest sprags that keep every limit, put into `draft`.
-fn width(ask: &Ask, draft: &mut Draft, space_m: f64) -> Tried {
+fn width(ask: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
     let (low, high) = (LENGTHS.0 * space_m, longest_m(ask, space_m));
     let at = |draft: &Draft, length_m: f64| {
         let mut longer = draft.clone();

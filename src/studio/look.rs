@@ -10,7 +10,7 @@ use serde::Serialize;
 /// How a margin is painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Tone {
+pub enum MarginColour {
     /// Held.
     Green,
     /// Held, by less than 10 %.
@@ -40,7 +40,7 @@ pub struct MarginRow {
     /// Whether it counts for the verdict.
     pub required: bool,
     /// How it is painted.
-    pub tone: Tone,
+    pub tone: MarginColour,
 }
 
 /// One equilibrium under torque: where the sprag stands, and the forces on it.
@@ -254,10 +254,10 @@ pub(super) fn sort(rows: &mut [MarginRow]) {
 pub(super) fn row(r: &Margin) -> MarginRow {
     let margin = r.margin();
     let tone = match (r.required, r.held(), margin < NARROW) {
-        (false, ..) => Tone::Grey,
-        (true, false, _) => Tone::Red,
-        (true, true, true) => Tone::Amber,
-        (true, true, false) => Tone::Green,
+        (false, ..) => MarginColour::Grey,
+        (true, false, _) => MarginColour::Red,
+        (true, true, true) => MarginColour::Amber,
+        (true, true, false) => MarginColour::Green,
     };
     let shown = r.shown_margin().map_or("no demand".to_owned(), |m| Unit::Percent.show(m, 3));
     let text = if r.computed() { shown } else { "not computed".to_owned() };

@@ -27,7 +27,7 @@ fn aimed(objective: &str, more: &str) -> Design {
 #[test]
 fn each_objective_gets_better_and_holds_every_limit() {
     for (objective, sense) in [("torque-capacity", 1.0), ("peak-pressure", -1.0), ("windup", -1.0)] {
-        let found = search_with(&aimed(objective, ""), &Method::default());
+        let found = search_with(&aimed(objective, ""), &SearchMethod::default());
         println!(
             "{objective}: {:?}, {:?} after {}",
             found.objective, found.outcome.status, found.evaluations
@@ -97,7 +97,7 @@ fn what_a_clutch_weighs_takes_and_drags_can_be_made_less() {
         };
         let value = problem.value(&looked, 0);
         assert!((value / expected - 1.0).abs() < 1e-9, "{objective}: {value} {expected}");
-        let found = search_with(&design, &Method { starts: 1, ..Method::default() });
+        let found = search_with(&design, &SearchMethod { starts: 1, ..SearchMethod::default() });
         let (before, after) = found.objective;
         println!("{objective}: {before} -> {after}, {:?} after {}", found.outcome.status, found.evaluations);
         assert!(found.feasible() && (after - before) * better > 0.0, "{objective}: {before} -> {after}");
@@ -176,7 +176,7 @@ fn a_target_curve_gives_the_radii_back_that_made_it() {
     let state = load_state(&planted).unwrap();
     let row = |t: f64| format!("[{t}, {:?}]", state.curve.at_torque(t).unwrap().windup_rad.to_degrees());
     let target = format!("target = [{}]", [10.0, 20.0, 40.0, 60.0, 90.0].map(row).join(", "));
-    let found = search_with(&aimed("stiffness-curve", &target), &Method::default());
+    let found = search_with(&aimed("stiffness-curve", &target), &SearchMethod::default());
     println!("{:?} {:?} after {}", found.objective, found.outcome.x, found.evaluations);
     assert!(found.objective.0 > 0.005 && found.objective.1 < 1e-6, "{:?}", found.objective);
     assert!((found.outcome.x[0] - 3.80).abs() < 1e-3 && (found.outcome.x[1] - 4.40).abs() < 1e-3);
@@ -185,7 +185,7 @@ fn a_target_curve_gives_the_radii_back_that_made_it() {
 #[test]
 fn the_front_between_two_objectives_is_one() {
     let design = aimed("slip-margin", "");
-    let method = Method::default();
+    let method = SearchMethod::default();
     let found = search_with(&design, &method);
     let aims = [Objective::SlipMargin, Objective::PeakPressure];
     let front =
@@ -215,7 +215,7 @@ fn the_swarm_comes_near_known_optima() {
         let model = all().into_iter().find(|m| m.name == name).unwrap();
         let ask = |seed| {
             let bounds = (model.start.as_slice(), model.lo.as_slice(), model.hi.as_slice());
-            swarm(&model, bounds, &Settings::default(), (8000, seed), Run::default()).unwrap()
+            swarm(&model, bounds, &Settings::default(), (8000, seed), SearchRun::default()).unwrap()
         };
         let (one, two) = (ask(1), ask(1));
         assert_eq!((&one.x, one.evaluations), (&two.x, two.evaluations));
