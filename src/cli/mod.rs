@@ -429,6 +429,12 @@ fn setting(text: &str) -> Result<(String, String), String> {
     }
 }
 
+/// A number, for flags that say its unit.
+fn number(text: &str) -> Result<f64, String> {
+    let bare = || "a number is needed, with a point and without its unit, such as 1800 or 0.5".to_owned();
+    text.trim().parse::<f64>().map_err(|_| bare())
+}
+
 /// A finite number above zero, for flags.
 fn positive(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {

@@ -3,7 +3,7 @@
 use super::exit::{Exit, Failure};
 use super::output;
 use super::size::{WishArgs, a_steel, may_write};
-use super::{Context, made};
+use super::{Context, made, number};
 use crate::follow::Follow;
 use crate::material::STEELS;
 use crate::report::plain;
@@ -39,7 +39,7 @@ pub struct NewArgs {
     #[command(flatten)]
     pub wish: WishArgs,
     /// Engagements in its life: kept as a comment, no life is computed
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number)]
     pub engagements: Option<f64>,
     /// Where to write the design file
     #[arg(long, short, value_name = "NEW.toml")]

@@ -120,7 +120,12 @@ fn check_variable(v: &VariableFile, path: &str, file: &DesignFile, out: &mut Fin
         out.refuse(
             &[&name_key],
             format!("for {arcs} inner arcs: {}", variable_names(arcs).join(", ")),
-            "name one of these variables".to_owned(),
+            match shape::paths_that_end_in(&v.name).as_slice() {
+                [] => {
+                    "name one of these variables, or any number of the clutch by its dotted path".to_owned()
+                }
+                paths => format!("name one of these variables; did you mean {}?", paths.join(" or ")),
+            },
         );
         return 0.0;
     };
