@@ -163,7 +163,7 @@ pub(super) const STOP: f64 = 10.0;
 pub(super) const DRIVE_HZ: f64 = 25.0;
 
 /// Abutment of a swing over the softer of clutch and drive: it holds the mean torque and leaves the swing to the clutch.
-const SOFT: f64 = 0.002;
+const SOFT: f64 = 0.02;
 
 impl Purpose {
     /// Its scenes for a clutch that does what `ask` says, its secant stiffness at nominal torque `stiffness_nm_per_rad`, with

@@ -6,7 +6,7 @@ use super::ask::{BadAsk, Requirements};
 use super::finish::{KEPT, Made, build, finish};
 use super::proportions::{COUNTS, LENGTHS, OUTSIDES, SPACES_M, THICKER, draft, lengthen, longest_m};
 use crate::design::Draft;
-use crate::margin::{Margin, When, load_margins};
+use crate::margin::{When, load_margins};
 use crate::scenario::Settings;
 
 /// Thinnest outer race over the race space, where an outer diameter is asked for: a choice.
@@ -104,9 +104,7 @@ impl std::error::Error for NoSize {}
 fn least(draft: &Draft) -> Result<(f64, String), String> {
     let (design, state) = build(draft)?;
     let rows = load_margins(&design, &design.limits, false, &state);
-    // Bending of the rings is shown only; a first design keeps it all the same.
-    let kept = |r: &&Margin| r.required || r.limit.code.ends_with("bending");
-    let rows = rows.iter().filter(kept).filter(|r| r.limit.when != When::Overrun);
+    let rows = rows.iter().filter(|r| r.required && r.limit.when != When::Overrun);
     let worst = rows.min_by(|a, b| a.margin().total_cmp(&b.margin()));
     Ok(worst.map_or((0.0, "no limit".to_owned()), |r| (r.margin(), r.code())))
 }
