@@ -18,7 +18,7 @@ impl Drop for Ended<'_> {
 }
 
 /// Do `work`, whose runs are `duration_s` long (s) and tell `context.follow` how far they are.
-pub(super) fn while_told<T>(
+pub(super) fn while_shown<T>(
     what: &str,
     duration_s: Option<f64>,
     context: &Context,

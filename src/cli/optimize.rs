@@ -165,7 +165,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         if drawn { "" } else { " (this search draws nothing at random)" },
         if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
     ));
-    let ask = SearchSettings {
+    let settings = SearchSettings {
         evaluations: args.evaluations as usize,
         starts: args.starts.map(|n| n as usize),
         swarm: args.global.map(|n| n as usize),
@@ -181,7 +181,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     };
     let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
     let started = Instant::now();
-    let answer = design.optimise_recorded(&ask, &mut keeper);
+    let answer = design.optimise_recorded(&settings, &mut keeper);
     let run_time_s = started.elapsed().as_secs_f64();
     let Keeper { progress, file, .. } = keeper;
     drop(progress);

@@ -156,35 +156,35 @@ pub fn purpose(name: &str) -> Option<&'static Purpose> {
 const PERIODS: f64 = 2.0;
 
 impl Purpose {
-    /// Its scenes for a clutch that does what `ask` says, whose outer race is held by `abutment_nm_per_rad`.
+    /// Its scenes for a clutch that does what `wanted` says, whose outer race is held by `abutment_nm_per_rad`.
     pub(super) fn scenes(
         &self,
-        ask: &Requirements,
+        wanted: &Requirements,
         abutment_nm_per_rad: f64,
         inner_inertia_kg_m2: f64,
     ) -> Vec<DraftScene> {
         let rpm = |rad_s: f64| rad_s * 30.0 / PI;
-        let [inner, outer] = ask.overrun_rad_s.map(rpm);
+        let [inner, outer] = wanted.overrun_rad_s.map(rpm);
         let mut scenes = Vec::new();
         let held = "guess: ten times as stiff as the clutch";
         if let Some(Excitation { share, frequency_hz }) = self.excitation {
-            let amplitude = share.value * ask.torque_nm;
+            let amplitude = share.value * wanted.torque_nm;
             scenes.push(DraftScene {
                 name: "swing",
                 kind: "torsional-excitation",
                 why: "The torque swings up to nominal torque.".to_owned(),
                 keys: vec![
-                    ("preload_nm", ask.torque_nm - amplitude, "nominal torque less the amplitude"),
+                    ("preload_nm", wanted.torque_nm - amplitude, "nominal torque less the amplitude"),
                     ("amplitude_nm", amplitude, share.from),
                     ("frequency_hz", frequency_hz.value, frequency_hz.from),
                     ("abutment_stiffness_nm_per_rad", abutment_nm_per_rad, held),
                     ("duration_s", PERIODS / frequency_hz.value, "two periods"),
-                    ("speed_rpm", rpm(ask.keep_contact_rad_s.unwrap_or(0.0)), ""),
+                    ("speed_rpm", rpm(wanted.keep_contact_rad_s.unwrap_or(0.0)), ""),
                 ],
                 held: true,
             });
         }
-        let reversing = self.reversing_share.value * ask.torque_nm;
+        let reversing = self.reversing_share.value * wanted.torque_nm;
         // Until the reversed race has come to rest, and as long again.
         let stopping_s = inner_inertia_kg_m2 * self.free_run_rpm.value * PI / 30.0 / reversing;
         scenes.push(DraftScene {

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use super::ask::{BadAsk, Requirements};
 use super::finish::{KEPT, Made, build, finish};
 use super::proportions::{COUNTS, LENGTHS, SPACES_M, draft, lengthen, longest_m};
+use super::requirements::{BadRequirement, Requirements};
 use crate::design::Draft;
 use crate::margin::{When, load_margins};
 use crate::scenario::Settings;
@@ -49,7 +49,7 @@ pub struct Sized {
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoSize {
     /// The question.
-    Requirements(BadAsk),
+    Requirements(BadRequirement),
     /// No race space does it.
     None {
         /// Those tried.
@@ -100,21 +100,21 @@ fn least(draft: &Draft) -> Result<(f64, String), String> {
     Ok(worst.map_or((0.0, "no limit".to_owned()), |r| (r.margin(), r.code())))
 }
 
-/// Find a design for `ask`. Every race space of the family is tried; that of the smallest volume is taken.
+/// Find a design for `wanted`. Every race space of the family is tried; that of the smallest volume is taken.
 ///
 /// # Errors
 /// [`NoSize`].
-pub fn size(ask: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
-    ask.check().map_err(NoSize::Requirements)?;
+pub fn size(wanted: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
+    wanted.check().map_err(NoSize::Requirements)?;
     let mut tried = Vec::new();
     for space_m in SPACES_M {
-        let mut draft = draft(ask, space_m);
+        let mut draft = draft(wanted, space_m);
         if draft.count < COUNTS.0 || draft.count > COUNTS.1 {
             continue;
         }
-        let mut one = width(ask, &mut draft, space_m);
+        let mut one = width(wanted, &mut draft, space_m);
         if one.held {
-            match finish(ask, draft, settings) {
+            match finish(wanted, draft, settings) {
                 Ok(made) => one.take(made),
                 Err(why) => (one.held, one.decided_by) = (false, why),
             }
@@ -143,8 +143,8 @@ impl Tried {
 }
 
 /// Shortest sprags that keep every limit, put into `draft`.
-fn width(ask: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
-    let (low, high) = (LENGTHS.0 * space_m, longest_m(ask, space_m));
+fn width(wanted: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
+    let (low, high) = (LENGTHS.0 * space_m, longest_m(wanted, space_m));
     let at = |draft: &Draft, length_m: f64| {
         let mut longer = draft.clone();
         lengthen(&mut longer, length_m);
