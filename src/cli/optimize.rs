@@ -136,12 +136,12 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     let beside = beside(&new, args);
     let others: Vec<_> = beside.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
     context.outputs.check(&[&args.file], &others)?;
-    let (model, said) = (journal::model(), design.content_hash());
+    let (model, content) = (journal::model(), design.content_hash());
     let file = match (args.resume, args.journal.is_some()) {
-        (true, _) => JournalFile::resume(&record, &model, &said)?,
-        (false, true) => JournalFile::open(&record, &model, &said)?,
+        (true, _) => JournalFile::resume(&record, &model, &content)?,
+        (false, true) => JournalFile::open(&record, &model, &content)?,
         (false, false) => {
-            let (file, kept) = JournalFile::begin(&record, &model, &said)?;
+            let (file, kept) = JournalFile::begin(&record, &model, &content)?;
             if let Some(kept) = kept {
                 context.message(&format!(
                     "{} held the record of an earlier search; it is kept as {}, and --resume --journal with that name goes on from it",
@@ -370,9 +370,9 @@ mod tests {
     fn a_design_that_would_be_refused_is_no_file_but_a_sentence() {
         let text = include_str!("../../designs/huang2017-multi-arc.toml");
         let design = Design::parse(text, "a.toml").unwrap();
-        let said = |text: &str| readable(&design, Path::new("new.toml"), Ok(text.to_owned()));
-        assert_eq!(said(text).as_deref(), Ok(text));
-        let why = said(&text.replacen("count = 12 ", "count = 0 ", 1)).unwrap_err();
+        let outcome = |text: &str| readable(&design, Path::new("new.toml"), Ok(text.to_owned()));
+        assert_eq!(outcome(text).as_deref(), Ok(text));
+        let why = outcome(&text.replacen("count = 12 ", "count = 0 ", 1)).unwrap_err();
         assert!(why.starts_with("new.toml: not written") && why.contains("sprags.count"), "{why}");
     }
 }
