@@ -404,3 +404,24 @@ fn races_whose_inertia_nobody_names_have_that_of_their_rings() {
     let wide = Design::parse(&without.replace("width_mm = 19.0", "width_mm = 38.0"), "a.toml").unwrap();
     assert!((wide.clutch.races.inner_inertia_kg_m2 / r.inner_inertia_kg_m2 - 2.0).abs() < 1e-12);
 }
+
+/// Several files: each as by itself, one behind the other; the exit code is the worst.
+#[test]
+fn several_files_are_answered_one_after_another() {
+    let files = ["designs/huang2017-multi-arc.toml", "designs/huang2017-single-arc.toml"];
+    let each: Vec<_> = files.iter().map(|file| run(&["check", file, "--quiet"])).collect();
+    let both = run(&["check", files[0], files[1], "--quiet"]);
+    assert_eq!(stdout(&both), format!("{}\n{}", stdout(&each[0]), stdout(&each[1])));
+    assert_eq!((each[0].status.code(), both.status.code()), (Some(0), Some(1)));
+    let lines = stdout(&run(&["check", files[0], files[1], "--json", "--quiet"]));
+    assert_eq!(lines.lines().count(), 2);
+    for args in [["--report", "x.html"], ["--csv", "x.csv"], ["--overrun-csv", "x.csv"]] {
+        let refused = run(&[&["check", files[0], files[1]], &args[..]].concat());
+        assert_eq!(refused.status.code(), Some(2), "{args:?}");
+    }
+    let scene = run(&["simulate", files[0], files[0], "--scenario", "low-6", "--json", "--quiet"]);
+    assert_eq!(stdout(&scene).lines().count(), 2);
+    let none = run(&["simulate", files[0]]);
+    let said = String::from_utf8_lossy(&none.stderr).into_owned();
+    assert!(none.status.code() == Some(2) && said.contains("high-10"), "{said}");
+}

@@ -19,9 +19,9 @@ Examples:
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct CheckArgs {
-    /// Design file (TOML)
-    #[arg(value_name = "FILE")]
-    pub file: PathBuf,
+    /// Design files (TOML); of more than one the answers follow one another, with --json a line each
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
     /// Write drag torque, contact forces and growth of the outer race against speed as CSV
     #[arg(long, value_name = "PATH")]
     pub overrun_csv: Option<PathBuf>,
@@ -33,9 +33,17 @@ pub struct CheckArgs {
 /// [`Failure`].
 pub fn run(args: &CheckArgs, context: &Context) -> Result<Exit, Failure> {
     let others: Vec<_> = args.overrun_csv.iter().map(|path| (path.as_path(), FileKind::Table)).collect();
-    context.outputs.check(&[&args.file], &others)?;
-    let design = parts::read_design(&args.file, context)?;
-    let (found, run_time_s) = checked(&design, &args.file, context)?;
+    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
+    context.outputs.check(&inputs, &others)?;
+    if args.files.len() > 1 && args.overrun_csv.is_some() {
+        return Err(Failure::malformed("--overrun-csv is of one FILE"));
+    }
+    parts::each(&args.files, context, |file| one(args, file, context))
+}
+
+fn one(args: &CheckArgs, file: &Path, context: &Context) -> Result<Exit, Failure> {
+    let design = parts::read_design(file, context)?;
+    let (found, run_time_s) = checked(&design, file, context)?;
     context.outputs.write_csv(&csv_table(&found.rows, found.state.curve.end_torque_nm()));
     if let Some(path) = &args.overrun_csv {
         context.outputs.write_table(path, &found.body.overrun.table());

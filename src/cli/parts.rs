@@ -1,7 +1,7 @@
 //! What the commands share that read a design: the file with what `--set` sets, and the refusal of what is no clutch.
 
 use super::Context;
-use super::exit::Failure;
+use super::exit::{Exit, Failure};
 use crate::design::Design;
 use crate::margin::NoMargins;
 use crate::wedge::{NoCurve, NoElastic};
@@ -53,4 +53,29 @@ mod tests {
             assert!(text.contains(word), "{text}");
         }
     }
+}
+
+/// The answers to `files` one after another; the worst exit code of all. A table or page is of one file.
+///
+/// # Errors
+/// The first [`Failure`].
+pub fn each(
+    files: &[PathBuf],
+    context: &Context,
+    mut one: impl FnMut(&Path) -> Result<Exit, Failure>,
+) -> Result<Exit, Failure> {
+    if files.len() > 1 && (context.outputs.csv.is_some() || context.outputs.report.is_some()) {
+        return Err(Failure::malformed(
+            "--csv and --report are of one FILE; `compare` puts several designs side by side on one page",
+        ));
+    }
+    let mut worst = Exit::Held;
+    for (k, file) in files.iter().enumerate() {
+        if k > 0 {
+            context.answer("\n")?;
+        }
+        let exit = one(file)?;
+        worst = if exit.code() > worst.code() { exit } else { worst };
+    }
+    Ok(worst)
 }

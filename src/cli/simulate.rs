@@ -42,9 +42,9 @@ pub enum MethodName {
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SimulateArgs {
-    /// Design file (TOML)
-    #[arg(value_name = "FILE")]
-    pub file: PathBuf,
+    /// Design files (TOML); of more than one the answers follow one another, with --json a line each
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
     /// Name of one of the design's scenarios [default: the only one]
     #[arg(long, value_name = "NAME")]
     pub scenario: Option<String>,
@@ -85,19 +85,29 @@ pub struct SimulateArgs {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
-    context.outputs.check(&[&args.file], &[])?;
+    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
+    context.outputs.check(&inputs, &[])?;
     let settings = args.settings(context);
     settings.validate().map_err(|why| refusal(why, args.window))?;
     refuse_strangers(args)?;
-    let design = parts::read_design(&args.file, context)?;
+    parts::each(&args.files, context, |file| one(args, file, &settings, context))
+}
+
+fn one(
+    args: &SimulateArgs,
+    file: &Path,
+    settings: &SimulationSettings,
+    context: &Context,
+) -> Result<Exit, Failure> {
+    let design = parts::read_design(file, context)?;
     let scenario = match (&args.scenario, design.scenarios.as_slice()) {
-        (Some(name), _) => design.scenario(name).ok_or_else(|| unknown(name, &design, &args.file))?,
+        (Some(name), _) => design.scenario(name).ok_or_else(|| unknown(name, &design, file))?,
         (None, [only]) => only,
         (None, all) => {
             let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
             return Err(Failure::malformed(match names.as_slice() {
                 [] => {
-                    format!("{}: the design has no scenarios; add a [[scenarios]] table", args.file.display())
+                    format!("{}: the design has no scenarios; add a [[scenarios]] table", file.display())
                 }
                 names => format!("needed: --scenario NAME; the design has: {}", names.join(", ")),
             }));
@@ -107,11 +117,11 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     refuse_unknown_to_published(args)?;
     let event = scenario.kind.duration_s().filter(|_| args.method == MethodName::Event);
     let start = Instant::now();
-    let ran = while_shown(&scenario.name, event, context, || computed(&design, scenario, &settings, context));
+    let ran = while_shown(&scenario.name, event, context, || computed(&design, scenario, settings, context));
     let run_time_s = start.elapsed().as_secs_f64();
     let other = format!("{}, contact damping changed", scenario.name);
-    let damping = while_shown(&other, event, context, || ran.damping_effect(&settings));
-    report(&SimulationAnswer::new(ran, damping, &settings), run_time_s, context)
+    let damping = while_shown(&other, event, context, || ran.damping_effect(settings));
+    report(&SimulationAnswer::new(ran, damping, settings), run_time_s, context)
 }
 
 impl SimulateArgs {

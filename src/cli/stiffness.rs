@@ -29,7 +29,7 @@ Finite elements: a CSV with the columns torque_nm and windup_deg, normal_inner_n
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct StiffnessArgs {
-    /// Design files (TOML); more than one only with --report
+    /// Design files (TOML); of more than one the answers follow one another, with --report on one page
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     /// Contact laws to compare, comma separated [default: the design's]
@@ -82,9 +82,9 @@ pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&inputs, &[])?;
     args.settings(context).validate().map_err(|why| Failure::malformed(why.to_string()))?;
     let several = args.files.len() > 1;
-    if several && (context.json || context.outputs.csv.is_some() || context.outputs.report.is_none()) {
+    if several && context.outputs.csv.is_some() {
         return Err(Failure::malformed(
-            "several FILEs make one page: --report PATH.html, without --json and --csv",
+            "--csv is of one FILE; several make one page with --report, or a line each with --json",
         ));
     }
     if !args.fem.is_empty() && args.fem.len() != args.files.len() {

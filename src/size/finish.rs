@@ -101,7 +101,8 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
             short(wanted.bore_m * 1e3),
             short(wanted.torque_nm)
         );
-        draft.scenes = wanted.purpose.map_or_else(Vec::new, |purpose| purpose.scenes(wanted, stiffness, inertia));
+        draft.scenes =
+            wanted.purpose.map_or_else(Vec::new, |purpose| purpose.scenes(wanted, stiffness, inertia));
         match sprung(&mut draft).and_then(|()| made(wanted, &mut draft, settings)) {
             Ok(done) => return Ok(done),
             Err(Obstacle::Neighbours) => {
@@ -218,7 +219,8 @@ fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Ve
     let by_purpose = |from: &str| if from == "asked for" { String::new() } else { format!(" ({from})") };
     let [kept, off] = wanted.contact_from.map(by_purpose);
     asked.extend(
-        wanted.keep_contact_rad_s
+        wanted
+            .keep_contact_rad_s
             .filter(|&w| w > 0.0)
             .map(|w| format!("contact kept up to {} rpm{kept}", rpm(w))),
     );

@@ -116,7 +116,8 @@ fn least(draft: &Draft) -> Result<(f64, String), String> {
 /// [`NoSize`].
 pub fn size(wanted: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
     wanted.check().map_err(NoSize::Requirements)?;
-    let tried: Vec<Tried> = SPACES_M.iter().filter_map(|&space_m| smallest(wanted, space_m, settings)).collect();
+    let tried: Vec<Tried> =
+        SPACES_M.iter().filter_map(|&space_m| smallest(wanted, space_m, settings)).collect();
     let made = tried.iter().enumerate().filter_map(|(i, t)| Some((i, t.volume_m3, t.made.clone()?)));
     match made.min_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((taken, _, made)) => Ok(Sized { made, tried, taken }),
