@@ -117,6 +117,22 @@ fn what_is_impossible_names_the_limit_and_the_nearest() {
 }
 
 #[test]
+fn a_bore_without_room_for_the_family_says_how_many_sprags_it_has_room_for() {
+    let Err(NoSize::None { tried }) = sized(&ask(2000.0, 1e5, 0.0, 1.3, 0.11)) else { panic!("2 m") };
+    assert!(tried.len() == 7 && tried.iter().all(|t| t.decided_by == "count" && t.count > 120), "{tried:?}");
+    let why = NoSize::None { tried }.to_string();
+    assert!(why.contains("race space 25.00 mm: room for 343 sprags, the family has 8 to 120"), "{why}");
+}
+
+/// Makers' sprags are longer than they are high.
+#[test]
+fn sprags_are_at_least_as_long_as_the_race_space_is_high() {
+    for tried in sized(&ask(10.0, 20.0, 0.0, 1.5, 0.11)).unwrap().tried.iter().filter(|t| t.held) {
+        assert!(tried.length_m >= tried.space_m - 1e-9, "{tried:?}");
+    }
+}
+
+#[test]
 fn nonsense_is_refused_with_what_is_allowed() {
     for (bad, words) in [
         (ask(0.0, 100.0, 0.0, 1.3, 0.11), ["bore", "1 to 2000 mm"]),

@@ -1,7 +1,7 @@
 //! What the pages of all answers share: head, drawings of a clutch, the inputs.
 
 use super::{TOOL, VERSION};
-use crate::design::{Design, Input, inputs};
+use crate::design::{Design, Input, inputs, unit_of_key};
 use crate::profile::Profile;
 use crate::report::{Cell, Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Unit};
 use crate::wedge::{Closure, WedgeCurve};
@@ -131,6 +131,16 @@ fn power(unit: &str) -> String {
     unit.replace("^2", "²").replace("^3", "³")
 }
 
+/// A key of a scene in words, its unit behind a comma.
+fn words_of_key(key: &str) -> String {
+    let endings = ["_nm_per_rad", "_kg_m2", "_nm", "_rpm", "_hz", "_s"];
+    let name = endings.iter().find_map(|end| key.strip_suffix(end));
+    match (name, unit_of_key(key).filter(|unit| !unit.is_empty())) {
+        (Some(name), Some(unit)) => format!("{}, {}", name.replace('_', " "), power(unit)),
+        _ => key.replace('_', " "),
+    }
+}
+
 /// A row for each scene, a column for each key that one of them has.
 fn scene_table(inputs: &[&Input]) -> Table {
     let mut table = Table::new(vec![Column::text("name", "scene")]);
@@ -143,8 +153,7 @@ fn scene_table(inputs: &[&Input]) -> Table {
             continue;
         }
         let at = table.columns.iter().position(|c| c.key == key).unwrap_or_else(|| {
-            // The unit stands at the end of the key.
-            table.columns.push(Column::text(key, &key.replace('_', " ")));
+            table.columns.push(Column::text(key, &words_of_key(key)));
             table.columns.len() - 1
         });
         if !table.rows.iter().any(|cells| cells.first() == Some(&Cell::Text(name.to_owned()))) {

@@ -1,6 +1,6 @@
 //! What a first design answers: the design, its figures, and the alternatives.
 
-use super::check::{REACHED_AT, ends_first, margin_words, people_table};
+use super::check::{REACHED_AT, ends_first, margin_words, people_table, size_line};
 use super::left_out::left_out;
 use super::page::{begun, draw_sheet};
 use super::{Envelope, Provenance};
@@ -79,14 +79,7 @@ impl<'a> Sizing<'a> {
 
 /// Size, mass, drag and heat, a line each.
 fn figures(made: &Made) -> Vec<String> {
-    let r = &made.design.clutch.races;
-    let mm = |m: f64| Unit::Millimetre.show_plain(m, 4);
-    let size = format!(
-        "⌀ {} outside, {} wide, {}",
-        mm(2.0 * r.outer_outside_radius_m),
-        mm(r.width_m),
-        Unit::Gram.show_plain(made.mass_kg, 4)
-    );
+    let size = size_line(&made.design);
     let drag = made.drag.map(|d| match (d.torque_nm > 0.0, d.sliding_rad_s > 0.0) {
         (false, _) => "In overrun as asked for the sprags are off: no drag, no heat".to_owned(),
         (true, false) => format!("Drag in slow overrun {}", Unit::NewtonMetre.show(d.torque_nm, 3)),

@@ -143,8 +143,9 @@ struct Common {
     /// Write a self-contained HTML page with drawing, curves and tables; a PDF is made by printing it (A4)
     #[arg(long, global = true, value_name = "PATH.html")]
     report: Option<PathBuf>,
-    /// Set a value of the design before anything else, as often as wanted: a dotted path of the file, or a variable's short
-    /// name; checked like the file, which stays as it is
+    /// Set a value of the design before anything else, as often as wanted: a dotted path of the file
+    /// (`sprags.inner_arcs[0].radius_mm=4.1`, rows count from 0) or a variable's short name (`r_i1_mm=4.1`, arcs from 1);
+    /// checked like the file, which stays as it is
     #[arg(long, global = true, value_name = "KEY=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
     /// Replace files that this tool has not written, too
@@ -269,11 +270,32 @@ fn ended(args: Vec<String>) -> Exit {
 fn command() -> clap::Command {
     let root = Cli::command();
     let common: Vec<clap::Arg> = root.get_arguments().filter(|a| a.is_global_set()).cloned().collect();
-    MEANINGLESS.iter().fold(root, |root, (name, _, without)| {
+    let whole = MEANINGLESS.iter().fold(root, |root, (name, _, without)| {
         let hidden = common.iter().filter(|a| without.contains(&a.get_id().as_str()));
         let hidden: Vec<clap::Arg> = hidden.map(|a| a.clone().hide(true)).collect();
         root.mut_subcommand(name, |command| command.args(hidden))
-    })
+    });
+    let folded = |command: clap::Command| {
+        let after = command.get_after_help().map(|text| in_paragraphs(&text.to_string()));
+        after.into_iter().fold(command, |command, text| command.after_help(text))
+    };
+    folded(whole.mut_subcommands(folded))
+}
+
+/// The text with each paragraph on a line of its own, for the terminal to fold: lines that neither are indented nor follow a
+/// heading or an indented one go on where the one before ends.
+fn in_paragraphs(text: &str) -> String {
+    let mut whole = String::new();
+    let mut open = false;
+    for line in text.lines() {
+        let plain = !line.is_empty() && !line.starts_with(' ');
+        if !whole.is_empty() {
+            whole.push(if open && plain { ' ' } else { '\n' });
+        }
+        whole.push_str(line);
+        open = plain && !line.ends_with(':');
+    }
+    whole
 }
 
 fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
@@ -405,6 +427,12 @@ fn setting(text: &str) -> Result<(String, String), String> {
         Some((path, value)) if !path.trim().is_empty() => Ok((path.trim().to_owned(), value.to_owned())),
         _ => Err("KEY=VALUE is needed, such as sprags.inner_arcs[1].radius_mm=4.1 or r_i2_mm=4.1".to_owned()),
     }
+}
+
+/// A number, for flags that say its unit.
+fn number(text: &str) -> Result<f64, String> {
+    let bare = || "a number is needed, with a point and without its unit, such as 1800 or 0.5".to_owned();
+    text.trim().parse::<f64>().map_err(|_| bare())
 }
 
 /// A finite number above zero, for flags.

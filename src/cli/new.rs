@@ -3,7 +3,7 @@
 use super::exit::{Exit, Failure};
 use super::output;
 use super::size::{WishArgs, a_steel, may_write};
-use super::{Context, made};
+use super::{Context, made, number};
 use crate::follow::Follow;
 use crate::material::STEELS;
 use crate::report::plain;
@@ -39,7 +39,7 @@ pub struct NewArgs {
     #[command(flatten)]
     pub wish: WishArgs,
     /// Engagements in its life: kept as a comment, no life is computed
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number)]
     pub engagements: Option<f64>,
     /// Where to write the design file
     #[arg(long, short, value_name = "NEW.toml")]
@@ -67,6 +67,14 @@ pub fn run(args: &NewArgs, context: &Context) -> Result<Exit, Failure> {
     let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
     may_write(&output, context)?;
     let exit = made::answer(&args.requirements(), &output, "New clutch", context)?;
+    let taken = args.requirements().taken();
+    if !taken.is_empty() {
+        let lines: String =
+            taken.iter().map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n")).collect();
+        context.answer(&format!(
+            "\nTaken where nothing was said (an option of `new --help` says otherwise):\n{lines}"
+        ))?;
+    }
     if exit == Exit::Held {
         let path = output::path_text(&output);
         context.answer(&format!(

@@ -45,9 +45,9 @@ pub struct SimulateArgs {
     /// Design file (TOML)
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Name of one of the design's scenarios
+    /// Name of one of the design's scenarios [default: the only one]
     #[arg(long, value_name = "NAME")]
-    pub scenario: String,
+    pub scenario: Option<String>,
     /// Method of integration
     #[arg(long, value_enum, default_value_t = MethodName::Event)]
     pub method: MethodName,
@@ -90,8 +90,19 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     settings.validate().map_err(|why| refusal(why, args.window))?;
     refuse_strangers(args)?;
     let design = parts::read_design(&args.file, context)?;
-    let scenario =
-        design.scenario(&args.scenario).ok_or_else(|| unknown(&args.scenario, &design, &args.file))?;
+    let scenario = match (&args.scenario, design.scenarios.as_slice()) {
+        (Some(name), _) => design.scenario(name).ok_or_else(|| unknown(name, &design, &args.file))?,
+        (None, [only]) => only,
+        (None, all) => {
+            let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
+            return Err(Failure::malformed(match names.as_slice() {
+                [] => {
+                    format!("{}: the design has no scenarios; add a [[scenarios]] table", args.file.display())
+                }
+                names => format!("needed: --scenario NAME; the design has: {}", names.join(", ")),
+            }));
+        }
+    };
     settings.validate_for(scenario).map_err(|why| refusal(why, args.window))?;
     refuse_unknown_to_published(args)?;
     let event = scenario.kind.duration_s().filter(|_| args.method == MethodName::Event);

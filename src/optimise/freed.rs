@@ -8,6 +8,7 @@ use super::desk::Desk;
 use super::driver::maximise_least_margin;
 use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::journal::SearchRun;
+use super::outcome::Outcome;
 use super::problem::ClutchProblem;
 use super::search::Search;
 use super::settings::Settings;
@@ -177,14 +178,27 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
         let one = LetGo { problem: &problem, number, given, range: between.1 - between.0 };
         let with = |list: &[f64], last: f64| -> Vec<f64> { list.iter().copied().chain([last]).collect() };
         let bounds = (with(&lo, between.0), with(&hi, between.1));
-        let run = SearchRun { follow: desk.follow(), ..SearchRun::default() };
-        let outcome =
-            maximise_least_margin(&one, &with(x, given), &bounds.0, &bounds.1, &settings, run).ok()?;
-        let needed = outcome.x.last().copied();
-        let free = outcome.evaluation.violation() <= settings.violation_tolerance;
+        let climb = |from: &[f64]| {
+            let run = SearchRun { follow: desk.follow(), ..SearchRun::default() };
+            maximise_least_margin(&one, from, &bounds.0, &bounds.1, &settings, run).ok()
+        };
+        let free = |outcome: &Outcome| outcome.evaluation.violation() <= settings.violation_tolerance;
+        let mut outcome = climb(&with(x, given))?;
+        let mut evaluations = outcome.evaluations;
+        // Where the way from the given value does not lead there: from the limit wide open back towards it.
+        if let Number::Limit(_) = number
+            && !free(&outcome)
+            && !desk.follow().stopped()
+        {
+            let open = if between.0 < given { between.0 } else { between.1 };
+            if let Some(other) = climb(&with(&outcome.x[..x.len()], open)) {
+                evaluations += other.evaluations;
+                outcome = if free(&other) { other } else { outcome };
+            }
+        }
+        let needed = outcome.x.last().copied().filter(|_| free(&outcome));
         let x = outcome.x[..outcome.x.len() - 1].to_vec();
-        let needed = needed.filter(|_| free);
-        Some(Loosened { key, unit, given, needed, between, x, evaluations: outcome.evaluations })
+        Some(Loosened { key, unit, given, needed, between, x, evaluations })
     };
     asked.into_par_iter().filter_map(let_go).collect()
 }

@@ -5,7 +5,8 @@ use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::goal::{Goal, Measure, measures};
 use super::smooth;
 use crate::design::{
-    Design, EditError, LIMIT_KEYS, LimitKey, Limits, Objective, Optimize, content, with_limits, with_values,
+    Design, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content, with_limits,
+    with_values,
 };
 use crate::fidelity;
 use crate::margin::{
@@ -66,6 +67,8 @@ pub struct ClutchProblem {
     folder: std::path::PathBuf,
     histories: String,
     variables: Vec<String>,
+    /// What goes with a variable of this name.
+    links: Vec<(String, Link)>,
     limits: Limits,
     target: Vec<[f64; 2]>,
     scenarios: Vec<String>,
@@ -106,6 +109,11 @@ impl ClutchProblem {
             folder: design.folder.clone(),
             histories: design.histories(),
             variables,
+            links: task
+                .variables
+                .iter()
+                .flat_map(|v| v.links.iter().map(|l| (v.name.clone(), l.clone())))
+                .collect(),
             limits: task.limits,
             target: task.target.clone(),
             scenarios: task.scenarios.clone(),
@@ -192,7 +200,9 @@ impl ClutchProblem {
     /// Everything that an evaluation depends on but x, as text: what a journal's entries belong to. Values of the
     /// variables are struck out, so that a file with other starts is the same problem; so is one with other comments.
     pub fn identity(&self) -> String {
-        let zeros: Vec<(&str, f64)> = self.variables.iter().map(|v| (v.as_str(), 0.0)).collect();
+        let links: Vec<_> = self.links.iter().filter(|(name, _)| self.variables.contains(name)).collect();
+        let names = self.variables.iter().chain(links.iter().map(|(_, link)| &link.path));
+        let zeros: Vec<(&str, f64)> = names.map(|name| (name.as_str(), 0.0)).collect();
         let source = with_values(&self.source, &zeros).unwrap_or_else(|_| self.source.clone());
         // The task's own bounds and seed do not enter a margin; what of it does follows, and the values of the histories.
         let said = content(&source, &["optimize"]).unwrap_or(source);
@@ -202,8 +212,9 @@ impl ClutchProblem {
         // Nothing where there is none, so that earlier journals stay valid.
         let reserve =
             if self.reserve > 0.0 { format!("reserve {:?}\n", self.reserve) } else { String::new() };
+        let links = if links.is_empty() { String::new() } else { format!("{links:?}\n") };
         format!(
-            "{reserve}{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
+            "{links}{reserve}{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
             self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners
         )
     }
@@ -213,9 +224,18 @@ impl ClutchProblem {
     /// # Errors
     /// [`EditError`] where a variable has no place in the file.
     pub fn file_at(&self, x: &[f64]) -> Result<String, EditError> {
-        let values: Vec<(&str, f64)> =
+        with_values(&self.source, &self.values_at(x))
+    }
+
+    /// Names or paths and values that `x` stands for: the variables, and what goes with them.
+    fn values_at(&self, x: &[f64]) -> Vec<(&str, f64)> {
+        let own: Vec<(&str, f64)> =
             self.variables.iter().map(String::as_str).zip(x.iter().copied()).collect();
-        with_values(&self.source, &values)
+        let linked = own.iter().flat_map(|&(name, value)| {
+            let of_it = self.links.iter().filter(move |(variable, _)| variable == name);
+            of_it.map(move |(_, link)| (link.path.as_str(), link.by + link.times * value))
+        });
+        own.iter().copied().chain(linked).collect()
     }
 
     /// The design at `x`.
@@ -264,7 +284,7 @@ impl ClutchProblem {
         scenes(&mut rows, &|name| self.scenarios.contains(name))?;
         let mut measures_of_goals = Vec::new();
         for (k, goal) in self.goals.iter().enumerate() {
-            let found = measures(goal.objective, &self.limits, &self.target, &state, &rows);
+            let found = measures(goal.objective, design, &self.limits, &self.target, &state, &rows);
             measures_of_goals.extend(found.into_iter().map(|m| Measure { goal: k, ..m }));
         }
         if self.as_checked {

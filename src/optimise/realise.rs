@@ -319,6 +319,7 @@ fn joint_task(task: &Optimize, found: &Search, flanks: &Flanks, ranges: &[(f64, 
             given: start,
             start,
             whole: false,
+            links: Vec::new(),
         });
     }
     Optimize { variables, ..task.clone() }

@@ -29,6 +29,10 @@ pub struct Requirements {
     pub friction: f64,
     /// Where friction, nominal and peak torque come from, for the file's comments.
     pub from: [&'static str; 3],
+    /// The same of the speeds of inner and outer race in overrun.
+    pub overrun_from: [&'static str; 2],
+    /// The same of the speeds up to which contact is kept and by which it is lost.
+    pub contact_from: [&'static str; 2],
     /// Steel of sprags and races; it brings the allowed stresses.
     pub steel: &'static Steel,
     /// What the clutch is for: the scenes that its file has beside the two of every first design.
@@ -108,6 +112,17 @@ impl Wish {
                 said(self.torque_nm, by_ratio),
                 said(self.peak_nm, by_ratio),
             ],
+            overrun_from: [
+                said(self.inner_rad_s, self.purpose.map_or("at rest", |p| p.overrun_rpm[0].from)),
+                said(
+                    self.outer_rad_s,
+                    self.purpose.map_or("as contact is kept to", |p| p.overrun_rpm[1].from),
+                ),
+            ],
+            contact_from: [
+                said(self.keep_contact_rad_s, self.purpose.map_or("", |p| p.keep_contact_rpm.from)),
+                said(self.lift_off_rad_s, self.purpose.and_then(|p| p.lift_off_rpm).map_or("", |g| g.from)),
+            ],
             steel: self.steel.unwrap_or(&STEELS[0]),
             purpose: self.purpose,
             engagements: self.engagements,
@@ -148,6 +163,28 @@ impl Requirements {
     /// Speed at which the races slide past one another in overrun, rad/s.
     pub fn sliding_rad_s(&self) -> f64 {
         (self.overrun_rad_s[0] - self.overrun_rad_s[1]).abs()
+    }
+
+    /// What nobody has said and the purpose has answered: words, value with its unit, where it comes from.
+    pub fn taken(&self) -> Vec<(&'static str, String, &'static str)> {
+        let Some(purpose) = self.purpose else { return Vec::new() };
+        let of = |value: f64, unit: &str| format!("{} {unit}", rounded(value, 6));
+        let rpm = |rad_s: f64| of(rad_s * 30.0 / PI, "rpm");
+        let mut rows = vec![
+            ("friction", rounded(self.friction, 6).to_string(), self.from[0]),
+            ("nominal torque", of(self.torque_nm, "Nm"), self.from[1]),
+            ("peak torque", of(self.peak_nm, "Nm"), self.from[2]),
+            ("inner race in overrun", rpm(self.overrun_rad_s[0]), self.overrun_from[0]),
+            ("outer race in overrun", rpm(self.overrun_rad_s[1]), self.overrun_from[1]),
+            ("contact kept up to", rpm(self.keep_contact_rad_s.unwrap_or(0.0)), self.contact_from[0]),
+        ];
+        rows.extend(self.lift_off_rad_s.map(|w| ("sprags off by", rpm(w), self.contact_from[1])));
+        if let Some(swing) = purpose.excitation {
+            rows.push(("torque swings by", of(swing.share.value * self.torque_nm, "Nm"), swing.share.from));
+            rows.push(("that often", of(swing.frequency_hz.value, "Hz"), swing.frequency_hz.from));
+        }
+        rows.retain(|(.., from)| *from != "asked for");
+        rows
     }
 
     /// Refuse what no clutch of this kind is asked for.

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::finish::{KEPT, Made, build, finish};
-use super::proportions::{COUNTS, LENGTHS, SPACES_M, draft, lengthen, longest_m};
+use super::proportions::{COUNTS, LENGTHS, OUTSIDES, SPACES_M, THICKER, draft, lengthen, longest_m};
 use super::requirements::{BadRequirement, Requirements};
 use crate::design::Draft;
 use crate::margin::{When, load_margins};
@@ -26,7 +26,7 @@ pub struct Tried {
     /// Nominal torque that it carries at that length with all limits kept, N m.
     pub carries_nm: f64,
     /// Code of the limit with the least margin; what else stands in the way otherwise: `width` and `outside` are those asked
-    /// for.
+    /// for, `count` is a number of sprags outside the family's.
     pub decided_by: String,
     /// Whether it carries what is asked.
     pub held: bool,
@@ -74,7 +74,7 @@ impl fmt::Display for NoSize {
                         b.space_m * 1e3,
                         b.decided_by
                     ),
-                    None => write!(f, "no clutch of this family fits this bore: {}", first_reason(tried)),
+                    None => write!(f, "no clutch of this family fits this bore:{}", first_reason(tried)),
                 }
             }
         }
@@ -82,11 +82,20 @@ impl fmt::Display for NoSize {
 }
 
 fn first_reason(tried: &[Tried]) -> String {
-    tried
-        .iter()
-        .map(|t| format!("{:.2} mm: {}", t.space_m * 1e3, t.decided_by))
-        .collect::<Vec<_>>()
-        .join("; ")
+    let why = |t: &Tried| match t.decided_by.as_str() {
+        "count" => format!("room for {} sprags, the family has {} to {}", t.count, COUNTS.0, COUNTS.1),
+        "width" => {
+            format!("sprags as long as the race space are wider than --width leaves ({} sprags)", t.count)
+        }
+        "outside" => "the outer race would be too thin within --outside".to_owned(),
+        "flanks" => "no flank fits between the arcs of the profile".to_owned(),
+        "lift-off" => "no spring and no flank lets the sprags off by that speed".to_owned(),
+        "keep-contact" => {
+            "a spring that holds the sprags against their centrifugal moment drags too much".to_owned()
+        }
+        other => other.to_owned(),
+    };
+    tried.iter().map(|t| format!("\n  race space {:.2} mm: {}", t.space_m * 1e3, why(t))).collect()
 }
 
 impl std::error::Error for NoSize {}
@@ -100,27 +109,15 @@ fn least(draft: &Draft) -> Result<(f64, String), String> {
     Ok(worst.map_or((0.0, "no limit".to_owned()), |r| (r.margin(), r.code())))
 }
 
-/// Find a design for `wanted`. Every race space of the family is tried; that of the smallest volume is taken.
+/// Find a design for `wanted`. Every race space of the family is tried, with outer races as thick as the maker's and thinner; that of
+/// the smallest volume is taken.
 ///
 /// # Errors
 /// [`NoSize`].
 pub fn size(wanted: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
     wanted.check().map_err(NoSize::Requirements)?;
-    let mut tried = Vec::new();
-    for space_m in SPACES_M {
-        let mut draft = draft(wanted, space_m);
-        if draft.count < COUNTS.0 || draft.count > COUNTS.1 {
-            continue;
-        }
-        let mut one = width(wanted, &mut draft, space_m);
-        if one.held {
-            match finish(wanted, draft, settings) {
-                Ok(made) => one.take(made),
-                Err(why) => (one.held, one.decided_by) = (false, why),
-            }
-        }
-        tried.push(one);
-    }
+    let tried: Vec<Tried> =
+        SPACES_M.iter().filter_map(|&space_m| smallest(wanted, space_m, settings)).collect();
     let made = tried.iter().enumerate().filter_map(|(i, t)| Some((i, t.volume_m3, t.made.clone()?)));
     match made.min_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((taken, _, made)) => Ok(Sized { made, tried, taken }),
@@ -128,13 +125,46 @@ pub fn size(wanted: &Requirements, settings: &Settings) -> Result<Sized, NoSize>
     }
 }
 
+/// The smallest ring of this race space; where none does it, the one that carries most.
+fn smallest(wanted: &Requirements, space_m: f64, settings: &Settings) -> Option<Tried> {
+    let mut best: Option<Tried> = None;
+    for walls in THICKER.into_iter().flat_map(|wall| OUTSIDES.map(|outside| [wall, outside])) {
+        let mut draft = draft(wanted, space_m, walls);
+        let mut one = width(wanted, &mut draft, space_m);
+        // Scenes ask for more width, never for less.
+        let smaller = |than: &Tried| !than.held || volume_m3(draft.races_m, draft.width_m) < than.volume_m3;
+        if one.held && best.as_ref().is_none_or(smaller) {
+            match finish(wanted, draft, settings) {
+                Ok(made) => one.take(made),
+                Err(why) => (one.held, one.decided_by) = (false, why),
+            }
+        } else if one.held {
+            continue;
+        }
+        let better = |than: &Tried| match (one.held, than.held) {
+            (true, true) => one.volume_m3 < than.volume_m3,
+            (false, false) => one.carries_nm > than.carries_nm,
+            (held, _) => held,
+        };
+        if best.as_ref().is_none_or(better) {
+            best = Some(one);
+        }
+    }
+    best
+}
+
+/// Of the ring from bore to outside, m^3.
+fn volume_m3([bore, .., outside]: [f64; 4], width_m: f64) -> f64 {
+    std::f64::consts::PI * (outside * outside - bore * bore) * width_m
+}
+
 impl Tried {
     /// What came of it: the count and length that neighbours and scenes asked for.
     fn take(&mut self, made: Made) {
         let (s, r) = (&made.design.clutch.sprags, &made.design.clutch.races);
         (self.count, self.length_m) = (s.count, s.length_m);
-        let (bore, outside) = (r.inner_bore_radius_m, r.outer_outside_radius_m);
-        self.volume_m3 = std::f64::consts::PI * (outside * outside - bore * bore) * r.width_m;
+        let radii_m = [r.inner_bore_radius_m, r.inner_radius_m, r.outer_radius_m, r.outer_outside_radius_m];
+        self.volume_m3 = volume_m3(radii_m, r.width_m);
         if let Some(least) = made.least() {
             self.decided_by = least.code();
         }
@@ -161,8 +191,13 @@ fn width(wanted: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
         made: None,
     };
     let wall = draft.races_m[3] - draft.races_m[2];
-    if wall < WALL * space_m || high < low {
-        one.decided_by = if high < low { "width" } else { "outside" }.to_owned();
+    let in_the_way = [
+        ("count", !(COUNTS.0..=COUNTS.1).contains(&draft.count)),
+        ("width", high < low),
+        ("outside", wall < WALL * space_m),
+    ];
+    if let Some((what, _)) = in_the_way.iter().find(|(_, bars)| *bars) {
+        one.decided_by = (*what).to_owned();
         return one;
     }
     match at(draft, high) {

@@ -18,7 +18,7 @@ pub use body::{
     margin_text, margin_words, people_table, unit_cell,
 };
 
-pub(super) use text::REACHED_AT;
+pub(super) use text::{REACHED_AT, size_line};
 
 use super::left_out::{LeftOut, left_out, off_centre};
 use super::{Envelope, Provenance};

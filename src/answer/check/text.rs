@@ -3,7 +3,7 @@
 use super::{CheckAnswer, NONE_SUFFICES, OVERLOADED, people_table};
 use crate::design::Design;
 use crate::margin::{Demand, Margin};
-use crate::report::{Screen, greek};
+use crate::report::{Screen, Unit, greek};
 
 /// What a capacity in a table of margins means.
 pub(crate) const REACHED_AT: &str =
@@ -20,6 +20,8 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
     let table = people_table(&check.rows, check.state.curve.end_torque_nm()).to_text(screen);
     let mut out = format!("{}  {}\n\n{table}\n", design.name, &design.hash.get(..12).unwrap_or(&design.hash));
     out.push_str(&body.verdict());
+    out.push('\n');
+    out.push_str(&size_line(design));
     out.push('\n');
     for line in body.remarks().into_iter().chain(overrunning(design)) {
         out.push_str(&greek(&line));
@@ -42,6 +44,18 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
         ));
     }
     out
+}
+
+/// Outside, width and mass in one line.
+pub(in crate::answer) fn size_line(design: &Design) -> String {
+    let races = &design.clutch.races;
+    let mass_kg: f64 = design.clutch.masses_kg().iter().sum();
+    format!(
+        "⌀ {} outside, {} wide, {}",
+        Unit::Millimetre.show_plain(2.0 * races.outer_outside_radius_m, 4),
+        Unit::Millimetre.show_plain(races.width_m, 4),
+        Unit::Gram.show_plain(mass_kg, 4)
+    )
 }
 
 /// Why steady overruns have no rows, where the design has any.

@@ -2,7 +2,7 @@
 
 use crate::answer::check::ends_first;
 use crate::compare::Subject;
-use crate::margin::When;
+use crate::margin::{When, overrun_at};
 use crate::report::Unit;
 use crate::wedge::StaticPoint;
 
@@ -54,7 +54,7 @@ fn at_peak(subject: &Subject, value: fn(&StaticPoint) -> f64) -> Option<f64> {
 }
 
 /// All of them.
-pub(super) const FIGURES: [Figure; 18] = [
+pub(super) const FIGURES: [Figure; 21] = [
     figure("torque_capacity_nominal_nm", "torque capacity, nominal", Unit::NewtonMetre, |s| {
         capacity(s, true)
     }),
@@ -92,5 +92,12 @@ pub(super) const FIGURES: [Figure; 18] = [
     figure("lift_off_rpm", "lift-off in overrun", Unit::Rpm, |s| s.lift_off_rad_s),
     figure("mass_g", "mass, sprags and races", Unit::Gram, |s| {
         Some(s.design.clutch.masses_kg().iter().sum())
+    }),
+    figure("outside_diameter_mm", "outside diameter", Unit::Millimetre, |s| {
+        Some(2.0 * s.design.clutch.races.outer_outside_radius_m)
+    }),
+    figure("race_width_mm", "width of the races", Unit::Millimetre, |s| Some(s.design.clutch.races.width_m)),
+    figure("drag_torque_slow_nm", "drag torque, slow overrun", Unit::NewtonMetre, |s| {
+        overrun_at(&s.design, &s.state, 0.0, 0.0).ok().map(|p| p.state.drag_torque_nm)
     }),
 ];

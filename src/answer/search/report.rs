@@ -100,7 +100,7 @@ impl SearchReport<'_> {
         });
         page.heading("Margins");
         page.table(
-            "Margins before and after; the slip rows are the objectives, all others are limits",
+            "Margins before and after; those of the objective are raised, all others are limits",
             &story.margin_table(),
         );
         page.paragraph(&format!("Active at the optimum: {}.", story.active().join(", ")));

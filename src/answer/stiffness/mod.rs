@@ -206,7 +206,7 @@ pub fn curves(
     Ok(laws.collect())
 }
 
-/// Torques of the table, N m: those asked for, or an even table up to the largest asked for, else up to the
+/// Torques of the table, N m: those asked for, or an even table up to the largest asked for or the last end of a curve, else up to the
 /// design's peak torque or the first end of a curve, whichever comes first.
 fn torques(
     settings: &StiffnessSettings,
@@ -217,8 +217,10 @@ fn torques(
         return settings.torques_nm.clone();
     }
     let first_end = curves.iter().map(|c| c.2.end_torque_nm()).fold(f64::INFINITY, f64::min);
+    let last_end = curves.iter().map(|c| c.2.end_torque_nm()).fold(0.0, f64::max);
     let largest = settings
         .max_torque_nm
+        .map(|asked| asked.min(last_end))
         .unwrap_or_else(|| design.limits.peak_torque_nm.map_or(first_end, |peak| peak.min(first_end)));
     (1..=EVEN_ROWS).map(|i| largest * i as f64 / EVEN_ROWS as f64).collect()
 }
