@@ -166,7 +166,7 @@ pub(super) const DRIVE_HZ: f64 = 25.0;
 const SOFT: f64 = 0.02;
 
 impl Purpose {
-    /// Its scenes for a clutch that does what `ask` says, its secant stiffness at nominal torque `stiffness_nm_per_rad`, with
+    /// Its scenes for a clutch that does what `wanted` says, its secant stiffness at nominal torque `stiffness_nm_per_rad`, with
     /// `inner_inertia_kg_m2` on the inner race.
     pub(super) fn scenes(
         &self,

@@ -109,7 +109,7 @@ fn least(draft: &Draft) -> Result<(f64, String), String> {
     Ok(worst.map_or((0.0, "no limit".to_owned()), |r| (r.margin(), r.code())))
 }
 
-/// Find a design for `ask`. Every race space of the family is tried, with outer races as thick as the maker's and thinner; that of
+/// Find a design for `wanted`. Every race space of the family is tried, with outer races as thick as the maker's and thinner; that of
 /// the smallest volume is taken.
 ///
 /// # Errors
