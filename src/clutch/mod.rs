@@ -4,6 +4,7 @@
 //! their units (`design`), allowables (`margin`), how anything is answered. Equations: none of its own; triangle (9) is asked
 //! of `profile`, Lame's press fit of `race`. Table 1 of the paper is a `Clutch`.
 
+mod drivetrain;
 mod kinds;
 mod law;
 mod question;
@@ -11,6 +12,7 @@ mod running;
 mod tolerances;
 
 pub(crate) use law::ROLLER_COEFFICIENT;
+pub use drivetrain::{DriveInertia, DriveTorque, GasTorque, MOST_SHAFTS, Shaft, Towards};
 pub use law::{ContactLaw, LAWS, LawFacts, LawName};
 pub use question::{Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};

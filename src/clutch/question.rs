@@ -2,7 +2,7 @@
 //!
 //! In: nothing. Out: [`Scenario`], SI. Absent: how one is answered. Equations: none.
 
-use super::Clutch;
+use super::{Clutch, DriveInertia};
 
 /// What happens to the clutch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,4 +93,6 @@ pub struct Scenario {
     pub torque_history: Option<Vec<[f64; 2]>>,
     /// Mean speed over time, (s, rad/s).
     pub speed_history: Option<Vec<[f64; 2]>>,
+    /// What turns on either side, each after what it is joined to; none: the races alone.
+    pub drivetrain: Vec<DriveInertia>,
 }

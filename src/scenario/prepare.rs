@@ -2,7 +2,7 @@
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{
-    Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
+    Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, Train, alpha_max_rad, overrun, preloaded,
     settled, settled_end_torque_nm, settled_point,
 };
 use crate::friction::Stribeck;
@@ -170,18 +170,24 @@ fn at_start(
     let alpha_max = alpha_max_rad(clutch, &at_rest);
     let stuck = |place| Mode { place, inner: Grip::Stick, outer: Grip::Stick };
     let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
-    let start = |model: &Model, torque_nm: f64| {
+    let train = Train::new(&scenario.drivetrain).filter(|_| !scenario.drivetrain.is_empty());
+    let train = train.map(|t| t.in_frame(scenario.speed_history.clone()));
+    let start = |model: &mut Model, torque_nm: f64| {
+        let (torque_nm, turn) = model.carries(torque_nm);
         let (found, end_torque_nm) = match scenario.start {
             Start::WithoutSpring => (preloaded(model, torque_nm), model.curve.end_torque_nm()),
             Start::Settled => (settled(model, torque_nm), settled_end_torque_nm(model)),
         };
         let reason = model.curve.end().0.name();
-        found.ok_or(NoScenario::NotCarried { torque_nm, end_torque_nm, reason })
+        let (mut state, place) = found.ok_or(NoScenario::NotCarried { torque_nm, end_torque_nm, reason })?;
+        (state[2], state[3]) = (state[2] + turn, state[3] + turn);
+        Ok((state, place))
     };
     match scenario.kind {
         ScenarioKind::Static { torque_nm } => {
-            let model = Model::new(clutch, at_rest, Loads { inner_nm: -torque_nm, ..still }, alpha_max, 0.0);
-            let (state, place) = start(&model, torque_nm)?;
+            let loads = Loads { inner_nm: -torque_nm, ..still };
+            let mut model = Model::new(clutch, at_rest, loads, alpha_max, 0.0);
+            let (state, place) = start(&mut model, torque_nm)?;
             Ok(finish(model, state, stuck(place), 0.0, None, None))
         }
         ScenarioKind::TorsionalExcitation {
@@ -199,8 +205,8 @@ fn at_start(
                 omega_rad_s: std::f64::consts::TAU * frequency_hz,
                 abutment_nm_per_rad: abutment_stiffness_nm_per_rad,
             };
-            let model = Model::new(clutch, curve, loads, alpha_max, 0.0);
-            let (state, place) = start(&model, preload_nm)?;
+            let mut model = Model::new(clutch, curve, loads, alpha_max, 0.0).joined(train);
+            let (state, place) = start(&mut model, preload_nm)?;
             Ok(finish(model, state, stuck(place), duration_s, Some(1.0 / frequency_hz), None))
         }
         ScenarioKind::Engagement {
@@ -215,7 +221,7 @@ fn at_start(
                 abutment_nm_per_rad: stop_stiffness_nm_per_rad,
                 ..still
             };
-            let model = Model::new(clutch, at_rest, loads, alpha_max, bench_inertia_kg_m2);
+            let model = Model::new(clutch, at_rest, loads, alpha_max, bench_inertia_kg_m2).joined(train);
             let start = FreeRun { clutch: clutch.clone(), curve: None, speed_rad_s: free_run_rad_s };
             let free = start.steady(&model, &model.friction);
             let (state, mode) = overrunning(&free, &model.curve, free_run_rad_s);
@@ -252,14 +258,16 @@ fn at_start(
                 None
             };
             let largest = drive.torque_nm.as_ref().map_or(0.0, |c| c.extremes()[1]);
+            let largest = train.as_ref().map_or(largest, |t| largest.max(t.largest_nm()));
             let mut model = Model::new(clutch, curve, loads, alpha_max, 0.0);
             model.drive = drive;
+            let mut model = model.joined(train);
             let free = free_run.as_ref().map(|f| f.steady(&model, &model.friction));
             let (state, mode) = match &free {
                 Some(free) => overrunning(free, &model.curve, overrun_rad_s),
                 None => {
                     let torque_nm = model.drive.torque_at(0.0).max(0.0);
-                    let (state, place) = start(&model, torque_nm)?;
+                    let (state, place) = start(&mut model, torque_nm)?;
                     (state, stuck(place))
                 }
             };
