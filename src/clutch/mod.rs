@@ -11,8 +11,8 @@ mod question;
 mod running;
 mod tolerances;
 
-pub(crate) use law::ROLLER_COEFFICIENT;
 pub use drivetrain::{DriveInertia, DriveTorque, GasTorque, MOST_SHAFTS, Shaft, Towards};
+pub(crate) use law::ROLLER_COEFFICIENT;
 pub use law::{ContactLaw, LAWS, LawFacts, LawName};
 pub use question::{Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};

@@ -48,7 +48,9 @@ pub(super) fn inertias(files: &[DriveFile], load: Load<'_>, out: &mut Findings) 
         let speed = history("speed_history_csv", &file.speed_history_csv, HistoryKind::Turn);
         keys(file, &path, out);
         match (torque, speed) {
-            (Some(torque), Some(speed)) => all.push(Named { to: file.to.clone(), inertia: si(file, torque, speed) }),
+            (Some(torque), Some(speed)) => {
+                all.push(Named { to: file.to.clone(), inertia: si(file, torque, speed) })
+            }
             _ => whole = false,
         }
     }
@@ -175,7 +177,8 @@ fn gas(file: &GasFile) -> GasTorque {
 fn in_order(files: &[DriveFile], mut rest: Vec<Named>, out: &mut Findings) -> Option<Vec<Named>> {
     let mut all: Vec<Named> = Vec::new();
     while !rest.is_empty() {
-        let there = |to: &str| RACES.iter().any(|(race, _)| *race == to) || all.iter().any(|a| a.inertia.name == to);
+        let there =
+            |to: &str| RACES.iter().any(|(race, _)| *race == to) || all.iter().any(|a| a.inertia.name == to);
         let (next, left): (Vec<Named>, Vec<Named>) = rest.into_iter().partition(|one| there(&one.to));
         if next.is_empty() {
             for one in &left {
@@ -191,7 +194,9 @@ fn in_order(files: &[DriveFile], mut rest: Vec<Named>, out: &mut Findings) -> Op
         (all, rest) = (all.into_iter().chain(next).collect(), left);
     }
     for one in &all {
-        let Some(driven) = all.iter().find(|a| a.inertia.name == one.to && a.inertia.speed.is_some()) else { continue };
+        let Some(driven) = all.iter().find(|a| a.inertia.name == one.to && a.inertia.speed.is_some()) else {
+            continue;
+        };
         let at = |name: &str| files.iter().position(|f| f.name == name).unwrap_or(0);
         let key = format!("drivetrain[{}].to", at(&one.inertia.name));
         let other = format!("drivetrain[{}].speed_history_csv", at(&driven.inertia.name));
@@ -214,8 +219,10 @@ pub(super) fn chosen(
     for name in chosen.unwrap_or_default() {
         let known: Vec<&str> = all.iter().map(|a| a.inertia.name.as_str()).collect();
         if !known.contains(&name.as_str()) {
-            let help = super::shape::nearest(name, &known)
-                .map_or_else(|| format!("remove {name:?}"), |near| format!("did you mean {near} for {name:?}?"));
+            let help = super::shape::nearest(name, &known).map_or_else(
+                || format!("remove {name:?}"),
+                |near| format!("did you mean {near} for {name:?}?"),
+            );
             let known = if known.is_empty() { "no [[drivetrain]]".to_owned() } else { known.join(", ") };
             out.refuse(&[&key], format!("names of [[drivetrain]]: {known}"), help);
         }
@@ -248,8 +255,11 @@ pub(super) fn chosen(
             .map(|(_, t)| t.name.as_str())
             .collect();
         if driven.len() > 1 {
-            let allowed =
-                format!("one given speed on the side of a race, found {} at the {}", driven.join(", "), race.0);
+            let allowed = format!(
+                "one given speed on the side of a race, found {} at the {}",
+                driven.join(", "),
+                race.0
+            );
             out.refuse(&[at], allowed, "leave one of them".to_owned());
         }
     }

@@ -151,21 +151,26 @@ pub(super) fn scenarios(
             out.within(&path, |out| overridden(document, &overrides, out))
         };
         match (&mut all, kind, clutch, torque, speed, train) {
-            (Some(list), Some(kind), Some(clutch), Some(torque_history), Some(speed_history), Some(drivetrain)) => {
-                list.push(Scenario {
-                    name: entry.name.clone(),
-                    kind,
-                    start: match entry.start {
-                        None | Some(StartFile::Settled) => Start::Settled,
-                        Some(StartFile::WithoutSpring) => Start::WithoutSpring,
-                    },
-                    clutch,
-                    torque_history,
-                    speed_history,
-                    drivetrain,
-                    overrides: overrides.iter().map(|(name, _)| (*name).to_owned()).collect(),
-                })
-            }
+            (
+                Some(list),
+                Some(kind),
+                Some(clutch),
+                Some(torque_history),
+                Some(speed_history),
+                Some(drivetrain),
+            ) => list.push(Scenario {
+                name: entry.name.clone(),
+                kind,
+                start: match entry.start {
+                    None | Some(StartFile::Settled) => Start::Settled,
+                    Some(StartFile::WithoutSpring) => Start::WithoutSpring,
+                },
+                clutch,
+                torque_history,
+                speed_history,
+                drivetrain,
+                overrides: overrides.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            }),
             _ => all = None,
         }
     }

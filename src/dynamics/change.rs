@@ -202,7 +202,8 @@ where
         self.renew(mode);
         if let Some((p, f)) = next.seen {
             let look = seen(self.model, &mode, &self.run.state, &p, &f, !self.settings.rolling);
-            (self.slope, self.seen) = (self.model.slope_of(&mode, t, &self.run.state, &rates, &f), Some(look));
+            (self.slope, self.seen) =
+                (self.model.slope_of(&mode, t, &self.run.state, &rates, &f), Some(look));
         }
         self.run.mode = mode;
         self.run.note_engagement();

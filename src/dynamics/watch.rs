@@ -13,12 +13,7 @@ where
     Const<N>: Size,
 {
     /// Extremes and samples inside the step.
-    pub(super) fn watch(
-        &mut self,
-        step: &Step<N>,
-        looks: &Looks,
-        rhs: &mut Observed,
-    ) -> Result<(), ()> {
+    pub(super) fn watch(&mut self, step: &Step<N>, looks: &Looks, rhs: &mut Observed) -> Result<(), ()> {
         let (mode, model) = (self.run.mode, self.model);
         let (start, length) = (step.t(), step.h());
         let t_end = start + length;

@@ -2,8 +2,8 @@
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{
-    Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, Train, alpha_max_rad, overrun, preloaded,
-    settled, settled_end_torque_nm, settled_point,
+    Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, Train, alpha_max_rad, overrun,
+    preloaded, settled, settled_end_torque_nm, settled_point,
 };
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;

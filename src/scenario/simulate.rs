@@ -379,6 +379,7 @@ fn answer(prepared: &Prepared, settings: &Settings, of: &Try) -> Simulation {
         engaged: run.engaged,
         held: run.first_hold(),
         modes: run.modes.clone(),
+        train: run.train.clone(),
         overrun: prepared.overrun,
     }
 }

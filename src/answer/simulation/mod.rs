@@ -7,6 +7,7 @@ mod errors;
 mod history;
 mod left_out;
 mod notes;
+mod train;
 mod unfelt;
 mod verdict;
 
@@ -15,6 +16,7 @@ pub use body::{Body, Energy, Equilibrium, Extreme, Extremes, Fast, Slip, Slips};
 pub use damping::Effect;
 pub use errors::Errors;
 pub use history::{History, Row, Values, word};
+pub use train::Eigenfrequency;
 pub use verdict::LIFT_OFF_SEARCH_RAD_S;
 
 use super::left_out::LeftOut;

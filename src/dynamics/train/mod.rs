@@ -20,8 +20,8 @@ mod torque;
 mod turned;
 
 pub use modes::TrainMode;
-pub(super) use run::integrate;
 pub use run::TrainRun;
+pub(super) use run::integrate;
 use torque::Torque;
 use turned::Turned;
 
@@ -219,7 +219,8 @@ impl Train {
     pub fn begin_at(&mut self, run: &TrainRun) {
         self.begins = run.engaged.or(self.begins);
         for (body, stood) in self.bodies.iter_mut().zip(&run.train.bodies) {
-            if let (Motion::Given(_, at_start), Motion::Given(_, of_run)) = (&mut body.motion, &stood.motion) {
+            if let (Motion::Given(_, at_start), Motion::Given(_, of_run)) = (&mut body.motion, &stood.motion)
+            {
                 *at_start = *of_run;
             }
         }
@@ -260,7 +261,8 @@ impl Train {
             }
         };
         for (b, body) in (2..).zip(&self.bodies) {
-            let shaft = body.stiffness_nm_per_rad * at.twist[b] + body.damping_nm_s_per_rad * at.twist_rate[b];
+            let shaft =
+                body.stiffness_nm_per_rad * at.twist[b] + body.damping_nm_s_per_rad * at.twist_rate[b];
             add(b, -shaft);
             add(body.parent, shaft);
             add(b, -body.fixed.drag_nm_s_per_rad * (speed + at.rate[b]));

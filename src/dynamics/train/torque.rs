@@ -97,8 +97,7 @@ impl GasTorque {
         if (PI..3.0 * PI).contains(&x) {
             return 0.0;
         }
-        let (l, swept, e, n) =
-            (self.rod_ratio, self.swept_volume_m3, self.compression_ratio, self.exponent);
+        let (l, swept, e, n) = (self.rod_ratio, self.swept_volume_m3, self.compression_ratio, self.exponent);
         let (sin, cos) = x.sin_cos();
         let root = (1.0 - l * l * sin * sin).sqrt();
         let smallest = swept / (e - 1.0);
@@ -146,7 +145,11 @@ mod tests {
             let points = 200_000;
             let at = |i: usize| gas.torque_nm(2.0 * TAU * (i as f64 + 0.5) / points as f64);
             let mean = (0..points).map(at).sum::<f64>() / points as f64;
-            assert!((mean - gas.mean_nm()).abs() < 1e-7 * gas.mean_nm().max(10.0), "{mean} {}", gas.mean_nm());
+            assert!(
+                (mean - gas.mean_nm()).abs() < 1e-7 * gas.mean_nm().max(10.0),
+                "{mean} {}",
+                gas.mean_nm()
+            );
         }
     }
 
