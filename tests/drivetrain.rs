@@ -220,7 +220,10 @@ duration_s = 0.02
     });
     println!("{by_stiffness:?}");
     // The error falls as 1/k.
-    assert!(by_stiffness[0] < 1e-3 * lumped.0.abs() && by_stiffness[2] < 2e-2 * by_stiffness[0], "{by_stiffness:?}");
+    assert!(
+        by_stiffness[0] < 1e-3 * lumped.0.abs() && by_stiffness[2] < 2e-2 * by_stiffness[0],
+        "{by_stiffness:?}"
+    );
 }
 
 /// Races and two inertias by hand: with the clutch as a spring k of two masses, f = sqrt(k (1/J_1 + 1/J_2))/2 pi.
@@ -405,25 +408,47 @@ fn what_is_wrong_is_told_with_line_and_key() {
         (a.replace("\"a\"", "\"outer-race\""), "drivetrain[0].name", "none of a race"),
         (format!("{a}{a}"), "drivetrain[1].name", "no other inertia has"),
         (
-            format!("{}{}", a.replace("inner-race", "b"), a.replace("\"a\"", "\"b\"").replace("inner-race", "a")),
+            format!(
+                "{}{}",
+                a.replace("inner-race", "b"),
+                a.replace("\"a\"", "\"b\"").replace("inner-race", "a")
+            ),
             "drivetrain[0].to",
             "leads to a race",
         ),
         (long(9), "drivetrain", "at most 8 inertias on shafts, found 9"),
-        (a.replace("stiffness_nm", "damping_nm_s"), "drivetrain[0].damping_nm_s_per_rad", "only together with"),
+        (
+            a.replace("stiffness_nm", "damping_nm_s"),
+            "drivetrain[0].damping_nm_s_per_rad",
+            "only together with",
+        ),
         (a.replace("= 100.0", "= 0.0"), "drivetrain[0].stiffness_nm_per_rad", "above 0"),
         (format!("{a}torque_history_csv = \"none.csv\"\n"), "drivetrain[0].torque_history_csv", "CSV file"),
-        (format!("{driven}torque_nm = 3.0\n"), "drivetrain[0].torque_nm", "no torque_nm where the speed is given"),
+        (
+            format!("{driven}torque_nm = 3.0\n"),
+            "drivetrain[0].torque_nm",
+            "no torque_nm where the speed is given",
+        ),
         (
             driven.replace("stiffness_nm_per_rad = 100.0\n", ""),
             "drivetrain[0].speed_history_csv",
             "only together with stiffness_nm_per_rad",
         ),
-        (format!("{driven}{}", driven.replace("\"d\"", "\"e\"")), "drivetrain", "one given speed on the side"),
-        (format!("{driven}{}", a.replace("inner-race", "d")), "drivetrain[1].to", "beyond a given speed"),
-        (format!("{a}orders = [{{ order = 0.0, amplitude_nm = 1.0 }}]\n"), "drivetrain[0].orders[0].order", "above 0"),
         (
-            format!("{a}gas = {{ cylinders = 0, bore_mm = 80.0, stroke_mm = 80.0, compression_ratio = 10.0 }}\n"),
+            format!("{driven}{}", driven.replace("\"d\"", "\"e\"")),
+            "drivetrain",
+            "one given speed on the side",
+        ),
+        (format!("{driven}{}", a.replace("inner-race", "d")), "drivetrain[1].to", "beyond a given speed"),
+        (
+            format!("{a}orders = [{{ order = 0.0, amplitude_nm = 1.0 }}]\n"),
+            "drivetrain[0].orders[0].order",
+            "above 0",
+        ),
+        (
+            format!(
+                "{a}gas = {{ cylinders = 0, bore_mm = 80.0, stroke_mm = 80.0, compression_ratio = 10.0 }}\n"
+            ),
             "drivetrain[0].gas.cylinders",
             "of at least 1",
         ),
@@ -431,11 +456,21 @@ fn what_is_wrong_is_told_with_line_and_key() {
     for (train, key, words) in &cases {
         refused(&format!("{train}{scene}"), key, words);
     }
-    refused(&format!("{a}{scene}drivetrain = [\"b\"]\n"), "scenarios[0].drivetrain", "names of [[drivetrain]]: a");
-    let b = a.replace("\"a\"", "\"b\"").replace("inner-race", "a");
-    refused(&format!("{a}{b}{scene}drivetrain = [\"b\"]\n"), "scenarios[0].drivetrain", "a too, which b is joined to");
     refused(
-        &format!("{a}[[scenarios]]\nname = \"s\"\nkind = \"static\"\ntorque_nm = 3.0\ndrivetrain = [\"a\"]\n"),
+        &format!("{a}{scene}drivetrain = [\"b\"]\n"),
+        "scenarios[0].drivetrain",
+        "names of [[drivetrain]]: a",
+    );
+    let b = a.replace("\"a\"", "\"b\"").replace("inner-race", "a");
+    refused(
+        &format!("{a}{b}{scene}drivetrain = [\"b\"]\n"),
+        "scenarios[0].drivetrain",
+        "a too, which b is joined to",
+    );
+    refused(
+        &format!(
+            "{a}[[scenarios]]\nname = \"s\"\nkind = \"static\"\ntorque_nm = 3.0\ndrivetrain = [\"a\"]\n"
+        ),
         "scenarios[0].drivetrain",
         "for kind static",
     );

@@ -4,6 +4,7 @@ mod facts;
 mod history;
 mod page;
 mod told;
+mod train;
 
 use super::exit::{Exit, Failure};
 use super::parts::{self, Answer};

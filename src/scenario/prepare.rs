@@ -26,6 +26,8 @@ pub enum NoScenario {
         /// Name of the curve's end.
         reason: &'static str,
     },
+    /// The published scheme integrates the clutch alone, and the scene has a drivetrain.
+    PublishedTrain,
 }
 
 impl std::fmt::Display for NoScenario {
@@ -33,6 +35,9 @@ impl std::fmt::Display for NoScenario {
         match self {
             Self::Profile(e) => write!(f, "the profile cannot be placed: {e}"),
             Self::Curve(e) => write!(f, "no wedge curve: {e}"),
+            Self::PublishedTrain => f.write_str(
+                "the published scheme moves no drivetrain: take the event method, or give the scenario drivetrain = []",
+            ),
             Self::NotCarried { torque_nm, end_torque_nm, reason } => {
                 write!(f, "{torque_nm} Nm is not carried: the curve ends at {end_torque_nm:.4} Nm ({reason})")
             }
@@ -180,7 +185,9 @@ fn at_start(
         };
         let reason = model.curve.end().0.name();
         let (mut state, place) = found.ok_or(NoScenario::NotCarried { torque_nm, end_torque_nm, reason })?;
-        (state[2], state[3]) = (state[2] + turn, state[3] + turn);
+        if turn != 0.0 {
+            (state[2], state[3]) = (state[2] + turn, state[3] + turn);
+        }
         Ok((state, place))
     };
     match scenario.kind {

@@ -1,6 +1,6 @@
 //! The HTML report of a simulation.
 
-use super::facts;
+use super::{facts, train};
 use crate::answer::simulation::{Ran, Row, SimulationAnswer, word};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
@@ -103,7 +103,14 @@ fn described(scene: &Ran) -> String {
             Unit::Rpm.show_plain(overrun_rad_s, 6)
         ),
     };
-    what + &overrides
+    let train = match scene.scenario.drivetrain.as_slice() {
+        [] => String::new(),
+        some => {
+            let names: Vec<&str> = some.iter().map(|d| d.name.as_str()).collect();
+            format!(" Drivetrain: {}.", names.join(", "))
+        }
+    };
+    what + &train + &overrides
 }
 
 /// Course of the torque and of the mean speed of a transient, in words.
@@ -157,6 +164,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
         "Torque from outside, on both races together, and what the clutch carries, positive in the sense in which it does; the rest \
          speeds the races up.",
     );
+    train::figures(page, scene);
     let turning = if rows.iter().any(|r| r.acting[1] != 0.0) { ", relative to the mean speed" } else { "" };
     let largest_rad = largest(&rows, &|r| r.sample.state[2].abs().max(r.sample.state[3].abs()));
     let (unit, per_rad) = if largest_rad < FOUR_DIGITS * 1e-3 { ("mrad", 1e3) } else { ("rad", 1.0) };
@@ -188,7 +196,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
     pressures(page, scene, prepared, s, &rows);
 }
 
-fn plot(y_title: &str) -> Plot {
+pub(super) fn plot(y_title: &str) -> Plot {
     Plot::new(TIME, y_title).sized(720.0, 300.0)
 }
 
@@ -203,7 +211,7 @@ const COLUMNS: f64 = 600.0;
 
 /// Of many points those that are seen: in each column the first, the lowest, the highest and the last, and a gap where the
 /// column has one.
-fn envelope(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+pub(super) fn envelope(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let (Some(first), Some(last)) = (points.first().copied(), points.last().copied()) else { return points };
     if points.len() <= DRAWN {
         return points;
