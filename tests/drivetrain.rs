@@ -403,6 +403,14 @@ fn what_is_wrong_is_told_with_line_and_key() {
         (a.replace("1e-3", "-1e-3"), "drivetrain[0].inertia_kg_m2", "of at least 0"),
         (a.replace("1e-3", "0.0"), "drivetrain[0].inertia_kg_m2", "above 0 on a shaft"),
         (format!("{a}ratio = 0.0\n"), "drivetrain[0].ratio", "other than 0"),
+        (
+            format!(
+                "{a}ratio = 1e4\n{}ratio = 1e4\n",
+                a.replace("\"a\"", "\"b\"").replace("inner-race", "a")
+            ),
+            "drivetrain[1].ratio",
+            "1e-6 to 1e6 turns for one of the race in all, found 1e8",
+        ),
         (a.replace("inner-race", "inner-rase"), "drivetrain[0].to", "did you mean inner-race"),
         (a.replace("inner-race", "a"), "drivetrain[0].to", "goes round in a ring"),
         (a.replace("\"a\"", "\"outer-race\""), "drivetrain[0].name", "none of a race"),

@@ -1,10 +1,10 @@
 //! `simulate`: one scenario in time.
 
+mod drivetrain;
 mod facts;
 mod history;
 mod page;
 mod told;
-mod train;
 
 use super::exit::{Exit, Failure};
 use super::parts::{self, Answer};

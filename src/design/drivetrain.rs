@@ -14,6 +14,9 @@ use std::f64::consts::FRAC_PI_4;
 /// What an inertia may be joined to beside others.
 const RACES: [(&str, Towards); 2] = [("inner-race", Towards::InnerRace), ("outer-race", Towards::OuterRace)];
 
+/// Turns of an inertia for one turn of its race, either way: more is no gearbox, and its square is to be a number.
+const TURNS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+
 /// An inertia with what its file says of its place: by name, for a scenario picks some.
 #[derive(Debug, Clone)]
 pub(super) struct Named {
@@ -203,6 +206,26 @@ fn in_order(files: &[DriveFile], mut rest: Vec<Named>, out: &mut Findings) -> Op
         let allowed = "a race, or an inertia whose speed is not given".to_owned();
         let help = "remove it: beyond a given speed nothing is felt".to_owned();
         out.refuse(&[&key, &other], allowed, help);
+    }
+    let mut turns: Vec<f64> = Vec::new();
+    for one in &all {
+        let of_parent = all.iter().position(|a| a.inertia.name == one.to).map_or(1.0, |p| turns[p]);
+        let total = one.inertia.ratio * of_parent;
+        // Beyond it the first wrong one is told, not all that hang on it.
+        let told = !TURNS.contains(&of_parent.abs());
+        if !told && !TURNS.contains(&total.abs()) {
+            let i = files.iter().position(|f| f.name == one.inertia.name).unwrap_or(0);
+            out.refuse(
+                &[&format!("drivetrain[{i}].ratio")],
+                format!(
+                    "{:e} to {:e} turns for one of the race in all, found {total:e}",
+                    TURNS.start(),
+                    TURNS.end()
+                ),
+                "mend the ratios on the way to the race".to_owned(),
+            );
+        }
+        turns.push(total);
     }
     Some(all)
 }

@@ -1,6 +1,6 @@
 //! The HTML report of a simulation.
 
-use super::{facts, train};
+use super::{drivetrain, facts};
 use crate::answer::simulation::{Ran, Row, SimulationAnswer, word};
 use crate::cli::Context;
 use crate::cli::parts::{self, Answer};
@@ -164,7 +164,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
         "Torque from outside, on both races together, and what the clutch carries, positive in the sense in which it does; the rest \
          speeds the races up.",
     );
-    train::figures(page, scene);
+    drivetrain::figures(page, scene);
     let turning = if rows.iter().any(|r| r.acting[1] != 0.0) { ", relative to the mean speed" } else { "" };
     let largest_rad = largest(&rows, &|r| r.sample.state[2].abs().max(r.sample.state[3].abs()));
     let (unit, per_rad) = if largest_rad < FOUR_DIGITS * 1e-3 { ("mrad", 1e3) } else { ("rad", 1.0) };

@@ -117,6 +117,9 @@ struct Found {
 /// Modes of M x'' + D x' + K x = 0, M and K symmetric, by x = L^-T z with M = L L^T. The damped eigenvalue of a mode is the
 /// one of next magnitude.
 fn eigen(mass: &DMatrix<f64>, damping: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<Vec<Found>> {
+    if [mass, damping, stiffness].into_iter().flatten().any(|x| !x.is_finite()) {
+        return None;
+    }
     let lower = mass.clone().cholesky()?.l();
     let inverse = lower.try_inverse()?;
     let (d, k) = (&inverse * damping * inverse.transpose(), &inverse * stiffness * inverse.transpose());
