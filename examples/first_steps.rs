@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{} is decided by {}: {:+.1} %", design.name, least.name, 100.0 * least.margin);
     }
 
-    let scene = design.simulate("low-6", &simulation::Ask::default())?;
+    let scene = design.simulate("low-6", &simulation::SimulationSettings::default())?;
     let slip = scene.body.slip_margin.map_or("unknown".to_owned(), |m| format!("{:.1} %", 100.0 * m));
     println!("low-6 {}, slip margin {slip}", scene.verdict().unwrap_or("undecided"));
     let history = scene.history();
@@ -19,7 +19,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let most_n = normal_n.iter().fold(0.0_f64, |most, n| most.max(*n));
     println!("{} rows, most at contact A {most_n:.0} N", normal_n.len());
 
-    let ask = search::Ask { starts: Some(1), evaluations: 20, ..search::Ask::default() };
+    let ask =
+        search::SearchSettings { starts: Some(1), evaluations: 20, ..search::SearchSettings::default() };
     let better = design.optimise(&ask)?;
     let found = &better.body;
     let (before, after) = (found.start.objective, found.best.objective);

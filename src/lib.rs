@@ -36,9 +36,9 @@
 //! | 5 | [`report`] | units, tables, plots, drawings; the only way out for mm, degrees, MPa |
 //! | 5 | [`export`] | a clutch as drawing, solid, table or finite-element deck, and the solver's result read back |
 //! | 5 | [`import`] | a drawn or measured outline as arcs and flanks |
-//! | 5 | [`answer`] | what a library user and a program get: figures, errors, notes, what was left out |
+//! | 5 | [`answer`] | what a library user and a program get: figures, errors, notes, tables, pages, what was left out |
 //! | 5 | [`studio`] | the live page: a text in, margins, curves, pictures, a scene's course out |
-//! | 5 | [`cli`] | paths, printing, exit codes |
+//! | 5 | [`cli`] | arguments, paths, printing, journal files, progress, exit codes |
 //!
 //! # Conventions
 //!

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use sprag_design::answer::check::NoCheck;
-use sprag_design::answer::simulation::{Ask, Method, NoAnswer, Setting, Values};
+use sprag_design::answer::simulation::{Integration, NoAnswer, Setting, SimulationSettings, Values};
 use sprag_design::answer::{search, stiffness};
 use sprag_design::{Design, Follow, NoSearch, cli};
 use std::path::Path;
@@ -18,7 +18,7 @@ fn bench() -> Design {
 #[test]
 fn the_command_says_what_the_library_answers() {
     for (scene, rows) in [("overrun", 1), ("step-up", 40)] {
-        let ask = Ask { rows: Some(40), ..Ask::default() };
+        let ask = SimulationSettings { rows: Some(40), ..SimulationSettings::default() };
         let answer = bench().simulate(scene, &ask).unwrap_or_else(|e| panic!("{e}"));
         let csv = std::env::temp_dir().join(format!("sprag-answer-{scene}-{}.csv", std::process::id()));
         let output = Command::new(env!("CARGO_BIN_EXE_sprag-design"))
@@ -57,21 +57,25 @@ fn the_command_says_what_the_library_answers() {
 
 #[test]
 fn what_makes_no_sense_is_refused_before_anything_runs() {
-    let refused = |ask: &Ask| match bench().simulate("step-up", ask) {
+    let refused = |ask: &SimulationSettings| match bench().simulate("step-up", ask) {
         Err(NoAnswer::Refused(refused)) => refused.setting,
         other => panic!("{:?}", other.map(|_| ())),
     };
-    let published = Method::Published { band_m_s: None };
+    let published = Integration::Published { band_m_s: None };
     for (ask, setting) in [
-        (Ask { tolerance: Some(0.1), ..Ask::default() }, Setting::Tolerance),
-        (Ask { step_s: Some(f64::NAN), ..Ask::default() }, Setting::Step),
-        (Ask { step_s: Some(1e3), method: published, ..Ask::default() }, Setting::Step),
-        (Ask { window_s: Some([0.0, 1e3]), ..Ask::default() }, Setting::Window),
-        (Ask { window_s: Some([0.2, 0.1]), ..Ask::default() }, Setting::Window),
+        (SimulationSettings { tolerance: Some(0.1), ..SimulationSettings::default() }, Setting::Tolerance),
+        (SimulationSettings { step_s: Some(f64::NAN), ..SimulationSettings::default() }, Setting::Step),
+        (
+            SimulationSettings { step_s: Some(1e3), method: published, ..SimulationSettings::default() },
+            Setting::Step,
+        ),
+        (SimulationSettings { window_s: Some([0.0, 1e3]), ..SimulationSettings::default() }, Setting::Window),
+        (SimulationSettings { window_s: Some([0.2, 0.1]), ..SimulationSettings::default() }, Setting::Window),
     ] {
         assert_eq!(refused(&ask), setting, "{ask:?}");
     }
-    let error = bench().simulate("step-out", &Ask::default()).map(|_| ()).expect_err("accepted");
+    let error =
+        bench().simulate("step-out", &SimulationSettings::default()).map(|_| ()).expect_err("accepted");
     assert!(error.to_string().contains("no scenario step-out; the design has: engagement"), "{error}");
 }
 
@@ -97,7 +101,10 @@ fn check_and_stiffness_say_what_the_library_answers() {
     assert_eq!(left_out, json(&|| serde_json::to_value(&check.left_out)));
     assert_eq!(error, json(&|| serde_json::to_value(check.errors)));
 
-    let ask = stiffness::Ask { torques_nm: vec![3.0, 1e6], ..stiffness::Ask::default() };
+    let ask = stiffness::StiffnessSettings {
+        torques_nm: vec![3.0, 1e6],
+        ..stiffness::StiffnessSettings::default()
+    };
     let curves = bench().stiffness(&ask).unwrap_or_else(|e| panic!("{e}"));
     let (body, left_out, error) = printed(&["stiffness", BENCH, "--torques", "3,1e6"]);
     assert_eq!(body, json(&|| serde_json::to_value(&curves)));
@@ -111,13 +118,14 @@ fn what_is_stopped_before_it_begins_has_no_answer() {
     let follow = Follow::new();
     follow.stop();
     assert_eq!(bench().check(&follow).err(), Some(NoCheck::Stopped));
-    let ask = stiffness::Ask { follow: follow.clone(), ..stiffness::Ask::default() };
+    let ask =
+        stiffness::StiffnessSettings { follow: follow.clone(), ..stiffness::StiffnessSettings::default() };
     assert_eq!(bench().stiffness(&ask).err(), Some(stiffness::NoStiffness::Stopped));
     let multi_arc =
         Design::read(Path::new("designs/huang2017-multi-arc.toml")).unwrap_or_else(|e| panic!("{e}"));
-    let ask = search::Ask { follow, ..search::Ask::default() };
+    let ask = search::SearchSettings { follow, ..search::SearchSettings::default() };
     assert_eq!(multi_arc.optimise(&ask).err(), Some(NoSearch::Stopped));
-    assert_eq!(bench().optimise(&search::Ask::default()).err(), Some(NoSearch::NoTask));
+    assert_eq!(bench().optimise(&search::SearchSettings::default()).err(), Some(NoSearch::NoTask));
 }
 
 /// A program that carries this one runs it as often as it likes, and stays.

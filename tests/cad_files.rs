@@ -4,7 +4,7 @@
 mod program;
 
 use program::Folder;
-use sprag_design::export::{Part, Subject, dxf::dxf, rows, step::step, svg::svg};
+use sprag_design::export::{DrawnClutch, Part, dxf::dxf, rows, step::step, svg::svg};
 use sprag_design::profile::Segment;
 use sprag_design::{Design, Outline, Profile};
 use std::collections::BTreeMap;
@@ -31,9 +31,9 @@ fn closed(design: &Design) -> (sprag_design::Clutch, Profile, Outline) {
 }
 
 /// `f` of the design's subject.
-fn with<T>(design: &Design, f: impl Fn(&Subject) -> T) -> T {
+fn with<T>(design: &Design, f: impl Fn(&DrawnClutch) -> T) -> T {
     let (clutch, profile, outline) = closed(design);
-    f(&Subject {
+    f(&DrawnClutch {
         name: &design.name,
         hash: &design.hash,
         clutch: &clutch,

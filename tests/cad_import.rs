@@ -5,8 +5,8 @@ mod program;
 
 use nalgebra::Vector2;
 use program::{Folder, json, run, stdout};
-use sprag_design::export::{Part, Subject, dxf::dxf};
-use sprag_design::import::{NoImport, Sprag, Wanted, read_dxf, read_points, sprag};
+use sprag_design::export::{DrawnClutch, Part, dxf::dxf};
+use sprag_design::import::{FittedSprag, NoImport, Wanted, read_dxf, read_points, sprag};
 use sprag_design::{Design, Outline};
 use std::fmt::Write;
 
@@ -21,7 +21,7 @@ fn outline(design: &Design) -> Outline {
 
 fn drawing(design: &Design) -> String {
     let (profile, outline) = (design.clutch.profile().unwrap(), outline(design));
-    let subject = Subject {
+    let subject = DrawnClutch {
         name: &design.name,
         hash: &design.hash,
         clutch: &design.clutch,
@@ -37,7 +37,7 @@ fn wanted(design: &Design) -> Wanted {
 }
 
 /// Arcs, centre distance and flanks of a design, come back.
-fn same(got: &Sprag, design: &Design, scale: f64, within_m: f64) {
+fn same(got: &FittedSprag, design: &Design, scale: f64, within_m: f64) {
     let s = &design.clutch.sprags;
     let near = |a: f64, b: f64, what: &str| assert!((a - b).abs() < within_m, "{what}: {a} {b}");
     near(got.outer_radius_m, scale * s.outer_radius_m, "r_e");

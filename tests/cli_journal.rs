@@ -6,7 +6,7 @@ mod program;
 use program::*;
 use sprag_design::cli::exit::Failure as Refused;
 use sprag_design::cli::journal::{JournalFile, model};
-use sprag_design::optimise::{Entry, Evaluation, Failure, Part, ProblemId};
+use sprag_design::optimise::{Entry, Evaluation, EvaluationPart, NoEvaluation, ProblemId};
 use std::io::Write;
 use std::path::Path;
 use std::process::Output;
@@ -30,7 +30,7 @@ fn search(design: &str, new: &str, more: &[&str]) -> Output {
 fn written(path: &str, model: &str) -> Vec<u8> {
     let mut file = JournalFile::open(Path::new(path), model, "d").unwrap();
     let problem = ProblemId { hash: "p".into(), variables: vec!["x".into()], error: "1e-6".into() };
-    file.append(&problem, &Entry { x: vec![0.5], outcome: Err(Failure::Refused("why".into())) });
+    file.append(&problem, &Entry { x: vec![0.5], outcome: Err(NoEvaluation::Refused("why".into())) });
     drop(file);
     std::fs::read(path).unwrap()
 }
@@ -164,7 +164,7 @@ fn problem() -> ProblemId {
     ProblemId { hash: "p".into(), variables: vec!["r_i2_mm".into(), "x".into()], error: "1e-6".into() }
 }
 
-fn entry(x: f64, outcome: Result<Evaluation, Failure>) -> Entry {
+fn entry(x: f64, outcome: Result<Evaluation, NoEvaluation>) -> Entry {
     Entry { x: vec![x, -0.1], outcome }
 }
 
@@ -176,9 +176,9 @@ fn a_torn_journal_gives_back_every_whole_row_to_the_bit() {
     let good = Evaluation { objectives: vec![0.1 + 0.2, -1e-300], limits: vec![1.0 / 3.0], tie_break: 4.2 };
     let entries = [
         entry(0.1, Ok(good)),
-        entry(0.2, Err(Failure::Refused("a, \"b\";\nc".into()))),
-        entry(0.3, Err(Failure::NotFinite { part: Part::Limit, index: 3 })),
-        entry(0.4, Err(Failure::Shape { expected: (1, 2), found: (3, 4) })),
+        entry(0.2, Err(NoEvaluation::Refused("a, \"b\";\nc".into()))),
+        entry(0.3, Err(NoEvaluation::NotFinite { part: EvaluationPart::Limit, index: 3 })),
+        entry(0.4, Err(NoEvaluation::Shape { expected: (1, 2), found: (3, 4) })),
     ];
     entries.iter().for_each(|e| file.append(&problem(), e));
     drop(file);
@@ -188,7 +188,7 @@ fn a_torn_journal_gives_back_every_whole_row_to_the_bit() {
     drop(torn);
     let mut file = JournalFile::resume(&path, "t 1", "d").unwrap();
     assert_eq!(file.known(&problem()).entries(), &entries);
-    let more = entry(0.6, Err(Failure::Refused("late".into())));
+    let more = entry(0.6, Err(NoEvaluation::Refused("late".into())));
     file.append(&problem(), &more);
     drop(file);
     let file = JournalFile::open(&path, "t 1", "d").unwrap();

@@ -1,6 +1,6 @@
 //! Drivetrains on either side of the clutch: against an independent script, the stepping API, hand formulas and balances.
 
-use sprag_design::answer::simulation::{Ask, SimulationAnswer};
+use sprag_design::answer::simulation::{SimulationAnswer, SimulationSettings};
 use sprag_design::design::Design;
 use sprag_design::dynamics::Grip;
 use sprag_design::element::{Beginning, Element, Settings as Stepping, Torque};
@@ -27,7 +27,8 @@ fn parse(text: &str) -> Design {
 }
 
 fn ran(design: &Design, scene: &str, rows: usize, tolerance: f64) -> SimulationAnswer {
-    let ask = Ask { tolerance: Some(tolerance), rows: Some(rows), ..Ask::default() };
+    let ask =
+        SimulationSettings { tolerance: Some(tolerance), rows: Some(rows), ..SimulationSettings::default() };
     design.simulate(scene, &ask).unwrap_or_else(|e| panic!("{e}"))
 }
 

@@ -60,12 +60,13 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("export", &["numeric", "material", "profile", "clutch", "design", "wedge"]),
     // An outline is a profile and flanks; races are two radii, so no design.
     ("import", &["profile"]),
-    // What is computed is put into words and units here: all but the command.
+    // What is computed is put into words, units and pages here: all but the command.
     (
         "answer",
         &[
-            "follow", "profile", "clutch", "design", "wedge", "dynamics", "scenario", "fidelity", "margin",
-            "optimise", "report",
+            "follow", "material", "profile", "clutch", "design", "contact", "wedge", "dynamics", "scenario",
+            "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export",
+            "import",
         ],
     ),
     // Questions about the text of a design, and their answers as a page shows them.
@@ -80,8 +81,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "element", "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report",
-            "export", "import", "studio",
+            "element", "accuracy", "margin", "optimise", "identify", "size", "report", "export", "import",
+            "studio",
         ],
     ),
 ];
@@ -124,6 +125,13 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
 
 /// Longest file, lines: beyond it, look for the second thing in it. No reason to cut one thing in two.
 const LONGEST: usize = 600;
+
+/// Names that several public types have, each with the reason.
+const SHARED_NAMES: &[(&str, &str)] = &[
+    ("Settings", "of a scene, of a climb, of an element: always written with the room"),
+    ("Step", "of DOP853, of Radau IIA, and either: always written with the method"),
+    ("Dense", "the same of dense output"),
+];
 
 /// Every numbered equation of the paper.
 fn numbers() -> Vec<String> {
@@ -352,6 +360,27 @@ fn every_room_opens_with_in_out_absent_equations() {
         }
     }
     assert!(rooms > 12);
+}
+
+#[test]
+fn a_public_type_has_a_name_of_its_own() {
+    let mut homes: std::collections::BTreeMap<String, Vec<String>> = std::collections::BTreeMap::new();
+    for (file, text) in shipped() {
+        for line in text.lines() {
+            let kinds = ["struct", "enum", "trait", "type", "union"];
+            let Some(rest) = kinds.iter().find_map(|kind| line.strip_prefix(&format!("pub {kind} "))) else {
+                continue;
+            };
+            let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+            homes.entry(rest[..end].to_owned()).or_default().push(file.clone());
+        }
+    }
+    assert!(homes.len() > 300, "only {} types found: the scan is broken", homes.len());
+    let excused = |name: &str| SHARED_NAMES.iter().any(|(shared, _)| *shared == name);
+    for (name, files) in &homes {
+        assert!(files.len() == 1 || excused(name), "{name} stands in {}", files.join(", "));
+        assert!(files.len() > 1 || !excused(name), "{name} needs no exception");
+    }
 }
 
 #[test]

@@ -11,7 +11,7 @@ use sprag_design::design::Design;
 use sprag_design::margin::{load_margins, load_state, margins};
 use sprag_design::material::steel;
 use sprag_design::scenario::Settings;
-use sprag_design::size::{Ask, NoSize, PURPOSES, Sized, Wish, size};
+use sprag_design::size::{NoSize, PURPOSES, Requirements, Sized, Wish, size};
 
 fn stderr(output: &std::process::Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
@@ -21,7 +21,7 @@ fn wish(bore_mm: f64, torque_nm: f64) -> Wish {
     Wish { bore_m: Some(bore_mm / 1e3), torque_nm: Some(torque_nm), ..Wish::default() }
 }
 
-fn ask(bore_mm: f64, torque_nm: f64, rpm: f64, safety: f64, friction: f64) -> Ask {
+fn ask(bore_mm: f64, torque_nm: f64, rpm: f64, safety: f64, friction: f64) -> Requirements {
     Wish {
         keep_contact_rad_s: Some(rpm * PI / 30.0),
         peak_over_nominal: Some(safety),
@@ -31,7 +31,7 @@ fn ask(bore_mm: f64, torque_nm: f64, rpm: f64, safety: f64, friction: f64) -> As
     .ask()
 }
 
-fn sized(ask: &Ask) -> Result<Sized, NoSize> {
+fn sized(ask: &Requirements) -> Result<Sized, NoSize> {
     size(ask, &Settings::default())
 }
 
@@ -112,8 +112,24 @@ fn what_is_impossible_names_the_limit_and_the_nearest() {
     let why = NoSize::None { tried }.to_string();
     assert!(why.contains("nearest carries") && why.contains("held up by"), "{why}");
     // What is said to be possible is possible.
-    let nearly = Ask { torque_nm: 0.9 * best, peak_nm: 0.9 * 1.3 * best, ..ask };
+    let nearly = Requirements { torque_nm: 0.9 * best, peak_nm: 0.9 * 1.3 * best, ..ask };
     assert!(sized(&nearly).is_ok(), "{best}");
+}
+
+#[test]
+fn a_bore_without_room_for_the_family_says_how_many_sprags_it_has_room_for() {
+    let Err(NoSize::None { tried }) = sized(&ask(2000.0, 1e5, 0.0, 1.3, 0.11)) else { panic!("2 m") };
+    assert!(tried.len() == 7 && tried.iter().all(|t| t.decided_by == "count" && t.count > 120), "{tried:?}");
+    let why = NoSize::None { tried }.to_string();
+    assert!(why.contains("race space 25.00 mm: room for 343 sprags, the family has 8 to 120"), "{why}");
+}
+
+/// Makers' sprags are longer than they are high.
+#[test]
+fn sprags_are_at_least_as_long_as_the_race_space_is_high() {
+    for tried in sized(&ask(10.0, 20.0, 0.0, 1.5, 0.11)).unwrap().tried.iter().filter(|t| t.held) {
+        assert!(tried.length_m >= tried.space_m - 1e-9, "{tried:?}");
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::border::{
     keep, kept, none, null, put, text, written,
 };
 use crate::slave::{Refused, Stepped};
-use sprag_design::export::fmu::Kind;
+use sprag_design::export::fmu::VariableType;
 use std::ffi::{c_char, c_int, c_uint, c_void};
 use std::path::PathBuf;
 
@@ -109,12 +109,12 @@ macro_rules! setter {
     };
 }
 
-getter!(fmi2GetReal, f64, Kind::Real, |x: f64| x);
-getter!(fmi2GetInteger, c_int, Kind::Integer, |x: f64| x as c_int);
-getter!(fmi2GetBoolean, c_int, Kind::Boolean, |x: f64| c_int::from(x != 0.0));
-setter!(fmi2SetReal, f64, Kind::Real, |x: f64| x);
-setter!(fmi2SetInteger, c_int, Kind::Integer, f64::from);
-setter!(fmi2SetBoolean, c_int, Kind::Boolean, |x: c_int| f64::from(u8::from(x != 0)));
+getter!(fmi2GetReal, f64, VariableType::Real, |x: f64| x);
+getter!(fmi2GetInteger, c_int, VariableType::Integer, |x: f64| x as c_int);
+getter!(fmi2GetBoolean, c_int, VariableType::Boolean, |x: f64| c_int::from(x != 0.0));
+setter!(fmi2SetReal, f64, VariableType::Real, |x: f64| x);
+setter!(fmi2SetInteger, c_int, VariableType::Integer, f64::from);
+setter!(fmi2SetBoolean, c_int, VariableType::Boolean, |x: c_int| f64::from(u8::from(x != 0)));
 
 macro_rules! functions {
     ($($name:ident($c:ident $(, $arg:ident: $type:ty)*) |$i:ident| $body:expr;)*) => { $(

@@ -5,7 +5,7 @@ use crate::border::{
     none, null, put, text, written,
 };
 use crate::slave::Stepped;
-use sprag_design::export::fmu::Kind;
+use sprag_design::export::fmu::VariableType;
 use std::ffi::{c_char, c_int, c_uint, c_void};
 use std::path::PathBuf;
 
@@ -68,12 +68,12 @@ macro_rules! setter {
 }
 
 // A byte of C's bool: what is not 0 is true.
-getter!(fmi3GetFloat64, f64, Kind::Real, |x: f64| x);
-getter!(fmi3GetInt32, i32, Kind::Integer, |x: f64| x as i32);
-getter!(fmi3GetBoolean, u8, Kind::Boolean, |x: f64| u8::from(x != 0.0));
-setter!(fmi3SetFloat64, f64, Kind::Real, |x: f64| x);
-setter!(fmi3SetInt32, i32, Kind::Integer, f64::from);
-setter!(fmi3SetBoolean, u8, Kind::Boolean, |x: u8| f64::from(u8::from(x != 0)));
+getter!(fmi3GetFloat64, f64, VariableType::Real, |x: f64| x);
+getter!(fmi3GetInt32, i32, VariableType::Integer, |x: f64| x as i32);
+getter!(fmi3GetBoolean, u8, VariableType::Boolean, |x: f64| u8::from(x != 0.0));
+setter!(fmi3SetFloat64, f64, VariableType::Real, |x: f64| x);
+setter!(fmi3SetInt32, i32, VariableType::Integer, f64::from);
+setter!(fmi3SetBoolean, u8, VariableType::Boolean, |x: u8| f64::from(u8::from(x != 0)));
 
 /// Functions of the standard.
 macro_rules! functions {

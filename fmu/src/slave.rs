@@ -5,7 +5,8 @@ use sprag_design::clutch::Start;
 use sprag_design::design::is_whole;
 use sprag_design::element::{Beginning, Element, Motion, Saved, Settings, Torque};
 use sprag_design::export::fmu::{
-    FIRST_KEY, Kind, QUANTITIES, Quantity, Role, Subject, Variable, token, variables,
+    ElementQuantity, FIRST_KEY, QUANTITIES, Role, ScalarVariable, VariableSubject, VariableType, token,
+    variables,
 };
 use sprag_design::{Clutch, Design, Stop};
 use std::path::Path;
@@ -49,7 +50,7 @@ pub enum Stepped {
 /// One unit.
 pub struct Slave {
     design: Design,
-    variables: Vec<Variable>,
+    variables: Vec<ScalarVariable>,
     phase: Phase,
     start_s: f64,
     values: Vec<f64>,
@@ -89,7 +90,7 @@ impl Slave {
         (self.element, self.fresh) = (None, false);
     }
 
-    fn place(&self, reference: u32, kind: Kind) -> Result<usize, Refused> {
+    fn place(&self, reference: u32, kind: VariableType) -> Result<usize, Refused> {
         let own = (reference as usize) < QUANTITIES.len();
         let key = || Some(reference.checked_sub(FIRST_KEY)? as usize + QUANTITIES.len());
         let at = if own { Some(reference as usize) } else { key() };
@@ -100,7 +101,7 @@ impl Slave {
         }
     }
 
-    fn own(&self, quantity: Quantity) -> f64 {
+    fn own(&self, quantity: ElementQuantity) -> f64 {
         let at = QUANTITIES.iter().position(|row| row.0 == quantity);
         at.map_or(0.0, |at| self.values[at])
     }
@@ -109,7 +110,7 @@ impl Slave {
     pub fn get(
         &mut self,
         references: &[u32],
-        kind: Kind,
+        kind: VariableType,
         mut put: impl FnMut(usize, f64),
     ) -> Result<(), Refused> {
         let mut seen = None;
@@ -117,13 +118,15 @@ impl Slave {
             let at = self.place(reference, kind)?;
             let value = match (&self.variables[at].subject, self.variables[at].role) {
                 (_, Role::Input | Role::Fixed | Role::Tunable) => self.values[at],
-                (Subject::Own(Quantity::Time), _) => self.element.as_ref().map_or(self.start_s, Element::t_s),
-                (&Subject::Own(quantity), _) => {
+                (VariableSubject::Own(ElementQuantity::Time), _) => {
+                    self.element.as_ref().map_or(self.start_s, Element::t_s)
+                }
+                (&VariableSubject::Own(quantity), _) => {
                     let element = self.element()?;
                     let motion = *seen.get_or_insert_with(|| element.motion());
                     output(element, &motion, quantity)
                 }
-                (Subject::Key(_), _) => self.values[at],
+                (VariableSubject::Key(_), _) => self.values[at],
             };
             put(i, value);
         }
@@ -131,7 +134,7 @@ impl Slave {
     }
 
     /// Set one variable.
-    pub fn set(&mut self, reference: u32, kind: Kind, value: f64) -> Result<(), Refused> {
+    pub fn set(&mut self, reference: u32, kind: VariableType, value: f64) -> Result<(), Refused> {
         let at = self.place(reference, kind)?;
         let v = &self.variables[at];
         if !value.is_finite() {
@@ -167,8 +170,8 @@ impl Slave {
 
     /// Set the slope of an input over the next step.
     pub fn set_slope(&mut self, reference: u32, order: i32, slope: f64) -> Result<(), Refused> {
-        let at = self.place(reference, Kind::Real)?;
-        let Subject::Own(Quantity::Torque(race)) = self.variables[at].subject else {
+        let at = self.place(reference, VariableType::Real)?;
+        let VariableSubject::Own(ElementQuantity::Torque(race)) = self.variables[at].subject else {
             return Err(format!("{}: is no input", self.variables[at].name));
         };
         if order != 1 || !slope.is_finite() {
@@ -182,14 +185,14 @@ impl Slave {
     }
 
     fn torques(&self) -> [f64; 2] {
-        [0, 1].map(|race| self.own(Quantity::Torque(race)))
+        [0, 1].map(|race| self.own(ElementQuantity::Torque(race)))
     }
 
     /// The clutch with the numbers that were set.
     fn clutch(&self) -> Result<Clutch, Refused> {
         let mut settings = Vec::new();
         for (v, &value) in self.variables.iter().zip(&self.values) {
-            if let (Subject::Key(key), true) = (&v.subject, v.start != Some(value)) {
+            if let (VariableSubject::Key(key), true) = (&v.subject, v.start != Some(value)) {
                 // A whole number has no decimals in a design file; where 12.5 is asked for, its own rules say no.
                 let text = if is_whole(key, 0) { format!("{value}") } else { format!("{value:?}") };
                 settings.push((key.clone(), text));
@@ -207,23 +210,23 @@ impl Slave {
     fn beginning(&self) -> Beginning {
         Beginning {
             t_s: self.start_s,
-            speed_rad_s: self.own(Quantity::StartSpeed),
-            overrun_rad_s: self.own(Quantity::StartOverrun),
-            torque_nm: self.own(Quantity::StartTorque),
-            start: if self.own(Quantity::StartWithoutSpring) == 0.0 {
+            speed_rad_s: self.own(ElementQuantity::StartSpeed),
+            overrun_rad_s: self.own(ElementQuantity::StartOverrun),
+            torque_nm: self.own(ElementQuantity::StartTorque),
+            start: if self.own(ElementQuantity::StartWithoutSpring) == 0.0 {
                 Start::Settled
             } else {
                 Start::WithoutSpring
             },
-            angle_rad: self.own(Quantity::StartAngle),
-            abutment_nm_per_rad: self.own(Quantity::Abutment),
+            angle_rad: self.own(ElementQuantity::StartAngle),
+            abutment_nm_per_rad: self.own(ElementQuantity::Abutment),
         }
     }
 
     fn settings(&self) -> Settings {
-        let longest_s = self.own(Quantity::LongestStep);
+        let longest_s = self.own(ElementQuantity::LongestStep);
         let longest_step_s = (longest_s != 0.0).then_some(longest_s);
-        Settings { tolerance: self.own(Quantity::Tolerance), longest_step_s, ..Settings::default() }
+        Settings { tolerance: self.own(ElementQuantity::Tolerance), longest_step_s, ..Settings::default() }
     }
 
     /// The element of the present values.
@@ -247,7 +250,7 @@ impl Slave {
             return Err("the initialisation can begin once; reset the unit first".to_owned());
         }
         if let (Some(tolerance), Some(at)) =
-            (tolerance, QUANTITIES.iter().position(|r| r.0 == Quantity::Tolerance))
+            (tolerance, QUANTITIES.iter().position(|r| r.0 == ElementQuantity::Tolerance))
         {
             self.values[at] = tolerance;
         }
@@ -297,7 +300,7 @@ impl Slave {
         let (reached_s, ended) = (element.t_s(), element.ended().is_some());
         self.slopes = [0.0; 2];
         for (race, torque) in over.iter().enumerate() {
-            if let Some(at) = QUANTITIES.iter().position(|row| row.0 == Quantity::Torque(race)) {
+            if let Some(at) = QUANTITIES.iter().position(|row| row.0 == ElementQuantity::Torque(race)) {
                 self.values[at] = torque.end_nm;
             }
         }
@@ -343,21 +346,21 @@ impl Slave {
     }
 
     fn parameters(&self, values: &[f64]) -> Vec<f64> {
-        let parameter = |v: &Variable| matches!(v.role, Role::Fixed | Role::Tunable);
+        let parameter = |v: &ScalarVariable| matches!(v.role, Role::Fixed | Role::Tunable);
         self.variables.iter().zip(values).filter(|(v, _)| parameter(v)).map(|(_, value)| *value).collect()
     }
 }
 
-fn output(element: &Element, motion: &Motion, quantity: Quantity) -> f64 {
+fn output(element: &Element, motion: &Motion, quantity: ElementQuantity) -> f64 {
     match quantity {
-        Quantity::Angle(race) => motion.flanges[race].angle_rad,
-        Quantity::Speed(race) => motion.flanges[race].speed_rad_s,
-        Quantity::Acceleration(race) => motion.flanges[race].acceleration_rad_s2,
-        Quantity::Normal(at) => motion.contacts[at].normal_n,
-        Quantity::Friction(at) => motion.contacts[at].friction(),
-        Quantity::Slip(at) => f64::from(motion.contacts[at].slips),
-        Quantity::Path(at) => element.slips()[at].distance_m,
-        Quantity::Open => f64::from(u8::from(motion.open)),
+        ElementQuantity::Angle(race) => motion.flanges[race].angle_rad,
+        ElementQuantity::Speed(race) => motion.flanges[race].speed_rad_s,
+        ElementQuantity::Acceleration(race) => motion.flanges[race].acceleration_rad_s2,
+        ElementQuantity::Normal(at) => motion.contacts[at].normal_n,
+        ElementQuantity::Friction(at) => motion.contacts[at].friction(),
+        ElementQuantity::Slip(at) => f64::from(motion.contacts[at].slips),
+        ElementQuantity::Path(at) => element.slips()[at].distance_m,
+        ElementQuantity::Open => f64::from(u8::from(motion.open)),
         _ => motion.t_s,
     }
 }

@@ -8,7 +8,7 @@ use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, json as object};
 use sprag_design::answer::check::NoCheck;
-use sprag_design::answer::simulation::{self, Method, NoAnswer};
+use sprag_design::answer::simulation::{self, Integration, NoAnswer};
 use sprag_design::answer::stiffness::{self, NoStiffness};
 use sprag_design::answer::{LeftOut, search};
 use sprag_design::clutch::LAWS;
@@ -141,7 +141,7 @@ impl Design {
         };
         let laws = laws.iter().map(law).collect::<PyResult<Vec<_>>>()?;
         let (design, stop) = (Arc::clone(&self.design), Follow::new());
-        let ask = stiffness::Ask { laws, torques_nm, max_torque_nm, follow: stop.clone() };
+        let ask = stiffness::StiffnessSettings { laws, torques_nm, max_torque_nm, follow: stop.clone() };
         let answer = compute(py, &stop, move || {
             let started = Instant::now();
             design.stiffness(&ask).map(|a| (a, started.elapsed().as_secs_f64()))
@@ -172,8 +172,8 @@ impl Design {
         full: bool,
     ) -> PyResult<Simulated> {
         let (design, stop) = (Arc::clone(&self.design), Follow::new());
-        let ask = simulation::Ask {
-            method: if published { Method::Published { band_m_s } } else { Method::Event },
+        let ask = simulation::SimulationSettings {
+            method: if published { Integration::Published { band_m_s } } else { Integration::Event },
             tolerance,
             step_s,
             most_steps,
@@ -211,7 +211,7 @@ impl Design {
         reserve: Option<f64>,
     ) -> PyResult<(String, String, Self)> {
         let (design, stop) = (Arc::clone(&self.design), Follow::new());
-        let ask = search::Ask {
+        let ask = search::SearchSettings {
             evaluations,
             starts,
             swarm,
@@ -220,7 +220,7 @@ impl Design {
             step_mm,
             reserve,
             follow: stop.clone(),
-            ..search::Ask::default()
+            ..search::SearchSettings::default()
         };
         let answer = compute(py, &stop, move || {
             let started = Instant::now();

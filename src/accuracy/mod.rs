@@ -9,4 +9,4 @@ mod precision;
 
 pub use cases::{Case, PARAMETERS, Parameter, cases};
 pub use map::{CaseEnd, Halved, Judged, WorkLimit, judge, map};
-pub use precision::{Point, Precision, PrecisionSettings, Scheme, precision};
+pub use precision::{Precision, PrecisionSettings, Scheme, WorkPoint, precision};

@@ -39,6 +39,14 @@ impl Default for PrecisionSettings {
 }
 
 impl PrecisionSettings {
+    /// The usual settings, without steps of the published scheme below `least_s`, s.
+    pub fn down_to(least_s: f64, follow: &Follow) -> Self {
+        let mut settings = Self { follow: follow.clone(), ..Self::default() };
+        // A hair of room: 1e-7 as typed and as listed are the same step.
+        settings.steps_s.retain(|&s| s >= 0.999 * least_s);
+        settings
+    }
+
     /// Settings that one scene is run at.
     pub fn points(&self) -> usize {
         3 * self.tolerances.len() + self.bands_m_s.len() * self.steps_s.len()
@@ -77,7 +85,7 @@ impl Scheme {
 
 /// One method at one setting.
 #[derive(Debug, Clone, Copy)]
-pub struct Point {
+pub struct WorkPoint {
     /// Tolerance, pure number, or step, s.
     pub setting: f64,
     /// |theta_bi - reference| at the end, rad; `None`: the run did not come to its end.
@@ -112,7 +120,7 @@ pub struct Precision {
     /// What the planner leaves out.
     pub left_out: Vec<&'static str>,
     /// Methods with their points, the finest setting last.
-    pub methods: Vec<(Scheme, Vec<Point>)>,
+    pub methods: Vec<(Scheme, Vec<WorkPoint>)>,
 }
 
 /// Tolerance per step of the reference run: next to rounding.
@@ -222,10 +230,10 @@ impl Bench<'_> {
         simulate_prepared(prepared, &s, reduced)
     }
 
-    fn point(&self, method: Scheme, setting: f64, reference: (f64, f64)) -> Point {
+    fn point(&self, method: Scheme, setting: f64, reference: (f64, f64)) -> WorkPoint {
         let bare = |run: &Run, seconds: f64| {
             let error = (run.state[2] - reference.0).abs();
-            Point {
+            WorkPoint {
                 setting,
                 theta_error_rad: (run.stop == Stop::Finished).then_some(error),
                 margin_error: None,
@@ -235,7 +243,7 @@ impl Bench<'_> {
                 stop: run.stop,
             }
         };
-        let whole = |(s, seconds): (Simulation, f64)| Point {
+        let whole = |(s, seconds): (Simulation, f64)| WorkPoint {
             setting,
             theta_error_rad: (s.stop == Stop::Finished).then(|| (s.theta_inner_rad - reference.0).abs()),
             margin_error: s.demand.map(|d| (d.slip_margin - reference.1).abs()),

@@ -1,14 +1,27 @@
 //! Answers as a library user gets them and as programs read them: what is computed, with errors, notes and what was left out.
 //!
 //! In: a `Design` and a question. Out: serde types ([`check::CheckAnswer`], [`stiffness::StiffnessAnswer`],
-//! [`simulation::SimulationAnswer`], [`search::SearchAnswer`]) whose JSON is that of the command.
-//! Absent: arguments, files, printing, pages.
+//! [`simulation::SimulationAnswer`], [`search::SearchAnswer`] ...) whose JSON, tables, words and page are those of the command.
+//! Absent: arguments, files, printing.
 //! Equations: none; definitions of what a scene leaves out and of the effect of contact damping.
 
+#[cfg(feature = "validation")]
+pub mod accuracy;
 pub mod check;
+pub mod comparison;
+mod envelope;
+pub mod explanation;
+pub mod exported;
+pub mod finite_elements;
+pub mod identification;
+pub mod imported;
 pub mod left_out;
+pub mod page;
 pub mod search;
 pub mod simulation;
+pub mod sizing;
+pub mod steels;
 pub mod stiffness;
 
+pub use envelope::{Envelope, Provenance, TOOL, VERSION, WRITTEN_BY};
 pub use left_out::LeftOut;

@@ -2,10 +2,11 @@
 
 use super::exit::{Exit, Failure};
 use super::{Context, output, parts};
-use crate::design::{Design, Optimize};
-use crate::optimise::{ClutchProblem, Evaluate, Fidelity, Looked};
+use crate::answer::search::{describe_problem, evaluate_line};
+use crate::design::Optimize;
+use crate::optimise::{ClutchProblem, Fidelity};
 use clap::Args;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::io::BufRead;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -56,7 +57,7 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
     let fidelity = Fidelity { reduced: !args.full, ..Fidelity::default() };
     let problem = ClutchProblem::new(&design, task, variables, fidelity);
     if args.describe {
-        output::print_json(&description(&design, &problem))?;
+        output::print_json(&describe_problem(&design, &problem))?;
     }
     // Lines in the order in which they came, each with the place where its answer will appear; as many as keep every thread
     // at work, no more of the input is read ahead.
@@ -65,8 +66,8 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
     std::thread::spawn(move || read_lines(&asked, &queue));
     let mut malformed = false;
     while let Some(place) = next(&places, context)? {
-        let Some(said) = next(&place, context)? else { break };
-        let (value, is_malformed) = said?;
+        let Some(reply) = next(&place, context)? else { break };
+        let (value, is_malformed) = reply?;
         malformed |= is_malformed;
         if !output::heard(&format!("{value}\n"))? {
             return Ok(Exit::Unheard);
@@ -76,23 +77,23 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
 }
 
 /// The answer to a line, and whether the line was no vector.
-type Said = Result<(Value, bool), Failure>;
+type Reply = Result<(Value, bool), Failure>;
 
 /// Hands out the lines of standard input to the threads, until there are none or nobody wants the answers.
-fn read_lines(asked: &Arc<(ClutchProblem, Optimize)>, queue: &SyncSender<Receiver<Said>>) {
+fn read_lines(asked: &Arc<(ClutchProblem, Optimize)>, queue: &SyncSender<Receiver<Reply>>) {
     for (at, text) in std::io::stdin().lock().split(b'\n').enumerate() {
         if text.as_ref().is_ok_and(|text| text.trim_ascii().is_empty()) {
             continue;
         }
-        let (say, place) = channel();
+        let (answer, place) = channel();
         if queue.send(place).is_err() {
             return;
         }
         let asked = Arc::clone(asked);
         // Where the answer is no longer wanted there is nobody to tell.
         rayon::spawn(move || {
-            let said = text.map_err(|e| Failure::Failed(format!("standard input: {e}")));
-            let _ = say.send(said.map(|text| reply(&asked.0, &asked.1, at + 1, &text)));
+            let text = text.map_err(|e| Failure::Failed(format!("standard input: {e}")));
+            let _ = answer.send(text.map(|text| evaluate_line(&asked.0, &asked.1, at + 1, &text)));
         });
     }
 }
@@ -109,58 +110,4 @@ fn next<T>(from: &Receiver<T>, context: &Context) -> Result<Option<T>, Failure> 
             Err(RecvTimeoutError::Timeout) => {}
         }
     }
-}
-
-/// The answer to line number `at`, and whether it was no vector.
-fn reply(problem: &ClutchProblem, task: &Optimize, at: usize, text: &[u8]) -> (Value, bool) {
-    let count = problem.variables().len();
-    let read: Result<Vec<f64>, String> = match std::str::from_utf8(text) {
-        Ok(text) => serde_json::from_str(text).map_err(|e| e.to_string()),
-        Err(e) => Err(format!("no UTF-8 text: {e}")),
-    };
-    match read
-        .and_then(|x| if x.len() == count { Ok(x) } else { Err(format!("{} numbers, not {count}", x.len())) })
-    {
-        Ok(x) => match outside(task, &x) {
-            Some(why) => (json!({ "x": x, "refused": why }), false),
-            None => (answer(problem, &x), false),
-        },
-        Err(why) => (json!({ "malformed": format!("line {at}: {why}") }), true),
-    }
-}
-
-/// The first value beyond its bounds, in words.
-fn outside(task: &Optimize, x: &[f64]) -> Option<String> {
-    let (i, (v, x)) =
-        task.variables.iter().zip(x).enumerate().find(|(_, (v, x))| !(v.min..=v.max).contains(x))?;
-    Some(format!("x[{i}], {} = {x}, lies outside its bounds {} to {}", v.name, v.min, v.max))
-}
-
-/// One line of the answer.
-fn answer(problem: &ClutchProblem, x: &[f64]) -> Value {
-    match problem.evaluate(x) {
-        Ok(e) => {
-            let violation = e.violation();
-            json!({ "x": x, "objectives": e.objectives, "limits": e.limits, "least": e.least_margin(),
-                    "violation": violation, "feasible": violation <= crate::margin::RESOLUTION })
-        }
-        Err(why) => json!({ "x": x, "refused": why.to_string() }),
-    }
-}
-
-/// What the rows and columns are.
-fn description(design: &Design, problem: &ClutchProblem) -> Value {
-    let Some(task) = design.optimize.as_ref() else { return Value::Null };
-    let start: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
-    let names = problem.look_at(&start).map(|looked: Looked| problem.names(&looked)).ok();
-    let variables: Vec<Value> = task
-        .variables
-        .iter()
-        .map(|v| json!({ "name": v.name, "min": v.min, "max": v.max, "start": v.start, "whole": v.whole }))
-        .collect();
-    json!({
-        "tool": output::TOOL, "version": output::VERSION, "design": design.name, "design_hash": design.hash,
-        "aim": task.objective.name(), "variables": variables,
-        "objectives": names.as_ref().map(|n| &n.objectives), "limits": names.as_ref().map(|n| &n.limits),
-    })
 }

@@ -6,7 +6,7 @@ mod geometry;
 mod result;
 
 use super::exit::{Exit, Failure};
-use super::origin::Kind;
+use super::origin::FileKind;
 use super::{Context, parts, positive};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -52,14 +52,14 @@ pub enum Format {
 }
 
 impl Format {
-    fn kind(self) -> Kind {
+    fn kind(self) -> FileKind {
         match self {
-            Self::Dxf => Kind::Dxf,
-            Self::Step => Kind::Step,
-            Self::Svg => Kind::Svg,
-            Self::Csv => Kind::Table,
-            Self::Calculix => Kind::Deck,
-            Self::Fmu => Kind::Unit,
+            Self::Dxf => FileKind::Dxf,
+            Self::Step => FileKind::Step,
+            Self::Svg => FileKind::Svg,
+            Self::Csv => FileKind::Table,
+            Self::Calculix => FileKind::Deck,
+            Self::Fmu => FileKind::Unit,
         }
     }
 

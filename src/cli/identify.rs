@@ -1,19 +1,13 @@
 //! `identify`: unknown parameters of a design from measured or published numbers.
 
-mod body;
-mod page;
-
-use super::Context;
 use super::exit::{Exit, Failure};
 use super::histories::Histories;
-use super::left_out::left_out;
-use super::origin::{Kind, WRITTEN_BY};
+use super::origin::FileKind;
 use super::output::{TOOL, VERSION};
-use super::parts::{self, Answer};
-use crate::design::{Design, MOST_TABLE, read_text};
-use crate::identify::{FitSettings, Identified, NoFit, SoFar, Unknown, identify, observations};
-use crate::report::Screen;
-use body::{Body, estimates, in_short, residuals, sentences, verdict};
+use super::{Context, parts};
+use crate::answer::identification::{Identification, StoppedIdentification};
+use crate::design::{MOST_TABLE, read_text};
+use crate::identify::{FitSettings, NoFit, Unknown, identify, observations};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -87,7 +81,7 @@ fn unknown(text: &str) -> Result<Unknown, String> {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
-    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), Kind::Design)).collect();
+    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
     context.outputs.check(&[&args.file, &args.data], &others)?;
     let design = parts::read_design(&args.file, context)?;
     let named = |why: String| Failure::malformed(format!("{}: {why}", args.data.display()));
@@ -114,7 +108,11 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
         Ok(found) => found,
         Err(NoFit::Stopped(None)) => return Err(Failure::Interrupted),
         Err(NoFit::Stopped(Some(so_far))) => {
-            return stopped(args, (&design, &histories), &so_far, run_time_s, context);
+            let answer = StoppedIdentification { design: &design, unknowns: &args.unknown, so_far: &so_far };
+            let written = written(args, &histories, &answer.file(&context.command_line), context);
+            context.answer(&answer.text(written.as_deref()))?;
+            context.print(&answer.envelope(run_time_s, written.as_deref()))?;
+            return Ok(Exit::Interrupted);
         }
         Err(why @ NoFit::Nowhere { .. }) => {
             context.answer(&format!("{why}\n"))?;
@@ -127,99 +125,20 @@ pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
         }
         Err(why) => return Err(Failure::malformed(format!("{}: {why}", args.file.display()))),
     };
-    let write = |path: &&std::path::Path| {
-        let text = new_file(&design, &found, context);
-        histories.write(&context.outputs) && context.outputs.write(path, Kind::Design, text.as_bytes())
-    };
-    let body = Body::new(&found, args.output.as_deref().filter(write));
-    let determined = body.determined;
-    let answer = Answer {
-        design: &design,
-        run_time_s,
-        left_out: left_out(&design.clutch),
-        error_estimate: Some(json!({ "residual_sigma": found.knowledge.residual_sigma })),
-        body,
-    };
-    context.outputs.write_csv(&residuals(&found));
-    context.outputs.write_report(|| page::page(&design, &found, &answer, context));
-    context.answer(&text_of(&design, &found, context.screen))?;
-    answer.print(context)?;
-    Ok(if determined { Exit::Held } else { Exit::NotHeld })
+    let answer = Identification { design: &design, found: &found };
+    let written = written(args, &histories, &answer.file(&context.command_line), context);
+    let written = written.as_deref();
+    context.outputs.write_csv(&answer.csv_table());
+    context.outputs.write_report(|| answer.page(&context.provenance(run_time_s), written));
+    context.answer(&answer.text(context.screen))?;
+    context.print(&answer.envelope(run_time_s, written))?;
+    Ok(if answer.determined() { Exit::Held } else { Exit::NotHeld })
 }
 
-/// What a search that was stopped had found: its best design, without error bars.
-fn stopped(
-    args: &IdentifyArgs,
-    (design, histories): (&Design, &Histories),
-    so_far: &SoFar,
-    run_time_s: f64,
-    context: &Context,
-) -> Result<Exit, Failure> {
-    let named = || args.unknown.iter().zip(&so_far.values);
-    let write = |path: &&std::path::PathBuf| {
-        let values: String = named().map(|(u, value)| format!("#   {}: {value}\n", u.name)).collect();
-        let remark = format!(
-            "# stopped by Ctrl-C: the best of {} designs, not the end of the search\n",
-            so_far.evaluations
-        );
-        let text = head(design, context) + &remark + &values + "#\n" + &so_far.source;
-        histories.write(&context.outputs) && context.outputs.write(path, Kind::Design, text.as_bytes())
-    };
-    let written = args.output.as_ref().filter(write).map(|path| path.display().to_string());
-    let values: Vec<String> = named().map(|(u, value)| format!("  {} = {value}\n", u.name)).collect();
-    context.answer(&format!(
-        "stopped by Ctrl-C: the best of {} designs so far, sum of squared scaled residuals {:.6e}; the search has not ended, and how \
-         well the values are known was not looked at\n{}{}",
-        so_far.evaluations,
-        so_far.sum,
-        values.concat(),
-        written.as_ref().map_or(String::new(), |path| format!("Written: {path}\n")),
-    ))?;
-    let unknowns: Vec<_> = named()
-        .map(|(u, value)| json!({ "name": u.name, "min": u.min, "max": u.max, "value": value }))
-        .collect();
-    let body = json!({
-        "interrupted": true, "converged": false, "unknowns": unknowns, "sum_of_squares": so_far.sum,
-        "evaluations": so_far.evaluations, "written": written,
-    });
-    let left_out = left_out(&design.clutch);
-    Answer { design, run_time_s, left_out, error_estimate: None, body }.print(context)?;
-    Ok(Exit::Interrupted)
-}
-
-/// First lines of a file written by this command.
-fn head(design: &Design, context: &Context) -> String {
-    let (name, hash) = (&design.name, &design.hash);
-    format!("{WRITTEN_BY} identify {VERSION} from {name:?} (sha256 {hash})\n# by: {}\n", context.command_line)
-}
-
-/// The old file with its comments, the values found, and who found them.
-fn new_file(design: &Design, found: &Identified, context: &Context) -> String {
-    let changes: String = found
-        .unknowns
-        .iter()
-        .zip(&found.before)
-        .zip(&found.knowledge.estimates)
-        .map(|((u, before), e)| {
-            let width = e.half_width.map_or(String::new(), |w| format!(" +- {w:.3e} (95 %)"));
-            let doubt = e.doubt.map_or(String::new(), |doubt| format!(", {}", in_short(found, doubt)));
-            format!("#   {}: {} -> {}{width}{doubt}\n", u.name, before, e.value)
-        })
-        .collect();
-    head(design, context) + &changes + "#\n" + &found.source
-}
-
-fn text_of(design: &Design, found: &Identified, screen: Screen) -> String {
-    let mut out = format!(
-        "{}  {}\n\n{}\n{}\n",
-        design.name,
-        design.hash.get(..12).unwrap_or(&design.hash),
-        estimates(found).to_text(screen),
-        residuals(found).to_text(screen)
-    );
-    for line in std::iter::once(verdict(found)).chain(sentences(found)) {
-        out.push_str(&line);
-        out.push('\n');
-    }
-    out
+/// Write the design file that `-o` asks for; its name, if it was written.
+fn written(args: &IdentifyArgs, histories: &Histories, text: &str, context: &Context) -> Option<String> {
+    let path = args.output.as_deref()?;
+    let written =
+        histories.write(&context.outputs) && context.outputs.write(path, FileKind::Design, text.as_bytes());
+    written.then(|| path.display().to_string())
 }

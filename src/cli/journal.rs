@@ -15,7 +15,7 @@
 
 use super::exit::Failure;
 use super::output::{TOOL, VERSION};
-use crate::optimise::{Entry, Evaluation, Failure as NoMargins, Journal, Part, ProblemId};
+use crate::optimise::{Entry, Evaluation, EvaluationPart, Journal, NoEvaluation, ProblemId};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -364,11 +364,11 @@ fn numbers(cell: &str) -> Option<Vec<f64>> {
     if cell.is_empty() { Some(Vec::new()) } else { cell.split(';').map(|v| v.parse().ok()).collect() }
 }
 
-fn typed(why: &NoMargins) -> (&'static str, String) {
+fn typed(why: &NoEvaluation) -> (&'static str, String) {
     match why {
-        NoMargins::Refused(why) => ("refused", one_line(why)),
-        NoMargins::NotFinite { part, index } => ("not-finite", format!("{part:?};{index}")),
-        NoMargins::Shape { expected, found } => {
+        NoEvaluation::Refused(why) => ("refused", one_line(why)),
+        NoEvaluation::NotFinite { part, index } => ("not-finite", format!("{part:?};{index}")),
+        NoEvaluation::Shape { expected, found } => {
             ("shape", format!("{};{};{};{}", expected.0, expected.1, found.0, found.1))
         }
     }
@@ -383,18 +383,18 @@ fn entry_of(row: &csv::StringRecord) -> Option<(String, Entry)> {
             limits: numbers(cell(8)?)?,
             tie_break: cell(9)?.parse().ok()?,
         }),
-        "refused" => Err(NoMargins::Refused(as_written(cell(11)?)?)),
+        "refused" => Err(NoEvaluation::Refused(as_written(cell(11)?)?)),
         "not-finite" => {
             let (part, index) = cell(11)?.split_once(';')?;
-            let part = [Part::Objective, Part::Limit, Part::TieBreak]
+            let part = [EvaluationPart::Objective, EvaluationPart::Limit, EvaluationPart::TieBreak]
                 .into_iter()
                 .find(|p| format!("{p:?}") == part)?;
-            Err(NoMargins::NotFinite { part, index: index.parse().ok()? })
+            Err(NoEvaluation::NotFinite { part, index: index.parse().ok()? })
         }
         "shape" => {
             let counts: Option<Vec<usize>> = cell(11)?.split(';').map(|v| v.parse().ok()).collect();
             let [a, b, c, d] = counts?[..] else { return None };
-            Err(NoMargins::Shape { expected: (a, b), found: (c, d) })
+            Err(NoEvaluation::Shape { expected: (a, b), found: (c, d) })
         }
         _ => return None,
     };

@@ -2,8 +2,7 @@
 
 use super::exit::{Exit, Failure};
 use super::{Context, output};
-use crate::material::STEELS;
-use crate::report::{Column, Table, Unit};
+use crate::answer::steels::{list, table, text};
 use serde_json::json;
 
 /// Run the command.
@@ -11,64 +10,15 @@ use serde_json::json;
 /// # Errors
 /// [`Failure`].
 pub fn run(context: &Context) -> Result<Exit, Failure> {
-    let mut table = Table::new(vec![
-        Column::text("name", "Name"),
-        Column::text("also", "Also"),
-        Column::number("youngs_modulus_gpa", "E", Unit::Gigapascal, 4),
-        Column::number("poisson_ratio", "Poisson", Unit::One, 3),
-        Column::number("density_kg_m3", "Density, kg/m³", Unit::One, 4),
-        Column::number("expansion_um_per_m_k", "Expansion, µm/(m K)", Unit::One, 3),
-        Column::number("race_stress_mpa", "Race stress", Unit::Megapascal, 4),
-        Column::number("hertz_nominal_mpa", "Hertz, nominal", Unit::Megapascal, 4),
-        Column::number("hertz_peak_mpa", "Hertz, peak", Unit::Megapascal, 4),
-    ]);
-    for s in &STEELS {
-        table.row(vec![
-            s.name.into(),
-            s.also.join(", ").into(),
-            s.material.youngs_modulus_pa.into(),
-            s.material.poisson_ratio.into(),
-            s.material.density_kg_m3.into(),
-            (1e6 * s.expansion_per_k).into(),
-            s.race_stress_pa.into(),
-            s.hertz_nominal_pa.into(),
-            s.hertz_peak_pa.into(),
-        ]);
-    }
     context.outputs.check(&[], &[])?;
     context.outputs.refuse_foreign()?;
-    context.outputs.write_csv(&table);
+    context.outputs.write_csv(&table());
     if context.json {
-        let steels: Vec<_> = STEELS
-            .iter()
-            .map(|s| {
-                json!({
-                    "name": s.name,
-                    "also": s.also,
-                    "youngs_modulus_gpa": s.material.youngs_modulus_pa / 1e9,
-                    "poisson_ratio": s.material.poisson_ratio,
-                    "density_kg_m3": s.material.density_kg_m3,
-                    "expansion_um_per_m_k": s.expansion_per_k * 1e6,
-                    "race_stress_mpa": s.race_stress_pa / 1e6,
-                    "hertz_nominal_mpa": s.hertz_nominal_pa / 1e6,
-                    "hertz_peak_mpa": s.hertz_peak_pa / 1e6,
-                    "source": s.source,
-                })
-            })
-            .collect();
         output::print_json(
-            &json!({ "tool": output::TOOL, "version": output::VERSION, "materials": steels }),
+            &json!({ "tool": output::TOOL, "version": output::VERSION, "materials": list() }),
         )?;
         return Ok(Exit::Held);
     }
-    let mut text = table.to_text(context.screen);
-    text.push_str("\nNamed in a design as material = { name = \"100Cr6\" } or [material.sprag] name = \"100Cr6\"; keys\n");
-    text.push_str(
-        "beside the name win over it. [limits] from_material = true takes the stresses as limits.\n\n",
-    );
-    for s in &STEELS {
-        text.push_str(&format!("{}: {}\n", s.name, s.source));
-    }
-    context.answer(&text)?;
+    context.answer(&text(context.screen))?;
     Ok(Exit::Held)
 }

@@ -6,6 +6,7 @@
 
 pub mod accuracy;
 pub mod check;
+mod clock;
 mod command_line;
 pub mod compare;
 pub mod evaluate;
@@ -17,29 +18,31 @@ pub mod identify;
 pub mod import;
 pub mod interrupt;
 pub mod journal;
+mod laws;
+mod made;
 pub mod materials;
 pub mod new;
 pub mod optimize;
-pub mod optimize_answer;
-pub mod optimize_file;
 pub mod origin;
 pub mod output;
 pub mod parts;
 pub mod progress;
 pub mod schema;
+pub mod sheet;
 pub mod simulate;
 pub mod size;
 pub mod stiffness;
 pub mod studio;
 
-use crate::answer::left_out;
+use crate::answer::{Envelope, Provenance};
 use crate::follow::Follow;
 use crate::report::Screen;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use command_line::{command_line, missing_value};
 use exit::{Exit, Failure};
 use output::Outputs;
-use progress::Progress;
+use progress::ProgressLine;
+use serde::Serialize;
 use serde_json::json;
 use std::ffi::OsString;
 use std::io::IsTerminal;
@@ -92,7 +95,7 @@ enum Command {
     /// Hold the design against each of its limits: demand, allowable, margin, torque capacity
     Check(check::CheckArgs),
     /// The design sheet: answer, dimensioned drawing, margins, scenes and all inputs, to print on A4
-    Sheet(check::sheet::SheetArgs),
+    Sheet(sheet::SheetArgs),
     /// Two to six designs side by side: inputs that differ, margins, curves, scenes
     Compare(compare::CompareArgs),
     /// Torque against windup, forces, angles and stiffness, for one contact law or several
@@ -140,8 +143,9 @@ struct Common {
     /// Write a self-contained HTML page with drawing, curves and tables; a PDF is made by printing it (A4)
     #[arg(long, global = true, value_name = "PATH.html")]
     report: Option<PathBuf>,
-    /// Set a value of the design before anything else, as often as wanted: a dotted path of the file, or a variable's short
-    /// name; checked like the file, which stays as it is
+    /// Set a value of the design before anything else, as often as wanted: a dotted path of the file
+    /// (`sprags.inner_arcs[0].radius_mm=4.1`, rows count from 0) or a variable's short name (`r_i1_mm=4.1`, arcs from 1);
+    /// checked like the file, which stays as it is
     #[arg(long, global = true, value_name = "KEY=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
     /// Replace files that this tool has not written, too
@@ -183,8 +187,21 @@ impl Context {
     }
 
     /// A progress line on standard error; `unit` names the steps, `total` counts them if known.
-    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> Progress {
-        Progress::new(!self.quiet, what, unit, total)
+    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> ProgressLine {
+        ProgressLine::new(!self.quiet, what, unit, total)
+    }
+
+    /// How an answer came about that took `run_time_s`, s.
+    pub fn provenance(&self, run_time_s: f64) -> Provenance {
+        Provenance { command: self.command_line.clone(), run_time_s }
+    }
+
+    /// The one JSON object of `--json`, with what could not be written until now; nothing without it.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] where standard output cannot be written.
+    pub fn print<B: Serialize>(&self, answer: &Envelope<'_, B>) -> Result<(), Failure> {
+        if self.json { output::print_json(&answer.object(self.outputs.unwritten())) } else { Ok(()) }
     }
 
     /// The answer as text on standard output; nothing with `--json` and with `--csv -`.
@@ -253,11 +270,32 @@ fn ended(args: Vec<String>) -> Exit {
 fn command() -> clap::Command {
     let root = Cli::command();
     let common: Vec<clap::Arg> = root.get_arguments().filter(|a| a.is_global_set()).cloned().collect();
-    MEANINGLESS.iter().fold(root, |root, (name, _, without)| {
+    let whole = MEANINGLESS.iter().fold(root, |root, (name, _, without)| {
         let hidden = common.iter().filter(|a| without.contains(&a.get_id().as_str()));
         let hidden: Vec<clap::Arg> = hidden.map(|a| a.clone().hide(true)).collect();
         root.mut_subcommand(name, |command| command.args(hidden))
-    })
+    });
+    let folded = |command: clap::Command| {
+        let after = command.get_after_help().map(|text| in_paragraphs(&text.to_string()));
+        after.into_iter().fold(command, |command, text| command.after_help(text))
+    };
+    folded(whole.mut_subcommands(folded))
+}
+
+/// The text with each paragraph on a line of its own, for the terminal to fold: lines that neither are indented nor follow a
+/// heading or an indented one go on where the one before ends.
+fn in_paragraphs(text: &str) -> String {
+    let mut whole = String::new();
+    let mut open = false;
+    for line in text.lines() {
+        let plain = !line.is_empty() && !line.starts_with(' ');
+        if !whole.is_empty() {
+            whole.push(if open && plain { ' ' } else { '\n' });
+        }
+        whole.push_str(line);
+        open = plain && !line.ends_with(':');
+    }
+    whole
 }
 
 fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
@@ -266,7 +304,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
     let exit = match cli.command {
         Command::Studio(args) => studio::run(&args, &context),
         Command::Check(args) => check::run(&args, &context),
-        Command::Sheet(args) => check::sheet::run(&args, &context),
+        Command::Sheet(args) => sheet::run(&args, &context),
         Command::Compare(args) => compare::run(&args, &context),
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
@@ -389,6 +427,12 @@ fn setting(text: &str) -> Result<(String, String), String> {
         Some((path, value)) if !path.trim().is_empty() => Ok((path.trim().to_owned(), value.to_owned())),
         _ => Err("KEY=VALUE is needed, such as sprags.inner_arcs[1].radius_mm=4.1 or r_i2_mm=4.1".to_owned()),
     }
+}
+
+/// A number, for flags that say its unit.
+fn number(text: &str) -> Result<f64, String> {
+    let bare = || "a number is needed, with a point and without its unit, such as 1800 or 0.5".to_owned();
+    text.trim().parse::<f64>().map_err(|_| bare())
 }
 
 /// A finite number above zero, for flags.

@@ -1,13 +1,13 @@
 //! `new`: the own clutch, by questions or by flags.
 
-use super::Context;
 use super::exit::{Exit, Failure};
 use super::output;
-use super::size::{WishArgs, a_steel, answer, may_write};
+use super::size::{WishArgs, a_steel, may_write};
+use super::{Context, made, number};
 use crate::follow::Follow;
 use crate::material::STEELS;
 use crate::report::plain;
-use crate::size::{Ask, PURPOSES, Purpose, Wish, purpose};
+use crate::size::{PURPOSES, Purpose, Requirements, Wish, purpose};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::io::{BufRead, IsTerminal};
@@ -39,7 +39,7 @@ pub struct NewArgs {
     #[command(flatten)]
     pub wish: WishArgs,
     /// Engagements in its life: kept as a comment, no life is computed
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number)]
     pub engagements: Option<f64>,
     /// Where to write the design file
     #[arg(long, short, value_name = "NEW.toml")]
@@ -66,7 +66,15 @@ pub fn run(args: &NewArgs, context: &Context) -> Result<Exit, Failure> {
     args.wish.check_safety()?;
     let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
     may_write(&output, context)?;
-    let exit = answer::answer(&args.ask(), &output, "New clutch", context)?;
+    let exit = made::answer(&args.ask(), &output, "New clutch", context)?;
+    let taken = args.ask().taken();
+    if !taken.is_empty() {
+        let lines: String =
+            taken.iter().map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n")).collect();
+        context.answer(&format!(
+            "\nTaken where nothing was said (an option of `new --help` says otherwise):\n{lines}"
+        ))?;
+    }
     if exit == Exit::Held {
         let path = output::path_text(&output);
         context.answer(&format!(
@@ -94,7 +102,7 @@ impl NewArgs {
         self.purpose.as_deref().and_then(purpose)
     }
 
-    fn ask(&self) -> Ask {
+    fn ask(&self) -> Requirements {
         Wish { purpose: self.purpose(), engagements: self.engagements, ..self.wish.wish() }.ask()
     }
 }
@@ -118,7 +126,7 @@ struct Number {
     question: &'static str,
     what: &'static str,
     at: fn(&mut NewArgs) -> &mut Option<f64>,
-    without: fn(&Ask) -> Option<f64>,
+    without: fn(&Requirements) -> Option<f64>,
     needed: bool,
 }
 

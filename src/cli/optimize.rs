@@ -4,14 +4,15 @@ use super::Context;
 use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
-use super::optimize_answer::Told;
-use super::optimize_file::{NEAREST, ROBUST, file_text, further_files, further_text};
-use super::origin::Kind;
+use super::origin::FileKind;
 use super::output::TOOL;
 use super::parts;
-use super::progress::Progress;
+use super::progress::ProgressLine;
 use super::simulate::refuse_tolerance;
-use crate::answer::search::{Ask, SearchAnswer};
+use crate::answer::search::{
+    Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, SearchSettings, file_text, further_files,
+    further_text,
+};
 use crate::design::{Design, EditError, Objective};
 use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record, Status};
 use clap::Args;
@@ -49,6 +50,13 @@ it does not hold.
 
 Exit codes: 0 every limit held, with --robust at every corner of the tolerances too; 1 no such design found; 130 stopped by
 Ctrl-C, the best design so far is written if it is better than FILE.";
+
+/// What the command's reader can do about an end.
+const HINTS: Hints = Hints {
+    evaluation_limit: ", which --evaluations raises,",
+    more_starts: "try more --starts",
+    stopped: "stopped by Ctrl-C",
+};
 
 /// Arguments of `optimize`.
 #[derive(Debug, Clone, Args)]
@@ -112,7 +120,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     refuse_tolerance(args.tolerance)?;
     let new = output_path(args);
     let record = args.journal.clone().unwrap_or_else(|| journal::path_for(&new));
-    context.outputs.check(&[&args.file], &[(&new, Kind::Design), (&record, Kind::Journal)])?;
+    context.outputs.check(&[&args.file], &[(&new, FileKind::Design), (&record, FileKind::Journal)])?;
     let design = parts::read_design(&args.file, context)?;
     let histories = Histories::beside(&design, &new)?;
     let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
@@ -126,7 +134,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
     }
     let beside = beside(&new, args);
-    let others: Vec<_> = beside.iter().map(|path| (path.as_path(), Kind::Design)).collect();
+    let others: Vec<_> = beside.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
     context.outputs.check(&[&args.file], &others)?;
     let (model, said) = (journal::model(), design.content_hash());
     let file = match (args.resume, args.journal.is_some()) {
@@ -157,7 +165,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         if drawn { "" } else { " (this search draws nothing at random)" },
         if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
     ));
-    let ask = Ask {
+    let ask = SearchSettings {
         evaluations: args.evaluations as usize,
         starts: args.starts.map(|n| n as usize),
         swarm: args.global.map(|n| n as usize),
@@ -229,14 +237,14 @@ fn finish(
     let mut written = None;
     let mut beside = Vec::new();
     let write = |path: &Path, text: Result<String, EditError>| match readable(design, path, text) {
-        Ok(text) => context.outputs.write(path, Kind::Design, text.as_bytes()),
+        Ok(text) => context.outputs.write(path, FileKind::Design, text.as_bytes()),
         Err(why) => {
             context.outputs.lost(why);
             false
         }
     };
     if feasible && (better || !interrupted) && histories.write(&context.outputs) {
-        written = write(new, file_text(design, story, context)).then_some(new);
+        written = write(new, file_text(design, story, &context.command_line)).then_some(new);
         for (ending, what, text) in further_files(story) {
             let path = new.with_extension(format!("{ending}.toml"));
             if write(&path, further_text(design, what, text)) {
@@ -256,11 +264,20 @@ fn finish(
         }
     }
     let journal = keep.then(|| file.path().to_path_buf());
-    let told = Told { design, answer, written, beside, journal, run_time_s };
+    let named = |path: &Path| path.display().to_string();
+    let report = SearchReport {
+        design,
+        answer,
+        written: written.map(named),
+        beside: beside.iter().map(|path| named(path)).collect(),
+        journal: journal.as_deref().map(named),
+        provenance: context.provenance(run_time_s),
+        hints: HINTS,
+    };
     context.outputs.write_csv(&story.csv_table());
-    context.outputs.write_report(|| told.page(context));
-    told.json().print(context)?;
-    context.answer(&told.text(context))?;
+    context.outputs.write_report(|| report.page());
+    context.print(&report.envelope())?;
+    context.answer(&report.text(context.screen))?;
     let whole = file.failed.is_none() && file.unused().is_none();
     if !interrupted && !keep && whole && context.outputs.unwritten().is_empty() {
         // The search is over and its answer is safe: nothing is left to resume, no row was promised to stay.
@@ -303,14 +320,14 @@ fn beside(new: &Path, args: &OptimizeArgs) -> Vec<PathBuf> {
 
 /// Progress and journal.
 struct Keeper {
-    progress: Progress,
+    progress: ProgressLine,
     file: JournalFile,
     part: String,
     best: Option<f64>,
 }
 
 impl Keeper {
-    fn new(progress: Progress, file: JournalFile) -> Self {
+    fn new(progress: ProgressLine, file: JournalFile) -> Self {
         Self { progress, file, part: "search".to_owned(), best: None }
     }
 }

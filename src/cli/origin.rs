@@ -1,12 +1,10 @@
 //! What a file is by its name, and whether this tool has written it: somebody else's file is not replaced in silence.
 
+pub use crate::answer::WRITTEN_BY;
 use crate::design::is_history;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
-
-/// First words of every design file that this tool writes.
-pub const WRITTEN_BY: &str = "# Written by sprag-design";
 
 /// First words of the facts in a deck.
 const DECK_FACT: &str = "** sprag-design ";
@@ -21,7 +19,7 @@ const HEAD: u64 = 65_536;
 
 /// What is written into a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum FileKind {
     /// A table, CSV.
     Table,
     /// A journal, CSV: never replaced; whether it is one, and whose, says its own header when it is opened.
@@ -43,17 +41,17 @@ pub enum Kind {
 }
 
 /// Endings that name a kind, and endings of files that this tool never writes.
-const ENDINGS: [(&str, Option<Kind>); 20] = [
-    ("csv", Some(Kind::Table)),
-    ("html", Some(Kind::Page)),
-    ("htm", Some(Kind::Page)),
-    ("toml", Some(Kind::Design)),
-    ("inp", Some(Kind::Deck)),
-    ("dxf", Some(Kind::Dxf)),
-    ("svg", Some(Kind::Svg)),
-    ("step", Some(Kind::Step)),
-    ("stp", Some(Kind::Step)),
-    ("fmu", Some(Kind::Unit)),
+const ENDINGS: [(&str, Option<FileKind>); 20] = [
+    ("csv", Some(FileKind::Table)),
+    ("html", Some(FileKind::Page)),
+    ("htm", Some(FileKind::Page)),
+    ("toml", Some(FileKind::Design)),
+    ("inp", Some(FileKind::Deck)),
+    ("dxf", Some(FileKind::Dxf)),
+    ("svg", Some(FileKind::Svg)),
+    ("step", Some(FileKind::Step)),
+    ("stp", Some(FileKind::Step)),
+    ("fmu", Some(FileKind::Unit)),
     ("json", None),
     ("pdf", None),
     ("png", None),
@@ -66,7 +64,7 @@ const ENDINGS: [(&str, Option<Kind>); 20] = [
     ("zip", None),
 ];
 
-impl Kind {
+impl FileKind {
     /// The kind in one word.
     pub fn noun(self) -> &'static str {
         match self {
@@ -160,16 +158,16 @@ mod tests {
     #[test]
     fn what_we_wrote_is_known_by_its_first_lines() {
         for (kind, ours, theirs) in [
-            (Kind::Design, "# Written by sprag-design size 1\nschema = 1\n", "schema = 1\n"),
-            (Kind::Page, "<!-- sprag-design 1; -->\n", "<!DOCTYPE html>\n"),
-            (Kind::Deck, "** a\n** b\n** sprag-design design = 0\n", "*NODE\n"),
-            (Kind::Dxf, "999\nsprag-design 1; design 0\n", "  0\nSECTION\n  2\nHEADER\n"),
-            (Kind::Svg, "<svg>\n<desc>sprag-design 1</desc>\n", "<svg>\n<g/>\n"),
-            (Kind::Step, "ISO-10303-21;\n/* sprag-design 1 */\n", "ISO-10303-21;\nHEADER;\n"),
-            (Kind::Unit, "PK<a generationTool=\"sprag-design 1\">", "PK<a generationTool=\"other 1\">"),
-            (Kind::Table, "code,name,demand\n1,2,3\n", "Time [s];Torque\n"),
-            (Kind::Table, "label,races.inner_radius_mm,torque_nm\n", "time_s,torque_nm\n0,1\n"),
-            (Kind::Table, "model,design\n", "notes\n"),
+            (FileKind::Design, "# Written by sprag-design size 1\nschema = 1\n", "schema = 1\n"),
+            (FileKind::Page, "<!-- sprag-design 1; -->\n", "<!DOCTYPE html>\n"),
+            (FileKind::Deck, "** a\n** b\n** sprag-design design = 0\n", "*NODE\n"),
+            (FileKind::Dxf, "999\nsprag-design 1; design 0\n", "  0\nSECTION\n  2\nHEADER\n"),
+            (FileKind::Svg, "<svg>\n<desc>sprag-design 1</desc>\n", "<svg>\n<g/>\n"),
+            (FileKind::Step, "ISO-10303-21;\n/* sprag-design 1 */\n", "ISO-10303-21;\nHEADER;\n"),
+            (FileKind::Unit, "PK<a generationTool=\"sprag-design 1\">", "PK<a generationTool=\"other 1\">"),
+            (FileKind::Table, "code,name,demand\n1,2,3\n", "Time [s];Torque\n"),
+            (FileKind::Table, "label,races.inner_radius_mm,torque_nm\n", "time_s,torque_nm\n0,1\n"),
+            (FileKind::Table, "model,design\n", "notes\n"),
         ] {
             assert!(kind.wrote(ours) && !kind.wrote(theirs), "{kind:?}");
         }
@@ -178,24 +176,24 @@ mod tests {
     #[test]
     fn a_name_says_what_may_be_written_there() {
         for (kind, name, fits) in [
-            (Kind::Page, "a.html", true),
-            (Kind::Page, "a.HTM", true),
-            (Kind::Page, "a.pdf", false),
-            (Kind::Page, "a", false),
-            (Kind::Page, "a.txt", false),
-            (Kind::Table, "a.csv", true),
-            (Kind::Table, "a.txt", true),
-            (Kind::Table, "a.toml.journal", true),
-            (Kind::Table, "a.json", false),
-            (Kind::Table, "a.html", false),
-            (Kind::Design, "a.toml", true),
-            (Kind::Design, "a.csv", false),
-            (Kind::Deck, "a", true),
-            (Kind::Deck, "a.pdf", false),
-            (Kind::Step, "a.STP", true),
-            (Kind::Unit, "a.fmu", true),
-            (Kind::Unit, "a.zip", false),
-            (Kind::Dxf, "a.svg", false),
+            (FileKind::Page, "a.html", true),
+            (FileKind::Page, "a.HTM", true),
+            (FileKind::Page, "a.pdf", false),
+            (FileKind::Page, "a", false),
+            (FileKind::Page, "a.txt", false),
+            (FileKind::Table, "a.csv", true),
+            (FileKind::Table, "a.txt", true),
+            (FileKind::Table, "a.toml.journal", true),
+            (FileKind::Table, "a.json", false),
+            (FileKind::Table, "a.html", false),
+            (FileKind::Design, "a.toml", true),
+            (FileKind::Design, "a.csv", false),
+            (FileKind::Deck, "a", true),
+            (FileKind::Deck, "a.pdf", false),
+            (FileKind::Step, "a.STP", true),
+            (FileKind::Unit, "a.fmu", true),
+            (FileKind::Unit, "a.zip", false),
+            (FileKind::Dxf, "a.svg", false),
         ] {
             assert_eq!(kind.fits(Path::new(name)).is_ok(), fits, "{kind:?} {name}");
         }

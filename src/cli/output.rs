@@ -1,56 +1,16 @@
 //! Where answers go: standard output, or files written whole or not at all.
 
 use super::exit::Failure;
-use super::origin::Kind;
+use super::origin::FileKind;
+pub use crate::answer::{TOOL, VERSION};
 use crate::design::shown;
 use crate::report::{Page, Table};
 use serde::Serialize;
-use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// Program name in every output.
-pub const TOOL: &str = env!("CARGO_PKG_NAME");
-/// Program version in every output.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// What every JSON object begins with; the command's own keys follow.
-#[derive(Debug, Serialize)]
-pub struct Envelope<'a, L: Serialize, B: Serialize> {
-    tool: &'static str,
-    version: &'static str,
-    design: &'a str,
-    design_hash: &'a str,
-    run_time_s: f64,
-    left_out: &'a L,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error_estimate: Option<Value>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    unwritten: Vec<String>,
-    #[serde(flatten)]
-    body: &'a B,
-}
-
-impl<'a, L: Serialize, B: Serialize> Envelope<'a, L, B> {
-    /// `run_time_s`: wall time of the computation alone. `left_out`: a list of the terms left out, each
-    /// with its reason and cost. `error_estimate`: a number or an object of numbers. `unwritten`: files that could not be
-    /// written, each with the reason. `body`: a struct or map with the command's own keys.
-    pub fn new(
-        design: &'a str,
-        design_hash: &'a str,
-        run_time_s: f64,
-        left_out: &'a L,
-        error_estimate: Option<Value>,
-        unwritten: Vec<String>,
-        body: &'a B,
-    ) -> Self {
-        let (tool, version) = (TOOL, VERSION);
-        Self { tool, version, design, design_hash, run_time_s, left_out, error_estimate, unwritten, body }
-    }
-}
 
 /// Print to standard output. A reader that has gone (`| head`) is no failure.
 ///
@@ -128,13 +88,13 @@ impl Outputs {
     ///
     /// # Errors
     /// [`Failure::Malformed`] naming the path.
-    pub fn check(&self, inputs: &[&Path], others: &[(&Path, Kind)]) -> Result<(), Failure> {
+    pub fn check(&self, inputs: &[&Path], others: &[(&Path, FileKind)]) -> Result<(), Failure> {
         let csv = self
             .csv
             .iter()
             .filter(|path| !is_standard_output(path))
-            .map(|path| (path.as_path(), Kind::Table));
-        let report = self.report.iter().map(|path| (path.as_path(), Kind::Page));
+            .map(|path| (path.as_path(), FileKind::Table));
+        let report = self.report.iter().map(|path| (path.as_path(), FileKind::Page));
         let mut seen: Vec<PathBuf> = Vec::new();
         for (path, kind) in csv.chain(report).chain(others.iter().copied()) {
             if path.is_dir() {
@@ -170,7 +130,7 @@ impl Outputs {
     /// # Errors
     /// [`Failure::Malformed`] naming the path.
     pub fn refuse_foreign(&self) -> Result<(), Failure> {
-        let own = [(&self.csv, Kind::Table), (&self.report, Kind::Page)];
+        let own = [(&self.csv, FileKind::Table), (&self.report, FileKind::Page)];
         own.into_iter()
             .filter_map(|(path, kind)| Some((path.as_deref()?, kind)))
             .try_for_each(|(path, kind)| self.may_replace(path, kind).map_err(|why| refused(path, &why)))
@@ -193,7 +153,7 @@ impl Outputs {
     }
 
     /// Whether what stands at `path` may be replaced by a file of this kind; why not.
-    fn may_replace(&self, path: &Path, kind: Kind) -> Result<(), String> {
+    fn may_replace(&self, path: &Path, kind: FileKind) -> Result<(), String> {
         if self.force || is_standard_output(path) || is_special(path) || !path.exists() || kind.is_ours(path)
         {
             return Ok(());
@@ -206,7 +166,7 @@ impl Outputs {
 
     /// Write a file. What fails is said at once, kept for the answer, and makes the exit code 3; the answer itself does not
     /// wait for a disk. `false`: not written.
-    pub fn write(&self, path: &Path, kind: Kind, bytes: &[u8]) -> bool {
+    pub fn write(&self, path: &Path, kind: FileKind, bytes: &[u8]) -> bool {
         let written = self
             .may_replace(path, kind)
             .map_err(|why| format!("cannot write {}: {why}", path.display()))
@@ -235,7 +195,7 @@ impl Outputs {
     /// Write a table as CSV.
     pub fn write_table(&self, path: &Path, table: &Table) {
         match table.to_csv() {
-            Ok(bytes) => drop(self.write(path, Kind::Table, &bytes)),
+            Ok(bytes) => drop(self.write(path, FileKind::Table, &bytes)),
             Err(why) => self.lost(format!("{}: {why}", path.display())),
         }
     }
@@ -263,7 +223,7 @@ impl Outputs {
     /// Write the page if `--report` was given; it is only made then.
     pub fn write_report(&self, page: impl FnOnce() -> Page) {
         if let Some(path) = &self.report {
-            self.write(path, Kind::Page, page().to_html().as_bytes());
+            self.write(path, FileKind::Page, page().to_html().as_bytes());
         }
     }
 }

@@ -10,14 +10,14 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A progress line. Shared freely between threads; it vanishes when dropped.
 #[derive(Debug)]
-pub struct Progress {
+pub struct ProgressLine {
     bar: ProgressBar,
     start: Instant,
     wanted: bool,
     shown: AtomicBool,
 }
 
-impl Progress {
+impl ProgressLine {
     /// `total`: number of steps, or nothing where it is unknown. `unit`: what one step is ("evaluations").
     /// Only a terminal on standard error sees it, and only if `wanted`.
     pub fn new(wanted: bool, what: &str, unit: &str, total: Option<u64>) -> Self {
@@ -61,7 +61,7 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for ProgressLine {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn a_short_job_shows_nothing_and_counts() {
-        let progress = Progress::new(true, "search", "evaluations", Some(10));
+        let progress = ProgressLine::new(true, "search", "evaluations", Some(10));
         progress.advance(3);
         progress.set(7);
         progress.describe("search, best 0.12");

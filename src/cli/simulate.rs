@@ -1,21 +1,16 @@
 //! `simulate`: one scenario in time.
 
-mod drivetrain;
-mod facts;
-mod history;
-mod page;
-mod told;
-
+use super::clock::while_told;
 use super::exit::{Exit, Failure};
-use super::parts::{self, Answer};
-use super::{Context, positive};
-use crate::answer::simulation::{self as scene, Ask, Ran, Refused, Setting, SimulationAnswer};
+use super::{Context, parts, positive};
+use crate::answer::simulation::{
+    self as scene, Ran, RefusedSetting, Setting, SimulationAnswer, SimulationSettings,
+};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::report::plain;
 use clap::{Args, ValueEnum};
-use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -36,7 +31,7 @@ const MOST_SAMPLES: u64 = 10_000_000;
 
 /// How the equations of motion are integrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Method {
+pub enum MethodName {
     /// Stick as a constraint, every change of mode located
     Event,
     /// The paper's scheme: Runge-Kutta with a narrow band around zero velocity; does not converge
@@ -50,12 +45,12 @@ pub struct SimulateArgs {
     /// Design file (TOML)
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Name of one of the design's scenarios
+    /// Name of one of the design's scenarios [default: the only one]
     #[arg(long, value_name = "NAME")]
-    pub scenario: String,
+    pub scenario: Option<String>,
     /// Method of integration
-    #[arg(long, value_enum, default_value_t = Method::Event)]
-    pub method: Method,
+    #[arg(long, value_enum, default_value_t = MethodName::Event)]
+    pub method: MethodName,
     /// Fixed step, s, 1e-9 or more (for the event method: its longest step) [default: chosen by the event method, 1e-5 published]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive)]
     pub step: Option<f64>,
@@ -95,25 +90,36 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     ask.validate().map_err(|why| refusal(why, args.window))?;
     refuse_strangers(args)?;
     let design = parts::read_design(&args.file, context)?;
-    let scenario =
-        design.scenario(&args.scenario).ok_or_else(|| unknown(&args.scenario, &design, &args.file))?;
+    let scenario = match (&args.scenario, design.scenarios.as_slice()) {
+        (Some(name), _) => design.scenario(name).ok_or_else(|| unknown(name, &design, &args.file))?,
+        (None, [only]) => only,
+        (None, all) => {
+            let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
+            return Err(Failure::malformed(match names.as_slice() {
+                [] => {
+                    format!("{}: the design has no scenarios; add a [[scenarios]] table", args.file.display())
+                }
+                names => format!("needed: --scenario NAME; the design has: {}", names.join(", ")),
+            }));
+        }
+    };
     ask.validate_for(scenario).map_err(|why| refusal(why, args.window))?;
     refuse_unknown_to_published(args)?;
-    let event = scenario.kind.duration_s().filter(|_| args.method == Method::Event);
+    let event = scenario.kind.duration_s().filter(|_| args.method == MethodName::Event);
     let start = Instant::now();
-    let ran = told::while_told(&scenario.name, event, context, || computed(&design, scenario, &ask, context));
+    let ran = while_told(&scenario.name, event, context, || computed(&design, scenario, &ask, context));
     let run_time_s = start.elapsed().as_secs_f64();
     let other = format!("{}, contact damping changed", scenario.name);
-    let damping = told::while_told(&other, event, context, || ran.damping_effect(&ask));
-    report(&design, &SimulationAnswer::new(ran, damping, &ask), run_time_s, context)
+    let damping = while_told(&other, event, context, || ran.damping_effect(&ask));
+    report(&SimulationAnswer::new(ran, damping, &ask), run_time_s, context)
 }
 
 impl SimulateArgs {
-    fn ask(&self, context: &Context) -> Ask {
-        Ask {
+    fn ask(&self, context: &Context) -> SimulationSettings {
+        SimulationSettings {
             method: match self.method {
-                Method::Event => scene::Method::Event,
-                Method::Published => scene::Method::Published { band_m_s: self.band },
+                MethodName::Event => scene::Integration::Event,
+                MethodName::Published => scene::Integration::Published { band_m_s: self.band },
             },
             tolerance: self.tolerance,
             step_s: self.step,
@@ -127,7 +133,7 @@ impl SimulateArgs {
     }
 }
 
-fn computed(design: &Design, scenario: &Scenario, ask: &Ask, context: &Context) -> Ran {
+fn computed(design: &Design, scenario: &Scenario, ask: &SimulationSettings, context: &Context) -> Ran {
     let steps = ask.published_steps(scenario);
     let progress = steps.map(|steps| context.progress("published scheme", "steps", Some(steps)));
     Ran::new(design, scenario, ask, &mut |steps| {
@@ -137,26 +143,13 @@ fn computed(design: &Design, scenario: &Scenario, ask: &Ask, context: &Context) 
     })
 }
 
-fn report(
-    design: &Design,
-    found: &SimulationAnswer,
-    run_time_s: f64,
-    context: &Context,
-) -> Result<Exit, Failure> {
-    let answer = Answer {
-        design,
-        run_time_s,
-        left_out: found.left_out.clone(),
-        error_estimate: found.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
-        body: found,
-    };
+fn report(found: &SimulationAnswer, run_time_s: f64, context: &Context) -> Result<Exit, Failure> {
     if context.outputs.csv.is_some() {
-        context.outputs.write_csv(&history::table(&found.history()));
+        context.outputs.write_csv(&found.history().table());
     }
-    context.outputs.write_report(|| page::page(found, &answer, context));
-    answer.print(context)?;
-    let facts = facts::table(found).to_text(context.screen);
-    context.answer(&format!("{}\n\n{facts}", found.verdict_line()))?;
+    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
+    context.print(&found.envelope(run_time_s))?;
+    context.answer(&found.text(context.screen))?;
     for note in &found.body.notes {
         context.message(&format!("note: {note}"));
     }
@@ -170,7 +163,7 @@ fn report(
 }
 
 /// The refusal of a setting, by its flag.
-fn refusal(why: Refused, window_s: Option<[f64; 2]>) -> Failure {
+fn refusal(why: RefusedSetting, window_s: Option<[f64; 2]>) -> Failure {
     if let (Setting::Window, Some(ends)) = (why.setting, window_s) {
         let [from, until] = ends.map(|t_s| plain(t_s, DIGITS));
         return Failure::malformed(format!("--window {from}:{until}: allowed: {}", why.allowed));
@@ -185,16 +178,18 @@ fn refusal(why: Refused, window_s: Option<[f64; 2]>) -> Failure {
 
 /// Refuse a `--tolerance` that makes no sense.
 pub(super) fn refuse_tolerance(x: f64) -> Result<(), Failure> {
-    Ask { tolerance: Some(x), ..Ask::default() }.validate().map_err(|why| refusal(why, None))
+    SimulationSettings { tolerance: Some(x), ..SimulationSettings::default() }
+        .validate()
+        .map_err(|why| refusal(why, None))
 }
 
 /// Refuse flags that the method does not know.
 fn refuse_strangers(args: &SimulateArgs) -> Result<(), Failure> {
     match (args.method, args.tolerance, args.band) {
-        (Method::Published, Some(x), _) => {
+        (MethodName::Published, Some(x), _) => {
             Err(refused("--tolerance", x, "--step with --method published, whose step is fixed"))
         }
-        (Method::Event, _, Some(band)) => {
+        (MethodName::Event, _, Some(band)) => {
             Err(refused("--band", band, "only with --method published: the event method needs no band"))
         }
         _ => Ok(()),
@@ -208,7 +203,7 @@ fn refuse_unknown_to_published(args: &SimulateArgs) -> Result<(), Failure> {
         ("--max-steps", args.max_steps.is_some()),
         ("--max-changes", args.max_changes.is_some()),
     ];
-    match given.into_iter().find(|(_, given)| *given && args.method == Method::Published) {
+    match given.into_iter().find(|(_, given)| *given && args.method == MethodName::Published) {
         Some((flag, _)) => Err(Failure::malformed(format!("{flag}: only with --method event"))),
         None => Ok(()),
     }

@@ -1,10 +1,8 @@
 //! `size`: a first design file from what a clutch shall do.
 
-pub mod answer;
-
-use super::Context;
 use super::exit::{Exit, Failure};
-use super::origin::Kind;
+use super::origin::FileKind;
+use super::{Context, made, number};
 use crate::design::nearest;
 use crate::material::{STEELS, Steel, steel};
 use crate::size::Wish;
@@ -30,22 +28,22 @@ Exit codes: 0 written; 1 no clutch of the family does it, with the limit that pr
 #[derive(Debug, Clone, Args, Default)]
 pub struct WishArgs {
     /// Bore of the inner race, diameter, mm
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number)]
     pub bore: Option<f64>,
     /// Nominal torque, carried day by day, Nm
-    #[arg(long, value_name = "NM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = number)]
     pub torque: Option<f64>,
     /// Peak torque, at the worst, Nm; in place of --torque or beside it
-    #[arg(long, value_name = "NM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = number)]
     pub peak: Option<f64>,
     /// Peak torque over nominal torque, where only one of them is named [default: 1.3, or that of the purpose]
-    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number)]
     pub safety: Option<f64>,
     /// Largest outer diameter, mm [default: 1.4 times the outer track]
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number)]
     pub outside: Option<f64>,
     /// Largest width of the races, mm
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number)]
     pub width: Option<f64>,
     /// Speed of the outer race up to which the sprags keep contact in overrun, rpm; 0: not asked
     #[arg(
@@ -56,16 +54,16 @@ pub struct WishArgs {
     )]
     pub keep_contact: Option<f64>,
     /// Speed of the outer race by which the sprags must be off the inner race, rpm; 0: they stay on
-    #[arg(long = "lift-off-rpm", value_name = "RPM", allow_hyphen_values = true)]
+    #[arg(long = "lift-off-rpm", value_name = "RPM", allow_hyphen_values = true, value_parser = number)]
     pub lift_off: Option<f64>,
     /// Speed of the inner race in overrun, rpm: for drag and heat
-    #[arg(long = "inner-rpm", value_name = "RPM", allow_hyphen_values = true)]
+    #[arg(long = "inner-rpm", value_name = "RPM", allow_hyphen_values = true, value_parser = number)]
     pub inner: Option<f64>,
     /// Speed of the outer race in overrun, rpm, in the same sense [default: that of --keep-contact-rpm]
-    #[arg(long = "outer-rpm", value_name = "RPM", allow_hyphen_values = true)]
+    #[arg(long = "outer-rpm", value_name = "RPM", allow_hyphen_values = true, value_parser = number)]
     pub outer: Option<f64>,
     /// Static friction [default: 0.11, by GMN 9050]
-    #[arg(long, value_name = "MU", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = number)]
     pub friction: Option<f64>,
     /// Steel of sprags and races, by its name in `materials` [default: 100Cr6]; brings the allowed stresses
     #[arg(long, value_name = "STEEL", value_parser = a_steel)]
@@ -156,7 +154,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
         return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
     }
     args.wish.check_safety()?;
-    answer::answer(&args.wish.wish().ask(), &args.output, "First design", context)
+    made::answer(&args.wish.wish().ask(), &args.output, "First design", context)
 }
 
 /// Refuse an output that cannot be written, or that would cost somebody's work.
@@ -164,7 +162,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
 /// # Errors
 /// [`Failure::Malformed`].
 pub fn may_write(output: &Path, context: &Context) -> Result<(), Failure> {
-    context.outputs.check(&[], &[(output, Kind::Design)])?;
+    context.outputs.check(&[], &[(output, FileKind::Design)])?;
     context.outputs.refuse_work(output)?;
     context.outputs.refuse_foreign()
 }

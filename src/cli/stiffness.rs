@@ -1,25 +1,16 @@
 //! `stiffness`: the static curve, for one contact law or several side by side.
 
-mod fem;
-mod laws;
-mod page;
-mod pressure;
-mod tables;
-
 use super::exit::{Exit, Failure};
-use super::parts::{self, Answer};
-use super::{Context, positive};
-use crate::answer::stiffness::{self, Ask, LawCurve, NoStiffness, StiffnessAnswer, curves};
+use super::{Context, parts, positive};
+use crate::answer::stiffness::{
+    Fem, NoStiffness, PressureMap, StiffnessAnswer, StiffnessSettings, StiffnessStudy, csv_table, curves,
+    page,
+};
 use crate::clutch::LawName;
-use crate::design::Design;
+use crate::design::{MOST_TABLE, read_text};
 use crate::margin::NoMargins;
-use crate::profile::Profile;
-use crate::report::Unit;
-use clap::Args;
-use fem::{Fem, FemJson};
-pub use pressure::PressureName;
-use pressure::{PressureJson, PressureMap};
-use serde::Serialize;
+use crate::wedge::Lengthwise;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -61,33 +52,25 @@ pub struct StiffnessArgs {
     pub pressure: Option<PressureName>,
 }
 
-/// One design with all that was asked of it.
-struct Study {
-    design: Design,
-    profile: Profile,
-    found: StiffnessAnswer,
-    fem: Option<Fem>,
-    /// Pressure along the length with the first law; absent: not asked for.
-    pressure: Option<PressureMap>,
-    run_time_s: f64,
+/// How the pressure along the length is found, as flags have it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PressureName {
+    /// Slices: (1)-(4) with the slice law, slices on half-spaces with the others
+    Slices,
+    /// Half-spaces solved on a grid over the patch, two rows a slice; seconds
+    Reference,
+    /// The same with free faces where a body ends (quarter-space correction)
+    FreeEnds,
 }
 
-impl Study {
-    fn laws(&self) -> &[LawCurve] {
-        &self.found.laws
+impl PressureName {
+    fn how(self) -> Lengthwise {
+        match self {
+            Self::Slices => Lengthwise::Slices,
+            Self::Reference => Lengthwise::Reference,
+            Self::FreeEnds => Lengthwise::FreeEnds,
+        }
     }
-}
-
-/// Keys of `stiffness`: the curves, and what was asked beside them.
-#[derive(Debug, Clone, Serialize)]
-struct Body {
-    #[serde(flatten)]
-    curves: stiffness::Body,
-    /// Finite elements and the distance of each law to them, in the order of `laws`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fem: Option<Vec<FemJson>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pressure: Option<PressureJson>,
 }
 
 /// Run the command.
@@ -111,22 +94,21 @@ pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
         )));
     }
     let studies = (0..args.files.len()).map(|i| study(args, i, context)).collect::<Result<Vec<_>, _>>()?;
-    let answers: Vec<_> = studies.iter().map(answer).collect();
     if let [study] = studies.as_slice() {
-        context.outputs.write_csv(&tables::csv(study.laws()));
+        context.outputs.write_csv(&csv_table(&study.found.laws));
     }
-    context.outputs.write_report(|| page::page(&studies, &answers, context));
-    for (study, answer) in studies.iter().zip(&answers) {
-        context.answer(&tables::text(study, context.screen))?;
-        answer.print(context)?;
+    context.outputs.write_report(|| page(&studies, &context.command_line));
+    for study in &studies {
+        context.answer(&study.text(context.screen))?;
+        context.print(&study.envelope())?;
     }
     Ok(Exit::Held)
 }
 
 /// What is asked of the `i`-th file.
-fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<Study, Failure> {
+fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<StiffnessStudy, Failure> {
     let design = parts::read_design(&args.files[i], context)?;
-    let fem = args.fem.get(i).map(|path| Fem::read(path, args.fem_model.as_deref())).transpose()?;
+    let fem = args.fem.get(i).map(|path| read_fem(path, args.fem_model.as_deref())).transpose()?;
     let profile =
         design.clutch.profile().map_err(|e| parts::no_clutch(&args.files[i], &NoMargins::Profile(e)))?;
     let started = Instant::now();
@@ -141,41 +123,32 @@ fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<Study, Fai
     drop(progress);
     let shaped = (!design.clutch.axial.is_straight()).then_some(PressureName::Slices);
     let pressure = match (laws.first(), args.pressure.or(shaped)) {
-        (Some(law), Some(how)) => Some(PressureMap::of(law, how)?),
+        (Some(law), Some(how)) => Some(PressureMap::of(law, how.how()).map_err(|e| {
+            Failure::malformed(format!(
+                "no pressure along the length: {e}; take fewer slices or --pressure slices"
+            ))
+        })?),
         _ => None,
     };
     let run_time_s = started.elapsed().as_secs_f64();
-    Ok(Study { design, profile, found: StiffnessAnswer::of(laws), fem, pressure, run_time_s })
+    Ok(StiffnessStudy { design, profile, found: StiffnessAnswer::of(laws), fem, pressure, run_time_s })
+}
+
+/// Finite elements of `--fem`.
+fn read_fem(path: &Path, model: Option<&str>) -> Result<Fem, Failure> {
+    let name = path.display().to_string();
+    let text =
+        read_text(path, MOST_TABLE).map_err(|why| Failure::malformed(format!("--fem {name}: {why}")))?;
+    Fem::parse(&text, &name, model).map_err(Failure::malformed)
 }
 
 impl StiffnessArgs {
-    fn ask(&self, context: &Context) -> Ask {
-        Ask {
+    fn ask(&self, context: &Context) -> StiffnessSettings {
+        StiffnessSettings {
             laws: self.contact.clone(),
             torques_nm: self.torques.clone(),
             max_torque_nm: self.max_torque,
             follow: context.follow.clone(),
         }
     }
-}
-
-fn answer(study: &Study) -> Answer<'_, Body> {
-    Answer {
-        design: &study.design,
-        run_time_s: study.run_time_s,
-        left_out: study.found.left_out.clone(),
-        error_estimate: Some(study.found.error_relative.into()),
-        body: Body {
-            curves: study.found.body.clone(),
-            fem: study.fem.as_ref().map(|fem| fem::json(study, fem)),
-            pressure: study.pressure.as_ref().map(PressureMap::to_json),
-        },
-    }
-}
-
-/// Where the curve of a law ends, in words.
-fn end_text(law: &LawCurve) -> String {
-    let (reason, _) = law.curve.end();
-    let torque = Unit::NewtonMetre.show(law.curve.end_torque_nm(), 5);
-    format!("{} at {torque}", reason.name())
 }

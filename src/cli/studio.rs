@@ -1,7 +1,7 @@
 //! `studio`: the live page, served to this machine alone.
 
 use super::exit::{Exit, Failure};
-use super::origin::{Kind, WRITTEN_BY};
+use super::origin::{FileKind, WRITTEN_BY};
 use super::output::{self, Outputs};
 use super::{Context, parts};
 use crate::design::{Design, MOST_TABLE};
@@ -314,7 +314,7 @@ impl Studio<'_> {
                 design.source
             )
         };
-        match outputs.write(&path, Kind::Design, ours.as_bytes()) {
+        match outputs.write(&path, FileKind::Design, ours.as_bytes()) {
             true => Ok(json!({ "path": path.display().to_string() })),
             false => Err(said(&outputs.unwritten().join("; "))),
         }

@@ -5,7 +5,6 @@
 //! of `profile`, Lame's press fit of `race`. Table 1 of the paper is a `Clutch`.
 
 mod drivetrain;
-mod kinds;
 mod law;
 mod question;
 mod running;
@@ -14,7 +13,7 @@ mod tolerances;
 pub use drivetrain::{DriveInertia, DriveTorque, GasTorque, MOST_SHAFTS, Shaft, Towards};
 pub(crate) use law::ROLLER_COEFFICIENT;
 pub use law::{ContactLaw, LAWS, LawFacts, LawName};
-pub use question::{Scenario, ScenarioKind, Start};
+pub use question::{Phrase, Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};
 pub use tolerances::Tolerances;
 

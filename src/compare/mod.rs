@@ -1,6 +1,6 @@
 //! Designs side by side: what differs in their files, and what comes of it.
 //!
-//! In: designs. Out: [`Subject`] (statics, margins, scenes of one), [`Row`] of several. Absent: which of them is better, units of
+//! In: designs. Out: [`Subject`] (statics, margins, scenes of one), [`SideBySide`] of several. Absent: which of them is better, units of
 //! reports. Equations: none; every figure is that of `margin`, `wedge` and `scenario`.
 
 mod subject;
@@ -13,7 +13,7 @@ use crate::profile::Profile;
 
 /// The same thing of several designs, in their order; none of a design that has no such thing.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row<T> {
+pub struct SideBySide<T> {
     /// What it is: path of an input, code of a limit, name of a scene.
     pub key: String,
     /// Of each design.
@@ -24,7 +24,7 @@ pub struct Row<T> {
 const NAMES: [&str; 2] = ["schema", "name"];
 
 /// Inputs that differ: another value, or there in one file and not in another.
-pub fn inputs_that_differ(designs: &[&Design]) -> Vec<Row<Input>> {
+pub fn inputs_that_differ(designs: &[&Design]) -> Vec<SideBySide<Input>> {
     let all: Vec<Vec<(String, Input)>> = designs
         .iter()
         .map(|d| inputs(&d.source).into_iter().map(|i| (i.path.clone(), i)).collect())
@@ -44,24 +44,24 @@ fn differs(values: &[Option<Input>]) -> bool {
 }
 
 /// Every margin that one of them has.
-pub fn margins(subjects: &[Subject]) -> Vec<Row<&Margin>> {
+pub fn margins(subjects: &[Subject]) -> Vec<SideBySide<&Margin>> {
     side_by_side(subjects.iter().map(|s| s.margins.iter().map(|m| (m.code(), m)).collect()).collect())
 }
 
 /// Every scene that one of them has.
-pub fn scenes(subjects: &[Subject]) -> Vec<Row<&Scene>> {
+pub fn scenes(subjects: &[Subject]) -> Vec<SideBySide<&Scene>> {
     side_by_side(subjects.iter().map(|s| s.scenes.iter().map(|c| (c.name.clone(), c)).collect()).collect())
 }
 
 /// Keys in the order of the first list, those that it lacks behind the one that they follow in theirs.
-fn side_by_side<T>(lists: Vec<Vec<(String, T)>>) -> Vec<Row<T>> {
+fn side_by_side<T>(lists: Vec<Vec<(String, T)>>) -> Vec<SideBySide<T>> {
     let count = lists.len();
-    let mut rows: Vec<Row<T>> = Vec::new();
+    let mut rows: Vec<SideBySide<T>> = Vec::new();
     for (k, list) in lists.into_iter().enumerate() {
         let mut behind = 0;
         for (key, value) in list {
             let at = rows.iter().position(|row| row.key == key).unwrap_or_else(|| {
-                rows.insert(behind, Row { key, values: (0..count).map(|_| None).collect() });
+                rows.insert(behind, SideBySide { key, values: (0..count).map(|_| None).collect() });
                 behind
             });
             rows[at].values[k] = Some(value);

@@ -22,8 +22,8 @@ pub struct DraftScene {
     pub held: bool,
 }
 
-/// What a new design file says; one inner arc, a steel of the library, the law `elastic`. The races' inertias are left to
-/// their radii.
+/// What a new design file says; one inner arc, a steel of the library, the law `elastic`. The outer race's inertia is
+/// left to its radii.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draft {
     /// Name.
@@ -68,6 +68,10 @@ pub struct Draft {
     pub gaps_m: [f64; 2],
     /// Overrun speed up to which contact is kept, and that by which the sprags are off, rad/s; `None`: not asked.
     pub contact_rad_s: [Option<f64>; 2],
+    /// Where each comes from.
+    pub contact_from: [&'static str; 2],
+    /// Inertia on the inner race, kg m^2, and where it comes from; `None`: that of the ring alone.
+    pub inner_inertia_kg_m2: Option<(f64, String)>,
     /// Mean speed of the scene with the torque step, rad/s.
     pub speed_rad_s: f64,
     /// How long the scene with the torque step lasts, s; the step comes after a tenth of it.
@@ -115,8 +119,18 @@ impl Draft {
         let contact = ["keep_contact_to_rpm", "lift_off_by_rpm"];
         let asked = contact.into_iter().zip(self.contact_rad_s);
         let contact: String = asked
-            .filter_map(|(key, speed)| Some(format!("{key} = {}    # asked for\n", rpm(speed?))))
+            .zip(self.contact_from)
+            .filter_map(|((key, speed), from)| Some(format!("{key} = {}    # {from}\n", rpm(speed?))))
             .collect();
+        let inertias = match &self.inner_inertia_kg_m2 {
+            Some((inertia, from)) => format!(
+                "inner_inertia_kg_m2 = {}        # {from}\n# outer_inertia_kg_m2: absent, so that of the ring alone",
+                digits(*inertia, 4)
+            ),
+            None => {
+                "# inner_inertia_kg_m2, outer_inertia_kg_m2: absent, so those of the rings alone".to_owned()
+            }
+        };
         let held: String =
             self.scenes.iter().filter(|s| s.held).map(|s| format!(", \"{}\"", s.name)).collect();
         let scenes: String = self.scenes.iter().map(DraftScene::to_toml).collect();
@@ -138,7 +152,7 @@ inner_radius_mm = {track}
 outer_radius_mm = {outer}
 outer_outside_radius_mm = {outside}
 width_mm = {width}
-# inner_inertia_kg_m2, outer_inertia_kg_m2: absent, so those of the rings alone, without what is fixed to them
+{inertias}
 viscous_damping_nm_s_per_rad = 0.1  # assumed
 
 [spring]
@@ -169,7 +183,7 @@ name = "rated-static"
 kind = "static"
 torque_nm = {nominal}
 
-# A step of torque on the inner race; it swings as far beyond as the step is high, to nominal torque at the crest.
+# A step of torque on the inner race; it swings as far beyond as the step is high: nominal torque at the crest.
 [[scenarios]]
 name = "rated-step"
 kind = "transient"
@@ -205,10 +219,10 @@ seed = 1
             abutment = digits(self.abutment_nm_per_rad, 4),
             step_time = digits(0.1 * self.step_duration_s, 4),
             duration = digits(self.step_duration_s, 4),
-            ri_min = mm(0.95 * self.inner_radius_m),
-            ri_max = mm(1.05 * self.inner_radius_m),
-            e_min = mm(0.9 * self.centre_distance_m),
-            e_max = mm(1.1 * self.centre_distance_m),
+            ri_min = mm(0.9 * self.inner_radius_m),
+            ri_max = mm(1.1 * self.inner_radius_m),
+            e_min = mm(0.8 * self.centre_distance_m),
+            e_max = mm(1.2 * self.centre_distance_m),
         )
     }
 }

@@ -3,11 +3,13 @@
 //! In: nothing. Out: [`Objective`], [`Optimize`]. Absent: how one is computed (`optimise`). Equations: none.
 
 use super::Limits;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
+use std::borrow::Cow;
 
 /// What is made better, every margin being a limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Objective {
     /// The smallest slip margin mu_s/mu_req - 1 over the scenarios is maximised.
     SlipMargin,
@@ -19,51 +21,111 @@ pub enum Objective {
     Windup,
     /// The largest relative departure from a table of windups is minimised.
     StiffnessCurve,
+    /// The smallest contact margin over the scenarios is maximised.
+    ContactMargin,
+    /// The speed of the outer race up to which the sprags keep contact in overrun is maximised.
+    KeepContact,
+    /// That speed is minimised: the sprags lift off early.
+    LiftOff,
+    /// The larger of the drag torques in overrun at rest and at the speed to which contact is to be kept is minimised.
+    Drag,
+    /// The mass of sprags and races is minimised.
+    Mass,
+    /// The width of the races is minimised.
+    Width,
+    /// The outer diameter is minimised.
+    OutsideDiameter,
 }
+
+/// What is said of an objective.
+struct Facts {
+    name: &'static str,
+    unit: &'static str,
+    words: &'static str,
+    /// +1 where more is better, -1 where less is.
+    sense: f64,
+    /// What a gain is one of, behind its number and unit.
+    gain: &'static str,
+    /// A range of its unit that counts as 1 beside margins.
+    span: f64,
+}
+
+/// One row an objective, in the order of [`Objective::ALL`].
+#[rustfmt::skip]
+const FACTS: [Facts; 12] = [
+    Facts { name: "slip-margin", unit: "", words: "least slip margin", sense: 1.0, gain: "slip margin", span: 1.0 },
+    Facts { name: "torque-capacity", unit: "Nm", words: "torque capacity", sense: 1.0, gain: "of torque capacity", span: 1.0 },
+    Facts { name: "peak-pressure", unit: "MPa", words: "largest Hertz pressure at peak torque", sense: -1.0, gain: "less pressure", span: 1000.0 },
+    Facts { name: "windup", unit: "deg", words: "windup at nominal torque", sense: -1.0, gain: "less windup", span: 1.0 },
+    Facts { name: "stiffness-curve", unit: "", words: "largest departure from the target windup", sense: -1.0, gain: "less departure from the target", span: 1.0 },
+    Facts { name: "contact-margin", unit: "", words: "least contact margin of the scenarios", sense: 1.0, gain: "contact margin", span: 1.0 },
+    Facts { name: "keep-contact", unit: "rpm", words: "speed of the outer race up to which the sprags keep contact in overrun", sense: 1.0, gain: "more", span: 1000.0 },
+    Facts { name: "lift-off", unit: "rpm", words: "speed of the outer race at which the sprags lift off in overrun", sense: -1.0, gain: "less", span: 1000.0 },
+    Facts { name: "drag", unit: "Nm", words: "drag torque in overrun, the larger of slow and at the speed to which contact is kept", sense: -1.0, gain: "less drag", span: 0.1 },
+    Facts { name: "mass", unit: "g", words: "mass of sprags and races", sense: -1.0, gain: "less mass", span: 100.0 },
+    Facts { name: "width", unit: "mm", words: "width of the races", sense: -1.0, gain: "less width", span: 10.0 },
+    Facts { name: "outside-diameter", unit: "mm", words: "outer diameter", sense: -1.0, gain: "less diameter", span: 10.0 },
+];
 
 impl Objective {
     /// All of them, in the order of the file format.
-    pub const ALL: [Self; 5] =
-        [Self::SlipMargin, Self::TorqueCapacity, Self::PeakPressure, Self::Windup, Self::StiffnessCurve];
+    pub const ALL: [Self; 12] = [
+        Self::SlipMargin,
+        Self::TorqueCapacity,
+        Self::PeakPressure,
+        Self::Windup,
+        Self::StiffnessCurve,
+        Self::ContactMargin,
+        Self::KeepContact,
+        Self::LiftOff,
+        Self::Drag,
+        Self::Mass,
+        Self::Width,
+        Self::OutsideDiameter,
+    ];
+
+    fn facts(self) -> &'static Facts {
+        &FACTS[self as usize]
+    }
 
     /// Name in files and on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::SlipMargin => "slip-margin",
-            Self::TorqueCapacity => "torque-capacity",
-            Self::PeakPressure => "peak-pressure",
-            Self::Windup => "windup",
-            Self::StiffnessCurve => "stiffness-curve",
-        }
+        self.facts().name
     }
 
     /// Unit in which it is reported; empty for a pure number.
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::SlipMargin | Self::StiffnessCurve => "",
-            Self::TorqueCapacity => "Nm",
-            Self::PeakPressure => "MPa",
-            Self::Windup => "deg",
-        }
+        self.facts().unit
     }
 
     /// In words.
     pub fn words(self) -> &'static str {
-        match self {
-            Self::SlipMargin => "least slip margin",
-            Self::TorqueCapacity => "torque capacity",
-            Self::PeakPressure => "largest Hertz pressure at peak torque",
-            Self::Windup => "windup at nominal torque",
-            Self::StiffnessCurve => "largest departure from the target windup",
-        }
+        self.facts().words
     }
 
     /// +1 where more is better, -1 where less is.
     pub fn sense(self) -> f64 {
-        match self {
-            Self::SlipMargin | Self::TorqueCapacity => 1.0,
-            Self::PeakPressure | Self::Windup | Self::StiffnessCurve => -1.0,
-        }
+        self.facts().sense
+    }
+
+    /// What a gain of it is one of, as said behind the number and the unit: "less pressure".
+    pub fn gain(self) -> &'static str {
+        self.facts().gain
+    }
+
+    /// A range of its unit that weighs as much as a margin of 1.
+    pub fn span(self) -> f64 {
+        self.facts().span
+    }
+}
+
+impl JsonSchema for Objective {
+    fn schema_name() -> Cow<'static, str> {
+        "Objective".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string", "enum": Self::ALL.map(Self::name) })
     }
 }
 
@@ -100,6 +162,19 @@ pub struct OptimizeVariable {
     pub start: f64,
     /// Whether it takes whole numbers only.
     pub whole: bool,
+    /// What goes with it.
+    pub links: Vec<Link>,
+}
+
+/// A number of the file that goes with a variable: value = by + times * (that of the variable), in the units of both names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Dotted path of the number.
+    pub path: String,
+    /// What is added, in the number's unit.
+    pub by: f64,
+    /// What the variable is multiplied with.
+    pub times: f64,
 }
 
 /// What `optimize` shall do.
@@ -123,25 +198,16 @@ pub struct Optimize {
     pub seed: u64,
 }
 
-/// An objective as written: without a doc comment per variant, which the schema's reader does not know.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum ObjectiveFile {
-    SlipMargin,
-    TorqueCapacity,
-    PeakPressure,
-    Windup,
-    StiffnessCurve,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl From<ObjectiveFile> for Objective {
-    fn from(written: ObjectiveFile) -> Self {
-        match written {
-            ObjectiveFile::SlipMargin => Self::SlipMargin,
-            ObjectiveFile::TorqueCapacity => Self::TorqueCapacity,
-            ObjectiveFile::PeakPressure => Self::PeakPressure,
-            ObjectiveFile::Windup => Self::Windup,
-            ObjectiveFile::StiffnessCurve => Self::StiffnessCurve,
+    #[test]
+    fn each_row_of_the_table_is_that_of_its_objective() {
+        for (k, o) in Objective::ALL.into_iter().enumerate() {
+            assert_eq!(o as usize, k);
+            let read: Objective = serde_json::from_value(o.name().into()).unwrap();
+            assert_eq!(read, o);
         }
     }
 }

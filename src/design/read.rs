@@ -101,6 +101,11 @@ impl Design {
             let help = "start from one of the files in designs/";
             return Err(one_problem(name_for_errors, source, 0, "an empty file".to_owned(), WHAT, help));
         }
+        if let Some(kind) = foreign(source) {
+            let help =
+                "a design is TOML; `sprag-design import` makes one of a drawing (DXF) or of points (CSV)";
+            return Err(one_problem(name_for_errors, source, 0, kind.to_owned(), WHAT, help));
+        }
         let doc = Document::parse(source).map_err(refuse)?;
         let problems = shape::problems(&doc);
         if !problems.is_empty() {
@@ -217,4 +222,17 @@ fn hash<'t>(source: &str, histories: impl Iterator<Item = &'t String>) -> String
     let mut digest = Sha256::new_with_prefix(source.as_bytes());
     histories.for_each(|text| digest.update(text.as_bytes()));
     digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// What another program's file is, by how it begins.
+fn foreign(source: &str) -> Option<&'static str> {
+    let start = source.trim_start_matches('\u{feff}').trim_start();
+    let mut words = start.split_whitespace();
+    match (words.next()?, words.next()) {
+        ("ISO-10303-21;", _) => Some("a STEP file"),
+        ("0", Some("SECTION")) | ("999", _) => Some("a DXF drawing"),
+        (first, _) if first.starts_with('<') => Some("an XML, SVG or HTML file"),
+        (first, _) if first.starts_with('{') => Some("a JSON file"),
+        _ => None,
+    }
 }

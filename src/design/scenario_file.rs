@@ -5,6 +5,7 @@
 
 use super::contact_file::ContactFile;
 use super::file::{FrictionFile, MaterialFile, RacesFile, SpragsFile, SpringFile};
+use super::scenarios::KindFile;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -105,16 +106,6 @@ pub(super) struct ScenarioFile {
     #[serde(default)]
     #[schemars(schema_with = "part_of::<ContactFile>")]
     pub contact: Option<toml::Table>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum KindFile {
-    Static,
-    TorsionalExcitation,
-    Engagement,
-    Overrun,
-    Transient,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]

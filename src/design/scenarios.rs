@@ -10,10 +10,24 @@ use super::drivetrain;
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::history::HistoryKind;
-use super::scenario_file::{KindFile, ScenarioFile, StartFile};
+use super::scenario_file::{ScenarioFile, StartFile};
 use super::shape;
 use super::steels::{self, BODIES, MATERIAL_KEYS};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
+
+/// The kinds by their names in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum KindFile {
+    Static,
+    TorsionalExcitation,
+    Engagement,
+    Overrun,
+    Transient,
+}
 
 /// Kind, its name, the keys it must have, those it may have.
 type KindKeys = (KindFile, &'static str, &'static [&'static str], &'static [&'static str]);

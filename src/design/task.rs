@@ -6,10 +6,10 @@
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::objective::Objective;
-use super::scenario_file::KindFile;
+use super::scenarios::KindFile;
 use super::task_file::{OptimizeFile, VariableFile};
 use super::variables::{is_whole, variable_names, variable_path};
-use super::{Limits, Optimize, OptimizeVariable, check, shape};
+use super::{Limits, Link, Optimize, OptimizeVariable, check, shape};
 
 /// Widest range of a variable that takes whole numbers: a choice, one continuous search for each of them.
 const MOST_WHOLE: f64 = 40.0;
@@ -41,19 +41,20 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
             let (name, other) = (format!("{path}.name"), format!("optimize.variables[{first}].name"));
             out.refuse(&[&name, &other], "each variable once".to_owned(), "remove one of the two".to_owned());
         }
-        given.push(check_variable(variable, &path, file, out));
+        let value = check_variable(variable, &path, file, out);
+        given.push((value, check_links(task, i, value, file, out)));
     }
     let limits = out.within("optimize", |out| check::limits(&task.limits, base, out));
     objective(task, &limits, out);
     Optimize {
-        objective: task.objective.into(),
+        objective: task.objective,
         target: task.target.iter().map(|[torque, windup]| [*torque, windup.to_radians()]).collect(),
         scenarios: task.scenarios.clone(),
         variables: task
             .variables
             .iter()
             .zip(given)
-            .map(|(v, given)| OptimizeVariable {
+            .map(|(v, (given, links))| OptimizeVariable {
                 name: v.name.clone(),
                 min: v.min,
                 max: v.max,
@@ -61,6 +62,7 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
                 // Bounds bind the search alone: a refused file may have them the wrong way round.
                 start: given.max(v.min).min(v.max),
                 whole: is_whole(&v.name, file.sprags.inner_arcs.len()),
+                links,
             })
             .collect(),
         limits,
@@ -73,7 +75,7 @@ pub(super) fn optimize(file: &DesignFile, task: &OptimizeFile, base: Limits, out
 /// What an objective needs beside the scenarios.
 fn objective(task: &OptimizeFile, limits: &Limits, out: &mut Findings) {
     let key = "optimize.objective";
-    let wanted = Objective::from(task.objective);
+    let wanted = task.objective;
     match wanted {
         Objective::TorqueCapacity | Objective::PeakPressure if limits.peak_torque_nm.is_none() => out.refuse(
             &[key],
@@ -118,7 +120,12 @@ fn check_variable(v: &VariableFile, path: &str, file: &DesignFile, out: &mut Fin
         out.refuse(
             &[&name_key],
             format!("for {arcs} inner arcs: {}", variable_names(arcs).join(", ")),
-            "name one of these variables".to_owned(),
+            match shape::paths_that_end_in(&v.name).as_slice() {
+                [] => {
+                    "name one of these variables, or any number of the clutch by its dotted path".to_owned()
+                }
+                paths => format!("name one of these variables; did you mean {}?", paths.join(" or ")),
+            },
         );
         return 0.0;
     };
@@ -149,6 +156,65 @@ fn check_variable(v: &VariableFile, path: &str, file: &DesignFile, out: &mut Fin
         );
     }
     given.unwrap_or(0.0)
+}
+
+/// What goes with variable `i`, whose value in the file is `given`: numbers of the clutch that nothing else moves.
+fn check_links(
+    task: &OptimizeFile,
+    i: usize,
+    given: f64,
+    file: &DesignFile,
+    out: &mut Findings,
+) -> Vec<Link> {
+    let arcs = file.sprags.inner_arcs.len();
+    let v = &task.variables[i];
+    let (mut links, mut refusals) = (Vec::new(), Vec::new());
+    for (list, names) in [("moves", &v.moves), ("scales", &v.scales)] {
+        for (k, name) in names.iter().enumerate() {
+            let key = format!("optimize.variables[{i}].{list}[{k}]");
+            let mut refuse =
+                |allowed: &str, hint: String| refusals.push((key.clone(), allowed.to_owned(), hint));
+            let Some(path) = variable_path(name, arcs).filter(|p| !is_whole(p, arcs)) else {
+                refuse(
+                    "a number of the clutch, not a whole one",
+                    format!("name a variable or a path such as races.width_mm; `{name}` is none"),
+                );
+                continue;
+            };
+            let moved =
+                |other: &VariableFile| variable_path(&other.name, arcs).as_deref() == Some(path.as_str());
+            let linked = |other: &VariableFile| {
+                let all = other.moves.iter().chain(&other.scales);
+                all.filter(|n| variable_path(n, arcs).as_deref() == Some(path.as_str())).count()
+            };
+            if task.variables.iter().any(moved) || task.variables.iter().map(linked).sum::<usize>() > 1 {
+                refuse(
+                    "a number that one thing moves",
+                    format!("{path} is a variable itself or goes with another one: name it once"),
+                );
+                continue;
+            }
+            if is_whole(&v.name, arcs) || (list == "scales" && given == 0.0) {
+                refuse(
+                    "what can be followed: a variable that takes any number, not 0 where others are in proportion to it",
+                    format!("remove {path}, or make it a variable of its own"),
+                );
+                continue;
+            }
+            let Some(value) = out.doc.number(&path) else {
+                refuse("a number that is in the file", format!("add {path} = ... to the file"));
+                continue;
+            };
+            links.push(match list {
+                "moves" => Link { path, by: value - given, times: 1.0 },
+                _ => Link { path, by: 0.0, times: value / given },
+            });
+        }
+    }
+    for (key, allowed, hint) in refusals {
+        out.refuse(&[&key], allowed, hint);
+    }
+    links
 }
 
 fn named_scenarios(key: &str, names: &[String], file: &DesignFile, out: &mut Findings) {

@@ -4,7 +4,7 @@
 //! Equations: none. The doc comments are the schema's descriptions.
 
 use super::limits::LimitsFile;
-use super::objective::ObjectiveFile;
+use super::objective::Objective;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -20,9 +20,10 @@ pub(super) struct CheckFile {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OptimizeFile {
-    /// What is made better: slip-margin (the smallest over the scenarios), torque-capacity, peak-pressure, windup (at
-    /// nominal torque) or stiffness-curve (windups as in target).
-    pub objective: ObjectiveFile,
+    /// What is made better: slip-margin or contact-margin (the smallest over the scenarios), torque-capacity, peak-pressure,
+    /// windup (at nominal torque), stiffness-curve (windups as in target), keep-contact or lift-off (the speed of lift-off,
+    /// more or less of it), drag, mass, width or outside-diameter. `explain NAME` says more of each.
+    pub objective: Objective,
     /// Names of the scenarios whose smallest slip margin is maximised, or which are limits of another objective.
     #[schemars(length(min = 1))]
     pub scenarios: Vec<String>,
@@ -63,4 +64,10 @@ pub(super) struct VariableFile {
     pub min: f64,
     /// Upper bound.
     pub max: f64,
+    /// Further numbers of the clutch, by dotted path, that change by the same amount: with length_mm say races.width_mm.
+    #[serde(default)]
+    pub moves: Vec<String>,
+    /// Further numbers of the clutch, by dotted path, that stay in proportion to it.
+    #[serde(default)]
+    pub scales: Vec<String>,
 }

@@ -2,13 +2,13 @@
 //! arcs. Written by hand, because no crate's release 12 is taken by AutoCAD LT and by strict readers.
 
 use super::sheet::{Entity, Layer, Sheet};
-use super::{Part, Subject};
+use super::{DrawnClutch, Part};
 use crate::profile::Segment;
 use nalgebra::Vector2;
 use std::fmt::Write;
 
 /// The drawing of a part.
-pub fn dxf(part: Part, subject: &Subject) -> String {
+pub fn dxf(part: Part, subject: &DrawnClutch) -> String {
     let mut out = Groups(String::new());
     let sheet = Sheet::new(part, subject);
     out.group(999, &ascii(&subject.mark()));

@@ -14,4 +14,4 @@ mod sheet;
 pub mod step;
 pub mod svg;
 
-pub use part::{Part, Subject};
+pub use part::{DrawnClutch, Part};

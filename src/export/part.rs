@@ -42,7 +42,7 @@ impl Part {
 
 /// A clutch to be drawn: as made, its profile placed, its outline closed where flanks are known.
 #[derive(Debug, Clone)]
-pub struct Subject<'a> {
+pub struct DrawnClutch<'a> {
     /// Name of the design.
     pub name: &'a str,
     /// Hash of the design.
@@ -55,7 +55,7 @@ pub struct Subject<'a> {
     pub outline: Option<&'a Outline>,
 }
 
-impl Subject<'_> {
+impl DrawnClutch<'_> {
     /// First words of every file: tool, version, design.
     pub fn mark(&self) -> String {
         format!("{} {}; design {}", env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), self.hash)

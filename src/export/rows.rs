@@ -1,14 +1,14 @@
 //! The geometry as numbers: every arc and flank, and points on them.
 
 use super::part::{angles_rad, surface_names};
-use super::{Part, Subject};
+use super::{DrawnClutch, Part};
 use crate::profile::Segment;
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
 /// One arc or flank.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct SurfaceRow {
     /// Which body: `sprag`, `sprag 3`, `inner race`, `outer race`.
     pub body: String,
     /// Which surface of it: `inner arc 1`, `outer arc`, `front flank`, `bore`, `track`, `outside`.
@@ -24,17 +24,17 @@ pub struct Row {
 
 /// A point on a surface, m.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point {
-    /// As [`Row::body`].
+pub struct SurfacePoint {
+    /// As [`SurfaceRow::body`].
     pub body: String,
-    /// As [`Row::surface`].
+    /// As [`SurfaceRow::surface`].
     pub surface: String,
     /// Where, m.
     pub at_m: [f64; 2],
 }
 
 /// Every surface of a part with its segment; of a sprag without flanks the arcs as far as they work.
-fn surfaces(part: Part, subject: &Subject) -> Vec<(String, String, Segment)> {
+fn surfaces(part: Part, subject: &DrawnClutch) -> Vec<(String, String, Segment)> {
     let mut all = Vec::new();
     let ring = |body: &str, surface: &str, radius_m: f64| {
         let whole = Segment::Arc {
@@ -71,27 +71,27 @@ fn surfaces(part: Part, subject: &Subject) -> Vec<(String, String, Segment)> {
 }
 
 /// Every arc and flank of a part. A sprag without flanks has its working arcs, and an outer arc without ends.
-pub fn arcs(part: Part, subject: &Subject) -> Vec<Row> {
+pub fn arcs(part: Part, subject: &DrawnClutch) -> Vec<SurfaceRow> {
     if part == Part::Sprag && subject.outline.is_none() {
         return open_arcs(subject);
     }
     surfaces(part, subject).into_iter().map(|(body, surface, segment)| row(body, surface, &segment)).collect()
 }
 
-fn row(body: String, surface: String, segment: &Segment) -> Row {
+fn row(body: String, surface: String, segment: &Segment) -> SurfaceRow {
     let point = |v: Vector2<f64>| [v.x, v.y];
     let ends_m = Some([point(segment.start_m()), point(segment.end_m())]);
     match *segment {
-        Segment::Line { .. } => Row { body, surface, circle_m: None, angles_rad: None, ends_m },
+        Segment::Line { .. } => SurfaceRow { body, surface, circle_m: None, angles_rad: None, ends_m },
         Segment::Arc { centre_m, radius_m, from_azimuth_rad, sweep_rad } => {
             let (from, turn) = angles_rad(from_azimuth_rad, sweep_rad);
             let circle_m = Some((point(centre_m), radius_m));
-            Row { body, surface, circle_m, angles_rad: Some([from, from + turn]), ends_m }
+            SurfaceRow { body, surface, circle_m, angles_rad: Some([from, from + turn]), ends_m }
         }
     }
 }
 
-fn open_arcs(subject: &Subject) -> Vec<Row> {
+fn open_arcs(subject: &DrawnClutch) -> Vec<SurfaceRow> {
     let profile = subject.profile;
     let inner = profile.arcs.iter().enumerate().map(|(k, arc)| {
         let segment = Segment::Arc {
@@ -102,7 +102,7 @@ fn open_arcs(subject: &Subject) -> Vec<Row> {
         };
         row("sprag".to_owned(), format!("inner arc {}", k + 1), &segment)
     });
-    let outer = Row {
+    let outer = SurfaceRow {
         body: "sprag".to_owned(),
         surface: "outer arc".to_owned(),
         circle_m: Some(([0.0; 2], profile.outer_radius_m)),
@@ -114,10 +114,10 @@ fn open_arcs(subject: &Subject) -> Vec<Row> {
 
 /// Points on every surface of a part, counterclockwise; no chord between two of one body is farther from its arc than
 /// `deviation_m`, m. The first point of a closed body is not repeated.
-pub fn points(part: Part, subject: &Subject, deviation_m: f64) -> Vec<Point> {
+pub fn points(part: Part, subject: &DrawnClutch, deviation_m: f64) -> Vec<SurfacePoint> {
     let mut all = Vec::new();
     for (body, surface, segment) in surfaces(part, subject) {
-        let of = |at_m| Point { body: body.clone(), surface: surface.clone(), at_m };
+        let of = |at_m| SurfacePoint { body: body.clone(), surface: surface.clone(), at_m };
         all.extend(segment.points_m(deviation_m).into_iter().map(of));
     }
     all

@@ -1,6 +1,6 @@
 //! A drawing of a part as lines, arcs and words on named layers, before it is DXF or SVG. Lengths in m.
 
-use super::{Part, Subject};
+use super::{DrawnClutch, Part};
 use crate::profile::{Profile, Segment};
 use nalgebra::Vector2;
 
@@ -76,7 +76,7 @@ const LINE: f64 = 1.7;
 const COLUMN: f64 = 9.0;
 
 impl Sheet {
-    pub fn new(part: Part, subject: &Subject) -> Self {
+    pub fn new(part: Part, subject: &DrawnClutch) -> Self {
         let title = format!("{} ({})", subject.name, part.name());
         let zero = Vector2::zeros();
         let mut sheet = Self { title, entities: Vec::new(), extent_m: [zero, zero], letter_m: 0.0 };
@@ -123,7 +123,7 @@ impl Sheet {
             [Vector2::new(low.x, low.y - (2.5 + lines.len() as f64) * pitch), Vector2::new(right, high.y)];
     }
 
-    fn sprag(&mut self, subject: &Subject) {
+    fn sprag(&mut self, subject: &DrawnClutch) {
         let (profile, segments) = (subject.profile, subject.sprag());
         self.put(Layer::Sprag, Entity::Closed(segments.to_vec()));
         let points: Vec<[f64; 2]> = segments.iter().flat_map(|s| s.points_m(1e-5)).collect();
@@ -204,7 +204,7 @@ impl Sheet {
         self.extent_m[1].x = x + 14.0 * self.letter_m;
     }
 
-    fn races(&mut self, part: Part, subject: &Subject) {
+    fn races(&mut self, part: Part, subject: &DrawnClutch) {
         let ((bore, inner), (outer, outside)) = (subject.inner_radii_m(), subject.outer_radii_m());
         let widest = if part == Part::Inner { inner } else { outside };
         self.letter_m = LETTER * widest;
@@ -246,7 +246,7 @@ impl Sheet {
     }
 
     /// What every drawing says below its rows.
-    fn close(&mut self, subject: &Subject, mut rows: Vec<String>) {
+    fn close(&mut self, subject: &DrawnClutch, mut rows: Vec<String>) {
         rows.push(ENGAGES.to_owned());
         rows.push("ALL DIMENSIONS IN MM, AT FIRST CONTACT WITHOUT LOAD, AS MADE".to_owned());
         let hash = subject.hash.get(..12).unwrap_or(subject.hash);

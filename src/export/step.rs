@@ -5,13 +5,13 @@
 //! micrometres, is left out, as is a tilt. The clutch is an assembly of three products; the sprag is placed n_s times.
 
 use super::part::circle;
-use super::{Part, Subject};
+use super::{DrawnClutch, Part};
 use crate::profile::Segment;
 use nalgebra::{Vector2, Vector3};
 use std::fmt::Write;
 
 /// The solid of a part, or the assembly.
-pub fn step(part: Part, subject: &Subject) -> String {
+pub fn step(part: Part, subject: &DrawnClutch) -> String {
     let mut file = File { body: String::new(), last: 0 };
     let base = Base::new(&mut file);
     match part {
@@ -271,25 +271,25 @@ fn middle(length_m: f64, offset_m: f64) -> [f64; 2] {
     [1e3 * (offset_m - 0.5 * length_m), 1e3 * (offset_m + 0.5 * length_m)]
 }
 
-fn sprag(f: &mut File, base: &Base, subject: &Subject, offset_m: f64) -> Product {
+fn sprag(f: &mut File, base: &Base, subject: &DrawnClutch, offset_m: f64) -> Product {
     let z = middle(subject.clutch.sprags.length_m, offset_m);
     prism(f, base, "sprag", &[subject.sprag().to_vec()], z)
 }
 
-fn inner(f: &mut File, base: &Base, subject: &Subject) -> Product {
+fn inner(f: &mut File, base: &Base, subject: &DrawnClutch) -> Product {
     let (bore, track) = subject.inner_radii_m();
     let chains: Vec<Vec<Segment>> =
         [circle(track)].into_iter().chain(bore.map(|r| reversed(&circle(r)))).collect();
     prism(f, base, "inner race", &chains, middle(subject.clutch.races.width_m, 0.0))
 }
 
-fn outer(f: &mut File, base: &Base, subject: &Subject) -> Product {
+fn outer(f: &mut File, base: &Base, subject: &DrawnClutch) -> Product {
     let (track, outside) = subject.outer_radii_m();
     let chains = [circle(outside), reversed(&circle(track))];
     prism(f, base, "outer race", &chains, middle(subject.clutch.races.width_m, 0.0))
 }
 
-fn assembly(f: &mut File, base: &Base, subject: &Subject) {
+fn assembly(f: &mut File, base: &Base, subject: &DrawnClutch) {
     let inner = inner(f, base, subject);
     let outer = outer(f, base, subject);
     let sprag = sprag(f, base, subject, subject.clutch.axial.offset_m);

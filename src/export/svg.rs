@@ -1,7 +1,7 @@
 //! A drawing as SVG at full size: one unit is one millimetre, arcs are arcs, each layer is a group.
 
 use super::sheet::{Entity, Layer, Sheet};
-use super::{Part, Subject};
+use super::{DrawnClutch, Part};
 use crate::profile::Segment;
 use nalgebra::Vector2;
 use std::fmt::Write;
@@ -10,7 +10,7 @@ use std::fmt::Write;
 const MARGIN: f64 = 2.0;
 
 /// The drawing of a part.
-pub fn svg(part: Part, subject: &Subject) -> String {
+pub fn svg(part: Part, subject: &DrawnClutch) -> String {
     let sheet = Sheet::new(part, subject);
     let margin = MARGIN * sheet.letter_m;
     let [low, high] = sheet.extent_m;

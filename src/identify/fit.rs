@@ -45,14 +45,14 @@ impl Default for FitSettings {
 
 /// An observation and what the fitted design says.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point {
+pub struct FittedPoint {
     /// What was seen.
     pub observation: Observation,
     /// What the model says.
     pub predicted: Result<Prediction, NoPrediction>,
 }
 
-impl Point {
+impl FittedPoint {
     /// predicted/observed - 1.
     pub fn relative(&self) -> Option<f64> {
         self.predicted.as_ref().ok().map(|p| p.value / self.observation.value - 1.0)
@@ -69,7 +69,7 @@ pub struct Identified {
     /// What the data know of them.
     pub knowledge: Knowledge,
     /// Every observation, fitted or held back.
-    pub points: Vec<Point>,
+    pub points: Vec<FittedPoint>,
     /// Sum of the squared scaled residuals of the fit, one per start, and that of the solution.
     pub sums: (Vec<f64>, f64),
     /// Evaluations of all fitted observations.
@@ -421,9 +421,9 @@ fn finish(problem: &Problem, mut t: Vec<f64>) -> (Vec<f64>, f64, bool) {
 }
 
 /// Every observation beside what the design with `values` says.
-fn points(design: &Design, values: &[(String, f64)], observations: &[Observation]) -> Vec<Point> {
+fn points(design: &Design, values: &[(String, f64)], observations: &[Observation]) -> Vec<FittedPoint> {
     let groups = grouped(observations.iter());
-    let mut points: Vec<Point> = groups
+    let mut points: Vec<FittedPoint> = groups
         .par_iter()
         .flat_map_iter(|group| {
             let said = predict(design, values, group);
@@ -434,7 +434,7 @@ fn points(design: &Design, values: &[(String, f64)], observations: &[Observation
             group
                 .iter()
                 .zip(each)
-                .map(|(o, predicted)| Point { observation: (*o).clone(), predicted })
+                .map(|(o, predicted)| FittedPoint { observation: (*o).clone(), predicted })
                 .collect::<Vec<_>>()
         })
         .collect();

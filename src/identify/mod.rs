@@ -10,8 +10,8 @@ mod observation;
 mod predict;
 mod statistics;
 
-pub use fit::{FitSettings, Identified, Point, Unknown, identify};
+pub use fit::{FitSettings, FittedPoint, Identified, Unknown, identify};
 pub use no_fit::{NoFit, SoFar};
-pub use observation::{Fault, Kind, Observation, Use, observations};
+pub use observation::{Fault, Observation, ObservedQuantity, Use, observations};
 pub use predict::{NoPrediction, Prediction, predict};
 pub use statistics::{Doubt, Estimate, INSEPARABLE, Knowledge, STRONG, Tied};

@@ -5,7 +5,7 @@ use std::fmt;
 
 /// A measured or published quantity; at a torque where its name in `stiffness` is one of a static point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum ObservedQuantity {
     /// Windup at the row's torque, deg.
     Windup,
     /// N_bi at the row's torque, N per sprag.
@@ -30,7 +30,7 @@ pub enum Kind {
     LiftOff,
 }
 
-impl Kind {
+impl ObservedQuantity {
     /// Every kind.
     pub const ALL: [Self; 11] = [
         Self::Windup,
@@ -88,7 +88,7 @@ pub struct Observation {
     /// Keys of the design that this row changes (dotted path, value in the key's unit).
     pub keys: Vec<(String, f64)>,
     /// What was seen.
-    pub kind: Kind,
+    pub kind: ObservedQuantity,
     /// The number seen, in the unit of its column.
     pub value: f64,
     /// Torque at which it was seen, N m.
@@ -138,7 +138,7 @@ const USES: &str = "fit, check, skip, or nothing for fit";
 
 /// The observations of a CSV table.
 ///
-/// Columns, each at most once, in any order: `label`; `use` (fit, check, skip); `torque_nm`; those of [`Kind`], each
+/// Columns, each at most once, in any order: `label`; `use` (fit, check, skip); `torque_nm`; those of [`ObservedQuantity`], each
 /// with, if wanted, its standard error in the same unit as `<column>_sigma`; dotted keys of the design file that the row changes, such as
 /// `races.inner_radius_mm`. An empty cell says nothing. Lines that begin with # are comments.
 ///
@@ -173,7 +173,7 @@ pub fn observations(text: &str) -> Result<Vec<Observation>, Fault> {
 }
 
 fn kinds() -> String {
-    Kind::ALL.map(Kind::column).join(", ")
+    ObservedQuantity::ALL.map(ObservedQuantity::column).join(", ")
 }
 
 /// Whether a column has a meaning; a dotted key must look like one.
@@ -181,7 +181,7 @@ fn is_known(name: &str) -> bool {
     let of_a_key = |c: char| c.is_ascii_alphanumeric() || "_.[]".contains(c);
     ["label", "use", "torque_nm"].contains(&name)
         || name.contains('.') && name.chars().all(of_a_key)
-        || Kind::ALL.iter().any(|k| name.strip_suffix("_sigma").unwrap_or(name) == k.column())
+        || ObservedQuantity::ALL.iter().any(|k| name.strip_suffix("_sigma").unwrap_or(name) == k.column())
 }
 
 fn check_header(header: &[String]) -> Result<(), Fault> {
@@ -262,7 +262,7 @@ fn row(
             ("torque_nm".to_owned(), format!("a torque of {SMALLEST_TORQUE_NM:e} N m or more"));
         return Err(Fault { line, column, found: found.to_string(), allowed });
     }
-    for kind in Kind::ALL {
+    for kind in ObservedQuantity::ALL {
         let Some(value) = number(kind.column())? else { continue };
         needs(kind.column(), Some(value), "a number above 0")?;
         if kind.needs_torque() && torque_nm.is_none() {
@@ -300,7 +300,10 @@ mod tests {
                     a,,20,10,1.5,0.01,\nb,skip,21,,,,7\nc,check,22,,,,8\n";
         let all = observations(text).unwrap();
         assert_eq!(all.len(), 2);
-        assert_eq!((all[0].kind, all[0].value, all[0].torque_nm), (Kind::Windup, 1.5, Some(10.0)));
+        assert_eq!(
+            (all[0].kind, all[0].value, all[0].torque_nm),
+            (ObservedQuantity::Windup, 1.5, Some(10.0))
+        );
         assert_eq!((all[0].scale(), all[0].purpose, all[0].line), (0.01, Use::Fit, 3));
         assert_eq!((all[1].label.as_str(), all[1].purpose, all[1].scale()), ("c", Use::Check, 8.0));
         assert_eq!(all[1].keys, [("races.inner_radius_mm".to_owned(), 22.0)]);

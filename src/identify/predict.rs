@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::observation::{Kind, Observation};
+use super::observation::{Observation, ObservedQuantity};
 use crate::design::{Design, EditError, with_keys};
 use crate::margin::{LoadState, lift_off_rad_s, load_state, nominal_capacity};
 use crate::wedge::StaticPoint;
@@ -98,18 +98,18 @@ fn one(design: &Design, state: &LoadState, o: &Observation) -> Result<Prediction
         })
     };
     match o.kind {
-        Kind::Windup => at(|p| p.windup_rad.to_degrees()),
-        Kind::NormalInner => at(|p| p.normal_inner_n),
-        Kind::NormalOuter => at(|p| p.normal_outer_n),
-        Kind::TanOmega => at(|p| p.tan_omega),
-        Kind::HertzInner => at(|p| p.hertz_inner_pa / 1e6),
-        Kind::HertzOuter => at(|p| p.hertz_outer_pa / 1e6),
-        Kind::Secant => at(|p| p.k_secant_nm_per_rad),
-        Kind::Tangent => at(|p| p.k_tangent_nm_per_rad),
-        Kind::EndTorque => plain(state.curve.end_torque_nm()),
-        Kind::LiftOff => lift_off_rad_s(design, state, LIFT_OFF_TO_RAD_S)
+        ObservedQuantity::Windup => at(|p| p.windup_rad.to_degrees()),
+        ObservedQuantity::NormalInner => at(|p| p.normal_inner_n),
+        ObservedQuantity::NormalOuter => at(|p| p.normal_outer_n),
+        ObservedQuantity::TanOmega => at(|p| p.tan_omega),
+        ObservedQuantity::HertzInner => at(|p| p.hertz_inner_pa / 1e6),
+        ObservedQuantity::HertzOuter => at(|p| p.hertz_outer_pa / 1e6),
+        ObservedQuantity::Secant => at(|p| p.k_secant_nm_per_rad),
+        ObservedQuantity::Tangent => at(|p| p.k_tangent_nm_per_rad),
+        ObservedQuantity::EndTorque => plain(state.curve.end_torque_nm()),
+        ObservedQuantity::LiftOff => lift_off_rad_s(design, state, LIFT_OFF_TO_RAD_S)
             .map_or(Err(NoPrediction::NoLiftOff), |speed| plain(speed * 30.0 / std::f64::consts::PI)),
-        Kind::NominalTorque => nominal_capacity(design, &design.limits, state)
+        ObservedQuantity::NominalTorque => nominal_capacity(design, &design.limits, state)
             .map(|(value, code)| Prediction { value, decided_by: Some(code.to_owned()) })
             .ok_or(NoPrediction::NoLimit),
     }

@@ -1,6 +1,6 @@
 //! A measured or drawn sprag as the parameters of this tool.
 //!
-//! In: the text of a DXF or of a table of points, radii of the races. Out: [`Sprag`]: arcs, flanks, how far they are off.
+//! In: the text of a DXF or of a table of points, radii of the races. Out: [`FittedSprag`]: arcs, flanks, how far they are off.
 //! Absent: paths and design files (cli, design), filters for raw scans.
 //! Equations: least squares over tangent arcs; triangle (9) backwards for first contact.
 //!
@@ -14,7 +14,7 @@ mod place;
 mod points;
 
 pub use fit::{Arc, Arcs, STANDARD_ERROR};
-pub use place::Sprag;
+pub use place::FittedSprag;
 
 use nalgebra::Vector2;
 
@@ -90,7 +90,7 @@ pub fn read_points(text: &str) -> Result<Drawn, NoImport> {
 ///
 /// # Errors
 /// [`NoImport`] where the outline is no sprag, or none for these races.
-pub fn sprag(drawn: &Drawn, wanted: &Wanted) -> Result<Sprag, NoImport> {
+pub fn sprag(drawn: &Drawn, wanted: &Wanted) -> Result<FittedSprag, NoImport> {
     let sides = outline::sides(drawn)?;
     place::place(&sides, wanted)
 }

@@ -16,7 +16,7 @@ const BETTER: f64 = 1.5;
 
 /// A sprag in the terms of this tool.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sprag {
+pub struct FittedSprag {
     /// r_e, m.
     pub outer_radius_m: f64,
     /// e_1, m.
@@ -45,7 +45,7 @@ struct Body {
     flanks: [Straight; 2],
 }
 
-pub(super) fn place(sides: &Sides, wanted: &Wanted) -> Result<Sprag, NoImport> {
+pub(super) fn place(sides: &Sides, wanted: &Wanted) -> Result<FittedSprag, NoImport> {
     const ROUND: &str = "draw or measure two curved sides that bulge outwards";
     let single = |i: usize| {
         arcs(&sides.curved[i].points, Some(1), None)
@@ -131,7 +131,7 @@ pub(super) fn place(sides: &Sides, wanted: &Wanted) -> Result<Sprag, NoImport> {
              (--swap)",
         ));
     }
-    Ok(Sprag {
+    Ok(FittedSprag {
         outer_radius_m: r_e,
         centre_distance_m: e_1,
         inner_arcs: until(end),

@@ -1,7 +1,7 @@
 //! One row: a limit, what it demands, what is allowed, and the margin between them.
 
 use super::limits::Limit;
-use super::table::SLIP;
+use super::table::{CONTACT, SLIP};
 
 /// Resolution of a margin: what the optimiser leaves of a limit that it stops at. A margin above minus this is
 /// held.
@@ -186,6 +186,11 @@ impl Margin {
     /// Whether it is the friction that a scenario needs.
     pub fn is_slip(&self) -> bool {
         self.limit == &SLIP
+    }
+
+    /// Whether it is the contact that a scenario keeps.
+    pub fn is_contact(&self) -> bool {
+        self.limit == &CONTACT
     }
 
     /// Whether it is a Hertz pressure at nominal or peak torque between concentric races.

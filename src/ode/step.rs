@@ -67,12 +67,12 @@ pub enum Step<'a, const N: usize> {
     /// Radau IIA.
     Implicit(&'a radau5::Step<N>),
     /// The beginning of either, up to an event, read off its dense output.
-    Part(Part<'a, N>),
+    Part(StepPart<'a, N>),
 }
 
 /// The first `h` of a longer step.
 #[derive(Debug, Clone)]
-pub struct Part<'a, const N: usize> {
+pub struct StepPart<'a, const N: usize> {
     h: f64,
     y0: [f64; N],
     y1: [f64; N],
@@ -148,7 +148,7 @@ impl<const N: usize> Step<'_, N> {
     /// Its first `h`, known by its dense output.
     pub fn until<'d>(&self, h: f64, dense: &'d Dense<N>) -> Step<'d, N> {
         let (t, y0) = (self.t(), *self.y0());
-        Step::Part(Part { h, y0, y1: dense.after(h), t, dense })
+        Step::Part(StepPart { h, y0, y1: dense.after(h), t, dense })
     }
 
     /// Dense output.

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use sha2::{Digest, Sha256};
 
 use super::driver::maximise_least_margin;
-use super::journal::{Entry, Journal, Run, Watch};
+use super::journal::{Entry, Journal, SearchRun, Watch};
 use super::outcome::{Iteration, Outcome, Refusal};
 use super::problem::ClutchProblem;
 use super::settings::Settings;
@@ -97,12 +97,12 @@ impl<'a> Desk<'a> {
     pub fn run<T>(
         &self,
         problem: &ClutchProblem,
-        what: impl for<'x> FnOnce(&'x ClutchProblem, Run<'x>) -> T,
+        what: impl for<'x> FnOnce(&'x ClutchProblem, SearchRun<'x>) -> T,
     ) -> T {
         let id = ProblemId::of(problem);
         let journal = self.with(|record| record.known(&id));
         let mut scribe = Scribe { desk: self, problem: id };
-        what(problem, Run { journal, follow: self.follow(), watch: Some(&mut scribe) })
+        what(problem, SearchRun { journal, follow: self.follow(), watch: Some(&mut scribe) })
     }
 
     /// One climb.

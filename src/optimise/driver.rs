@@ -2,7 +2,7 @@
 
 use super::difference::{Steps, Table};
 use super::evaluate::{Evaluate, Evaluation};
-use super::journal::{Halt, Memo, Run};
+use super::journal::{Halt, Memo, SearchRun};
 use super::noise;
 use super::outcome::{Active, Cause, Iteration, Outcome, Refusal, Residuals, Status};
 use super::poll;
@@ -66,7 +66,7 @@ pub fn maximise_least_margin<'a>(
     lo: &[f64],
     hi: &[f64],
     settings: &Settings,
-    run: Run<'a>,
+    run: SearchRun<'a>,
 ) -> Result<Outcome, Refusal> {
     settings.validate().map_err(Refusal::Setting)?;
     let space = Space::new(x0, lo, hi)?;

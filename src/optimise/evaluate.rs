@@ -9,8 +9,8 @@ pub trait Evaluate: Sync {
     /// Margins at x, each in its own unit, best made dimensionless and of order one by the caller.
     ///
     /// # Errors
-    /// [`Failure::Refused`] where the problem has no answer at x (a geometry that does not close, say).
-    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure>;
+    /// [`NoEvaluation::Refused`] where the problem has no answer at x (a geometry that does not close, say).
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation>;
 }
 
 /// Margins at one point.
@@ -49,26 +49,28 @@ impl Evaluation {
     }
 
     /// The same evaluation, or why it cannot be used: `shape` is the count of objectives and limits seen first.
-    pub(super) fn checked(self, shape: Option<(usize, usize)>) -> Result<Self, Failure> {
+    pub(super) fn checked(self, shape: Option<(usize, usize)>) -> Result<Self, NoEvaluation> {
         let found = (self.objectives.len(), self.limits.len());
         let expected = shape.unwrap_or((found.0.max(1), found.1));
         if found != expected {
-            return Err(Failure::Shape { expected, found });
+            return Err(NoEvaluation::Shape { expected, found });
         }
         match self.outputs().iter().position(|v| !v.is_finite()) {
             None => Ok(self),
-            Some(i) if i < found.0 => Err(Failure::NotFinite { part: Part::Objective, index: i }),
-            Some(i) if i < found.0 + found.1 => {
-                Err(Failure::NotFinite { part: Part::Limit, index: i - found.0 })
+            Some(i) if i < found.0 => {
+                Err(NoEvaluation::NotFinite { part: EvaluationPart::Objective, index: i })
             }
-            Some(_) => Err(Failure::NotFinite { part: Part::TieBreak, index: 0 }),
+            Some(i) if i < found.0 + found.1 => {
+                Err(NoEvaluation::NotFinite { part: EvaluationPart::Limit, index: i - found.0 })
+            }
+            Some(_) => Err(NoEvaluation::NotFinite { part: EvaluationPart::TieBreak, index: 0 }),
         }
     }
 }
 
 /// Part of an [`Evaluation`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Part {
+pub enum EvaluationPart {
     /// One of `objectives`.
     Objective,
     /// One of `limits`.
@@ -79,13 +81,13 @@ pub enum Part {
 
 /// Why a point has no margins. The optimiser shortens the step, and the journal keeps the reason.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Failure {
+pub enum NoEvaluation {
     /// The problem has no answer here, for the reason it gives.
     Refused(String),
     /// The problem returned NaN or an infinity.
     NotFinite {
         /// Where it stood.
-        part: Part,
+        part: EvaluationPart,
         /// Its position there, from 0.
         index: usize,
     },
@@ -98,16 +100,16 @@ pub enum Failure {
     },
 }
 
-impl std::fmt::Display for Failure {
+impl std::fmt::Display for NoEvaluation {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Failure::Refused(why) => write!(f, "{why}"),
-            Failure::NotFinite { part, index } => write!(f, "{part:?} {index} is not a finite number"),
-            Failure::Shape { expected, found } => {
+            NoEvaluation::Refused(why) => write!(f, "{why}"),
+            NoEvaluation::NotFinite { part, index } => write!(f, "{part:?} {index} is not a finite number"),
+            NoEvaluation::Shape { expected, found } => {
                 write!(f, "(objectives, limits) number {found:?}, expected {expected:?}")
             }
         }
     }
 }
 
-impl std::error::Error for Failure {}
+impl std::error::Error for NoEvaluation {}

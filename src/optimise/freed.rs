@@ -6,8 +6,9 @@ use rayon::prelude::*;
 
 use super::desk::Desk;
 use super::driver::maximise_least_margin;
-use super::evaluate::{Evaluate, Evaluation, Failure};
-use super::journal::Run;
+use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
+use super::journal::SearchRun;
+use super::outcome::Outcome;
 use super::problem::ClutchProblem;
 use super::search::Search;
 use super::settings::Settings;
@@ -76,9 +77,9 @@ struct LetGo<'p> {
 }
 
 impl Evaluate for LetGo<'_> {
-    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         let Some((&value, rest)) = x.split_last() else {
-            return Err(Failure::Refused("no variable".to_owned()));
+            return Err(NoEvaluation::Refused("no variable".to_owned()));
         };
         let looked = match self.number {
             Number::Limit(key) => self.problem.under(key.with(self.problem.limits(), value)).look_at(rest)?,
@@ -110,10 +111,10 @@ struct OneLimit<'p> {
 }
 
 impl Evaluate for OneLimit<'_> {
-    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         let looked = self.problem.look_at(x)?;
         let row = looked.rows.iter().find(|r| r.is_of(self.row));
-        let row = row.ok_or_else(|| Failure::Refused(format!("no {}", self.row.code())))?;
+        let row = row.ok_or_else(|| NoEvaluation::Refused(format!("no {}", self.row.code())))?;
         let margin = self.problem.left(row);
         Ok(Evaluation { objectives: vec![margin], limits: Vec::new(), tie_break: 0.0 })
     }
@@ -177,14 +178,27 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
         let one = LetGo { problem: &problem, number, given, range: between.1 - between.0 };
         let with = |list: &[f64], last: f64| -> Vec<f64> { list.iter().copied().chain([last]).collect() };
         let bounds = (with(&lo, between.0), with(&hi, between.1));
-        let run = Run { follow: desk.follow(), ..Run::default() };
-        let outcome =
-            maximise_least_margin(&one, &with(x, given), &bounds.0, &bounds.1, &settings, run).ok()?;
-        let needed = outcome.x.last().copied();
-        let free = outcome.evaluation.violation() <= settings.violation_tolerance;
+        let climb = |from: &[f64]| {
+            let run = SearchRun { follow: desk.follow(), ..SearchRun::default() };
+            maximise_least_margin(&one, from, &bounds.0, &bounds.1, &settings, run).ok()
+        };
+        let free = |outcome: &Outcome| outcome.evaluation.violation() <= settings.violation_tolerance;
+        let mut outcome = climb(&with(x, given))?;
+        let mut evaluations = outcome.evaluations;
+        // Where the way from the given value does not lead there: from the limit wide open back towards it.
+        if let Number::Limit(_) = number
+            && !free(&outcome)
+            && !desk.follow().stopped()
+        {
+            let open = if between.0 < given { between.0 } else { between.1 };
+            if let Some(other) = climb(&with(&outcome.x[..x.len()], open)) {
+                evaluations += other.evaluations;
+                outcome = if free(&other) { other } else { outcome };
+            }
+        }
+        let needed = outcome.x.last().copied().filter(|_| free(&outcome));
         let x = outcome.x[..outcome.x.len() - 1].to_vec();
-        let needed = needed.filter(|_| free);
-        Some(Loosened { key, unit, given, needed, between, x, evaluations: outcome.evaluations })
+        Some(Loosened { key, unit, given, needed, between, x, evaluations })
     };
     asked.into_par_iter().filter_map(let_go).collect()
 }
@@ -198,7 +212,7 @@ pub fn alone(found: &Search, desk: &Desk) -> Vec<Alone> {
     let one = |row: &Margin| {
         let only = OneLimit { problem: &problem, row };
         let settings = Settings { max_evaluations: EVALUATIONS, poll: false, ..Settings::default() };
-        let run = Run { follow: desk.follow(), ..Run::default() };
+        let run = SearchRun { follow: desk.follow(), ..SearchRun::default() };
         let outcome = maximise_least_margin(&only, x, &lo, &hi, &settings, run).ok()?;
         let moved = |i: usize| (outcome.x[i] - x[i]).abs() > 1e-3 * (hi[i] - lo[i]);
         let changes = (0..x.len()).filter(|&i| moved(i));

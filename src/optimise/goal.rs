@@ -1,7 +1,13 @@
 //! What an objective measures of a clutch, more being better.
 
-use crate::design::{Limits, Objective};
-use crate::margin::{LoadState, Margin, When};
+use std::f64::consts::PI;
+
+use crate::design::{Design, Limits, Objective};
+use crate::margin::{LoadState, Margin, When, lift_off_rad_s, overrun_at};
+
+/// Speed up to which a lift-off is looked for, rad/s: 60 000 rev/min.
+const FASTEST_RAD_S: f64 = 60_000.0 / RPM_PER_RAD_S;
+const RPM_PER_RAD_S: f64 = 30.0 / PI;
 
 /// One objective, with the shift and the scale at which it joins the least margin: (measure - from)/span.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,10 +24,8 @@ impl Goal {
     /// The objective alone, at a span that makes it of order one.
     pub fn plain(objective: Objective, limits: &Limits) -> Self {
         let span = match objective {
-            Objective::SlipMargin | Objective::StiffnessCurve => 1.0,
             Objective::TorqueCapacity => limits.peak_torque_nm.unwrap_or(1.0),
-            Objective::PeakPressure => 1000.0,
-            Objective::Windup => 1.0,
+            other => other.span(),
         };
         Self { objective, from: 0.0, span }
     }
@@ -51,13 +55,34 @@ pub(super) fn capacity_of(row: &Margin) -> String {
 /// Measures of `objective`; their count depends on the question alone, not on the clutch.
 pub(super) fn measures(
     objective: Objective,
+    design: &Design,
     limits: &Limits,
     target: &[[f64; 2]],
     state: &LoadState,
     rows: &[Margin],
 ) -> Vec<Measure> {
     let measure = |code: String, value: f64| Measure { goal: 0, code, value };
+    let races = &design.clutch.races;
+    // kg and m into the objective's g and mm.
+    let less = |si: f64| vec![measure(objective.name().to_owned(), -1e3 * si)];
     match objective {
+        Objective::ContactMargin => {
+            rows.iter().filter(|m| m.is_contact()).map(|m| measure(m.code(), m.margin())).collect()
+        }
+        Objective::KeepContact | Objective::LiftOff => {
+            let speed = lift_off_rad_s(design, state, FASTEST_RAD_S).unwrap_or(FASTEST_RAD_S);
+            vec![measure("lift-off".to_owned(), objective.sense() * speed * RPM_PER_RAD_S)]
+        }
+        Objective::Drag => {
+            let fast = limits.keep_contact_to_rad_s.filter(|&speed| speed > 0.0);
+            let speeds = [("slow", 0.0)].into_iter().chain(fast.map(|speed| ("at-speed", speed)));
+            let drag =
+                |speed| overrun_at(design, state, speed, speed).map_or(0.0, |p| p.state.drag_torque_nm);
+            speeds.map(|(when, speed)| measure(format!("drag:{when}"), -drag(speed))).collect()
+        }
+        Objective::Mass => less(design.clutch.masses_kg().iter().sum()),
+        Objective::Width => less(races.width_m),
+        Objective::OutsideDiameter => less(2.0 * races.outer_outside_radius_m),
         Objective::SlipMargin => {
             rows.iter().filter_map(|m| Some(measure(m.code(), m.slip_margin()?))).collect()
         }

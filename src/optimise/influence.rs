@@ -2,7 +2,7 @@
 
 use super::difference::table;
 use super::evaluate::Evaluate;
-use super::journal::{Memo, Run};
+use super::journal::{Memo, SearchRun};
 use super::outcome::Refusal;
 use super::settings::Settings;
 use super::space::Space;
@@ -47,7 +47,7 @@ pub fn influence<'a>(
     lo: &[f64],
     hi: &[f64],
     settings: &Settings,
-    run: Run<'a>,
+    run: SearchRun<'a>,
 ) -> Result<Influence, Refusal> {
     settings.validate().map_err(Refusal::Setting)?;
     let space = Space::new(x0, lo, hi)?;

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::evaluate::{Evaluate, Evaluation, Failure};
+use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use crate::follow::Follow;
 
 /// One evaluated point.
@@ -14,7 +14,7 @@ pub struct Entry {
     /// Variables, in the caller's units.
     pub x: Vec<f64>,
     /// Margins there, or why there are none.
-    pub outcome: Result<Evaluation, Failure>,
+    pub outcome: Result<Evaluation, NoEvaluation>,
 }
 
 /// Points in the order in which they were first asked for, found again by the exact bits of x.
@@ -73,7 +73,7 @@ pub trait Watch {
 
 /// What a run may be given beside the problem: an earlier journal, what stops it, an observer.
 #[derive(Default)]
-pub struct Run<'a> {
+pub struct SearchRun<'a> {
     /// Points known beforehand (resumption).
     pub journal: Journal,
     /// Stops it; evaluations under way finish and are kept.
@@ -85,7 +85,7 @@ pub struct Run<'a> {
 /// The memoising, counting evaluator.
 pub(super) struct Memo<'a> {
     problem: &'a dyn Evaluate,
-    pub run: Run<'a>,
+    pub run: SearchRun<'a>,
     /// Entries known beforehand; they may lie outside this run's box.
     given: usize,
     shape: Option<(usize, usize)>,
@@ -95,7 +95,7 @@ pub(super) struct Memo<'a> {
 }
 
 impl<'a> Memo<'a> {
-    pub fn new(problem: &'a dyn Evaluate, run: Run<'a>, limit: usize) -> Self {
+    pub fn new(problem: &'a dyn Evaluate, run: SearchRun<'a>, limit: usize) -> Self {
         let given = run.journal.entries.len();
         Memo { problem, run, given, shape: None, asked: HashSet::new(), limit, failures: 0 }
     }
@@ -125,14 +125,14 @@ impl<'a> Memo<'a> {
     }
 
     /// Outcome at one point.
-    pub fn one(&mut self, x: Vec<f64>) -> Result<Result<Evaluation, Failure>, Halt> {
+    pub fn one(&mut self, x: Vec<f64>) -> Result<Result<Evaluation, NoEvaluation>, Halt> {
         let mut outcomes = self.batch(vec![x])?;
         Ok(outcomes.swap_remove(0))
     }
 
     /// Outcomes at several points, the unknown ones evaluated in parallel; order and result do not depend on
     /// the number of threads.
-    pub fn batch(&mut self, points: Vec<Vec<f64>>) -> Result<Vec<Result<Evaluation, Failure>>, Halt> {
+    pub fn batch(&mut self, points: Vec<Vec<f64>>) -> Result<Vec<Result<Evaluation, NoEvaluation>>, Halt> {
         let mut fresh: Vec<&Vec<f64>> = Vec::new();
         let mut pending = HashSet::new();
         let mut new_here = HashSet::new();
@@ -152,7 +152,7 @@ impl<'a> Memo<'a> {
         let follow = self.run.follow.clone();
         let stopped = || follow.stopped();
         let problem = self.problem;
-        let computed: Vec<Option<Result<Evaluation, Failure>>> =
+        let computed: Vec<Option<Result<Evaluation, NoEvaluation>>> =
             fresh.par_iter().map(|x| (!stopped()).then(|| problem.evaluate(x))).collect();
         let complete = computed.iter().all(Option::is_some);
         for (x, outcome) in fresh.into_iter().zip(computed) {
@@ -181,7 +181,7 @@ impl<'a> Memo<'a> {
         Ok(outcomes)
     }
 
-    fn learn_shape(&mut self, outcome: &Result<Evaluation, Failure>) {
+    fn learn_shape(&mut self, outcome: &Result<Evaluation, NoEvaluation>) {
         if let (None, Ok(e)) = (self.shape, outcome) {
             self.shape = Some((e.objectives.len(), e.limits.len()));
         }

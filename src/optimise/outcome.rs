@@ -1,6 +1,6 @@
 //! What a run hands back. Ending without a solution is a status; only a malformed question is an error.
 
-use super::evaluate::{Evaluation, Failure};
+use super::evaluate::{Evaluation, NoEvaluation};
 use super::journal::Journal;
 use super::settings::BadSetting;
 use super::view::Phase;
@@ -74,7 +74,7 @@ pub struct Residuals {
 
 /// What became of one subproblem's step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tried {
+pub enum TrialOutcome {
     /// Taken.
     Accepted,
     /// Taken after the second-order correction.
@@ -93,7 +93,7 @@ pub struct Iteration {
     /// Phase of the step.
     pub phase: Phase,
     /// What became of it.
-    pub tried: Tried,
+    pub tried: TrialOutcome,
     /// Evaluations so far, all phases.
     pub evaluations: usize,
     /// Failed evaluations so far.
@@ -208,7 +208,7 @@ pub enum Refusal {
         hi: f64,
     },
     /// The start has no margins, so there is nothing to improve on.
-    StartFails(Failure),
+    StartFails(NoEvaluation),
     /// Stopped before the start was evaluated.
     StoppedAtStart,
     /// A setting out of range.

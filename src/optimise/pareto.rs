@@ -6,10 +6,10 @@
 //! problem like that of the slip margin, finds points of hollow fronts too, and each climb starts from its neighbour.
 
 use super::desk::Desk;
-use super::evaluate::Failure;
+use super::evaluate::NoEvaluation;
 use super::goal::Goal;
 use super::search::{NoSearch, Search, refused};
-use super::starts::Method;
+use super::starts::SearchMethod;
 use crate::design::{Objective, Optimize};
 
 /// Range of an objective between the anchors below which it is in no conflict with the others, relative to its size.
@@ -51,7 +51,7 @@ pub fn front(
     task: &Optimize,
     aims: &[Objective],
     lattice: usize,
-    method: &Method,
+    method: &SearchMethod,
     desk: &Desk,
 ) -> Result<Front, NoSearch> {
     let goals: Vec<Goal> = aims.iter().map(|&a| Goal::plain(a, &task.limits)).collect();
@@ -61,7 +61,7 @@ pub fn front(
     let mut evaluations = 0;
     let mut points: Vec<FrontPoint> = Vec::new();
     let mut beaten = 0;
-    let seen = |x: &[f64], evaluations: &mut usize| -> Result<Vec<f64>, Failure> {
+    let seen = |x: &[f64], evaluations: &mut usize| -> Result<Vec<f64>, NoEvaluation> {
         *evaluations += 1;
         let looked = all.look_at(x)?;
         Ok((0..aims.len()).map(|k| all.value(&looked, k)).collect())

@@ -1,11 +1,12 @@
 //! The clutch as a vector and its margins.
 
 use super::corner::{Corner, perturbed};
-use super::evaluate::{Evaluate, Evaluation, Failure};
+use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::goal::{Goal, Measure, measures};
 use super::smooth;
 use crate::design::{
-    Design, EditError, LIMIT_KEYS, LimitKey, Limits, Objective, Optimize, content, with_limits, with_values,
+    Design, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content, with_limits,
+    with_values,
 };
 use crate::fidelity;
 use crate::margin::{
@@ -66,6 +67,8 @@ pub struct ClutchProblem {
     folder: std::path::PathBuf,
     histories: String,
     variables: Vec<String>,
+    /// What goes with a variable of this name.
+    links: Vec<(String, Link)>,
     limits: Limits,
     target: Vec<[f64; 2]>,
     scenarios: Vec<String>,
@@ -106,6 +109,11 @@ impl ClutchProblem {
             folder: design.folder.clone(),
             histories: design.histories(),
             variables,
+            links: task
+                .variables
+                .iter()
+                .flat_map(|v| v.links.iter().map(|l| (v.name.clone(), l.clone())))
+                .collect(),
             limits: task.limits,
             target: task.target.clone(),
             scenarios: task.scenarios.clone(),
@@ -192,7 +200,9 @@ impl ClutchProblem {
     /// Everything that an evaluation depends on but x, as text: what a journal's entries belong to. Values of the
     /// variables are struck out, so that a file with other starts is the same problem; so is one with other comments.
     pub fn identity(&self) -> String {
-        let zeros: Vec<(&str, f64)> = self.variables.iter().map(|v| (v.as_str(), 0.0)).collect();
+        let links: Vec<_> = self.links.iter().filter(|(name, _)| self.variables.contains(name)).collect();
+        let names = self.variables.iter().chain(links.iter().map(|(_, link)| &link.path));
+        let zeros: Vec<(&str, f64)> = names.map(|name| (name.as_str(), 0.0)).collect();
         let source = with_values(&self.source, &zeros).unwrap_or_else(|_| self.source.clone());
         // The task's own bounds and seed do not enter a margin; what of it does follows, and the values of the histories.
         let said = content(&source, &["optimize"]).unwrap_or(source);
@@ -202,8 +212,9 @@ impl ClutchProblem {
         // Nothing where there is none, so that earlier journals stay valid.
         let reserve =
             if self.reserve > 0.0 { format!("reserve {:?}\n", self.reserve) } else { String::new() };
+        let links = if links.is_empty() { String::new() } else { format!("{links:?}\n") };
         format!(
-            "{reserve}{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
+            "{links}{reserve}{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
             self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners
         )
     }
@@ -213,17 +224,26 @@ impl ClutchProblem {
     /// # Errors
     /// [`EditError`] where a variable has no place in the file.
     pub fn file_at(&self, x: &[f64]) -> Result<String, EditError> {
-        let values: Vec<(&str, f64)> =
+        with_values(&self.source, &self.values_at(x))
+    }
+
+    /// Names or paths and values that `x` stands for: the variables, and what goes with them.
+    fn values_at(&self, x: &[f64]) -> Vec<(&str, f64)> {
+        let own: Vec<(&str, f64)> =
             self.variables.iter().map(String::as_str).zip(x.iter().copied()).collect();
-        with_values(&self.source, &values)
+        let linked = own.iter().flat_map(|&(name, value)| {
+            let of_it = self.links.iter().filter(move |(variable, _)| variable == name);
+            of_it.map(move |(_, link)| (link.path.as_str(), link.by + link.times * value))
+        });
+        own.iter().copied().chain(linked).collect()
     }
 
     /// The design at `x`.
     ///
     /// # Errors
-    /// [`Failure::Refused`] with the first reason where the geometry at `x` is impossible.
-    pub fn design_at(&self, x: &[f64]) -> Result<Design, Failure> {
-        let text = self.file_at(x).map_err(|e| Failure::Refused(e.to_string()))?;
+    /// [`NoEvaluation::Refused`] with the first reason where the geometry at `x` is impossible.
+    pub fn design_at(&self, x: &[f64]) -> Result<Design, NoEvaluation> {
+        let text = self.file_at(x).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         self.parsed(&text)
     }
 
@@ -231,10 +251,10 @@ impl ClutchProblem {
     ///
     /// # Errors
     /// As [`Self::design_at`].
-    pub fn parsed(&self, text: &str) -> Result<Design, Failure> {
+    pub fn parsed(&self, text: &str) -> Result<Design, NoEvaluation> {
         Design::parse_in(&self.folder, text, "candidate").map_err(|e| {
             let first = e.problems().first().map_or(String::new(), |p| format!("{}: {}", p.key, p.allowed));
-            Failure::Refused(first)
+            NoEvaluation::Refused(first)
         })
     }
 
@@ -242,9 +262,9 @@ impl ClutchProblem {
     /// the goals raise.
     ///
     /// # Errors
-    /// [`Failure::Refused`] where there is no clutch to speak of.
-    pub fn look(&self, design: &Design) -> Result<Looked, Failure> {
-        let state = load_state(design).map_err(|e| Failure::Refused(e.to_string()))?;
+    /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
+    pub fn look(&self, design: &Design) -> Result<Looked, NoEvaluation> {
+        let state = load_state(design).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
         let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
         rows.retain(|m| m.required);
@@ -256,7 +276,7 @@ impl ClutchProblem {
                 rows.extend(self.scene(scenario, state.at_rest(design)));
                 // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
                 if let Some(row) = rows.iter().find(|r| !r.computed()) {
-                    return Err(Failure::Refused(row.name.clone()));
+                    return Err(NoEvaluation::Refused(row.name.clone()));
                 }
             }
             Ok(())
@@ -264,7 +284,7 @@ impl ClutchProblem {
         scenes(&mut rows, &|name| self.scenarios.contains(name))?;
         let mut measures_of_goals = Vec::new();
         for (k, goal) in self.goals.iter().enumerate() {
-            let found = measures(goal.objective, &self.limits, &self.target, &state, &rows);
+            let found = measures(goal.objective, design, &self.limits, &self.target, &state, &rows);
             measures_of_goals.extend(found.into_iter().map(|m| Measure { goal: k, ..m }));
         }
         if self.as_checked {
@@ -295,15 +315,15 @@ impl ClutchProblem {
     /// All required margins at `x`, at every corner.
     ///
     /// # Errors
-    /// [`Failure::Refused`] where there is no clutch at `x`.
-    pub fn look_at(&self, x: &[f64]) -> Result<Looked, Failure> {
+    /// [`NoEvaluation::Refused`] where there is no clutch at `x`.
+    pub fn look_at(&self, x: &[f64]) -> Result<Looked, NoEvaluation> {
         let design = self.design_at(x)?;
         let mut all = Looked { rows: Vec::new(), measures: Vec::new() };
         for corner in &self.corners {
             let mut found = if corner.is_nominal() {
                 self.look(&design)?
             } else {
-                self.look(&perturbed(&design, corner).map_err(|e| Failure::Refused(e.to_string()))?)?
+                self.look(&perturbed(&design, corner).map_err(|e| NoEvaluation::Refused(e.to_string()))?)?
             };
             if !corner.is_nominal() {
                 let name = corner.name();
@@ -394,7 +414,7 @@ impl ClutchProblem {
 }
 
 impl Evaluate for ClutchProblem {
-    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         self.look_at(x).map(|looked| self.evaluation(&looked))
     }
 }

@@ -5,15 +5,15 @@
 
 use super::desk::Desk;
 use super::driver::maximise_least_margin;
-use super::evaluate::{Evaluate, Evaluation, Failure};
+use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::influence::Influence;
-use super::journal::Run;
+use super::journal::SearchRun;
 use super::outcome::Outcome;
 use super::problem::{ClutchProblem, Looked};
 use super::search::{NoSearch, Search, Variable, search_problem};
 use super::settings::Settings;
 use super::smooth::ROOM as ROOM_LEFT;
-use super::starts::Method;
+use super::starts::SearchMethod;
 use crate::design::{Design, EditError, Optimize, OptimizeVariable, other_variables, with_flanks};
 use crate::margin::load_state;
 use crate::profile::Flanks;
@@ -87,9 +87,9 @@ fn flanks_of(x: &[f64]) -> Flanks {
 }
 
 impl FlankProblem {
-    fn weigh(&self, x: &[f64]) -> Result<(Outline, MassProperties), Failure> {
-        let outline =
-            Outline::closed(&self.profile, &flanks_of(x)).map_err(|e| Failure::Refused(e.to_string()))?;
+    fn weigh(&self, x: &[f64]) -> Result<(Outline, MassProperties), NoEvaluation> {
+        let outline = Outline::closed(&self.profile, &flanks_of(x))
+            .map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         let mass = outline.mass_properties(self.length_m, self.density_kg_m3);
         Ok((outline, mass))
     }
@@ -101,7 +101,7 @@ impl FlankProblem {
 }
 
 impl Evaluate for FlankProblem {
-    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         let (outline, mass) = self.weigh(x)?;
         let [dx, dy] = self.miss_mm(&mass);
         let oc_e = self.profile.outer_centre_distance_m;
@@ -113,7 +113,7 @@ impl Evaluate for FlankProblem {
             (vec![-(dx * dx + dy * dy)], Vec::new())
         };
         let room =
-            Outline::room(&self.profile, &flanks_of(x)).map_err(|e| Failure::Refused(e.to_string()))?;
+            Outline::room(&self.profile, &flanks_of(x)).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         limits.extend(room.into_iter().flatten().map(|left| left - ROOM_LEFT));
         limits.extend(clear);
         Ok(Evaluation { objectives, limits, tie_break: 0.0 })
@@ -128,13 +128,13 @@ impl Evaluate for FlankProblem {
 pub fn realise(
     found: &Search,
     task: &Optimize,
-    method: &Method,
+    method: &SearchMethod,
     desk: &Desk,
 ) -> Result<Option<Realised>, NoSearch> {
     if !found.wants_centroid() {
         return Ok(None);
     }
-    let fail = |e: String| NoSearch::Start(Failure::Refused(e));
+    let fail = |e: String| NoSearch::Start(NoEvaluation::Refused(e));
     let optimum = found.problem.parsed(&found.file).map_err(NoSearch::Start)?;
     desk.begins("flanks for the centroid");
     let (nearest, ranges) = nearest(&optimum).map_err(fail)?;
@@ -180,7 +180,8 @@ fn standing(found: &Search, problem: &ClutchProblem, joint: &Optimize) -> Result
     let x: Vec<f64> = variables.iter().map(|v| v.start).collect();
     let as_searched = problem.look_at(&x).map_err(NoSearch::Start)?;
     let best = problem.at_fidelity(problem.fidelity().sharper()).look_at(&x).map_err(NoSearch::Start)?;
-    let file = problem.finished_file(&x).map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
+    let file =
+        problem.finished_file(&x).map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;
     let (after, before) = (problem.value(&best, 0), problem.value(&as_searched, 0));
     let evaluation = problem.evaluation(&as_searched);
     Ok(Search {
@@ -255,7 +256,7 @@ fn nearest(optimum: &Design) -> Result<(Nearest, [(f64, f64); 4]), String> {
     }
     let settings = Settings { max_evaluations: 4000, ..Settings::default() };
     let climb = |problem: &FlankProblem, from: &[f64]| {
-        maximise_least_margin(problem, from, &lo, &hi, &settings, Run::default()).ok()
+        maximise_least_margin(problem, from, &lo, &hi, &settings, SearchRun::default()).ok()
     };
     let near = |problem: &FlankProblem, x: &[f64]| -> Option<f64> {
         let e = problem.evaluate(x).ok()?;
@@ -318,6 +319,7 @@ fn joint_task(task: &Optimize, found: &Search, flanks: &Flanks, ranges: &[(f64, 
             given: start,
             start,
             whole: false,
+            links: Vec::new(),
         });
     }
     Optimize { variables, ..task.clone() }

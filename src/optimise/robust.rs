@@ -7,12 +7,12 @@ use rayon::prelude::*;
 
 use super::corner::{Corner, corners, half_ranges};
 use super::desk::Desk;
-use super::evaluate::{Evaluation, Failure};
+use super::evaluate::{Evaluation, NoEvaluation};
 use super::journal::Memo;
 use super::outcome::{Cause, Status};
 use super::problem::{ClutchProblem, Names};
 use super::search::{NoSearch, refused};
-use super::starts::Method;
+use super::starts::SearchMethod;
 use crate::clutch::Tolerances;
 
 /// Limits farther away than this need no corner of their own: a choice; each corner is a whole evaluation more.
@@ -95,14 +95,14 @@ fn at_each(
     x: &[f64],
     points: &[Corner],
     desk: &Desk,
-) -> Vec<Result<Evaluation, Failure>> {
+) -> Vec<Result<Evaluation, NoEvaluation>> {
     points
         .par_iter()
         .map(|corner| {
             let there = problem.at_corners(vec![*corner]);
             desk.run(&there, |there, run| {
                 let mut memo = Memo::new(there, run, usize::MAX);
-                memo.one(x.to_vec()).unwrap_or(Err(Failure::Refused("stopped".to_owned())))
+                memo.one(x.to_vec()).unwrap_or(Err(NoEvaluation::Refused("stopped".to_owned())))
             })
         })
         .collect()
@@ -226,7 +226,7 @@ pub fn robust(
     (lo, hi): (&[f64], &[f64]),
     of: &Tolerances,
     (draws, seed): (usize, u64),
-    method: &Method,
+    method: &SearchMethod,
     desk: &Desk,
 ) -> Result<RobustSearch, NoSearch> {
     let ends = corners(of);
@@ -258,7 +258,8 @@ pub fn robust(
         }
     }
     let made = spread(problem, &x, of, (draws, seed), desk)?;
-    let file = problem.finished_file(&x).map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
+    let file =
+        problem.finished_file(&x).map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;
     Ok(RobustSearch {
         x,
         status,
@@ -274,8 +275,8 @@ pub fn robust(
 fn worse_than_set(
     set: &[Corner],
     ends: &[Corner],
-    at_ends: &[Result<Evaluation, Failure>],
-    at_set: &[Result<Evaluation, Failure>],
+    at_ends: &[Result<Evaluation, NoEvaluation>],
+    at_set: &[Result<Evaluation, NoEvaluation>],
 ) -> Vec<Corner> {
     let known: Vec<Vec<f64>> = at_set.iter().flatten().map(Evaluation::outputs).collect();
     let objectives = at_set.iter().flatten().next().map_or(0, |e| e.objectives.len());

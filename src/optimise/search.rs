@@ -3,13 +3,13 @@
 
 use super::branch::{Branch, branches};
 use super::desk::Desk;
-use super::evaluate::Failure;
+use super::evaluate::NoEvaluation;
 use super::influence::{Influence, influence};
 use super::outcome::{Outcome, Refusal, Status};
 use super::price::{Price, prices};
 use super::problem::{ClutchProblem, Fidelity, Looked, Names};
 use super::realise::is_centroid;
-use super::starts::{Climbed, Method, Optima, Start, climb_all, idle_everywhere, rank, rescued};
+use super::starts::{ClimbRecord, Climbed, Optima, SearchMethod, climb_all, idle_everywhere, rank, rescued};
 use crate::design::{Design, Objective, Optimize};
 use crate::margin::Margin;
 
@@ -64,7 +64,7 @@ pub struct Search {
     /// Names of the variables of `outcome`.
     pub searched: Vec<String>,
     /// All climbs of the best branch.
-    pub starts: Vec<Start>,
+    pub starts: Vec<ClimbRecord>,
     /// The optima that they met.
     pub optima: Optima,
     /// Whole numbers tried, if any.
@@ -115,7 +115,7 @@ pub enum NoSearch {
     /// The design has no `[optimize]` table.
     NoTask,
     /// The given design cannot be evaluated.
-    Start(Failure),
+    Start(NoEvaluation),
     /// The question was refused.
     Refused(Refusal),
     /// What is asked beside the search is out of range, with what is allowed.
@@ -154,7 +154,12 @@ pub(super) fn refused(e: Refusal) -> NoSearch {
 ///
 /// # Errors
 /// [`NoSearch`]; not finding a feasible design is a status of the outcome.
-pub fn search(design: &Design, method: &Method, fidelity: Fidelity, desk: &Desk) -> Result<Search, NoSearch> {
+pub fn search(
+    design: &Design,
+    method: &SearchMethod,
+    fidelity: Fidelity,
+    desk: &Desk,
+) -> Result<Search, NoSearch> {
     let task = design.optimize.as_ref().ok_or(NoSearch::NoTask)?;
     let all: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
     let problem = ClutchProblem::new(design, task, all, fidelity);
@@ -162,7 +167,7 @@ pub fn search(design: &Design, method: &Method, fidelity: Fidelity, desk: &Desk)
     let inside: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
     let outside = task.variables.iter().any(|v| v.start != v.given);
     let moved = outside.then(|| problem.file_at(&inside)).transpose();
-    let moved = moved.map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
+    let moved = moved.map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;
     let problem = moved.map_or(problem.clone(), |text| problem.on(text));
     search_problem(&problem, task, method, desk)
 }
@@ -174,7 +179,7 @@ pub fn search(design: &Design, method: &Method, fidelity: Fidelity, desk: &Desk)
 pub fn search_problem(
     whole: &ClutchProblem,
     task: &Optimize,
-    method: &Method,
+    method: &SearchMethod,
     desk: &Desk,
 ) -> Result<Search, NoSearch> {
     let mut variables: Vec<Variable> = task
@@ -293,8 +298,9 @@ pub fn search_problem(
         let fighting = outcome.active.limits.clone();
         outcome.status = Status::Infeasible { least_violation: short, fighting };
     }
-    let file =
-        problem.finished_file(&outcome.x).map_err(|e| NoSearch::Start(Failure::Refused(e.to_string())))?;
+    let file = problem
+        .finished_file(&outcome.x)
+        .map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;
     let value = |looked: &Looked| problem.value(looked, 0);
     Ok(Search {
         aim: problem.goals()[0].objective,

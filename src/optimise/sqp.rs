@@ -14,7 +14,7 @@ use super::difference::{Steps, Table, table};
 use super::evaluate::Evaluation;
 use super::hessian;
 use super::journal::{Halt, Memo};
-use super::outcome::{Cause, Iteration, Residuals, Tried};
+use super::outcome::{Cause, Iteration, Residuals, TrialOutcome};
 use super::settings::Settings;
 use super::space::Space;
 use super::step::{Plan, Trial};
@@ -102,7 +102,7 @@ impl Climb<'_, '_> {
             let Some(plan) = self.plan() else { return Ok(End::Stalled(Cause::Subproblem)) };
             match self.judge(&plan) {
                 Verdict::End(end) => {
-                    self.record(Tried::Nothing);
+                    self.record(TrialOutcome::Nothing);
                     return Ok(end);
                 }
                 Verdict::Sharpen => self.sharpen(10.0)?,
@@ -169,7 +169,7 @@ impl Climb<'_, '_> {
         } else if trial.ratio < 0.25 {
             self.radius = 0.5 * plan.length;
         }
-        self.record(if trial.corrected { Tried::Corrected } else { Tried::Accepted });
+        self.record(if trial.corrected { TrialOutcome::Corrected } else { TrialOutcome::Accepted });
         let s: Vec<f64> = trial.u.iter().zip(&self.u).map(|(a, b)| a - b).collect();
         let weights = self.lagrangian_weights();
         let before = combined(&weights, &self.table.slopes);
@@ -196,7 +196,7 @@ impl Climb<'_, '_> {
     /// too short and a fresh Hessian from central differences has not helped.
     fn refuse(&mut self, plan: &Plan, refused: Option<Trial>) -> Result<Option<End>, Halt> {
         let failed = refused.is_none();
-        self.record(if failed { Tried::Failed } else { Tried::Refused });
+        self.record(if failed { TrialOutcome::Failed } else { TrialOutcome::Refused });
         // Minimum of the parabola through the merit at both ends of the step and its predicted slope.
         let shrink = refused.map_or(0.4, |r| (0.5 / (1.0 - r.ratio)).clamp(0.1, 0.5));
         self.radius = shrink * plan.length;
@@ -263,7 +263,7 @@ impl Climb<'_, '_> {
         Ok(())
     }
 
-    fn record(&mut self, tried: Tried) {
+    fn record(&mut self, tried: TrialOutcome) {
         let iteration = Iteration {
             phase: self.view.phase,
             tried,

@@ -17,7 +17,7 @@ const TRIES: usize = 24;
 
 /// How the box is searched.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Method {
+pub struct SearchMethod {
     /// Of each climb.
     pub climb: Settings,
     /// Climbs: the first from the design as it is, the others from scrambled Sobol points. At least 1.
@@ -30,13 +30,13 @@ pub struct Method {
     pub seed: u64,
 }
 
-impl Default for Method {
+impl Default for SearchMethod {
     fn default() -> Self {
         Self { climb: Settings::default(), starts: 1, most_starts: 1, swarm: None, seed: 1 }
     }
 }
 
-impl Method {
+impl SearchMethod {
     /// For a search that begins at the optimum of another: one climb, where the number of climbs was left open.
     pub(super) fn carried_on(&self) -> Self {
         let starts = if self.most_starts > self.starts { 1 } else { self.starts };
@@ -59,7 +59,7 @@ impl Optima {
     /// The same where they are near 0; they are scaled to be of order one, and climbs come within 1e-8 of their ends.
     const NEAR_ZERO: f64 = 1e-6;
 
-    fn of(starts: &[Start], tolerance: f64) -> Self {
+    fn of(starts: &[ClimbRecord], tolerance: f64) -> Self {
         let within = starts.iter().filter(|s| s.ended == Ok(Status::Converged) && s.violation <= tolerance);
         let mut found: Vec<f64> = within.map(|s| s.least_margin).collect();
         found.sort_by(f64::total_cmp);
@@ -84,7 +84,7 @@ impl Optima {
 
 /// One climb of several.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Start {
+pub struct ClimbRecord {
     /// Where it came from: `design`, `point 3`, `swarm`, `level variable` (where one is felt that is not at the design).
     pub from: String,
     /// How it ended, or why it did not begin.
@@ -101,7 +101,7 @@ pub struct Start {
 #[derive(Debug, Clone)]
 pub(super) struct Climbed {
     pub best: Outcome,
-    pub starts: Vec<Start>,
+    pub starts: Vec<ClimbRecord>,
     pub optima: Optima,
     pub evaluations: usize,
 }
@@ -123,7 +123,7 @@ pub(super) fn climb_all(
     x0: &[f64],
     felt_at: &[Vec<f64>],
     (lo, hi): (&[f64], &[f64]),
-    method: &Method,
+    method: &SearchMethod,
 ) -> Result<Climbed, Refusal> {
     let tolerance = method.climb.violation_tolerance;
     let mut from_box = Points { next: 0, spent: 0 };
@@ -188,7 +188,7 @@ pub(super) fn climb_all(
 /// What the climbs so far have found.
 struct Found {
     tolerance: f64,
-    starts: Vec<Start>,
+    starts: Vec<ClimbRecord>,
     best: Option<Outcome>,
     refusal: Option<Refusal>,
 }
@@ -197,7 +197,7 @@ impl Found {
     fn add(&mut self, from: String, outcome: Result<Outcome, Refusal>) {
         match outcome {
             Ok(o) => {
-                self.starts.push(Start {
+                self.starts.push(ClimbRecord {
                     from,
                     ended: Ok(o.status.clone()),
                     least_margin: o.evaluation.least_margin(),
@@ -212,7 +212,7 @@ impl Found {
                 }
             }
             Err(why) => {
-                self.starts.push(Start {
+                self.starts.push(ClimbRecord {
                     from,
                     ended: Err(why.to_string()),
                     least_margin: f64::NEG_INFINITY,
@@ -241,7 +241,7 @@ impl Points {
         problem: &ClutchProblem,
         (lo, hi): (&[f64], &[f64]),
         wanted: usize,
-        method: &Method,
+        method: &SearchMethod,
     ) -> Vec<(Vec<f64>, Evaluation)> {
         let mut found = Vec::new();
         if wanted == 0 {
@@ -292,7 +292,7 @@ pub(super) fn idle_everywhere(
     mut idle: Vec<usize>,
     x0: &[f64],
     (lo, hi): (&[f64], &[f64]),
-    method: &Method,
+    method: &SearchMethod,
 ) -> (Vec<usize>, Vec<Vec<f64>>, usize) {
     let mut felt_at = Vec::new();
     if idle.is_empty() {
@@ -300,7 +300,7 @@ pub(super) fn idle_everywhere(
     }
     let mut points = Points { next: 0, spent: 0 };
     // The same points whatever the seed: this is no draw.
-    let unseeded = Method { seed: 0, ..method.clone() };
+    let unseeded = SearchMethod { seed: 0, ..method.clone() };
     let mut spent = 0;
     let level = idle.clone();
     // A junction or an arc may be felt near one end of its range only, and only together with another.
@@ -343,7 +343,7 @@ pub(super) fn rescued(
     problem: &ClutchProblem,
     x0: &[f64],
     bounds: (&[f64], &[f64]),
-    method: &Method,
+    method: &SearchMethod,
 ) -> Option<Vec<f64>> {
     use super::evaluate::Evaluate;
     if problem.evaluate(x0).is_ok() {

@@ -11,8 +11,8 @@ use argmin::solver::particleswarm::ParticleSwarm;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::evaluate::{Evaluate, Evaluation, Failure};
-use super::journal::{Halt, Memo, Run};
+use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
+use super::journal::{Halt, Memo, SearchRun};
 use super::settings::Settings;
 use super::space::Space;
 use super::starts::rank;
@@ -43,7 +43,7 @@ struct Flock<'m, 'r> {
 }
 
 impl Flock<'_, '_> {
-    fn rank(&self, outcome: &Result<Evaluation, Failure>) -> f64 {
+    fn rank(&self, outcome: &Result<Evaluation, NoEvaluation>) -> f64 {
         match outcome {
             Ok(e) if e.violation() <= self.tolerance => -e.least_margin(),
             Ok(e) => VIOLATED * (1.0 + e.violation()),
@@ -79,7 +79,7 @@ pub fn swarm<'a>(
     (x0, lo, hi): (&[f64], &[f64], &[f64]),
     settings: &Settings,
     (evaluations, seed): (usize, u64),
-    run: Run<'a>,
+    run: SearchRun<'a>,
 ) -> Option<Swarmed> {
     let space = Space::new(x0, lo, hi).ok()?;
     let mut memo = Memo::new(problem, run, usize::MAX);

@@ -23,7 +23,7 @@ pub struct PageHead {
 }
 
 /// A page under construction; sections come out in the order in which they went in.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Page {
     head: PageHead,
     body: String,

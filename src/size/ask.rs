@@ -8,7 +8,7 @@ use std::fmt;
 
 /// What a new clutch shall do, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ask {
+pub struct Requirements {
     /// Bore of the inner race, diameter, m.
     pub bore_m: f64,
     /// Torque that it carries day by day, N m: the nominal torque.
@@ -29,6 +29,10 @@ pub struct Ask {
     pub friction: f64,
     /// Where friction, nominal and peak torque come from, for the file's comments.
     pub from: [&'static str; 3],
+    /// The same of the speeds of inner and outer race in overrun.
+    pub overrun_from: [&'static str; 2],
+    /// The same of the speeds up to which contact is kept and by which it is lost.
+    pub contact_from: [&'static str; 2],
     /// Steel of sprags and races; it brings the allowed stresses.
     pub steel: &'static Steel,
     /// What the clutch is for: the scenes that its file has beside the two of every first design.
@@ -46,39 +50,39 @@ pub const FRICTION: f64 = 0.11;
 /// What somebody has said of a new clutch, SI; what is not said comes of the purpose, or is not asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Wish {
-    /// See [`Ask::purpose`].
+    /// See [`Requirements::purpose`].
     pub purpose: Option<&'static Purpose>,
-    /// See [`Ask::bore_m`]; must be said.
+    /// See [`Requirements::bore_m`]; must be said.
     pub bore_m: Option<f64>,
-    /// See [`Ask::torque_nm`]; it or the peak torque must be said.
+    /// See [`Requirements::torque_nm`]; it or the peak torque must be said.
     pub torque_nm: Option<f64>,
-    /// See [`Ask::peak_nm`].
+    /// See [`Requirements::peak_nm`].
     pub peak_nm: Option<f64>,
     /// Peak over nominal torque.
     pub peak_over_nominal: Option<f64>,
-    /// See [`Ask::outside_m`].
+    /// See [`Requirements::outside_m`].
     pub outside_m: Option<f64>,
-    /// See [`Ask::width_m`].
+    /// See [`Requirements::width_m`].
     pub width_m: Option<f64>,
     /// Speed of the inner race in overrun, rad/s.
     pub inner_rad_s: Option<f64>,
     /// The same of the outer race.
     pub outer_rad_s: Option<f64>,
-    /// See [`Ask::keep_contact_rad_s`]; 0: not asked.
+    /// See [`Requirements::keep_contact_rad_s`]; 0: not asked.
     pub keep_contact_rad_s: Option<f64>,
-    /// See [`Ask::lift_off_rad_s`]; 0: they stay on.
+    /// See [`Requirements::lift_off_rad_s`]; 0: they stay on.
     pub lift_off_rad_s: Option<f64>,
-    /// See [`Ask::friction`].
+    /// See [`Requirements::friction`].
     pub friction: Option<f64>,
-    /// See [`Ask::steel`].
+    /// See [`Requirements::steel`].
     pub steel: Option<&'static Steel>,
-    /// See [`Ask::engagements`].
+    /// See [`Requirements::engagements`].
     pub engagements: Option<f64>,
 }
 
 impl Wish {
-    /// The whole question. Bore and torques that nobody has said are no numbers, which [`Ask::check`] refuses.
-    pub fn ask(&self) -> Ask {
+    /// The whole question. Bore and torques that nobody has said are no numbers, which [`Requirements::check`] refuses.
+    pub fn ask(&self) -> Requirements {
         let of = |value: fn(&Purpose) -> f64| self.purpose.map(value);
         let rad_s = |rpm: f64| rpm * PI / 30.0;
         let ratio = self.peak_over_nominal.or(of(|p| p.peak_over_nominal.value)).unwrap_or(PEAK_OVER_NOMINAL);
@@ -93,7 +97,7 @@ impl Wish {
             (None, None) => "1.3 of nominal torque: guess",
             _ => "by the factor asked for",
         };
-        Ask {
+        Requirements {
             bore_m: self.bore_m.unwrap_or(f64::NAN),
             torque_nm,
             peak_nm,
@@ -107,6 +111,17 @@ impl Wish {
                 said(self.friction, self.purpose.map_or("GMN 9050", |p| p.friction.from)),
                 said(self.torque_nm, by_ratio),
                 said(self.peak_nm, by_ratio),
+            ],
+            overrun_from: [
+                said(self.inner_rad_s, self.purpose.map_or("at rest", |p| p.overrun_rpm[0].from)),
+                said(
+                    self.outer_rad_s,
+                    self.purpose.map_or("as contact is kept to", |p| p.overrun_rpm[1].from),
+                ),
+            ],
+            contact_from: [
+                said(self.keep_contact_rad_s, self.purpose.map_or("", |p| p.keep_contact_rpm.from)),
+                said(self.lift_off_rad_s, self.purpose.and_then(|p| p.lift_off_rpm).map_or("", |g| g.from)),
             ],
             steel: self.steel.unwrap_or(&STEELS[0]),
             purpose: self.purpose,
@@ -144,10 +159,32 @@ pub fn torques_nm(nominal: Option<f64>, peak: Option<f64>, ratio: f64) -> Option
     }
 }
 
-impl Ask {
+impl Requirements {
     /// Speed at which the races slide past one another in overrun, rad/s.
     pub fn sliding_rad_s(&self) -> f64 {
         (self.overrun_rad_s[0] - self.overrun_rad_s[1]).abs()
+    }
+
+    /// What nobody has said and the purpose has answered: words, value with its unit, where it comes from.
+    pub fn taken(&self) -> Vec<(&'static str, String, &'static str)> {
+        let Some(purpose) = self.purpose else { return Vec::new() };
+        let of = |value: f64, unit: &str| format!("{} {unit}", rounded(value, 6));
+        let rpm = |rad_s: f64| of(rad_s * 30.0 / PI, "rpm");
+        let mut rows = vec![
+            ("friction", rounded(self.friction, 6).to_string(), self.from[0]),
+            ("nominal torque", of(self.torque_nm, "Nm"), self.from[1]),
+            ("peak torque", of(self.peak_nm, "Nm"), self.from[2]),
+            ("inner race in overrun", rpm(self.overrun_rad_s[0]), self.overrun_from[0]),
+            ("outer race in overrun", rpm(self.overrun_rad_s[1]), self.overrun_from[1]),
+            ("contact kept up to", rpm(self.keep_contact_rad_s.unwrap_or(0.0)), self.contact_from[0]),
+        ];
+        rows.extend(self.lift_off_rad_s.map(|w| ("sprags off by", rpm(w), self.contact_from[1])));
+        if let Some(swing) = purpose.excitation {
+            rows.push(("torque swings by", of(swing.share.value * self.torque_nm, "Nm"), swing.share.from));
+            rows.push(("that often", of(swing.frequency_hz.value, "Hz"), swing.frequency_hz.from));
+        }
+        rows.retain(|(.., from)| *from != "asked for");
+        rows
     }
 
     /// Refuse what no clutch of this kind is asked for.

@@ -1,7 +1,8 @@
 //! From a width that holds to a whole design: profile's end, flanks, spring, scenes, and what comes of it.
 
-use super::Ask;
+use super::Requirements;
 use super::proportions::{COUNTS, lengthen, longest_m, spring};
+use super::purpose::{DRIVE_HZ, STOP};
 use crate::design::{Design, Draft};
 use crate::margin::{
     KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state, margins, overrun_at,
@@ -9,7 +10,7 @@ use crate::margin::{
 use crate::numeric::rounded;
 use crate::profile::Outline;
 use crate::scenario::Settings;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Margin that a first design keeps on every limit: a choice, so that rounding and the optimiser find room.
 pub(super) const KEPT: f64 = 0.02;
@@ -66,7 +67,7 @@ pub(super) fn build(draft: &Draft) -> Result<(Design, LoadState), String> {
 }
 
 /// Profile's end, flanks, spring and scenes; then every margin.
-pub(super) fn finish(ask: &Ask, mut draft: Draft, settings: &Settings) -> Result<Made, String> {
+pub(super) fn finish(ask: &Requirements, mut draft: Draft, settings: &Settings) -> Result<Made, String> {
     const ROUNDS: usize = 6;
     let mut why = String::new();
     for _ in 0..ROUNDS {
@@ -87,20 +88,20 @@ pub(super) fn finish(ask: &Ask, mut draft: Draft, settings: &Settings) -> Result
         let least_half = (0.2 * space).min(0.8 * draft.inner_radius_m);
         draft.flanks_m = Some((rear.max(least_half), front.max(least_half)));
         let stiffness = nominal.k_secant_nm_per_rad;
-        let races = design.clutch.races;
-        let natural_hz = (stiffness / races.inner_inertia_kg_m2.min(races.outer_inertia_kg_m2)).sqrt()
-            / std::f64::consts::TAU;
-        draft.step_duration_s = (20.0 / natural_hz).max(0.02);
-        draft.abutment_nm_per_rad = 10.0 * stiffness;
+        // The drive on the inner race swings against the clutch.
+        let inertia = stiffness / (TAU * DRIVE_HZ).powi(2);
+        draft.inner_inertia_kg_m2 =
+            Some((inertia, format!("guess: ring and drive, which swings on the clutch at {DRIVE_HZ} Hz")));
+        // From the step to the crest it is half a period.
+        draft.step_duration_s = 0.75 / DRIVE_HZ;
+        draft.abutment_nm_per_rad = STOP * stiffness;
         draft.name = format!(
             "{}: bore {} mm, {} Nm",
             ask.purpose.map_or("sized", |p| p.name),
             short(ask.bore_m * 1e3),
             short(ask.torque_nm)
         );
-        draft.scenes = ask.purpose.map_or_else(Vec::new, |purpose| {
-            purpose.scenes(ask, draft.abutment_nm_per_rad, races.inner_inertia_kg_m2)
-        });
+        draft.scenes = ask.purpose.map_or_else(Vec::new, |purpose| purpose.scenes(ask, stiffness, inertia));
         match sprung(&mut draft).and_then(|()| made(ask, &mut draft, settings)) {
             Ok(done) => return Ok(done),
             Err(Obstacle::Neighbours) => {
@@ -137,8 +138,12 @@ fn sprung(draft: &mut Draft) -> Result<(), Obstacle> {
     const ROUNDS: usize = 40;
     let slow_n = normal_n(draft);
     for _ in 0..ROUNDS {
-        let (design, state) = build(draft).map_err(|why| {
-            if why.starts_with("sprags.count") { Obstacle::Neighbours } else { Obstacle::Other(why) }
+        let (design, state) = build(draft).map_err(|why| match draft.contact_rad_s[1] {
+            _ if why.starts_with("sprags.count") => Obstacle::Neighbours,
+            // A front flank farther out than the arcs reach.
+            Some(_) if why.starts_with("sprags.flanks") => Obstacle::Other(LIFT_OFF.code.to_owned()),
+            None if why.starts_with("sprags.flanks") => Obstacle::Other("flanks".to_owned()),
+            _ => Obstacle::Other(why),
         })?;
         let rows = load_margins(&design, &design.limits, false, &state);
         let short = |limit| rows.iter().find(|r| r.limit == limit && r.margin() < KEPT);
@@ -160,22 +165,13 @@ fn sprung(draft: &mut Draft) -> Result<(), Obstacle> {
         } else {
             return Ok(());
         }
+        // A spring that holds the sprags against their centrifugal moment would drag too much.
         if draft.drag_nm > DRAG * draft.torques_nm[0] {
-            return Err(Obstacle::Other(format!(
-                "keep-contact: a spring that holds the sprags against their centrifugal moment would drag with {:.3} Nm, above {DRAG} \
-                 of the nominal torque",
-                draft.drag_nm
-            )));
+            return Err(Obstacle::Other(KEEP_CONTACT.code.to_owned()));
         }
     }
-    Err(Obstacle::Other(
-        if draft.contact_rad_s[1].is_some() {
-            "lift-off: no spring and no flank was found that lets the sprags off by that speed"
-        } else {
-            "keep-contact: no spring was found"
-        }
-        .to_owned(),
-    ))
+    let limit = if draft.contact_rad_s[1].is_some() { &LIFT_OFF } else { &KEEP_CONTACT };
+    Err(Obstacle::Other(limit.code.to_owned()))
 }
 
 /// Normal force of the spring on a sprag in slow overrun, N: see [`spring`].
@@ -184,7 +180,7 @@ fn normal_n(draft: &Draft) -> f64 {
 }
 
 /// The finished draft with every margin, all held; what it says of itself is what came of it.
-fn made(ask: &Ask, draft: &mut Draft, settings: &Settings) -> Result<Made, Obstacle> {
+fn made(ask: &Requirements, draft: &mut Draft, settings: &Settings) -> Result<Made, Obstacle> {
     let (design, state) = build(draft).map_err(Obstacle::Other)?;
     let rows =
         margins(&design, &design.check_scenarios, settings).map_err(|e| Obstacle::Other(e.to_string()))?;
@@ -210,7 +206,7 @@ fn short(value: f64) -> f64 {
     rounded(value, 7)
 }
 
-fn why_lines(ask: &Ask, draft: &Draft, least: Option<&Margin>) -> Vec<String> {
+fn why_lines(ask: &Requirements, draft: &Draft, least: Option<&Margin>) -> Vec<String> {
     let rpm = |rad_s: f64| short(rad_s * 30.0 / PI);
     let mut asked = vec![
         format!("a bore of {} mm", short(ask.bore_m * 1e3)),
@@ -219,10 +215,14 @@ fn why_lines(ask: &Ask, draft: &Draft, least: Option<&Margin>) -> Vec<String> {
     ];
     asked.extend(ask.outside_m.map(|m| format!("at most {} mm outside", short(m * 1e3))));
     asked.extend(ask.width_m.map(|m| format!("at most {} mm wide", short(m * 1e3))));
+    let by_purpose = |from: &str| if from == "asked for" { String::new() } else { format!(" ({from})") };
+    let [kept, off] = ask.contact_from.map(by_purpose);
     asked.extend(
-        ask.keep_contact_rad_s.filter(|&w| w > 0.0).map(|w| format!("contact kept up to {} rpm", rpm(w))),
+        ask.keep_contact_rad_s
+            .filter(|&w| w > 0.0)
+            .map(|w| format!("contact kept up to {} rpm{kept}", rpm(w))),
     );
-    asked.extend(ask.lift_off_rad_s.map(|w| format!("lifted off by {} rpm", rpm(w))));
+    asked.extend(ask.lift_off_rad_s.map(|w| format!("lifted off by {} rpm{off}", rpm(w))));
     let space_mm = short((draft.races_m[2] - draft.races_m[1]) * 1e3);
     let left = least.map_or_else(String::new, |r| {
         format!(" The least margin is {} %, {}.", rounded(100.0 * r.margin(), 3), r.code())

@@ -1,6 +1,6 @@
 //! A first design from what a clutch shall do.
 //!
-//! In: [`Wish`], filled up to an [`Ask`]: space, torques, speeds, friction, steel, purpose. Out: [`Sized`], a design file that holds its own limits with
+//! In: [`Wish`], filled up to an [`Requirements`]: space, torques, speeds, friction, steel, purpose. Out: [`Sized`], a design file that holds its own limits with
 //! the alternatives to it, or what stands in the way and how near one comes. Absent: the search for a better one
 //! (`optimise`), allowables other than those in the file. Equations: triangle (9) turned round for e_1; the rest is asked of
 //! `margin`.
@@ -11,7 +11,7 @@ mod proportions;
 mod purpose;
 mod search;
 
-pub use ask::{Ask, BadAsk, FRICTION, PEAK_OVER_NOMINAL, Wish, torques_nm};
+pub use ask::{BadAsk, FRICTION, PEAK_OVER_NOMINAL, Requirements, Wish, torques_nm};
 pub use finish::{Drag, Made};
 pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
 pub use search::{NoSize, Sized, Tried, size};

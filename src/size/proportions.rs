@@ -3,7 +3,7 @@
 //! The maker's race space of 8.33 mm with its rules (GMN 9050) is the pattern; others are its likeness, since plane
 //! elasticity knows no length of its own.
 
-use super::Ask;
+use super::Requirements;
 use crate::design::{Draft, KINETIC_SHARE};
 
 /// Race spaces tried, m: preferred numbers about the catalogue's 8.33 mm.
@@ -12,8 +12,9 @@ pub(super) const SPACES_M: [f64; 7] = [2.5e-3, 4.0e-3, 6.0e-3, 8.33e-3, 12.5e-3,
 /// Fewest and most sprags.
 pub(super) const COUNTS: (usize, usize) = (8, 120);
 
-/// Length of a sprag over the race space, least and most: beyond 3 the load along it is anybody's guess.
-pub(super) const LENGTHS: (f64, f64) = (0.4, 3.0);
+/// Length of a sprag over the race space, least and most: one shorter than it is high tilts between the races (the
+/// catalogue's are 1.56 to 2.64), beyond 3 the load along it is anybody's guess.
+pub(super) const LENGTHS: (f64, f64) = (1.0, 3.0);
 
 /// r_e and r_i1 over the race space: their sum makes tan omega all but constant along the profile, their ratio leaves both
 /// contacts near the same pressure as the series that the catalogue's torques identify.
@@ -31,17 +32,20 @@ const _: () = assert!(KINETIC_SHARE > 1.0 / RESERVE);
 /// Inner race's wall over the bore, and over the race space at least.
 const WALLS: (f64, f64) = (0.15, 0.5);
 
+/// Inner wall over that of [`WALLS`] that is tried: thicker rings where bending between the sprags decides.
+pub(super) const THICKER: [f64; 3] = [1.0, 1.2, 1.4];
+
 /// Normal force of the spring on a sprag in slow overrun, N, at a race space of 8.33 mm: Table 1's 1.25 N rounded up.
 const SPRING_N: f64 = 1.5;
 
 /// Races wider than the sprags, over the race space: 3 mm of 8.33.
 const WIDER: f64 = 0.36;
 
-/// Outside over outer track, from the catalogue.
-const OUTSIDE: f64 = 1.4;
+/// Outside over outer track that is tried, the catalogue's first: thinner rings where stresses and growth allow.
+pub(super) const OUTSIDES: [f64; 4] = [1.4, 1.33, 1.27, 1.22];
 
 /// Longest sprags, m: of the race space, or of the width asked for.
-pub(super) fn longest_m(ask: &Ask, space_m: f64) -> f64 {
+pub(super) fn longest_m(ask: &Requirements, space_m: f64) -> f64 {
     let most = LENGTHS.1 * space_m;
     ask.width_m.map_or(most, |width| most.min(width - wider_m(space_m)))
 }
@@ -51,12 +55,13 @@ fn wider_m(space_m: f64) -> f64 {
     (WIDER * space_m * 1e4).round() / 1e4
 }
 
-/// Sprags at first contact between races with the race space `space_m`, the profile's end and flanks still open.
-pub(super) fn draft(ask: &Ask, space_m: f64) -> Draft {
+/// Sprags at first contact between races with the race space `space_m`, walls of [`THICKER`] and [`OUTSIDES`], the profile's
+/// end and flanks still open.
+pub(super) fn draft(ask: &Requirements, space_m: f64, [wall, outside]: [f64; 2]) -> Draft {
     let bore = 0.5 * ask.bore_m;
-    let track = bore + (WALLS.0 * ask.bore_m).max(WALLS.1 * space_m);
+    let track = bore + wall * (WALLS.0 * ask.bore_m).max(WALLS.1 * space_m);
     let outer = track + space_m;
-    let outside = ask.outside_m.map_or(OUTSIDE * outer, |d| (OUTSIDE * outer).min(0.5 * d));
+    let outside = ask.outside_m.map_or(outside * outer, |d| (outside * outer).min(0.5 * d));
     let (r_e, r_i) = (ARCS.0 * space_m, ARCS.1 * space_m);
     let count = (std::f64::consts::PI * (track + outer) / (PITCH * space_m)).floor() as usize;
     let mut draft = Draft {
@@ -80,6 +85,8 @@ pub(super) fn draft(ask: &Ask, space_m: f64) -> Draft {
         torques_nm: [ask.torque_nm, ask.peak_nm],
         torques_from: [ask.from[1], ask.from[2]],
         gaps_m: [8.46, 8.60].map(|gap| gap / 8.33 * space_m),
+        contact_from: ask.contact_from,
+        inner_inertia_kg_m2: None,
         contact_rad_s: [ask.keep_contact_rad_s.filter(|&w| w > 0.0), ask.lift_off_rad_s],
         // The clutch carries torque below the speed by which the sprags are off.
         speed_rad_s: ask.keep_contact_rad_s.unwrap_or(0.0),

@@ -1,8 +1,9 @@
 //! What clutches are for, and what is taken of each where nobody says: every number once, with its source or "guess".
 
-use super::Ask;
+use super::Requirements;
 use crate::design::DraftScene;
-use std::f64::consts::PI;
+use crate::numeric::rounded;
+use std::f64::consts::{PI, TAU};
 
 /// A number and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +101,7 @@ pub const PURPOSES: [Purpose; 5] = [
         keep_contact_rpm: Given { value: 500.0, from: "guess: some reserve above the feed" },
         lift_off_rpm: None,
         excitation: Some(Excitation {
-            share: Given { value: 0.5, from: "guess: from nothing to nominal torque" },
+            share: Given { value: 0.45, from: "guess: from nearly nothing to nominal torque" },
             frequency_hz: Given {
                 value: 10.0,
                 from: "GMN 9050: garter springs follow so many strokes a second",
@@ -155,29 +156,42 @@ pub fn purpose(name: &str) -> Option<&'static Purpose> {
 /// Periods of a swing that are computed.
 const PERIODS: f64 = 2.0;
 
+/// Abutment and stop over the clutch's own stiffness: a guess.
+pub(super) const STOP: f64 = 10.0;
+
+/// First resonance of the drive on the clutch, Hz: what turns with the inner race follows from it.
+pub(super) const DRIVE_HZ: f64 = 25.0;
+
+/// Abutment of a swing over the softer of clutch and drive: it holds the mean torque and leaves the swing to the clutch.
+const SOFT: f64 = 0.002;
+
 impl Purpose {
-    /// Its scenes for a clutch that does what `ask` says, whose outer race is held by `abutment_nm_per_rad`.
+    /// Its scenes for a clutch that does what `ask` says, its secant stiffness at nominal torque `stiffness_nm_per_rad`, with
+    /// `inner_inertia_kg_m2` on the inner race.
     pub(super) fn scenes(
         &self,
-        ask: &Ask,
-        abutment_nm_per_rad: f64,
+        ask: &Requirements,
+        stiffness_nm_per_rad: f64,
         inner_inertia_kg_m2: f64,
     ) -> Vec<DraftScene> {
         let rpm = |rad_s: f64| rad_s * 30.0 / PI;
         let [inner, outer] = ask.overrun_rad_s.map(rpm);
         let mut scenes = Vec::new();
-        let held = "guess: ten times as stiff as the clutch";
         if let Some(Excitation { share, frequency_hz }) = self.excitation {
             let amplitude = share.value * ask.torque_nm;
+            // The outer race is light: its torque C_be goes through the clutch into the drive's inertia J but for what the
+            // abutment takes, C_be = T (1 + k_ab/K - k_ab/(J omega^2)).
+            let omega = TAU * frequency_hz.value;
+            let abutment = SOFT * stiffness_nm_per_rad.min(inner_inertia_kg_m2 * omega * omega);
             scenes.push(DraftScene {
                 name: "swing",
                 kind: "torsional-excitation",
-                why: "The torque swings up to nominal torque.".to_owned(),
+                why: "The torque on the outer race swings, up to nominal torque.".to_owned(),
                 keys: vec![
                     ("preload_nm", ask.torque_nm - amplitude, "nominal torque less the amplitude"),
                     ("amplitude_nm", amplitude, share.from),
                     ("frequency_hz", frequency_hz.value, frequency_hz.from),
-                    ("abutment_stiffness_nm_per_rad", abutment_nm_per_rad, held),
+                    ("abutment_stiffness_nm_per_rad", abutment, "soft: it holds the mean torque alone"),
                     ("duration_s", PERIODS / frequency_hz.value, "two periods"),
                     ("speed_rpm", rpm(ask.keep_contact_rad_s.unwrap_or(0.0)), ""),
                 ],
@@ -185,19 +199,22 @@ impl Purpose {
             });
         }
         let reversing = self.reversing_share.value * ask.torque_nm;
-        // Until the reversed race has come to rest, and as long again.
+        // Until the reversed drive has come to rest, then past the crest, which is half a period of its resonance away.
         let stopping_s = inner_inertia_kg_m2 * self.free_run_rpm.value * PI / 30.0 / reversing;
         scenes.push(DraftScene {
             name: "engage",
             kind: "engagement",
-            why: "From overrun into engagement. Shown only: undamped, the clutch swings back to no torque once, and slips there."
-                .to_owned(),
+            why: "From overrun into engagement, up to the crest of the torque. Shown only.".to_owned(),
             keys: vec![
                 ("free_run_rpm", self.free_run_rpm.value, self.free_run_rpm.from),
                 ("reversing_torque_nm", reversing, self.reversing_share.from),
-                ("stop_stiffness_nm_per_rad", abutment_nm_per_rad, held),
-                ("bench_inertia_kg_m2", 0.0, "the ring alone: put in what turns with it"),
-                ("duration_s", (2.0 * stopping_s).max(0.02), ""),
+                (
+                    "stop_stiffness_nm_per_rad",
+                    STOP * stiffness_nm_per_rad,
+                    "guess: ten times as stiff as the clutch",
+                ),
+                ("bench_inertia_kg_m2", 0.0, "none beside the drive's, inner_inertia_kg_m2"),
+                ("duration_s", (stopping_s + 0.75 / DRIVE_HZ).max(0.02), ""),
             ],
             held: false,
         });
@@ -205,7 +222,13 @@ impl Purpose {
             scenes.push(DraftScene {
                 name: "overrun",
                 kind: "overrun",
-                why: "Steady overrun at the speeds asked for.".to_owned(),
+                why: format!(
+                    "Steady overrun: inner race at {} rpm ({}), outer race at {} rpm ({}).",
+                    rounded(inner, 7),
+                    ask.overrun_from[0],
+                    rounded(outer, 7),
+                    ask.overrun_from[1]
+                ),
                 keys: vec![
                     ("speed_rpm", outer, "outer race"),
                     ("overrun_rpm", (inner - outer).abs(), "by how much the races slide past one another"),

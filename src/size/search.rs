@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use super::ask::{Ask, BadAsk};
+use super::ask::{BadAsk, Requirements};
 use super::finish::{KEPT, Made, build, finish};
-use super::proportions::{COUNTS, LENGTHS, SPACES_M, draft, lengthen, longest_m};
+use super::proportions::{COUNTS, LENGTHS, OUTSIDES, SPACES_M, THICKER, draft, lengthen, longest_m};
 use crate::design::Draft;
-use crate::margin::{When, load_margins};
+use crate::margin::{Margin, When, load_margins};
 use crate::scenario::Settings;
 
 /// Thinnest outer race over the race space, where an outer diameter is asked for: a choice.
@@ -26,7 +26,7 @@ pub struct Tried {
     /// Nominal torque that it carries at that length with all limits kept, N m.
     pub carries_nm: f64,
     /// Code of the limit with the least margin; what else stands in the way otherwise: `width` and `outside` are those asked
-    /// for.
+    /// for, `count` is a number of sprags outside the family's.
     pub decided_by: String,
     /// Whether it carries what is asked.
     pub held: bool,
@@ -49,7 +49,7 @@ pub struct Sized {
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoSize {
     /// The question.
-    Ask(BadAsk),
+    Requirements(BadAsk),
     /// No race space does it.
     None {
         /// Those tried.
@@ -60,7 +60,7 @@ pub enum NoSize {
 impl fmt::Display for NoSize {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Ask(why) => write!(f, "{why}"),
+            Self::Requirements(why) => write!(f, "{why}"),
             Self::None { tried } => {
                 let best = tried.iter().max_by(|a, b| a.carries_nm.total_cmp(&b.carries_nm));
                 match best.filter(|b| b.carries_nm > 0.0) {
@@ -74,7 +74,7 @@ impl fmt::Display for NoSize {
                         b.space_m * 1e3,
                         b.decided_by
                     ),
-                    None => write!(f, "no clutch of this family fits this bore: {}", first_reason(tried)),
+                    None => write!(f, "no clutch of this family fits this bore:{}", first_reason(tried)),
                 }
             }
         }
@@ -82,11 +82,20 @@ impl fmt::Display for NoSize {
 }
 
 fn first_reason(tried: &[Tried]) -> String {
-    tried
-        .iter()
-        .map(|t| format!("{:.2} mm: {}", t.space_m * 1e3, t.decided_by))
-        .collect::<Vec<_>>()
-        .join("; ")
+    let why = |t: &Tried| match t.decided_by.as_str() {
+        "count" => format!("room for {} sprags, the family has {} to {}", t.count, COUNTS.0, COUNTS.1),
+        "width" => {
+            format!("sprags as long as the race space are wider than --width leaves ({} sprags)", t.count)
+        }
+        "outside" => "the outer race would be too thin within --outside".to_owned(),
+        "flanks" => "no flank fits between the arcs of the profile".to_owned(),
+        "lift-off" => "no spring and no flank lets the sprags off by that speed".to_owned(),
+        "keep-contact" => {
+            "a spring that holds the sprags against their centrifugal moment drags too much".to_owned()
+        }
+        other => other.to_owned(),
+    };
+    tried.iter().map(|t| format!("\n  race space {:.2} mm: {}", t.space_m * 1e3, why(t))).collect()
 }
 
 impl std::error::Error for NoSize {}
@@ -95,32 +104,21 @@ impl std::error::Error for NoSize {}
 fn least(draft: &Draft) -> Result<(f64, String), String> {
     let (design, state) = build(draft)?;
     let rows = load_margins(&design, &design.limits, false, &state);
-    let rows = rows.iter().filter(|r| r.required && r.limit.when != When::Overrun);
+    // Bending of the rings is shown only; a first design keeps it all the same.
+    let kept = |r: &&Margin| r.required || r.limit.code.ends_with("bending");
+    let rows = rows.iter().filter(kept).filter(|r| r.limit.when != When::Overrun);
     let worst = rows.min_by(|a, b| a.margin().total_cmp(&b.margin()));
     Ok(worst.map_or((0.0, "no limit".to_owned()), |r| (r.margin(), r.code())))
 }
 
-/// Find a design for `ask`. Every race space of the family is tried; that of the smallest volume is taken.
+/// Find a design for `ask`. Every race space of the family is tried, with outer races as thick as the maker's and thinner; that of
+/// the smallest volume is taken.
 ///
 /// # Errors
 /// [`NoSize`].
-pub fn size(ask: &Ask, settings: &Settings) -> Result<Sized, NoSize> {
-    ask.check().map_err(NoSize::Ask)?;
-    let mut tried = Vec::new();
-    for space_m in SPACES_M {
-        let mut draft = draft(ask, space_m);
-        if draft.count < COUNTS.0 || draft.count > COUNTS.1 {
-            continue;
-        }
-        let mut one = width(ask, &mut draft, space_m);
-        if one.held {
-            match finish(ask, draft, settings) {
-                Ok(made) => one.take(made),
-                Err(why) => (one.held, one.decided_by) = (false, why),
-            }
-        }
-        tried.push(one);
-    }
+pub fn size(ask: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
+    ask.check().map_err(NoSize::Requirements)?;
+    let tried: Vec<Tried> = SPACES_M.iter().filter_map(|&space_m| smallest(ask, space_m, settings)).collect();
     let made = tried.iter().enumerate().filter_map(|(i, t)| Some((i, t.volume_m3, t.made.clone()?)));
     match made.min_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((taken, _, made)) => Ok(Sized { made, tried, taken }),
@@ -128,13 +126,46 @@ pub fn size(ask: &Ask, settings: &Settings) -> Result<Sized, NoSize> {
     }
 }
 
+/// The smallest ring of this race space; where none does it, the one that carries most.
+fn smallest(ask: &Requirements, space_m: f64, settings: &Settings) -> Option<Tried> {
+    let mut best: Option<Tried> = None;
+    for walls in THICKER.into_iter().flat_map(|wall| OUTSIDES.map(|outside| [wall, outside])) {
+        let mut draft = draft(ask, space_m, walls);
+        let mut one = width(ask, &mut draft, space_m);
+        // Scenes ask for more width, never for less.
+        let smaller = |than: &Tried| !than.held || volume_m3(draft.races_m, draft.width_m) < than.volume_m3;
+        if one.held && best.as_ref().is_none_or(smaller) {
+            match finish(ask, draft, settings) {
+                Ok(made) => one.take(made),
+                Err(why) => (one.held, one.decided_by) = (false, why),
+            }
+        } else if one.held {
+            continue;
+        }
+        let better = |than: &Tried| match (one.held, than.held) {
+            (true, true) => one.volume_m3 < than.volume_m3,
+            (false, false) => one.carries_nm > than.carries_nm,
+            (held, _) => held,
+        };
+        if best.as_ref().is_none_or(better) {
+            best = Some(one);
+        }
+    }
+    best
+}
+
+/// Of the ring from bore to outside, m^3.
+fn volume_m3([bore, .., outside]: [f64; 4], width_m: f64) -> f64 {
+    std::f64::consts::PI * (outside * outside - bore * bore) * width_m
+}
+
 impl Tried {
     /// What came of it: the count and length that neighbours and scenes asked for.
     fn take(&mut self, made: Made) {
         let (s, r) = (&made.design.clutch.sprags, &made.design.clutch.races);
         (self.count, self.length_m) = (s.count, s.length_m);
-        let (bore, outside) = (r.inner_bore_radius_m, r.outer_outside_radius_m);
-        self.volume_m3 = std::f64::consts::PI * (outside * outside - bore * bore) * r.width_m;
+        let radii_m = [r.inner_bore_radius_m, r.inner_radius_m, r.outer_radius_m, r.outer_outside_radius_m];
+        self.volume_m3 = volume_m3(radii_m, r.width_m);
         if let Some(least) = made.least() {
             self.decided_by = least.code();
         }
@@ -143,7 +174,7 @@ impl Tried {
 }
 
 /// Shortest sprags that keep every limit, put into `draft`.
-fn width(ask: &Ask, draft: &mut Draft, space_m: f64) -> Tried {
+fn width(ask: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
     let (low, high) = (LENGTHS.0 * space_m, longest_m(ask, space_m));
     let at = |draft: &Draft, length_m: f64| {
         let mut longer = draft.clone();
@@ -161,8 +192,13 @@ fn width(ask: &Ask, draft: &mut Draft, space_m: f64) -> Tried {
         made: None,
     };
     let wall = draft.races_m[3] - draft.races_m[2];
-    if wall < WALL * space_m || high < low {
-        one.decided_by = if high < low { "width" } else { "outside" }.to_owned();
+    let in_the_way = [
+        ("count", !(COUNTS.0..=COUNTS.1).contains(&draft.count)),
+        ("width", high < low),
+        ("outside", wall < WALL * space_m),
+    ];
+    if let Some((what, _)) = in_the_way.iter().find(|(_, bars)| *bars) {
+        one.decided_by = (*what).to_owned();
         return one;
     }
     match at(draft, high) {

@@ -11,20 +11,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Why a question has no answer: a sentence, and the faults of the file where it is that.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Refused {
+pub struct StudioRefusal {
     /// In words.
     pub message: String,
     /// As `--json` prints a refused design; null otherwise.
     pub problems: Value,
 }
 
-impl Refused {
+impl StudioRefusal {
     fn said(message: impl Into<String>) -> Self {
         Self { message: message.into(), problems: Value::Null }
     }
 }
 
-impl From<DesignError> for Refused {
+impl From<DesignError> for StudioRefusal {
     fn from(error: DesignError) -> Self {
         let first = error.problems().first().map(|p| {
             let line = p.place.as_ref().map_or(String::new(), |at| format!("line {}: ", at.line));
@@ -34,13 +34,13 @@ impl From<DesignError> for Refused {
     }
 }
 
-impl From<NoMargins> for Refused {
+impl From<NoMargins> for StudioRefusal {
     fn from(why: NoMargins) -> Self {
         Self::said(why.to_string())
     }
 }
 
-impl From<NoScenario> for Refused {
+impl From<NoScenario> for StudioRefusal {
     fn from(why: NoScenario) -> Self {
         Self::said(why.to_string())
     }
@@ -65,11 +65,11 @@ impl Engine {
         Self { file: file.to_owned(), folder, kept: Mutex::default() }
     }
 
-    fn design(&self, text: &str) -> Result<Design, Refused> {
+    fn design(&self, text: &str) -> Result<Design, StudioRefusal> {
         Ok(Design::parse_in(&self.folder, text, &self.file)?)
     }
 
-    fn seen(&self, text: &str) -> Result<Arc<Seen>, Refused> {
+    fn seen(&self, text: &str) -> Result<Arc<Seen>, StudioRefusal> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(at) = kept.iter().position(|(t, _)| t == text) {
             let entry = kept.remove(at);
@@ -89,8 +89,8 @@ impl Engine {
     /// Statics of a text, with a pinned one as ghost.
     ///
     /// # Errors
-    /// [`Refused`] where the text is no design or the clutch has no curve; a pinned text that is refused is left out.
-    pub fn check(&self, text: &str, pinned: Option<&str>) -> Result<Look, Refused> {
+    /// [`StudioRefusal`] where the text is no design or the clutch has no curve; a pinned text that is refused is left out.
+    pub fn check(&self, text: &str, pinned: Option<&str>) -> Result<Look, StudioRefusal> {
         let pinned = pinned.and_then(|text| self.seen(text).ok());
         Ok(self.seen(text)?.look(pinned.as_deref()))
     }
@@ -98,31 +98,31 @@ impl Engine {
     /// Margins and demand of one scenario.
     ///
     /// # Errors
-    /// [`Refused`].
-    pub fn scene_row(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneRow, Refused> {
+    /// [`StudioRefusal`].
+    pub fn scene_row(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneRow, StudioRefusal> {
         let seen = self.seen(text)?;
         let scenario =
-            seen.design.scenario(name).ok_or_else(|| Refused::said(format!("no scenario {name:?}")))?;
+            seen.design.scenario(name).ok_or_else(|| StudioRefusal::said(format!("no scenario {name:?}")))?;
         Ok(scene_row(&seen.design, &seen.state, scenario, settings))
     }
 
     /// The course of one scenario.
     ///
     /// # Errors
-    /// [`Refused`].
-    pub fn scene(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneLook, Refused> {
+    /// [`StudioRefusal`].
+    pub fn scene(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneLook, StudioRefusal> {
         let seen = self.seen(text)?;
         let scenario =
-            seen.design.scenario(name).ok_or_else(|| Refused::said(format!("no scenario {name:?}")))?;
+            seen.design.scenario(name).ok_or_else(|| StudioRefusal::said(format!("no scenario {name:?}")))?;
         Ok(scene_look(scenario, settings)?)
     }
 
     /// The text with a value set, its comments kept. The new text may still be refused by [`Engine::check`].
     ///
     /// # Errors
-    /// [`Refused`] where there is no such key.
-    pub fn set(&self, text: &str, path: &str, value: &str) -> Result<String, Refused> {
-        with_setting(text, path, value).map_err(|why| Refused::said(why.to_string()))
+    /// [`StudioRefusal`] where there is no such key.
+    pub fn set(&self, text: &str, path: &str, value: &str) -> Result<String, StudioRefusal> {
+        with_setting(text, path, value).map_err(|why| StudioRefusal::said(why.to_string()))
     }
 
     /// A question as the page puts it: `ask` names it, `question` is an object of texts. The answer, or an object with
@@ -133,11 +133,12 @@ impl Engine {
     pub fn ask(&self, ask: &str, question: &Value, settings: &Settings) -> Result<Value, Value> {
         let text = |key: &str| question.get(key).and_then(Value::as_str);
         let need = |key: &str| {
-            text(key).ok_or_else(|| Refused::said(format!("the question {ask} has no text {key}")))
+            text(key).ok_or_else(|| StudioRefusal::said(format!("the question {ask} has no text {key}")))
         };
-        let answer = || -> Result<Value, Refused> {
-            let json =
-                |value: Result<Value, serde_json::Error>| value.map_err(|e| Refused::said(e.to_string()));
+        let answer = || -> Result<Value, StudioRefusal> {
+            let json = |value: Result<Value, serde_json::Error>| {
+                value.map_err(|e| StudioRefusal::said(e.to_string()))
+            };
             match ask {
                 "check" => json(serde_json::to_value(self.check(need("text")?, text("pinned"))?)),
                 "scene_row" => {
@@ -149,7 +150,7 @@ impl Engine {
                     let look = self.check(&text, question.get("pinned").and_then(Value::as_str))?;
                     Ok(json!({ "text": text, "look": look }))
                 }
-                other => Err(Refused::said(format!("no question {other:?}"))),
+                other => Err(StudioRefusal::said(format!("no question {other:?}"))),
             }
         };
         answer().map_err(|r| json!({ "message": r.message, "problems": r.problems }))

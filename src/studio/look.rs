@@ -2,7 +2,7 @@
 
 use super::fields::{Field, fields};
 use crate::design::Design;
-use crate::margin::{LoadState, Margin, NoMargins, static_margins};
+use crate::margin::{LoadState, Margin, NoMargins, lift_off_rad_s, overrun_at, static_margins};
 use crate::report::{Curve, Dash, Drawing, Live, Plot, SpragPose, Unit, live, significant};
 use crate::wedge::{Closure, StaticPoint};
 use serde::Serialize;
@@ -10,7 +10,7 @@ use serde::Serialize;
 /// How a margin is painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Tone {
+pub enum MarginColour {
     /// Held.
     Green,
     /// Held, by less than 10 %.
@@ -40,7 +40,7 @@ pub struct MarginRow {
     /// Whether it counts for the verdict.
     pub required: bool,
     /// How it is painted.
-    pub tone: Tone,
+    pub tone: MarginColour,
 }
 
 /// One equilibrium under torque: where the sprag stands, and the forces on it.
@@ -97,6 +97,17 @@ impl Pose {
     }
 }
 
+/// A figure of the clutch, as printed.
+#[derive(Debug, Clone, Serialize)]
+pub struct FigureRow {
+    /// What it is.
+    pub name: &'static str,
+    /// Now.
+    pub text: String,
+    /// Of the pinned design, where it differs.
+    pub pinned: Option<String>,
+}
+
 /// The answer of statics.
 #[derive(Debug, Clone, Serialize)]
 pub struct Look {
@@ -108,6 +119,8 @@ pub struct Look {
     pub held: bool,
     /// Static margins, required ones first, the least first.
     pub margins: Vec<MarginRow>,
+    /// Size, mass, drag and the speed of lift-off.
+    pub figures: Vec<FigureRow>,
     /// What can be changed.
     pub fields: Vec<Field>,
     /// Names of the scenarios.
@@ -147,6 +160,8 @@ pub struct Seen {
     samples: Vec<(StaticPoint, Closure)>,
 }
 
+/// Speed up to which a lift-off is looked for, rad/s.
+const FASTEST_RAD_S: f64 = 6e3;
 /// Points on each arc: enough for the plots of the page.
 const PER_ARC: usize = 24;
 /// Width of the plots, px.
@@ -175,6 +190,7 @@ impl Seen {
             hash: design.hash.clone(),
             held: self.rows.iter().filter(|r| r.required).all(Margin::held),
             margins,
+            figures: self.figures(pinned),
             fields: fields(design),
             scenarios: design.scenarios.iter().map(|s| s.name.clone()).collect(),
             has_task: design.optimize.is_some(),
@@ -189,6 +205,33 @@ impl Seen {
             windup_svg: self.windup(pinned).to_svg(),
             tangent_svg: self.tangent(pinned).to_svg(),
         }
+    }
+
+    fn figures(&self, pinned: Option<&Self>) -> Vec<FigureRow> {
+        let before = pinned.map(Self::figure_texts);
+        let row = |(k, (name, text)): (usize, (&'static str, String))| {
+            let pinned = before.as_ref().map(|b| b[k].1.clone()).filter(|was| *was != text);
+            FigureRow { name, text, pinned }
+        };
+        self.figure_texts().into_iter().enumerate().map(row).collect()
+    }
+
+    fn figure_texts(&self) -> [(&'static str, String); 5] {
+        let (design, races) = (&self.design, &self.design.clutch.races);
+        let mass_kg: f64 = design.clutch.masses_kg().iter().sum();
+        let slow = overrun_at(design, &self.state, 0.0, 0.0);
+        let off = lift_off_rad_s(design, &self.state, FASTEST_RAD_S);
+        let none = || "–".to_owned();
+        [
+            ("outside ⌀", Unit::Millimetre.show(2.0 * races.outer_outside_radius_m, 4)),
+            ("width", Unit::Millimetre.show(races.width_m, 4)),
+            ("mass", Unit::Gram.show(mass_kg, 4)),
+            (
+                "drag, slow",
+                slow.map_or_else(|_| none(), |p| Unit::NewtonMetre.show(p.state.drag_torque_nm, 3)),
+            ),
+            ("lift-off at", off.map_or_else(none, |speed| Unit::Rpm.show(speed, 4))),
+        ]
     }
 
     fn pose_at_rest(&self) -> SpragPose {
@@ -254,10 +297,10 @@ pub(super) fn sort(rows: &mut [MarginRow]) {
 pub(super) fn row(r: &Margin) -> MarginRow {
     let margin = r.margin();
     let tone = match (r.required, r.held(), margin < NARROW) {
-        (false, ..) => Tone::Grey,
-        (true, false, _) => Tone::Red,
-        (true, true, true) => Tone::Amber,
-        (true, true, false) => Tone::Green,
+        (false, ..) => MarginColour::Grey,
+        (true, false, _) => MarginColour::Red,
+        (true, true, true) => MarginColour::Amber,
+        (true, true, false) => MarginColour::Green,
     };
     let shown = r.shown_margin().map_or("no demand".to_owned(), |m| Unit::Percent.show(m, 3));
     let text = if r.computed() { shown } else { "not computed".to_owned() };

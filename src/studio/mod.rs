@@ -9,11 +9,11 @@ mod look;
 mod scene;
 mod search;
 
-pub use engine::{Engine, Refused};
+pub use engine::{Engine, StudioRefusal};
 pub use fields::{Field, fields};
-pub use look::{Look, MarginRow, Pose, Tone};
+pub use look::{Look, MarginColour, MarginRow, Pose};
 pub use scene::{SceneLook, SceneRow};
-pub use search::{Progress, Searching};
+pub use search::{SearchProgress, Searching};
 
 /// The page as one file; what is between the marks `<!--engine-->` is put in by whoever serves it.
 pub fn page() -> String {

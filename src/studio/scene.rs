@@ -1,7 +1,7 @@
 //! What a scenario says, and its course to be played.
 
 use super::look::{MarginRow, row};
-use crate::clutch::Scenario;
+use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::dynamics::{Grip, Place, Sample};
 use crate::margin::{LoadState, SceneDemand, scene_demand, scene_rows};
@@ -78,6 +78,32 @@ pub fn scene_look(scenario: &Scenario, settings: &Settings) -> Result<SceneLook,
     let prepared = prepare(scenario)?;
     let s = simulate_prepared(&prepared, &Settings { samples: SAMPLES, ..settings.clone() }, false);
     let mut facts = vec![("reached".to_owned(), Unit::Second.show(s.t_s, 4))];
+    if let (Some(free), ScenarioKind::Overrun { speed_rad_s, overrun_rad_s }) =
+        (prepared.overrun, scenario.kind)
+    {
+        let normal = Unit::Newton.show(free.normal_inner_n, 3);
+        let heat = Unit::Watt.show(free.drag_torque_nm * overrun_rad_s, 3);
+        let on = free.normal_inner_n > 0.0;
+        return Ok(SceneLook {
+            name: scenario.name.clone(),
+            verdict: if on {
+                "runs free, sliding on the inner race"
+            } else {
+                "runs free, off the inner race"
+            }
+            .to_owned(),
+            facts: [
+                ("outer race", Unit::Rpm.show(speed_rad_s, 5)),
+                ("inner race", Unit::Rpm.show(speed_rad_s + overrun_rad_s, 5)),
+                ("drag torque", Unit::NewtonMetre.show(free.drag_torque_nm, 3)),
+                ("heat", heat),
+                ("normal force, inner, per sprag", normal),
+            ]
+            .map(|(name, value)| (name.to_owned(), value))
+            .to_vec(),
+            ..SceneLook::default()
+        });
+    }
     let mut fact = |name: &str, value: String| facts.push((name.to_owned(), value));
     if let Some(d) = &s.demand {
         fact(

@@ -1,6 +1,6 @@
 //! A search of the optimiser beside the page: begun, followed, stopped.
 
-use crate::answer::search::{Ask, Hints};
+use crate::answer::search::{Hints, SearchSettings};
 use crate::design::Design;
 use crate::follow::Follow;
 use crate::optimise::{Entry, ProblemId, Record};
@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// How a search stands.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Progress {
+pub struct SearchProgress {
     /// Whether it goes on.
     pub running: bool,
     /// In one sentence.
@@ -22,7 +22,7 @@ pub struct Progress {
 struct Shared {
     follow: Follow,
     evaluations: AtomicUsize,
-    done: Mutex<Option<Progress>>,
+    done: Mutex<Option<SearchProgress>>,
 }
 
 /// A search that runs in a thread of its own.
@@ -51,11 +51,11 @@ impl Searching {
     }
 
     /// How it stands.
-    pub fn progress(&self) -> Progress {
+    pub fn progress(&self) -> SearchProgress {
         let done = self.0.done.lock().unwrap_or_else(PoisonError::into_inner).clone();
         done.unwrap_or_else(|| {
             let said = format!("searching: {} evaluations", self.0.evaluations.load(Ordering::Relaxed));
-            Progress { running: true, said, text: None }
+            SearchProgress { running: true, said, text: None }
         })
     }
 }
@@ -68,15 +68,15 @@ impl Record for Counter<'_> {
     }
 }
 
-fn tell(design: &Design, shared: &Shared) -> Progress {
-    let ask = Ask { follow: shared.follow.clone(), ..Ask::default() };
+fn tell(design: &Design, shared: &Shared) -> SearchProgress {
+    let ask = SearchSettings { follow: shared.follow.clone(), ..SearchSettings::default() };
     match design.optimise_recorded(&ask, &mut Counter(&shared.evaluations)) {
         Ok(answer) => {
             let story = &answer.story;
             let said = story.verdict(&Hints::default());
-            Progress { running: false, said, text: Some(story.file().to_owned()) }
+            SearchProgress { running: false, said, text: Some(story.file().to_owned()) }
         }
-        Err(why) => Progress { running: false, said: format!("no search: {why}"), text: None },
+        Err(why) => SearchProgress { running: false, said: format!("no search: {why}"), text: None },
     }
 }
 

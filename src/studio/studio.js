@@ -79,18 +79,15 @@ function show(found) {
   state.look = found;
   $("name").textContent = found.name;
   document.title = found.name + " – studio";
-  const first = found.margins.find((m) => m.required);
-  const broken = found.margins.filter((m) => m.required && m.tone === "red").length;
-  $("banner").textContent = !first ? "No limit is named" : broken ? `${broken} static limit${broken > 1 ? "s" : ""} not held; ${first.code} decides, margin ${first.text}` : `Static limits held; ${first.code} decides, margin ${first.text}`;
-  $("banner").className = "verdict " + (!first ? "mixed" : broken ? "broken" : "held");
+  $("figures").innerHTML = found.figures.map((f) => `<div><dt>${escaped(f.name)}</dt><dd>${escaped(f.text)}${f.pinned ? ` <span class="was">pinned ${escaped(f.pinned)}</span>` : ""}</dd></div>`).join("");
   $("windup").innerHTML = found.windup_svg;
   $("tangent").innerHTML = found.tangent_svg;
   buttons();
   fields(found.fields);
   scenarios(found.scenarios);
   picture();
-  rows();
   scenesLater();
+  rows();
 }
 function buttons() {
   $("undo").disabled = state.undo.length === 0;
@@ -111,6 +108,7 @@ function rows() {
     const before = state.pinned && was && was !== m.text ? `<br><span class="was">pinned ${escaped(was)}</span>` : "";
     return `<tr class="${m.tone}" title="${escaped(m.name).replaceAll('"', "&quot;")}" data-code="${escaped(m.code)}"><td><span class="dot"></span>${escaped(m.code)}</td><td class="n">${escaped(m.text)}${before}</td><td class="n soft">${escaped(m.against)}</td></tr>`;
   }).join("");
+  verdict(all.filter((m) => m.required));
   $("margins").tBodies[0].innerHTML = html(all.filter((m) => m.required));
   $("shown").tBodies[0].innerHTML = html(all.filter((m) => !m.required));
   $("scenes").tBodies[0].innerHTML = Object.values(known.scenes).map((s) => {
@@ -120,6 +118,16 @@ function rows() {
     const word = s.required_friction === null ? escaped(s.note || "none suffices") : "μ " + short(s.required_friction, 4);
     return `<tr class="${s.stale ? "stale" : ""}"><td>${escaped(s.name)}</td><td class="n">${word}</td><td>${bar}</td></tr>`;
   }).join("");
+}
+
+/* The verdict of `check`: static limits at once, those of the scenes as they come. */
+function verdict(required) {
+  const running = state.look.scenarios.some((name) => !known.scenes[name] || known.scenes[name].stale);
+  const broken = required.filter((m) => m.tone === "red"), first = required[0];
+  const decides = first && `${first.code} decides, margin ${first.text}`;
+  const some = broken.length > 1 ? `${broken.length} limits` : "1 limit";
+  $("banner").textContent = !first ? "No limit is named" : broken.length ? `NOT HELD: ${some} of ${required.length}${running ? " so far" : ""}; ${decides}` : running ? `Static limits held, scenes are running …; ${decides} so far` : `HELD: all ${required.length} required limits; ${decides}`;
+  $("banner").className = "verdict " + (!first || (running && !broken.length) ? "mixed" : broken.length ? "broken" : "held");
 }
 
 /* Scenes follow when the sliders rest. */
@@ -137,6 +145,7 @@ async function allScenes(signal) {
     const found = await engine.ask("scene_row", { text, name }, signal);
     if (signal.aborted) return;
     known.scenes[name] = found;
+    delete found.stale;
     rows();
   }
 }
@@ -325,7 +334,7 @@ async function play(name, signal) {
   $("course").hidden = false;
   $("play").hidden = $("slowly").hidden = found.t_s.length < 2;
   $("verdict").textContent = `${found.name}: ${found.verdict}`;
-  $("verdict").className = "verdict " + (found.verdict === "sticks" ? "held" : found.verdict === "no verdict" ? "mixed" : "broken");
+  $("verdict").className = "verdict " + (found.verdict === "sticks" || found.verdict.startsWith("runs free") ? "held" : found.verdict === "no verdict" ? "mixed" : "broken");
   $("facts").innerHTML = found.facts.map(([k, v]) => `<div><dt>${escaped(k)}</dt><dd>${escaped(v)}</dd></div>`).join("");
   $("plots").innerHTML = found.plots.map((svg) => `<div>${svg}<span class="cursor"></span></div>`).join("");
   pose();
@@ -435,7 +444,7 @@ $("optimise").addEventListener("click", async () => {
         state.pinned = found.text;
         remember(pinned.margins, pinned.fields);
         await look();
-        say(found.said + " It is the pinned one now; Swap takes it.");
+        say(found.said.replace(/[.]?$/, ".") + " It is the pinned one now; Swap takes it.");
       }
       break;
     }

@@ -32,7 +32,7 @@ pub fn problem(design: &Design) -> ClutchProblem {
     ClutchProblem::new(design, task(design), names, Fidelity::default())
 }
 
-pub fn search_with(design: &Design, method: &Method) -> Search {
+pub fn search_with(design: &Design, method: &SearchMethod) -> Search {
     search(design, method, Fidelity::default(), &Desk::new(&Follow::nobody(), &mut Forgetful))
         .unwrap_or_else(|e| panic!("{e}"))
 }
@@ -108,7 +108,7 @@ fn the_objective_has_no_noise_and_no_jump() {
 #[test]
 fn threads_do_not_change_a_search() {
     let design = design(PEER_C);
-    let method = Method { starts: 2, swarm: Some(80), seed: 3, ..Method::default() };
+    let method = SearchMethod { starts: 2, swarm: Some(80), seed: 3, ..SearchMethod::default() };
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| search_with(&design, &method))
@@ -136,7 +136,7 @@ fn whole_numbers_are_searched_one_by_one() {
             ),
         ],
     );
-    let found = search_with(&design, &Method::default());
+    let found = search_with(&design, &SearchMethod::default());
     let counts: Vec<f64> = found.branches.iter().map(|b| b.values[0].1).collect();
     assert_eq!(counts, [12.0, 11.0, 13.0]);
     let best = found.branches.iter().max_by(|a, b| {
@@ -154,17 +154,17 @@ fn whole_numbers_are_searched_one_by_one() {
 #[test]
 fn raising_a_limit_buys_what_its_price_says() {
     let base = design(HUANG);
-    let found = search_with(&base, &Method::default());
+    let found = search_with(&base, &SearchMethod::default());
     let price = found.prices.iter().find(|p| p.of == "hoop-inner").expect("hoop-inner holds the optimum");
     let raised = changed(HUANG, &[("hoop_inner_mpa = 900.0", "hoop_inner_mpa = 905.0")]);
-    let after = search_with(&raised, &Method::default());
+    let after = search_with(&raised, &SearchMethod::default());
     let (promised, bought) = (5.0 * price.gain_per_unit, after.objective.1 - found.objective.1);
     println!("promised {promised:.6}, bought {bought:.6}");
     assert!(promised > 1e-3 && (bought / promised - 1.0).abs() < 0.05, "{promised} {bought}");
     let bound =
         found.prices.iter().find(|p| p.kind == PriceKind::Lower && p.of == "r_i2_mm").expect("at its bound");
     let wider = changed(HUANG, &[("{ name = \"r_i2_mm\", min = 3.6", "{ name = \"r_i2_mm\", min = 3.55")]);
-    let after = search_with(&wider, &Method::default());
+    let after = search_with(&wider, &SearchMethod::default());
     let (promised, bought) = (0.05 * bound.gain_per_unit, after.objective.1 - found.objective.1);
     println!("promised {promised:.6}, bought {bought:.6}");
     assert!((bought / promised - 1.0).abs() < 0.1, "{promised} {bought}");
@@ -179,7 +179,7 @@ fn a_hopeless_scene_says_what_would_free_it() {
             r#"scenarios = ["high-8", "high-10"]"#,
         )],
     );
-    let found = search_with(&design, &Method::default());
+    let found = search_with(&design, &SearchMethod::default());
     let Status::Infeasible { fighting, .. } = &found.outcome.status else {
         panic!("{:?}", found.outcome.status)
     };
@@ -206,7 +206,7 @@ fn a_hopeless_scene_says_what_would_free_it() {
 fn a_limit_out_of_reach_is_named() {
     let design =
         changed(HUANG, &[("limits = { keep_contact_to_rpm = 6000 }", "limits = { hoop_inner_mpa = 300 }")]);
-    let found = search_with(&design, &Method::default());
+    let found = search_with(&design, &SearchMethod::default());
     let Status::Infeasible { fighting, least_violation } = &found.outcome.status else {
         panic!("{:?}", found.outcome.status)
     };
@@ -239,7 +239,7 @@ fn nothing_that_moves_is_said_at_once() {
     );
     let found = search(
         &design,
-        &Method::default(),
+        &SearchMethod::default(),
         Fidelity::default(),
         &Desk::new(&Follow::nobody(), &mut Forgetful),
     );

@@ -10,19 +10,19 @@ use super::problems::{Model, all, hs43};
 /// A problem given by a closure, in the box [lo, hi]^n.
 struct Toy<F>(F);
 
-impl<F: Fn(&[f64]) -> Result<Evaluation, Failure> + Sync> Evaluate for Toy<F> {
-    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
+impl<F: Fn(&[f64]) -> Result<Evaluation, NoEvaluation> + Sync> Evaluate for Toy<F> {
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         (self.0)(x)
     }
 }
 
-fn margins(objectives: &[f64], limits: &[f64], tie_break: f64) -> Result<Evaluation, Failure> {
+fn margins(objectives: &[f64], limits: &[f64], tie_break: f64) -> Result<Evaluation, NoEvaluation> {
     Ok(Evaluation { objectives: objectives.to_vec(), limits: limits.to_vec(), tie_break })
 }
 
 fn run(problem: &dyn Evaluate, start: &[f64], lo: f64, hi: f64, settings: &Settings) -> Outcome {
     let (lo, hi) = (vec![lo; start.len()], vec![hi; start.len()]);
-    maximise_least_margin(problem, start, &lo, &hi, settings, Run::default()).expect("well posed")
+    maximise_least_margin(problem, start, &lo, &hi, settings, SearchRun::default()).expect("well posed")
 }
 
 fn known(name: &str) -> Model {
@@ -105,7 +105,8 @@ fn tie_break_leaves_a_round_top_alone() {
 fn a_variable_without_influence_is_found_and_left_where_it_was() {
     let problem = Toy(|x: &[f64]| margins(&[-(x[0] - 0.3).powi(2), 0.2 - x[0]], &[0.9 - x[0] * x[0]], x[0]));
     let settings = Settings::default();
-    let table = influence(&problem, &[0.5, 0.5], &[0.0; 2], &[1.0; 2], &settings, Run::default()).unwrap();
+    let table =
+        influence(&problem, &[0.5, 0.5], &[0.0; 2], &[1.0; 2], &settings, SearchRun::default()).unwrap();
     assert_eq!(table.without(), [1]);
     assert!((table.objectives[0][0] + 0.4).abs() < 1e-10 && (table.limits[0][0] + 1.0).abs() < 1e-10);
     assert_eq!(table.evaluations, 5);
@@ -118,7 +119,7 @@ fn a_variable_without_influence_is_found_and_left_where_it_was() {
 fn a_failing_region_shortens_steps() {
     let problem = Toy(|x: &[f64]| {
         if x[0] > 0.6 {
-            return Err(Failure::Refused("the wedge does not close".into()));
+            return Err(NoEvaluation::Refused("the wedge does not close".into()));
         }
         margins(&[x[0] - (8.0 * (x[0] - 0.5)).exp(), 2.0 - (x[1] - 0.5).powi(2)], &[], 0.0)
     });
@@ -136,7 +137,7 @@ fn a_wall_of_failures_is_a_status() {
     let problem =
         Toy(
             |x: &[f64]| {
-                if x[0] > 0.6 { Err(Failure::Refused("no".into())) } else { margins(&[x[0]], &[], 0.0) }
+                if x[0] > 0.6 { Err(NoEvaluation::Refused("no".into())) } else { margins(&[x[0]], &[], 0.0) }
             },
         );
     let found = run(&problem, &[0.1], 0.0, 1.0, &Settings::default());
@@ -152,8 +153,8 @@ fn nan_never_passes() {
     let found = run(&problem, &[0.2], 0.0, 1.0, &Settings::default());
     assert!((found.evaluation.least_margin() - 0.95).abs() < 1e-6, "{found:?}");
     let at_nan =
-        maximise_least_margin(&problem, &[0.9], &[0.0], &[1.0], &Settings::default(), Run::default());
-    let failure = Failure::NotFinite { part: Part::Objective, index: 0 };
+        maximise_least_margin(&problem, &[0.9], &[0.0], &[1.0], &Settings::default(), SearchRun::default());
+    let failure = NoEvaluation::NotFinite { part: EvaluationPart::Objective, index: 0 };
     assert_eq!(at_nan.err(), Some(Refusal::StartFails(failure)));
 }
 
@@ -162,7 +163,7 @@ fn a_changing_number_of_margins_is_a_failure() {
     let problem =
         Toy(|x: &[f64]| if x[0] > 0.5 { margins(&[x[0]], &[1.0], 0.0) } else { margins(&[x[0]], &[], 0.0) });
     let found = run(&problem, &[0.2], 0.0, 1.0, &Settings::default());
-    let shape = Failure::Shape { expected: (1, 0), found: (1, 1) };
+    let shape = NoEvaluation::Shape { expected: (1, 0), found: (1, 1) };
     assert!(found.journal.entries().iter().any(|e| e.outcome == Err(shape.clone())));
     assert!(found.x[0] <= 0.5);
 }
@@ -199,7 +200,7 @@ fn resuming_gives_the_same_answer() {
         computed.fetch_add(1, Ordering::Relaxed);
         model.evaluate(x)
     });
-    let again = Run { journal: Journal::from_entries(kept), ..Run::default() };
+    let again = SearchRun { journal: Journal::from_entries(kept), ..SearchRun::default() };
     let resumed =
         maximise_least_margin(&counted, &model.start, &model.lo, &model.hi, &Settings::default(), again)
             .unwrap();
@@ -214,9 +215,15 @@ fn the_evaluation_limit_holds_and_gives_the_best_point_seen() {
     let model = known("HS100");
     for limit in [1, 5, 16, 40, 90] {
         let settings = Settings { max_evaluations: limit, ..Settings::default() };
-        let found =
-            maximise_least_margin(&model, &model.start, &model.lo, &model.hi, &settings, Run::default())
-                .unwrap();
+        let found = maximise_least_margin(
+            &model,
+            &model.start,
+            &model.lo,
+            &model.hi,
+            &settings,
+            SearchRun::default(),
+        )
+        .unwrap();
         assert_eq!(found.status, Status::EvaluationLimit);
         assert!(found.evaluations <= limit && found.journal.entries().len() <= limit);
         let feasible = found.journal.entries().iter().filter_map(|e| e.outcome.as_ref().ok());
@@ -250,14 +257,14 @@ fn an_interrupted_run_hands_back_what_it_has() {
     let model = known("HS100");
     let follow = Follow::new();
     let mut stopper = Stopper { follow: &follow, after: 3, steps: 0, points: 0 };
-    let run = Run { follow: follow.clone(), watch: Some(&mut stopper), ..Run::default() };
+    let run = SearchRun { follow: follow.clone(), watch: Some(&mut stopper), ..SearchRun::default() };
     let found =
         maximise_least_margin(&model, &model.start, &model.lo, &model.hi, &Settings::default(), run).unwrap();
     assert_eq!(found.status, Status::Interrupted);
     assert!(found.evaluation.least_margin() > -714.0);
     assert_eq!(stopper.points, found.journal.entries().len());
     assert_eq!(stopper.steps, found.history.len());
-    let run = Run { follow: follow.clone(), ..Run::default() };
+    let run = SearchRun { follow: follow.clone(), ..SearchRun::default() };
     let early = maximise_least_margin(&model, &model.start, &model.lo, &model.hi, &Settings::default(), run);
     assert_eq!(early.err(), Some(Refusal::StoppedAtStart));
 }
@@ -285,9 +292,15 @@ fn bounds_are_never_left() {
         margins(&[x[0] - x[1] * x[1] + x[2], 2.0 - x[0] * x[1]], &[x[0] + 0.1], 0.0)
     });
     let (lo, hi) = ([0.0, 0.0, 0.25], [1.0, 1.0, 0.25]);
-    let found =
-        maximise_least_margin(&problem, &[0.0, 1.0, 0.25], &lo, &hi, &Settings::default(), Run::default())
-            .unwrap();
+    let found = maximise_least_margin(
+        &problem,
+        &[0.0, 1.0, 0.25],
+        &lo,
+        &hi,
+        &Settings::default(),
+        SearchRun::default(),
+    )
+    .unwrap();
     assert_eq!(found.status, Status::Converged);
     assert_eq!(found.x, [1.0, 0.0, 0.25]);
     assert_eq!(
@@ -295,7 +308,8 @@ fn bounds_are_never_left() {
         ([1].as_slice(), [0].as_slice())
     );
     assert_eq!(outside.load(Ordering::Relaxed), 0);
-    let fixed = maximise_least_margin(&problem, &hi, &hi, &hi, &Settings::default(), Run::default()).unwrap();
+    let fixed =
+        maximise_least_margin(&problem, &hi, &hi, &hi, &Settings::default(), SearchRun::default()).unwrap();
     assert_eq!((fixed.status, fixed.evaluations), (Status::Converged, 1));
 }
 
@@ -333,7 +347,7 @@ fn measured_noise_lengthens_the_difference_steps() {
 fn malformed_questions_are_refused() {
     let problem = Toy(|x: &[f64]| margins(&[x[0]], &[], 0.0));
     let ask = |x0: &[f64], lo: &[f64], hi: &[f64], settings: &Settings| {
-        maximise_least_margin(&problem, x0, lo, hi, settings, Run::default()).err()
+        maximise_least_margin(&problem, x0, lo, hi, settings, SearchRun::default()).err()
     };
     let usual = Settings::default();
     assert_eq!(ask(&[0.5], &[0.0, 0.0], &[1.0], &usual), Some(Refusal::Lengths { x0: 1, lo: 2, hi: 1 }));
@@ -356,8 +370,8 @@ fn malformed_questions_are_refused() {
         );
     }
     let empty = Toy(|_: &[f64]| margins(&[], &[], 0.0));
-    let refused = maximise_least_margin(&empty, &[0.5], &[0.0], &[1.0], &usual, Run::default()).err();
-    assert_eq!(refused, Some(Refusal::StartFails(Failure::Shape { expected: (1, 0), found: (0, 0) })));
+    let refused = maximise_least_margin(&empty, &[0.5], &[0.0], &[1.0], &usual, SearchRun::default()).err();
+    assert_eq!(refused, Some(Refusal::StartFails(NoEvaluation::Shape { expected: (1, 0), found: (0, 0) })));
 }
 
 /// The same optima from twenty scattered starts each, most of them infeasible.
@@ -379,7 +393,7 @@ fn scattered_starts_reach_the_same_optimum() {
                 &model.lo,
                 &model.hi,
                 &Settings::default(),
-                Run::default(),
+                SearchRun::default(),
             )
             .unwrap();
             let error = (found.evaluation.least_margin() - model.optimum) / model.optimum.abs().max(1.0);

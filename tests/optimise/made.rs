@@ -8,7 +8,7 @@ use sprag_design::optimise::*;
 use sprag_design::profile::{Flanks, Outline, clearance_m};
 
 fn realised(design: &Design) -> (Search, Realised) {
-    let method = Method::default();
+    let method = SearchMethod::default();
     let found = search_with(design, &method);
     let made = realise(&found, task(design), &method, &Desk::new(&Follow::nobody(), &mut Forgetful));
     let made = made.unwrap_or_else(|e| panic!("{e}")).expect("a centroid was free");
@@ -97,7 +97,7 @@ fn a_centroid_out_of_reach_has_a_nearest() {
 #[test]
 fn a_robust_design_holds_at_every_corner() {
     let design = design(PEER_A);
-    let method = Method::default();
+    let method = SearchMethod::default();
     let of = design.tolerances.expect("tolerances");
     let found = search_with(&design, &method);
     let mut nobody = Forgetful;

@@ -8,14 +8,21 @@ mod prices;
 mod problems;
 mod unreached;
 
-use sprag_design::optimise::{Outcome, Run, Settings, Status, maximise_least_margin};
+use sprag_design::optimise::{Outcome, SearchRun, Settings, Status, maximise_least_margin};
 
 use problems::{Model, all};
 
 /// Runs `model` with default settings.
 fn run(model: &Model) -> Outcome {
-    maximise_least_margin(model, &model.start, &model.lo, &model.hi, &Settings::default(), Run::default())
-        .expect("well posed")
+    maximise_least_margin(
+        model,
+        &model.start,
+        &model.lo,
+        &model.hi,
+        &Settings::default(),
+        SearchRun::default(),
+    )
+    .expect("well posed")
 }
 
 /// Value within 1e-6 of the literature's, limits held to 1e-8, status and evaluation count.

@@ -22,7 +22,7 @@ fn shaped(aim: &str, more: &[(&str, &str)]) -> Design {
 /// The capacity's price is found again by a search with the limit raised. What does not hold it has none.
 #[test]
 fn a_torque_capacity_is_priced_by_what_decides_it() {
-    let method = Method::default();
+    let method = SearchMethod::default();
     let aim = "objective = \"torque-capacity\"";
     let found = search_with(&shaped(aim, &[]), &method);
     println!("{:?} {:#?}", found.objective, found.prices);
@@ -50,7 +50,7 @@ fn a_torque_capacity_is_priced_by_what_decides_it() {
 fn a_target_met_is_one_optimum_and_costs_nothing() {
     let aim =
         "objective = \"stiffness-curve\"\ntarget = [[20.0, 2.15], [50.0, 5.30], [80.0, 7.60], [100.0, 8.70]]";
-    let method = Method { starts: 8, most_starts: 32, ..Method::default() };
+    let method = SearchMethod { starts: 8, most_starts: 32, ..SearchMethod::default() };
     let found = search_with(&shaped(aim, &[]), &method);
     println!("{:?} {:?} {} {:?}", found.objective, found.optima, found.evaluations, found.prices);
     assert!(found.objective.1 < 1e-7, "{:?}", found.objective);
@@ -84,7 +84,7 @@ fn a_variable_level_at_the_start_is_searched() {
             ("limits = { keep_contact_to_rpm = 6000 }", ""),
         ],
     );
-    let found = search_with(&design, &Method { starts: 8, most_starts: 8, ..Method::default() });
+    let found = search_with(&design, &SearchMethod { starts: 8, most_starts: 8, ..SearchMethod::default() });
     println!("{:?} {:?} after {}", found.objective, found.outcome.x, found.evaluations);
     assert!(found.variables.iter().all(|v| !v.dropped), "{:?}", found.variables);
     // What the point (4.0, 0.062, 3.4) of the box has.

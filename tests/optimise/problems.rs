@@ -3,7 +3,7 @@
 //! HS: Hock and Schittkowski, *Test Examples for Nonlinear Programming Codes* (1981). CB, Madsen, Polak: Luksan and
 //! Vlcek, *Test Problems for Nonsmooth Unconstrained and Linearly Constrained Optimization* (V-798, 2000).
 
-use sprag_design::optimise::{Evaluate, Evaluation, Failure};
+use sprag_design::optimise::{Evaluate, Evaluation, NoEvaluation};
 
 type Margins = fn(&[f64]) -> (Vec<f64>, Vec<f64>);
 
@@ -22,7 +22,7 @@ pub struct Model {
 }
 
 impl Evaluate for Model {
-    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, Failure> {
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         let (objectives, limits) = (self.margins)(x);
         Ok(Evaluation { objectives, limits, tie_break: 0.0 })
     }

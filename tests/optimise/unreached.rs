@@ -11,7 +11,7 @@ use sprag_design::optimise::*;
 fn a_slip_margin_out_of_reach_is_infeasible_and_says_what_can_be_reached() {
     let ask = |wanted: &str| changed(HUANG, &[("slip_margin = 0.10", &format!("slip_margin = {wanted}"))]);
     let design = ask("0.45");
-    let found = search_with(&design, &Method::default());
+    let found = search_with(&design, &SearchMethod::default());
     let Status::Infeasible { fighting, least_violation } = &found.outcome.status else {
         panic!("{:?}", found.outcome.status)
     };
@@ -28,7 +28,7 @@ fn a_slip_margin_out_of_reach_is_infeasible_and_says_what_can_be_reached() {
     // Verified by a search under the limit that is named, and one a little lower.
     let under = |mpa: f64| {
         let text = with_keys(&design.source, &[("limits.hoop_inner_mpa", mpa)]).unwrap();
-        search_with(&Design::parse(&text, "x.toml").unwrap(), &Method::default()).feasible()
+        search_with(&Design::parse(&text, "x.toml").unwrap(), &SearchMethod::default()).feasible()
     };
     assert!(needed > 900.0 && under(1.001 * needed) && !under(0.995 * needed), "{needed}");
 }
@@ -39,7 +39,7 @@ fn a_slip_margin_out_of_reach_is_infeasible_and_says_what_can_be_reached() {
 fn a_dimension_that_is_no_variable_is_named_where_it_frees() {
     let design =
         changed(HUANG, &[("law = \"roller\"\nroller_coefficient = 3.944e-5 ", "law = \"elastic\" ")]);
-    let found = search_with(&design, &Method::default());
+    let found = search_with(&design, &SearchMethod::default());
     assert!(matches!(found.outcome.status, Status::Infeasible { .. }), "{:?}", found.outcome.status);
     let nobody = &mut Forgetful;
     let desk = Desk::new(&Follow::nobody(), nobody);
@@ -73,7 +73,7 @@ fn the_wanted_slip_margin_counts_within_the_tolerances() {
             ),
         ],
     );
-    let found = search_with(&base, &Method::default());
+    let found = search_with(&base, &SearchMethod::default());
     assert!(found.feasible());
     let of = base.tolerances.unwrap();
     let nobody = &mut Forgetful;
@@ -89,8 +89,9 @@ fn the_wanted_slip_margin_counts_within_the_tolerances() {
     // Some draws have enough friction, and some have not.
     assert!(made.yield_share > 0.0 && made.yield_share < 1.0, "{}", made.yield_share);
     let (lo, hi) = found.bounds();
-    let best = robust(&found.problem, &found.outcome.x, (&lo, &hi), &of, (20, 1), &Method::default(), &desk)
-        .unwrap();
+    let best =
+        robust(&found.problem, &found.outcome.x, (&lo, &hi), &of, (20, 1), &SearchMethod::default(), &desk)
+            .unwrap();
     assert!(!best.made.held(), "the largest slip margin is 0.4079 at mu_s 0.12, and 0.29 at 0.11");
 }
 

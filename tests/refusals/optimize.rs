@@ -12,7 +12,7 @@ const LIMIT: &str = "{ name = \"limits.hoop_inner_mpa\", min = 800, max = 900 }"
 #[rustfmt::skip] // one way per line
 fn objectives_and_variables() {
     hold(&[
-        Case(&[(SLIP, "objective = \"mass\"")], "optimize.objective", "\"mass\"", &["slip-margin", "stiffness-curve"]),
+        Case(&[(SLIP, "objective = \"life\"")], "optimize.objective", "\"life\"", &["slip-margin", "stiffness-curve"]),
         Case(&[(SLIP, "objective = \"torque-capacity\""), ("peak_torque_nm = 110.0\n", "")], "optimize.objective", "torque-capacity\"", &["peak torque", "peak_torque_nm"]),
         Case(&[(SLIP, "objective = \"windup\""), ("nominal_torque_nm = 90.0\n", "")], "optimize.objective", "\"windup\"", &["nominal_torque_nm"]),
         Case(&[(SLIP, "objective = \"stiffness-curve\"")], "optimize.objective", "stiffness-curve", &["a target", "torque in N m"]),

@@ -1,9 +1,10 @@
 //! The margins as table and as JSON.
 
-use super::overrun::Section;
+use super::overrun::OverrunSection;
 use super::{run_out, running};
+use crate::answer::stiffness::CurveEnd;
 use crate::margin::{Demand, Margin, When};
-use crate::report::{Cell, Column, Table, Unit, significant};
+use crate::report::{Cell, Column, Table, Unit, greek, significant};
 use crate::wedge::EndReason;
 use serde::Serialize;
 
@@ -20,7 +21,7 @@ const NO_DEMAND: &str = "no demand";
 
 /// One margin of the JSON.
 #[derive(Debug, Clone, Serialize)]
-pub struct Row {
+pub struct CheckRow {
     /// Code for scripts, such as `hoop-inner`, `slip:high-6`.
     pub code: String,
     /// Name for people.
@@ -74,15 +75,6 @@ pub struct Capacity {
     pub torque_capacity_nm: f64,
 }
 
-/// End of the static curve.
-#[derive(Debug, Clone, Serialize)]
-pub struct End {
-    /// Why it ends.
-    pub reason: &'static str,
-    /// Torque there, N m.
-    pub torque_nm: f64,
-}
-
 /// What the margins were read from.
 #[derive(Debug, Clone)]
 pub(super) struct Source {
@@ -99,18 +91,18 @@ pub(super) struct Source {
     /// What the names of the materials do not decide.
     pub(super) materials: Vec<String>,
     /// Overrun against speed.
-    pub(super) overrun: Section,
+    pub(super) overrun: OverrunSection,
     /// Radii as made and as run, where they differ.
-    pub(super) running: Option<running::Section>,
+    pub(super) running: Option<running::RunningSection>,
     /// Load round the circumference, where the axes lie apart.
-    pub(super) run_out: Option<run_out::Section>,
+    pub(super) run_out: Option<run_out::RunOutSection>,
 }
 
 /// Keys of `check`.
 #[derive(Debug, Clone, Serialize)]
-pub struct Body {
+pub struct CheckBody {
     /// One row for each limit.
-    pub margins: Vec<Row>,
+    pub margins: Vec<CheckRow>,
     /// Whether every required limit is held.
     pub pass: bool,
     /// The required limit with the least margin.
@@ -122,7 +114,7 @@ pub struct Body {
     /// The lowest among the limits that are held at peak torque.
     pub peak_torque_capacity: Option<Capacity>,
     /// Where the static curve ends, which may be below the torques of the limits.
-    pub end: End,
+    pub end: CurveEnd,
     #[serde(skip)]
     asked_nm: f64,
     #[serde(skip)]
@@ -132,14 +124,14 @@ pub struct Body {
     /// How far a lift-off was looked for, rev/min.
     pub lift_off_searched_to_rpm: f64,
     /// Overrun against speed.
-    pub overrun: Section,
+    pub overrun: OverrunSection,
     /// Null: the races run as made.
-    pub running: Option<running::Section>,
+    pub running: Option<running::RunningSection>,
     /// Null: the design names no eccentricity.
-    pub run_out: Option<run_out::Section>,
+    pub run_out: Option<run_out::RunOutSection>,
 }
 
-impl Body {
+impl CheckBody {
     pub(super) fn new(rows: &[Margin], source: Source) -> Self {
         let rpm = |rad_s| Unit::Rpm.from_si(rad_s);
         let required = || rows.iter().filter(|r| r.required);
@@ -169,7 +161,7 @@ impl Body {
             lowest_torque_capacity: lowest(&|_| true),
             nominal_torque_capacity: lowest(&nominal),
             peak_torque_capacity: lowest(&|r| !nominal(r)),
-            end: End { reason: source.end.name(), torque_nm: source.end_torque_nm },
+            end: CurveEnd { reason: source.end.name(), torque_nm: source.end_torque_nm },
             asked_nm: source.asked_nm,
             materials: source.materials,
             lift_off_rpm: source.lift_off_rad_s.map(rpm),
@@ -215,7 +207,7 @@ impl Body {
 
     /// The answer in one line.
     pub fn verdict(&self) -> String {
-        let required: Vec<&Row> = self.margins.iter().filter(|r| r.required).collect();
+        let required: Vec<&CheckRow> = self.margins.iter().filter(|r| r.required).collect();
         let broken = required.iter().filter(|r| !r.held).count();
         let unknown = required.iter().filter(|r| !r.computed).count();
         match &self.deciding {
@@ -241,6 +233,21 @@ impl Body {
         }
     }
 
+    /// Torque capacities, a line each.
+    pub fn capacity_lines(&self) -> Vec<String> {
+        self.remarks_greek(true)
+    }
+
+    /// The other remarks, a line each.
+    pub fn other_remarks(&self) -> Vec<String> {
+        self.remarks_greek(false)
+    }
+
+    fn remarks_greek(&self, capacities: bool) -> Vec<String> {
+        let lines = self.remarks().into_iter().map(|line| greek(&line));
+        lines.filter(|line| line.starts_with("Torque capacity") == capacities).collect()
+    }
+
     /// Torque capacity, an early end of the curve and lift-off, a line each.
     pub fn remarks(&self) -> Vec<String> {
         let capacities = [("nominal", &self.nominal_torque_capacity), ("peak", &self.peak_torque_capacity)];
@@ -258,8 +265,8 @@ impl Body {
                 Unit::NewtonMetre.show_plain(self.asked_nm, 4)
             )
         });
-        let running = self.running.iter().flat_map(running::Section::remarks);
-        let run_out = self.run_out.iter().flat_map(run_out::Section::remarks);
+        let running = self.running.iter().flat_map(running::RunningSection::remarks);
+        let run_out = self.run_out.iter().flat_map(run_out::RunOutSection::remarks);
         let searched = format!("{:.0}", self.lift_off_searched_to_rpm);
         let lift_off = match self.lift_off_rpm {
             Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
@@ -271,8 +278,8 @@ impl Body {
     }
 }
 
-fn row(r: &Margin, end_torque_nm: f64) -> Row {
-    Row {
+fn row(r: &Margin, end_torque_nm: f64) -> CheckRow {
+    CheckRow {
         code: r.code(),
         name: r.name.clone(),
         demand: demand(r),

@@ -1,30 +1,40 @@
 //! What the margin check answers: rows, verdict, torque capacities, overrun, radii as run, load round the circumference.
 
 mod body;
+mod charts;
 pub mod overrun;
+mod page;
 pub mod run_out;
 pub mod running;
+mod sections;
+mod sheet;
 #[cfg(test)]
 mod tests;
+mod text;
 
-pub use body::{Body, Capacity, Deciding, End, Row};
+pub use body::{Capacity, CheckBody, CheckRow, Deciding};
 pub use body::{
     NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, is_beyond, margin_cell,
     margin_text, margin_words, people_table, unit_cell,
 };
 
+pub(super) use text::{REACHED_AT, size_line};
+
 use super::left_out::{LeftOut, left_out, off_centre};
+use super::{Envelope, Provenance};
 use crate::clutch::Scenario;
 use crate::design::{Design, beside_the_name};
 use crate::follow::Follow;
 use crate::margin::{
     LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
 };
+use crate::report::{Page, Screen};
 use crate::scenario::Settings;
 use crate::wedge::straddling_error;
 use body::Source;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -44,16 +54,16 @@ pub struct CheckAnswer {
     /// Demand of the scenes in which something is to stick, in their order.
     pub scenes: Vec<(String, SceneDemand)>,
     /// How far off the answer is.
-    pub errors: Errors,
+    pub errors: CheckErrors,
     /// What the model leaves out, each with its cost.
     pub left_out: Vec<LeftOut>,
     /// The figures by their keys in JSON.
-    pub body: Body,
+    pub body: CheckBody,
 }
 
 /// How far off a check is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Errors {
+pub struct CheckErrors {
     /// Of the static curve, by its own size.
     pub statics_relative: f64,
     /// Largest change of a finite scenario margin when the tolerance is ten times finer; none without scenarios.
@@ -65,6 +75,34 @@ pub struct Errors {
 impl Serialize for CheckAnswer {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.body.serialize(serializer)
+    }
+}
+
+impl CheckAnswer {
+    /// The answer with the keys that all answers share; `run_time_s`: what the check took, s.
+    pub fn envelope<'a>(&'a self, design: &'a Design, run_time_s: f64) -> Envelope<'a, &'a CheckBody> {
+        Envelope {
+            design,
+            run_time_s,
+            left_out: self.left_out.clone(),
+            error_estimate: Some(json!(self.errors)),
+            body: &self.body,
+        }
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, design: &Design, screen: Screen) -> String {
+        text::text(design, self, screen)
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, design: &Design, provenance: &Provenance) -> Page {
+        page::page(design, self, provenance)
+    }
+
+    /// The design sheet: the answer and a dimensioned drawing first, and all inputs.
+    pub fn sheet(&self, design: &Design, provenance: &Provenance) -> Page {
+        sheet::page(design, self, provenance)
     }
 }
 
@@ -137,21 +175,21 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
         lift_off_rad_s,
         materials: beside_the_name(&design.source),
         searched_to_rad_s: LIFT_OFF_TO_RAD_S,
-        overrun: overrun::Section::new(&course, limits),
-        running: running::Section::new(design, &state),
-        run_out: ring.as_ref().map(|ring| run_out::Section::new(design, &state, ring)),
+        overrun: overrun::OverrunSection::new(&course, limits),
+        running: running::RunningSection::new(design, &state),
+        run_out: ring.as_ref().map(|ring| run_out::RunOutSection::new(design, &state, ring)),
     };
     let list = left_out(&design.clutch);
     let left_out = match &source.run_out {
         Some(section) => off_centre(list, section.left_out()),
         None => list,
     };
-    let errors = Errors {
+    let errors = CheckErrors {
         statics_relative: state.curve.truncation(),
         scenario_margins,
         hertz_at_junctions_relative: straddling_error(&design.clutch),
     };
-    let body = Body::new(&rows, source);
+    let body = CheckBody::new(&rows, source);
     Ok(CheckAnswer { state, rows, static_rows, scenes, errors, left_out, body })
 }
 

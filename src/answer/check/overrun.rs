@@ -44,7 +44,7 @@ pub(super) fn curve(
 
 /// One speed of the JSON.
 #[derive(Debug, Clone, Serialize)]
-pub struct Row {
+pub struct OverrunRow {
     /// Race that runs: `outer` or `inner`; the other stands.
     pub race: &'static str,
     /// Its speed, rev/min.
@@ -73,7 +73,7 @@ pub struct Row {
 
 /// `overrun` of the JSON.
 #[derive(Debug, Clone, Serialize)]
-pub struct Section {
+pub struct OverrunSection {
     /// engaging, disengaging or neutral: what the centrifugal force does to the sprags.
     pub centrifugal: &'static str,
     /// Azimuth of C_e ahead of the centroid at first contact at rest.
@@ -81,16 +81,16 @@ pub struct Section {
     /// Drag torque with either race at rest.
     pub drag_torque_slow_nm: f64,
     /// All speeds looked at: outer race runs, then inner race.
-    pub points: Vec<Row>,
+    pub points: Vec<OverrunRow>,
     /// That the equilibrium does not stay; null where it does.
     pub warning: Option<String>,
 }
 
 /// What an equilibrium does not say: the fastest growth of the swing among the speeds looked at, up to `wanted_rpm` of the
 /// outer race where contact is to be kept.
-fn warning(points: &[Row], wanted_rpm: Option<f64>) -> Option<String> {
-    let within = |p: &&Row| p.race == "inner" || wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
-    let growth = |p: &Row| p.growth_rate_per_s.unwrap_or(0.0);
+fn warning(points: &[OverrunRow], wanted_rpm: Option<f64>) -> Option<String> {
+    let within = |p: &&OverrunRow| p.race == "inner" || wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
+    let growth = |p: &OverrunRow| p.growth_rate_per_s.unwrap_or(0.0);
     let p =
         points.iter().filter(|p| p.grows).filter(within).max_by(|a, b| growth(a).total_cmp(&growth(b)))?;
     let held = if wanted_rpm.is_some() { ", and so is keep-contact" } else { "" };
@@ -105,9 +105,9 @@ fn warning(points: &[Row], wanted_rpm: Option<f64>) -> Option<String> {
     ))
 }
 
-impl Section {
+impl OverrunSection {
     pub(super) fn new(curve: &OverrunCurve, limits: &Limits) -> Self {
-        let row = |race: &'static str, p: &OverrunPoint| Row {
+        let row = |race: &'static str, p: &OverrunPoint| OverrunRow {
             race,
             speed_rpm: Unit::Rpm.from_si(p.speed_rad_s),
             drag_torque_nm: p.state.drag_torque_nm,
@@ -122,7 +122,7 @@ impl Section {
             rotation_hoop_outer_mpa: Unit::Megapascal.from_si(p.rotation_hoop_pa),
         };
         let outer = curve.outer_race.iter().map(|p| row("outer", p));
-        let points: Vec<Row> = outer.chain(curve.inner_race.iter().map(|p| row("inner", p))).collect();
+        let points: Vec<OverrunRow> = outer.chain(curve.inner_race.iter().map(|p| row("inner", p))).collect();
         let wanted_rpm = limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
         Self {
             centrifugal: match curve.gamma_rad {

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 /// One sprag of the JSON.
 #[derive(Debug, Clone, Serialize)]
-pub struct Sprag {
+pub struct SpragShare {
     /// Azimuth from the widest gap where it stands.
     pub azimuth_deg: f64,
     /// The same where it engaged.
@@ -40,14 +40,14 @@ pub struct At {
     /// By how much the inner race gives way.
     pub shift_um: f64,
     /// Every sprag.
-    pub sprags: Vec<Sprag>,
+    pub sprags: Vec<SpragShare>,
     #[serde(skip)]
     words: String,
 }
 
 /// `run_out` of the JSON; null where the design names no eccentricity.
 #[derive(Debug, Clone, Serialize)]
-pub struct Section {
+pub struct RunOutSection {
     /// Distance of the axes, um.
     pub offset_um: f64,
     /// What a dial indicator reads (TIR).
@@ -83,7 +83,7 @@ fn at(ring: &RunOut, state: &LoadState, torque: &'static str, survey: &Survey) -
     let (largest_share, worst) = round.share();
     let mean = round.loads.iter().map(|l| l.normal_n).sum::<f64>() / round.loads.len() as f64;
     let degrees = |seat: usize| Unit::Degree.from_si(ring.seats[seat].azimuth_rad);
-    let sprag = |l: &crate::margin::SpragLoad| Sprag {
+    let sprag = |l: &crate::margin::SpragLoad| SpragShare {
         azimuth_deg: degrees(l.seat),
         engaged_deg: degrees(l.engaged),
         normal_inner_n: l.normal_n,
@@ -109,7 +109,7 @@ fn shift_m(round: &Round) -> f64 {
     round.shift_m[0].hypot(round.shift_m[1])
 }
 
-impl Section {
+impl RunOutSection {
     pub(super) fn new(design: &Design, state: &LoadState, ring: &RunOut) -> Self {
         let limits = &design.limits;
         let asked = [("nominal", limits.nominal_torque_nm), ("peak", limits.peak_torque_nm)];

@@ -29,7 +29,7 @@ pub struct Track {
 
 /// `running` of the JSON; null where the races run as made.
 #[derive(Debug, Clone, Serialize)]
-pub struct Section {
+pub struct RunningSection {
     /// Inner track.
     pub inner: Track,
     /// Outer track.
@@ -64,7 +64,7 @@ fn track(t: &TrackRun) -> Track {
     }
 }
 
-impl Section {
+impl RunningSection {
     pub(super) fn new(design: &Design, state: &LoadState) -> Option<Self> {
         let run = design.clutch.running.as_ref()?;
         let races = &design.clutch.races;

@@ -1,7 +1,7 @@
 //! What tables, JSON and banner of `check` say of given rows.
 
 use super::body::*;
-use super::overrun::Section;
+use super::overrun::OverrunSection;
 use crate::design::Limits;
 use crate::margin::{Demand, Margin, OverrunCurve, limit_of};
 use crate::report::Screen;
@@ -28,7 +28,7 @@ fn source(lift_off_rad_s: Option<f64>) -> Source {
         asked_nm: 110.0,
         lift_off_rad_s,
         searched_to_rad_s: 100.0,
-        overrun: Section::new(&curve, &Limits::default()),
+        overrun: OverrunSection::new(&curve, &Limits::default()),
         running: None,
         run_out: None,
     }
@@ -36,9 +36,9 @@ fn source(lift_off_rad_s: Option<f64>) -> Source {
 
 #[test]
 fn a_curve_that_ends_too_early_is_said() {
-    let early = Body::new(&[], source(None));
+    let early = CheckBody::new(&[], source(None));
     assert!(early.remarks().iter().any(|r| r.contains("off-profile") && r.contains("110 Nm")));
-    let late = Body::new(&[], Source { end_torque_nm: 120.0, ..source(None) });
+    let late = CheckBody::new(&[], Source { end_torque_nm: 120.0, ..source(None) });
     assert!(late.remarks().iter().all(|r| !r.contains("off-profile")));
 }
 
@@ -49,18 +49,18 @@ fn only_required_limits_decide() {
         margin("grip-outer", 0.1, Some(45.0)),
         Margin { required: false, ..row("slip:x", Demand::NoneSuffices, 0.1, None) },
     ];
-    let body = Body::new(&rows, source(None));
+    let body = CheckBody::new(&rows, source(None));
     assert!(body.pass && body.deciding.as_ref().unwrap().code == "grip-outer");
     assert_eq!(body.lowest_torque_capacity.as_ref().unwrap().code, "grip-inner");
     assert!(body.verdict().starts_with("HELD: all 2"), "{}", body.verdict());
-    let broken = Body::new(&[rows[0].clone(), margin("re-engagement", -0.01, None)], source(Some(1.0)));
+    let broken = CheckBody::new(&[rows[0].clone(), margin("re-engagement", -0.01, None)], source(Some(1.0)));
     assert!(!broken.pass && broken.verdict().starts_with("NOT HELD: 1 of 2"), "{}", broken.verdict());
 }
 
 #[test]
 fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
     let rows = [row("slip:x", Demand::NoneSuffices, 0.1, None)];
-    let json = serde_json::to_value(Body::new(&rows, source(None))).unwrap();
+    let json = serde_json::to_value(CheckBody::new(&rows, source(None))).unwrap();
     let shown = &json["margins"][0];
     assert!(shown["demand"].is_null() && shown["margin"] == -1.0 && shown["slip_margin"] == -1.0);
     let text = |rows: &[Margin]| people_table(rows, 200.0).to_text(Screen::default());
@@ -70,7 +70,7 @@ fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
     assert!(text(&beyond).contains(OVERLOADED) && !text(&beyond).contains(NONE_SUFFICES));
     let unknown = [Margin { demand: Demand::NotComputed, ..rows[0].clone() }];
     assert!(text(&unknown).contains(NOT_COMPUTED));
-    assert_eq!(Body::new(&unknown, source(None)).held(), None);
+    assert_eq!(CheckBody::new(&unknown, source(None)).held(), None);
     let csv = String::from_utf8(csv_table(&rows, 200.0).to_csv().unwrap()).unwrap();
     assert!(csv.contains("slip:x,limit slip:x,,0,1,-1,,true,false,false,-1"), "{csv}");
 }
@@ -79,7 +79,7 @@ fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
 fn a_slip_row_shows_the_slip_margin_and_what_is_wanted() {
     // mu_s 0.1 over 0.08 is a slip margin of 25 %; 10 % are wanted.
     let known = Margin { reference: 0.1, ..row("slip:x", Demand::Value(0.08), 0.1 / 1.1, None) };
-    let json = serde_json::to_value(Body::new(std::slice::from_ref(&known), source(None))).unwrap();
+    let json = serde_json::to_value(CheckBody::new(std::slice::from_ref(&known), source(None))).unwrap();
     let shown = &json["margins"][0];
     let is = |key: &str, value: f64| (shown[key].as_f64().unwrap() - value).abs() < 1e-12;
     assert!(is("slip_margin", 0.25) && is("allowable", 0.1) && is("demand", 0.08), "{shown}");
@@ -87,7 +87,7 @@ fn a_slip_row_shows_the_slip_margin_and_what_is_wanted() {
     let text = people_table(std::slice::from_ref(&known), 200.0).to_text(Screen::default());
     assert!(text.contains("25.0") && text.contains("10.0 % wanted"), "{text}");
     let short = Margin { reference: 0.3, allowable: 0.1 / 1.3, ..known };
-    let body = Body::new(&[short], source(None));
+    let body = CheckBody::new(&[short], source(None));
     assert!(
         !body.pass && body.verdict().ends_with("slip:x decides, slip margin 25.0 %, 30.0 % wanted"),
         "{}",
@@ -98,7 +98,7 @@ fn a_slip_row_shows_the_slip_margin_and_what_is_wanted() {
 #[test]
 fn what_the_curve_never_reaches_sets_no_capacity() {
     let rows = [margin("hertz-peak-inner", 0.2, Some(50.0)), margin("end-of-profile", 0.2, Some(50.0))];
-    let body = Body::new(&rows, source(None));
+    let body = CheckBody::new(&rows, source(None));
     assert_eq!(body.lowest_torque_capacity.unwrap().code, "end-of-profile");
     assert!(body.nominal_torque_capacity.is_none());
 }
@@ -107,21 +107,21 @@ fn what_the_curve_never_reaches_sets_no_capacity() {
 fn a_row_that_was_not_computed_is_neither_held_nor_broken() {
     let held = margin("grip-inner", 0.2, None);
     let unknown = row("slip:x", Demand::NotComputed, 0.1, None);
-    let body = Body::new(&[held.clone(), unknown.clone()], source(None));
+    let body = CheckBody::new(&[held.clone(), unknown.clone()], source(None));
     assert_eq!(body.held(), None);
     assert!(body.verdict().starts_with("NOT COMPUTED: 1 of 2 required rows"), "{}", body.verdict());
     let text = people_table(std::slice::from_ref(&unknown), 50.0).to_text(Screen::default());
     assert!(text.contains("NOT COMPUTED") && !text.contains("NOT HELD"), "{text}");
     // A row that is shown only decides nothing.
     let shown = Margin { required: false, ..unknown };
-    assert_eq!(Body::new(&[held.clone(), shown], source(None)).held(), Some(true));
-    assert_eq!(Body::new(&[held, margin("grip-outer", -0.5, None)], source(None)).held(), Some(false));
+    assert_eq!(CheckBody::new(&[held.clone(), shown], source(None)).held(), Some(true));
+    assert_eq!(CheckBody::new(&[held, margin("grip-outer", -0.5, None)], source(None)).held(), Some(false));
 }
 
 #[test]
 fn rounding_is_no_margin_and_a_capacity_beyond_the_end_is_said() {
     let rows = [margin("grip-inner", -5.77e-15, Some(50.0)), margin("grip-outer", -0.1, Some(40.0))];
-    let json = serde_json::to_value(Body::new(&rows, source(None))).unwrap();
+    let json = serde_json::to_value(CheckBody::new(&rows, source(None))).unwrap();
     let [a, b] = [&json["margins"][0], &json["margins"][1]];
     assert!(a["held"] == true && a["capacity_beyond_end"] == true && a["margin"].as_f64().unwrap() < 0.0);
     assert!(b["held"] == false && b["capacity_beyond_end"] == false);
@@ -132,6 +132,6 @@ fn rounding_is_no_margin_and_a_capacity_beyond_the_end_is_said() {
 
 #[test]
 fn a_design_without_limits_holds() {
-    let body = Body::new(&[], source(None));
+    let body = CheckBody::new(&[], source(None));
     assert!(body.pass && body.deciding.is_none() && body.verdict().starts_with("HELD"));
 }

@@ -1,13 +1,13 @@
 //! The answer's keys for programs.
 
 use super::Story;
-use super::made::{Made, RobustFound};
+use super::made::{MadeBody, RobustFound};
 use super::realised::Flanked;
-use super::relief::Relief;
+use super::relief::ReliefBody;
 use super::steps::{Bound, Steps};
 use super::words::price_sentence;
 use crate::margin::Margin;
-use crate::optimise::{Branch, Front, Influence, Names, PriceKind, Search, Start, Status, Variable};
+use crate::optimise::{Branch, ClimbRecord, Front, Influence, Names, PriceKind, Search, Status, Variable};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -22,12 +22,12 @@ pub struct Found {
     /// The objective, in its own unit.
     pub objective: f64,
     /// Its margins.
-    pub margins: Vec<Row>,
+    pub margins: Vec<SearchRow>,
 }
 
 /// A margin of a design of the search.
 #[derive(Debug, Clone, Serialize)]
-pub struct Row {
+pub struct SearchRow {
     /// Code for scripts.
     pub code: String,
     /// Name for people.
@@ -71,7 +71,7 @@ pub struct Slopes {
 
 /// A point of the front; without a front the optimum alone.
 #[derive(Debug, Clone, Serialize)]
-pub struct Point {
+pub struct FrontBody {
     /// Values of the variables.
     pub variables: Named,
     /// Objectives of the front, each in its own unit.
@@ -103,7 +103,7 @@ pub struct Climb {
 
 /// Optima met, and how many are to be expected.
 #[derive(Debug, Clone, Serialize)]
-pub struct Optima {
+pub struct OptimaBody {
     /// Climbs that converged within the limits.
     pub climbs: usize,
     /// Different optima among their ends.
@@ -114,7 +114,7 @@ pub struct Optima {
 
 /// What a limit or a bound costs at the optimum.
 #[derive(Debug, Clone, Serialize)]
-pub struct Price {
+pub struct PriceBody {
     /// Code of the limit, or the variable.
     pub of: String,
     /// `limit`, `margin`, `lower-bound` or `upper-bound`.
@@ -131,7 +131,7 @@ pub struct Price {
 
 /// Keys of the answer.
 #[derive(Debug, Clone, Serialize)]
-pub struct Body {
+pub struct SearchBody {
     /// How the best climb ended: `converged`, `infeasible`, `evaluation-limit`, `interrupted`, `stalled`.
     pub status: &'static str,
     /// What was made better.
@@ -165,21 +165,21 @@ pub struct Body {
     /// Influence at the optimum.
     pub sensitivities: Option<Slopes>,
     /// Points of the front, or the optimum as the only one.
-    pub pareto: Vec<Point>,
+    pub pareto: Vec<FrontBody>,
     /// Seed of everything random.
     pub seed: u64,
     /// Climbs.
     pub starts: Vec<Climb>,
     /// Optima that they met.
-    pub optima: Optima,
+    pub optima: OptimaBody,
     /// Whole numbers that were tried.
     pub whole_numbers: Vec<Climb>,
     /// What each active limit and bound costs.
-    pub prices: Vec<Price>,
+    pub prices: Vec<PriceBody>,
     /// What margins gained or lost when they were looked at in full.
     pub change_in_full: Vec<CodeChange>,
     /// What would free an infeasible problem.
-    pub relief: Option<Relief>,
+    pub relief: Option<ReliefBody>,
     /// Flanks for a free centroid.
     pub realised: Option<Flanked>,
     /// What the search came to with its centroid free and its mass given: a bound, no flanks were asked for.
@@ -191,14 +191,14 @@ pub struct Body {
     /// What every limit keeps of its margin.
     pub reserve: f64,
     /// The optimum as it may be made.
-    pub tolerances: Option<Made>,
+    pub tolerances: Option<MadeBody>,
     /// The design that holds at every corner.
     pub robust: Option<RobustFound>,
     /// What was asked and could not be done.
     pub not_done: Vec<String>,
 }
 
-impl Body {
+impl SearchBody {
     pub(super) fn of(story: &Story) -> Self {
         let (found, made) = (&story.found, story.made());
         let (before, after) = story.objective();
@@ -237,7 +237,7 @@ impl Body {
             pareto: pareto(story),
             seed: story.seed,
             starts: found.starts.iter().map(Climb::start).collect(),
-            optima: Optima {
+            optima: OptimaBody {
                 climbs: found.optima.climbs,
                 seen: found.optima.seen,
                 expected: found.optima.expected(),
@@ -248,20 +248,20 @@ impl Body {
                 .filter(|b| !b.values.is_empty())
                 .map(Climb::branch)
                 .collect(),
-            prices: made.prices.iter().map(|p| Price::of(made, p)).collect(),
+            prices: made.prices.iter().map(|p| PriceBody::of(made, p)).collect(),
             change_in_full: changes
                 .map(|(full, searched)| CodeChange {
                     code: full.code(),
                     change: full.margin() - searched.margin(),
                 })
                 .collect(),
-            relief: story.relief.as_ref().map(|r| Relief::of(story, r)),
+            relief: story.relief.as_ref().map(|r| ReliefBody::of(story, r)),
             realised: story.realised.as_ref().map(Flanked::of),
             free_centroid: story.realised.as_ref().map(|_| Bound::of(found)),
             unrounded: story.on_grid().map(|_| Bound::of(made)),
             steps: story.stepped.as_ref().map(Steps::of),
             reserve: found.problem.reserve(),
-            tolerances: story.within.as_ref().map(Made::of),
+            tolerances: story.within.as_ref().map(MadeBody::of),
             robust: story.robust.as_ref().map(|r| RobustFound::of(story, r)),
             not_done: story.why.clone(),
         }
@@ -277,8 +277,8 @@ fn best(story: &Story) -> Named {
     story.made().variables.iter().map(|v| (v.name.clone(), story.value(v))).collect()
 }
 
-fn rows(list: &[Margin]) -> Vec<Row> {
-    list.iter().map(Row::of).collect()
+fn rows(list: &[Margin]) -> Vec<SearchRow> {
+    list.iter().map(SearchRow::of).collect()
 }
 
 fn ended(how: &Result<Status, String>) -> String {
@@ -286,8 +286,8 @@ fn ended(how: &Result<Status, String>) -> String {
 }
 
 /// The front, or the optimum as the only point of one.
-fn pareto(story: &Story) -> Vec<Point> {
-    let point = |front: &Front, x: &[f64], values: &[f64]| Point {
+fn pareto(story: &Story) -> Vec<FrontBody> {
+    let point = |front: &Front, x: &[f64], values: &[f64]| FrontBody {
         variables: front.variables.iter().cloned().zip(x.iter().copied()).collect(),
         objectives: Some(
             front.aims.iter().map(|a| a.name().to_owned()).zip(values.iter().copied()).collect(),
@@ -297,12 +297,12 @@ fn pareto(story: &Story) -> Vec<Point> {
     match &story.front {
         Some(front) => front.points.iter().map(|p| point(front, &p.x, &p.values)).collect(),
         None => {
-            vec![Point { variables: best(story), objectives: None, objective: Some(story.objective().1) }]
+            vec![FrontBody { variables: best(story), objectives: None, objective: Some(story.objective().1) }]
         }
     }
 }
 
-impl Row {
+impl SearchRow {
     fn of(m: &Margin) -> Self {
         Self {
             code: m.code(),
@@ -329,7 +329,7 @@ impl Slopes {
 }
 
 impl Climb {
-    fn start(s: &Start) -> Self {
+    fn start(s: &ClimbRecord) -> Self {
         Self {
             from: Some(s.from.clone()),
             values: None,
@@ -352,7 +352,7 @@ impl Climb {
     }
 }
 
-impl Price {
+impl PriceBody {
     fn of(found: &Search, p: &crate::optimise::Price) -> Self {
         let kind = match p.kind {
             PriceKind::Limit => "limit",

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 /// A figure over the tolerances.
 #[derive(Debug, Clone, Serialize)]
-pub struct Course {
+pub struct CourseBody {
     /// As drawn.
     pub nominal: f64,
     /// At the worst corner.
@@ -27,7 +27,7 @@ pub struct MadeRow {
     pub code: String,
     /// Its figures.
     #[serde(flatten)]
-    pub course: Course,
+    pub course: CourseBody,
     /// Corner at which it is worst.
     pub worst_at: String,
 }
@@ -43,9 +43,9 @@ pub struct NotHeldAt {
 
 /// A design as it may be made.
 #[derive(Debug, Clone, Serialize)]
-pub struct Made {
+pub struct MadeBody {
     /// The objective, in its own unit.
-    pub objective: Course,
+    pub objective: CourseBody,
     /// Margins.
     pub margins: Vec<MadeRow>,
     /// Corners looked at.
@@ -81,12 +81,12 @@ pub struct RobustFound {
     /// Evaluations of the clutch.
     pub evaluations: usize,
     /// As it may be made.
-    pub made: Made,
+    pub made: MadeBody,
 }
 
-impl Made {
+impl MadeBody {
     pub(super) fn of(r: &Robust) -> Self {
-        let course = |nominal, worst, [p01, p05, p50]: [f64; 3]| Course { nominal, worst, p01, p05, p50 };
+        let course = |nominal, worst, [p01, p05, p50]: [f64; 3]| CourseBody { nominal, worst, p01, p05, p50 };
         let row = |s: &Spread| MadeRow {
             code: s.code.clone(),
             course: course(s.nominal, s.worst, s.percentiles),
@@ -118,7 +118,7 @@ impl RobustFound {
             held_at: r.held_at.clone(),
             rounds: r.rounds,
             evaluations: r.evaluations,
-            made: Made::of(&r.made),
+            made: MadeBody::of(&r.made),
         }
     }
 }

@@ -1,20 +1,26 @@
 //! What a search for a better design answers: the design found, its margins, how sure that is, and what else was asked of it.
 
 mod body;
+mod evaluator;
+mod file;
 mod made;
 mod parts;
 mod realised;
 mod relief;
+mod report;
 mod steps;
 mod story;
 mod tables;
 mod words;
 
-pub use body::{Body, Climb, CodeChange, Found, Optima, Point, Price, Row, Slopes};
-pub use made::{Course, Made, MadeRow, NotHeldAt, RobustFound};
-pub use parts::Part;
-pub use realised::{CodeMargin, Flanked, Flanks, SearchedOn};
-pub use relief::{Alone, Freed, Loosened, Relief};
+pub use body::{Climb, CodeChange, Found, FrontBody, OptimaBody, PriceBody, SearchBody, SearchRow, Slopes};
+pub use evaluator::{describe_problem, evaluate_line};
+pub use file::{NEAREST, ROBUST, file_text, further_files, further_text};
+pub use made::{CourseBody, MadeBody, MadeRow, NotHeldAt, RobustFound};
+pub use parts::StoryPart;
+pub use realised::{CodeMargin, Flanked, FlanksBody, SearchedOn};
+pub use relief::{AloneBody, FreedBody, LoosenedBody, ReliefBody};
+pub use report::SearchReport;
 pub use steps::{Bound, Steps};
 pub use story::Story;
 pub use words::Hints;
@@ -33,7 +39,7 @@ pub const MOST_STARTS: usize = 32;
 
 /// How to search, and what else is asked. The default is what `optimize` does without flags.
 #[derive(Debug, Clone)]
-pub struct Ask {
+pub struct SearchSettings {
     /// Most evaluations of each climb; at least 1.
     pub evaluations: usize,
     /// Climbs; `None`: [`STARTS`], and more up to [`MOST_STARTS`] as long as the optima met let expect others.
@@ -60,7 +66,7 @@ pub struct Ask {
     pub follow: Follow,
 }
 
-impl Default for Ask {
+impl Default for SearchSettings {
     fn default() -> Self {
         Self {
             evaluations: Settings::default().max_evaluations,
@@ -79,7 +85,7 @@ impl Default for Ask {
     }
 }
 
-impl Ask {
+impl SearchSettings {
     /// Climbs, and climbs at most.
     fn climbs(&self) -> (usize, usize) {
         self.starts.map_or((STARTS, MOST_STARTS), |n| (n, n))
@@ -124,7 +130,7 @@ pub struct SearchAnswer {
     /// What the model leaves out, each with its cost.
     pub left_out: Vec<LeftOut>,
     /// The figures by keys that `optimize --json` has too.
-    pub body: Body,
+    pub body: SearchBody,
 }
 
 impl Serialize for SearchAnswer {
@@ -148,7 +154,7 @@ impl Design {
     ///
     /// # Errors
     /// [`NoSearch`]; not finding a feasible design is an answer.
-    pub fn optimise(&self, ask: &Ask) -> Result<SearchAnswer, NoSearch> {
+    pub fn optimise(&self, ask: &SearchSettings) -> Result<SearchAnswer, NoSearch> {
         self.optimise_recorded(ask, &mut Forgetful)
     }
 
@@ -156,9 +162,13 @@ impl Design {
     ///
     /// # Errors
     /// As [`Self::optimise`].
-    pub fn optimise_recorded(&self, ask: &Ask, record: &mut dyn Record) -> Result<SearchAnswer, NoSearch> {
+    pub fn optimise_recorded(
+        &self,
+        ask: &SearchSettings,
+        record: &mut dyn Record,
+    ) -> Result<SearchAnswer, NoSearch> {
         let story = story::tell(self, ask, &Desk::new(&ask.follow, record))?;
-        let body = Body::of(&story);
+        let body = SearchBody::of(&story);
         Ok(SearchAnswer { story, left_out: left_out(&self.clutch), body })
     }
 }

@@ -4,10 +4,10 @@ use super::relief::relief_parts;
 use super::words::{Hints, gain, optima_line, price_sentence, shown};
 use super::{Story, steps};
 use crate::design::Objective;
-use crate::optimise::{Branch, Front, Realised, Robust, Search, Start};
+use crate::optimise::{Branch, ClimbRecord, Front, Realised, Robust, Search};
 use crate::report::{Cell, Column, Plot, Table, Unit, significant};
 
-fn start_table(starts: &[Start]) -> Table {
+fn start_table(starts: &[ClimbRecord]) -> Table {
     let mut table = Table::new(vec![
         Column::text("start", "Start"),
         Column::text("ended", "Ended"),
@@ -101,7 +101,7 @@ fn front_table(front: &Front) -> Table {
 
 /// One part of an answer: heading, sentences, tables with captions, plots with captions.
 #[derive(Default)]
-pub struct Part {
+pub struct StoryPart {
     /// Heading.
     pub heading: &'static str,
     /// Sentences.
@@ -114,44 +114,48 @@ pub struct Part {
 
 impl Story {
     /// Parts of the text and of the page, in order.
-    pub fn parts(&self, hints: &Hints) -> Vec<Part> {
+    pub fn parts(&self, hints: &Hints) -> Vec<StoryPart> {
         let found = &self.found;
         let aim = found.aim;
         let mut parts = Vec::new();
         if found.starts.len() > 1 {
             let tables = vec![("Climbs, each from its own start", start_table(&found.starts))];
             let lines = vec![optima_line(&found.optima, hints)];
-            parts.push(Part { heading: "Starts", lines, tables, ..Part::default() });
+            parts.push(StoryPart { heading: "Starts", lines, tables, ..StoryPart::default() });
         }
         if found.branches.len() > 1 {
             let tables =
                 vec![("Each whole number with a continuous search inside", branch_table(&found.branches))];
-            parts.push(Part { heading: "Whole numbers", tables, ..Part::default() });
+            parts.push(StoryPart { heading: "Whole numbers", tables, ..StoryPart::default() });
         }
         if !self.made().prices.is_empty() {
             let lines = self.made().prices.iter().map(|p| price_sentence(aim, p)).collect();
-            parts.push(Part { heading: "What holds the optimum", lines, ..Part::default() });
+            parts.push(StoryPart { heading: "What holds the optimum", lines, ..StoryPart::default() });
         }
         parts.extend(self.relief.iter().flat_map(|relief| relief_parts(self, relief)));
         if let Some(realised) = &self.realised {
-            parts.push(Part {
+            parts.push(StoryPart {
                 heading: "Centroid",
                 lines: realised_lines(found, realised),
-                ..Part::default()
+                ..StoryPart::default()
             });
         }
         if let Some(stepped) = &self.stepped {
-            parts.push(Part { heading: "Steps", lines: steps::lines(self, stepped), ..Part::default() });
+            parts.push(StoryPart {
+                heading: "Steps",
+                lines: steps::lines(self, stepped),
+                ..StoryPart::default()
+            });
         }
         parts.extend(self.front.as_ref().map(front_part));
         parts.extend(self.within.as_ref().map(|made| self.made_part(made)));
         if !self.why.is_empty() {
-            parts.push(Part { heading: "Not done", lines: self.why.clone(), ..Part::default() });
+            parts.push(StoryPart { heading: "Not done", lines: self.why.clone(), ..StoryPart::default() });
         }
         parts
     }
 
-    fn made_part(&self, made: &Robust) -> Part {
+    fn made_part(&self, made: &Robust) -> StoryPart {
         let aim = self.found.aim;
         let (drawn, worst, [p01, p05, p50]) = made.objective;
         let mut lines = vec![format!(
@@ -196,7 +200,7 @@ impl Story {
             }
             tables.push(("Margins of the robust design", spread_table(&robust.made)));
         }
-        Part { heading: "Within the tolerances", lines, tables, ..Part::default() }
+        StoryPart { heading: "Within the tolerances", lines, tables, ..StoryPart::default() }
     }
 }
 
@@ -212,7 +216,7 @@ const TWO: &str = "Front: no design within the limits is better in both.";
 const THREE: &str =
     "Points of the front seen along the third objective, joined in the order of the first axis.";
 
-fn front_part(front: &Front) -> Part {
+fn front_part(front: &Front) -> StoryPart {
     let label = |a: &Objective| {
         let unit = if a.unit().is_empty() { "1" } else { a.unit() };
         format!("{} ({unit})", a.words())
@@ -232,7 +236,7 @@ fn front_part(front: &Front) -> Part {
         front.evaluations,
         front.beaten
     )];
-    Part { heading: "Front", lines, tables: vec![("Points of the front", front_table(front))], plots }
+    StoryPart { heading: "Front", lines, tables: vec![("Points of the front", front_table(front))], plots }
 }
 
 fn realised_lines(found: &Search, r: &Realised) -> Vec<String> {

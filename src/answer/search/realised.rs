@@ -26,7 +26,7 @@ pub struct Flanked {
     /// Centroid with these flanks, mm.
     pub centroid_mm: [f64; 2],
     /// The flanks.
-    pub flanks: Flanks,
+    pub flanks: FlanksBody,
     /// Mass of a sprag with them, kg.
     pub mass_kg: f64,
     /// Its inertia, kg m^2.
@@ -41,7 +41,7 @@ pub struct Flanked {
 
 /// Flanks as the file has them.
 #[derive(Debug, Clone, Serialize)]
-pub struct Flanks {
+pub struct FlanksBody {
     /// Rear half width, mm.
     pub rear_mm: f64,
     /// Front half width, mm.
@@ -90,7 +90,7 @@ impl Flanked {
             distance_mm: n.distance_m * 1e3,
             wanted_mm: n.wanted_m.map(|v| v * 1e3),
             centroid_mm: n.mass.centroid_m.map(|v| v * 1e3),
-            flanks: Flanks {
+            flanks: FlanksBody {
                 rear_mm: f.rear_m * 1e3,
                 front_mm: f.front_m * 1e3,
                 rear_tilt_rad: f.rear_tilt_rad,

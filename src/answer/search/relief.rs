@@ -2,29 +2,29 @@
 
 use super::Story;
 use super::body::Named;
-use super::parts::Part;
+use super::parts::StoryPart;
 use crate::optimise;
 use crate::report::significant;
 use serde::Serialize;
 
 /// What would free an infeasible problem.
 #[derive(Debug, Clone, Serialize)]
-pub struct Relief {
+pub struct ReliefBody {
     /// Parameters of scenarios, the profile held.
-    pub freed: Vec<Freed>,
+    pub freed: Vec<FreedBody>,
     /// Limits that do not hold and belong to no scenario.
     pub other_limits: Vec<String>,
     /// Single numbers, the variables chosen anew.
-    pub numbers: Vec<Loosened>,
+    pub numbers: Vec<LoosenedBody>,
     /// Limits looked at one by one.
-    pub limits_alone: Vec<Alone>,
+    pub limits_alone: Vec<AloneBody>,
     /// Evaluations spent.
     pub evaluations: usize,
 }
 
 /// A parameter of a scenario that would free it alone.
 #[derive(Debug, Clone, Serialize)]
-pub struct Freed {
+pub struct FreedBody {
     /// The scenario.
     pub scenario: String,
     /// Dotted path of the key.
@@ -45,7 +45,7 @@ pub struct Freed {
 
 /// A single number that would free the problem.
 #[derive(Debug, Clone, Serialize)]
-pub struct Loosened {
+pub struct LoosenedBody {
     /// Dotted path of the key, or the name of a design variable.
     pub key: String,
     /// Its unit; empty for a pure number.
@@ -64,7 +64,7 @@ pub struct Loosened {
 
 /// A limit looked at alone.
 #[derive(Debug, Clone, Serialize)]
-pub struct Alone {
+pub struct AloneBody {
     /// Its code.
     pub code: String,
     /// The largest margin found.
@@ -75,9 +75,9 @@ pub struct Alone {
     pub sentence: String,
 }
 
-impl Relief {
+impl ReliefBody {
     pub(super) fn of(story: &Story, r: &optimise::Relief) -> Self {
-        let freed = r.freed.iter().map(|f| Freed {
+        let freed = r.freed.iter().map(|f| FreedBody {
             scenario: f.scenario.clone(),
             key: f.key.clone(),
             what: f.what,
@@ -87,7 +87,7 @@ impl Relief {
             tried_to: f.tried_to,
             sentence: freed_sentence(f),
         });
-        let numbers = story.loosened.iter().map(|l| Loosened {
+        let numbers = story.loosened.iter().map(|l| LoosenedBody {
             key: l.key.clone(),
             unit: l.unit,
             given: l.given,
@@ -96,7 +96,7 @@ impl Relief {
             tried_to: l.between.1,
             sentence: loosened_sentence(l),
         });
-        let limits_alone = story.alone.iter().map(|a| Alone {
+        let limits_alone = story.alone.iter().map(|a| AloneBody {
             code: a.code.clone(),
             margin: a.margin,
             variables: a.changes.iter().cloned().collect(),
@@ -164,7 +164,7 @@ fn looked_at(l: &optimise::Loosened) -> String {
 }
 
 /// Parts of the answer: what frees the problem, what frees its scenarios.
-pub(super) fn relief_parts(story: &Story, relief: &optimise::Relief) -> Vec<Part> {
+pub(super) fn relief_parts(story: &Story, relief: &optimise::Relief) -> Vec<StoryPart> {
     let mut lines: Vec<String> = story.loosened.iter().filter_map(loosened_sentence).collect();
     let in_vain: Vec<String> = story.loosened.iter().filter(|l| l.needed.is_none()).map(looked_at).collect();
     if !in_vain.is_empty() {
@@ -172,7 +172,7 @@ pub(super) fn relief_parts(story: &Story, relief: &optimise::Relief) -> Vec<Part
     }
     lines.extend(story.alone.iter().map(alone_sentence));
     let of_scenes: Vec<String> = relief.freed.iter().map(freed_sentence).collect();
-    let part = |heading, lines| Part { heading, lines, ..Part::default() };
+    let part = |heading, lines| StoryPart { heading, lines, ..StoryPart::default() };
     [
         part("What would free it (one change alone, the variables chosen anew)", lines),
         part("What would free a scenario (profile of least violation, one change alone)", of_scenes),

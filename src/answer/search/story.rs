@@ -1,12 +1,12 @@
 //! Everything that was asked of one search, in order: the search, what would free it, flanks, front, tolerances.
 
-use super::Ask;
+use super::SearchSettings;
 use crate::design::Design;
 use crate::margin::Margin;
 use crate::optimise::{
-    Alone, Desk, Fidelity, Front, Loosened, Method, NoSearch, OnGrid, Realised, Relief, Robust, RobustSearch,
-    Search, Settings, Status, Stepped, Variable, alone, front, loosened, realise, relief, robust, search,
-    spread, stepped,
+    Alone, Desk, Fidelity, Front, Loosened, NoSearch, OnGrid, Realised, Relief, Robust, RobustSearch, Search,
+    SearchMethod, Settings, Status, Stepped, Variable, alone, front, loosened, realise, relief, robust,
+    search, spread, stepped,
 };
 use crate::scenario;
 
@@ -42,7 +42,7 @@ pub struct Story {
 }
 
 /// Search, and whatever else `ask` wants of what is found.
-pub(super) fn tell(design: &Design, ask: &Ask, desk: &Desk) -> Result<Story, NoSearch> {
+pub(super) fn tell(design: &Design, ask: &SearchSettings, desk: &Desk) -> Result<Story, NoSearch> {
     ask.validate(design)?;
     let mut design = design.clone();
     let task = design.optimize.as_mut().ok_or(NoSearch::NoTask)?;
@@ -51,7 +51,7 @@ pub(super) fn tell(design: &Design, ask: &Ask, desk: &Desk) -> Result<Story, NoS
     let seed = task.seed;
     let (starts, most_starts) = ask.climbs();
     let climb = Settings { max_evaluations: ask.evaluations, ..Settings::default() };
-    let method = Method { climb, starts, most_starts, swarm: ask.swarm, seed };
+    let method = SearchMethod { climb, starts, most_starts, swarm: ask.swarm, seed };
     let settings = scenario::Settings { tolerance: ask.tolerance, ..Default::default() };
     let found = search(&design, &method, Fidelity { settings, reduced: !ask.full }, desk)?;
     let mut story = Story {
@@ -78,7 +78,7 @@ pub(super) fn tell(design: &Design, ask: &Ask, desk: &Desk) -> Result<Story, NoS
 }
 
 impl Story {
-    fn go_on(&mut self, design: &Design, ask: &Ask, method: &Method, desk: &Desk) {
+    fn go_on(&mut self, design: &Design, ask: &SearchSettings, method: &SearchMethod, desk: &Desk) {
         let Some(task) = &design.optimize else { return };
         let ended = matches!(self.found.outcome.status, Status::Infeasible { .. } | Status::Stalled(_));
         if ended && !self.found.feasible() {

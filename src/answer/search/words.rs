@@ -37,14 +37,9 @@ pub(crate) fn shown(aim: Objective, value: f64) -> String {
 
 /// A gain of an objective, more being better, as it is spoken of.
 pub(super) fn gain(aim: Objective, gain: f64) -> String {
-    match aim {
-        Objective::SlipMargin => format!("{} % slip margin", significant(100.0 * gain, 2)),
-        Objective::TorqueCapacity => format!("{} Nm of torque capacity", significant(gain, 2)),
-        Objective::PeakPressure => format!("{} MPa less pressure", significant(gain, 2)),
-        Objective::Windup => format!("{} deg less windup", significant(gain, 2)),
-        Objective::StiffnessCurve => {
-            format!("{} % less departure from the target", significant(100.0 * gain, 2))
-        }
+    match aim.unit() {
+        "" => format!("{} % {}", significant(100.0 * gain, 2), aim.gain()),
+        unit => format!("{} {unit} {}", significant(gain, 2), aim.gain()),
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) const MOST_ROWS: usize = 400_000;
 
 /// How the equations of motion are integrated.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub enum Method {
+pub enum Integration {
     /// Stick as a constraint, every change of mode located.
     #[default]
     Event,
@@ -42,9 +42,9 @@ pub enum Method {
 
 /// How a scene is to be simulated. The default is what the command does without flags.
 #[derive(Debug, Clone, Default)]
-pub struct Ask {
+pub struct SimulationSettings {
     /// Method of integration.
-    pub method: Method,
+    pub method: Integration,
     /// True error allowed of every figure of the event method relative to its natural size, 1e-13 to 1e-3; `None`: 1e-6.
     pub tolerance: Option<f64>,
     /// Fixed step of the published scheme, longest step of the event method, s, 1e-9 or more; `None`: 1e-5, and chosen.
@@ -65,8 +65,8 @@ pub struct Ask {
 
 /// A setting that makes no sense.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Refused {
-    /// Which one, a field of [`Ask`].
+pub struct RefusedSetting {
+    /// Which one, a field of [`SimulationSettings`].
     pub setting: Setting,
     /// What was found.
     pub found: f64,
@@ -74,14 +74,14 @@ pub struct Refused {
     pub allowed: String,
 }
 
-/// A field of [`Ask`] that may be refused.
+/// A field of [`SimulationSettings`] that may be refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Setting {
-    /// [`Ask::tolerance`].
+    /// [`SimulationSettings::tolerance`].
     Tolerance,
-    /// [`Ask::step_s`].
+    /// [`SimulationSettings::step_s`].
     Step,
-    /// [`Ask::window_s`].
+    /// [`SimulationSettings::window_s`].
     Window,
 }
 
@@ -96,21 +96,21 @@ impl Setting {
     }
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for RefusedSetting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // More digits than anybody types.
         write!(f, "{} {}: allowed: {}", self.setting.name(), plain(self.found, 15), self.allowed)
     }
 }
 
-impl std::error::Error for Refused {}
+impl std::error::Error for RefusedSetting {}
 
-impl Ask {
+impl SimulationSettings {
     /// Refuse a tolerance, a step, a window that makes no sense in any scene.
     ///
     /// # Errors
-    /// [`Refused`].
-    pub fn validate(&self) -> Result<(), Refused> {
+    /// [`RefusedSetting`].
+    pub fn validate(&self) -> Result<(), RefusedSetting> {
         if let Some(step) = self.step_s.filter(|step| !(*step >= SHORTEST_STEP_S && step.is_finite())) {
             return Err(refused(Setting::Step, step, format!("{SHORTEST_STEP_S:e} s or more")));
         }
@@ -130,8 +130,8 @@ impl Ask {
     /// day, a window beyond its end.
     ///
     /// # Errors
-    /// [`Refused`].
-    pub fn validate_for(&self, scenario: &Scenario) -> Result<(), Refused> {
+    /// [`RefusedSetting`].
+    pub fn validate_for(&self, scenario: &Scenario) -> Result<(), RefusedSetting> {
         self.validate()?;
         let Some(duration) = scenario.kind.duration_s() else { return Ok(()) };
         if self.is_published() {
@@ -166,7 +166,7 @@ impl Ask {
     }
 
     pub(super) fn is_published(&self) -> bool {
-        matches!(self.method, Method::Published { .. })
+        matches!(self.method, Integration::Published { .. })
     }
 
     pub(super) fn published_step_s(&self) -> f64 {
@@ -175,7 +175,7 @@ impl Ask {
 
     pub(super) fn published_band_m_s(&self) -> f64 {
         match self.method {
-            Method::Published { band_m_s: Some(band) } => band,
+            Integration::Published { band_m_s: Some(band) } => band,
             _ => PUBLISHED_BAND_M_S,
         }
     }
@@ -207,6 +207,6 @@ impl Ask {
     }
 }
 
-fn refused(setting: Setting, found: f64, allowed: String) -> Refused {
-    Refused { setting, found, allowed }
+fn refused(setting: Setting, found: f64, allowed: String) -> RefusedSetting {
+    RefusedSetting { setting, found, allowed }
 }

@@ -1,7 +1,7 @@
 //! The figures of a simulation by their keys in JSON.
 
 use super::train::{Eigenfrequency, eigenfrequencies};
-use super::{Errors, Ran};
+use super::{Ran, SimulationErrors};
 use crate::answer::left_out::LeftOut;
 use crate::dynamics::{EnergyBalance, SlipRecord, Stop};
 use crate::scenario::{Prepared, Simulation, overrun_swing};
@@ -122,7 +122,7 @@ pub struct Equilibrium {
 
 /// Keys of `simulate`; null where a figure does not exist for the scenario.
 #[derive(Debug, Clone, Default, Serialize)]
-pub struct Body {
+pub struct SimulationBody {
     /// Name of the scenario.
     pub scenario: String,
     /// Its kind.
@@ -189,7 +189,7 @@ pub struct Body {
     /// Right-hand sides of all runs.
     pub rhs_evaluations: Option<u64>,
     /// Errors of the figures.
-    pub error_estimates: Option<Errors>,
+    pub error_estimates: Option<SimulationErrors>,
     /// Where the energy went.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_balance: Option<Energy>,
@@ -319,7 +319,7 @@ impl Equilibrium {
     }
 }
 
-impl Body {
+impl SimulationBody {
     pub(super) fn of(scene: &Ran, notes: Vec<String>) -> Self {
         let base = Self {
             scenario: scene.scenario.name.clone(),
@@ -376,7 +376,7 @@ impl Body {
                 .error
                 .as_ref()
                 .filter(|_| s.stop != Stop::Interrupted)
-                .map(|e| Errors::of(scene, prepared, s, e)),
+                .map(|e| SimulationErrors::of(scene, prepared, s, e)),
             energy_balance: s.energy.as_ref().map(Energy::of),
             eigenfrequencies: eigenfrequencies(prepared),
             assumptions: scene.scenario.assumptions().to_vec(),

@@ -1,6 +1,6 @@
 //! What contact damping changes: the same scene with and without it.
 
-use super::{Ask, Ran};
+use super::{Ran, SimulationSettings};
 use crate::clutch::Scenario;
 use crate::report::Unit;
 use crate::scenario::{Settings, Verdict, prepare, simulate_prepared};
@@ -29,7 +29,7 @@ pub struct Effect {
 impl Ran {
     /// Run the scene once more with the damping taken out, or, where it has none, with some. `None` where a run came to no
     /// answer.
-    pub fn damping_effect(&self, ask: &Ask) -> Option<Effect> {
+    pub fn damping_effect(&self, ask: &SimulationSettings) -> Option<Effect> {
         let own = self.simulation().filter(|_| self.method == "event")?;
         let own_error = own.error?;
         let given = self.scenario.clutch.hunt_crossley_s_per_m;

@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 
 /// Errors of the figures, in the order and the units of JSON.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Errors(Vec<(&'static str, Vec<f64>)>);
+pub struct SimulationErrors(Vec<(&'static str, Vec<f64>)>);
 
 /// The key before which [`LARGER`] stands.
 const INNER_TAN: &str = "tan_inner";
@@ -25,7 +25,7 @@ fn unit(quantity: Quantity) -> Unit {
     }
 }
 
-impl Errors {
+impl SimulationErrors {
     pub(super) fn of(ran: &Ran, prepared: &Prepared, s: &Simulation, e: &ErrorEstimate) -> Self {
         let mut all: Vec<(&str, Vec<f64>)> = Vec::new();
         for figure in FIGURES {
@@ -55,7 +55,7 @@ impl Ran {
     }
 }
 
-impl Serialize for Errors {
+impl Serialize for SimulationErrors {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.0.len()))?;
         for (key, values) in &self.0 {

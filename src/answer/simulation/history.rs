@@ -12,7 +12,7 @@ use std::borrow::Cow;
 
 /// One sample with what follows from it, SI.
 #[derive(Debug, Clone)]
-pub struct Row {
+pub struct HistoryRow {
     /// The sample.
     pub sample: Sample,
     /// alpha', phi', theta_bi', theta_be' with the rolling constraints put in.
@@ -33,7 +33,7 @@ pub struct Row {
 
 impl Ran {
     /// All rows of the history; none for an equilibrium.
-    pub fn rows(&self) -> Vec<Row> {
+    pub fn rows(&self) -> Vec<HistoryRow> {
         let Ok((prepared, simulation)) = &self.outcome else { return Vec::new() };
         let count = self.design.clutch.sprags.count as f64;
         let most = [simulation.peaks.normal_max_n, simulation.peaks.normal_outer_max_n];
@@ -42,8 +42,8 @@ impl Ran {
     }
 
     /// The history in columns; for an equilibrium its one row.
-    pub fn history(&self) -> History {
-        let mut history = History::default();
+    pub fn history(&self) -> SceneHistory {
+        let mut history = SceneHistory::default();
         if self.method == "equilibrium" {
             if let Ok((prepared, s)) = &self.outcome {
                 let torque = s.overrun.map(|o| o.drag_torque_nm).or(self.scenario.held_torque_nm());
@@ -79,7 +79,7 @@ impl Ran {
         }
         if rows.first().is_some_and(|r| r.slice_pa.is_some()) {
             for (name, i) in [("slice_peak_inner_mpa", 0), ("slice_peak_outer_mpa", 1)] {
-                let of = |r: &Row| r.slice_pa.map_or(f64::NAN, |p| p[i]);
+                let of = |r: &HistoryRow| r.slice_pa.map_or(f64::NAN, |p| p[i]);
                 history.numbers_in(name, Unit::Megapascal, rows.iter().map(of));
             }
         }
@@ -92,7 +92,7 @@ impl Ran {
 
 /// A history: columns of one length, by names that end in their unit. As JSON an object of lists.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct History {
+pub struct SceneHistory {
     /// Name and values of each column.
     pub columns: Vec<(Cow<'static, str>, Values)>,
 }
@@ -125,7 +125,7 @@ impl Values {
     }
 }
 
-impl History {
+impl SceneHistory {
     /// The numbers of a column, in the unit that its name ends in.
     pub fn numbers(&self, name: &str) -> Option<&[f64]> {
         match self.columns.iter().find(|(n, _)| *n == name) {
@@ -140,7 +140,7 @@ impl History {
     }
 }
 
-impl Serialize for History {
+impl Serialize for SceneHistory {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.columns.len()))?;
         for (name, values) in &self.columns {
@@ -153,9 +153,9 @@ impl Serialize for History {
 /// One column of a history: name, unit of the name, how it is taken from a row.
 enum Column {
     /// SI, NaN where there is none.
-    Number(&'static str, Unit, fn(&Row) -> f64),
-    Word(&'static str, fn(&Row) -> &'static str),
-    Count(&'static str, fn(&Row) -> Option<usize>),
+    Number(&'static str, Unit, fn(&HistoryRow) -> f64),
+    Word(&'static str, fn(&HistoryRow) -> &'static str),
+    Count(&'static str, fn(&HistoryRow) -> Option<usize>),
 }
 
 /// The columns of an equilibrium.
@@ -256,7 +256,7 @@ impl<'p> SlicePeaks<'p> {
     }
 }
 
-fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePeaks>) -> Row {
+fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePeaks>) -> HistoryRow {
     let model = &prepared.model;
     let p = model.point(sample.mode.place, sample.state[0]);
     let f = &sample.forces;
@@ -267,7 +267,7 @@ fn row(prepared: &Prepared, count: f64, sample: &Sample, slices: Option<&SlicePe
         Place::Arc(k) => model.curve.first_arc() + k,
         Place::Open | Place::Tension => 0,
     };
-    Row {
+    HistoryRow {
         sample: *sample,
         rates: model.rates(&sample.mode, &p, &sample.state),
         tan: [tan(f.t_bi, f.n_bi), tan(f.t_be, f.n_be)],

@@ -4,27 +4,33 @@ mod ask;
 mod body;
 mod damping;
 mod errors;
+mod facts;
 mod history;
 mod left_out;
 mod notes;
+mod page;
+mod table;
 mod train;
 mod unfelt;
 mod verdict;
 
-pub use ask::{Ask, Method, Refused, Setting};
-pub use body::{Body, Energy, Equilibrium, Extreme, Extremes, Fast, Slip, Slips};
+pub use ask::{Integration, RefusedSetting, Setting, SimulationSettings};
+pub use body::{Energy, Equilibrium, Extreme, Extremes, Fast, SimulationBody, Slip, Slips};
 pub use damping::Effect;
-pub use errors::Errors;
-pub use history::{History, Row, Values, word};
+pub use errors::SimulationErrors;
+pub use history::{HistoryRow, SceneHistory, Values, word};
 pub use train::Eigenfrequency;
 pub use verdict::LIFT_OFF_SEARCH_RAD_S;
 
 use super::left_out::LeftOut;
+use super::{Envelope, Provenance};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::fidelity::{self, Term};
+use crate::report::{Page, Screen};
 use crate::scenario::{NoScenario, Prepared, Simulation, prepare, simulate_published};
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use std::fmt;
 
 /// A scene that has run, before it is looked at once more for what contact damping changes.
@@ -55,7 +61,7 @@ pub struct SimulationAnswer {
     /// What the model leaves out, each with its cost.
     pub left_out: Vec<LeftOut>,
     /// The figures by their keys in JSON.
-    pub body: Body,
+    pub body: SimulationBody,
 }
 
 impl Serialize for SimulationAnswer {
@@ -72,6 +78,29 @@ impl std::ops::Deref for SimulationAnswer {
     }
 }
 
+impl SimulationAnswer {
+    /// The answer with the keys that all answers share; `run_time_s`: what the runs took, s.
+    pub fn envelope(&self, run_time_s: f64) -> Envelope<'_, &SimulationBody> {
+        Envelope {
+            design: &self.design,
+            run_time_s,
+            left_out: self.left_out.clone(),
+            error_estimate: self.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
+            body: &self.body,
+        }
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        format!("{}\n\n{}", self.verdict_line(), facts::table(self).to_text(screen))
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, provenance: &Provenance) -> Page {
+        page::page(self, provenance)
+    }
+}
+
 /// Why a scene was not simulated. What can happen to a clutch is an answer, also that it has no such start.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoAnswer {
@@ -83,7 +112,7 @@ pub enum NoAnswer {
         known: Vec<String>,
     },
     /// A setting makes no sense.
-    Refused(Refused),
+    Refused(RefusedSetting),
 }
 
 impl fmt::Display for NoAnswer {
@@ -103,7 +132,7 @@ impl std::error::Error for NoAnswer {}
 ///
 /// # Errors
 /// [`NoAnswer`].
-pub fn simulate(design: &Design, name: &str, ask: &Ask) -> Result<SimulationAnswer, NoAnswer> {
+pub fn simulate(design: &Design, name: &str, ask: &SimulationSettings) -> Result<SimulationAnswer, NoAnswer> {
     let scenario = design.scenario(name).ok_or_else(|| NoAnswer::NoSuchScenario {
         name: name.to_owned(),
         known: design.scenarios.iter().map(|s| s.name.clone()).collect(),
@@ -131,15 +160,20 @@ impl Design {
     ///
     /// # Errors
     /// [`NoAnswer`].
-    pub fn simulate(&self, name: &str, ask: &Ask) -> Result<SimulationAnswer, NoAnswer> {
+    pub fn simulate(&self, name: &str, ask: &SimulationSettings) -> Result<SimulationAnswer, NoAnswer> {
         simulate(self, name, ask)
     }
 }
 
 impl Ran {
-    /// Run `scenario` of `design`. `progress` is told the steps taken, of [`Ask::published_steps`]; the event method tells
-    /// [`Ask::follow`].
-    pub fn new(design: &Design, scenario: &Scenario, ask: &Ask, progress: &mut dyn FnMut(u64)) -> Self {
+    /// Run `scenario` of `design`. `progress` is told the steps taken, of [`SimulationSettings::published_steps`]; the event method tells
+    /// [`SimulationSettings::follow`].
+    pub fn new(
+        design: &Design,
+        scenario: &Scenario,
+        ask: &SimulationSettings,
+        progress: &mut dyn FnMut(u64),
+    ) -> Self {
         let settings = ask.settings(scenario);
         let found = if ask.is_published() {
             prepare(scenario).and_then(|prepared| {
@@ -160,8 +194,8 @@ impl Ran {
         };
         let method = match ask.method {
             _ if scenario.kind.duration_s().is_none() => "equilibrium",
-            Method::Event => "event",
-            Method::Published { .. } => "published",
+            Integration::Event => "event",
+            Integration::Published { .. } => "published",
         };
         let own = Design { clutch: scenario.clutch.clone(), ..design.clone() };
         Self { scenario: scenario.clone(), design: own, method, outcome, planned, kept }
@@ -175,10 +209,10 @@ impl Ran {
 
 impl SimulationAnswer {
     /// All that is said of a scene that has run.
-    pub fn new(ran: Ran, damping: Option<Effect>, ask: &Ask) -> Self {
+    pub fn new(ran: Ran, damping: Option<Effect>, ask: &SimulationSettings) -> Self {
         let left_out = left_out::of(&ran, damping.as_ref());
         let notes = notes::of(&ran, damping.as_ref(), ask);
-        let body = Body::of(&ran, notes);
+        let body = SimulationBody::of(&ran, notes);
         Self { ran, damping, left_out, body }
     }
 }

@@ -1,7 +1,7 @@
 //! What a reader must know beside the figures of a scene: why a run gave up, what is in doubt, what was not felt.
 
 use super::ask::MOST_ROWS;
-use super::{Ask, Effect, Ran};
+use super::{Effect, Ran, SimulationSettings};
 use crate::clutch::Scenario;
 use crate::dynamics::{Stop, Swing};
 use crate::report::Unit;
@@ -11,7 +11,7 @@ use crate::scenario::{Simulation, overrun_swing};
 const CONVERGED_RAD: f64 = 1e-4;
 
 /// What a reader must know beside the figures.
-pub(super) fn of(scene: &Ran, damping: Option<&Effect>, ask: &Ask) -> Vec<String> {
+pub(super) fn of(scene: &Ran, damping: Option<&Effect>, ask: &SimulationSettings) -> Vec<String> {
     let mut notes = super::unfelt::notes(&scene.scenario);
     let simulation = scene.simulation();
     if let Ok((prepared, _)) = &scene.outcome
@@ -80,7 +80,7 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>, ask: &Ask) -> Vec<String
 }
 
 /// A sentence where the scene is so long that its history has fewer rows than show it well.
-fn fewer(ask: &Ask, scenario: &Scenario) -> Option<String> {
+fn fewer(ask: &SimulationSettings, scenario: &Scenario) -> Option<String> {
     let (rows, history) = ask.history(scenario);
     (history.marks && rows == MOST_ROWS).then(|| {
         format!(

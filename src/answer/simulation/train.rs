@@ -1,8 +1,10 @@
-//! What a scene says of the drivetrain: columns of its history, eigenfrequencies.
+//! What a scene says of the drivetrain: columns of its history, eigenfrequencies, figures of its page.
 
-use super::history::{History, Values};
+use super::Ran;
+use super::history::{SceneHistory, Values};
+use super::page::{envelope, plot};
 use crate::dynamics::NodeMotion;
-use crate::report::Unit;
+use crate::report::{Page, Unit};
 use crate::scenario::{Prepared, Simulation};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -43,7 +45,7 @@ const COLUMNS: [Of; 3] = [
 ];
 
 /// Columns of every inertia on a shaft, named by it.
-pub(super) fn add(history: &mut History, prepared: &Prepared, s: &Simulation) {
+pub(super) fn add(history: &mut SceneHistory, prepared: &Prepared, s: &Simulation) {
     let Some(run) = &s.train else { return };
     let at = |(sample, more): (&crate::dynamics::Sample, &_)| {
         run.train.motions(sample.t, &sample.state, more, prepared.model.mean_speed(sample.t).0)
@@ -54,5 +56,34 @@ pub(super) fn add(history: &mut History, prepared: &Prepared, s: &Simulation) {
             let values = rows.iter().map(|row| unit.from_si(of(&row[i]))).collect();
             history.columns.push((format!("{name}_{column}").into(), Values::Numbers(values)));
         }
+    }
+}
+
+/// Figures of the page: torques of its shafts, speeds; none without a drivetrain.
+pub(super) fn figures(page: &mut Page, scene: &Ran) {
+    let Some(run) = scene.simulation().and_then(|s| s.train.as_ref()) else { return };
+    let names: Vec<&str> = run.train.names().collect();
+    if names.is_empty() {
+        return;
+    }
+    let history = scene.history();
+    let Some(time) = history.numbers("time_s") else { return };
+    for (column, axis, caption) in [
+        (
+            "shaft_nm",
+            "Torque of a shaft, Nm",
+            "What each shaft passes on towards the clutch, by the angle of its inertia.",
+        ),
+        ("speed_rpm", "Speed, rpm", "Speeds of the inertias, each its own."),
+    ] {
+        let mut drawn = plot(axis);
+        for name in &names {
+            let wanted = format!("{name}_{column}");
+            let found = history.columns.iter().find(|(n, _)| *n == wanted);
+            let Some((_, Values::Numbers(values))) = found else { continue };
+            let points = time.iter().zip(values).map(|(t, v)| [t * 1e3, *v]).collect();
+            drawn = drawn.curve(name, envelope(points));
+        }
+        page.figure(&drawn.to_svg(), caption);
     }
 }

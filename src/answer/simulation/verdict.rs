@@ -17,6 +17,7 @@ impl Ran {
         match &self.outcome {
             Ok((_, s)) => s.verdict.map(Verdict::name),
             Err(NoScenario::NotCarried { .. }) => Some(Verdict::Overloaded.name()),
+            Err(NoScenario::PublishedTrain) => None,
             Err(_) => Some(Verdict::Disengages.name()),
         }
     }
@@ -46,6 +47,13 @@ impl Ran {
         match self.simulation().and_then(|s| s.verdict) {
             Some(Verdict::Sticks) => true,
             Some(Verdict::SlipsOverrunning) => self.scenario.lets_go(),
+            // Off the race in overrun: so it may be, but where contact is to be kept at that speed.
+            Some(Verdict::Disengages) => match self.scenario.kind {
+                ScenarioKind::Overrun { speed_rad_s, .. } => {
+                    self.design.limits.keep_contact_to_rad_s.is_none_or(|keep| speed_rad_s > keep)
+                }
+                _ => false,
+            },
             _ => false,
         }
     }
@@ -94,7 +102,7 @@ fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String 
         Some(Verdict::SlipsOverrunning | Verdict::Disengages) if overruns => {
             let drag = s.overrun.map_or(0.0, |o| o.drag_torque_nm);
             if s.verdict == Some(Verdict::Disengages) {
-                "the sprags have lifted off the inner race".to_owned()
+                "the sprags have lifted off the inner race: no drag".to_owned()
             } else {
                 let stays = match swing.filter(Swing::grows) {
                     Some(_) => " in an equilibrium that does not stay: the swing of the sprags grows",

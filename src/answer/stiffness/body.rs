@@ -9,7 +9,7 @@ use serde::Serialize;
 
 /// The state under one torque.
 #[derive(Debug, Clone, Serialize)]
-pub struct Point {
+pub struct CurvePoint {
     /// Torque asked for, N m.
     pub torque_nm: f64,
     /// N_bi, N.
@@ -45,7 +45,7 @@ pub struct Point {
 
 /// Where a curve ends.
 #[derive(Debug, Clone, Serialize)]
-pub struct End {
+pub struct CurveEnd {
     /// Why.
     pub reason: &'static str,
     /// Torque there, N m.
@@ -54,15 +54,15 @@ pub struct End {
 
 /// One curve.
 #[derive(Debug, Clone, Serialize)]
-pub struct Curve {
+pub struct CurveBody {
     /// One for each torque asked for that the curve reaches.
-    pub points: Vec<Point>,
+    pub points: Vec<CurvePoint>,
     /// Torques asked for that the curve does not reach, N m.
     pub beyond_end: Vec<f64>,
     /// Where one arc hands over to the next.
     pub junctions: Vec<Junction>,
     /// Where the curve ends.
-    pub end: End,
+    pub end: CurveEnd,
 }
 
 /// One contact law.
@@ -78,20 +78,20 @@ pub struct Law {
     pub slices: Option<usize>,
     /// Its curve.
     #[serde(flatten)]
-    pub curve: Curve,
+    pub curve: CurveBody,
 }
 
 /// Keys of `stiffness`. With one law its keys stand at the top as well.
 #[derive(Debug, Clone, Serialize)]
-pub struct Body {
+pub struct StiffnessBody {
     /// Each law that was asked for.
     pub laws: Vec<Law>,
     /// The one law asked for.
     #[serde(flatten)]
-    pub only: Option<Curve>,
+    pub only: Option<CurveBody>,
 }
 
-impl Body {
+impl StiffnessBody {
     /// Of curves with their rows.
     pub fn of(laws: &[LawCurve]) -> Self {
         let laws: Vec<Law> = laws.iter().map(law).collect();
@@ -106,20 +106,20 @@ impl Body {
 fn law(law: &LawCurve) -> Law {
     let roller_coefficient = law.clutch.contact.roller_coefficient();
     let slices = (law.name == LawName::Slice).then_some(law.clutch.axial.slices);
-    let curve = Curve {
+    let curve = CurveBody {
         points: law.rows.iter().filter_map(|(t, p)| p.as_ref().map(|p| point(*t, p, law))).collect(),
         beyond_end: law.rows.iter().filter(|(_, p)| p.is_none()).map(|(t, _)| *t).collect(),
         junctions: junctions(&law.curve),
-        end: End { reason: law.curve.end().0.name(), torque_nm: law.curve.end_torque_nm() },
+        end: CurveEnd { reason: law.curve.end().0.name(), torque_nm: law.curve.end_torque_nm() },
     };
     Law { contact: law.name.facts().key, roller_coefficient, slices, curve }
 }
 
 /// A row under the torque asked for, which the equilibrium meets to rounding.
-fn point(torque_nm: f64, p: &StaticPoint, law: &LawCurve) -> Point {
+fn point(torque_nm: f64, p: &StaticPoint, law: &LawCurve) -> CurvePoint {
     let shape = if p.straddles_junction { straddling_error(&law.clutch) } else { 0.0 };
     let hertz_error_pa = (law.curve.truncation() + shape) * p.hertz_inner_pa;
-    Point {
+    CurvePoint {
         torque_nm,
         normal_inner_n: p.normal_inner_n,
         normal_outer_n: p.normal_outer_n,

@@ -1,10 +1,20 @@
 //! What the stiffness study answers: the static curve at rest by contact law, at the torques asked for.
 
 mod body;
+mod fem;
 mod junctions;
+mod page;
+mod pressure;
+mod study;
+mod tables;
 
-pub use body::{Body, Curve, End, Law, Point};
+pub use body::{CurveBody, CurveEnd, CurvePoint, Law, StiffnessBody};
+pub use fem::{Distance, Fem, FemPoint, FemRow};
 pub use junctions::{Junction, junctions};
+pub use page::page;
+pub use pressure::{ContactBody, PeakBody, PressureBody, PressureMap, PressureRow};
+pub use study::{StiffnessStudy, StudyBody};
+pub use tables::csv_table;
 
 use super::left_out::{LeftOut, at_rest, left_out};
 use crate::clutch::{Clutch, ContactLaw, LawName};
@@ -22,7 +32,7 @@ const EVEN_ROWS: usize = 20;
 
 /// Which curves, and where they are read. The default: the design's own law, 20 even rows.
 #[derive(Debug, Clone, Default)]
-pub struct Ask {
+pub struct StiffnessSettings {
     /// Contact laws, each counted once; none: the design's.
     pub laws: Vec<LawName>,
     /// Torques, N m; none: an even table.
@@ -58,7 +68,7 @@ pub struct StiffnessAnswer {
     /// What the model leaves out, each with its cost.
     pub left_out: Vec<LeftOut>,
     /// The figures by their keys in JSON.
-    pub body: Body,
+    pub body: StiffnessBody,
 }
 
 impl Serialize for StiffnessAnswer {
@@ -98,7 +108,7 @@ impl fmt::Display for NoStiffness {
 
 impl std::error::Error for NoStiffness {}
 
-impl Ask {
+impl StiffnessSettings {
     /// Refuse torques that no curve is read at.
     ///
     /// # Errors
@@ -139,7 +149,7 @@ impl Design {
     ///
     /// # Errors
     /// [`NoStiffness`].
-    pub fn stiffness(&self, ask: &Ask) -> Result<StiffnessAnswer, NoStiffness> {
+    pub fn stiffness(&self, ask: &StiffnessSettings) -> Result<StiffnessAnswer, NoStiffness> {
         ask.validate()?;
         let profile = self.clutch.profile().map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
         Ok(StiffnessAnswer::of(curves(self, &profile, ask, &|| ())?))
@@ -158,7 +168,7 @@ impl StiffnessAnswer {
         }
         terms.push(at_rest());
         let error_relative = laws.iter().map(|l| l.curve.truncation()).fold(0.0, f64::max);
-        Self { body: Body::of(&laws), laws, error_relative, left_out: terms }
+        Self { body: StiffnessBody::of(&laws), laws, error_relative, left_out: terms }
     }
 }
 
@@ -169,7 +179,7 @@ impl StiffnessAnswer {
 pub fn curves(
     design: &Design,
     profile: &Profile,
-    ask: &Ask,
+    ask: &StiffnessSettings,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<LawCurve>, NoStiffness> {
     let none = |e| NoStiffness::NoClutch(NoMargins::Curve(e));
@@ -196,15 +206,21 @@ pub fn curves(
     Ok(laws.collect())
 }
 
-/// Torques of the table, N m: those asked for, or an even table up to the largest asked for, else up to the
+/// Torques of the table, N m: those asked for, or an even table up to the largest asked for or the last end of a curve, else up to the
 /// design's peak torque or the first end of a curve, whichever comes first.
-fn torques(ask: &Ask, design: &Design, curves: &[(LawName, Clutch, WedgeCurve, WedgeCurve)]) -> Vec<f64> {
+fn torques(
+    ask: &StiffnessSettings,
+    design: &Design,
+    curves: &[(LawName, Clutch, WedgeCurve, WedgeCurve)],
+) -> Vec<f64> {
     if !ask.torques_nm.is_empty() {
         return ask.torques_nm.clone();
     }
     let first_end = curves.iter().map(|c| c.2.end_torque_nm()).fold(f64::INFINITY, f64::min);
+    let last_end = curves.iter().map(|c| c.2.end_torque_nm()).fold(0.0, f64::max);
     let largest = ask
         .max_torque_nm
+        .map(|asked| asked.min(last_end))
         .unwrap_or_else(|| design.limits.peak_torque_nm.map_or(first_end, |peak| peak.min(first_end)));
     (1..=EVEN_ROWS).map(|i| largest * i as f64 / EVEN_ROWS as f64).collect()
 }
@@ -216,7 +232,8 @@ mod tests {
     #[test]
     fn each_law_once_and_the_designs_own_by_default() {
         use LawName::{Din26281, Hertz, Roller};
-        let asked = |laws: &[LawName]| Ask { laws: laws.to_vec(), ..Ask::default() };
+        let asked =
+            |laws: &[LawName]| StiffnessSettings { laws: laws.to_vec(), ..StiffnessSettings::default() };
         assert_eq!(asked(&[Hertz, Roller, Hertz]).laws_of(&ContactLaw::Din26281), [Hertz, Roller]);
         assert_eq!(asked(&[]).laws_of(&ContactLaw::Din26281), [Din26281]);
     }
@@ -226,7 +243,8 @@ mod tests {
         for (torque, word) in
             [(f64::NAN, "NaN"), (-1.0, "-1 Nm"), (1e-9, "too small"), (f64::INFINITY, "inf")]
         {
-            let why = Ask { torques_nm: vec![3.0, torque], ..Ask::default() }.validate();
+            let why = StiffnessSettings { torques_nm: vec![3.0, torque], ..StiffnessSettings::default() }
+                .validate();
             assert!(why.is_err_and(|w| w.to_string().contains(word)), "{torque}");
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{ExportArgs, VariantName};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::origin::Kind;
+use crate::cli::origin::FileKind;
 use crate::cli::{Context, output, parts};
 use crate::design::Design;
 use crate::export::calculix::{Options, Variant, deck};
@@ -20,7 +20,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     let text = text(design, variant, args)?;
     match &args.output {
         Some(path) => {
-            if context.outputs.write(path, Kind::Deck, text.as_bytes()) {
+            if context.outputs.write(path, FileKind::Deck, text.as_bytes()) {
                 context.message(&format!(
                     "{}: {} variant, {:.1} MB; next: ccx -i {}",
                     path.display(),

@@ -1,11 +1,11 @@
 //! A design as a unit for co-simulation: description, library, design file in one archive.
 
 use super::{ExportArgs, FmiName};
+use crate::answer::Envelope;
+use crate::answer::left_out::LeftOut;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::left_out::LeftOut;
-use crate::cli::origin::Kind;
+use crate::cli::origin::FileKind;
 use crate::cli::output::{TOOL, VERSION};
-use crate::cli::parts::Answer;
 use crate::cli::{Context, parts};
 use crate::design::Design;
 use crate::element::{Beginning, Element, NoElement, Settings};
@@ -62,9 +62,9 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     }
     let bytes = packed(&files).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
     let count = variables(design).len();
-    let written = context.outputs.write(path, Kind::Unit, &bytes);
+    let written = context.outputs.write(path, FileKind::Unit, &bytes);
     let version = if fmi == Fmi::Two { "2.0" } else { "3.0" };
-    let answer = Answer {
+    let answer = Envelope {
         design,
         run_time_s: started.elapsed().as_secs_f64(),
         left_out: left_out(),
@@ -78,7 +78,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
             "variables": count,
         }),
     };
-    answer.print(context)?;
+    context.print(&answer)?;
     if written {
         context.message(&format!(
             "{}: FMI {version} co-simulation, {platform}, {count} variables, {:.1} MB",

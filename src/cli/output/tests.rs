@@ -92,7 +92,7 @@ fn harmful_outputs_are_refused_before_the_work() {
         (outputs(&same, &html), vec![], "never overwritten"),
         (outputs(&fem, &html), vec![], "is read by this command"),
         (outputs(&csv, &csv), vec![], "two outputs"),
-        (outputs(&csv, &html), vec![(csv.as_path(), Kind::Table)], "two outputs"),
+        (outputs(&csv, &html), vec![(csv.as_path(), FileKind::Table)], "two outputs"),
         (outputs(&folder.0, &html), vec![], "folder"),
         (outputs(&folder.0.join("none").join("a.csv"), &html), vec![], "does not exist"),
     ] {
@@ -121,8 +121,8 @@ fn a_file_of_another_kind_is_not_overwritten() {
         (csv(&page), vec![], "is a page already"),
         (report(&design), vec![], "a page does not overwrite it"),
         (report(&table), vec![], "is a table already"),
-        (none.clone(), vec![(design.as_path(), Kind::Deck)], "is a design file already"),
-        (none.clone(), vec![(table.as_path(), Kind::Design)], "is a table already"),
+        (none.clone(), vec![(design.as_path(), FileKind::Deck)], "is a design file already"),
+        (none.clone(), vec![(table.as_path(), FileKind::Design)], "is a table already"),
     ] {
         let text = message(bad.check(&[], &others).unwrap_err());
         assert!(text.contains(want), "{text} should say {want}");
@@ -139,7 +139,7 @@ fn a_file_of_another_kind_is_not_overwritten() {
     fs::write(&table, "code,name\n1,2\n").unwrap();
     fs::write(&page, "<!-- sprag-design 1 -->\n").unwrap();
     fs::write(&design, "").unwrap();
-    assert!(csv(&table).check(&[], &[(&design, Kind::Design)]).is_ok());
+    assert!(csv(&table).check(&[], &[(&design, FileKind::Design)]).is_ok());
     assert!(csv(&table).refuse_foreign().is_ok() && report(&page).refuse_foreign().is_ok());
 }
 
@@ -158,23 +158,4 @@ fn a_name_that_is_taken_is_left_alone_and_the_next_one_used() {
     write_whole(&folder.0.join("out.csv"), b"new").unwrap();
     assert_eq!(fs::read(folder.0.join("out.csv")).unwrap(), b"new");
     assert!(stale.iter().all(|path| fs::read(path).unwrap() == b"stale"));
-}
-
-#[test]
-fn the_envelope_comes_first_and_holds_the_body() {
-    #[derive(Serialize)]
-    struct Body {
-        pass: bool,
-        margins: Vec<f64>,
-    }
-    let left_out = ["nothing"];
-    let body = Body { pass: true, margins: vec![0.1, f64::NAN] };
-    let text =
-        serde_json::to_string(&Envelope::new("a", "0f", 0.5, &left_out, None, Vec::new(), &body)).unwrap();
-    assert!(text.starts_with("{\"tool\":\"sprag-design\",\"version\":"), "{text}");
-    let value: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(value["design_hash"], "0f");
-    assert_eq!(value["pass"], true);
-    assert_eq!(value["margins"][1], serde_json::Value::Null);
-    assert!(value.get("error_estimate").is_none());
 }

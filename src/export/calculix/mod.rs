@@ -1,7 +1,7 @@
 //! One sector of a clutch as a complete CalculiX deck, and the result as rows of `stiffness`.
 //!
 //! In: a clutch, its placed profile and outline, [`Options`]; later the text of `ccx`'s `.dat`. Out: the deck;
-//! [`Row`]s. Absent: files and running `ccx`, stress fields, centrifugal growth (the deck is at rest).
+//! [`ResultRow`]s. Absent: files and running `ccx`, stress fields, centrifugal growth (the deck is at rest).
 //! Equations: none of the paper's. What the deck does and why it does so:
 //!
 //! - One sector of 360/n_s degrees; u_slave = R(2 pi/n_s) u_master on the cut faces is linear and exact at any
@@ -25,7 +25,7 @@ mod spacing;
 mod write;
 
 pub use facts::Facts;
-pub use read::{NoRows, Row, at_torque, read};
+pub use read::{NoRows, ResultRow, at_torque, read};
 
 use crate::clutch::{Clutch, InnerArc};
 use crate::profile::{Outline, Profile};

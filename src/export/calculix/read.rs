@@ -9,7 +9,7 @@ use super::Facts;
 
 /// One converged increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
+pub struct ResultRow {
     /// Torque C of the clutch, N m.
     pub torque_nm: f64,
     /// N_bi per sprag, N.
@@ -80,12 +80,12 @@ struct Increment {
 ///
 /// # Errors
 /// [`NoRows`].
-pub fn read(facts: &Facts, dat: &str) -> Result<Vec<Row>, NoRows> {
-    let rows: Vec<Row> = increments(dat)?.iter().filter_map(|i| row(facts, i)).collect();
+pub fn read(facts: &Facts, dat: &str) -> Result<Vec<ResultRow>, NoRows> {
+    let rows: Vec<ResultRow> = increments(dat)?.iter().filter_map(|i| row(facts, i)).collect();
     if rows.is_empty() { Err(NoRows::Empty) } else { Ok(rows) }
 }
 
-fn row(facts: &Facts, i: &Increment) -> Option<Row> {
+fn row(facts: &Facts, i: &Increment) -> Option<ResultRow> {
     let (inner, outer) = (i.inner?, i.outer?);
     let force = |c: Contact| {
         let tangential = c.moment_nmm.abs() / c.radius_mm;
@@ -100,7 +100,7 @@ fn row(facts: &Facts, i: &Increment) -> Option<Row> {
         let (q, ahead) = (i.control[side]?, facts.ahead_rad[side]);
         Some(ahead + (q / facts.driven_mm[side] - ahead.sin()).clamp(-1.0, 1.0).asin())
     };
-    let row = Row {
+    let row = ResultRow {
         torque_nm: 1e-3 * facts.count as f64 * facts.axial_factor * inner.moment_nmm,
         normal_inner_n: n_bi,
         normal_outer_n: n_be,
@@ -122,7 +122,7 @@ fn pressure_pa(stresses: &[[f64; 3]], n: [f64; 2]) -> Option<f64> {
 
 /// Torque, normal forces, tangents, windup and pressure at `torque_nm`: quadratics of their logarithms through
 /// the three nearest rows (a line through two). None outside the rows.
-pub fn at_torque(rows: &[Row], torque_nm: f64) -> Option<Row> {
+pub fn at_torque(rows: &[ResultRow], torque_nm: f64) -> Option<ResultRow> {
     let above = rows.iter().position(|r| r.torque_nm >= torque_nm)?;
     if above == 0 {
         return rows.first().filter(|r| r.torque_nm == torque_nm).copied();
@@ -140,10 +140,10 @@ pub fn at_torque(rows: &[Row], torque_nm: f64) -> Option<Row> {
     let weights: Vec<f64> = (0..xs.len())
         .map(|a| (0..xs.len()).filter(|b| *b != a).map(|b| (x - xs[b]) / (xs[a] - xs[b])).product())
         .collect();
-    let mix = |value: &dyn Fn(&Row) -> f64| -> f64 {
+    let mix = |value: &dyn Fn(&ResultRow) -> f64| -> f64 {
         near.iter().zip(&weights).map(|(r, w)| w * value(r).ln()).sum::<f64>().exp()
     };
-    Some(Row {
+    Some(ResultRow {
         torque_nm,
         normal_inner_n: mix(&|r| r.normal_inner_n),
         normal_outer_n: mix(&|r| r.normal_outer_n),
@@ -281,7 +281,7 @@ mod tests {
 
     #[test]
     fn a_power_law_is_read_exactly_between_rows() {
-        let row = |t: f64| Row {
+        let row = |t: f64| ResultRow {
             torque_nm: t,
             normal_inner_n: 90.0 * t.powf(0.98),
             normal_outer_n: 91.0 * t,
@@ -290,7 +290,7 @@ mod tests {
             windup_rad: 0.002 * t.powf(0.92),
             pressure_inner_pa: None,
         };
-        let rows: Vec<Row> = [1.0, 3.0, 7.0, 20.0].map(row).into();
+        let rows: Vec<ResultRow> = [1.0, 3.0, 7.0, 20.0].map(row).into();
         for t in [1.0, 2.0, 5.0, 12.0, 20.0] {
             let found = at_torque(&rows, t).unwrap();
             assert!((found.windup_rad / row(t).windup_rad - 1.0).abs() < 1e-12, "{t}");
@@ -307,7 +307,7 @@ mod tests {
                 Ok(rows) => {
                     for (row, full) in rows.iter().zip(&whole) {
                         let pressure_inner_pa = row.pressure_inner_pa.and(full.pressure_inner_pa);
-                        assert_eq!(*row, Row { pressure_inner_pa, ..*full }, "{end}");
+                        assert_eq!(*row, ResultRow { pressure_inner_pa, ..*full }, "{end}");
                     }
                 }
                 Err(e) => assert!(matches!(e, NoRows::Empty | NoRows::Line { .. })),

@@ -1,6 +1,6 @@
 //! `modelDescription.xml`.
 
-use super::{Fmi, Kind, MODEL, Role, Variable, token, unit, variables};
+use super::{Fmi, MODEL, Role, ScalarVariable, VariableType, token, unit, variables};
 use crate::design::Design;
 use std::fmt::Write;
 
@@ -85,7 +85,7 @@ pub fn description(design: &Design, fmi: Fmi) -> String {
 }
 
 /// Those that are used, each once.
-fn units(out: &mut String, all: &[Variable]) {
+fn units(out: &mut String, all: &[ScalarVariable]) {
     let mut used: Vec<_> = all.iter().filter_map(|v| unit(v.unit)).collect();
     used.sort_by_key(|unit| unit.name);
     used.dedup();
@@ -108,11 +108,11 @@ fn units(out: &mut String, all: &[Variable]) {
 }
 
 /// Causality, variability and initial of a role.
-fn usage(v: &Variable) -> (&'static str, &'static str, Option<&'static str>) {
+fn usage(v: &ScalarVariable) -> (&'static str, &'static str, Option<&'static str>) {
     match v.role {
         Role::Time => ("independent", "continuous", None),
         Role::Input => ("input", "continuous", None),
-        Role::Output if v.kind == Kind::Real => ("output", "continuous", Some("calculated")),
+        Role::Output if v.kind == VariableType::Real => ("output", "continuous", Some("calculated")),
         Role::Output => ("output", "discrete", Some("calculated")),
         Role::Fixed => ("parameter", "fixed", Some("exact")),
         Role::Tunable => ("parameter", "tunable", Some("exact")),
@@ -120,7 +120,7 @@ fn usage(v: &Variable) -> (&'static str, &'static str, Option<&'static str>) {
 }
 
 /// Name, causality and so on, alike in both versions.
-fn common(v: &Variable) -> String {
+fn common(v: &ScalarVariable) -> String {
     let (causality, variability, initial) = usage(v);
     let initial = initial.map(|i| format!(" initial=\"{i}\"")).unwrap_or_default();
     format!(
@@ -132,35 +132,35 @@ fn common(v: &Variable) -> String {
 }
 
 /// Unit and value at the start.
-fn values(v: &Variable) -> String {
+fn values(v: &ScalarVariable) -> String {
     let mut out = String::new();
     if let Some(unit) = unit(v.unit) {
         let _ = write!(out, " unit=\"{}\"", unit.name);
     }
     if let Some(start) = v.start {
         let _ = match v.kind {
-            Kind::Real => write!(out, " start=\"{start:?}\""),
-            Kind::Integer => write!(out, " start=\"{start:.0}\""),
-            Kind::Boolean => write!(out, " start=\"{}\"", start != 0.0),
+            VariableType::Real => write!(out, " start=\"{start:?}\""),
+            VariableType::Integer => write!(out, " start=\"{start:.0}\""),
+            VariableType::Boolean => write!(out, " start=\"{}\"", start != 0.0),
         };
     }
     out
 }
 
-fn variable_2(out: &mut String, v: &Variable) {
+fn variable_2(out: &mut String, v: &ScalarVariable) {
     let kind = match v.kind {
-        Kind::Real => "Real",
-        Kind::Integer => "Integer",
-        Kind::Boolean => "Boolean",
+        VariableType::Real => "Real",
+        VariableType::Integer => "Integer",
+        VariableType::Boolean => "Boolean",
     };
     let _ = writeln!(out, "    <ScalarVariable {}><{kind}{}/></ScalarVariable>", common(v), values(v));
 }
 
-fn variable_3(out: &mut String, v: &Variable) {
+fn variable_3(out: &mut String, v: &ScalarVariable) {
     let kind = match v.kind {
-        Kind::Real => "Float64",
-        Kind::Integer => "Int32",
-        Kind::Boolean => "Boolean",
+        VariableType::Real => "Float64",
+        VariableType::Integer => "Int32",
+        VariableType::Boolean => "Boolean",
     };
     let _ = writeln!(out, "    <{kind} {}{}/>", common(v), values(v));
 }

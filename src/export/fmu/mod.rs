@@ -42,7 +42,7 @@ pub enum Role {
 
 /// Type of a variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum VariableType {
     /// A number.
     Real,
     /// A whole number.
@@ -53,16 +53,16 @@ pub enum Kind {
 
 /// What a variable is.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Subject {
+pub enum VariableSubject {
     /// Something of every clutch.
-    Own(Quantity),
+    Own(ElementQuantity),
     /// The number at this dotted path of the design file.
     Key(String),
 }
 
 /// What every clutch has. In the order of [`QUANTITIES`], which is that of the value references.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum ElementQuantity {
     /// Time, s.
     Time,
     /// Torque of the flange of race 0 (inner) or 1 (outer) on it, N m.
@@ -101,13 +101,13 @@ pub enum Quantity {
     LongestStep,
 }
 
-type Row = (Quantity, &'static str, Role, Kind, &'static str, Option<f64>, &'static str);
+type Row = (ElementQuantity, &'static str, Role, VariableType, &'static str, Option<f64>, &'static str);
 
 /// Quantity, name, role, type, unit, value at the start, meaning.
 pub const QUANTITIES: [Row; 26] = {
-    use Kind::{Boolean, Integer, Real};
-    use Quantity as Q;
+    use ElementQuantity as Q;
     use Role::{Fixed, Input, Output, Time};
+    use VariableType::{Boolean, Integer, Real};
     [
         (Q::Time, "time", Time, Real, "s", None, "Time"),
         (
@@ -295,17 +295,17 @@ pub const FIRST_KEY: u32 = 100;
 
 /// One variable of a unit.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Variable {
+pub struct ScalarVariable {
     /// Value reference.
     pub reference: u32,
     /// What it is.
-    pub subject: Subject,
+    pub subject: VariableSubject,
     /// Name.
     pub name: String,
     /// How it is used.
     pub role: Role,
     /// Its type.
-    pub kind: Kind,
+    pub kind: VariableType,
     /// Unit as design files have it; empty for a pure number.
     pub unit: &'static str,
     /// Value at the start, where the unit does not compute it; of a yes 1, of a no 0.
@@ -315,11 +315,11 @@ pub struct Variable {
 }
 
 /// All of them, by value reference: what every clutch has, and the numbers that the design file gives of the clutch itself.
-pub fn variables(design: &Design) -> Vec<Variable> {
+pub fn variables(design: &Design) -> Vec<ScalarVariable> {
     let own = QUANTITIES.iter().enumerate().map(|(i, (quantity, name, role, kind, unit, start, meaning))| {
-        Variable {
+        ScalarVariable {
             reference: i as u32,
-            subject: Subject::Own(*quantity),
+            subject: VariableSubject::Own(*quantity),
             name: (*name).to_owned(),
             role: *role,
             kind: *kind,
@@ -332,12 +332,12 @@ pub fn variables(design: &Design) -> Vec<Variable> {
     let keys = numbers.filter(|(_, input)| variable_path(&input.path, 0).is_some());
     let keys = keys.enumerate().map(|(i, (number, input))| {
         let said = shape_of(&input.path).and_then(|shape| shape.get("description")?.as_str());
-        Variable {
+        ScalarVariable {
             reference: FIRST_KEY + i as u32,
             name: input.path.clone(),
-            subject: Subject::Key(input.path),
+            subject: VariableSubject::Key(input.path),
             role: Role::Tunable,
-            kind: Kind::Real,
+            kind: VariableType::Real,
             unit: input.unit,
             start: Some(number),
             meaning: said.unwrap_or_default().to_owned(),
@@ -368,7 +368,7 @@ mod tests {
             for v in &all {
                 assert!(v.unit.is_empty() || unit(v.unit).is_some(), "{}: {}", v.name, v.unit);
                 assert!(!v.meaning.is_empty(), "{}", v.name);
-                if let Subject::Key(key) = &v.subject {
+                if let VariableSubject::Key(key) = &v.subject {
                     let value = format!("{:?}", v.start.unwrap());
                     let value = value.strip_suffix(".0").map(str::to_owned).unwrap_or(value);
                     let again = design.with(&[(key.clone(), value)], "again").unwrap();

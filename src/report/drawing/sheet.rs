@@ -53,7 +53,9 @@ fn front(svg: &mut Svg, drawing: &Drawing, axial_m: [f64; 2], scale: f64, notes:
     centre_line(svg, [o[0], o[1] - reach], [o[0], o[1] + reach]);
     let mut y = o[1] + size(outside) + 20.0;
     let mut dimensions: Vec<Across> = section(svg, drawing, axial_m, size, o[1]).into_iter().collect();
-    for (radius, name) in [(bore, "bore"), (inner, "inner"), (outer, "outer"), (outside, "outside")] {
+    for (radius, name) in
+        [(bore, "bore"), (inner, "inner track"), (outer, "outer track"), (outside, "outside")]
+    {
         if radius > 0.0 {
             let text = format!("⌀ {} {name}", plain(Unit::Millimetre.from_si(2.0 * radius), 6));
             let ends = [o[0] - size(radius), o[0] + size(radius)];

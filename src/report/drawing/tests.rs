@@ -90,8 +90,8 @@ fn the_sheet_has_every_dimension_at_a_scale_that_it_states() {
     let svg = table_1(0.0).sheet_svg([6e-3, 6e-3], &["12 sprags".into()]);
     for word in [
         "⌀ 14.42 bore",
-        "⌀ 22.22 inner",
-        "⌀ 38.88 outer",
+        "⌀ 22.22 inner track",
+        "⌀ 38.88 outer track",
         "⌀ 52.46 outside",
         "Clutch, scale 1:1",
         "no load, scale 5:1",

@@ -1,0 +1,167 @@
+//! The stability map in words, counts and plots.
+
+use super::AccuracyStudy;
+use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS};
+use crate::report::{Bar, Bars, Cell, Column, Curve, Plot, Table, Tone, Unit};
+
+/// Outcomes in the order in which they are listed.
+const ORDER: [&str; 14] = [
+    "sticks",
+    "slips-overrunning",
+    "slips-engaging",
+    "disengages",
+    "overloaded",
+    "at-threshold",
+    "not-carried",
+    "no-curve",
+    "event-limit",
+    "step-limit",
+    "undecided",
+    "not-finite",
+    "curve-end",
+    "fell-away",
+];
+
+/// Cases by outcome, those without a case left out.
+pub(super) fn by_outcome(study: &AccuracyStudy) -> Vec<(&'static str, Vec<&Judged>)> {
+    let of = |name: &'static str| study.cases.iter().filter(move |c| c.outcomes[0].name() == name);
+    ORDER.iter().map(|&name| (name, of(name).collect::<Vec<_>>())).filter(|(_, c)| !c.is_empty()).collect()
+}
+
+/// What the map says, in one sentence or two.
+pub(super) fn summary(study: &AccuracyStudy) -> String {
+    let count = |f: fn(&Judged) -> bool| study.cases.iter().filter(|c| f(c)).count();
+    let halved = Halved::of(&study.cases);
+    let ran = count(|c| !matches!(c.outcomes[0], CaseEnd::NotCarried | CaseEnd::NoCurve));
+    format!(
+        "{} cases (seed {}), each run at a tolerance of {:.0e} and at half of it within {} steps and {} changes of mode \
+         a run: {ran} start, of which {} end with a verdict, {} at a limit. {}; {} verdicts become at-threshold there, or were \
+         it. {} answers hold a number that is not finite.",
+        study.cases.len(),
+        study.seed,
+        study.limit.tolerance,
+        study.limit.most_steps,
+        study.limit.most_events,
+        halved.verdicts,
+        count(|c| c.outcomes[0].met_a_limit()),
+        at_half(&halved),
+        halved.at_threshold,
+        count(|c| c.not_finite.is_some()),
+    )
+}
+
+/// What half the tolerance does to the verdicts.
+pub(super) fn at_half(h: &Halved) -> String {
+    format!(
+        "{} of {} verdicts change to another at half the tolerance; {} are lost there (to a limit of work, or undecided), {} \
+         gained; {} have not reached the tolerance",
+        h.changed, h.verdicts, h.lost, h.gained, h.not_reached
+    )
+}
+
+/// Counts and worst work by outcome.
+pub(super) fn counts(study: &AccuracyStudy) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("outcome", "CaseEnd"),
+        Column::number("cases", "Cases", Unit::One, 6),
+        Column::number("not_converged", "Tolerance not reached", Unit::One, 6),
+        Column::number("most_events", "Most changes of mode", Unit::One, 6),
+        Column::number("most_steps", "Most steps, both answers", Unit::One, 6),
+        Column::number("most_rhs_evaluations", "Most right-hand sides", Unit::One, 6),
+    ]);
+    for (name, cases) in by_outcome(study) {
+        let most = |f: fn(&Judged) -> u64| {
+            let most = cases.iter().map(|c| f(c)).max().unwrap_or(0);
+            Cell::Count(usize::try_from(most).unwrap_or(usize::MAX))
+        };
+        table.row(vec![
+            name.into(),
+            cases.len().into(),
+            cases.iter().filter(|c| !c.converged).count().into(),
+            most(|c| c.events),
+            most(|c| c.steps),
+            most(|c| c.rhs_evaluations),
+        ]);
+    }
+    table
+}
+
+/// Cases that a reader must see: verdicts changed, lost or gained, numbers that are none, limits met.
+pub(super) fn remarkable(study: &AccuracyStudy) -> Vec<String> {
+    let mut lines = Vec::new();
+    for c in study.cases.iter().filter(|c| c.verdict_changes) {
+        let [a, b] = c.outcomes.map(CaseEnd::name);
+        lines.push(format!("verdict changes from {a} to {b}: {}", described(c)));
+    }
+    for c in &study.cases {
+        if let Some(what) = c.not_finite {
+            lines.push(format!("{what} is not finite: {}", described(c)));
+        }
+    }
+    let stopped = |c: &&Judged| {
+        let [a, b] = c.verdicts();
+        a.is_some() != b.is_some() || c.outcomes.iter().any(|o| o.met_a_limit())
+    };
+    for c in study.cases.iter().filter(stopped) {
+        let rate = c.fastest_rad_s.map_or(String::new(), |r| format!(", fastest motion {r:.1e} rad/s"));
+        let [a, b] = c.outcomes.map(CaseEnd::name);
+        let both = if a == b { a.to_owned() } else { format!("{a}, at half the tolerance {b},") };
+        lines.push(format!("{both} at {:.3e} s{rate}: {}", c.t_s, described(c)));
+    }
+    lines
+}
+
+fn described(c: &Judged) -> String {
+    format!("case {}: {}", c.case.number, c.case.described())
+}
+
+/// How many cases ended in each way.
+pub(super) fn bars(study: &AccuracyStudy) -> Bars {
+    let all = by_outcome(study);
+    let most = all.iter().map(|(_, c)| c.len()).max().unwrap_or(1);
+    let tone = |c: &Judged| match c.outcomes[0] {
+        CaseEnd::Verdict(_) => Tone::Plain,
+        o if o.met_a_limit() => Tone::Bad,
+        _ => Tone::Soft,
+    };
+    let bar = |(name, cases): &(&str, Vec<&Judged>)| Bar {
+        label: (*name).to_owned(),
+        value: cases.len() as f64,
+        text: cases.len().to_string(),
+        tone: cases.first().map_or(Tone::Soft, |c| tone(c)),
+    };
+    Bars {
+        title: "Cases by outcome".to_owned(),
+        bars: all.iter().map(bar).collect(),
+        marks: Vec::new(),
+        range: (0.0, most as f64),
+    }
+}
+
+/// Outcomes over two parameters, by their keys; a value of zero is drawn at the axis' smallest.
+pub(super) fn scatter(study: &AccuracyStudy, x: usize, y: usize, titles: [&str; 2]) -> Plot {
+    let mut plot = Plot::new(titles[0], titles[1]).sized(720.0, 400.0);
+    (plot.log_x, plot.log_y) = (true, true);
+    let at = |c: &Judged, i: usize| c.case.values[i].max(PARAMETERS[i].low);
+    for (name, cases) in by_outcome(study) {
+        // A gap after each point: dots without a line.
+        let dots = cases.iter().flat_map(|c| [[at(c, x), at(c, y)], [f64::NAN; 2]]).collect();
+        plot.curves.push(Curve::new(name, dots));
+    }
+    plot
+}
+
+/// Work of each case over its number of mode changes.
+pub(super) fn work(study: &AccuracyStudy) -> Plot {
+    let mut plot =
+        Plot::new("Changes of mode, one more", "Right-hand sides, both answers").sized(720.0, 400.0);
+    (plot.log_x, plot.log_y) = (true, true);
+    for (name, cases) in by_outcome(study) {
+        let point = |c: &&Judged| [[c.events as f64 + 1.0, c.rhs_evaluations as f64], [f64::NAN; 2]];
+        let dots: Vec<[f64; 2]> = cases.iter().filter(|c| c.rhs_evaluations > 0).flat_map(point).collect();
+        if !dots.is_empty() {
+            plot.curves.push(Curve::new(name, dots));
+        }
+    }
+    plot
+}

@@ -1,0 +1,128 @@
+//! What an accuracy study answers: error against work of every method and fidelity, and the stability map.
+
+mod body;
+mod map;
+mod page;
+mod tables;
+mod verdict;
+
+pub use body::AccuracyBody;
+
+use super::left_out::left_out;
+use super::{Envelope, Provenance};
+use crate::accuracy::{
+    Judged, Precision, PrecisionSettings, WorkLimit, cases, map as stability_map, precision,
+};
+use crate::clutch::Scenario;
+use crate::design::Design;
+use crate::follow::Follow;
+use crate::report::{Page, Screen, Table};
+use serde_json::json;
+use std::time::Instant;
+
+/// Scenes compared by default, where the design has them: sticking, repeatedly opening, high preload, last arc.
+const USUAL: [&str; 4] = ["high-6", "high-10", "low-10", "rated-45"];
+
+/// Whether all methods can run it.
+pub fn is_torsional(scenario: &Scenario) -> bool {
+    scenario.kind.frequency_hz().is_some()
+}
+
+/// Scenes compared where none is named: the usual ones that the design has, else every torsional one.
+pub fn usual_scenarios(design: &Design) -> Vec<&Scenario> {
+    let torsional = || design.scenarios.iter().filter(|s| is_torsional(s));
+    let usual: Vec<_> = torsional().filter(|s| USUAL.contains(&s.name.as_str())).collect();
+    if usual.is_empty() { torsional().collect() } else { usual }
+}
+
+/// What an accuracy study found.
+#[derive(Debug, Clone)]
+pub struct AccuracyStudy {
+    /// The scenes that all methods ran.
+    pub scenes: Vec<Precision>,
+    /// Scenes that have no start, with the reason.
+    pub without_start: Vec<(String, String)>,
+    /// Seed of the stability map.
+    pub seed: u64,
+    /// What a case of the map may cost.
+    pub limit: WorkLimit,
+    /// The map.
+    pub cases: Vec<Judged>,
+    /// Wall time of the map, s.
+    pub map_time_s: f64,
+    /// Whether it was stopped: scenes and cases are those that were finished.
+    pub interrupted: bool,
+}
+
+impl AccuracyStudy {
+    /// Every method on every scenario; `begun` is told of each scenario by its name, `done` of each setting that is done.
+    pub fn of(
+        scenarios: &[&Scenario],
+        settings: &PrecisionSettings,
+        begun: &dyn Fn(&str),
+        done: &dyn Fn(),
+    ) -> Self {
+        let (mut scenes, mut without_start) = (Vec::new(), Vec::new());
+        for scenario in scenarios {
+            begun(&scenario.name);
+            match precision(scenario, settings, done) {
+                Ok(Some(found)) => scenes.push(found),
+                Ok(None) => break,
+                Err(why) => without_start.push((scenario.name.clone(), why.to_string())),
+            }
+        }
+        let interrupted = settings.follow.stopped();
+        Self {
+            scenes,
+            without_start,
+            seed: 0,
+            limit: WorkLimit::default(),
+            cases: Vec::new(),
+            map_time_s: 0.0,
+            interrupted,
+        }
+    }
+
+    /// The same with a stability map of `count` cases, each made by `seed` and its number; `done` is told of each.
+    pub fn with_map(
+        self,
+        design: &Design,
+        seed: u64,
+        count: usize,
+        follow: &Follow,
+        done: &(dyn Fn() + Sync),
+    ) -> Self {
+        let limit = WorkLimit { follow: follow.clone(), ..WorkLimit::default() };
+        let started = Instant::now();
+        let cases = stability_map(&design.clutch, &cases(seed, count), &limit, done);
+        let map_time_s = started.elapsed().as_secs_f64();
+        Self { seed, limit, cases, map_time_s, interrupted: follow.stopped(), ..self }
+    }
+
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
+    pub fn envelope<'a>(&self, design: &'a Design, run_time_s: f64) -> Envelope<'a, AccuracyBody> {
+        let worst = self.scenes.iter().map(|s| s.reference_error[0]).fold(0.0, f64::max);
+        Envelope {
+            design,
+            run_time_s,
+            left_out: left_out(&design.clutch),
+            error_estimate: Some(json!(worst)),
+            body: AccuracyBody::of(self),
+        }
+    }
+
+    /// Every point of every scene.
+    pub fn csv_table(&self) -> Table {
+        tables::points(&self.scenes)
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        tables::text(self, screen)
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, design: &Design, provenance: &Provenance) -> Page {
+        page::page(self, design, provenance)
+    }
+}

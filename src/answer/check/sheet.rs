@@ -1,0 +1,135 @@
+//! The design sheet: the answer and a dimensioned drawing first, then margins, scenes and all inputs, to print on A4.
+
+use super::page::opened;
+use super::text::overrunning;
+use super::{CheckAnswer, people_table};
+use crate::answer::Provenance;
+use crate::answer::page::{draw_inputs, half};
+use crate::design::Design;
+use crate::margin::{Margin, SceneDemand};
+use crate::material::Material;
+use crate::report::{Cell, Column, Page, Plot, Table, Unit, greek};
+use crate::wedge::{PLOTTED, StaticPoint};
+
+/// The page.
+pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance) -> Page {
+    let answer = check.envelope(design, provenance.run_time_s);
+    let (mut page, remarks) = opened("Design sheet", design, check, &provenance.command);
+    let end_nm = check.state.curve.end_torque_nm();
+    curves(&mut page, design, check);
+    page.heading("Margins");
+    let statics = check.rows.get(..check.static_rows).unwrap_or(&check.rows);
+    page.table(
+        "Margin = allowable / demand − 1 (`check` says which have another rule); held from 0 up. Reached at: torque at which the limit \
+         would be reached; >: not before the curve ends.",
+        &people_table(statics, end_nm),
+    );
+    page.list(remarks.into_iter().chain(overrunning(design)));
+    if !check.scenes.is_empty() {
+        page.heading("Scenes").table(
+            "Friction from which on a scene sticks, against its static friction; smallest normal force over the static one.",
+            &scenes(design, check),
+        );
+    }
+    page.heading("Inputs");
+    draw_inputs(&mut page, design);
+    page.heading("Materials").table("", &materials(design));
+    page.heading("Radii to make");
+    match &answer.body.running {
+        Some(running) => page.table(
+            "To make: radii with which the radii as run become those of the design file.",
+            &running.table(),
+        ),
+        None => {
+            page.paragraph("Those of the inputs: no fit and no temperature is given, the races run as made.")
+        }
+    };
+    answer.end(&mut page);
+    page
+}
+
+fn curves(page: &mut Page, design: &Design, check: &CheckAnswer) {
+    let limits = &design.limits;
+    let asked = limits.peak_torque_nm.or(limits.nominal_torque_nm);
+    let up_to = asked.map_or(f64::INFINITY, |t| 1.5 * t);
+    let points: Vec<StaticPoint> =
+        check.state.curve.samples(up_to, PLOTTED).into_iter().map(|(p, _)| p).collect();
+    let named = [(limits.nominal_torque_nm, "nominal"), (limits.peak_torque_nm, "peak")];
+    let named: Vec<(f64, &str)> = named.into_iter().filter_map(|(t, name)| Some((t?, name))).collect();
+    let windup = points.iter().map(|p| [Unit::Degree.from_si(p.windup_rad), p.torque_nm]).collect();
+    let windup = Plot::new("Windup, deg", "Torque, Nm").curve("", windup);
+    let windup = named.iter().fold(windup, |plot, (t, name)| plot.level(*t, name));
+    let tangent = points.iter().map(|p| [p.torque_nm, p.tan_omega]).collect();
+    let tangent = Plot::new("Torque, Nm", "tan ω, inner contact")
+        .curve("", tangent)
+        .level(design.clutch.friction.static_, "μs");
+    let tangent = named.iter().fold(tangent, |plot, (t, name)| plot.marker(*t, name));
+    page.figures(&[
+        (half(windup), "Torque over windup."),
+        (half(tangent), "Friction that the inner contact must give; grip is lost at μs."),
+    ]);
+}
+
+fn scenes(design: &Design, check: &CheckAnswer) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("name", "Scene"),
+        Column::number("required_friction", "μ required", Unit::One, 4),
+        Column::number("static_friction", "μs", Unit::One, 4),
+        Column::number("slip_margin", "Slip margin", Unit::Percent, 3),
+        Column::number("contact_margin", "Contact margin", Unit::Percent, 3),
+        Column::text("verdict", "Verdict"),
+    ]);
+    for (name, found) in &check.scenes {
+        let required = design.check_scenarios.contains(name);
+        // Held with the slip margin that is wanted, which is more than to stick.
+        let held = check.rows.iter().filter(|r| r.scene.as_ref() == Some(name)).all(Margin::held);
+        let verdict = match (required, held) {
+            (true, true) => Cell::Verdict(true, "held".into()),
+            (true, false) => Cell::Verdict(false, "NOT HELD".into()),
+            (false, true) => "shown only".into(),
+            (false, false) => "shown only, would not hold".into(),
+        };
+        table.row(vec![
+            name.as_str().into(),
+            friction(found),
+            found.static_friction.into(),
+            found.slip_margin().into(),
+            found.contact_margin().into(),
+            verdict,
+        ]);
+    }
+    table
+}
+
+/// Friction that the scene needs, or why there is none.
+fn friction(found: &SceneDemand) -> Cell {
+    match &found.demand {
+        Ok(d) if d.finished => d.required_friction.map_or("none suffices".into(), Cell::Si),
+        Ok(d) => if d.overloaded { "overloaded" } else { "not computed" }.into(),
+        Err(why) => greek(&why.to_string()).into(),
+    }
+}
+
+fn materials(design: &Design) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("body", "Body"),
+        Column::number("youngs_modulus_gpa", "E", Unit::Gigapascal, 4),
+        Column::number("poisson_ratio", "Poisson ratio", Unit::One, 3),
+        Column::number("density_kg_m3", "Density, kg/m³", Unit::One, 5),
+        Column::number("mass_g", "Mass", Unit::Gram, 4),
+    ]);
+    let m = &design.clutch.materials;
+    let count = design.clutch.sprags.count;
+    let bodies: [(String, &Material); 3] = [
+        (format!("{count} sprags"), &m.sprag),
+        ("inner race".into(), &m.inner_race),
+        ("outer race".into(), &m.outer_race),
+    ];
+    for ((name, m), mass) in bodies.into_iter().zip(design.clutch.masses_kg()) {
+        let row = [m.youngs_modulus_pa, m.poisson_ratio, m.density_kg_m3, mass];
+        let mut cells: Vec<Cell> = vec![name.into()];
+        cells.extend(row.map(Cell::Si));
+        table.row(cells);
+    }
+    table
+}

@@ -1,0 +1,72 @@
+//! The margin check as text, and the sentences that its page has too.
+
+use super::{CheckAnswer, NONE_SUFFICES, OVERLOADED, people_table};
+use crate::design::Design;
+use crate::margin::{Demand, Margin};
+use crate::report::{Screen, Unit, greek};
+
+/// What a capacity in a table of margins means.
+pub(crate) const REACHED_AT: &str =
+    "Reached at: torque at which the limit would be reached; >: not before the curve ends";
+/// What the margin of a slip row is.
+const SLIP_MARGIN: &str = "Margin of slip rows: the slip margin, static over required friction less 1, held from the wanted one up\n";
+
+/// What a row that is not required is.
+const SHOWN_ONLY: &str = "Shown only: for information, without a say in the verdict; `explain` with the limit's name says which key makes it count\n";
+
+/// The answer on a terminal.
+pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> String {
+    let body = &check.body;
+    let table = people_table(&check.rows, check.state.curve.end_torque_nm()).to_text(screen);
+    let mut out = format!("{}  {}\n\n{table}\n", design.name, &design.hash.get(..12).unwrap_or(&design.hash));
+    out.push_str(&body.verdict());
+    out.push('\n');
+    out.push_str(&size_line(design));
+    out.push('\n');
+    for line in body.remarks().into_iter().chain(overrunning(design)) {
+        out.push_str(&greek(&line));
+        out.push('\n');
+    }
+    if check.rows.iter().any(|r| !r.required) {
+        out.push_str(SHOWN_ONLY);
+    }
+    out.push_str(REACHED_AT);
+    out.push('\n');
+    if check.rows.iter().any(Margin::is_slip) {
+        out.push_str(SLIP_MARGIN);
+    }
+    if check.rows.iter().any(|r| r.demand == Demand::NoneSuffices) {
+        out.push_str(&format!("{NONE_SUFFICES}: contact would open, whatever the friction\n"));
+    }
+    if check.rows.iter().any(|r| r.overloaded() && r.demand.value().is_none()) {
+        out.push_str(&format!(
+            "{OVERLOADED}: the scene's load goes beyond the end of the curve, where the sprag rolls over or leaves its profile\n"
+        ));
+    }
+    out
+}
+
+/// Outside, width and mass in one line.
+pub(in crate::answer) fn size_line(design: &Design) -> String {
+    let races = &design.clutch.races;
+    let mass_kg: f64 = design.clutch.masses_kg().iter().sum();
+    format!(
+        "⌀ {} outside, {} wide, {}",
+        Unit::Millimetre.show_plain(2.0 * races.outer_outside_radius_m, 4),
+        Unit::Millimetre.show_plain(races.width_m, 4),
+        Unit::Gram.show_plain(mass_kg, 4)
+    )
+}
+
+/// Why steady overruns have no rows, where the design has any.
+pub(super) fn overrunning(design: &Design) -> Option<String> {
+    let steady = design.scenarios.iter().filter(|s| s.kind.is_overrun());
+    let names: Vec<&str> = steady.map(|s| s.name.as_str()).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "No slip or contact row for {}: in steady overrun the inner contact slides and nothing is to stick; limits \
+             keep_contact_to_rpm and lift_off_by_rpm hold it",
+            names.join(", ")
+        )
+    })
+}

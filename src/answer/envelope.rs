@@ -1,0 +1,128 @@
+//! What every answer says of itself beside its own figures: who computed it, from what, how long that took, what was left out.
+
+use super::left_out::LeftOut;
+use super::page::draw_inputs;
+use crate::design::Design;
+use crate::report::{Column, Page, Table};
+use serde::Serialize;
+use serde_json::Value;
+
+/// Program name in every output.
+pub const TOOL: &str = env!("CARGO_PKG_NAME");
+/// Program version in every output.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// First words of every design file that this tool writes.
+pub const WRITTEN_BY: &str = "# Written by sprag-design";
+
+/// How an answer came about.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Provenance {
+    /// The command line, or whatever else asked; it stands on the page.
+    pub command: String,
+    /// Wall time of the computation alone, s.
+    pub run_time_s: f64,
+}
+
+/// An answer for programs: the keys that all answers share, and its own in `body`.
+#[derive(Debug)]
+pub struct Envelope<'a, B: Serialize> {
+    /// The design.
+    pub design: &'a Design,
+    /// Wall time of the computation alone, s.
+    pub run_time_s: f64,
+    /// Terms left out, each with its reason and cost.
+    pub left_out: Vec<LeftOut>,
+    /// Error estimate where something was integrated or iterated: a number, or an object of numbers.
+    pub error_estimate: Option<Value>,
+    /// The answer's own keys: a struct or map.
+    pub body: B,
+}
+
+/// The one JSON object of an answer.
+#[derive(Debug, Serialize)]
+struct Object<'a, B: Serialize> {
+    tool: &'static str,
+    version: &'static str,
+    design: &'a str,
+    design_hash: &'a str,
+    run_time_s: f64,
+    left_out: &'a [LeftOut],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_estimate: Option<&'a Value>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unwritten: Vec<String>,
+    #[serde(flatten)]
+    body: &'a B,
+}
+
+impl<B: Serialize> Envelope<'_, B> {
+    /// The JSON object; `unwritten`: files that could not be written, each with the reason.
+    pub fn object(&self, unwritten: Vec<String>) -> impl Serialize {
+        Object {
+            tool: TOOL,
+            version: VERSION,
+            design: &self.design.name,
+            design_hash: &self.design.hash,
+            run_time_s: self.run_time_s,
+            left_out: &self.left_out,
+            error_estimate: self.error_estimate.as_ref(),
+            unwritten,
+            body: &self.body,
+        }
+    }
+
+    /// End of a page: the inputs, then as [`Self::end`].
+    pub fn close(&self, page: &mut Page) {
+        page.folded("Inputs", |page| draw_inputs(page, self.design));
+        self.end(page);
+    }
+
+    /// End of a page that has its inputs: what was left out, the results for programs, the design file.
+    pub fn end(&self, page: &mut Page) {
+        let mut table = Table::new(vec![
+            Column::text("term", "Left out"),
+            Column::text("why", "Why"),
+            Column::text("cost", "What it costs"),
+        ]);
+        for entry in &self.left_out {
+            table.row(vec![
+                entry.term.as_str().into(),
+                entry.why.as_str().into(),
+                entry.cost.as_str().into(),
+            ]);
+        }
+        page.folded("What the model leaves out", |page| {
+            page.table("", &table);
+        });
+        // Numbers that are none become null; the object holds nothing else that has no JSON form.
+        page.results("results", &serde_json::to_value(self.object(Vec::new())).unwrap_or_default());
+        page.source("Design file", &self.design.source);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_envelope_comes_first_and_holds_the_body() {
+        #[derive(Serialize)]
+        struct Body {
+            pass: bool,
+            margins: Vec<f64>,
+        }
+        let design =
+            Design::parse(include_str!("../../designs/huang2017-multi-arc.toml"), "multi-arc").unwrap();
+        let body = Body { pass: true, margins: vec![0.1, f64::NAN] };
+        let answer =
+            Envelope { design: &design, run_time_s: 0.5, left_out: Vec::new(), error_estimate: None, body };
+        let text = serde_json::to_string(&answer.object(Vec::new())).unwrap();
+        assert!(text.starts_with("{\"tool\":\"sprag-design\",\"version\":"), "{text}");
+        let value: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["design_hash"], design.hash.as_str());
+        assert_eq!(value["pass"], true);
+        assert_eq!(value["margins"][1], Value::Null);
+        assert!(value.get("error_estimate").is_none() && value.get("unwritten").is_none());
+    }
+}

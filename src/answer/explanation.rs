@@ -1,0 +1,130 @@
+//! What a limit, a key, a variable or another name means.
+
+use crate::clutch::LAWS;
+use crate::design::{Objective, VARIABLES, allowed, keys_of, nearest, shape_of, unit_of_key, variable_path};
+use crate::margin::{LIMITS, limit_of};
+
+/// What is known of a name: its kind, and lines of a heading and a text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explanation {
+    /// What kind of name it is.
+    pub kind: &'static str,
+    /// The lines.
+    pub lines: Vec<(&'static str, String)>,
+}
+
+/// Every name that is explained, by kind.
+pub fn groups() -> Vec<(&'static str, Vec<String>)> {
+    let owned = |names: &mut dyn Iterator<Item = &'static str>| names.map(str::to_owned).collect::<Vec<_>>();
+    vec![
+        ("limits, as check, optimize and the studio call them", owned(&mut LIMITS.iter().map(|l| l.code))),
+        (
+            "variables of [optimize], beside any number of the clutch by its dotted key",
+            owned(&mut VARIABLES.iter().map(|(name, ..)| *name)),
+        ),
+        ("objectives of [optimize]", owned(&mut Objective::ALL.iter().map(|o| o.name()))),
+        ("contact laws", owned(&mut LAWS.iter().map(|l| l.key))),
+        ("tables of the design file", keys_of("").into_iter().map(str::to_owned).collect()),
+    ]
+}
+
+/// The same as text.
+pub fn all() -> String {
+    let mut text = String::new();
+    for (kind, names) in groups() {
+        text.push_str(&format!("{kind}:\n"));
+        names.chunks(4).for_each(|row| text.push_str(&format!("  {}\n", row.join(", "))));
+    }
+    text
+}
+
+/// What `name` is, if anything.
+pub fn explain(name: &str) -> Option<Explanation> {
+    limit(name).or_else(|| objective(name)).or_else(|| law(name)).or_else(|| key(name))
+}
+
+fn limit(code: &str) -> Option<Explanation> {
+    let limit = limit_of(code)?;
+    let mut lines = vec![
+        ("holds", limit.name().to_owned()),
+        ("is", limit.explanation.split_whitespace().collect::<Vec<_>>().join(" ")),
+        ("margin", limit.rule.words().to_owned()),
+    ];
+    if !limit.unit.is_empty() && limit.unit != "1" {
+        lines.push(("unit", limit.unit.to_owned()));
+    }
+    lines.push((
+        "allowed by",
+        limit.key.map_or("the design itself".to_owned(), |key| format!("limits.{key}")),
+    ));
+    Some(Explanation { kind: "a limit", lines })
+}
+
+fn objective(name: &str) -> Option<Explanation> {
+    let o = Objective::ALL.into_iter().find(|o| o.name() == name)?;
+    let better = if o.sense() > 0.0 { "more" } else { "less" };
+    let mut lines = vec![("is", o.words().to_owned()), ("better", better.to_owned())];
+    if !o.unit().is_empty() {
+        lines.push(("unit", o.unit().to_owned()));
+    }
+    Some(Explanation { kind: "an objective of [optimize]", lines })
+}
+
+fn law(name: &str) -> Option<Explanation> {
+    let law = LAWS.iter().find(|l| l.key == name)?;
+    Some(Explanation { kind: "a contact law, contact.law", lines: vec![("is", law.title.to_owned())] })
+}
+
+fn key(name: &str) -> Option<Explanation> {
+    /// As many arcs as names may count.
+    const ARCS: usize = 100;
+    let path = variable_path(name, ARCS).unwrap_or_else(|| name.to_owned());
+    let schema = shape_of(&path)?;
+    let mut lines = Vec::new();
+    if path != name {
+        lines.push(("key", path.clone()));
+    }
+    let text = |key: &str| schema.get(key).and_then(|v| v.as_str()).unwrap_or("").to_owned();
+    lines.push(("is", text("description")));
+    let key = path.rsplit('.').next()?;
+    if let Some(unit) = unit_of_key(key).filter(|unit| !unit.is_empty()) {
+        lines.push(("unit", unit.to_owned()));
+    }
+    // Of an array of tables those of one row.
+    let keys = [path.clone(), format!("{path}[0]")].iter().flat_map(|at| keys_of(at)).collect::<Vec<_>>();
+    lines.push(if keys.is_empty() { ("allowed", allowed(schema)) } else { ("keys", keys.join(", ")) });
+    Some(Explanation {
+        kind: if keys.is_empty() { "a key of the design file" } else { "a table of the design file" },
+        lines,
+    })
+}
+
+/// The refusal of a name that nothing has, with the nearest one.
+pub fn unknown(name: &str) -> String {
+    let groups = groups();
+    let all: Vec<&str> = groups.iter().flat_map(|(_, names)| names.iter().map(String::as_str)).collect();
+    let near = nearest(name, &all).map_or(String::new(), |near| format!("; did you mean {near}?"));
+    format!("nothing is called {name:?}{near}; `explain` alone lists every name")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_that_is_listed_is_explained() {
+        for (kind, names) in groups() {
+            for name in names {
+                let asked = name.replace("{k}", "1");
+                let found = explain(&asked).unwrap_or_else(|| panic!("{kind}: {asked}"));
+                assert!(found.lines.iter().any(|(_, line)| line.len() > 5), "{asked}: {:?}", found.lines);
+            }
+        }
+        assert!(explain("slip:high-10").is_some() && explain("run-out-grip-inner").is_some());
+        let keys =
+            |name: &str| explain(name).unwrap().lines.iter().find(|l| l.0 == "keys").unwrap().1.clone();
+        assert!(keys("scenarios").contains("preload_nm") && keys("races").contains("width_mm"));
+        assert!(explain("limits.hertz_peak_mpa").is_some() && explain("nothing").is_none());
+        assert!(unknown("hoop-iner").contains("did you mean hoop-inner?"));
+    }
+}

@@ -1,0 +1,141 @@
+//! What an export says beside the file: the arcs as tables and JSON, what a drawing or a solid leaves out.
+
+use super::Envelope;
+use super::left_out::LeftOut;
+use crate::clutch::EndProfile;
+use crate::design::Design;
+use crate::export::rows::{SurfacePoint, SurfaceRow, arcs};
+use crate::export::{DrawnClutch, Part};
+use crate::report::{Cell, Column, Table, Unit};
+use serde_json::{Value, json};
+
+/// From here the drawn sprag is said to weigh otherwise than the one computed.
+const OTHER_MASS: f64 = 5e-3;
+
+/// A part of a design as a drawing, a solid or a table.
+#[derive(Debug, Clone, Copy)]
+pub struct Exported<'a> {
+    /// The design.
+    pub design: &'a Design,
+    /// What is drawn of it.
+    pub subject: &'a DrawnClutch<'a>,
+    /// Which part.
+    pub part: Part,
+    /// Name of the format.
+    pub format: &'a str,
+    /// Whether it is a solid.
+    pub is_solid: bool,
+    /// Length of the file, bytes.
+    pub bytes: usize,
+}
+
+impl<'a> Exported<'a> {
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s; `written`: where the file is.
+    pub fn envelope(&self, run_time_s: f64, written: Option<&str>) -> Envelope<'a, Value> {
+        let rows = arcs(self.part, self.subject);
+        Envelope {
+            design: self.design,
+            run_time_s,
+            left_out: self.left_out(),
+            error_estimate: None,
+            body: json!({
+                "format": self.format,
+                "part": self.part.name(),
+                "written": written,
+                "bytes": self.bytes,
+                "mass_over_given": self.subject.mass_excess().map(|excess| 1.0 + excess),
+                "arcs": rows.iter().map(row_json).collect::<Vec<_>>(),
+            }),
+        }
+    }
+
+    /// What the one who makes the sprag should know.
+    pub fn note(&self) -> Option<String> {
+        let excess = self.subject.mass_excess().filter(|e| self.part.has_sprag() && e.abs() > OTHER_MASS)?;
+        Some(format!(
+            "note: the sprag drawn weighs {:+.1} % against the mass_kg that the design gives and computes with; leave out \
+             mass_kg, inertia_kg_m2 and centroid, and they follow from the outline",
+            1e2 * excess
+        ))
+    }
+
+    fn left_out(&self) -> Vec<LeftOut> {
+        let mut list = vec![LeftOut::new(
+            "edges, chamfers, grooves for the spring, cage",
+            "the design holds working surfaces and flanks, nothing else",
+            "mass and inertia of what is added or cut away",
+        )];
+        if self.part.has_sprag()
+            && self.is_solid
+            && self.subject.clutch.axial.end_profile != EndProfile::Square
+        {
+            list.push(LeftOut::new(
+                "the profile of the ends",
+                "solids are prisms; the drop towards the ends is micrometres",
+                "the edge pressure of square ends, if made so: see [axial]",
+            ));
+        }
+        list
+    }
+}
+
+/// Every arc and flank, for CSV.
+pub fn arcs_table(rows: &[SurfaceRow]) -> Table {
+    let length = |key: &str| Column::number(key, key, Unit::Millimetre, 6);
+    let mut table = Table::new(vec![
+        Column::text("body", "Body"),
+        Column::text("surface", "Surface"),
+        Column::text("kind", "Kind"),
+        length("centre_x_mm"),
+        length("centre_y_mm"),
+        length("radius_mm"),
+        Column::number("start_deg", "From", Unit::Degree, 6),
+        Column::number("end_deg", "To", Unit::Degree, 6),
+        length("start_x_mm"),
+        length("start_y_mm"),
+        length("end_x_mm"),
+        length("end_y_mm"),
+    ]);
+    for r in rows {
+        let kind = if r.circle_m.is_some() { "arc" } else { "line" };
+        let circle = r.circle_m.map(|([x, y], radius)| [x, y, radius]);
+        let ends = r.ends_m.map(|[[a, b], [c, d]]| [a, b, c, d]);
+        let mut cells: Vec<Cell> = vec![r.body.as_str().into(), r.surface.as_str().into(), kind.into()];
+        cells.extend((0..3).map(|i| Cell::from(circle.map(|c| c[i]))));
+        cells.extend((0..2).map(|i| Cell::from(r.angles_rad.map(|a| a[i]))));
+        cells.extend((0..4).map(|i| Cell::from(ends.map(|e| e[i]))));
+        table.row(cells);
+    }
+    table
+}
+
+/// Points on them, for CSV.
+pub fn points_table(points: &[SurfacePoint]) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("body", "Body"),
+        Column::text("surface", "Surface"),
+        Column::number("x_mm", "x", Unit::Millimetre, 6),
+        Column::number("y_mm", "y", Unit::Millimetre, 6),
+    ]);
+    for p in points {
+        table.row(vec![
+            p.body.as_str().into(),
+            p.surface.as_str().into(),
+            p.at_m[0].into(),
+            p.at_m[1].into(),
+        ]);
+    }
+    table
+}
+
+fn row_json(r: &SurfaceRow) -> Value {
+    let mm = |m: f64| Unit::Millimetre.from_si(m);
+    json!({
+        "body": r.body,
+        "surface": r.surface,
+        "centre_mm": r.circle_m.map(|(c, _)| c.map(mm)),
+        "radius_mm": r.circle_m.map(|(_, radius)| mm(radius)),
+        "angles_deg": r.angles_rad.map(|a| a.map(f64::to_degrees)),
+        "ends_mm": r.ends_m.map(|e| e.map(|p| p.map(mm))),
+    })
+}

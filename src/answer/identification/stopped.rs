@@ -1,0 +1,63 @@
+//! What an identification that was stopped had found: its best design, without error bars.
+
+use super::head;
+use crate::answer::Envelope;
+use crate::answer::left_out::left_out;
+use crate::design::Design;
+use crate::identify::{SoFar, Unknown};
+use serde_json::{Value, json};
+
+/// The best design of an identification that was stopped.
+#[derive(Debug, Clone, Copy)]
+pub struct StoppedIdentification<'a> {
+    /// The design that was given.
+    pub design: &'a Design,
+    /// What was sought.
+    pub unknowns: &'a [Unknown],
+    /// The best design so far.
+    pub so_far: &'a SoFar,
+}
+
+impl<'a> StoppedIdentification<'a> {
+    fn named(&self) -> impl Iterator<Item = (&'a Unknown, &'a f64)> {
+        self.unknowns.iter().zip(&self.so_far.values)
+    }
+
+    /// The design file with the best values so far, which says that it is no end.
+    pub fn file(&self, command: &str) -> String {
+        let values: String = self.named().map(|(u, value)| format!("#   {}: {value}\n", u.name)).collect();
+        let remark = format!(
+            "# stopped by Ctrl-C: the best of {} designs, not the end of the search\n",
+            self.so_far.evaluations
+        );
+        head(self.design, command) + &remark + &values + "#\n" + &self.so_far.source
+    }
+
+    /// The answer on a terminal; `written`: where the file is.
+    pub fn text(&self, written: Option<&str>) -> String {
+        let values: Vec<String> =
+            self.named().map(|(u, value)| format!("  {} = {value}\n", u.name)).collect();
+        format!(
+            "stopped by Ctrl-C: the best of {} designs so far, sum of squared scaled residuals {:.6e}; the search has not ended, and how \
+             well the values are known was not looked at\n{}{}",
+            self.so_far.evaluations,
+            self.so_far.sum,
+            values.concat(),
+            written.map_or(String::new(), |path| format!("Written: {path}\n")),
+        )
+    }
+
+    /// The answer with the keys that all answers share.
+    pub fn envelope(&self, run_time_s: f64, written: Option<&str>) -> Envelope<'a, Value> {
+        let unknowns: Vec<_> = self
+            .named()
+            .map(|(u, value)| json!({ "name": u.name, "min": u.min, "max": u.max, "value": value }))
+            .collect();
+        let body = json!({
+            "interrupted": true, "converged": false, "unknowns": unknowns, "sum_of_squares": self.so_far.sum,
+            "evaluations": self.so_far.evaluations, "written": written,
+        });
+        let left_out = left_out(&self.design.clutch);
+        Envelope { design: self.design, run_time_s, left_out, error_estimate: None, body }
+    }
+}

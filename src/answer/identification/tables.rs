@@ -1,0 +1,218 @@
+//! What an identification says: tables and sentences.
+
+use crate::identify::{Doubt, FittedPoint, INSEPARABLE, Identified, Tied, Use};
+use crate::report::{Cell, Column, Table, Unit, significant};
+
+pub(super) fn use_name(purpose: Use) -> &'static str {
+    match purpose {
+        Use::Fit => "fit",
+        Use::Check => "check",
+    }
+}
+
+/// The unknowns as found; each in the unit of its name.
+pub(super) fn estimates(found: &Identified) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("unknown", "Unknown"),
+        Column::number("min", "From", Unit::One, 6),
+        Column::number("max", "To", Unit::One, 6),
+        Column::number("before", "Before", Unit::One, 6),
+        Column::number("value", "Found", Unit::One, 7),
+        Column::number("half_width_95", "+- (95 %)", Unit::One, 3),
+        Column::text("note", "Note"),
+    ]);
+    for ((u, before), e) in found.unknowns.iter().zip(&found.before).zip(&found.knowledge.estimates) {
+        let range = u.max - u.min;
+        let bound = if e.value - u.min < 1e-6 * range {
+            Some("at its lower bound")
+        } else if u.max - e.value < 1e-6 * range {
+            Some("at its upper bound")
+        } else {
+            None
+        };
+        let doubt = e.doubt.map(|doubt| in_short(found, doubt));
+        let note = bound.map(str::to_owned).into_iter().chain(doubt).collect::<Vec<_>>().join(", ");
+        table.row(vec![
+            u.name.as_str().into(),
+            u.min.into(),
+            u.max.into(),
+            (*before).into(),
+            e.value.into(),
+            e.half_width.into(),
+            note.into(),
+        ]);
+    }
+    table
+}
+
+/// Every observation beside what the model says.
+pub(super) fn residuals(found: &Identified) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("label", "Row"),
+        Column::text("use", "Use"),
+        Column::text("quantity", "Quantity"),
+        Column::number("torque_nm", "At torque", Unit::NewtonMetre, 5),
+        Column::number("observed", "Observed", Unit::One, 6),
+        Column::number("predicted", "Model", Unit::One, 6),
+        Column::number("relative_percent", "Off", Unit::Percent, 3),
+        Column::text("decided_by", "Decided by"),
+    ]);
+    for p in &found.points {
+        let o = &p.observation;
+        let (value, note) = match &p.predicted {
+            Ok(said) => (Cell::Si(said.value), said.decided_by.clone().unwrap_or_default()),
+            Err(why) => (Cell::Empty, why.to_string()),
+        };
+        table.row(vec![
+            o.label.as_str().into(),
+            use_name(o.purpose).into(),
+            o.kind.column().into(),
+            o.torque_nm.into(),
+            o.value.into(),
+            value,
+            p.relative().into(),
+            note.into(),
+        ]);
+    }
+    table
+}
+
+/// Correlation of the unknowns.
+pub(super) fn correlation(found: &Identified) -> Option<Table> {
+    let matrix = found.knowledge.correlation.as_ref()?;
+    let mut columns = vec![Column::text("unknown", "")];
+    columns.extend(found.unknowns.iter().map(|u| Column::number(&u.name, &u.name, Unit::One, 4)));
+    let mut table = Table::new(columns);
+    for (u, row) in found.unknowns.iter().zip(matrix) {
+        let mut cells = vec![u.name.as_str().into()];
+        cells.extend(row.iter().map(|c| Cell::Si(*c)));
+        table.row(cells);
+    }
+    Some(table)
+}
+
+/// How far an unknown is not determined, in a few words.
+pub(super) fn in_short(found: &Identified, doubt: Doubt) -> String {
+    match doubt {
+        Doubt::Inseparable(other) => format!("determined only together with {}", found.unknowns[other].name),
+        _ => "not determined".to_owned(),
+    }
+}
+
+/// Whether the data determine the unknowns, in one line.
+pub(super) fn verdict(found: &Identified) -> String {
+    let name = |j: usize| found.unknowns[j].name.as_str();
+    let (mut not, mut together) = (Vec::new(), Vec::new());
+    for (j, doubt) in found.knowledge.undetermined() {
+        match doubt {
+            Doubt::Inseparable(other) => {
+                let pair = format!("{} and {}", name(j.min(other)), name(j.max(other)));
+                if !together.contains(&pair) {
+                    together.push(pair);
+                }
+            }
+            _ => not.push(name(j)),
+        }
+    }
+    let not = (!not.is_empty()).then(|| format!("the data do not determine {}", not.join(", ")));
+    let together =
+        (!together.is_empty()).then(|| format!("determined only together: {}", together.join("; ")));
+    let parts: Vec<String> = not.into_iter().chain(together).collect();
+    if parts.is_empty() { "every unknown is determined".to_owned() } else { parts.join("; ") }
+}
+
+/// Why the data do not determine the unknown `j`; a blind direction and too few observations have sentences of their own.
+fn doubt_sentence(found: &Identified, j: usize, doubt: Doubt) -> Option<String> {
+    let (u, e) = (&found.unknowns[j], &found.knowledge.estimates[j]);
+    let interval = format!(
+        "{} = {} +- {}",
+        u.name,
+        significant(e.value, 4),
+        significant(e.half_width.unwrap_or(f64::INFINITY), 3)
+    );
+    Some(match doubt {
+        Doubt::NoInterval => return None,
+        Doubt::WiderThanBounds => format!(
+            "{interval} says no more than its bounds {} to {} did: add data that feel it, or leave it out of the unknowns",
+            u.min, u.max
+        ),
+        Doubt::WiderThanValue => format!(
+            "{interval} is uncertain by more than half its value: add data that feel it, or leave it out of the unknowns"
+        ),
+        Doubt::Inseparable(other) => format!(
+            "{interval} holds only if the model is exact: with {} it forms one unknown; fix one of the two",
+            found.unknowns[other].name
+        ),
+    })
+}
+
+/// How good it is and what cannot be told apart.
+pub(super) fn sentences(found: &Identified) -> Vec<String> {
+    let k = &found.knowledge;
+    let mut out = Vec::new();
+    for (purpose, words) in [(Use::Fit, "fitted"), (Use::Check, "held back")] {
+        let offs: Vec<f64> = found
+            .points
+            .iter()
+            .filter(|p| p.observation.purpose == purpose)
+            .filter_map(FittedPoint::relative)
+            .collect();
+        if offs.is_empty() {
+            continue;
+        }
+        let rms = (offs.iter().map(|o| o * o).sum::<f64>() / offs.len() as f64).sqrt();
+        let worst = offs.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        out.push(format!(
+            "{} observations {words}: rms {}, worst {}",
+            offs.len(),
+            Unit::Percent.show(rms, 3),
+            Unit::Percent.show(worst, 3)
+        ));
+    }
+    out.push(format!(
+        "{}; {} evaluations, sums of squares of the starts {}",
+        if found.converged { "converged" } else { "NOT converged: more --evaluations" },
+        found.evaluations,
+        found.sums.0.iter().map(|s| significant(*s, 5)).collect::<Vec<_>>().join(", ")
+    ));
+    if k.freedom == 0 {
+        out.push(format!(
+            "as many unknowns as observations, or more: no confidence can be stated ({} unknowns)",
+            found.unknowns.len()
+        ));
+    }
+    out.extend(k.undetermined().filter_map(|(j, doubt)| doubt_sentence(found, j, doubt)));
+    let name = |i: usize| found.unknowns[i].name.as_str();
+    for tied in &k.tied {
+        out.push(match tied {
+            Tied::Strongly { first, second, correlation } => {
+                let (a, b) = (name(*first), name(*second));
+                match correlation.abs() > INSEPARABLE {
+                    true => format!(
+                        "the data hardly tell {a} and {b} apart: correlation {correlation:.4}; only a combination of them is well \
+                         known"
+                    ),
+                    false => format!(
+                        "{a} and {b} go together: correlation {correlation:.4}; a combination of them is known better than either"
+                    ),
+                }
+            }
+            Tied::Blind { direction } => {
+                let moved: Vec<String> = direction
+                    .iter()
+                    .zip(&found.unknowns)
+                    .filter(|(d, _)| d.abs() > 0.01)
+                    .map(|(d, u)| format!("{} by {}", u.name, significant(d * (u.max - u.min), 3)))
+                    .collect();
+                match moved.as_slice() {
+                    [one] => format!("the data say nothing of {}", one.split(" by ").next().unwrap_or(one)),
+                    _ => format!(
+                        "the data cannot tell these apart: moving {} together changes no observation",
+                        moved.join(", ")
+                    ),
+                }
+            }
+        });
+    }
+    out
+}

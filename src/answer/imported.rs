@@ -1,0 +1,202 @@
+//! What an import answers: the arcs found, how far the points lie from them, and what the reader should know.
+
+use super::left_out::LeftOut;
+use super::{Envelope, VERSION, WRITTEN_BY};
+use crate::design::{Design, shown};
+use crate::import::{Arcs, Drawn, FittedSprag, STANDARD_ERROR};
+use crate::report::{Cell, Column, Screen, Table, Unit};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// A radius less well known than this is said to be so, m.
+const UNSURE_M: f64 = 2e-6;
+
+/// A sprag found in a drawing or in points, on a template.
+#[derive(Debug, Clone, Copy)]
+pub struct Imported<'a> {
+    /// What was read.
+    pub drawn: &'a Drawn,
+    /// The sprag in it.
+    pub found: &'a FittedSprag,
+    /// Name of the design file that gives all else.
+    pub template: &'a str,
+    /// Whether nobody named it.
+    pub no_template: bool,
+    /// Deviation asked for, m.
+    pub deviation_m: Option<f64>,
+}
+
+impl Imported<'_> {
+    /// First lines of the new design file; `file`: what was read, `command`: who asked.
+    pub fn head(&self, file: &str, command: &str) -> String {
+        let (found, on) = (self.found, self.template);
+        format!(
+            "{WRITTEN_BY} import {VERSION} from {:?} on the template {on:?}\n# by: {}\n# Farthest point {:.2} um from the inner \
+         arcs, {:.2} um from the outer arc; rms {:.2} and {:.2} um. Races, spring, limits are the template's.\n#\n",
+            file,
+            command,
+            1e6 * found.inner.max_m,
+            1e6 * found.outer.max_m,
+            1e6 * found.inner.rms_m,
+            1e6 * found.outer.rms_m,
+        )
+    }
+
+    /// What the reader of the numbers should know, a line each.
+    pub fn remarks(&self) -> Vec<String> {
+        let found = self.found;
+        let mut lines = self.drawn.said.clone();
+        if self.no_template {
+            lines.push(format!(
+                "no --template: races, count, spring, friction and limits are those of {}",
+                self.template
+            ));
+        }
+        if found.mirrored {
+            lines.push(
+                "the drawing was turned over: it shows a clutch that locks the other way round".to_owned(),
+            );
+        }
+        if found.behind > 0 {
+            lines
+                .push(format!("inner arcs that lie behind first contact and are left out: {}", found.behind));
+        }
+        lines.push(format!(
+        "end of the profile, {:.4} rad: chosen, 2 % before the flanks cut it; set until_rad of the last arc to what is ground",
+        found.inner_arcs.last().map_or(0.0, |a| a.1)
+    ));
+        let off = found.inner.max_m;
+        if let Some(asked) = self.deviation_m.filter(|asked| off > *asked) {
+            lines.push(format!(
+            "the deviation asked for, {:.3} um, is not reached with {} arcs: the farthest point is {:.3} um off",
+            1e6 * asked,
+            found.inner.arcs.len(),
+            1e6 * off
+        ));
+        }
+        let sides = [("inner arc", &found.inner), ("outer arc", &found.outer)];
+        for (name, k, arcs) in sides.iter().flat_map(|(n, a)| (0..a.arcs.len()).map(move |k| (n, k, a))) {
+            let arc = &arcs.arcs[k];
+            if arc.radius_error_m > UNSURE_M {
+                let points = (STANDARD_ERROR * arcs.rms_m / (UNSURE_M * arc.span_rad.powi(2))).powi(2);
+                lines.push(format!(
+                "{name} {}: the radius is known to {:.1} um (standard error) from {} points over {:.3} rad; 2 um need some {:.0e} \
+                 points on it",
+                k + 1,
+                1e6 * arc.radius_error_m,
+                arc.points,
+                arc.span_rad,
+                points.max(1.0)
+            ));
+            }
+        }
+        lines
+    }
+
+    /// The arcs found.
+    pub fn csv_table(&self) -> Table {
+        table(self.found)
+    }
+
+    /// The answer with the keys that all answers share; `design`: the new one; `run_time_s`: what it took, s; `written`: where
+    /// the new design is.
+    pub fn envelope<'a>(
+        &self,
+        design: &'a Design,
+        run_time_s: f64,
+        written: Option<&str>,
+    ) -> Envelope<'a, Value> {
+        let found = self.found;
+        Envelope {
+            design,
+            run_time_s,
+            left_out: vec![LeftOut::new(
+                "edges and chamfers",
+                "points within some 2 deg of a corner, seen from the middle, are not fitted",
+                "none on the working surfaces",
+            )],
+            error_estimate: Some(json!({
+                "rms_um": worst(found, |a| a.rms_m),
+                "max_um": worst(found, |a| a.max_m),
+            })),
+            body: json!({
+                "written": written,
+                "template": self.template,
+                "said": self.remarks(),
+                "inner": side_json(&found.inner),
+                "outer": side_json(&found.outer),
+                "sprags": {
+                    "outer_radius_mm": 1e3 * found.outer_radius_m,
+                    "centre_distance_mm": 1e3 * found.centre_distance_m,
+                    "inner_arcs": found.inner_arcs.iter()
+                        .map(|(r, until)| json!({ "radius_mm": 1e3 * r, "until_rad": until })).collect::<Vec<_>>(),
+                    "flanks": {
+                        "rear_mm": 1e3 * found.flanks.rear_m, "front_mm": 1e3 * found.flanks.front_m,
+                        "rear_tilt_rad": found.flanks.rear_tilt_rad, "front_tilt_rad": found.flanks.front_tilt_rad,
+                    },
+                },
+            }),
+        }
+    }
+
+    /// The answer on a terminal; `written`: where the new design is.
+    pub fn text(&self, written: Option<&str>, screen: Screen) -> String {
+        let on = self.template;
+        let mut people = format!("{}\n", self.csv_table().to_text(screen));
+        for line in self.remarks() {
+            let _ = writeln!(people, "{line}");
+        }
+        let _ = match written {
+            Some(path) => writeln!(people, "written to {}, on the template {on}", shown(path)),
+            None => writeln!(people, "no design written: name a file with -o; template {on}"),
+        };
+        people
+    }
+}
+
+fn worst(found: &FittedSprag, of: fn(&Arcs) -> f64) -> f64 {
+    1e6 * of(&found.inner).max(of(&found.outer))
+}
+
+fn table(found: &FittedSprag) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("surface", "Surface"),
+        Column::number("radius_mm", "Radius", Unit::Millimetre, 7),
+        Column::number("radius_standard_error_um", "Standard error", Unit::Micrometre, 3),
+        Column::number("span_rad", "Spans", Unit::Radian, 4),
+        Column::number("points", "Points", Unit::One, 6),
+        Column::number("max_um", "Farthest", Unit::Micrometre, 4),
+        Column::number("rms_um", "rms", Unit::Micrometre, 4),
+    ]);
+    for (name, side) in [("inner arc", &found.inner), ("outer arc", &found.outer)] {
+        for (k, arc) in side.arcs.iter().enumerate() {
+            table.row(vec![
+                if name == "outer arc" { name.into() } else { format!("{name} {}", k + 1).into() },
+                arc.radius_m.into(),
+                arc.radius_error_m.into(),
+                arc.span_rad.into(),
+                Cell::Count(arc.points),
+                side.max_m.into(),
+                side.rms_m.into(),
+            ]);
+        }
+    }
+    table
+}
+
+fn side_json(side: &Arcs) -> Value {
+    let arc = |a: &crate::import::Arc| {
+        json!({
+            "radius_mm": 1e3 * a.radius_m,
+            "radius_standard_error_um": 1e6 * a.radius_error_m,
+            "centre_mm": [1e3 * a.centre_m.x, 1e3 * a.centre_m.y],
+            "span_rad": a.span_rad,
+            "points": a.points,
+        })
+    };
+    json!({
+        "max_um": 1e6 * side.max_m,
+        "rms_um": 1e6 * side.rms_m,
+        "arcs": side.arcs.iter().map(arc).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,177 @@
+//! What the pages of all answers share: head, drawings of a clutch, the inputs.
+
+use super::{TOOL, VERSION};
+use crate::design::{Design, Input, inputs, unit_of_key};
+use crate::profile::Profile;
+use crate::report::{Cell, Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Unit};
+use crate::wedge::{Closure, WedgeCurve};
+
+/// A page with its head; `title` names the kind of answer, e.g. `"Margin check"`, `command` who asked for it.
+pub fn begun(title: &str, design: &Design, command: &str) -> Page {
+    Page::new(PageHead {
+        title: title.to_owned(),
+        tool: TOOL.to_owned(),
+        version: VERSION.to_owned(),
+        command: command.to_owned(),
+        design: design.name.clone(),
+        design_hash: design.hash.clone(),
+    })
+}
+
+/// The sprag of `design` at first contact at rest.
+pub fn pose_at_rest(label: &str, design: &Design, profile: &Profile) -> SpragPose {
+    SpragPose::at_rest(label, &design.clutch.sprags, profile)
+}
+
+/// The same sprag under load, as the equilibrium `state` (of [`WedgeCurve::closure_at_torque`]) has it.
+pub fn pose_loaded(label: &str, at_rest: &SpragPose, state: &Closure) -> SpragPose {
+    at_rest.clone().moved(label, state.rotation.v, state.lengths.oc_e.v)
+}
+
+/// The same sprag at `torque_nm`, N m, or at the curve's end where that comes first; none where neither has
+/// an equilibrium. The label names the torque.
+pub fn pose_at_torque(at_rest: &SpragPose, curve: &WedgeCurve, torque_nm: f64) -> Option<SpragPose> {
+    let end = curve.end_torque_nm();
+    let (torque, tail) = if torque_nm <= end { (torque_nm, "") } else { (end, ", end of the curve") };
+    let last = curve.arc_end_n(curve.arc_count() - 1);
+    let (_, state) = curve.closure_at_torque(torque).or_else(|| curve.closure_at_normal(last))?;
+    let label = format!("at {}{tail}", Unit::NewtonMetre.show_plain(torque, 4));
+    Some(pose_loaded(&label, at_rest, &state))
+}
+
+/// The races of `design` with `poses` of its sprags (the first in full, the others dashed over it).
+pub fn drawing(design: &Design, poses: Vec<SpragPose>) -> Drawing {
+    Drawing::of(&design.clutch, poses)
+}
+
+/// Section of a page with the drawing to scale: one sprag, then clutch and arc centres side by side.
+pub fn draw(page: &mut Page, drawing: &Drawing) {
+    page.heading("Geometry");
+    let caption = if drawing.poses.len() > 1 {
+        "One sprag between its races, to scale. The races are drawn without load: a loaded sprag overlaps them by \
+         what yields."
+    } else {
+        "One sprag between its races, to scale."
+    };
+    page.figure(&drawing.detail_svg(), caption);
+    page.figures(&[
+        (drawing.clutch_svg(), "The clutch, to scale."),
+        (drawing.centres_svg(), "Arc centres and centroid in the body frame (origin Cₑ)."),
+    ]);
+}
+
+/// The dimensioned drawing: clutch, section, one sprag, masses.
+pub fn draw_sheet(page: &mut Page, design: &Design, profile: &Profile) {
+    let (s, r) = (&design.clutch.sprags, &design.clutch.races);
+    let mm = |m: f64| Unit::Millimetre.show_plain(m, 6);
+    let gram = |kg: f64| Unit::Gram.show(kg, 4);
+    let [sprags, inner, outer] = design.clutch.masses_kg();
+    let notes = [
+        format!("{} sprags {} long,", s.count, mm(s.length_m)),
+        format!("races {} wide,", mm(r.width_m)),
+        format!("mass {}: sprags {},", gram(sprags + inner + outer), gram(sprags)),
+        format!("inner race {}, outer race {}", gram(inner), gram(outer)),
+    ];
+    let rest = pose_at_rest("first contact, no load", design, profile);
+    let svg = drawing(design, vec![rest]).sheet_svg([r.width_m, s.length_m], &notes);
+    page.true_figure(&svg, "Radii as run; inner, outer: the tracks. ν, ω: angles of the strut AB to the radii at B and A; junctions by the turn of the contact; races as plain rings.");
+}
+
+/// Every value of the design file: a short table for each of its parts, a wide one for the scenes.
+pub fn draw_inputs(page: &mut Page, design: &Design) {
+    let all = inputs(&design.source);
+    let (scenes, others): (Vec<&Input>, Vec<&Input>) =
+        all.iter().partition(|i| i.path.starts_with("scenarios["));
+    page.columns(&short_tables(&others));
+    if !scenes.is_empty() {
+        page.table("scenarios", &scene_table(&scenes));
+    }
+}
+
+/// A table for each part of the file; a row of a list (arc, variable) in one line.
+fn short_tables(inputs: &[&Input]) -> Vec<(String, Table)> {
+    let mut tables: Vec<(String, Table)> = Vec::new();
+    for input in inputs {
+        let path = input.path.as_str();
+        let (group, key) = match path.find(['.', '[']) {
+            Some(at) => (&path[..at], path[at..].trim_start_matches('.')),
+            None => ("design", path),
+        };
+        if tables.last().is_none_or(|(last, _)| last != group) {
+            let columns = vec![Column::text("key", "Key"), Column::text("value", "Value")];
+            tables.push((group.to_owned(), Table::new(columns)));
+        }
+        let Some((_, table)) = tables.last_mut() else { continue };
+        let value = if input.unit.is_empty() {
+            input.text.clone()
+        } else {
+            format!("{} {}", input.text, power(input.unit))
+        };
+        // A row of a list: its name stands in its path already.
+        let Some((row, inner)) = key.split_once(']') else {
+            table.row(vec![key.into(), value.into()]);
+            continue;
+        };
+        let (row, inner) = (row.replacen('[', " ", 1).trim().to_owned(), inner.trim_start_matches('.'));
+        if !matches!(table.rows.last(), Some(cells) if cells.first() == Some(&Cell::Text(row.clone()))) {
+            table.row(vec![row.into(), "".into()]);
+        }
+        if let Some(Cell::Text(text)) =
+            table.rows.last_mut().and_then(|cells| cells.get_mut(1)).filter(|_| inner != "name")
+        {
+            let between = if text.is_empty() { "" } else { "; " };
+            text.push_str(&format!("{between}{inner} {value}"));
+        }
+    }
+    tables
+}
+
+/// A unit with its powers raised.
+fn power(unit: &str) -> String {
+    unit.replace("^2", "²").replace("^3", "³")
+}
+
+/// A key of a scene in words, its unit behind a comma.
+fn words_of_key(key: &str) -> String {
+    let endings = ["_nm_per_rad", "_kg_m2", "_nm", "_rpm", "_hz", "_s"];
+    let name = endings.iter().find_map(|end| key.strip_suffix(end));
+    match (name, unit_of_key(key).filter(|unit| !unit.is_empty())) {
+        (Some(name), Some(unit)) => format!("{}, {}", name.replace('_', " "), power(unit)),
+        _ => key.replace('_', " "),
+    }
+}
+
+/// A row for each scene, a column for each key that one of them has.
+fn scene_table(inputs: &[&Input]) -> Table {
+    let mut table = Table::new(vec![Column::text("name", "scene")]);
+    for input in inputs {
+        let Some((name, key)) = input.path.trim_start_matches("scenarios[").split_once("].") else {
+            continue;
+        };
+        if key == "name" {
+            table.row(vec![name.into()]);
+            continue;
+        }
+        let at = table.columns.iter().position(|c| c.key == key).unwrap_or_else(|| {
+            table.columns.push(Column::text(key, &words_of_key(key)));
+            table.columns.len() - 1
+        });
+        if !table.rows.iter().any(|cells| cells.first() == Some(&Cell::Text(name.to_owned()))) {
+            table.row(vec![name.into()]);
+        }
+        if let Some(cells) =
+            table.rows.iter_mut().find(|cells| cells.first() == Some(&Cell::Text(name.to_owned())))
+        {
+            while cells.len() <= at {
+                cells.push(Cell::Empty);
+            }
+            cells[at] = input.text.as_str().into();
+        }
+    }
+    table
+}
+
+/// A plot at the size it has beside another on a page, so that its letters keep theirs.
+pub fn half(plot: Plot) -> String {
+    plot.sized(500.0, 320.0).to_svg()
+}

@@ -1,0 +1,164 @@
+//! A search and its files: text, JSON, page.
+
+use super::{Hints, SearchAnswer, Story};
+use crate::answer::page::{begun, draw, draw_sheet, drawing, pose_at_rest};
+use crate::answer::{Envelope, Provenance, TOOL};
+use crate::design::{Design, shown};
+use crate::optimise::Iteration;
+use crate::report::{Curve, Dash, Page, Plot, Screen};
+use crate::wedge::WedgeCurve;
+use serde_json::{Value, json};
+
+/// A search and where its design went.
+#[derive(Debug, Clone)]
+pub struct SearchReport<'a> {
+    /// The design searched from.
+    pub design: &'a Design,
+    /// Everything found.
+    pub answer: &'a SearchAnswer,
+    /// Where the new design was written, if it was.
+    pub written: Option<String>,
+    /// Further designs written beside it.
+    pub beside: Vec<String>,
+    /// The journal, where it was kept.
+    pub journal: Option<String>,
+    /// How it came about.
+    pub provenance: Provenance,
+    /// What its reader can do about an end.
+    pub hints: Hints,
+}
+
+impl SearchReport<'_> {
+    fn story(&self) -> &Story {
+        &self.answer.story
+    }
+
+    /// The answer in the terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        let story = self.story();
+        let mut out = format!(
+            "{}\n\nVariables\n{}",
+            story.verdict(&self.hints),
+            story.variable_table().to_text(screen)
+        );
+        out += &story.moved_inside().iter().map(|line| format!("{line}\n")).collect::<String>();
+        out += &format!("\nMargins\n{}", story.margin_table().to_text(screen));
+        out += &format!(
+            "\nInfluence at the start: change of each margin over the whole range of a variable\n{}",
+            story.influence_table().to_text(screen)
+        );
+        out += &format!("\nActive: {}\n", story.active().join(", "));
+        for part in story.parts(&self.hints) {
+            out += &format!("\n{}\n", part.heading);
+            out += &part.lines.iter().map(|l| format!("- {l}\n")).collect::<String>();
+            for (caption, table) in &part.tables {
+                out += &format!("{caption}\n{}", table.to_text(screen));
+            }
+        }
+        out += &format!("{}\n", story.in_full());
+        out += &match &self.written {
+            Some(path) => format!("Written: {}\n", shown(path)),
+            None => "No design written.\n".to_owned(),
+        };
+        out += &self.beside.iter().map(|p| format!("Written: {}\n", shown(p))).collect::<String>();
+        out
+    }
+
+    /// The answer for programs: that of the library, and the files.
+    pub fn envelope(&self) -> Envelope<'_, Value> {
+        // Numbers that are none become null; the object holds nothing else that has no JSON form.
+        let mut body = serde_json::to_value(&self.answer.body).unwrap_or_default();
+        if let Some(map) = body.as_object_mut() {
+            map.insert("written_to".into(), json!(self.written));
+            map.insert("written_beside".into(), json!(self.beside));
+            map.insert("journal".into(), json!(self.journal));
+        }
+        Envelope {
+            design: self.design,
+            run_time_s: self.provenance.run_time_s,
+            left_out: self.answer.left_out.clone(),
+            error_estimate: Some(json!(self.answer.body.objective_error)),
+            body,
+        }
+    }
+
+    /// The page.
+    pub fn page(&self) -> Page {
+        let story = self.story();
+        let mut page = begun("Optimisation", self.design, &self.provenance.command);
+        page.verdict(
+            story.feasible() && story.makeable() && story.not_robust().is_none(),
+            &story.verdict(&self.hints),
+        );
+        if let Some(path) = &self.written {
+            page.paragraph(&format!("New design: {path}"));
+        }
+        self.before_and_after(&mut page);
+        page.heading("Variables").table("Before and after, with their bounds", &story.variable_table());
+        story.moved_inside().iter().for_each(|line| {
+            page.paragraph(line);
+        });
+        page.heading("Margins");
+        page.table(
+            "Margins before and after; those of the objective are raised, all others are limits",
+            &story.margin_table(),
+        );
+        page.paragraph(&format!("Active at the optimum: {}.", story.active().join(", ")));
+        page.paragraph(&story.in_full());
+        for part in story.parts(&self.hints) {
+            page.heading(part.heading);
+            for line in &part.lines {
+                page.paragraph(line);
+            }
+            for (svg, caption) in &part.plots {
+                page.figure(svg, caption);
+            }
+            for (caption, table) in &part.tables {
+                page.table(caption, table);
+            }
+        }
+        page.heading("How it was found");
+        let history = &story.found.outcome.history;
+        let path = |pick: fn(&Iteration) -> f64| -> Vec<[f64; 2]> {
+            history.iter().map(|it| [it.evaluations as f64, pick(it)]).collect()
+        };
+        let plot = Plot::new("Evaluations of the clutch", "Margin")
+            .curve("least scaled objective", path(|it| it.least_margin))
+            .curve("worst violation of a limit", path(|it| it.violation));
+        page.figure(&plot.to_svg(), "Path of the search; a violated limit is paid first.");
+        page.table(
+            "Influence at the start: change of each margin over the whole range of each variable",
+            &story.influence_table(),
+        );
+        self.envelope().close(&mut page);
+        page
+    }
+
+    /// Profiles before and after, to scale, one over the other.
+    fn before_and_after(&self, page: &mut Page) {
+        let Ok(after) = self.answer.design(self.design, "optimum") else { return };
+        let (Ok(p), Ok(q)) = (self.design.clutch.profile(), after.clutch.profile()) else {
+            return;
+        };
+        draw_sheet(page, &after, &q);
+        let poses = vec![pose_at_rest("after", &after, &q), pose_at_rest("before", self.design, &p)];
+        draw(page, &drawing(&after, poses));
+        let depth = |design: &Design, profile| {
+            WedgeCurve::build(&design.clutch, profile, 0.0).ok().map(|curve| {
+                let end = curve.end_torque_nm();
+                let most = design.limits.peak_torque_nm.map_or(end, |t| t.min(end));
+                (1..=120)
+                    .filter_map(|i| curve.at_torque(most * f64::from(i) / 120.0))
+                    .map(|s| [s.torque_nm, s.tan_omega])
+                    .collect::<Vec<_>>()
+            })
+        };
+        let mut plot = Plot::new("Torque, Nm", "tan ω, inner contact");
+        // Before is dashed in every picture.
+        let before = depth(self.design, &p).map(|points| Curve::new("before", points).coloured(1));
+        plot.curves.extend(before.map(|curve| Curve { dash: Dash::Dashed, ..curve }));
+        plot.curves.extend(depth(&after, &q).map(|points| Curve::new("after", points).coloured(0)));
+        let plot = plot.level(self.design.clutch.friction.static_, "\u{3bc}s");
+        page.figure(&plot.to_svg(), &format!("Static friction demand at the inner contact ({TOOL})."));
+    }
+}

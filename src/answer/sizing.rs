@@ -1,0 +1,206 @@
+//! What a first design answers: the design, its figures, and the alternatives.
+
+use super::check::{REACHED_AT, ends_first, margin_words, people_table, size_line};
+use super::left_out::left_out;
+use super::page::{begun, draw_sheet};
+use super::{Envelope, Provenance};
+use crate::design::shown;
+use crate::margin::{Margin, load_state};
+use crate::report::{Cell, Column, Drawing, Page, Screen, SpragPose, Table, Unit};
+use crate::size::{Made, Sized, Tried};
+use serde_json::{Value, json};
+
+/// A first design, with every race space that was tried.
+#[derive(Debug, Clone, Copy)]
+pub struct Sizing<'a> {
+    sized: &'a Sized,
+    /// End of the curve, N m.
+    end_nm: f64,
+}
+
+impl<'a> Sizing<'a> {
+    /// Of what was found.
+    pub fn of(sized: &'a Sized) -> Self {
+        // Of a design whose margins are known there is a curve.
+        let end_nm =
+            load_state(&sized.made.design).map_or(f64::INFINITY, |state| state.curve.end_torque_nm());
+        Self { sized, end_nm }
+    }
+
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s; `written`: where the design is.
+    pub fn envelope(&self, run_time_s: f64, written: Option<&str>) -> Envelope<'a, Value> {
+        let (sized, made) = (self.sized, &self.sized.made);
+        let design = &made.design;
+        let body = json!({
+            "sized": true,
+            "written": written,
+            "outside_mm": Unit::Millimetre.from_si(2.0 * design.clutch.races.outer_outside_radius_m),
+            "width_mm": Unit::Millimetre.from_si(design.clutch.races.width_m),
+            "mass_g": Unit::Gram.from_si(made.mass_kg),
+            "drag_torque_nm": made.drag.map(|d| d.torque_nm),
+            "heat_w": made.drag.map(|d| d.heat_w()),
+            "sliding_rpm": made.drag.map(|d| Unit::Rpm.from_si(d.sliding_rad_s)),
+            "tried": tried_json(&sized.tried, Some(sized.taken)),
+            "margins": made.margins.iter().map(|r| margin_json(r, self.end_nm)).collect::<Vec<_>>(),
+        });
+        Envelope { design, run_time_s, left_out: left_out(&design.clutch), error_estimate: None, body }
+    }
+
+    /// Every race space tried.
+    pub fn csv_table(&self) -> Table {
+        tried_table(&self.sized.tried, Some(self.sized.taken))
+    }
+
+    /// The answer on a terminal; `written`: where the design is.
+    pub fn text(&self, written: Option<&str>, screen: Screen) -> String {
+        text(self.sized, self.end_nm, written, screen)
+    }
+
+    /// The answer as a page under `title`.
+    pub fn page(&self, title: &str, provenance: &Provenance, written: Option<&str>) -> Page {
+        let (sized, made) = (self.sized, &self.sized.made);
+        let design = &made.design;
+        let mut page = begun(title, design, &provenance.command);
+        page.verdict(true, &verdict(sized));
+        page.list(figures(made));
+        if let Ok(profile) = design.clutch.profile() {
+            draw_sheet(&mut page, design, &profile);
+        }
+        page.heading("Alternatives").paragraph(
+            "Every race space tried, each as short as its limits allow; the smallest ring is taken. All at one scale.",
+        );
+        alternatives(&mut page, sized);
+        page.table("", &self.csv_table());
+        page.heading("Margins").table(REACHED_AT, &people_table(&made.margins, self.end_nm));
+        self.envelope(provenance.run_time_s, written).close(&mut page);
+        page
+    }
+}
+
+/// Size, mass, drag and heat, a line each.
+fn figures(made: &Made) -> Vec<String> {
+    let size = size_line(&made.design);
+    let drag = made.drag.map(|d| match (d.torque_nm > 0.0, d.sliding_rad_s > 0.0) {
+        (false, _) => "In overrun as asked for the sprags are off: no drag, no heat".to_owned(),
+        (true, false) => format!("Drag in slow overrun {}", Unit::NewtonMetre.show(d.torque_nm, 3)),
+        (true, true) => format!(
+            "In overrun, sliding at {}: drag {}, heat {}",
+            Unit::Rpm.show_plain(d.sliding_rad_s, 5),
+            Unit::NewtonMetre.show(d.torque_nm, 3),
+            Unit::Watt.show(d.heat_w(), 3)
+        ),
+    });
+    std::iter::once(size).chain(drag).collect()
+}
+
+fn verdict(sized: &Sized) -> String {
+    let s = &sized.made.design.clutch.sprags;
+    let decides = sized.made.least();
+    format!(
+        "{} sprags of {} in a race space of {}; {}",
+        s.count,
+        Unit::Millimetre.show_plain(s.length_m, 4),
+        Unit::Millimetre.show_plain(sized.tried[sized.taken].space_m, 4),
+        decides.map_or(String::new(), |r| format!("{} decides, {}", r.code(), margin_words(r)))
+    )
+}
+
+/// A small drawing of each that does it.
+fn alternatives(page: &mut Page, sized: &Sized) {
+    let made: Vec<(usize, &Tried, &Made)> =
+        sized.tried.iter().enumerate().filter_map(|(i, t)| Some((i, t, t.made.as_ref()?))).collect();
+    let widest =
+        made.iter().map(|(_, _, m)| m.design.clutch.races.outer_outside_radius_m).fold(0.0, f64::max);
+    let drawn = |(i, tried, made): &(usize, &Tried, &Made)| {
+        let clutch = &made.design.clutch;
+        let profile = clutch.profile().ok()?;
+        let pose = SpragPose::at_rest("first contact", &clutch.sprags, &profile);
+        let word = if *i == sized.taken { "Taken: race" } else { "Race" };
+        let caption = format!(
+            "{word} space {}, {} sprags; {}",
+            Unit::Millimetre.show_plain(tried.space_m, 4),
+            tried.count,
+            figures(made).join(". ")
+        );
+        Some((Drawing::of(clutch, vec![pose]).small_svg(widest), caption))
+    };
+    let drawn: Vec<(String, String)> = made.iter().filter_map(drawn).collect();
+    let figures: Vec<(String, &str)> = drawn.iter().map(|(svg, c)| (svg.clone(), c.as_str())).collect();
+    page.figures(&figures);
+}
+
+fn text(sized: &Sized, end_nm: f64, written: Option<&str>, screen: Screen) -> String {
+    let design = &sized.made.design;
+    format!(
+        "{}  {}\n\n{}\n{}\n{}\n{}\n{REACHED_AT}\n{}\n",
+        design.name,
+        design.hash.get(..12).unwrap_or(&design.hash),
+        tried_table(&sized.tried, Some(sized.taken)).to_text(screen),
+        people_table(&sized.made.margins, end_nm).to_text(screen),
+        verdict(sized),
+        figures(&sized.made).join("\n"),
+        written.map_or("no design written".to_owned(), |path| format!("written to {}", shown(path)))
+    )
+}
+
+/// Every race space tried; `taken`: the one of the answer.
+pub fn tried_table(tried: &[Tried], taken: Option<usize>) -> Table {
+    let mut table = Table::new(vec![
+        Column::number("race_space_mm", "Race space", Unit::Millimetre, 4),
+        Column::number("count", "Sprags", Unit::One, 3),
+        Column::number("length_mm", "Length", Unit::Millimetre, 4),
+        Column::number("outside_mm", "⌀", Unit::Millimetre, 4),
+        Column::number("mass_g", "Mass", Unit::Gram, 4),
+        Column::number("carries_nm", "Carries", Unit::NewtonMetre, 4),
+        Column::text("decided_by", "Decided by"),
+        Column::text("verdict", ""),
+    ]);
+    for (i, t) in tried.iter().enumerate() {
+        let word = if taken == Some(i) {
+            "taken"
+        } else if t.held {
+            "possible"
+        } else {
+            "NOT POSSIBLE"
+        };
+        let of = |value: fn(&Made) -> f64| t.made.as_ref().map_or(Cell::Empty, |made| Cell::Si(value(made)));
+        table.row(vec![
+            t.space_m.into(),
+            t.count.into(),
+            // Of what finds no room there is no length.
+            if t.carries_nm > 0.0 { t.length_m.into() } else { Cell::Empty },
+            of(|made| 2.0 * made.design.clutch.races.outer_outside_radius_m),
+            of(|made| made.mass_kg),
+            if t.carries_nm > 0.0 { t.carries_nm.into() } else { Cell::Empty },
+            t.decided_by.as_str().into(),
+            Cell::Verdict(t.held, word.to_owned()),
+        ]);
+    }
+    table
+}
+
+/// The same as JSON.
+pub fn tried_json(tried: &[Tried], taken: Option<usize>) -> Vec<Value> {
+    tried
+        .iter()
+        .enumerate()
+        .map(|(i, t)| {
+            let of = |value: fn(&Made) -> f64| t.made.as_ref().map(value);
+            json!({
+                "race_space_mm": Unit::Millimetre.from_si(t.space_m), "count": t.count,
+                "length_mm": Unit::Millimetre.from_si(t.length_m), "carries_nm": t.carries_nm,
+                "outside_mm": of(|m| 2e3 * m.design.clutch.races.outer_outside_radius_m),
+                "width_mm": of(|m| 1e3 * m.design.clutch.races.width_m), "mass_g": of(|m| 1e3 * m.mass_kg),
+                "decided_by": t.decided_by, "possible": t.held, "taken": taken == Some(i),
+            })
+        })
+        .collect()
+}
+
+fn margin_json(r: &Margin, end_nm: f64) -> Value {
+    json!({
+        "code": r.code(), "demand": r.demand_in_unit(), "allowable": r.shown_allowable(), "unit": r.limit.unit,
+        "margin": r.margin(), "slip_margin": r.slip_margin(),
+        "torque_capacity_nm": r.torque_capacity_nm, "capacity_beyond_end": ends_first(r, end_nm), "held": r.held(),
+    })
+}

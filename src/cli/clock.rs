@@ -1,0 +1,77 @@
+//! How far a simulation is, on standard error while it runs.
+
+use crate::cli::Context;
+use crate::follow::Told;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// How often the line is renewed.
+const RENEWED: Duration = Duration::from_millis(200);
+
+/// Ends the thread that looks at the clock, also where the work panics.
+struct Ended<'a>(&'a AtomicBool);
+
+impl Drop for Ended<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Do `work`, whose runs are `duration_s` long (s) and tell `context.follow` how far they are.
+pub(super) fn while_told<T>(
+    what: &str,
+    duration_s: Option<f64>,
+    context: &Context,
+    work: impl FnOnce() -> T,
+) -> T {
+    let Some(duration_s) = duration_s else { return work() };
+    let milliseconds = |t_s: f64| (t_s * 1e3).ceil() as u64;
+    let progress = context.progress(what, "ms simulated", Some(milliseconds(duration_s).max(1)));
+    let ended = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let watcher = scope.spawn(|| {
+            while !ended.load(Ordering::Relaxed) {
+                std::thread::park_timeout(RENEWED);
+                if let Some(told) = context.follow.told() {
+                    progress.describe(&words(what, &told));
+                    progress.set(milliseconds(told.t_s));
+                }
+            }
+        });
+        let found = {
+            let _ended = Ended(&ended);
+            work()
+        };
+        watcher.thread().unpark();
+        found
+    })
+}
+
+/// Which run it is.
+fn words(what: &str, told: &Told) -> String {
+    format!("{what}: pass {} (steps to {:.0e}), run {}", told.pass, told.tolerance, told.run)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use crate::follow::Follow;
+    use crate::scenario::{Settings, simulate};
+
+    #[test]
+    fn the_clock_tells_which_run_and_how_far() {
+        let design =
+            Design::parse(include_str!("../../designs/huang2017-multi-arc.toml"), "multi-arc").unwrap();
+        let settings = Settings { follow: Follow::new(), ..Settings::default() };
+        assert_eq!(settings.follow.told(), None, "nothing has begun");
+        simulate(design.scenario("low-6").unwrap(), &settings).unwrap();
+        let told = settings.follow.told().unwrap();
+        assert!(
+            told.t_s > 0.29 && told.t_s <= 0.3 && told.pass >= 3 && told.run >= 1 && told.tolerance < 1e-5,
+            "{told:?}"
+        );
+        let said = words("low-6", &Told { t_s: 0.1, run: 2, pass: 3, tolerance: 1e-6 });
+        assert_eq!(said, "low-6: pass 3 (steps to 1e-6), run 2");
+    }
+}
