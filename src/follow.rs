@@ -1,6 +1,6 @@
 //! One handle by which a computation is followed and stopped from outside, also from another thread.
 //!
-//! In: a wish to stop. Out: [`Follow`], given to whatever computes; [`Told`], how far a simulation is.
+//! In: a wish to stop. Out: [`Follow`], given to whatever computes; [`RunProgress`], how far a simulation is.
 //! Absent: what is computed, signals, printing. Equations: none.
 
 use std::sync::Arc;
@@ -28,9 +28,9 @@ pub struct Follow {
     clock: Option<Arc<Clock>>,
 }
 
-/// What a [`Follow`] shows.
+/// How far a simulation is, as a [`Follow`] shows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Told {
+pub struct RunProgress {
     /// Time that the present run has reached, s.
     pub t_s: f64,
     /// Number of the present run within its pass, from 1: the scene, then those that tell what it demands.
@@ -79,16 +79,16 @@ impl Follow {
     }
 
     /// How far the simulation is; `None` where nobody is told, or before it has begun.
-    pub fn told(&self) -> Option<Told> {
+    pub fn progress(&self) -> Option<RunProgress> {
         let clock = self.clock.as_ref()?;
         let number = |bits: &AtomicU64| f64::from_bits(bits.load(Ordering::Relaxed));
-        let told = Told {
+        let progress = RunProgress {
             t_s: number(&clock.t_s),
             run: clock.runs.load(Ordering::Relaxed),
             pass: clock.pass.load(Ordering::Relaxed),
             tolerance: number(&clock.tolerance),
         };
-        (told.pass > 0).then_some(told)
+        (progress.pass > 0).then_some(progress)
     }
 
     /// A pass at `tolerance` begins; the `first` of a simulation or one more.

@@ -3,7 +3,7 @@
 use serde_json::Value;
 use sprag_design::answer::check::NoCheck;
 use sprag_design::answer::simulation::{Integration, NoAnswer, Setting, SimulationSettings, Values};
-use sprag_design::answer::{search, stiffness};
+use sprag_design::answer::{Provenance, search, stiffness};
 use sprag_design::{Design, Follow, NoSearch, cli};
 use std::path::Path;
 use std::process::Command;
@@ -53,6 +53,33 @@ fn the_command_says_what_the_library_answers() {
             }
         }
     }
+}
+
+/// Text without what a run does not repeat.
+fn without_run_time(page: &str) -> String {
+    let parts = page.split("run_time_s").enumerate();
+    parts
+        .map(|(i, part)| if i == 0 { part } else { part.split_once(',').map_or(part, |(_, rest)| rest) })
+        .collect()
+}
+
+/// The page of a check, byte for byte but for the time that it took.
+#[test]
+fn the_page_of_the_library_is_that_of_the_command() {
+    let file = std::env::temp_dir().join(format!("sprag-answer-{}.html", std::process::id()));
+    let output = Command::new(env!("CARGO_BIN_EXE_sprag-design"))
+        .args(["check", BENCH, "--quiet", "--report"])
+        .arg(&file)
+        .output()
+        .expect("command");
+    assert!(output.status.code().is_some_and(|code| code < 2), "{output:?}");
+    let printed = std::fs::read_to_string(&file).expect("page");
+    std::fs::remove_file(&file).expect("page");
+    let command = format!("sprag-design check {BENCH} --quiet --report {}", file.display());
+    let answer = bench().check(&Follow::nobody()).unwrap_or_else(|e| panic!("{e}"));
+    let page = answer.page(&bench(), &Provenance { command, run_time_s: 0.25 }).to_html();
+    assert!(page.contains(&answer.body.verdict()) && page.contains("0.25"));
+    assert!(without_run_time(&page) == without_run_time(&printed), "the pages differ");
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn a_drawing_comes_back_as_the_sprag_that_was_drawn() {
     for name in ["starter", "huang2017-single-arc"] {
         let design = Design::read(format!("designs/{name}.toml").as_ref()).unwrap();
         let drawn = read_dxf(&drawing(&design), None).unwrap();
-        assert!(drawn.said.is_empty());
+        assert!(drawn.remarks.is_empty());
         let got = sprag(&drawn, &wanted(&design)).unwrap();
         assert!(!got.mirrored && got.behind == 0 && got.inner.max_m < 1e-10, "{got:?}");
         same(&got, &design, 1.0, 2e-8);
@@ -277,10 +277,10 @@ fn inches_are_converted_and_arcs_that_are_not_tangent_refused() {
     let points: Vec<Point> = measured(&outline(&design), 400).iter().map(|p| p / 25.4).collect();
     let text = polyline(&points).replace("$INSUNITS\n 70\n4", "$INSUNITS\n 70\n1");
     let drawn = read_dxf(&text, None).unwrap();
-    assert!(drawn.said.iter().any(|s| s.contains("inches")));
+    assert!(drawn.remarks.iter().any(|s| s.contains("inches")));
     same(&sprag(&drawn, &wanted(&design)).unwrap(), &design, 1.0, 2e-8);
     let unsaid = read_dxf(&text.replace("$INSUNITS", "$OTHER"), None).unwrap();
-    assert!(unsaid.said.iter().any(|s| s.contains("taken for millimetres")));
+    assert!(unsaid.remarks.iter().any(|s| s.contains("taken for millimetres")));
     let inch = read_points(&table(&points).replace("x_mm,y_mm", "x_in,y_in")).unwrap();
     same(&sprag(&inch, &wanted(&design)).unwrap(), &design, 1.0, 2e-8);
 

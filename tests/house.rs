@@ -116,7 +116,7 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/optimise/realise.rs", "unknowns near 1, flanks in mm, and the file's keys for them"),
     ("src/identify/observation.rs", "the columns of a file of observations"),
     ("src/identify/predict.rs", "predictions in the units of those columns"),
-    ("src/size/ask.rs", "words and ranges of a question, as it is typed"),
+    ("src/size/requirements.rs", "words and ranges of a question, as it is typed"),
     ("src/size/finish.rs", "words of the new file"),
     ("src/size/search.rs", "words of what was tried"),
     ("src/size/purpose.rs", "what is taken of a drive where nobody says: numbers and keys of the new file"),

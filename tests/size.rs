@@ -28,7 +28,7 @@ fn ask(bore_mm: f64, torque_nm: f64, rpm: f64, safety: f64, friction: f64) -> Re
         friction: Some(friction),
         ..wish(bore_mm, torque_nm)
     }
-    .ask()
+    .requirements()
 }
 
 fn sized(ask: &Requirements) -> Result<Sized, NoSize> {
@@ -196,21 +196,21 @@ fn the_command_writes_a_file_for_check_and_its_exit_codes_say_how_it_went() {
 fn what_an_engineer_asks_for_is_kept_or_named_as_what_prevents_it() {
     let most = [0.105, 0.025];
     let asked = Wish { outside_m: Some(most[0]), width_m: Some(most[1]), ..wish(40.0, 600.0) };
-    let sized_small = sized(&asked.ask()).unwrap();
+    let sized_small = sized(&asked.requirements()).unwrap();
     for made in sized_small.tried.iter().filter_map(|t| t.made.as_ref()) {
         let r = made.design.clutch.races;
         assert!(2.0 * r.outer_outside_radius_m <= most[0] + 1e-9 && r.width_m <= most[1] + 1e-9, "{r:?}");
     }
-    let Err(NoSize::None { tried }) = sized(&Wish { outside_m: Some(0.06), ..asked }.ask()) else {
+    let Err(NoSize::None { tried }) = sized(&Wish { outside_m: Some(0.06), ..asked }.requirements()) else {
         panic!("60 mm about a bore of 40")
     };
     assert!(tried.iter().any(|t| t.decided_by == "outside"), "{tried:?}");
     // A peak alone is a nominal torque by the factor.
-    let peak = Wish { torque_nm: None, peak_nm: Some(780.0), ..asked }.ask();
+    let peak = Wish { torque_nm: None, peak_nm: Some(780.0), ..asked }.requirements();
     assert!((peak.torque_nm - 600.0).abs() < 1e-9);
     // A softer steel is held at peak torque as `from_material` says, and asks for more.
-    let soft = sized(&Wish { steel: steel("20MnCr5"), ..wish(40.0, 600.0) }.ask()).unwrap();
-    let hard = sized(&wish(40.0, 600.0).ask()).unwrap();
+    let soft = sized(&Wish { steel: steel("20MnCr5"), ..wish(40.0, 600.0) }.requirements()).unwrap();
+    let hard = sized(&wish(40.0, 600.0).requirements()).unwrap();
     assert_eq!(soft.made.design.limits.hoop_inner_pa, Some(600e6));
     assert!(soft.made.mass_kg > hard.made.mass_kg);
     // Drag is the spring's, and its heat at the sliding speed.
@@ -227,7 +227,7 @@ fn sprags_that_are_to_lift_off_are_off_by_that_speed_and_on_below() {
         outer_rad_s: Some(rad_s(900.0)),
         ..wish(40.0, 500.0)
     };
-    let made = sized(&ask.ask()).unwrap().made;
+    let made = sized(&ask.requirements()).unwrap().made;
     let state = load_state(&made.design).unwrap();
     let off = sprag_design::margin::lift_off_rad_s(&made.design, &state, rad_s(2000.0)).unwrap();
     assert!(rad_s(250.0) < off && off < rad_s(900.0), "{off}");

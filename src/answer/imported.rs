@@ -45,7 +45,7 @@ impl Imported<'_> {
     /// What the reader of the numbers should know, a line each.
     pub fn remarks(&self) -> Vec<String> {
         let found = self.found;
-        let mut lines = self.drawn.said.clone();
+        let mut lines = self.drawn.remarks.clone();
         if self.no_template {
             lines.push(format!(
                 "no --template: races, count, spring, friction and limits are those of {}",

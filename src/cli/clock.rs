@@ -1,7 +1,7 @@
 //! How far a simulation is, on standard error while it runs.
 
 use crate::cli::Context;
-use crate::follow::Told;
+use crate::follow::RunProgress;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -18,7 +18,7 @@ impl Drop for Ended<'_> {
 }
 
 /// Do `work`, whose runs are `duration_s` long (s) and tell `context.follow` how far they are.
-pub(super) fn while_told<T>(
+pub(super) fn while_shown<T>(
     what: &str,
     duration_s: Option<f64>,
     context: &Context,
@@ -32,9 +32,9 @@ pub(super) fn while_told<T>(
         let watcher = scope.spawn(|| {
             while !ended.load(Ordering::Relaxed) {
                 std::thread::park_timeout(RENEWED);
-                if let Some(told) = context.follow.told() {
-                    progress.describe(&words(what, &told));
-                    progress.set(milliseconds(told.t_s));
+                if let Some(run) = context.follow.progress() {
+                    progress.describe(&words(what, &run));
+                    progress.set(milliseconds(run.t_s));
                 }
             }
         });
@@ -48,8 +48,8 @@ pub(super) fn while_told<T>(
 }
 
 /// Which run it is.
-fn words(what: &str, told: &Told) -> String {
-    format!("{what}: pass {} (steps to {:.0e}), run {}", told.pass, told.tolerance, told.run)
+fn words(what: &str, run: &RunProgress) -> String {
+    format!("{what}: pass {} (steps to {:.0e}), run {}", run.pass, run.tolerance, run.run)
 }
 
 #[cfg(test)]
@@ -64,14 +64,14 @@ mod tests {
         let design =
             Design::parse(include_str!("../../designs/huang2017-multi-arc.toml"), "multi-arc").unwrap();
         let settings = Settings { follow: Follow::new(), ..Settings::default() };
-        assert_eq!(settings.follow.told(), None, "nothing has begun");
+        assert_eq!(settings.follow.progress(), None, "nothing has begun");
         simulate(design.scenario("low-6").unwrap(), &settings).unwrap();
-        let told = settings.follow.told().unwrap();
+        let run = settings.follow.progress().unwrap();
         assert!(
-            told.t_s > 0.29 && told.t_s <= 0.3 && told.pass >= 3 && told.run >= 1 && told.tolerance < 1e-5,
-            "{told:?}"
+            run.t_s > 0.29 && run.t_s <= 0.3 && run.pass >= 3 && run.run >= 1 && run.tolerance < 1e-5,
+            "{run:?}"
         );
-        let said = words("low-6", &Told { t_s: 0.1, run: 2, pass: 3, tolerance: 1e-6 });
-        assert_eq!(said, "low-6: pass 3 (steps to 1e-6), run 2");
+        let text = words("low-6", &RunProgress { t_s: 0.1, run: 2, pass: 3, tolerance: 1e-6 });
+        assert_eq!(text, "low-6: pass 3 (steps to 1e-6), run 2");
     }
 }

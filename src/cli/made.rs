@@ -15,10 +15,10 @@ use std::time::Instant;
 ///
 /// # Errors
 /// [`Failure`].
-pub fn answer(ask: &Requirements, output: &Path, title: &str, context: &Context) -> Result<Exit, Failure> {
+pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Context) -> Result<Exit, Failure> {
     let started = Instant::now();
     let settings = Settings { follow: context.follow.unseen(), ..Settings::default() };
-    let sized = size(ask, &settings);
+    let sized = size(wanted, &settings);
     let run_time_s = started.elapsed().as_secs_f64();
     if context.follow.stopped() {
         return Err(Failure::Interrupted);

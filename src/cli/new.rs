@@ -66,8 +66,8 @@ pub fn run(args: &NewArgs, context: &Context) -> Result<Exit, Failure> {
     args.wish.check_safety()?;
     let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
     may_write(&output, context)?;
-    let exit = made::answer(&args.ask(), &output, "New clutch", context)?;
-    let taken = args.ask().taken();
+    let exit = made::answer(&args.requirements(), &output, "New clutch", context)?;
+    let taken = args.requirements().taken();
     if !taken.is_empty() {
         let lines: String =
             taken.iter().map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n")).collect();
@@ -102,8 +102,8 @@ impl NewArgs {
         self.purpose.as_deref().and_then(purpose)
     }
 
-    fn ask(&self) -> Requirements {
-        Wish { purpose: self.purpose(), engagements: self.engagements, ..self.wish.wish() }.ask()
+    fn requirements(&self) -> Requirements {
+        Wish { purpose: self.purpose(), engagements: self.engagements, ..self.wish.wish() }.requirements()
     }
 }
 
@@ -153,7 +153,7 @@ const NUMBERS: [Number; 11] = [
         question: "Peak torque, at the worst, Nm",
         what: "peak",
         at: |a| &mut a.wish.peak,
-        without: |ask| Some(ask.peak_nm).filter(|t| t.is_finite()),
+        without: |wanted| Some(wanted.peak_nm).filter(|t| t.is_finite()),
         needed: true,
     },
     Number {
@@ -174,35 +174,35 @@ const NUMBERS: [Number; 11] = [
         question: "Speed of the inner race in overrun, rpm",
         what: "inner-rpm",
         at: |a| &mut a.wish.inner,
-        without: |ask| Some(rpm(ask.overrun_rad_s[0])),
+        without: |wanted| Some(rpm(wanted.overrun_rad_s[0])),
         needed: false,
     },
     Number {
         question: "Speed of the outer race in overrun, in the same sense, rpm",
         what: "outer-rpm",
         at: |a| &mut a.wish.outer,
-        without: |ask| Some(rpm(ask.overrun_rad_s[1])),
+        without: |wanted| Some(rpm(wanted.overrun_rad_s[1])),
         needed: false,
     },
     Number {
         question: "Sprags keep contact up to this speed of the outer race, rpm (0: not asked)",
         what: "keep-contact-rpm",
         at: |a| &mut a.wish.keep_contact,
-        without: |ask| Some(rpm(ask.keep_contact_rad_s.unwrap_or(0.0))),
+        without: |wanted| Some(rpm(wanted.keep_contact_rad_s.unwrap_or(0.0))),
         needed: false,
     },
     Number {
         question: "Sprags are off by this speed of the outer race, rpm (0: they stay on)",
         what: "lift-off-rpm",
         at: |a| &mut a.wish.lift_off,
-        without: |ask| Some(rpm(ask.lift_off_rad_s.unwrap_or(0.0))),
+        without: |wanted| Some(rpm(wanted.lift_off_rad_s.unwrap_or(0.0))),
         needed: false,
     },
     Number {
         question: "Static friction",
         what: "friction",
         at: |a| &mut a.wish.friction,
-        without: |ask| Some(ask.friction),
+        without: |wanted| Some(wanted.friction),
         needed: false,
     },
     Number {
@@ -239,7 +239,7 @@ impl Questions<'_> {
         }
         if args.wish.material.is_none() {
             let names = STEELS.map(|s| s.name).join(", ");
-            let question = format!("Steel: {names} [{}]", args.ask().steel.name);
+            let question = format!("Steel: {names} [{}]", args.requirements().steel.name);
             args.wish.material = self.until(&question, |line| match line {
                 "" => Ok(None),
                 name => a_steel(name).map(Some),
@@ -255,7 +255,7 @@ impl Questions<'_> {
     }
 
     fn number(&self, number: &Number, args: &NewArgs) -> Result<Option<f64>, Failure> {
-        let without = (number.without)(&args.ask());
+        let without = (number.without)(&args.requirements());
         let shown = match (without, number.needed) {
             (Some(value), _) => format!(" [{}]", plain(value, 6)),
             (None, true) => String::new(),
@@ -267,13 +267,13 @@ impl Questions<'_> {
                     return Err("a number is needed".to_owned());
                 }
                 // What came before may leave no room for what stands in brackets.
-                let fits = without.map_or(Ok(()), |_| args.ask().check_one(number.what));
+                let fits = without.map_or(Ok(()), |_| args.requirements().check_one(number.what));
                 return fits.map(|()| None).map_err(|why| why.to_string());
             }
             let value = line.replace(',', ".").parse::<f64>().map_err(|_| "not a number".to_owned())?;
             let mut with = args.clone();
             *(number.at)(&mut with) = Some(value);
-            let checked = with.ask().check_one(number.what);
+            let checked = with.requirements().check_one(number.what);
             checked.map(|()| Some(value)).map_err(|why| why.to_string())
         })
     }

@@ -136,12 +136,12 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     let beside = beside(&new, args);
     let others: Vec<_> = beside.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
     context.outputs.check(&[&args.file], &others)?;
-    let (model, said) = (journal::model(), design.content_hash());
+    let (model, content) = (journal::model(), design.content_hash());
     let file = match (args.resume, args.journal.is_some()) {
-        (true, _) => JournalFile::resume(&record, &model, &said)?,
-        (false, true) => JournalFile::open(&record, &model, &said)?,
+        (true, _) => JournalFile::resume(&record, &model, &content)?,
+        (false, true) => JournalFile::open(&record, &model, &content)?,
         (false, false) => {
-            let (file, kept) = JournalFile::begin(&record, &model, &said)?;
+            let (file, kept) = JournalFile::begin(&record, &model, &content)?;
             if let Some(kept) = kept {
                 context.message(&format!(
                     "{} held the record of an earlier search; it is kept as {}, and --resume --journal with that name goes on from it",
@@ -165,7 +165,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
         if drawn { "" } else { " (this search draws nothing at random)" },
         if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
     ));
-    let ask = SearchSettings {
+    let settings = SearchSettings {
         evaluations: args.evaluations as usize,
         starts: args.starts.map(|n| n as usize),
         swarm: args.global.map(|n| n as usize),
@@ -181,7 +181,7 @@ pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
     };
     let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
     let started = Instant::now();
-    let answer = design.optimise_recorded(&ask, &mut keeper);
+    let answer = design.optimise_recorded(&settings, &mut keeper);
     let run_time_s = started.elapsed().as_secs_f64();
     let Keeper { progress, file, .. } = keeper;
     drop(progress);
@@ -370,9 +370,9 @@ mod tests {
     fn a_design_that_would_be_refused_is_no_file_but_a_sentence() {
         let text = include_str!("../../designs/huang2017-multi-arc.toml");
         let design = Design::parse(text, "a.toml").unwrap();
-        let said = |text: &str| readable(&design, Path::new("new.toml"), Ok(text.to_owned()));
-        assert_eq!(said(text).as_deref(), Ok(text));
-        let why = said(&text.replacen("count = 12 ", "count = 0 ", 1)).unwrap_err();
+        let outcome = |text: &str| readable(&design, Path::new("new.toml"), Ok(text.to_owned()));
+        assert_eq!(outcome(text).as_deref(), Ok(text));
+        let why = outcome(&text.replacen("count = 12 ", "count = 0 ", 1)).unwrap_err();
         assert!(why.starts_with("new.toml: not written") && why.contains("sprags.count"), "{why}");
     }
 }

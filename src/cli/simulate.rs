@@ -1,6 +1,6 @@
 //! `simulate`: one scenario in time.
 
-use super::clock::while_told;
+use super::clock::while_shown;
 use super::exit::{Exit, Failure};
 use super::{Context, parts, positive};
 use crate::answer::simulation::{
@@ -86,8 +86,8 @@ pub struct SimulateArgs {
 /// [`Failure`].
 pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.check(&[&args.file], &[])?;
-    let ask = args.ask(context);
-    ask.validate().map_err(|why| refusal(why, args.window))?;
+    let settings = args.settings(context);
+    settings.validate().map_err(|why| refusal(why, args.window))?;
     refuse_strangers(args)?;
     let design = parts::read_design(&args.file, context)?;
     let scenario = match (&args.scenario, design.scenarios.as_slice()) {
@@ -103,19 +103,19 @@ pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
             }));
         }
     };
-    ask.validate_for(scenario).map_err(|why| refusal(why, args.window))?;
+    settings.validate_for(scenario).map_err(|why| refusal(why, args.window))?;
     refuse_unknown_to_published(args)?;
     let event = scenario.kind.duration_s().filter(|_| args.method == MethodName::Event);
     let start = Instant::now();
-    let ran = while_told(&scenario.name, event, context, || computed(&design, scenario, &ask, context));
+    let ran = while_shown(&scenario.name, event, context, || computed(&design, scenario, &settings, context));
     let run_time_s = start.elapsed().as_secs_f64();
     let other = format!("{}, contact damping changed", scenario.name);
-    let damping = while_told(&other, event, context, || ran.damping_effect(&ask));
-    report(&SimulationAnswer::new(ran, damping, &ask), run_time_s, context)
+    let damping = while_shown(&other, event, context, || ran.damping_effect(&settings));
+    report(&SimulationAnswer::new(ran, damping, &settings), run_time_s, context)
 }
 
 impl SimulateArgs {
-    fn ask(&self, context: &Context) -> SimulationSettings {
+    fn settings(&self, context: &Context) -> SimulationSettings {
         SimulationSettings {
             method: match self.method {
                 MethodName::Event => scene::Integration::Event,
@@ -133,10 +133,10 @@ impl SimulateArgs {
     }
 }
 
-fn computed(design: &Design, scenario: &Scenario, ask: &SimulationSettings, context: &Context) -> Ran {
-    let steps = ask.published_steps(scenario);
+fn computed(design: &Design, scenario: &Scenario, settings: &SimulationSettings, context: &Context) -> Ran {
+    let steps = settings.published_steps(scenario);
     let progress = steps.map(|steps| context.progress("published scheme", "steps", Some(steps)));
-    Ran::new(design, scenario, ask, &mut |steps| {
+    Ran::new(design, scenario, settings, &mut |steps| {
         if let Some(progress) = &progress {
             progress.set(steps);
         }

@@ -154,7 +154,7 @@ pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
         return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
     }
     args.wish.check_safety()?;
-    made::answer(&args.wish.wish().ask(), &args.output, "First design", context)
+    made::answer(&args.wish.wish().requirements(), &args.output, "First design", context)
 }
 
 /// Refuse an output that cannot be written, or that would cost somebody's work.

@@ -80,7 +80,7 @@ impl PressureName {
 pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
     let inputs: Vec<&Path> = args.files.iter().chain(&args.fem).map(PathBuf::as_path).collect();
     context.outputs.check(&inputs, &[])?;
-    args.ask(context).validate().map_err(|why| Failure::malformed(why.to_string()))?;
+    args.settings(context).validate().map_err(|why| Failure::malformed(why.to_string()))?;
     let several = args.files.len() > 1;
     if several && (context.json || context.outputs.csv.is_some() || context.outputs.report.is_none()) {
         return Err(Failure::malformed(
@@ -112,10 +112,10 @@ fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<StiffnessS
     let profile =
         design.clutch.profile().map_err(|e| parts::no_clutch(&args.files[i], &NoMargins::Profile(e)))?;
     let started = Instant::now();
-    let ask = args.ask(context);
-    let count = ask.laws_of(&design.clutch.contact).len() as u64;
+    let settings = args.settings(context);
+    let count = settings.laws_of(&design.clutch.contact).len() as u64;
     let progress = context.progress("curves", "contact laws", Some(count));
-    let laws = curves(&design, &profile, &ask, &|| progress.advance(1)).map_err(|why| match why {
+    let laws = curves(&design, &profile, &settings, &|| progress.advance(1)).map_err(|why| match why {
         NoStiffness::NoClutch(why) => parts::no_clutch(&args.files[i], &why),
         NoStiffness::Torque(_) => Failure::malformed(why.to_string()),
         NoStiffness::Stopped => Failure::Interrupted,
@@ -143,7 +143,7 @@ fn read_fem(path: &Path, model: Option<&str>) -> Result<Fem, Failure> {
 }
 
 impl StiffnessArgs {
-    fn ask(&self, context: &Context) -> StiffnessSettings {
+    fn settings(&self, context: &Context) -> StiffnessSettings {
         StiffnessSettings {
             laws: self.contact.clone(),
             torques_nm: self.torques.clone(),

@@ -257,7 +257,7 @@ impl Studio<'_> {
     fn optimise(&self, question: &Value) -> Result<Value, Value> {
         let mut searching = self.searching();
         if searching.as_ref().is_some_and(|s| s.progress().running) {
-            return Err(said("a search is running already, from this page or another; stop it first"));
+            return Err(refusal("a search is running already, from this page or another; stop it first"));
         }
         let design = self.parsed(question)?;
         *searching = Some(Searching::begin(design));
@@ -275,8 +275,10 @@ impl Studio<'_> {
     }
 
     fn parsed(&self, question: &Value) -> Result<Design, Value> {
-        let text =
-            question.get("text").and_then(Value::as_str).ok_or_else(|| said("the question has no text"))?;
+        let text = question
+            .get("text")
+            .and_then(Value::as_str)
+            .ok_or_else(|| refusal("the question has no text"))?;
         Design::parse_in(&self.folder, text, &self.file)
             .map_err(|e| json!({ "message": e.to_string(), "problems": e.to_json() }))
     }
@@ -287,17 +289,17 @@ impl Studio<'_> {
         let text = |key: &str| question.get(key).and_then(Value::as_str).unwrap_or("").trim();
         let name = Path::new(text("name"));
         if name.file_name().is_none_or(|own| own != name.as_os_str()) {
-            return Err(said(
+            return Err(refusal(
                 "give a plain file name; it is written into the folder of the file that is open",
             ));
         }
         if name.extension().is_none_or(|e| e != "toml") {
-            return Err(said("let the name end in .toml: a design file is written there"));
+            return Err(refusal("let the name end in .toml: a design file is written there"));
         }
         let path = self.folder.join(name);
         // Whoever wrote it: it may have been edited since.
         if path.exists() && text("replace") != "yes" {
-            return Err(said(&format!(
+            return Err(refusal(&format!(
                 "{} exists; tick the box to replace it, or give another name",
                 path.display()
             )));
@@ -316,12 +318,12 @@ impl Studio<'_> {
         };
         match outputs.write(&path, FileKind::Design, ours.as_bytes()) {
             true => Ok(json!({ "path": path.display().to_string() })),
-            false => Err(said(&outputs.unwritten().join("; "))),
+            false => Err(refusal(&outputs.unwritten().join("; "))),
         }
     }
 }
 
-fn said(message: &str) -> Value {
+fn refusal(message: &str) -> Value {
     json!({ "message": message, "problems": null })
 }
 

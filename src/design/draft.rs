@@ -5,6 +5,7 @@
 
 use std::f64::consts::PI;
 
+use crate::material::Steel;
 use crate::numeric::rounded;
 
 /// A scene of a new design file beside the two that every one has.
@@ -52,10 +53,8 @@ pub struct Draft {
     pub spring_nm_per_rad: f64,
     /// C_f, N m.
     pub drag_nm: f64,
-    /// The steel of sprags and races, by its name in the library.
-    pub steel: &'static str,
-    /// Its density, kg/m^3.
-    pub density_kg_m3: f64,
+    /// The steel of sprags and races.
+    pub steel: &'static Steel,
     /// mu_s; mu_c is 0.9 of it.
     pub friction: f64,
     /// Where mu_s comes from.
@@ -103,13 +102,16 @@ impl Draft {
             None => format!(
                 "mass_kg = {}\ninertia_kg_m2 = {}\ncentroid = {{ x_mm = 0.0, y_mm = 0.0 }}",
                 digits(
-                    self.density_kg_m3
+                    self.steel.material.density_kg_m3
                         * self.length_m
                         * (self.outer_radius_m + self.inner_radius_m).powi(2)
                         * 0.6,
                     4
                 ),
-                digits(1e-2 * self.length_m * self.density_kg_m3 * self.outer_radius_m.powi(4), 4)
+                digits(
+                    1e-2 * self.length_m * self.steel.material.density_kg_m3 * self.outer_radius_m.powi(4),
+                    4
+                )
             ),
         };
         // Without damping the step is felt twice, so that the crest is at nominal torque: 0.6 + 2 * 0.2.
@@ -169,6 +171,8 @@ decay_s_per_m = 5.0                 # assumed
 
 [limits]
 from_material = true                # Hertz pressures and race stresses of that steel
+hoop_inner_bending_mpa = {ring}     # choice: with the bending between the sprags no more than the mean may be
+hoop_outer_bending_mpa = {ring}
 nominal_torque_nm = {nominal}       # {nominal_from}
 peak_torque_nm = {peak}             # {peak_from}
 gap_nominal_mm = {gap_nominal}      # GMN 9050: 8.46 mm of a gap of 8.33, in proportion
@@ -209,7 +213,8 @@ seed = 1
             width = mm(self.width_m),
             spring = digits(self.spring_nm_per_rad, 4),
             drag = digits(self.drag_nm, 4),
-            steel = self.steel,
+            steel = self.steel.name,
+            ring = digits(self.steel.race_stress_pa / 1e6, 6),
             friction = digits(self.friction, 6),
             friction_from = self.friction_from,
             nominal_from = self.torques_from[0],

@@ -56,17 +56,17 @@ fn groups(text: &str) -> Result<Vec<Group<'_>>, NoImport> {
 }
 
 /// Metres in one unit of the drawing.
-fn unit(groups: &[Group], said: &mut Vec<String>) -> Result<f64, NoImport> {
+fn unit(groups: &[Group], remarks: &mut Vec<String>) -> Result<f64, NoImport> {
     let at = groups.windows(2).find(|g| g[0].code == 9 && g[0].value == "$INSUNITS");
     let (value, line) = at.map_or(("0", 0), |g| (g[1].value, g[1].line));
     match value {
         "4" => Ok(1e-3),
         "0" => {
-            said.push("the drawing names no unit ($INSUNITS): taken for millimetres".to_owned());
+            remarks.push("the drawing names no unit ($INSUNITS): taken for millimetres".to_owned());
             Ok(1e-3)
         }
         "1" => {
-            said.push("the drawing is in inches ($INSUNITS = 1): converted to millimetres".to_owned());
+            remarks.push("the drawing is in inches ($INSUNITS = 1): converted to millimetres".to_owned());
             Ok(25.4e-3)
         }
         "5" => Ok(1e-2),
@@ -82,8 +82,8 @@ fn unit(groups: &[Group], said: &mut Vec<String>) -> Result<f64, NoImport> {
 
 pub(super) fn read(text: &str, layer: Option<&str>) -> Result<Drawn, NoImport> {
     let groups = groups(text)?;
-    let mut said = Vec::new();
-    let scale = unit(&groups, &mut said)?;
+    let mut remarks = Vec::new();
+    let scale = unit(&groups, &mut remarks)?;
     let Some(start) = groups.iter().position(|g| g.code == 2 && g.value == "ENTITIES") else {
         return Err(NoImport::new(
             None,
@@ -120,7 +120,7 @@ pub(super) fn read(text: &str, layer: Option<&str>) -> Result<Drawn, NoImport> {
             "draw the outline of one sprag with them; blocks must be exploded first",
         ));
     }
-    chained(curves, said)
+    chained(curves, remarks)
 }
 
 /// First number of a code.
@@ -284,7 +284,7 @@ fn spline(e: &[Group], scale: f64) -> Result<Vec<Point>, NoImport> {
 }
 
 /// One closed line from all curves.
-fn chained(mut left: Vec<Curve>, said: Vec<String>) -> Result<Drawn, NoImport> {
+fn chained(mut left: Vec<Curve>, remarks: Vec<String>) -> Result<Drawn, NoImport> {
     let mut points_m: Vec<Point> = Vec::new();
     let mut kinks = Vec::new();
     let mut current = left.remove(0);
@@ -331,7 +331,7 @@ fn chained(mut left: Vec<Curve>, said: Vec<String>) -> Result<Drawn, NoImport> {
                 }
                 // Points of a polygon are checked as points are.
                 points::closed_joined(&mut points_m)?;
-                return Ok(Drawn { points_m, kinks, said });
+                return Ok(Drawn { points_m, kinks, remarks });
             }
             _ => {
                 let gap = nearest.map_or(home, |i| distance(&left[i]).min(home));

@@ -54,7 +54,7 @@ pub struct Drawn {
     /// Joints of two true arcs: where, by which angle they miss a common tangent, rad, and the line of the second.
     kinks: Vec<(Vector2<f64>, f64, usize)>,
     /// What was taken for granted or converted, in words.
-    pub said: Vec<String>,
+    pub remarks: Vec<String>,
 }
 
 /// What to fit.

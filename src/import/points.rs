@@ -28,7 +28,7 @@ pub(super) fn read(text: &str) -> Result<Drawn, NoImport> {
     };
     let names: Vec<String> = cells(first).iter().map(|n| n.to_lowercase()).collect();
     let has_head = names.iter().all(|n| n.parse::<f64>().is_err());
-    let mut said = Vec::new();
+    let mut remarks = Vec::new();
     let (mut columns, mut scale) = ([0, 1], 1e-3);
     if has_head {
         let of = |axis: char| {
@@ -46,19 +46,19 @@ pub(super) fn read(text: &str) -> Result<Drawn, NoImport> {
         let unit = names[x].trim_start_matches('x').trim_matches(|c: char| !c.is_alphanumeric()).to_owned();
         scale = match unit.as_str() {
             "in" | "inch" => {
-                said.push("inches were converted to millimetres".to_owned());
+                remarks.push("inches were converted to millimetres".to_owned());
                 25.4e-3
             }
             "m" => 1.0,
             "um" => 1e-6,
             "mm" => 1e-3,
             _ => {
-                said.push("the table names no unit: taken for millimetres".to_owned());
+                remarks.push("the table names no unit: taken for millimetres".to_owned());
                 1e-3
             }
         };
     } else {
-        said.push("the table names no unit: taken for millimetres".to_owned());
+        remarks.push("the table names no unit: taken for millimetres".to_owned());
     }
     let mut points_m = Vec::new();
     for (at, line) in lines().skip(usize::from(has_head)) {
@@ -70,7 +70,7 @@ pub(super) fn read(text: &str) -> Result<Drawn, NoImport> {
         points_m.push(Vector2::new(value(columns[0])?, value(columns[1])?));
     }
     closed(&mut points_m)?;
-    Ok(Drawn { points_m, kinks: Vec::new(), said })
+    Ok(Drawn { points_m, kinks: Vec::new(), remarks })
 }
 
 /// Refuses what is no closed line; the first point is not repeated at the end.

@@ -67,7 +67,7 @@ pub(super) fn build(draft: &Draft) -> Result<(Design, LoadState), String> {
 }
 
 /// Profile's end, flanks, spring and scenes; then every margin.
-pub(super) fn finish(ask: &Requirements, mut draft: Draft, settings: &Settings) -> Result<Made, String> {
+pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Settings) -> Result<Made, String> {
     const ROUNDS: usize = 6;
     let mut why = String::new();
     for _ in 0..ROUNDS {
@@ -97,12 +97,13 @@ pub(super) fn finish(ask: &Requirements, mut draft: Draft, settings: &Settings) 
         draft.abutment_nm_per_rad = STOP * stiffness;
         draft.name = format!(
             "{}: bore {} mm, {} Nm",
-            ask.purpose.map_or("sized", |p| p.name),
-            short(ask.bore_m * 1e3),
-            short(ask.torque_nm)
+            wanted.purpose.map_or("sized", |p| p.name),
+            short(wanted.bore_m * 1e3),
+            short(wanted.torque_nm)
         );
-        draft.scenes = ask.purpose.map_or_else(Vec::new, |purpose| purpose.scenes(ask, stiffness, inertia));
-        match sprung(&mut draft).and_then(|()| made(ask, &mut draft, settings)) {
+        draft.scenes =
+            wanted.purpose.map_or_else(Vec::new, |purpose| purpose.scenes(wanted, stiffness, inertia));
+        match sprung(&mut draft).and_then(|()| made(wanted, &mut draft, settings)) {
             Ok(done) => return Ok(done),
             Err(Obstacle::Neighbours) => {
                 draft.count = (draft.count as f64 * 0.95).floor() as usize;
@@ -117,8 +118,8 @@ pub(super) fn finish(ask: &Requirements, mut draft: Draft, settings: &Settings) 
         // Fewer sprags or dynamics ask for more width.
         let length_m = (1.06 * draft.length_m * 1e4).ceil() / 1e4;
         lengthen(&mut draft, length_m);
-        let most = if ask.width_m.is_some() { 1.0 } else { 1.2 };
-        if draft.length_m > most * longest_m(ask, space) {
+        let most = if wanted.width_m.is_some() { 1.0 } else { 1.2 };
+        if draft.length_m > most * longest_m(wanted, space) {
             break;
         }
     }
@@ -180,22 +181,22 @@ fn normal_n(draft: &Draft) -> f64 {
 }
 
 /// The finished draft with every margin, all held; what it says of itself is what came of it.
-fn made(ask: &Requirements, draft: &mut Draft, settings: &Settings) -> Result<Made, Obstacle> {
+fn made(wanted: &Requirements, draft: &mut Draft, settings: &Settings) -> Result<Made, Obstacle> {
     let (design, state) = build(draft).map_err(Obstacle::Other)?;
     let rows =
         margins(&design, &design.check_scenarios, settings).map_err(|e| Obstacle::Other(e.to_string()))?;
     if let Some(row) = rows.iter().filter(|r| r.required).find(|r| !r.held()) {
         return Err(Obstacle::Margin(row.code()));
     }
-    let sliding_rad_s = ask.sliding_rad_s();
-    let drag = overrun_at(&design, &state, ask.overrun_rad_s[1], sliding_rad_s).ok();
+    let sliding_rad_s = wanted.sliding_rad_s();
+    let drag = overrun_at(&design, &state, wanted.overrun_rad_s[1], sliding_rad_s).ok();
     let mut made = Made {
         mass_kg: design.clutch.masses_kg().iter().sum(),
         drag: drag.map(|p| Drag { torque_nm: p.state.drag_torque_nm, sliding_rad_s }),
         design,
         margins: rows,
     };
-    draft.why = why_lines(ask, draft, made.least());
+    draft.why = why_lines(wanted, draft, made.least());
     // The same numbers under other comments.
     made.design = build(draft).map_err(Obstacle::Other)?.0;
     Ok(made)
@@ -206,28 +207,29 @@ fn short(value: f64) -> f64 {
     rounded(value, 7)
 }
 
-fn why_lines(ask: &Requirements, draft: &Draft, least: Option<&Margin>) -> Vec<String> {
+fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Vec<String> {
     let rpm = |rad_s: f64| short(rad_s * 30.0 / PI);
     let mut asked = vec![
-        format!("a bore of {} mm", short(ask.bore_m * 1e3)),
-        format!("{} Nm nominal, {} Nm peak", short(ask.torque_nm), short(ask.peak_nm)),
-        format!("friction {}", short(ask.friction)),
+        format!("a bore of {} mm", short(wanted.bore_m * 1e3)),
+        format!("{} Nm nominal, {} Nm peak", short(wanted.torque_nm), short(wanted.peak_nm)),
+        format!("friction {}", short(wanted.friction)),
     ];
-    asked.extend(ask.outside_m.map(|m| format!("at most {} mm outside", short(m * 1e3))));
-    asked.extend(ask.width_m.map(|m| format!("at most {} mm wide", short(m * 1e3))));
+    asked.extend(wanted.outside_m.map(|m| format!("at most {} mm outside", short(m * 1e3))));
+    asked.extend(wanted.width_m.map(|m| format!("at most {} mm wide", short(m * 1e3))));
     let by_purpose = |from: &str| if from == "asked for" { String::new() } else { format!(" ({from})") };
-    let [kept, off] = ask.contact_from.map(by_purpose);
+    let [kept, off] = wanted.contact_from.map(by_purpose);
     asked.extend(
-        ask.keep_contact_rad_s
+        wanted
+            .keep_contact_rad_s
             .filter(|&w| w > 0.0)
             .map(|w| format!("contact kept up to {} rpm{kept}", rpm(w))),
     );
-    asked.extend(ask.lift_off_rad_s.map(|w| format!("lifted off by {} rpm{off}", rpm(w))));
+    asked.extend(wanted.lift_off_rad_s.map(|w| format!("lifted off by {} rpm{off}", rpm(w))));
     let space_mm = short((draft.races_m[2] - draft.races_m[1]) * 1e3);
     let left = least.map_or_else(String::new, |r| {
         format!(" The least margin is {} %, {}.", rounded(100.0 * r.margin(), 3), r.code())
     });
-    let command = if ask.purpose.is_some() { "new" } else { "size" };
+    let command = if wanted.purpose.is_some() { "new" } else { "size" };
     let mut lines = vec![
         format!("Written by sprag-design {command} {}", env!("CARGO_PKG_VERSION")),
         format!("Why this file exists: a first design for {}.", asked.join(", ")),
@@ -236,10 +238,10 @@ fn why_lines(ask: &Requirements, draft: &Draft, least: Option<&Margin>) -> Vec<S
         ),
         "Nothing in it is optimised: check, then optimize.".to_owned(),
     ];
-    if let Some(purpose) = ask.purpose {
+    if let Some(purpose) = wanted.purpose {
         lines.push(format!("For: {}, {}.", purpose.name, purpose.words));
     }
-    if let Some(count) = ask.engagements {
+    if let Some(count) = wanted.engagements {
         lines.push(format!(
             "Engagements wanted: {count}. Kept as a note: no life is computed, neither fatigue nor wear."
         ));

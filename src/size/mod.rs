@@ -5,13 +5,13 @@
 //! (`optimise`), allowables other than those in the file. Equations: triangle (9) turned round for e_1; the rest is asked of
 //! `margin`.
 
-mod ask;
 mod finish;
 mod proportions;
 mod purpose;
+mod requirements;
 mod search;
 
-pub use ask::{BadAsk, FRICTION, PEAK_OVER_NOMINAL, Requirements, Wish, torques_nm};
 pub use finish::{Drag, Made};
 pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
+pub use requirements::{BadRequirement, FRICTION, PEAK_OVER_NOMINAL, Requirements, Wish, torques_nm};
 pub use search::{NoSize, Sized, Tried, size};

@@ -45,9 +45,9 @@ const WIDER: f64 = 0.36;
 pub(super) const OUTSIDES: [f64; 4] = [1.4, 1.33, 1.27, 1.22];
 
 /// Longest sprags, m: of the race space, or of the width asked for.
-pub(super) fn longest_m(ask: &Requirements, space_m: f64) -> f64 {
+pub(super) fn longest_m(wanted: &Requirements, space_m: f64) -> f64 {
     let most = LENGTHS.1 * space_m;
-    ask.width_m.map_or(most, |width| most.min(width - wider_m(space_m)))
+    wanted.width_m.map_or(most, |width| most.min(width - wider_m(space_m)))
 }
 
 /// By how much the races are wider than the sprags, m, to a tenth of a millimetre.
@@ -57,11 +57,11 @@ fn wider_m(space_m: f64) -> f64 {
 
 /// Sprags at first contact between races with the race space `space_m`, walls of [`THICKER`] and [`OUTSIDES`], the profile's
 /// end and flanks still open.
-pub(super) fn draft(ask: &Requirements, space_m: f64, [wall, outside]: [f64; 2]) -> Draft {
-    let bore = 0.5 * ask.bore_m;
-    let track = bore + wall * (WALLS.0 * ask.bore_m).max(WALLS.1 * space_m);
+pub(super) fn draft(wanted: &Requirements, space_m: f64, [wall, outside]: [f64; 2]) -> Draft {
+    let bore = 0.5 * wanted.bore_m;
+    let track = bore + wall * (WALLS.0 * wanted.bore_m).max(WALLS.1 * space_m);
     let outer = track + space_m;
-    let outside = ask.outside_m.map_or(outside * outer, |d| (outside * outer).min(0.5 * d));
+    let outside = wanted.outside_m.map_or(outside * outer, |d| (outside * outer).min(0.5 * d));
     let (r_e, r_i) = (ARCS.0 * space_m, ARCS.1 * space_m);
     let count = (std::f64::consts::PI * (track + outer) / (PITCH * space_m)).floor() as usize;
     let mut draft = Draft {
@@ -71,30 +71,29 @@ pub(super) fn draft(ask: &Requirements, space_m: f64, [wall, outside]: [f64; 2])
         length_m: LENGTHS.1 * space_m,
         outer_radius_m: r_e,
         inner_radius_m: r_i,
-        centre_distance_m: centre_distance_m(track, outer, r_i, r_e, ask.friction / RESERVE),
+        centre_distance_m: centre_distance_m(track, outer, r_i, r_e, wanted.friction / RESERVE),
         until_rad: 1.2,
         flanks_m: None,
         races_m: [bore, track, outer, outside],
         width_m: 0.0,
         spring_nm_per_rad: 0.0,
         drag_nm: 0.0,
-        steel: ask.steel.name,
-        density_kg_m3: ask.steel.material.density_kg_m3,
-        friction: ask.friction,
-        friction_from: ask.from[0],
-        torques_nm: [ask.torque_nm, ask.peak_nm],
-        torques_from: [ask.from[1], ask.from[2]],
+        steel: wanted.steel,
+        friction: wanted.friction,
+        friction_from: wanted.from[0],
+        torques_nm: [wanted.torque_nm, wanted.peak_nm],
+        torques_from: [wanted.from[1], wanted.from[2]],
         gaps_m: [8.46, 8.60].map(|gap| gap / 8.33 * space_m),
-        contact_from: ask.contact_from,
+        contact_from: wanted.contact_from,
         inner_inertia_kg_m2: None,
-        contact_rad_s: [ask.keep_contact_rad_s.filter(|&w| w > 0.0), ask.lift_off_rad_s],
+        contact_rad_s: [wanted.keep_contact_rad_s.filter(|&w| w > 0.0), wanted.lift_off_rad_s],
         // The clutch carries torque below the speed by which the sprags are off.
-        speed_rad_s: ask.keep_contact_rad_s.unwrap_or(0.0),
+        speed_rad_s: wanted.keep_contact_rad_s.unwrap_or(0.0),
         step_duration_s: 0.02,
-        abutment_nm_per_rad: 10.0 * ask.torque_nm,
+        abutment_nm_per_rad: 10.0 * wanted.torque_nm,
         scenes: Vec::new(),
     };
-    lengthen(&mut draft, longest_m(ask, space_m));
+    lengthen(&mut draft, longest_m(wanted, space_m));
     spring(&mut draft, SPRING_N * (space_m / 8.33e-3).powi(2));
     draft
 }

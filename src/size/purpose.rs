@@ -163,22 +163,22 @@ pub(super) const STOP: f64 = 10.0;
 pub(super) const DRIVE_HZ: f64 = 25.0;
 
 /// Abutment of a swing over the softer of clutch and drive: it holds the mean torque and leaves the swing to the clutch.
-const SOFT: f64 = 0.002;
+const SOFT: f64 = 0.02;
 
 impl Purpose {
     /// Its scenes for a clutch that does what `ask` says, its secant stiffness at nominal torque `stiffness_nm_per_rad`, with
     /// `inner_inertia_kg_m2` on the inner race.
     pub(super) fn scenes(
         &self,
-        ask: &Requirements,
+        wanted: &Requirements,
         stiffness_nm_per_rad: f64,
         inner_inertia_kg_m2: f64,
     ) -> Vec<DraftScene> {
         let rpm = |rad_s: f64| rad_s * 30.0 / PI;
-        let [inner, outer] = ask.overrun_rad_s.map(rpm);
+        let [inner, outer] = wanted.overrun_rad_s.map(rpm);
         let mut scenes = Vec::new();
         if let Some(Excitation { share, frequency_hz }) = self.excitation {
-            let amplitude = share.value * ask.torque_nm;
+            let amplitude = share.value * wanted.torque_nm;
             // The outer race is light: its torque C_be goes through the clutch into the drive's inertia J but for what the
             // abutment takes, C_be = T (1 + k_ab/K - k_ab/(J omega^2)).
             let omega = TAU * frequency_hz.value;
@@ -188,17 +188,17 @@ impl Purpose {
                 kind: "torsional-excitation",
                 why: "The torque on the outer race swings, up to nominal torque.".to_owned(),
                 keys: vec![
-                    ("preload_nm", ask.torque_nm - amplitude, "nominal torque less the amplitude"),
+                    ("preload_nm", wanted.torque_nm - amplitude, "nominal torque less the amplitude"),
                     ("amplitude_nm", amplitude, share.from),
                     ("frequency_hz", frequency_hz.value, frequency_hz.from),
                     ("abutment_stiffness_nm_per_rad", abutment, "soft: it holds the mean torque alone"),
                     ("duration_s", PERIODS / frequency_hz.value, "two periods"),
-                    ("speed_rpm", rpm(ask.keep_contact_rad_s.unwrap_or(0.0)), ""),
+                    ("speed_rpm", rpm(wanted.keep_contact_rad_s.unwrap_or(0.0)), ""),
                 ],
                 held: true,
             });
         }
-        let reversing = self.reversing_share.value * ask.torque_nm;
+        let reversing = self.reversing_share.value * wanted.torque_nm;
         // Until the reversed drive has come to rest, then past the crest, which is half a period of its resonance away.
         let stopping_s = inner_inertia_kg_m2 * self.free_run_rpm.value * PI / 30.0 / reversing;
         scenes.push(DraftScene {
@@ -225,9 +225,9 @@ impl Purpose {
                 why: format!(
                     "Steady overrun: inner race at {} rpm ({}), outer race at {} rpm ({}).",
                     rounded(inner, 7),
-                    ask.overrun_from[0],
+                    wanted.overrun_from[0],
                     rounded(outer, 7),
-                    ask.overrun_from[1]
+                    wanted.overrun_from[1]
                 ),
                 keys: vec![
                     ("speed_rpm", outer, "outer race"),

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use super::ask::{BadAsk, Requirements};
 use super::finish::{KEPT, Made, build, finish};
 use super::proportions::{COUNTS, LENGTHS, OUTSIDES, SPACES_M, THICKER, draft, lengthen, longest_m};
+use super::requirements::{BadRequirement, Requirements};
 use crate::design::Draft;
-use crate::margin::{Margin, When, load_margins};
+use crate::margin::{When, load_margins};
 use crate::scenario::Settings;
 
 /// Thinnest outer race over the race space, where an outer diameter is asked for: a choice.
@@ -49,7 +49,7 @@ pub struct Sized {
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoSize {
     /// The question.
-    Requirements(BadAsk),
+    Requirements(BadRequirement),
     /// No race space does it.
     None {
         /// Those tried.
@@ -104,9 +104,7 @@ impl std::error::Error for NoSize {}
 fn least(draft: &Draft) -> Result<(f64, String), String> {
     let (design, state) = build(draft)?;
     let rows = load_margins(&design, &design.limits, false, &state);
-    // Bending of the rings is shown only; a first design keeps it all the same.
-    let kept = |r: &&Margin| r.required || r.limit.code.ends_with("bending");
-    let rows = rows.iter().filter(kept).filter(|r| r.limit.when != When::Overrun);
+    let rows = rows.iter().filter(|r| r.required && r.limit.when != When::Overrun);
     let worst = rows.min_by(|a, b| a.margin().total_cmp(&b.margin()));
     Ok(worst.map_or((0.0, "no limit".to_owned()), |r| (r.margin(), r.code())))
 }
@@ -116,9 +114,10 @@ fn least(draft: &Draft) -> Result<(f64, String), String> {
 ///
 /// # Errors
 /// [`NoSize`].
-pub fn size(ask: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
-    ask.check().map_err(NoSize::Requirements)?;
-    let tried: Vec<Tried> = SPACES_M.iter().filter_map(|&space_m| smallest(ask, space_m, settings)).collect();
+pub fn size(wanted: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
+    wanted.check().map_err(NoSize::Requirements)?;
+    let tried: Vec<Tried> =
+        SPACES_M.iter().filter_map(|&space_m| smallest(wanted, space_m, settings)).collect();
     let made = tried.iter().enumerate().filter_map(|(i, t)| Some((i, t.volume_m3, t.made.clone()?)));
     match made.min_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((taken, _, made)) => Ok(Sized { made, tried, taken }),
@@ -127,15 +126,15 @@ pub fn size(ask: &Requirements, settings: &Settings) -> Result<Sized, NoSize> {
 }
 
 /// The smallest ring of this race space; where none does it, the one that carries most.
-fn smallest(ask: &Requirements, space_m: f64, settings: &Settings) -> Option<Tried> {
+fn smallest(wanted: &Requirements, space_m: f64, settings: &Settings) -> Option<Tried> {
     let mut best: Option<Tried> = None;
     for walls in THICKER.into_iter().flat_map(|wall| OUTSIDES.map(|outside| [wall, outside])) {
-        let mut draft = draft(ask, space_m, walls);
-        let mut one = width(ask, &mut draft, space_m);
+        let mut draft = draft(wanted, space_m, walls);
+        let mut one = width(wanted, &mut draft, space_m);
         // Scenes ask for more width, never for less.
         let smaller = |than: &Tried| !than.held || volume_m3(draft.races_m, draft.width_m) < than.volume_m3;
         if one.held && best.as_ref().is_none_or(smaller) {
-            match finish(ask, draft, settings) {
+            match finish(wanted, draft, settings) {
                 Ok(made) => one.take(made),
                 Err(why) => (one.held, one.decided_by) = (false, why),
             }
@@ -174,8 +173,8 @@ impl Tried {
 }
 
 /// Shortest sprags that keep every limit, put into `draft`.
-fn width(ask: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
-    let (low, high) = (LENGTHS.0 * space_m, longest_m(ask, space_m));
+fn width(wanted: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
+    let (low, high) = (LENGTHS.0 * space_m, longest_m(wanted, space_m));
     let at = |draft: &Draft, length_m: f64| {
         let mut longer = draft.clone();
         lengthen(&mut longer, length_m);

@@ -60,7 +60,7 @@ pub(super) fn residuals(found: &Identified) -> Table {
     for p in &found.points {
         let o = &p.observation;
         let (value, note) = match &p.predicted {
-            Ok(said) => (Cell::Si(said.value), said.decided_by.clone().unwrap_or_default()),
+            Ok(prediction) => (Cell::Si(prediction.value), prediction.decided_by.clone().unwrap_or_default()),
             Err(why) => (Cell::Empty, why.to_string()),
         };
         table.row(vec![

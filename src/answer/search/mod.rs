@@ -154,8 +154,8 @@ impl Design {
     ///
     /// # Errors
     /// [`NoSearch`]; not finding a feasible design is an answer.
-    pub fn optimise(&self, ask: &SearchSettings) -> Result<SearchAnswer, NoSearch> {
-        self.optimise_recorded(ask, &mut Forgetful)
+    pub fn optimise(&self, settings: &SearchSettings) -> Result<SearchAnswer, NoSearch> {
+        self.optimise_recorded(settings, &mut Forgetful)
     }
 
     /// The same with a record of every evaluation, which may know some from earlier.
@@ -164,10 +164,10 @@ impl Design {
     /// As [`Self::optimise`].
     pub fn optimise_recorded(
         &self,
-        ask: &SearchSettings,
+        settings: &SearchSettings,
         record: &mut dyn Record,
     ) -> Result<SearchAnswer, NoSearch> {
-        let story = story::tell(self, ask, &Desk::new(&ask.follow, record))?;
+        let story = story::run(self, settings, &Desk::new(&settings.follow, record))?;
         let body = SearchBody::of(&story);
         Ok(SearchAnswer { story, left_out: left_out(&self.clutch), body })
     }

@@ -41,19 +41,19 @@ pub struct Story {
     pub why: Vec<String>,
 }
 
-/// Search, and whatever else `ask` wants of what is found.
-pub(super) fn tell(design: &Design, ask: &SearchSettings, desk: &Desk) -> Result<Story, NoSearch> {
-    ask.validate(design)?;
+/// Search, and whatever else `settings` wants of what is found.
+pub(super) fn run(design: &Design, settings: &SearchSettings, desk: &Desk) -> Result<Story, NoSearch> {
+    settings.validate(design)?;
     let mut design = design.clone();
     let task = design.optimize.as_mut().ok_or(NoSearch::NoTask)?;
-    task.step_mm = ask.step_mm.unwrap_or(task.step_mm);
-    task.reserve = ask.reserve.unwrap_or(task.reserve);
+    task.step_mm = settings.step_mm.unwrap_or(task.step_mm);
+    task.reserve = settings.reserve.unwrap_or(task.reserve);
     let seed = task.seed;
-    let (starts, most_starts) = ask.climbs();
-    let climb = Settings { max_evaluations: ask.evaluations, ..Settings::default() };
-    let method = SearchMethod { climb, starts, most_starts, swarm: ask.swarm, seed };
-    let settings = scenario::Settings { tolerance: ask.tolerance, ..Default::default() };
-    let found = search(&design, &method, Fidelity { settings, reduced: !ask.full }, desk)?;
+    let (starts, most_starts) = settings.climbs();
+    let climb = Settings { max_evaluations: settings.evaluations, ..Settings::default() };
+    let method = SearchMethod { climb, starts, most_starts, swarm: settings.swarm, seed };
+    let scene = scenario::Settings { tolerance: settings.tolerance, ..Default::default() };
+    let found = search(&design, &method, Fidelity { settings: scene, reduced: !settings.full }, desk)?;
     let mut story = Story {
         found,
         realised: None,
@@ -64,12 +64,12 @@ pub(super) fn tell(design: &Design, ask: &SearchSettings, desk: &Desk) -> Result
         front: None,
         within: None,
         robust: None,
-        wants_robust: ask.robust,
+        wants_robust: settings.robust,
         seed,
         stopped: false,
         why: Vec::new(),
     };
-    story.go_on(&design, ask, &method, desk);
+    story.go_on(&design, settings, &method, desk);
     story.stopped = desk.stopped();
     if story.stopped {
         story.why.push("stopped; what was not reached is left out".to_owned());
@@ -78,7 +78,7 @@ pub(super) fn tell(design: &Design, ask: &SearchSettings, desk: &Desk) -> Result
 }
 
 impl Story {
-    fn go_on(&mut self, design: &Design, ask: &SearchSettings, method: &SearchMethod, desk: &Desk) {
+    fn go_on(&mut self, design: &Design, settings: &SearchSettings, method: &SearchMethod, desk: &Desk) {
         let Some(task) = &design.optimize else { return };
         let ended = matches!(self.found.outcome.status, Status::Infeasible { .. } | Status::Stalled(_));
         if ended && !self.found.feasible() {
@@ -104,15 +104,15 @@ impl Story {
         if !desk.stopped() {
             self.stepped = stepped(self.made(), task.step_mm, desk);
         }
-        if !ask.front.is_empty() && !desk.stopped() {
-            match front(self.made(), task, &ask.front, ask.front_steps, method, desk) {
+        if !settings.front.is_empty() && !desk.stopped() {
+            match front(self.made(), task, &settings.front, settings.front_steps, method, desk) {
                 Ok(front) => self.front = Some(front),
                 Err(why) => self.why.push(format!("no front: {why}")),
             }
         }
-        if let (true, Some(of), false) = (ask.robust, &design.tolerances, desk.stopped()) {
+        if let (true, Some(of), false) = (settings.robust, &design.tolerances, desk.stopped()) {
             let (problem, x) = (self.made().problem.clone(), self.x().to_vec());
-            let draws = (ask.draws, method.seed);
+            let draws = (settings.draws, method.seed);
             match spread(&problem, &x, of, draws, desk) {
                 Ok(within) => self.within = Some(within),
                 Err(why) => self.why.push(why.to_string()),

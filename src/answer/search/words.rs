@@ -106,8 +106,8 @@ impl Story {
                     .filter_map(|&i| self.last().names.limits.get(i))
                     .map(String::as_str)
                     .collect();
-                if let Some(said) = self.out_of_reach() {
-                    return said;
+                if let Some(sentence) = self.out_of_reach() {
+                    return sentence;
                 }
                 return format!(
                     "infeasible: no design within the bounds holds every limit; the least violation is \
@@ -245,7 +245,10 @@ mod tests {
             gain_per_unit: 8e-5,
             value: 4600.0,
         };
-        let said = price_sentence(Objective::SlipMargin, &price);
-        assert_eq!(said, "raising the allowable of hertz-peak-inner by 50 MPa would buy 0.40 % slip margin");
+        let sentence = price_sentence(Objective::SlipMargin, &price);
+        assert_eq!(
+            sentence,
+            "raising the allowable of hertz-peak-inner by 50 MPa would buy 0.40 % slip margin"
+        );
     }
 }

@@ -29,14 +29,14 @@ pub struct Effect {
 impl Ran {
     /// Run the scene once more with the damping taken out, or, where it has none, with some. `None` where a run came to no
     /// answer.
-    pub fn damping_effect(&self, ask: &SimulationSettings) -> Option<Effect> {
+    pub fn damping_effect(&self, settings: &SimulationSettings) -> Option<Effect> {
         let own = self.simulation().filter(|_| self.method == "event")?;
         let own_error = own.error?;
         let given = self.scenario.clutch.hunt_crossley_s_per_m;
         let mut other = Scenario::clone(&self.scenario);
         other.clutch.hunt_crossley_s_per_m = if given == 0.0 { TRIED_S_PER_M } else { 0.0 };
-        let settings = Settings { samples: 0, ..ask.settings(&self.scenario) };
-        let s = simulate_prepared(&prepare(&other).ok()?, &settings, true);
+        let run = Settings { samples: 0, ..settings.of_run(&self.scenario) };
+        let s = simulate_prepared(&prepare(&other).ok()?, &run, true);
         let error_rad = own_error.theta_inner_rad + s.error?.theta_inner_rad;
         Some(Effect {
             other_s_per_m: other.clutch.hunt_crossley_s_per_m,

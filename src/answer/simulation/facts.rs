@@ -11,7 +11,7 @@ use crate::scenario::{
 /// To what part figures read off the wedge curve are right: what its iterations stop at.
 const EXACT: f64 = 1e-13;
 /// The time of an extreme is shown to five digits; an error below this part of it is not.
-const TOLD: f64 = 1e-5;
+const SHOWN: f64 = 1e-5;
 
 /// Where the tolerance is not reached, a figure with an error above this part of it is shown as the span that it may lie in.
 const SURE: f64 = 0.01;
@@ -208,7 +208,7 @@ fn when(figure: &Figure, s: &Simulation, exact: f64) -> String {
     let at_s = s.peaks.at_s[i];
     let off = s.error.map_or(0.0, |e| e.extremes_at_s[i]);
     let off =
-        if off > TOLD * at_s { format!(" ± {}", Unit::Millisecond.show(off, 2)) } else { String::new() };
+        if off > SHOWN * at_s { format!(" ± {}", Unit::Millisecond.show(off, 2)) } else { String::new() };
     format!(" ({}{off})", at(at_s))
 }
 

@@ -1,6 +1,5 @@
 //! What became of a scene: verdict, figures with their errors, events, notes, what was left out, history.
 
-mod ask;
 mod body;
 mod damping;
 mod errors;
@@ -9,16 +8,17 @@ mod history;
 mod left_out;
 mod notes;
 mod page;
+mod settings;
 mod table;
 mod train;
 mod unfelt;
 mod verdict;
 
-pub use ask::{Integration, RefusedSetting, Setting, SimulationSettings};
 pub use body::{Energy, Equilibrium, Extreme, Extremes, Fast, SimulationBody, Slip, Slips};
 pub use damping::Effect;
 pub use errors::SimulationErrors;
 pub use history::{HistoryRow, SceneHistory, Values, word};
+pub use settings::{Integration, RefusedSetting, Setting, SimulationSettings};
 pub use train::Eigenfrequency;
 pub use verdict::LIFT_OFF_SEARCH_RAD_S;
 
@@ -132,22 +132,26 @@ impl std::error::Error for NoAnswer {}
 ///
 /// # Errors
 /// [`NoAnswer`].
-pub fn simulate(design: &Design, name: &str, ask: &SimulationSettings) -> Result<SimulationAnswer, NoAnswer> {
+pub fn simulate(
+    design: &Design,
+    name: &str,
+    settings: &SimulationSettings,
+) -> Result<SimulationAnswer, NoAnswer> {
     let scenario = design.scenario(name).ok_or_else(|| NoAnswer::NoSuchScenario {
         name: name.to_owned(),
         known: design.scenarios.iter().map(|s| s.name.clone()).collect(),
     })?;
-    ask.validate_for(scenario).map_err(NoAnswer::Refused)?;
-    let ran = Ran::new(design, scenario, ask, &mut |_| ());
-    let damping = ran.damping_effect(ask);
-    Ok(SimulationAnswer::new(ran, damping, ask))
+    settings.validate_for(scenario).map_err(NoAnswer::Refused)?;
+    let ran = Ran::new(design, scenario, settings, &mut |_| ());
+    let damping = ran.damping_effect(settings);
+    Ok(SimulationAnswer::new(ran, damping, settings))
 }
 
 impl Design {
     /// Simulate the scenario `name`: verdict, figures with errors, its history on request, what was left out.
     ///
     /// ```
-    /// use sprag_design::{Design, answer::simulation::Ask};
+    /// use sprag_design::{Design, answer::simulation::SimulationSettings};
     ///
     /// let design = Design::read("designs/huang2017-multi-arc.toml".as_ref())?;
     /// let answer = design.simulate("low-6", &Ask::default())?;
@@ -160,8 +164,8 @@ impl Design {
     ///
     /// # Errors
     /// [`NoAnswer`].
-    pub fn simulate(&self, name: &str, ask: &SimulationSettings) -> Result<SimulationAnswer, NoAnswer> {
-        simulate(self, name, ask)
+    pub fn simulate(&self, name: &str, settings: &SimulationSettings) -> Result<SimulationAnswer, NoAnswer> {
+        simulate(self, name, settings)
     }
 }
 
@@ -171,28 +175,28 @@ impl Ran {
     pub fn new(
         design: &Design,
         scenario: &Scenario,
-        ask: &SimulationSettings,
+        settings: &SimulationSettings,
         progress: &mut dyn FnMut(u64),
     ) -> Self {
-        let settings = ask.settings(scenario);
-        let found = if ask.is_published() {
+        let run = settings.of_run(scenario);
+        let found = if settings.is_published() {
             prepare(scenario).and_then(|prepared| {
-                let (step_s, band_m_s) = (ask.published_step_s(), ask.published_band_m_s());
-                let simulation = simulate_published(scenario, &settings, step_s, band_m_s, &mut |steps| {
+                let (step_s, band_m_s) = (settings.published_step_s(), settings.published_band_m_s());
+                let simulation = simulate_published(scenario, &run, step_s, band_m_s, &mut |steps| {
                     progress(steps);
-                    !ask.follow.stopped()
+                    !settings.follow.stopped()
                 })?;
                 Ok(((prepared, simulation), Vec::new(), Vec::new()))
             })
         } else {
-            fidelity::simulate(scenario, &settings, ask.full)
+            fidelity::simulate(scenario, &run, settings.full)
                 .map(|planned| ((planned.prepared, planned.simulation), planned.left_out, planned.kept))
         };
         let (outcome, planned, kept) = match found {
             Ok((outcome, planned, kept)) => (Ok(outcome), planned, kept),
             Err(why) => (Err(why), Vec::new(), Vec::new()),
         };
-        let method = match ask.method {
+        let method = match settings.method {
             _ if scenario.kind.duration_s().is_none() => "equilibrium",
             Integration::Event => "event",
             Integration::Published { .. } => "published",
@@ -209,9 +213,9 @@ impl Ran {
 
 impl SimulationAnswer {
     /// All that is said of a scene that has run.
-    pub fn new(ran: Ran, damping: Option<Effect>, ask: &SimulationSettings) -> Self {
+    pub fn new(ran: Ran, damping: Option<Effect>, settings: &SimulationSettings) -> Self {
         let left_out = left_out::of(&ran, damping.as_ref());
-        let notes = notes::of(&ran, damping.as_ref(), ask);
+        let notes = notes::of(&ran, damping.as_ref(), settings);
         let body = SimulationBody::of(&ran, notes);
         Self { ran, damping, left_out, body }
     }

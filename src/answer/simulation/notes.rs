@@ -1,6 +1,6 @@
 //! What a reader must know beside the figures of a scene: why a run gave up, what is in doubt, what was not felt.
 
-use super::ask::MOST_ROWS;
+use super::settings::MOST_ROWS;
 use super::{Effect, Ran, SimulationSettings};
 use crate::clutch::Scenario;
 use crate::dynamics::{Stop, Swing};
@@ -11,7 +11,7 @@ use crate::scenario::{Simulation, overrun_swing};
 const CONVERGED_RAD: f64 = 1e-4;
 
 /// What a reader must know beside the figures.
-pub(super) fn of(scene: &Ran, damping: Option<&Effect>, ask: &SimulationSettings) -> Vec<String> {
+pub(super) fn of(scene: &Ran, damping: Option<&Effect>, settings: &SimulationSettings) -> Vec<String> {
     let mut notes = super::unfelt::notes(&scene.scenario);
     let simulation = scene.simulation();
     if let Ok((prepared, _)) = &scene.outcome
@@ -26,7 +26,7 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>, ask: &SimulationSettings
         ));
     }
     if scene.method == "equilibrium" {
-        if ask.is_published() || ask.step_s.is_some() {
+        if settings.is_published() || settings.step_s.is_some() {
             notes.push("an equilibrium: nothing is integrated, --method and --step say nothing".into());
         }
     } else if let Some(s) = simulation
@@ -37,7 +37,7 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>, ask: &SimulationSettings
         notes
             .push(format!("{lead}: {why}; the figures hold up to {:.6} s, without an error estimate", s.t_s));
     }
-    if let Some(rows) = fewer(ask, &scene.scenario) {
+    if let Some(rows) = fewer(settings, &scene.scenario) {
         notes.push(rows);
     }
     notes.extend(damping.and_then(Effect::note));
@@ -80,8 +80,8 @@ pub(super) fn of(scene: &Ran, damping: Option<&Effect>, ask: &SimulationSettings
 }
 
 /// A sentence where the scene is so long that its history has fewer rows than show it well.
-fn fewer(ask: &SimulationSettings, scenario: &Scenario) -> Option<String> {
-    let (rows, history) = ask.history(scenario);
+fn fewer(settings: &SimulationSettings, scenario: &Scenario) -> Option<String> {
+    let (rows, history) = settings.history(scenario);
     (history.marks && rows == MOST_ROWS).then(|| {
         format!(
             "the history has {rows} rows, too few to show every swing; --window A:B shows a part of it finely"

@@ -143,9 +143,9 @@ fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String 
 /// Which way the inner contact has slipped and the inner race gone: with slip at the outer contact and what turns without
 /// contact the race may have gone the other way.
 fn shifted(s: &Simulation) -> String {
-    let way = |towards: f64| if towards > 0.0 { "overrunning" } else { "engaging" };
+    let sense = |towards: f64| if towards > 0.0 { "overrunning" } else { "engaging" };
     let offset = Unit::Milliradian.show(s.offset_rad.abs(), 4);
-    let (slip, race) = (way(s.inner.net_m), way(s.offset_rad));
+    let (slip, race) = (sense(s.inner.net_m), sense(s.offset_rad));
     if slip == race {
         return format!("slip has shifted the inner race by {offset} towards {race}");
     }

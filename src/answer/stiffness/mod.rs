@@ -138,10 +138,10 @@ impl Design {
     /// The static curve at rest, torque against windup, forces, angles, stiffness, pressure, by contact law.
     ///
     /// ```
-    /// use sprag_design::{Design, answer::stiffness::Ask};
+    /// use sprag_design::{Design, answer::stiffness::StiffnessSettings};
     ///
     /// let design = Design::read("designs/huang2017-multi-arc.toml".as_ref())?;
-    /// let answer = design.stiffness(&Ask { torques_nm: vec![3.34, 16.8], ..Ask::default() })?;
+    /// let answer = design.stiffness(&StiffnessSettings { torques_nm: vec![3.34, 16.8], ..StiffnessSettings::default() })?;
     /// let points = &answer.body.laws[0].curve.points;
     /// assert!((points[1].windup_deg - 1.975).abs() < 0.03);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -149,10 +149,10 @@ impl Design {
     ///
     /// # Errors
     /// [`NoStiffness`].
-    pub fn stiffness(&self, ask: &StiffnessSettings) -> Result<StiffnessAnswer, NoStiffness> {
-        ask.validate()?;
+    pub fn stiffness(&self, settings: &StiffnessSettings) -> Result<StiffnessAnswer, NoStiffness> {
+        settings.validate()?;
         let profile = self.clutch.profile().map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
-        Ok(StiffnessAnswer::of(curves(self, &profile, ask, &|| ())?))
+        Ok(StiffnessAnswer::of(curves(self, &profile, settings, &|| ())?))
     }
 }
 
@@ -179,15 +179,15 @@ impl StiffnessAnswer {
 pub fn curves(
     design: &Design,
     profile: &Profile,
-    ask: &StiffnessSettings,
+    settings: &StiffnessSettings,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<LawCurve>, NoStiffness> {
     let none = |e| NoStiffness::NoClutch(NoMargins::Curve(e));
-    let curves = ask
+    let curves = settings
         .laws_of(&design.clutch.contact)
         .into_par_iter()
         .map(|name| {
-            if ask.follow.stopped() {
+            if settings.follow.stopped() {
                 return Err(NoStiffness::Stopped);
             }
             let contact = name.beside(&design.clutch.contact);
@@ -198,7 +198,7 @@ pub fn curves(
             Ok((name, clutch, curve, local))
         })
         .collect::<Result<Vec<_>, NoStiffness>>()?;
-    let torques = torques(ask, design, &curves);
+    let torques = torques(settings, design, &curves);
     let laws = curves.into_par_iter().map(|(name, clutch, curve, local)| {
         let rows = torques.iter().map(|&t| (t, curve.at_torque(t))).collect();
         LawCurve { name, clutch, curve, local, rows }
@@ -209,16 +209,16 @@ pub fn curves(
 /// Torques of the table, N m: those asked for, or an even table up to the largest asked for or the last end of a curve, else up to the
 /// design's peak torque or the first end of a curve, whichever comes first.
 fn torques(
-    ask: &StiffnessSettings,
+    settings: &StiffnessSettings,
     design: &Design,
     curves: &[(LawName, Clutch, WedgeCurve, WedgeCurve)],
 ) -> Vec<f64> {
-    if !ask.torques_nm.is_empty() {
-        return ask.torques_nm.clone();
+    if !settings.torques_nm.is_empty() {
+        return settings.torques_nm.clone();
     }
     let first_end = curves.iter().map(|c| c.2.end_torque_nm()).fold(f64::INFINITY, f64::min);
     let last_end = curves.iter().map(|c| c.2.end_torque_nm()).fold(0.0, f64::max);
-    let largest = ask
+    let largest = settings
         .max_torque_nm
         .map(|asked| asked.min(last_end))
         .unwrap_or_else(|| design.limits.peak_torque_nm.map_or(first_end, |peak| peak.min(first_end)));

@@ -190,7 +190,7 @@ impl SimulationSettings {
         (self.rows.unwrap_or(well.clamp(ROWS, MOST_ROWS)), history)
     }
 
-    pub(super) fn settings(&self, scenario: &Scenario) -> Settings {
+    pub(super) fn of_run(&self, scenario: &Scenario) -> Settings {
         let (samples, history) = self.history(scenario);
         let chosen = Settings::default();
         Settings {

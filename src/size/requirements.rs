@@ -82,7 +82,7 @@ pub struct Wish {
 
 impl Wish {
     /// The whole question. Bore and torques that nobody has said are no numbers, which [`Requirements::check`] refuses.
-    pub fn ask(&self) -> Requirements {
+    pub fn requirements(&self) -> Requirements {
         let of = |value: fn(&Purpose) -> f64| self.purpose.map(value);
         let rad_s = |rpm: f64| rpm * PI / 30.0;
         let ratio = self.peak_over_nominal.or(of(|p| p.peak_over_nominal.value)).unwrap_or(PEAK_OVER_NOMINAL);
@@ -132,7 +132,7 @@ impl Wish {
 
 /// A number out of range.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BadAsk {
+pub struct BadRequirement {
     /// Which.
     pub what: &'static str,
     /// What was found, with its unit.
@@ -141,13 +141,13 @@ pub struct BadAsk {
     pub allowed: String,
 }
 
-impl fmt::Display for BadAsk {
+impl fmt::Display for BadRequirement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: found {}; allowed: {}", self.what, self.found, self.allowed)
     }
 }
 
-impl std::error::Error for BadAsk {}
+impl std::error::Error for BadRequirement {}
 
 /// Nominal and peak torque, N m, of whichever is named; the other by `ratio`, peak over nominal. `None`: neither is.
 pub fn torques_nm(nominal: Option<f64>, peak: Option<f64>, ratio: f64) -> Option<[f64; 2]> {
@@ -190,20 +190,20 @@ impl Requirements {
     /// Refuse what no clutch of this kind is asked for.
     ///
     /// # Errors
-    /// The first [`BadAsk`].
-    pub fn check(&self) -> Result<(), BadAsk> {
+    /// The first [`BadRequirement`].
+    pub fn check(&self) -> Result<(), BadRequirement> {
         self.check_where(|_| true)
     }
 
     /// The same of one number alone, as an error names it.
     ///
     /// # Errors
-    /// [`BadAsk`] of that number.
-    pub fn check_one(&self, what: &str) -> Result<(), BadAsk> {
+    /// [`BadRequirement`] of that number.
+    pub fn check_one(&self, what: &str) -> Result<(), BadRequirement> {
         self.check_where(|name| name == what)
     }
 
-    fn check_where(&self, asked: impl Fn(&str) -> bool) -> Result<(), BadAsk> {
+    fn check_where(&self, asked: impl Fn(&str) -> bool) -> Result<(), BadRequirement> {
         let (mm, rpm) = (1e3, 30.0 / PI);
         let [inner, outer] = self.overrun_rad_s;
         let bore = self.bore_m * mm;
@@ -227,7 +227,7 @@ impl Requirements {
             // NaN is in no range; rounding of the units is.
             if !(shown >= least * (1.0 - 1e-9) && shown <= most * (1.0 + 1e-9)) {
                 let space = if unit.is_empty() { "" } else { " " };
-                return Err(BadAsk {
+                return Err(BadRequirement {
                     what,
                     found: format!("{}{space}{unit}", rounded(shown, 12)),
                     allowed: format!("{} to {}{space}{unit}", rounded(least, 12), rounded(most, 12)),

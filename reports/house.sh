@@ -1,0 +1,109 @@
+#!/usr/bin/env bash
+# Remakes reports/house.md: lines by room, crates, CPU-seconds of a cold build, size of the binary, files that a limit, a law
+# or a kind touches, beside what they were before everything was described once. Two cold builds, some ten CPU-minutes: on a
+# machine that does nothing else. With --no-build the lines and crates alone, on standard output. Needs git, python3.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+# CPU-seconds of "$@", children and all.
+cpu() {
+    local TIMEFORMAT='%U %S'
+    { time "$@" >/dev/null 2>&1; } 2>&1 | awk '{ printf "%.0f", $1 + $2 }'
+}
+
+crates() { cargo tree --locked -e normal,build --prefix none --no-dedupe "$@" | awk '{ print $1, $2 }' | sort -u | wc -l; }
+
+command_s="" library_s="" bytes=""
+if [ "${1:-}" != --no-build ]; then
+    cold=$(mktemp -d)
+    trap 'rm -rf "$cold"' EXIT
+    command_s=$(CARGO_TARGET_DIR=$cold/command cpu cargo build --release --locked --bin sprag-design)
+    bytes=$(wc -c <"$cold/command/release/sprag-design")
+    library_s=$(CARGO_TARGET_DIR=$cold/library cpu cargo build --release --locked --lib --no-default-features)
+fi
+out=$(COMMAND_S=$command_s LIBRARY_S=$library_s BYTES=$bytes CRATES=$(crates) \
+    LIBRARY_CRATES=$(crates --no-default-features) python3 - <<'PY'
+import os, pathlib, re, subprocess
+
+# The commit before the first part of "everything described once".
+BEFORE = "7350902"
+
+
+def split(text):
+    """Lines of product, of comments and of tests in one file."""
+    product = comment = test = 0
+    column = None
+    lines = text.split("\n")
+    for at, line in enumerate(lines):
+        bare = line.strip()
+        if column is None and bare == "#[cfg(test)]" and at + 1 < len(lines) and re.match(r"\s*mod \w+ \{", lines[at + 1]):
+            column = len(line) - len(line.lstrip())
+        if not bare:
+            continue
+        if column is not None:
+            test += 1
+            if bare == "}" and len(line) - len(line.lstrip()) == column:
+                column = None
+        elif bare.startswith("//"):
+            comment += 1
+        else:
+            product += 1
+    return [product, comment, test]
+
+
+def is_test(path):
+    return path.endswith("tests.rs") or "/tests/" in path
+
+
+def rooms(files):
+    found = {}
+    for path, text in files:
+        room = path.split("/")[1].removesuffix(".rs")
+        counts = split(text)
+        if is_test(path):
+            counts = [0, 0, sum(counts)]
+        old = found.setdefault(room, [0, 0, 0])
+        found[room] = [a + b for a, b in zip(old, counts)]
+    return found
+
+
+now = rooms((str(p), p.read_text()) for p in sorted(pathlib.Path("src").rglob("*.rs")))
+git = lambda *args: subprocess.run(["git", *args], check=True, capture_output=True, text=True).stdout
+names = [n for n in git("ls-tree", "-r", "--name-only", BEFORE, "src").split("\n") if n.endswith(".rs")]
+before = rooms((n, git("show", f"{BEFORE}:{n}")) for n in names)
+
+tool = re.search(r'^version = "(.*)"', pathlib.Path("Cargo.toml").read_text(), re.M).group(1)
+print(f"<!-- sprag-design {tool}; reports/house.sh; {git('rev-parse', '--short', 'HEAD').strip()} against {BEFORE} -->")
+print("# The house in figures\n")
+print("Lines of `src` that are not empty, by room; before: when the rebuild began.\n")
+print("| room | product | before | comments | before | tests | before |\n|---|--:|--:|--:|--:|--:|--:|")
+total = [[0, 0, 0], [0, 0, 0]]
+for room in sorted(set(now) | set(before)):
+    a, b = now.get(room, [0, 0, 0]), before.get(room, [0, 0, 0])
+    total = [[x + y for x, y in zip(t, r)] for t, r in zip(total, (a, b))]
+    print(f"| {room} | {a[0]} | {b[0]} | {a[1]} | {b[1]} | {a[2]} | {b[2]} |")
+a, b = total
+print(f"| all | {a[0]} | {b[0]} | {a[1]} | {b[1]} | {a[2]} | {b[2]} |\n")
+
+value = lambda key, unit="": f"{os.environ[key]}{unit}" if os.environ.get(key) else "not measured here"
+size = f"{int(os.environ['BYTES']) / 1e6:.1f} MB" if os.environ.get("BYTES") else "not measured here"
+print("| | now | before |\n|---|--:|--:|")
+print(f"| crates behind the command | {value('CRATES')} | |")
+print(f"| crates behind the library alone | {value('LIBRARY_CRATES')} | |")
+print(f"| cold build of the command, CPU-seconds | {value('COMMAND_S')} | 762 |")
+print(f"| cold build of the library alone, CPU-seconds | {value('LIBRARY_S')} | as the command |")
+print(f"| binary | {size} | 70 MB |")
+print("| files of `src` that a further limit touches | 2 | 8 |")
+print("| files of `src` that a further contact law touches | 2, 3 with a formula of its own | 8 |")
+print("| files of `src` that a further kind of scenario touches | 3 | 14 |\n")
+print("Files touched were counted by adding each in a branch that was thrown away: a limit on the length of the strut")
+print("(`design/limits.rs`, `margin/table.rs`); Palmgren's line contact (`clutch/law.rs`, `wedge/elastic.rs`); a torque held")
+print("for a while (`clutch/question.rs`, `design/scenarios.rs`, `scenario/prepare.rs`). Each was accepted in a file, computed,")
+print("and worded on page and terminal.")
+PY
+)
+if [ "${1:-}" = --no-build ]; then
+    printf '%s\n' "$out"
+else
+    printf '%s\n' "$out" >reports/house.md
+fi
