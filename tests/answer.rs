@@ -37,7 +37,7 @@ fn the_command_says_what_the_library_answers() {
         let history = answer.history();
         let text = std::fs::read_to_string(&csv).expect("CSV");
         std::fs::remove_file(&csv).expect("CSV");
-        let names: Vec<&str> = history.columns.iter().map(|(name, _)| *name).collect();
+        let names: Vec<&str> = history.columns.iter().map(|(name, _)| name.as_ref()).collect();
         assert_eq!(text.lines().next(), Some(names.join(",").as_str()), "{scene}");
         assert_eq!(text.lines().count(), rows + 1, "{scene}");
         let last: Vec<&str> = text.lines().last().expect("row").split(',').collect();

@@ -48,10 +48,10 @@ impl Simulated {
             match values {
                 Values::Numbers(numbers) => {
                     let bytes: Vec<u8> = numbers.iter().flat_map(|v| v.to_ne_bytes()).collect();
-                    columns.set_item(name, PyBytes::new(py, &bytes))?;
+                    columns.set_item(&*name, PyBytes::new(py, &bytes))?;
                 }
-                Values::Words(words) => columns.set_item(name, PyList::new(py, words)?)?,
-                Values::Counts(counts) => columns.set_item(name, PyList::new(py, counts)?)?,
+                Values::Words(words) => columns.set_item(&*name, PyList::new(py, words)?)?,
+                Values::Counts(counts) => columns.set_item(&*name, PyList::new(py, counts)?)?,
             }
         }
         Ok(columns)

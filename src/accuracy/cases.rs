@@ -115,6 +115,7 @@ impl Case {
             overrides: Vec::new(),
             torque_history: None,
             speed_history: None,
+            drivetrain: Vec::new(),
         }
     }
 

@@ -4,11 +4,13 @@
 //! their units (`design`), allowables (`margin`), how anything is answered. Equations: none of its own; triangle (9) is asked
 //! of `profile`, Lame's press fit of `race`. Table 1 of the paper is a `Clutch`.
 
+mod drivetrain;
 mod law;
 mod question;
 mod running;
 mod tolerances;
 
+pub use drivetrain::{DriveInertia, DriveTorque, GasTorque, MOST_SHAFTS, Shaft, Towards};
 pub(crate) use law::ROLLER_COEFFICIENT;
 pub use law::{ContactLaw, LAWS, LawFacts, LawName};
 pub use question::{Phrase, Scenario, ScenarioKind, Start};

@@ -6,7 +6,7 @@
 //! A further kind is a variant here with its lines below, its keys in `design::scenarios` and its start in
 //! `scenario::prepare`.
 
-use super::Clutch;
+use super::{Clutch, DriveInertia};
 
 /// What happens to the clutch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,6 +97,8 @@ pub struct Scenario {
     pub torque_history: Option<Vec<[f64; 2]>>,
     /// Mean speed over time, (s, rad/s).
     pub speed_history: Option<Vec<[f64; 2]>>,
+    /// What turns on either side, each after what it is joined to; none: the races alone.
+    pub drivetrain: Vec<DriveInertia>,
 }
 
 impl ScenarioKind {

@@ -5,6 +5,7 @@
 //! join several keys ([`super::check`]). Equations: none. The doc comments are the schema's descriptions.
 
 use super::contact_file::ContactFile;
+use super::drivetrain_file::DriveFile;
 use super::limits::LimitsFile;
 use super::scenario_file::ScenarioFile;
 use super::task_file::{CheckFile, OptimizeFile};
@@ -47,6 +48,9 @@ pub(super) struct DesignFile {
     /// Scenarios, each with a unique name.
     #[serde(default)]
     pub scenarios: Vec<ScenarioFile>,
+    /// Inertias beside the clutch, on either side of it, in every scenario that moves; absent: the races alone.
+    #[serde(default)]
+    pub drivetrain: Vec<DriveFile>,
     /// Task of the optimiser; absent: `optimize` has nothing to do.
     pub optimize: Option<OptimizeFile>,
     /// What the clutch is made to; absent: nothing varies.

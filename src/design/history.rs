@@ -13,6 +13,8 @@ pub(super) enum HistoryKind {
     Torque,
     /// Mean speed.
     Speed,
+    /// Speed of an inertia of the drivetrain, of either sign.
+    Turn,
 }
 
 /// Most rows that are read.
@@ -28,7 +30,7 @@ impl HistoryKind {
     fn column(self) -> &'static str {
         match self {
             Self::Torque => "torque_nm",
-            Self::Speed => "speed_rpm",
+            Self::Speed | Self::Turn => "speed_rpm",
         }
     }
 
@@ -36,7 +38,7 @@ impl HistoryKind {
     fn most(self) -> f64 {
         match self {
             Self::Torque => 1e6,
-            Self::Speed => 1e6,
+            Self::Speed | Self::Turn => 1e6,
         }
     }
 
@@ -44,6 +46,7 @@ impl HistoryKind {
         match self {
             Self::Torque => format!("a finite number of at most {:e} N m in magnitude", self.most()),
             Self::Speed => format!("a finite number from 0 to {:e} rev/min", self.most()),
+            Self::Turn => format!("a finite number of at most {:e} rev/min in magnitude", self.most()),
         }
     }
 }
@@ -102,7 +105,7 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
         let spans = [start..start + time.len().max(1), at_value..at_value + value.len().max(1)];
         let [time_at, value_at] = spans;
         let t = time.parse::<f64>().ok().filter(|t| (0.0..=1e9).contains(t));
-        let lowest = if kind == HistoryKind::Torque { -kind.most() } else { 0.0 };
+        let lowest = if kind == HistoryKind::Speed { 0.0 } else { -kind.most() };
         let v = value.parse::<f64>().ok().filter(|v| (lowest..=kind.most()).contains(v));
         if t.is_none() {
             faults.add(
@@ -117,10 +120,10 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
             faults.add(kind.column(), value_at, number(value), &kind.allowed(), "mend the value");
         }
         let (Some(t), Some(v)) = (t, v) else { continue };
-        let v = if kind == HistoryKind::Speed { rad_s(v) } else { v };
+        let v = if kind == HistoryKind::Torque { v } else { rad_s(v) };
         if let Some(&[before, _]) = rows.last() {
             let jumps = rows.iter().rev().take_while(|r| r[0] == t).count() > 1;
-            if kind == HistoryKind::Speed && t <= before {
+            if kind != HistoryKind::Torque && t <= before {
                 let allowed = format!("later than the row before, {before} s");
                 faults.add("time_s", time_at, number(time), &allowed, "a speed cannot jump; sort the rows");
             } else if t < before || jumps {

@@ -9,6 +9,8 @@ mod contact_file;
 mod diagnostic;
 mod document;
 mod draft;
+mod drivetrain;
+mod drivetrain_file;
 mod eccentricity;
 mod edit;
 mod file;

@@ -198,7 +198,10 @@ impl Design {
     /// Values of all histories, as text.
     pub fn histories(&self) -> String {
         let all = self.scenarios.iter().map(|s| (&s.torque_history, &s.speed_history));
-        format!("{:?}", all.collect::<Vec<_>>())
+        let own = format!("{:?}", all.collect::<Vec<_>>());
+        let of_trains = self.scenarios.iter().flat_map(|s| &s.drivetrain);
+        let trains: Vec<_> = of_trains.filter(|d| d.has_history()).map(|d| (&d.torques, &d.speed)).collect();
+        if trains.is_empty() { own } else { format!("{own}{trains:?}") }
     }
 }
 

@@ -10,10 +10,10 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 /// One scenario. Keys belong to kinds: static: torque_nm, start; torsional-excitation: preload_nm, amplitude_nm,
-/// frequency_hz, abutment_stiffness_nm_per_rad, duration_s, speed_rpm, start; engagement: free_run_rpm,
-/// reversing_torque_nm, stop_stiffness_nm_per_rad, bench_inertia_kg_m2, duration_s; overrun: speed_rpm,
+/// frequency_hz, abutment_stiffness_nm_per_rad, duration_s, speed_rpm, start, drivetrain; engagement: free_run_rpm,
+/// reversing_torque_nm, stop_stiffness_nm_per_rad, bench_inertia_kg_m2, duration_s, drivetrain; overrun: speed_rpm,
 /// overrun_rpm; transient: abutment_stiffness_nm_per_rad, duration_s, preload_nm, torque_step_nm, step_time_s,
-/// torque_history_csv, speed_rpm, speed_history_csv, overrun_rpm, start. Any of the clutch's tables may be overridden in part.
+/// torque_history_csv, speed_rpm, speed_history_csv, overrun_rpm, start, drivetrain. Any of the clutch's tables may be overridden in part.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ScenarioFile {
@@ -34,7 +34,8 @@ pub(super) struct ScenarioFile {
     /// torsional-excitation: frequency of that torque, Hz.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub frequency_hz: Option<f64>,
-    /// torsional-excitation and transient: stiffness that ties the outer race to ground, N m/rad.
+    /// torsional-excitation and transient: stiffness that ties the outer race to ground, N m/rad; absent beside a
+    /// drivetrain: the outer race is free.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub abutment_stiffness_nm_per_rad: Option<f64>,
     /// torsional-excitation, engagement and transient: duration, s.
@@ -78,6 +79,9 @@ pub(super) struct ScenarioFile {
     #[serde(default)]
     #[schemars(with = "StartFile")]
     pub start: Option<StartFile>,
+    /// torsional-excitation, engagement and transient: names of the inertias of [[drivetrain]] that take part; absent: all
+    /// of them, empty: none.
+    pub drivetrain: Option<Vec<String>>,
     /// Keys of sprags that differ in this scenario.
     #[serde(default)]
     #[schemars(schema_with = "part_of::<SpragsFile>")]

@@ -6,6 +6,7 @@
 use toml::{Table, Value};
 
 use super::check::{self, rad_s};
+use super::drivetrain;
 use super::file::DesignFile;
 use super::findings::Findings;
 use super::history::HistoryKind;
@@ -37,7 +38,7 @@ const KINDS: [KindKeys; 5] = [
         KindFile::TorsionalExcitation,
         "torsional-excitation",
         &["preload_nm", "amplitude_nm", "frequency_hz", "abutment_stiffness_nm_per_rad", "duration_s"],
-        &["speed_rpm", "start"],
+        &["speed_rpm", "start", "drivetrain"],
     ),
     (
         KindFile::Engagement,
@@ -49,7 +50,7 @@ const KINDS: [KindKeys; 5] = [
             "bench_inertia_kg_m2",
             "duration_s",
         ],
-        &[],
+        &["drivetrain"],
     ),
     (KindFile::Overrun, "overrun", &["speed_rpm", "overrun_rpm"], &[]),
     (
@@ -65,6 +66,7 @@ const KINDS: [KindKeys; 5] = [
             "speed_history_csv",
             "overrun_rpm",
             "start",
+            "drivetrain",
         ],
     ),
 ];
@@ -109,6 +111,7 @@ pub(super) fn scenarios(
     out: &mut Findings,
 ) -> Option<Vec<Scenario>> {
     let mut all = Some(Vec::new());
+    let inertias = drivetrain::inertias(&file.drivetrain, load, out);
     for (i, entry) in file.scenarios.iter().enumerate() {
         let path = format!("scenarios[{i}]");
         if let Some(first) = file.scenarios.iter().take(i).position(|s| s.name == entry.name) {
@@ -120,19 +123,23 @@ pub(super) fn scenarios(
             );
             all = None;
         }
-        let kind = kind(entry, &path, out);
+        let train = match &inertias {
+            Some(inertias) if takes_part(entry.kind) => {
+                drivetrain::chosen(inertias, entry.drivetrain.as_deref(), &path, out)
+            }
+            Some(_) => Some(Vec::new()),
+            None => None,
+        };
+        // A drivetrain that is refused may be there for the scene.
+        let joined = takes_part(entry.kind) && train.as_ref().is_none_or(|t| !t.is_empty());
+        let kind = kind(entry, &path, joined, out);
         let mut history = |name: &str, file: &Option<String>, which| {
             let Some(file) = file else { return Some(None) };
             match load(file, which) {
                 Ok(rows) => Some(Some(rows)),
                 Err(found) => {
                     if let Some(found) = found {
-                        let allowed = "a CSV file in the folder of the design file, or below it".to_owned();
-                        out.refuse(
-                            &[&format!("{path}.{name}")],
-                            allowed,
-                            format!("{found}; name such a file"),
-                        );
+                        refuse_history(&format!("{path}.{name}"), found, out);
                     }
                     None
                 }
@@ -157,28 +164,46 @@ pub(super) fn scenarios(
         } else {
             out.within(&path, |out| overridden(document, &overrides, out))
         };
-        match (&mut all, kind, clutch, torque, speed) {
-            (Some(list), Some(kind), Some(clutch), Some(torque_history), Some(speed_history)) => {
-                list.push(Scenario {
-                    name: entry.name.clone(),
-                    kind,
-                    start: match entry.start {
-                        None | Some(StartFile::Settled) => Start::Settled,
-                        Some(StartFile::WithoutSpring) => Start::WithoutSpring,
-                    },
-                    clutch,
-                    torque_history,
-                    speed_history,
-                    overrides: overrides.iter().map(|(name, _)| (*name).to_owned()).collect(),
-                })
-            }
+        match (&mut all, kind, clutch, torque, speed, train) {
+            (
+                Some(list),
+                Some(kind),
+                Some(clutch),
+                Some(torque_history),
+                Some(speed_history),
+                Some(drivetrain),
+            ) => list.push(Scenario {
+                name: entry.name.clone(),
+                kind,
+                start: match entry.start {
+                    None | Some(StartFile::Settled) => Start::Settled,
+                    Some(StartFile::WithoutSpring) => Start::WithoutSpring,
+                },
+                clutch,
+                torque_history,
+                speed_history,
+                drivetrain,
+                overrides: overrides.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            }),
             _ => all = None,
         }
     }
     all
 }
 
-fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind> {
+/// Refuse what `key` names as a history.
+pub(super) fn refuse_history(key: &str, found: String, out: &mut Findings) {
+    let allowed = "a CSV file in the folder of the design file, or below it".to_owned();
+    out.refuse(&[key], allowed, format!("{found}; name such a file"));
+}
+
+/// Whether the drivetrain moves in scenarios of this kind.
+fn takes_part(kind: KindFile) -> bool {
+    KINDS.iter().any(|(known, .., optional)| *known == kind && optional.contains(&"drivetrain"))
+}
+
+/// `joined`: whether a drivetrain takes part, beside which the outer race need not be tied and something changes.
+fn kind(s: &ScenarioFile, path: &str, joined: bool, out: &mut Findings) -> Option<ScenarioKind> {
     let (_, kind, required, optional) = KINDS.into_iter().find(|(kind, ..)| *kind == s.kind)?;
     let values = [
         ("torque_nm", s.torque_nm),
@@ -198,11 +223,14 @@ fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind
         ("torque_history_csv", s.torque_history_csv.as_ref().map(|_| 0.0)),
         ("speed_history_csv", s.speed_history_csv.as_ref().map(|_| 0.0)),
         ("start", s.start.map(|_| 0.0)),
+        ("drivetrain", s.drivetrain.as_ref().map(|_| 0.0)),
     ];
+    let abutment_nm_per_rad = s.abutment_stiffness_nm_per_rad.or(joined.then_some(0.0));
     let kind_key = format!("{path}.kind");
     for (name, value) in values {
         let key = format!("{path}.{name}");
-        if value.is_none() && required.contains(&name) {
+        let free = name == "abutment_stiffness_nm_per_rad" && joined;
+        if value.is_none() && required.contains(&name) && !free {
             let help = format!("add {name} = ... to scenario {:?}, which is of kind {kind}", s.name);
             out.refuse(&[&key], shape::meaning_of(&key), help);
         } else if value.is_some() && !required.contains(&name) && !optional.contains(&name) {
@@ -216,7 +244,7 @@ fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind
     }
     if s.kind == KindFile::Transient {
         let given = |name: &str| values.iter().any(|(n, v)| *n == name && v.is_some());
-        if !CHANGES.into_iter().any(given) {
+        if !joined && !CHANGES.into_iter().any(given) {
             out.refuse(
                 &[&kind_key],
                 format!("transient together with one of {}", CHANGES.join(", ")),
@@ -246,7 +274,7 @@ fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind
             preload_nm: s.preload_nm?,
             amplitude_nm: s.amplitude_nm?,
             frequency_hz: s.frequency_hz?,
-            abutment_stiffness_nm_per_rad: s.abutment_stiffness_nm_per_rad?,
+            abutment_stiffness_nm_per_rad: abutment_nm_per_rad?,
             duration_s: s.duration_s?,
             speed_rad_s: rad_s(s.speed_rpm.unwrap_or(0.0)),
         },
@@ -261,7 +289,7 @@ fn kind(s: &ScenarioFile, path: &str, out: &mut Findings) -> Option<ScenarioKind
             preload_nm: s.preload_nm.unwrap_or(0.0),
             torque_step_nm: s.torque_step_nm.unwrap_or(0.0),
             step_time_s: s.step_time_s.unwrap_or(0.0),
-            abutment_stiffness_nm_per_rad: s.abutment_stiffness_nm_per_rad?,
+            abutment_stiffness_nm_per_rad: abutment_nm_per_rad?,
             duration_s: s.duration_s?,
             speed_rad_s: rad_s(s.speed_rpm.unwrap_or(0.0)),
             overrun_rad_s: rad_s(s.overrun_rpm.unwrap_or(0.0)),

@@ -31,7 +31,7 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
 
 /// Tables besides whose numbers have their unit here; those of `[limits]` have it in [`LIMIT_KEYS`](super::LIMIT_KEYS).
 #[cfg(test)]
-const OTHER_TABLES: &[&str] = &["scenarios", "thermal"];
+const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal"];
 
 /// Unit of every number in these tables by the last step of its path, as printed; a pure number has none.
 const UNITS: &[(&str, &str)] = &[
@@ -40,12 +40,17 @@ const UNITS: &[(&str, &str)] = &[
     ("axial_offset_mm", "mm"),
     ("bearing_stiffness_n_per_um", "N/um"),
     ("bench_inertia_kg_m2", "kg m^2"),
+    ("bore_mm", "mm"),
     ("centre_distance_mm", "mm"),
+    ("compression_ratio", ""),
     ("count", ""),
     ("crowned_ratio", ""),
+    ("cylinders", ""),
+    ("damping_nm_s_per_rad", "Nm s/rad"),
     ("decay_s_per_m", "s/m"),
     ("density_kg_m3", "kg/m^3"),
     ("design_load_n", "N"),
+    ("drag_nm_s_per_rad", "Nm s/rad"),
     ("drag_torque_nm", "Nm"),
     ("drop_um", "um"),
     ("duration_s", "s"),
@@ -63,24 +68,31 @@ const UNITS: &[(&str, &str)] = &[
     ("inner_interference_um", "um"),
     ("inner_race_c", "°C"),
     ("inner_radius_mm", "mm"),
+    ("intake_pressure_mpa", "MPa"),
     ("kinetic", ""),
     ("length_mm", "mm"),
     ("load_factor", ""),
     ("mass_kg", "kg"),
+    ("mean_pressure_mpa", "MPa"),
     ("offset_mm", "mm"),
+    ("order", ""),
     ("outer_inertia_kg_m2", "kg m^2"),
     ("outer_interference_um", "um"),
     ("outer_outside_radius_mm", "mm"),
     ("outer_race_c", "°C"),
     ("outer_radius_mm", "mm"),
     ("overrun_rpm", "rpm"),
+    ("phase_rad", "rad"),
     ("poisson_ratio", ""),
+    ("polytropic_exponent", ""),
     ("preload_nm", "Nm"),
     ("radius_mm", "mm"),
+    ("ratio", ""),
     ("rear_mm", "mm"),
     ("rear_tilt_rad", "rad"),
     ("reference_c", "°C"),
     ("reversing_torque_nm", "Nm"),
+    ("rod_ratio", ""),
     ("roller_coefficient", ""),
     ("shaft_bore_radius_mm", "mm"),
     ("slices", ""),
@@ -90,6 +102,7 @@ const UNITS: &[(&str, &str)] = &[
     ("step_time_s", "s"),
     ("stiffness_nm_per_rad", "Nm/rad"),
     ("stop_stiffness_nm_per_rad", "Nm/rad"),
+    ("stroke_mm", "mm"),
     ("tilt_mrad", "mrad"),
     ("torque_nm", "Nm"),
     ("torque_step_nm", "Nm"),
@@ -107,7 +120,7 @@ pub fn variable_unit(name: &str) -> Option<&'static str> {
     unit_of_key(path.rsplit('.').next()?)
 }
 
-/// Unit of the number under a key of the clutch's own tables, of a scenario or of `[thermal]`; `None` where there is no such.
+/// Unit of the number under a key of the clutch's own tables, of a scenario, of `[[drivetrain]]` or of `[thermal]`; `None` where there is no such.
 pub fn unit_of_key(key: &str) -> Option<&'static str> {
     UNITS.iter().find(|(known, _)| *known == key).map(|(_, unit)| *unit)
 }

@@ -4,9 +4,11 @@ use super::choose::{Known, choose};
 use super::crossing::cross;
 use super::driver::Driver;
 use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER, seen};
-use super::model::{Forces, Grip, Mode, Place, State};
+use super::model::{Forces, Grip, Mode, Place};
 use super::run::Stop;
+use crate::ode::adaptive::Size;
 use crate::wedge::WedgePoint;
+use nalgebra::Const;
 
 /// A mode to enter, and the point of the curve and the forces in it where they are known at the present time and state.
 pub(super) struct Next {
@@ -21,9 +23,12 @@ impl Next {
     }
 }
 
-impl Driver<'_> {
+impl<const N: usize> Driver<'_, N>
+where
+    Const<N>: Size,
+{
     /// Change of mode at event `which`.
-    pub(super) fn change(&mut self, which: usize, t: f64, mut y: State) -> bool {
+    pub(super) fn change(&mut self, which: usize, t: f64, mut y: [f64; N]) -> bool {
         let model = self.model;
         let mode = self.run.mode;
         let p = self.hold(&mut y);
@@ -70,7 +75,7 @@ impl Driver<'_> {
     /// Put the rolling constraints of the present mode into the rates of `y`. The integrated rates of the sprag drift off
     /// them by the tolerance; a contact that leaves stick with that as its slip velocity would slip the wrong way.
     /// Returns the point of the curve there.
-    fn hold(&self, y: &mut State) -> WedgePoint {
+    fn hold(&self, y: &mut [f64; N]) -> WedgePoint {
         let mode = &self.run.mode;
         let p = self.model.point(mode.place, y[0]);
         let rates = self.model.rates(mode, &p, y);
@@ -85,7 +90,7 @@ impl Driver<'_> {
         p: &WedgePoint,
         place: Place,
         t: f64,
-        y: &mut State,
+        y: &mut [f64; N],
         inner: Known,
         outer: Known,
     ) -> Next {
@@ -114,7 +119,7 @@ impl Driver<'_> {
     pub(super) fn chosen(
         &mut self,
         t: f64,
-        y: &State,
+        y: &[f64; N],
         p: WedgePoint,
         place: Place,
         inner: Known,
@@ -153,7 +158,7 @@ impl Driver<'_> {
             // Nothing better: go on in this mode for a step that rounding cannot undo. A slip whose velocity is against its
             // sign even then slips the other way.
             self.run.t_s = t + 1e-12;
-            let rhs = |t: f64, y: &State| self.model.slope(&mode, t, y).ok_or(());
+            let rhs = |t: f64, y: &[f64; N]| self.model.slope(&mode, t, y).ok_or(());
             let Ok(slope) = rhs(t, &y) else {
                 self.stop(Stop::NotFinite);
                 return false;
@@ -197,7 +202,8 @@ impl Driver<'_> {
         self.renew(mode);
         if let Some((p, f)) = next.seen {
             let look = seen(self.model, &mode, &self.run.state, &p, &f, !self.settings.rolling);
-            (self.slope, self.seen) = (self.model.slope_of(&mode, &rates, &f), Some(look));
+            (self.slope, self.seen) =
+                (self.model.slope_of(&mode, t, &self.run.state, &rates, &f), Some(look));
         }
         self.run.mode = mode;
         self.run.note_engagement();

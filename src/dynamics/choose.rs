@@ -19,7 +19,7 @@
 //! Where no candidate is consistent the least violation is still a mode and is counted (`inconsistent_choices`); the run then
 //! goes on by `give_way`, bounded by the limit of events.
 
-use super::model::{Forces, Grip, Mode, Model, Place, State};
+use super::model::{Forces, Grip, Mode, Model, Place};
 use crate::wedge::WedgePoint;
 
 /// What is known of one contact before the choice.
@@ -56,10 +56,10 @@ const STILL: [Grip; 3] = [Grip::Stick, Grip::Slip(1.0), Grip::Slip(-1.0)];
 /// Eq. (11) without a band of zero velocity: the mode at (t, y), where the curve is `p`, by complementarity,
 /// |T| <= mu_s N and v' = 0 in stick, T against v' in slip. Signs as in [`super::published()`], opposite at A and B.
 #[doc(alias = "Eq. (11)")]
-pub(super) fn choose(
+pub(super) fn choose<const N: usize>(
     model: &Model,
     t: f64,
-    y: &State,
+    y: &[f64; N],
     p: &WedgePoint,
     place: Place,
     inner: Known,
@@ -79,10 +79,10 @@ pub(super) fn choose(
 }
 
 /// Every candidate with how far it is from consistent, while `go_on` says so.
-fn weigh(
+fn weigh<const N: usize>(
     model: &Model,
     t: f64,
-    y: &State,
+    y: &[f64; N],
     p: &WedgePoint,
     place: Place,
     inner: Known,
@@ -145,7 +145,7 @@ fn slip_accelerations(p: &WedgePoint, alpha_rate: f64, f: &Forces) -> ((f64, f64
 mod tests {
     use super::*;
     use crate::design::Design;
-    use crate::dynamics::{Loads, alpha_max_rad};
+    use crate::dynamics::{Loads, State, alpha_max_rad};
     use crate::friction::Stribeck;
     use crate::wedge::WedgeCurve;
     use nalgebra::Matrix2;

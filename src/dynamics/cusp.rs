@@ -3,9 +3,11 @@
 use super::driver::{Driver, Found};
 use super::events::{LOWER, UPPER, look};
 use super::looks::Looks;
-use super::model::{Grip, N_STATE, Place};
+use super::model::{Grip, Place};
+use crate::ode::adaptive::Size;
 use crate::ode::step::{Dense, Step};
 use crate::wedge::RHO_STEEPEST_RAD;
+use nalgebra::Const;
 
 /// How much of the way to the cusp one step may go.
 const PART: f64 = 0.8;
@@ -21,7 +23,10 @@ pub(super) fn cusp(place: Place) -> Option<usize> {
     }
 }
 
-impl Driver<'_> {
+impl<const N: usize> Driver<'_, N>
+where
+    Const<N>: Size,
+{
     /// How long a step may be that does not spoil the loss of contact, s. Where one contact holds and the other slips,
     /// alpha'' holds rho' alpha'^2 ~ x^(-8/9): of a step that begins at x and ends at the cusp the estimate sees nothing,
     /// however short, and three runs that do the same agree and are wrong together.
@@ -39,10 +44,10 @@ impl Driver<'_> {
     /// grows there with the slope of rho, as far as [`RHO_STEEPEST_RAD`] from it.
     pub(super) fn before_the_cusp(
         &self,
-        step: &Step<N_STATE>,
+        step: &Step<N>,
         looks: &Looks,
         theta: f64,
-        dense: &Dense<N_STATE>,
+        dense: &Dense<N>,
     ) -> Option<(f64, usize)> {
         let (mode, grips) = (self.run.mode, !self.settings.rolling);
         let near = theta - RHO_STEEPEST_RAD / (dense.after(theta * step.h())[4] * step.h()).abs();

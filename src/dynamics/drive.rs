@@ -1,6 +1,8 @@
 //! What acts on the races from outside.
 
-use super::model::Model;
+use super::model::{Model, N_STATE};
+use super::run::Run;
+use super::train::Train;
 use crate::numeric::course::Course;
 
 /// Torques from outside.
@@ -34,11 +36,14 @@ pub struct Drive {
     pub speed_rad_s: Option<Course>,
     /// Torques that the flanges pass on to the inner and to the outer race, added to C_bi and C_be.
     pub flanges: Option<[Ramp; 2]>,
+    /// What turns on either side of the clutch. Only a run that begins by [`super::run()`] moves it.
+    pub train: Option<Train>,
 }
 
 impl Drive {
     fn courses(&self) -> impl Iterator<Item = &Course> {
-        self.torque_nm.iter().chain(&self.speed_rad_s)
+        let of_train = self.train.iter().flat_map(Train::courses);
+        self.torque_nm.iter().chain(&self.speed_rad_s).chain(of_train)
     }
 
     /// First time after `t` (s) at which a course has a knot: no step may cross it.
@@ -55,7 +60,16 @@ impl Drive {
     pub fn from(&self, t: f64) -> Self {
         let later = |c: &Option<Course>| c.as_ref().map(|c| c.from(t));
         let flanges = self.flanges.map(|both| both.map(|r| Ramp { start_nm: r.at(t), ..r }));
-        Self { torque_nm: later(&self.torque_nm), speed_rad_s: later(&self.speed_rad_s), flanges }
+        let train = self.train.as_ref().map(|train| train.from(t));
+        Self { torque_nm: later(&self.torque_nm), speed_rad_s: later(&self.speed_rad_s), flanges, train }
+    }
+
+    /// The same with the drivetrain as `run` had it when the clutch engaged.
+    pub fn after(mut self, run: &Run) -> Self {
+        if let Some((train, before)) = self.train.as_mut().zip(run.train.as_ref()) {
+            train.begin_at(before);
+        }
+        self
     }
 
     /// Engaging torque at `t`, N m.
@@ -81,6 +95,19 @@ impl Model {
         match &self.drive.flanges {
             Some([more_inner, more_outer]) => [inner + more_inner.at(t), outer + more_outer.at(t)],
             None => [inner, outer],
+        }
+    }
+
+    /// The same with what the drivetrain brings, where `y` holds its state too.
+    #[inline(always)]
+    pub(super) fn torques_on_nm<const N: usize>(&self, t: f64, y: &[f64; N]) -> [f64; 2] {
+        let [inner, outer] = self.torques_nm(t);
+        match &self.drive.train {
+            Some(train) if N > N_STATE => {
+                let [more_inner, more_outer] = train.on_races_nm(t, y, self.mean_speed(t).0);
+                [inner + more_inner, outer + more_outer]
+            }
+            _ => [inner, outer],
         }
     }
 }

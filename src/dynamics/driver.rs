@@ -5,13 +5,14 @@ use super::cusp::cusp;
 use super::energy::Audit;
 use super::events::{EVENTS, INNER, LOWER, Look, OUTER, UPPER, event, look};
 use super::looks::{Looks, NeverPositive, Observed, Trail};
-use super::model::{Grip, Mode, Model, N_STATE, Place, State};
+use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::run::{FastMotion, Run, RunSettings, Stop};
 use super::watch::highest;
 use super::zeno::Zeno;
-use crate::ode::adaptive::Adaptive;
+use crate::ode::adaptive::{Adaptive, Size};
 use crate::ode::rhs::RightHandSide;
 use crate::ode::step::{Dense, Room, Step};
+use nalgebra::Const;
 
 /// Size of angles (rad), rates (rad/s) and distances (m) below which the increments of a Jacobian do not follow them.
 const SMALL: f64 = 1e-3;
@@ -25,10 +26,13 @@ const FINEST_WIDTH: f64 = 1e-13;
 /// From here on, as a fraction of the way to an event, another is at the same time.
 const TOGETHER: f64 = 1.0 - 1e-9;
 
-pub(super) struct Driver<'a> {
+pub(super) struct Driver<'a, const N: usize = N_STATE>
+where
+    Const<N>: Size,
+{
     pub(super) model: &'a Model,
     pub(super) settings: &'a RunSettings,
-    pub(super) run: Run,
+    pub(super) run: Run<N>,
     /// Start of the current stretch without contact.
     pub(super) open_since: Option<f64>,
     /// Windup reference of stick: theta_bi - theta_be + W(alpha) is kept while both stick.
@@ -39,9 +43,9 @@ pub(super) struct Driver<'a> {
     pub(super) zeno: Zeno,
     /// When the mode has changed last, s, and at which event.
     pub(super) landed: (f64, usize),
-    pub(super) stepper: Adaptive<N_STATE>,
+    pub(super) stepper: Adaptive<N>,
     /// Slope and look at the present state where the last step has left them.
-    pub(super) slope: Option<State>,
+    pub(super) slope: Option<[f64; N]>,
     pub(super) seen: Option<Look>,
     /// Path of slip at A that ends the run, as slip under load does, m.
     pub(super) most_slip_m: Option<f64>,
@@ -60,13 +64,19 @@ fn kind(mode: &Mode) -> usize {
 }
 
 /// The right-hand side in one mode.
-pub(super) fn slope_in(model: &Model, mode: Mode) -> impl Fn(f64, &State) -> Result<State, ()> {
+pub(super) fn slope_in<const N: usize>(
+    model: &Model,
+    mode: Mode,
+) -> impl Fn(f64, &[f64; N]) -> Result<[f64; N], ()> {
     move |t, y| model.slope(&mode, t, y).ok_or(())
 }
 
-impl<'a> Driver<'a> {
+impl<'a, const N: usize> Driver<'a, N>
+where
+    Const<N>: Size,
+{
     /// At t = 0, looked at once, not yet moved.
-    pub(super) fn new(model: &'a Model, state: State, mode: Mode, settings: &'a RunSettings) -> Self {
+    pub(super) fn new(model: &'a Model, state: [f64; N], mode: Mode, settings: &'a RunSettings) -> Self {
         let mut driver = Self {
             model,
             settings,
@@ -92,7 +102,7 @@ impl<'a> Driver<'a> {
     }
 
     /// Integrate to the end, whatever that is.
-    pub(super) fn run(mut self) -> Run {
+    pub(super) fn run(mut self) -> Run<N> {
         self.settings.follow.begin_run();
         self.begin();
         self.integrate();
@@ -167,8 +177,8 @@ impl<'a> Driver<'a> {
     }
 
     /// Take the step up to its first event, if any. False: the run has ended.
-    fn advance(&mut self, step: &Step<N_STATE>, slope: &State, looks: &Looks, rhs: &mut Observed) -> bool {
-        let mut dense: Option<Dense<N_STATE>> = None;
+    fn advance(&mut self, step: &Step<N>, slope: &[f64; N], looks: &Looks, rhs: &mut Observed) -> bool {
+        let mut dense: Option<Dense<N>> = None;
         for i in 1..looks.count() {
             if looks.seen(i).events.iter().any(|&e| e < 0.0) {
                 let d = match &dense {
@@ -221,7 +231,7 @@ impl<'a> Driver<'a> {
 
     /// Whether event `which` at `theta` is that at which the mode has just changed: what is zero there is no more than
     /// rounding above zero, and in a step as long as this one it may have risen and fallen again unseen.
-    fn stays(&self, step: &Step<N_STATE>, theta: f64, which: usize) -> bool {
+    fn stays(&self, step: &Step<N>, theta: f64, which: usize) -> bool {
         let t = step.t();
         t + theta * step.h() == t && self.landed == (t, which)
     }
@@ -230,12 +240,12 @@ impl<'a> Driver<'a> {
     /// is nearer to zero than it can fall between looks. A step may have been cut where event `landed` is.
     fn crest(
         &mut self,
-        step: &Step<N_STATE>,
+        step: &Step<N>,
         looks: &Looks,
-        mut dense: Option<Dense<N_STATE>>,
+        mut dense: Option<Dense<N>>,
         landed: Option<usize>,
         rhs: &mut Observed,
-    ) -> Result<Option<(f64, usize, Dense<N_STATE>)>, ()> {
+    ) -> Result<Option<(f64, usize, Dense<N>)>, ()> {
         let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
         for i in 0..EVENTS {
             let e = |j: usize| looks.seen(j).events[i];
@@ -278,8 +288,8 @@ impl<'a> Driver<'a> {
     /// Earliest zero between look `left` and the fraction `to` of the step, where `after` is seen.
     pub(super) fn first_event(
         &self,
-        dense: &Dense<N_STATE>,
-        step: &Step<N_STATE>,
+        dense: &Dense<N>,
+        step: &Step<N>,
         looks: &Looks,
         left: usize,
         to: f64,
@@ -309,11 +319,11 @@ impl<'a> Driver<'a> {
     /// Take the step only up to the event and change the mode there.
     fn land(
         &mut self,
-        step: &Step<N_STATE>,
+        step: &Step<N>,
         looks: &Looks,
         theta: f64,
         which: usize,
-        dense: &Dense<N_STATE>,
+        dense: &Dense<N>,
         rhs: &mut Observed,
     ) -> bool {
         let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
@@ -393,7 +403,7 @@ impl<'a> Driver<'a> {
     }
 
     /// Take over an accepted step, at whose end `end` is seen: constraint, slip records.
-    fn accept(&mut self, step: &Step<N_STATE>, end: &Look) {
+    fn accept(&mut self, step: &Step<N>, end: &Look) {
         let mode = self.run.mode;
         let (t, mut y) = (step.t() + step.h(), *step.y1());
         self.run.counters.steps += 1;
@@ -422,7 +432,7 @@ impl<'a> Driver<'a> {
         self.run.stop = why;
     }
 
-    pub(super) fn finish(mut self) -> Run {
+    pub(super) fn finish(mut self) -> Run<N> {
         self.run.energy = self.balance();
         self.sample_extremes();
         if matches!(self.run.stop, Stop::StepLimit | Stop::EventLimit) {

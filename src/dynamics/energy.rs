@@ -13,9 +13,11 @@
 
 use super::driver::Driver;
 use super::looks::Observed;
-use super::model::{Grip, Model, N_STATE, Place, State};
+use super::model::{Grip, Model, N_STATE, Place};
 use crate::numeric::quadrature;
+use crate::ode::adaptive::Size;
 use crate::ode::step::{Counters, Step};
+use nalgebra::Const;
 
 /// Works over a run, J, positive where they bring energy in; friction and damping take it out.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -24,19 +26,19 @@ pub struct EnergyBalance {
     pub friction_inner_j: f64,
     /// Friction at B.
     pub friction_outer_j: f64,
-    /// Viscous damping between the races.
+    /// Viscous damping between the races, in the shafts of a drivetrain and by its drags.
     pub race_damping_j: f64,
     /// Hunt-Crossley damping of the contacts.
     pub contact_damping_j: f64,
-    /// Torque on the inner race: preload, step, history or flange.
+    /// Torque on the inner race: preload, step, history or flange; that on the drivetrain of its side.
     pub torque_inner_j: f64,
-    /// Torque on the outer race: excitation or flange.
+    /// Torque on the outer race: excitation or flange; that on the drivetrain of its side.
     pub torque_outer_j: f64,
     /// Change of the mean speed.
     pub frame_j: f64,
     /// Change of kinetic energy.
     pub kinetic_j: f64,
-    /// Change of stored energy: wedge, springs, abutment.
+    /// Change of stored energy: wedge, springs, abutment, shafts.
     pub stored_j: f64,
     /// Energy that went through: the time integral of the sum of the magnitudes of all powers, and what was in motion at
     /// the start.
@@ -67,7 +69,7 @@ const WORKS: usize = 7;
 
 impl Model {
     /// Powers in the order of the fields of [`EnergyBalance`], W.
-    fn powers(&self, mode: &super::Mode, t: f64, y: &State) -> [f64; WORKS] {
+    fn powers<const N: usize>(&self, mode: &super::Mode, t: f64, y: &[f64; N]) -> [f64; WORKS] {
         let p = self.point(mode.place, y[0]);
         let rates = self.rates(mode, &p, y);
         let f = self.forces_at(mode, t, y, &p, &rates);
@@ -87,7 +89,7 @@ impl Model {
         let slowed = n * (self.inertia_kg_m2 * da + orbit * dp)
             + self.inner_inertia_kg_m2 * di
             + self.outer_inertia_kg_m2 * de;
-        [
+        let mut powers = [
             n * f.t_bi * f.v_a * slips(mode.inner),
             -n * f.t_be * f.v_b * slips(mode.outer),
             -self.damping_nm_s_per_rad * (di - de).powi(2),
@@ -95,7 +97,16 @@ impl Model {
             torque_inner * di,
             torque_outer * de,
             n * frame * da - spin * slowed,
-        ]
+        ];
+        if N > N_STATE
+            && let Some(train) = &self.drive.train
+        {
+            let [inner, outer, lost, frame] = train.powers_w(t, y, (speed, spin));
+            for (i, more) in [(4, inner), (5, outer), (2, lost), (6, frame)] {
+                powers[i] += more;
+            }
+        }
+        powers
     }
 
     /// Energy stored in the contacts of all sprags between two angles, J: n_s int U' dalpha with U' = T OA (rho_i +
@@ -141,14 +152,21 @@ pub(super) struct Audit {
     start: [f64; 3],
 }
 
-impl Driver<'_> {
+impl<const N: usize> Driver<'_, N>
+where
+    Const<N>: Size,
+{
     /// Kinetic energy and that of springs and abutment now, J, and alpha.
     fn energies(&self) -> [f64; 3] {
         let (model, y) = (self.model, &self.run.state);
         let p = model.point(self.run.mode.place, y[0]);
         let rates = model.rates(&self.run.mode, &p, y);
         let still = model.energy_without_wedge(&p, &[0.0; 4], y);
-        [model.energy_without_wedge(&p, &rates, y) - still, still, y[0]]
+        let [moves, twisted] = match &model.drive.train {
+            Some(train) if N > N_STATE => train.energies_j(self.run.t_s, y, model.mean_speed(self.run.t_s).0),
+            _ => [0.0; 2],
+        };
+        [model.energy_without_wedge(&p, &rates, y) - still + moves, still + twisted, y[0]]
     }
 
     /// Begin to count.
@@ -158,7 +176,7 @@ impl Driver<'_> {
     }
 
     /// Count the works of an accepted step, by quadrature over its dense output, whose evaluations are none of the run's.
-    pub(super) fn audit_step(&mut self, step: &Step<N_STATE>, rhs: &mut Observed) {
+    pub(super) fn audit_step(&mut self, step: &Step<N>, rhs: &mut Observed) {
         let (model, mode) = (self.model, self.run.mode);
         let Some(audit) = &mut self.audit else { return };
         let Ok(dense) = step.dense(rhs, &mut Counters::default()) else { return };

@@ -1,6 +1,6 @@
 //! Functions whose falling through zero ends a mode.
 
-use super::model::{Forces, Grip, Mode, Model, Place, State};
+use super::model::{Forces, Grip, Mode, Model, Place};
 use crate::wedge::WedgePoint;
 
 /// Number of event functions.
@@ -88,7 +88,14 @@ fn carried(n: f64, loaded: f64) -> f64 {
 /// What is seen where the forces are `f`. `grips`: whether the friction limits count (the pure-rolling run ignores
 /// them). Always inlined: written where it is kept, not copied there, which would wait for the writes.
 #[inline(always)]
-pub(super) fn seen(model: &Model, mode: &Mode, y: &State, p: &WedgePoint, f: &Forces, grips: bool) -> Look {
+pub(super) fn seen<const N: usize>(
+    model: &Model,
+    mode: &Mode,
+    y: &[f64; N],
+    p: &WedgePoint,
+    f: &Forces,
+    grips: bool,
+) -> Look {
     let (lower, upper) = within(model, mode.place, y[0]);
     let mu = model.friction.static_;
     let inner = match mode.inner {
@@ -122,14 +129,21 @@ pub(super) fn radial_m_s2(mode: &Mode, p: &WedgePoint, f: &Forces) -> f64 {
 }
 
 /// What is seen at (t, y) in `mode`.
-pub(super) fn look(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool) -> Look {
+pub(super) fn look<const N: usize>(model: &Model, mode: &Mode, t: f64, y: &[f64; N], grips: bool) -> Look {
     let p = model.point(mode.place, y[0]);
     let f = model.forces_at(mode, t, y, &p, &model.rates(mode, &p, y));
     seen(model, mode, y, &p, &f, grips)
 }
 
 /// Event function `i` of [`Look::events`] alone: the ends of a place need no forces, a slip velocity no friction.
-pub(super) fn event(model: &Model, mode: &Mode, t: f64, y: &State, grips: bool, i: usize) -> f64 {
+pub(super) fn event<const N: usize>(
+    model: &Model,
+    mode: &Mode,
+    t: f64,
+    y: &[f64; N],
+    grips: bool,
+    i: usize,
+) -> f64 {
     let slips = |grip: Grip| if let Grip::Slip(s) = grip { Some(s) } else { None };
     let velocities = || {
         let p = model.point(mode.place, y[0]);

@@ -2,7 +2,7 @@
 //! from its sixth stage on are good to order 5, and an evaluation of the forces is all that a look takes.
 
 use super::events::{EVENTS, Look, look, seen};
-use super::model::{Mode, Model, N_STATE, State};
+use super::model::{Mode, Model};
 use crate::numeric::root;
 use crate::ode::dop853;
 use crate::ode::rhs::RightHandSide;
@@ -85,24 +85,24 @@ pub(super) struct Observed<'a> {
 }
 
 /// Always inlined: a slope is written into the step, not copied there.
-impl RightHandSide<N_STATE> for Observed<'_> {
+impl<const N: usize> RightHandSide<N> for Observed<'_> {
     type Failure = ();
 
     #[inline(always)]
-    fn slope(&mut self, t: f64, y: &State) -> Result<State, ()> {
+    fn slope(&mut self, t: f64, y: &[f64; N]) -> Result<[f64; N], ()> {
         self.model.slope(&self.mode, t, y).ok_or(())
     }
 
     #[inline(always)]
-    fn slope_at_look(&mut self, look: usize, t: f64, y: &State) -> Result<State, ()> {
+    fn slope_at_look(&mut self, look: usize, t: f64, y: &[f64; N]) -> Result<[f64; N], ()> {
         let (model, mode) = (self.model, &self.mode);
         let (looks, count) = &mut *self.trail.seen.borrow_mut();
         let p = model.point(mode.place, y[0]);
         let rates = model.rates(mode, &p, y);
-        let f = model.forces_with::<true>(mode, t, y, &p, &rates);
+        let f = model.forces_with::<true, N>(mode, t, y, &p, &rates);
         looks[look] = seen(model, mode, y, &p, &f, self.grips);
         *count = look + 1;
-        model.slope_of(mode, &rates, &f).ok_or(())
+        model.slope_of(mode, t, y, &rates, &f).ok_or(())
     }
 }
 
@@ -125,12 +125,12 @@ impl Looks {
     }
 
     /// At an accepted step in `mode` which has left `trail`.
-    pub(super) fn take(
+    pub(super) fn take<const N: usize>(
         &mut self,
         model: &Model,
         mode: &Mode,
         grips: bool,
-        step: &Step<N_STATE>,
+        step: &Step<N>,
         trail: &Trail,
     ) {
         let (seen, _) = &*trail.seen.borrow();

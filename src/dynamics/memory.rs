@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::driver::{Driver, KINDS};
 use super::events::EVENTS;
-use super::model::{Mode, Model, Place, State};
+use super::model::{Mode, Model, N_STATE, Place, State};
 use super::run::{Run, RunSettings};
 use super::zeno::KEPT;
 use crate::ode::adaptive::Pace;
@@ -85,7 +85,7 @@ impl Memory {
     }
 }
 
-impl Driver<'_> {
+impl Driver<'_, N_STATE> {
     fn recall(&mut self, memory: &Memory) {
         self.phase = memory.phase_rad.or(self.phase);
         if let Some(pace) = memory.pace {

@@ -25,6 +25,7 @@ mod rolling;
 mod run;
 mod start;
 mod swing;
+mod train;
 mod watch;
 mod zeno;
 
@@ -41,3 +42,4 @@ pub use run::{
 };
 pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled, settled_end_torque_nm, settled_point};
 pub use swing::{Swing, swing};
+pub use train::{NodeMotion, Train, TrainMode, TrainRun};

@@ -132,7 +132,7 @@ impl Model {
     /// The light sprag follows the heavy races: both stick, alpha' = (theta_be' - theta_bi')/(rho_i + rho_e),
     /// phi' = theta_bi' + rho_i alpha'; one sticks, phi' follows that race.
     #[inline]
-    pub fn rates(&self, mode: &Mode, p: &WedgePoint, y: &State) -> [f64; 4] {
+    pub fn rates<const N: usize>(&self, mode: &Mode, p: &WedgePoint, y: &[f64; N]) -> [f64; 4] {
         let [mut da, mut dp, di, de] = [y[4], y[5], y[6], y[7]];
         let inner_sticks = mode.inner == Grip::Stick && mode.place != Place::Open;
         match (inner_sticks, mode.outer == Grip::Stick) {
@@ -204,30 +204,30 @@ impl Model {
     /// that of the curve's speed.
     #[doc(alias = "Eq. (13)")]
     #[doc(alias = "Eq. (15)")]
-    pub fn forces(&self, mode: &Mode, t: f64, y: &State) -> Forces {
+    pub fn forces<const N: usize>(&self, mode: &Mode, t: f64, y: &[f64; N]) -> Forces {
         let p = self.point(mode.place, y[0]);
         let rates = self.rates(mode, &p, y);
         self.forces_at(mode, t, y, &p, &rates)
     }
 
-    pub(super) fn forces_at(
+    pub(super) fn forces_at<const N: usize>(
         &self,
         mode: &Mode,
         t: f64,
-        y: &State,
+        y: &[f64; N],
         p: &WedgePoint,
         rates: &[f64; 4],
     ) -> Forces {
-        self.forces_with::<true>(mode, t, y, p, rates)
+        self.forces_with::<true, N>(mode, t, y, p, rates)
     }
 
     /// The same; without `RADIAL` the radial equation is left out where B holds, which does not need it, and N_be is 0.
     #[inline(always)]
-    pub(super) fn forces_with<const RADIAL: bool>(
+    pub(super) fn forces_with<const RADIAL: bool, const N: usize>(
         &self,
         mode: &Mode,
         t: f64,
-        y: &State,
+        y: &[f64; N],
         p: &WedgePoint,
         rates: &[f64; 4],
     ) -> Forces {
@@ -250,7 +250,7 @@ impl Model {
         let orbit = self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g;
         let f_phi = -n * (2.0 * swing * da * phi_rate + orbit * spin);
         let drag = self.damping_nm_s_per_rad * (di - de);
-        let [torque_i, torque_e] = self.torques_nm(t);
+        let [torque_i, torque_e] = self.torques_on_nm(t, y);
         let f_i = torque_i - drag - self.inner_inertia_kg_m2 * spin;
         let f_e = torque_e + drag - self.loads.abutment_nm_per_rad * y[3] - self.outer_inertia_kg_m2 * spin;
         let inverse = self.sprag_inverse(p.oc_g);
@@ -353,20 +353,27 @@ impl Model {
 
     /// Right-hand side of the first-order system; `None` where it is not finite.
     #[inline(always)]
-    pub fn slope(&self, mode: &Mode, t: f64, y: &State) -> Option<State> {
+    pub fn slope<const N: usize>(&self, mode: &Mode, t: f64, y: &[f64; N]) -> Option<[f64; N]> {
         let p = self.point(mode.place, y[0]);
         let rates = self.rates(mode, &p, y);
-        let f = self.forces_with::<false>(mode, t, y, &p, &rates);
-        self.slope_of(mode, &rates, &f)
+        let f = self.forces_with::<false, N>(mode, t, y, &p, &rates);
+        self.slope_of(mode, t, y, &rates, &f)
     }
 
     /// The right-hand side where rates and forces are known.
     #[inline(always)]
-    pub(super) fn slope_of(&self, mode: &Mode, rates: &[f64; 4], f: &Forces) -> Option<State> {
+    pub(super) fn slope_of<const N: usize>(
+        &self,
+        mode: &Mode,
+        t: f64,
+        y: &[f64; N],
+        rates: &[f64; 4],
+        f: &Forces,
+    ) -> Option<[f64; N]> {
         let slips_a = matches!(mode.inner, Grip::Slip(_)) && mode.place != Place::Open;
         let slips_b = matches!(mode.outer, Grip::Slip(_));
         let a = f.acceleration;
-        let out = [
+        let of_clutch = [
             rates[0],
             rates[1],
             rates[2],
@@ -378,13 +385,25 @@ impl Model {
             if slips_a { f.v_a } else { 0.0 },
             if slips_b { f.v_b } else { 0.0 },
         ];
+        let mut out = [0.0; N];
+        out[..N_STATE].copy_from_slice(&of_clutch);
+        if N > N_STATE
+            && let Some(train) = &self.drive.train
+        {
+            train.slope(t, y, self.mean_speed(t), [a[2], a[3]], &mut out);
+        }
         // NaN where one is not finite.
         let finite = out.iter().map(|v| 0.0 * v).sum::<f64>() == 0.0;
         finite.then_some(out)
     }
 
     /// Kinetic and stored energy apart from the wedge (J): races, sprags, spring, abutment.
-    pub fn energy_without_wedge(&self, p: &WedgePoint, rates: &[f64; 4], y: &State) -> f64 {
+    pub fn energy_without_wedge<const N: usize>(
+        &self,
+        p: &WedgePoint,
+        rates: &[f64; 4],
+        y: &[f64; N],
+    ) -> f64 {
         let [da, dp, di, de] = *rates;
         let sprag = 0.5 * self.inertia_kg_m2 * (da + dp).powi(2) + 0.5 * self.mass_kg * (p.oc_g * dp).powi(2);
         let spring = 0.5 * self.spring_nm_per_rad * (self.alpha_max_rad - y[0]).powi(2);

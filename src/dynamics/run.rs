@@ -1,9 +1,9 @@
 //! A run: what it is asked for and what comes out.
 
-use super::driver::Driver;
 use super::energy::EnergyBalance;
 use super::events::{FIGURES, N_BI};
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
+use super::train::{self, TrainRun};
 use crate::follow::Follow;
 use crate::ode::step::{Counters, Tolerance};
 use serde::{Deserialize, Serialize};
@@ -167,13 +167,13 @@ impl Peaks {
     }
 }
 
-/// One sample.
+/// One sample. `N`: length of the state, longer where a drivetrain is integrated too.
 #[derive(Debug, Clone, Copy)]
-pub struct Sample {
+pub struct Sample<const N: usize = N_STATE> {
     /// Time, s.
     pub t: f64,
     /// State.
-    pub state: State,
+    pub state: [f64; N],
     /// Forces there.
     pub forces: Forces,
     /// Mode there.
@@ -183,11 +183,11 @@ pub struct Sample {
 /// The first moment at which A carries load without overrunning: at once in a torsional scene, at the reversal
 /// in an engagement. What slipped before belongs to the free run.
 #[derive(Debug, Clone, Copy)]
-pub struct Engaged {
+pub struct Engaged<const N: usize = N_STATE> {
     /// Time, s.
     pub t_s: f64,
     /// State there.
-    pub state: State,
+    pub state: [f64; N],
     /// Place of the contact there.
     pub place: Place,
     /// Slip at A up to it.
@@ -213,19 +213,20 @@ pub struct FastMotion {
     pub rate_rad_s: f64,
     /// Its amplitude in the angle that moves most, rad.
     pub amplitude_rad: f64,
-    /// What moves most: `sprag` (alpha, phi), `inner race` or `outer race`.
+    /// What moves most: `sprag` (alpha, phi), `inner race`, `outer race` or `drivetrain`.
     pub of: &'static str,
 }
 
 impl FastMotion {
     /// From the part of the state's slope that is as fast as `rate` (rad/s): for a swing a_i cos the angle's rate and
     /// its acceleration give a_i = hypot(rate_i/lambda, acceleration_i/lambda^2).
-    pub(super) fn of(rate: f64, part: &State) -> Self {
+    pub(super) fn of<const N: usize>(rate: f64, part: &[f64; N]) -> Self {
         let amplitude = |i: usize| (part[i] / rate).hypot(part[4 + i] / (rate * rate));
         let each = [
             (amplitude(0).max(amplitude(1)), "sprag"),
             (amplitude(2), "inner race"),
             (amplitude(3), "outer race"),
+            (train::most(part, rate), "drivetrain"),
         ];
         let most = each.iter().fold(each[0], |m, e| if e.0 > m.0 { *e } else { m });
         Self { rate_rad_s: rate, amplitude_rad: most.0, of: most.1 }
@@ -234,13 +235,13 @@ impl FastMotion {
 
 /// A finished run.
 #[derive(Debug, Clone)]
-pub struct Run {
+pub struct Run<const N: usize = N_STATE> {
     /// Why it ended.
     pub stop: Stop,
     /// Time reached, s.
     pub t_s: f64,
     /// State there.
-    pub state: State,
+    pub state: [f64; N],
     /// Mode there.
     pub mode: Mode,
     /// Slip at A.
@@ -268,21 +269,23 @@ pub struct Run {
     /// Where the energy went, where that was asked.
     pub energy: Option<EnergyBalance>,
     /// Samples in the order of time: equidistant ones, and those that [`History::marks`] adds.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<Sample<N>>,
     /// How many of these are changes of mode.
     pub(super) marked: usize,
     /// The sample at each of the extremes so far, where the history marks them.
-    pub(super) extremes: [Option<Sample>; FIGURES],
+    pub(super) extremes: [Option<Sample<N>>; FIGURES],
     /// What the equations leave out.
     pub neglected: Neglected,
     /// When the clutch began to be one; `None`: it overran or was open to the end.
-    pub engaged: Option<Engaged>,
+    pub engaged: Option<Engaged<N>>,
     /// The first hold of the load since then that has ended.
     pub(super) held: Option<Held>,
     /// The stick of A that lasts.
     pub(super) stick: Option<Held>,
     /// Every mode with the time at which it began, s; empty where no samples were asked for.
     pub modes: Vec<(f64, Mode)>,
+    /// What the drivetrain did, where there is one.
+    pub train: Option<TrainRun>,
 }
 
 /// Tolerance of the steps above which they need not follow how a slip begins: their other errors are larger.
@@ -296,7 +299,7 @@ impl RunSettings {
     /// * alpha' and phi': none, as long as a sticking contact determines them; alpha' has an infinite slope at first contact.
     /// * Slip distances: almost no absolute error. Where friction falls with speed a slip grows from 0 like an exponential,
     ///   and its first steps decide when it is large. Steps coarser than [`COARSE`] do not follow that; they may err more.
-    pub(super) fn tolerance_in(&self, mode: &Mode) -> Tolerance<N_STATE> {
+    pub(super) fn tolerance_in<const N: usize>(&self, mode: &Mode) -> Tolerance<N> {
         let inner = mode.inner == Grip::Stick && mode.place != Place::Open;
         let outer = mode.outer == Grip::Stick;
         let relative = if inner && outer { 0.2 * self.tolerance } else { self.tolerance };
@@ -306,15 +309,21 @@ impl RunSettings {
         let (alpha, phi) = (unless(inner && outer), unless(inner || outer));
         Tolerance {
             relative,
-            absolute: [angle, angle, angle, angle, alpha, phi, rate, rate, slip, slip],
-            integrated: [0.0, 0.0, 0.0, 0.0, angle, angle, angle, angle, 0.0, 0.0],
+            absolute: train::beside(
+                [angle, angle, angle, angle, alpha, phi, rate, rate, slip, slip],
+                [angle, rate],
+            ),
+            integrated: train::beside(
+                [0.0, 0.0, 0.0, 0.0, angle, angle, angle, angle, 0.0, 0.0],
+                [0.0, angle],
+            ),
         }
     }
 }
 
-impl Run {
+impl<const N: usize> Run<N> {
     /// At t = 0, before anything has happened.
-    pub(super) fn start(state: State, mode: Mode, samples: usize) -> Self {
+    pub(super) fn start(state: [f64; N], mode: Mode, samples: usize) -> Self {
         Self {
             stop: Stop::Finished,
             t_s: 0.0,
@@ -340,6 +349,7 @@ impl Run {
             held: None,
             stick: None,
             modes: Vec::new(),
+            train: None,
         }
     }
 
@@ -399,7 +409,7 @@ impl SlipRecord {
 
 /// Integrate from `state` at t = 0 in `mode`.
 pub fn run(model: &Model, state: State, mode: Mode, settings: &RunSettings) -> Run {
-    Driver::new(model, state, mode, settings).run()
+    train::integrate(model, state, mode, settings, None)
 }
 
 /// As [`run`], but ended, as [`Stop::Slipped`], once a contact begins to slip while A carries [`Model::loaded_n`] or the path
@@ -411,7 +421,5 @@ pub fn run_while_it_sticks(
     settings: &RunSettings,
     path_m: f64,
 ) -> Run {
-    let mut driver = Driver::new(model, state, mode, settings);
-    driver.most_slip_m = Some(path_m);
-    driver.run()
+    train::integrate(model, state, mode, settings, Some(path_m))
 }

@@ -3,18 +3,17 @@
 use super::driver::Driver;
 use super::events::{FIGURES, N_BE, N_BI, look};
 use super::looks::{Looks, Observed, parabola};
-use super::model::{N_STATE, State};
 use super::run::{RunSettings, Sample};
+use crate::ode::adaptive::Size;
 use crate::ode::step::Step;
+use nalgebra::Const;
 
-impl Driver<'_> {
+impl<const N: usize> Driver<'_, N>
+where
+    Const<N>: Size,
+{
     /// Extremes and samples inside the step.
-    pub(super) fn watch(
-        &mut self,
-        step: &Step<N_STATE>,
-        looks: &Looks,
-        rhs: &mut Observed,
-    ) -> Result<(), ()> {
+    pub(super) fn watch(&mut self, step: &Step<N>, looks: &Looks, rhs: &mut Observed) -> Result<(), ()> {
         let (mode, model) = (self.run.mode, self.model);
         let (start, length) = (step.t(), step.h());
         let t_end = start + length;
@@ -105,7 +104,7 @@ impl Driver<'_> {
         from + (until - from) * i as f64 / (self.settings.samples.max(2) - 1) as f64
     }
 
-    fn sample(&self, t: f64, state: State) -> Sample {
+    fn sample(&self, t: f64, state: [f64; N]) -> Sample<N> {
         let mode = self.run.mode;
         Sample { t, state, forces: self.model.forces(&mode, t, &state), mode }
     }
@@ -126,7 +125,7 @@ impl Driver<'_> {
     }
 
     /// Extreme `i` so far is at `t` (s).
-    fn keep_extreme(&mut self, i: usize, t: f64, state: State) {
+    fn keep_extreme(&mut self, i: usize, t: f64, state: [f64; N]) {
         if self.marks(t) {
             self.run.extremes[i] = Some(self.sample(t, state));
         }
@@ -140,7 +139,7 @@ impl Driver<'_> {
     }
 
     /// Extremes of N_bi at one instant.
-    pub(super) fn look(&mut self, y: State, t: f64) {
+    pub(super) fn look(&mut self, y: [f64; N], t: f64) {
         let f = self.model.forces(&self.run.mode, t, &y);
         let p = &mut self.run.peaks;
         p.normal_min_n = p.normal_min_n.min(f.n_bi);

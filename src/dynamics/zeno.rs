@@ -11,7 +11,9 @@
 use super::choose::Known;
 use super::driver::Driver;
 use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER};
-use super::model::{Grip, Mode, Place, State};
+use super::model::{Grip, Mode, N_STATE, Place};
+use crate::ode::adaptive::Size;
+use nalgebra::Const;
 
 const CYCLE: usize = 4;
 pub(super) const KEPT: usize = 3 * CYCLE + 1;
@@ -60,7 +62,10 @@ impl Zeno {
     }
 }
 
-impl Driver<'_> {
+impl<const N: usize> Driver<'_, N>
+where
+    Const<N>: Size,
+{
     /// Time in which no angle moves by its tolerance, s; at most a millionth of the scene.
     pub(super) fn resolution_s(&self) -> f64 {
         let rate = self.run.state[4..8].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -68,12 +73,15 @@ impl Driver<'_> {
     }
 
     /// Go to the limit of accumulating changes.
-    pub(super) fn close(&mut self, limit: &Limit, t: f64, mut y: State) {
+    pub(super) fn close(&mut self, limit: &Limit, t: f64, mut y: [f64; N]) {
         let (model, mode) = (self.model, self.run.mode);
         let took = |i: usize| limit.took_part[i];
         let t = t + limit.left_s;
         for i in 0..4 {
             y[i] += limit.left_s * y[4 + i];
+        }
+        for twist in y[N_STATE..].chunks_exact_mut(2) {
+            twist[0] += limit.left_s * twist[1];
         }
         let free = |grip: Grip, took: bool| if took { Grip::Stick } else { grip };
         let (inner, outer) = (free(mode.inner, took(INNER)), free(mode.outer, took(OUTER)));

@@ -217,6 +217,7 @@ impl Element {
             clutch: clutch.clone(),
             torque_history: None,
             speed_history: None,
+            drivetrain: Vec::new(),
             overrides: Vec::new(),
         };
         let prepared = prepare(&scene).map_err(NoElement::NoStart)?;

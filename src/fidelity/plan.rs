@@ -43,7 +43,8 @@ const REACH: f64 = 2.5;
 /// [`NoScenario`] where the scenario has no start.
 pub fn plan(scenario: &Scenario, known: Option<AtRest>) -> Result<(Plan, Prepared), NoScenario> {
     let (torque, speed) = (scenario.largest_torque_nm(), scenario.mean_speed_rad_s());
-    let reach_nm = Some(REACH * torque);
+    // Torques of a drivetrain are not those of the scene.
+    let reach_nm = scenario.drivetrain.is_empty().then_some(REACH * torque);
     let mut reduction = Reduction { reach_nm };
     let (mut left_out, mut kept) = (Vec::new(), Vec::new());
     if speed == 0.0 {

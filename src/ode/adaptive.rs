@@ -12,6 +12,11 @@ use super::step::{Counters, Room, Step, Tolerance};
 use nalgebra::{Const, DimMin};
 use serde::{Deserialize, Serialize};
 
+/// A length of state whose Jacobian can be factorised: every one that is used is.
+pub trait Size: DimMin<Self, Output = Self> + Sized {}
+
+impl<const N: usize> Size for Const<N> where Self: DimMin<Self, Output = Self> {}
+
 /// Shortest step that is still taken, s.
 const SHORTEST_STEP: f64 = 1e-15;
 /// h |lambda| at which DOP853 ceases to be stable on the negative real axis.

@@ -5,6 +5,7 @@ use super::error::Scales;
 use super::figures::ErrorEstimate;
 use crate::dynamics::{
     EnergyBalance, Engaged, FastMotion, Held, Mode, Neglected, Overrun, Peaks, Sample, SlipRecord, Stop,
+    TrainRun,
 };
 
 /// What the clutch did.
@@ -126,6 +127,8 @@ pub struct Simulation {
     pub held: Option<Held>,
     /// Modes with the times at which they began, s; empty without samples.
     pub modes: Vec<(f64, Mode)>,
+    /// The drivetrain, where there is one: at the samples, and at the end.
+    pub train: Option<TrainRun>,
     /// Steady overrun: the whole of that scenario, the start of an engagement.
     pub overrun: Option<Overrun>,
 }

@@ -149,7 +149,7 @@ pub(super) fn roll(
         if let Some(start) = free.engaged {
             (state, place) = (start.state, start.place);
             s.duration_s -= start.t_s;
-            model.to_mut().drive = prepared.model.drive.from(start.t_s);
+            model.to_mut().drive = prepared.model.drive.from(start.t_s).after(&free);
         }
     }
     let r: Rolling = rolling(&model, state, place, &s);

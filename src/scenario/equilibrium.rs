@@ -64,6 +64,7 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         engaged: None,
         held: None,
         modes: Vec::new(),
+        train: None,
         overrun: prepared.overrun,
     }
 }

@@ -10,6 +10,7 @@ mod error;
 mod figures;
 mod prepare;
 mod simulate;
+mod train;
 
 pub use answer::{GaveUp, Simulation, Verdict};
 pub use demand::{RollingDemand, demand};

@@ -2,8 +2,8 @@
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{
-    Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, alpha_max_rad, overrun, preloaded,
-    settled, settled_end_torque_nm, settled_point,
+    Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, Train, alpha_max_rad, overrun,
+    preloaded, settled, settled_end_torque_nm, settled_point,
 };
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
@@ -26,6 +26,8 @@ pub enum NoScenario {
         /// Name of the curve's end.
         reason: &'static str,
     },
+    /// The published scheme integrates the clutch alone, and the scene has a drivetrain.
+    PublishedTrain,
 }
 
 impl std::fmt::Display for NoScenario {
@@ -33,6 +35,9 @@ impl std::fmt::Display for NoScenario {
         match self {
             Self::Profile(e) => write!(f, "the profile cannot be placed: {e}"),
             Self::Curve(e) => write!(f, "no wedge curve: {e}"),
+            Self::PublishedTrain => f.write_str(
+                "the published scheme moves no drivetrain: take the event method, or give the scenario drivetrain = []",
+            ),
             Self::NotCarried { torque_nm, end_torque_nm, reason } => {
                 write!(f, "{torque_nm} Nm is not carried: the curve ends at {end_torque_nm:.4} Nm ({reason})")
             }
@@ -170,18 +175,26 @@ fn at_start(
     let alpha_max = alpha_max_rad(clutch, &at_rest);
     let stuck = |place| Mode { place, inner: Grip::Stick, outer: Grip::Stick };
     let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
-    let start = |model: &Model, torque_nm: f64| {
+    let train = Train::new(&scenario.drivetrain).filter(|_| !scenario.drivetrain.is_empty());
+    let train = train.map(|t| t.in_frame(scenario.speed_history.clone()));
+    let start = |model: &mut Model, torque_nm: f64| {
+        let (torque_nm, turn) = model.carries(torque_nm);
         let (found, end_torque_nm) = match scenario.start {
             Start::WithoutSpring => (preloaded(model, torque_nm), model.curve.end_torque_nm()),
             Start::Settled => (settled(model, torque_nm), settled_end_torque_nm(model)),
         };
         let reason = model.curve.end().0.name();
-        found.ok_or(NoScenario::NotCarried { torque_nm, end_torque_nm, reason })
+        let (mut state, place) = found.ok_or(NoScenario::NotCarried { torque_nm, end_torque_nm, reason })?;
+        if turn != 0.0 {
+            (state[2], state[3]) = (state[2] + turn, state[3] + turn);
+        }
+        Ok((state, place))
     };
     match scenario.kind {
         ScenarioKind::Static { torque_nm } => {
-            let model = Model::new(clutch, at_rest, Loads { inner_nm: -torque_nm, ..still }, alpha_max, 0.0);
-            let (state, place) = start(&model, torque_nm)?;
+            let loads = Loads { inner_nm: -torque_nm, ..still };
+            let mut model = Model::new(clutch, at_rest, loads, alpha_max, 0.0);
+            let (state, place) = start(&mut model, torque_nm)?;
             Ok(finish(model, state, stuck(place), 0.0, None, None))
         }
         ScenarioKind::TorsionalExcitation {
@@ -199,8 +212,8 @@ fn at_start(
                 omega_rad_s: std::f64::consts::TAU * frequency_hz,
                 abutment_nm_per_rad: abutment_stiffness_nm_per_rad,
             };
-            let model = Model::new(clutch, curve, loads, alpha_max, 0.0);
-            let (state, place) = start(&model, preload_nm)?;
+            let mut model = Model::new(clutch, curve, loads, alpha_max, 0.0).joined(train);
+            let (state, place) = start(&mut model, preload_nm)?;
             Ok(finish(model, state, stuck(place), duration_s, Some(1.0 / frequency_hz), None))
         }
         ScenarioKind::Engagement {
@@ -215,7 +228,7 @@ fn at_start(
                 abutment_nm_per_rad: stop_stiffness_nm_per_rad,
                 ..still
             };
-            let model = Model::new(clutch, at_rest, loads, alpha_max, bench_inertia_kg_m2);
+            let model = Model::new(clutch, at_rest, loads, alpha_max, bench_inertia_kg_m2).joined(train);
             let start = FreeRun { clutch: clutch.clone(), curve: None, speed_rad_s: free_run_rad_s };
             let free = start.steady(&model, &model.friction);
             let (state, mode) = overrunning(&free, &model.curve, free_run_rad_s);
@@ -252,14 +265,16 @@ fn at_start(
                 None
             };
             let largest = drive.torque_nm.as_ref().map_or(0.0, |c| c.extremes()[1]);
+            let largest = train.as_ref().map_or(largest, |t| largest.max(t.largest_nm()));
             let mut model = Model::new(clutch, curve, loads, alpha_max, 0.0);
             model.drive = drive;
+            let mut model = model.joined(train);
             let free = free_run.as_ref().map(|f| f.steady(&model, &model.friction));
             let (state, mode) = match &free {
                 Some(free) => overrunning(free, &model.curve, overrun_rad_s),
                 None => {
                     let torque_nm = model.drive.torque_at(0.0).max(0.0);
-                    let (state, place) = start(&model, torque_nm)?;
+                    let (state, place) = start(&mut model, torque_nm)?;
                     (state, stuck(place))
                 }
             };

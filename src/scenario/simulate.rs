@@ -250,6 +250,9 @@ pub fn simulate_published(
     if prepared.duration_s == 0.0 {
         return Ok(steady(&prepared, settings));
     }
+    if prepared.model.drive.train.is_some() {
+        return Err(NoScenario::PublishedTrain);
+    }
     let duration_s = prepared.duration_s;
     let mut go = |step_s: f64, samples: usize, before: u64, tolerance: f64| -> Try {
         let s = PublishedSettings { duration_s, step_s, band_m_s, samples };
@@ -379,6 +382,7 @@ fn answer(prepared: &Prepared, settings: &Settings, of: &Try) -> Simulation {
         engaged: run.engaged,
         held: run.first_hold(),
         modes: run.modes.clone(),
+        train: run.train.clone(),
         overrun: prepared.overrun,
     }
 }

@@ -1,5 +1,6 @@
 //! The figures of a simulation by their keys in JSON.
 
+use super::train::{Eigenfrequency, eigenfrequencies};
 use super::{Ran, SimulationErrors};
 use crate::answer::left_out::LeftOut;
 use crate::dynamics::{EnergyBalance, SlipRecord, Stop};
@@ -192,6 +193,9 @@ pub struct SimulationBody {
     /// Where the energy went.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_balance: Option<Energy>,
+    /// Of races and drivetrain with the clutch engaged, lowest first; none without a drivetrain.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub eigenfrequencies: Vec<Eigenfrequency>,
     /// Inputs of an engagement that the paper does not publish for its Figure 8.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assumptions: Vec<&'static str>,
@@ -374,6 +378,7 @@ impl SimulationBody {
                 .filter(|_| s.stop != Stop::Interrupted)
                 .map(|e| SimulationErrors::of(scene, prepared, s, e)),
             energy_balance: s.energy.as_ref().map(Energy::of),
+            eigenfrequencies: eigenfrequencies(prepared),
             assumptions: scene.scenario.assumptions().to_vec(),
             tolerance_reached: (scene.method != "published" && s.stop != Stop::Interrupted)
                 .then_some(s.tolerance_reached),

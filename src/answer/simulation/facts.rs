@@ -176,6 +176,17 @@ fn motion(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation) {
         );
         f.word("energy balance", &balance);
     }
+    for (i, mode) in
+        prepared.model.drive.train.iter().flat_map(|_| prepared.train_modes()).flatten().enumerate()
+    {
+        let damped = format!(
+            "{}, damping ratio {}, {} moves most",
+            Unit::Hertz.show(mode.frequency_hz, 6),
+            significant(mode.damping_ratio, 3),
+            mode.moves
+        );
+        f.word(&format!("eigenfrequency {}, clutch engaged", i + 1), &damped);
+    }
     f.count("changes between sticking, slipping and open", s.events);
     f.count("steps, all runs", s.steps);
     f.count("steps refused, all runs", s.rejections);

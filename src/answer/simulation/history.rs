@@ -8,6 +8,7 @@ use crate::scenario::Prepared;
 use crate::wedge::{Elastic, Lengthwise, Side, along, asks_for_slices};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
+use std::borrow::Cow;
 
 /// One sample with what follows from it, SI.
 #[derive(Debug, Clone)]
@@ -69,10 +70,10 @@ impl Ran {
             match column {
                 Column::Number(name, unit, of) => history.numbers_in(name, *unit, rows.iter().map(of)),
                 Column::Word(name, of) => {
-                    history.columns.push((name, Values::Words(rows.iter().map(of).collect())));
+                    history.columns.push(((*name).into(), Values::Words(rows.iter().map(of).collect())));
                 }
                 Column::Count(name, of) => {
-                    history.columns.push((name, Values::Counts(rows.iter().map(of).collect())));
+                    history.columns.push(((*name).into(), Values::Counts(rows.iter().map(of).collect())));
                 }
             }
         }
@@ -82,6 +83,9 @@ impl Ran {
                 history.numbers_in(name, Unit::Megapascal, rows.iter().map(of));
             }
         }
+        if let Ok((prepared, s)) = &self.outcome {
+            super::train::add(&mut history, prepared, s);
+        }
         history
     }
 }
@@ -90,7 +94,7 @@ impl Ran {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SceneHistory {
     /// Name and values of each column.
-    pub columns: Vec<(&'static str, Values)>,
+    pub columns: Vec<(Cow<'static, str>, Values)>,
 }
 
 /// The values of a column.
@@ -132,7 +136,7 @@ impl SceneHistory {
 
     fn numbers_in(&mut self, name: &'static str, unit: Unit, si: impl IntoIterator<Item = f64>) {
         let values = si.into_iter().map(|v| unit.from_si(v)).collect();
-        self.columns.push((name, Values::Numbers(values)));
+        self.columns.push((name.into(), Values::Numbers(values)));
     }
 }
 

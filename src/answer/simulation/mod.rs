@@ -10,6 +10,7 @@ mod notes;
 mod page;
 mod settings;
 mod table;
+mod train;
 mod unfelt;
 mod verdict;
 
@@ -18,6 +19,7 @@ pub use damping::Effect;
 pub use errors::SimulationErrors;
 pub use history::{HistoryRow, SceneHistory, Values, word};
 pub use settings::{Integration, RefusedSetting, Setting, SimulationSettings};
+pub use train::Eigenfrequency;
 pub use verdict::LIFT_OFF_SEARCH_RAD_S;
 
 use super::left_out::LeftOut;

@@ -1,7 +1,7 @@
 //! The HTML report of a simulation.
 
-use super::facts;
 use super::{HistoryRow, Ran, SimulationAnswer, word};
+use super::{facts, train};
 use crate::answer::Provenance;
 use crate::answer::page::{begun, draw, drawing, pose_at_rest, pose_at_torque};
 use crate::clutch::{Phrase, ScenarioKind};
@@ -62,7 +62,11 @@ fn described(scene: &Ran) -> String {
         Phrase::SpeedCourse => speed.clone(),
         Phrase::Method => scene.method.to_owned(),
     };
-    let what: String = scene.scenario.story().into_iter().map(piece).collect();
+    let mut what: String = scene.scenario.story().into_iter().map(piece).collect();
+    if !scene.scenario.drivetrain.is_empty() {
+        let names: Vec<&str> = scene.scenario.drivetrain.iter().map(|d| d.name.as_str()).collect();
+        what.push_str(&format!(" Drivetrain: {}.", names.join(", ")));
+    }
     match scene.scenario.overrides.as_slice() {
         [] => what,
         some => format!("{what} Overridden for this scenario: {}.", some.join(", ")),
@@ -120,6 +124,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
         "Torque from outside, on both races together, and what the clutch carries, positive in the sense in which it does; the rest \
          speeds the races up.",
     );
+    train::figures(page, scene);
     let turning = if rows.iter().any(|r| r.acting[1] != 0.0) { ", relative to the mean speed" } else { "" };
     let largest_rad = largest(&rows, &|r| r.sample.state[2].abs().max(r.sample.state[3].abs()));
     let (unit, per_rad) = if largest_rad < FOUR_DIGITS * 1e-3 { ("mrad", 1e3) } else { ("rad", 1.0) };
@@ -151,7 +156,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
     pressures(page, scene, prepared, s, &rows);
 }
 
-fn plot(y_title: &str) -> Plot {
+pub(super) fn plot(y_title: &str) -> Plot {
     Plot::new(TIME, y_title).sized(720.0, 300.0)
 }
 
@@ -166,7 +171,7 @@ const COLUMNS: f64 = 600.0;
 
 /// Of many points those that are seen: in each column the first, the lowest, the highest and the last, and a gap where the
 /// column has one.
-fn envelope(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+pub(super) fn envelope(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let (Some(first), Some(last)) = (points.first().copied(), points.last().copied()) else { return points };
     if points.len() <= DRAWN {
         return points;

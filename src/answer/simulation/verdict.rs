@@ -17,6 +17,7 @@ impl Ran {
         match &self.outcome {
             Ok((_, s)) => s.verdict.map(Verdict::name),
             Err(NoScenario::NotCarried { .. }) => Some(Verdict::Overloaded.name()),
+            Err(NoScenario::PublishedTrain) => None,
             Err(_) => Some(Verdict::Disengages.name()),
         }
     }

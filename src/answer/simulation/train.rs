@@ -1,0 +1,89 @@
+//! What a scene says of the drivetrain: columns of its history, eigenfrequencies, figures of its page.
+
+use super::Ran;
+use super::history::{SceneHistory, Values};
+use super::page::{envelope, plot};
+use crate::dynamics::NodeMotion;
+use crate::report::{Page, Unit};
+use crate::scenario::{Prepared, Simulation};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A small free motion of races and drivetrain with the clutch engaged.
+#[derive(Debug, Clone, Serialize)]
+pub struct Eigenfrequency {
+    /// Undamped, Hz.
+    pub frequency_hz: f64,
+    /// Share of critical damping; 1 where it creeps.
+    pub damping_ratio: f64,
+    /// What holds most of the kinetic energy.
+    pub moves: String,
+    /// Amplitude of the races and of each inertia on a shaft, by its own angle, the largest 1.
+    pub shape: BTreeMap<String, f64>,
+}
+
+/// The eigenfrequencies of a scene with a drivetrain, lowest first; none where the clutch does not engage.
+pub(super) fn eigenfrequencies(prepared: &Prepared) -> Vec<Eigenfrequency> {
+    let modes = prepared.model.drive.train.as_ref().and_then(|_| prepared.train_modes());
+    let one = |m: crate::dynamics::TrainMode| Eigenfrequency {
+        frequency_hz: m.frequency_hz,
+        damping_ratio: m.damping_ratio,
+        moves: m.moves,
+        shape: m.shape.into_iter().collect(),
+    };
+    modes.into_iter().flatten().map(one).collect()
+}
+
+/// One column of an inertia: what its name ends in, its unit, and how it is taken.
+type Of = (&'static str, Unit, fn(&NodeMotion) -> f64);
+
+/// The columns of an inertia: angle since the start, speed, torque that its shaft passes on towards the clutch.
+const COLUMNS: [Of; 3] = [
+    ("angle_rad", Unit::Radian, |m| m.angle_rad),
+    ("speed_rpm", Unit::Rpm, |m| m.speed_rad_s),
+    ("shaft_nm", Unit::NewtonMetre, |m| m.shaft_nm),
+];
+
+/// Columns of every inertia on a shaft, named by it.
+pub(super) fn add(history: &mut SceneHistory, prepared: &Prepared, s: &Simulation) {
+    let Some(run) = &s.train else { return };
+    let at = |(sample, more): (&crate::dynamics::Sample, &_)| {
+        run.train.motions(sample.t, &sample.state, more, prepared.model.mean_speed(sample.t).0)
+    };
+    let rows: Vec<Vec<NodeMotion>> = s.samples.iter().zip(&run.samples).map(at).collect();
+    for (i, name) in run.train.names().enumerate() {
+        for (column, unit, of) in COLUMNS {
+            let values = rows.iter().map(|row| unit.from_si(of(&row[i]))).collect();
+            history.columns.push((format!("{name}_{column}").into(), Values::Numbers(values)));
+        }
+    }
+}
+
+/// Figures of the page: torques of its shafts, speeds; none without a drivetrain.
+pub(super) fn figures(page: &mut Page, scene: &Ran) {
+    let Some(run) = scene.simulation().and_then(|s| s.train.as_ref()) else { return };
+    let names: Vec<&str> = run.train.names().collect();
+    if names.is_empty() {
+        return;
+    }
+    let history = scene.history();
+    let Some(time) = history.numbers("time_s") else { return };
+    for (column, axis, caption) in [
+        (
+            "shaft_nm",
+            "Torque of a shaft, Nm",
+            "What each shaft passes on towards the clutch, by the angle of its inertia.",
+        ),
+        ("speed_rpm", "Speed, rpm", "Speeds of the inertias, each its own."),
+    ] {
+        let mut drawn = plot(axis);
+        for name in &names {
+            let wanted = format!("{name}_{column}");
+            let found = history.columns.iter().find(|(n, _)| *n == wanted);
+            let Some((_, Values::Numbers(values))) = found else { continue };
+            let points = time.iter().zip(values).map(|(t, v)| [t * 1e3, *v]).collect();
+            drawn = drawn.curve(name, envelope(points));
+        }
+        page.figure(&drawn.to_svg(), caption);
+    }
+}
