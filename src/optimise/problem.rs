@@ -11,7 +11,7 @@ use crate::fidelity;
 use crate::margin::{
     Margin, RESOLUTION, RunOut, SceneDemand, load_state, run_out_margins, scene_margins, scene_rows,
 };
-use crate::scenario::{AtRest, Settings, demand};
+use crate::scenario::{AtRest, Settings, demand_quickly};
 
 /// How an evaluation is computed.
 #[derive(Debug, Clone)]
@@ -284,7 +284,7 @@ impl ClutchProblem {
         }
         let whole = || scene_margins(scenario, &self.limits, true, Some(known), settings);
         let Ok((plan, prepared)) = fidelity::plan(scenario, Some(known)) else { return whole() };
-        let found = demand(&prepared, settings);
+        let found = demand_quickly(&prepared, settings);
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {
             return whole();

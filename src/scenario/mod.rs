@@ -12,7 +12,7 @@ mod prepare;
 mod simulate;
 
 pub use answer::{GaveUp, Simulation, Verdict};
-pub use demand::{RollingDemand, demand};
+pub use demand::{RollingDemand, demand, demand_quickly};
 pub use equilibrium::overrun_swing;
 pub use error::Scales;
 pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures_of};

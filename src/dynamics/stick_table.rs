@@ -1,0 +1,259 @@
+//! What the equations of [`super::stick`] hold, as functions of the windup w, on short pieces that are made where a run comes by.
+//!
+//! Later arcs are cut into [`EQUAL`] equal pieces. On the first N ~ w^(10/9) and rho ~ w^(1/9) are singular at w = 0: there pieces
+//! are eighths of an octave of w over its end, so that the singularity lies 17 to 31 of their half lengths away and degree 6
+//! leaves out 1e-11.
+
+use super::model::Model;
+use crate::numeric::pieces::Basis;
+use crate::wedge::WedgePoint;
+use std::sync::LazyLock;
+
+/// Degree of a piece.
+const DEGREE: usize = 6;
+const POINTS: usize = DEGREE + 1;
+/// Pieces of a later arc.
+const EQUAL: usize = 24;
+/// Octaves of the first arc that are tabulated; a run that comes nearer to first contact is left to the general one.
+const OCTAVES: usize = 12;
+/// log2 of the pieces of an octave.
+const CUTS: u32 = 3;
+
+/// Exponent and leading bits of the mantissa of 2^-[`OCTAVES`].
+const LOWEST: u64 = (1.0_f64.to_bits() >> (52 - CUTS)) - ((OCTAVES as u64) << CUTS);
+
+static BASIS: LazyLock<Basis<POINTS>> = LazyLock::new(Basis::new);
+
+/// Masses of the sprags in rolling, kg m^2, F, N m, and slopes by w.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Motion {
+    pub(super) f: f64,
+    pub(super) a: f64,
+    pub(super) b: f64,
+    pub(super) d: f64,
+    pub(super) a_slope: f64,
+    pub(super) b_slope: f64,
+    pub(super) d_slope: f64,
+}
+
+/// What the forces at the contacts follow from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Contacts {
+    /// N_bi, N.
+    pub(super) n_bi: f64,
+    /// 1/(n_s OA), 1/m.
+    pub(super) per_oa: f64,
+    /// 1/(n_s OB), 1/m.
+    pub(super) per_ob: f64,
+    /// Pure number.
+    pub(super) sigma: f64,
+    /// N_be = this + its rises by n_s T_bi OA, by -n_s T_be OB and by (Omega + phi')^2; N, 1/m, 1/m, kg m.
+    pub(super) outer: f64,
+    pub(super) outer_by_inner: f64,
+    pub(super) outer_by_outer: f64,
+    pub(super) centrifugal: f64,
+}
+
+/// One piece: powers[k][lane] of v^k.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    /// v = (w - middle) scale lies in [-1, 1].
+    middle: f64,
+    scale: f64,
+    motion: [[f64; 8]; POINTS],
+    contacts: [[f64; 8]; POINTS],
+}
+
+/// Where nothing has been made.
+const NONE: u32 = u32::MAX;
+
+pub(super) struct Table<'a> {
+    model: &'a Model,
+    /// Every piece made, in the order in which runs came by.
+    made: Vec<Piece>,
+    /// Which of them is piece i of arc k: `places[k][i]`, or [`NONE`].
+    places: Vec<Vec<u32>>,
+    arc: usize,
+    /// Ends of the present arc.
+    from: f64,
+    until: f64,
+}
+
+impl<'a> Table<'a> {
+    /// On arc `arc` of the curve of `model`.
+    pub(super) fn new(model: &'a Model, arc: usize) -> Self {
+        let pieces = |k: usize| if k == 0 { OCTAVES << CUTS } else { EQUAL };
+        let places = (0..model.curve.arc_count()).map(|k| vec![NONE; pieces(k)]).collect();
+        let mut table = Self { model, made: Vec::new(), places, arc, from: 0.0, until: 0.0 };
+        table.enter(arc);
+        table
+    }
+
+    fn enter(&mut self, arc: usize) {
+        let curve = &self.model.curve;
+        let until = |k: usize| curve.in_arc(k, curve.arc_end_rad(k)).windup;
+        self.arc = arc;
+        self.from = if arc == 0 { 0.0 } else { until(arc - 1) };
+        self.until = until(arc);
+    }
+
+    /// Over the upper or lower end of the present arc; false where there is nothing.
+    pub(super) fn pass(&mut self, up: bool) -> bool {
+        let next = if up { self.arc + 1 } else { self.arc.wrapping_sub(1) };
+        let there = next < self.places.len();
+        if there {
+            self.enter(next);
+        }
+        there
+    }
+
+    /// Windup where the present arc begins and ends, rad.
+    pub(super) fn ends(&self) -> [f64; 2] {
+        [self.from, self.until]
+    }
+
+    /// Whether w (rad) lies too near to first contact.
+    pub(super) fn is_left(&self, w: f64) -> bool {
+        self.arc == 0 && w < self.until / f64::from(1 << OCTAVES)
+    }
+
+    /// When w reaches an end of its arc as its rate and acceleration `rate` (rad/s^2) have it, s.
+    pub(super) fn junction_ahead_s(&self, y: &[f64; 4], rate: f64) -> f64 {
+        let [w, _, u, _] = *y;
+        let when = |gap: f64| {
+            // gap = u t + rate t^2/2, first root beyond 0.
+            let inside = u * u + 2.0 * rate * gap;
+            if inside < 0.0 {
+                return f64::INFINITY;
+            }
+            let part = u + inside.sqrt().copysign(u);
+            let both = [2.0 * gap / part, -part / rate];
+            both.into_iter().filter(|t| *t > 1e-9).fold(f64::INFINITY, f64::min)
+        };
+        let lower = if self.arc == 0 { f64::INFINITY } else { when(self.from - w) };
+        lower.min(when(self.until - w))
+    }
+
+    #[inline(always)]
+    pub(super) fn motion(&mut self, w: f64) -> Motion {
+        self.piece(w).motion(w)
+    }
+
+    /// The piece of the present arc that holds `w`; the first and the last go on beyond its ends.
+    #[inline(always)]
+    pub(super) fn piece(&mut self, w: f64) -> &Piece {
+        let share = (w - self.from) / (self.until - self.from);
+        let index = if self.arc == 0 {
+            // Exponent and leading bits of the mantissa count the pieces.
+            let place = (share.max(0.0).to_bits() >> (52 - CUTS)) as i64;
+            (place - LOWEST as i64).clamp(0, ((OCTAVES as i64) << CUTS) - 1) as usize
+        } else {
+            // No number and negative ones become 0.
+            ((share * EQUAL as f64) as i32).clamp(0, EQUAL as i32 - 1) as usize
+        };
+        let place = self.places[self.arc][index];
+        let place = if place == NONE { self.make(index) } else { place };
+        &self.made[place as usize]
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn make(&mut self, index: usize) -> u32 {
+        let length = self.until - self.from;
+        let [from, until] = if self.arc == 0 {
+            [index, index + 1].map(|i| length * f64::from_bits((LOWEST + i as u64) << (52 - CUTS)))
+        } else {
+            [index, index + 1].map(|i| self.from + length * i as f64 / EQUAL as f64)
+        };
+        let (middle, scale) = (0.5 * (from + until), 2.0 / (until - from));
+        let basis = &*BASIS;
+        let (mut motion, mut contacts) = ([[0.0; 8]; POINTS], [[0.0; 8]; POINTS]);
+        // Newton along the nodes: dW = (rho_i + rho_e) d alpha.
+        let curve = &self.model.curve;
+        let alpha_from = if self.arc == 0 { curve.first_contact_rad() } else { curve.arc_end_rad(self.arc - 1) };
+        let alpha_until = curve.arc_end_rad(self.arc);
+        let mut alpha = alpha_from + (alpha_until - alpha_from) * (middle - self.from) / length;
+        for (j, node) in basis.nodes.iter().enumerate() {
+            let w = middle + node / scale;
+            let mut p = curve.in_arc(self.arc, alpha);
+            for _ in 0..20 {
+                let step = (w - p.windup) / (p.rho_i + p.rho_e);
+                alpha += step;
+                p = curve.in_arc(self.arc, alpha);
+                if step.abs() < 1e-7 * (alpha - alpha_from).abs() {
+                    break;
+                }
+            }
+            // What is left of the last step, smaller than its square, is a straight line.
+            (motion[j], contacts[j]) = self.model.in_stick(&p, alpha);
+        }
+        let mut motion = basis.powers(&motion);
+        for k in 1..POINTS {
+            for lane in 1..4 {
+                motion[k - 1][lane + 3] = k as f64 * scale * motion[k][lane];
+            }
+        }
+        motion[POINTS - 1][4..7].fill(0.0);
+        let place = self.made.len() as u32;
+        self.made.push(Piece { middle, scale, motion, contacts: basis.powers(&contacts) });
+        self.places[self.arc][index] = place;
+        place
+    }
+}
+
+impl Piece {
+    #[inline(always)]
+    pub(super) fn motion(&self, w: f64) -> Motion {
+        let [f, a, b, d, a_slope, b_slope, d_slope, _] = self.sum(&self.motion, w);
+        Motion { f, a, b, d, a_slope, b_slope, d_slope }
+    }
+
+    #[inline(always)]
+    pub(super) fn contacts(&self, w: f64) -> Contacts {
+        let [n_bi, per_oa, per_ob, sigma, outer, outer_by_inner, outer_by_outer, centrifugal] =
+            self.sum(&self.contacts, w);
+        Contacts { n_bi, per_oa, per_ob, sigma, outer, outer_by_inner, outer_by_outer, centrifugal }
+    }
+
+    #[inline(always)]
+    fn sum(&self, powers: &[[f64; 8]; POINTS], w: f64) -> [f64; 8] {
+        let v = (w - self.middle) * self.scale;
+        let mut sum = powers[DEGREE];
+        for row in powers[..DEGREE].iter().rev() {
+            for lane in 0..8 {
+                sum[lane] = sum[lane] * v + row[lane];
+            }
+        }
+        sum
+    }
+}
+
+impl Model {
+    /// Lanes of [`Motion`] without slopes and of [`Contacts`] at the point `p` of the curve at `alpha` (rad).
+    fn in_stick(&self, p: &WedgePoint, alpha: f64) -> ([f64; 8], [f64; 8]) {
+        let n = self.count;
+        let kappa = 1.0 / (p.rho_i + p.rho_e);
+        let sigma = p.rho_e * kappa;
+        let orbit = self.mass_kg * p.oc_g * p.oc_g;
+        let turn = kappa - sigma;
+        let spring = self.spring_nm_per_rad * (self.alpha_max_rad - alpha);
+        let f = n * (p.t_static * p.oa - kappa * spring);
+        let a = n * (self.inertia_kg_m2 * turn * turn + orbit * sigma * sigma);
+        let b = n * (self.inertia_kg_m2 * turn - orbit * sigma);
+        let d = n * (self.inertia_kg_m2 + orbit);
+        let (sin_bg, cos_bg) = p.beta_gamma.sin_cos();
+        let (sin_g, cos_g) = p.gamma.sin_cos();
+        let (per_oa, per_ob) = (1.0 / (n * p.oa), 1.0 / (n * p.ob));
+        let contacts = [
+            p.n_bi,
+            per_oa,
+            per_ob,
+            sigma,
+            p.n_bi * cos_bg / cos_g,
+            sin_bg / cos_g * per_oa,
+            sin_g / cos_g * per_ob,
+            self.mass_kg * p.oc_g / cos_g,
+        ];
+        ([f, a, b, d, 0.0, 0.0, 0.0, 0.0], contacts)
+    }
+}
