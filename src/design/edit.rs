@@ -284,6 +284,26 @@ pub fn content(source: &str, apart: &[&str]) -> Result<String, EditError> {
     toml::to_string(&all).map_err(|e| syntax(e.to_string()))
 }
 
+/// The same without `[optimize]` and without the scenarios whose name `keep` does not pick: what an evaluation reads, short,
+/// so that it is read quickly. What names one of these in `[check]` goes as well.
+///
+/// # Errors
+/// [`EditError::Syntax`].
+pub fn lean(source: &str, keep: &dyn Fn(&str) -> bool) -> Result<String, EditError> {
+    let syntax = |what: String| EditError::Syntax(what);
+    let mut all: toml::Table = toml::from_str(source).map_err(|e| syntax(e.message().to_owned()))?;
+    all.remove("optimize");
+    let kept = |name: Option<&toml::Value>| name.and_then(toml::Value::as_str).is_none_or(keep);
+    if let Some(toml::Value::Array(scenarios)) = all.get_mut("scenarios") {
+        scenarios.retain(|scenario| kept(scenario.get("name")));
+    }
+    let checked = all.get_mut("check").and_then(|check| check.get_mut("scenarios"));
+    if let Some(toml::Value::Array(names)) = checked {
+        names.retain(|name| kept(Some(name)));
+    }
+    toml::to_string(&all).map_err(|e| syntax(e.to_string()))
+}
+
 pub(super) fn parse(source: &str) -> Result<DocumentMut, EditError> {
     source.parse().map_err(|e: toml_edit::TomlError| EditError::Syntax(e.message().to_owned()))
 }

@@ -36,7 +36,7 @@ mod variables;
 pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
 pub use draft::{Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
-    EditError, content, other_variables, value_at, with_flanks, with_keys, with_limits, with_sprag,
+    EditError, content, lean, other_variables, value_at, with_flanks, with_keys, with_limits, with_sprag,
     with_values,
 };
 pub use history::is_history;

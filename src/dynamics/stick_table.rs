@@ -9,9 +9,12 @@ use crate::numeric::pieces::Basis;
 use crate::wedge::WedgePoint;
 use std::sync::LazyLock;
 
-/// Degree of a piece.
+/// Degree of a piece, in the forces.
 const DEGREE: usize = 6;
 const POINTS: usize = DEGREE + 1;
+/// Degree in what varies by parts in a hundred over an arc, or weighs by such parts: masses of the sprags, lever arms. A
+/// cubic leaves out 1e-6 of that.
+const GENTLE: usize = 3;
 /// Pieces of a later arc.
 const EQUAL: usize = 24;
 /// Octaves of the first arc that are tabulated; a run that comes nearer to first contact is left to the general one.
@@ -19,6 +22,8 @@ const OCTAVES: usize = 12;
 /// log2 of the pieces of an octave.
 const CUTS: u32 = 3;
 
+/// What a piece holds, the slopes of the masses apart.
+const LANES: usize = 12;
 /// Exponent and leading bits of the mantissa of 2^-[`OCTAVES`].
 const LOWEST: u64 = (1.0_f64.to_bits() >> (52 - CUTS)) - ((OCTAVES as u64) << CUTS);
 
@@ -54,14 +59,17 @@ pub(super) struct Contacts {
     pub(super) centrifugal: f64,
 }
 
-/// One piece: powers[k][lane] of v^k.
+/// One piece, in powers of v: `forces[k]` of F, N_bi and [`Contacts::outer`], `masses[k]` of A, B, D and their slopes by w,
+/// `arms[k]` of the other lanes of [`Contacts`].
 #[derive(Debug, Clone)]
 pub(super) struct Piece {
     /// v = (w - middle) scale lies in [-1, 1].
     middle: f64,
     scale: f64,
-    motion: [[f64; 8]; POINTS],
-    contacts: [[f64; 8]; POINTS],
+    f: [f64; POINTS],
+    forces: [[f64; 2]; POINTS],
+    masses: [[f64; 6]; GENTLE + 1],
+    arms: [[f64; 6]; GENTLE + 1],
 }
 
 /// Where nothing has been made.
@@ -167,7 +175,7 @@ impl<'a> Table<'a> {
         };
         let (middle, scale) = (0.5 * (from + until), 2.0 / (until - from));
         let basis = &*BASIS;
-        let (mut motion, mut contacts) = ([[0.0; 8]; POINTS], [[0.0; 8]; POINTS]);
+        let mut lanes = [[0.0; LANES]; POINTS];
         // Newton along the nodes: dW = (rho_i + rho_e) d alpha.
         let curve = &self.model.curve;
         let alpha_from = if self.arc == 0 { curve.first_contact_rad() } else { curve.arc_end_rad(self.arc - 1) };
@@ -185,52 +193,86 @@ impl<'a> Table<'a> {
                 }
             }
             // What is left of the last step, smaller than its square, is a straight line.
-            (motion[j], contacts[j]) = self.model.in_stick(&p, alpha);
+            lanes[j] = self.model.in_stick(&p, alpha);
         }
-        let mut motion = basis.powers(&motion);
-        for k in 1..POINTS {
-            for lane in 1..4 {
-                motion[k - 1][lane + 3] = k as f64 * scale * motion[k][lane];
+        let powers = basis.powers(&lanes);
+        let cubic = gentle(&lanes);
+        let mut masses = [[0.0; 6]; GENTLE + 1];
+        let mut arms = [[0.0; 6]; GENTLE + 1];
+        for k in 0..=GENTLE {
+            masses[k][..3].copy_from_slice(&cubic[k][..3]);
+            arms[k].copy_from_slice(&cubic[k][3..]);
+            for lane in 0..3 {
+                if k > 0 {
+                    masses[k - 1][lane + 3] = k as f64 * scale * cubic[k][lane];
+                }
             }
         }
-        motion[POINTS - 1][4..7].fill(0.0);
         let place = self.made.len() as u32;
-        self.made.push(Piece { middle, scale, motion, contacts: basis.powers(&contacts) });
+        self.made.push(Piece {
+            middle,
+            scale,
+            f: powers.map(|row| row[0]),
+            forces: powers.map(|row| [row[1], row[2]]),
+            masses,
+            arms,
+        });
         self.places[self.arc][index] = place;
         place
     }
 }
 
+/// Cubics through the lanes from the fourth on, in powers of v, by least squares at the nodes: the first terms of their
+/// Chebyshev series.
+fn gentle(lanes: &[[f64; LANES]; POINTS]) -> [[f64; LANES - 3]; GENTLE + 1] {
+    let nodes = &BASIS.nodes;
+    let mut series = [[0.0; LANES - 3]; GENTLE + 1];
+    for (row, v) in lanes.iter().zip(nodes) {
+        let chebyshev = [1.0, *v, 2.0 * v * v - 1.0, (4.0 * v * v - 3.0) * v];
+        for (k, t) in chebyshev.into_iter().enumerate() {
+            let weight = if k == 0 { 1.0 } else { 2.0 } / POINTS as f64 * t;
+            for (sum, value) in series[k].iter_mut().zip(&row[3..]) {
+                *sum += weight * value;
+            }
+        }
+    }
+    let [c0, c1, c2, c3] = series;
+    let of = |f: &dyn Fn(usize) -> f64| std::array::from_fn(f);
+    [of(&|i| c0[i] - c2[i]), of(&|i| c1[i] - 3.0 * c3[i]), of(&|i| 2.0 * c2[i]), of(&|i| 4.0 * c3[i])]
+}
+
+#[inline(always)]
+fn horner<const M: usize, const D: usize>(powers: &[[f64; M]; D], v: f64) -> [f64; M] {
+    let mut sum = powers[D - 1];
+    for row in powers[..D - 1].iter().rev() {
+        for lane in 0..M {
+            sum[lane] = sum[lane] * v + row[lane];
+        }
+    }
+    sum
+}
+
 impl Piece {
     #[inline(always)]
     pub(super) fn motion(&self, w: f64) -> Motion {
-        let [f, a, b, d, a_slope, b_slope, d_slope, _] = self.sum(&self.motion, w);
+        let v = (w - self.middle) * self.scale;
+        let f = self.f[..DEGREE].iter().rev().fold(self.f[DEGREE], |sum, c| sum * v + c);
+        let [a, b, d, a_slope, b_slope, d_slope] = horner(&self.masses, v);
         Motion { f, a, b, d, a_slope, b_slope, d_slope }
     }
 
     #[inline(always)]
     pub(super) fn contacts(&self, w: f64) -> Contacts {
-        let [n_bi, per_oa, per_ob, sigma, outer, outer_by_inner, outer_by_outer, centrifugal] =
-            self.sum(&self.contacts, w);
-        Contacts { n_bi, per_oa, per_ob, sigma, outer, outer_by_inner, outer_by_outer, centrifugal }
-    }
-
-    #[inline(always)]
-    fn sum(&self, powers: &[[f64; 8]; POINTS], w: f64) -> [f64; 8] {
         let v = (w - self.middle) * self.scale;
-        let mut sum = powers[DEGREE];
-        for row in powers[..DEGREE].iter().rev() {
-            for lane in 0..8 {
-                sum[lane] = sum[lane] * v + row[lane];
-            }
-        }
-        sum
+        let [n_bi, outer] = horner(&self.forces, v);
+        let [per_oa, per_ob, sigma, outer_by_inner, outer_by_outer, centrifugal] = horner(&self.arms, v);
+        Contacts { n_bi, per_oa, per_ob, sigma, outer, outer_by_inner, outer_by_outer, centrifugal }
     }
 }
 
 impl Model {
-    /// Lanes of [`Motion`] without slopes and of [`Contacts`] at the point `p` of the curve at `alpha` (rad).
-    fn in_stick(&self, p: &WedgePoint, alpha: f64) -> ([f64; 8], [f64; 8]) {
+    /// F, N_bi, [`Contacts::outer`]; A, B, D; the other lanes of [`Contacts`], at the point `p` of the curve at `alpha` (rad).
+    fn in_stick(&self, p: &WedgePoint, alpha: f64) -> [f64; LANES] {
         let n = self.count;
         let kappa = 1.0 / (p.rho_i + p.rho_e);
         let sigma = p.rho_e * kappa;
@@ -244,16 +286,19 @@ impl Model {
         let (sin_bg, cos_bg) = p.beta_gamma.sin_cos();
         let (sin_g, cos_g) = p.gamma.sin_cos();
         let (per_oa, per_ob) = (1.0 / (n * p.oa), 1.0 / (n * p.ob));
-        let contacts = [
+        [
+            f,
             p.n_bi,
+            p.n_bi * cos_bg / cos_g,
+            a,
+            b,
+            d,
             per_oa,
             per_ob,
             sigma,
-            p.n_bi * cos_bg / cos_g,
             sin_bg / cos_g * per_oa,
             sin_g / cos_g * per_ob,
             self.mass_kg * p.oc_g / cos_g,
-        ];
-        ([f, a, b, d, 0.0, 0.0, 0.0, 0.0], contacts)
+        ]
     }
 }

@@ -6,5 +6,5 @@
 mod plan;
 mod run;
 
-pub use plan::{Plan, Term, plan};
+pub use plan::{Plan, Term, plan, plan_at};
 pub use run::{Planned, simulate};

@@ -5,13 +5,15 @@ use super::evaluate::{Evaluate, Evaluation, Failure};
 use super::goal::{Goal, Measure, measures};
 use super::smooth;
 use crate::design::{
-    Design, EditError, LIMIT_KEYS, LimitKey, Limits, Objective, Optimize, content, with_limits, with_values,
+    Design, EditError, LIMIT_KEYS, LimitKey, Limits, Objective, Optimize, content, lean, with_limits, with_values,
 };
 use crate::fidelity;
 use crate::margin::{
-    Margin, RESOLUTION, RunOut, SceneDemand, load_state, run_out_margins, scene_margins, scene_rows,
+    Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
 };
 use crate::scenario::{AtRest, Settings, demand_quickly};
+use crate::wedge::Effort;
+use std::sync::OnceLock;
 
 /// How an evaluation is computed.
 #[derive(Debug, Clone)]
@@ -35,6 +37,11 @@ impl Fidelity {
         let tolerance = 0.1 * self.settings.tolerance.min(Settings::default().tolerance);
         let settings = Settings { tolerance, ..self.settings.clone() };
         Self { settings, reduced: false }
+    }
+
+    /// What goes into the curves of an evaluation.
+    fn effort(&self) -> Effort {
+        if self.reduced { Effort::Search } else { Effort::Full }
     }
 
     /// What of it an evaluation depends on, as text. Not who follows or stops it; the words in its place keep earlier
@@ -63,6 +70,8 @@ impl Fidelity {
 #[derive(Debug, Clone)]
 pub struct ClutchProblem {
     source: String,
+    /// What of it an evaluation reads.
+    lean: OnceLock<String>,
     folder: std::path::PathBuf,
     histories: String,
     variables: Vec<String>,
@@ -103,6 +112,7 @@ impl ClutchProblem {
     pub fn new(design: &Design, task: &Optimize, variables: Vec<String>, fidelity: Fidelity) -> Self {
         Self {
             source: design.source.clone(),
+            lean: OnceLock::new(),
             folder: design.folder.clone(),
             histories: design.histories(),
             variables,
@@ -121,7 +131,7 @@ impl ClutchProblem {
     /// The same problem with everything that `check` demands as a limit: the wanted slip margin even where slip is what is
     /// raised, the scenarios of `[check]`, the worst sprag off centre.
     pub fn as_checked(&self) -> Self {
-        Self { as_checked: true, ..self.clone() }
+        Self { as_checked: true, lean: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem under other limits.
@@ -141,17 +151,17 @@ impl ClutchProblem {
 
     /// The same problem on another design file.
     pub fn on(&self, source: String) -> Self {
-        Self { source, ..self.clone() }
+        Self { source, lean: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem with one of its scenarios alone.
     pub fn for_scenario(&self, name: &str) -> Self {
-        Self { scenarios: vec![name.to_owned()], ..self.clone() }
+        Self { scenarios: vec![name.to_owned()], lean: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem without its scenarios.
     pub fn at_rest(&self) -> Self {
-        Self { scenarios: Vec::new(), ..self.clone() }
+        Self { scenarios: Vec::new(), lean: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem at another fidelity.
@@ -213,9 +223,11 @@ impl ClutchProblem {
     /// # Errors
     /// [`EditError`] where a variable has no place in the file.
     pub fn file_at(&self, x: &[f64]) -> Result<String, EditError> {
-        let values: Vec<(&str, f64)> =
-            self.variables.iter().map(String::as_str).zip(x.iter().copied()).collect();
-        with_values(&self.source, &values)
+        with_values(&self.source, &self.values(x))
+    }
+
+    fn values(&self, x: &[f64]) -> Vec<(&str, f64)> {
+        self.variables.iter().map(String::as_str).zip(x.iter().copied()).collect()
     }
 
     /// The design at `x`.
@@ -244,7 +256,8 @@ impl ClutchProblem {
     /// # Errors
     /// [`Failure::Refused`] where there is no clutch to speak of.
     pub fn look(&self, design: &Design) -> Result<Looked, Failure> {
-        let state = load_state(design).map_err(|e| Failure::Refused(e.to_string()))?;
+        let effort = self.fidelity.effort();
+        let state = load_state_at(design, effort).map_err(|e| Failure::Refused(e.to_string()))?;
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
         let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
         rows.retain(|m| m.required);
@@ -283,7 +296,7 @@ impl ClutchProblem {
             return scene_margins(scenario, &self.limits, true, Some(known), settings);
         }
         let whole = || scene_margins(scenario, &self.limits, true, Some(known), settings);
-        let Ok((plan, prepared)) = fidelity::plan(scenario, Some(known)) else { return whole() };
+        let Ok((plan, prepared)) = fidelity::plan_at(scenario, Some(known), self.fidelity.effort()) else { return whole() };
         let found = demand_quickly(&prepared, settings);
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {
@@ -292,12 +305,25 @@ impl ClutchProblem {
         scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true)
     }
 
+    /// The design at `x` without the scenarios that no margin is asked of; where that is refused, the whole one says why.
+    fn asked_at(&self, x: &[f64]) -> Result<Design, Failure> {
+        let lean = self.lean.get_or_init(|| {
+            let asked = |name: &str| {
+                let among = |names: &[String]| names.iter().any(|n| n == name);
+                among(&self.scenarios) || self.as_checked && among(&self.checked)
+            };
+            lean(&self.source, &asked).unwrap_or_else(|_| self.source.clone())
+        });
+        let short = with_values(lean, &self.values(x)).ok().and_then(|text| self.parsed(&text).ok());
+        short.map_or_else(|| self.design_at(x), Ok)
+    }
+
     /// All required margins at `x`, at every corner.
     ///
     /// # Errors
     /// [`Failure::Refused`] where there is no clutch at `x`.
     pub fn look_at(&self, x: &[f64]) -> Result<Looked, Failure> {
-        let design = self.design_at(x)?;
+        let design = self.asked_at(x)?;
         let mut all = Looked { rows: Vec::new(), measures: Vec::new() };
         for corner in &self.corners {
             let mut found = if corner.is_nominal() {
