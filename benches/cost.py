@@ -32,24 +32,25 @@ def read(path):
 
 binary, points, nothing = sys.argv[1:]
 total, inclusive, calls = read(points)
-whole = (total - read(nothing)[0]) / POINTS
+idle, idle_inclusive, _ = read(nothing)
+whole = (total - idle) / POINTS
 
 
 def of(*names):
-    """What the first of these functions that was called took, per evaluation."""
+    """What the first of these functions that is there (others are inlined) took, per evaluation."""
     for name in names:
-        found = [cost for function, cost in inclusive.items() if re.search(name, function)]
+        found = [n for n in inclusive if re.search(name, n)]
         if found:
-            return max(found) / POINTS
+            return max(inclusive[n] - idle_inclusive[n] for n in found) / POINTS
     return 0.0
 
 
 curves = of(r"WedgeCurve>::march$")
-at_rest = of(r"margin::curve_at_rest$")
+at_rest = of(r"margin::curve_at_rest$", r"margin::load::load_state_at$", r"margin::load::load_state$")
 phases = {
-    "the file: values put in, read": of(r"ClutchProblem::asked_at$", r"ClutchProblem::design_at$"),
+    "the file: values put in, read": of(r"design::edit::with_values$") + of(r"design::Design>::parse_in$"),
     "curves": curves,
-    "rows of the load state": of(r"smooth::load_rows$"),
+    "rows of the load state": of(r"smooth::load_rows$", r"margin::load_margins$"),
     "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - (curves - at_rest), 0.0),
     "pure-rolling runs": of(r"demand::roll$", r"demand::demand_at$"),
 }

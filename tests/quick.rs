@@ -42,7 +42,7 @@ fn a_quick_curve_is_the_curve() {
                 continue;
             };
             assert_eq!((full.end().0, full.arc_count()), (quick.end().0, quick.arc_count()), "{name}");
-            let near = |a: f64, b: f64, size: f64| (a - b).abs() < 1e-9 * size;
+            let near = |a: f64, b: f64, size: f64| (a - b).abs() < 1e-8 * size;
             let end = full.end_torque_nm();
             assert!(near(end, quick.end_torque_nm(), end), "{name}");
             assert!(near(full.roll_over_torque_nm(), quick.roll_over_torque_nm(), end), "{name}");
@@ -162,7 +162,8 @@ fn an_evaluation_of_a_search_is_one_of_check() {
     for _ in 0..40 {
         let x: Vec<f64> = task.variables.iter().map(|v| v.min + random.f64() * (v.max - v.min)).collect();
         let (Ok(quick), Ok(sharp)) = (problem.evaluate(&x), sharp.evaluate(&x)) else { continue };
-        let pairs = quick.objectives.iter().chain(&quick.limits).zip(sharp.objectives.iter().chain(&sharp.limits));
+        let pairs =
+            quick.objectives.iter().chain(&quick.limits).zip(sharp.objectives.iter().chain(&sharp.limits));
         for (i, (a, b)) in pairs.enumerate() {
             let off = (a - b).abs() / b.abs().max(1.0);
             assert!(off < 1e-6, "margin {i} at {x:?}: {a} {b}");

@@ -54,8 +54,14 @@ pub(super) struct Stuck {
 struct Sight {
     t: f64,
     y: Pair,
+    /// w'' and e''.
+    rates: [f64; 2],
+    /// Not yet known at the looks that are not [`FIRST`].
     figures: [f64; FIGURES],
 }
+
+/// The looks, of [`LOOKS`], that tell whether a step may hold a record; the others are asked where it may.
+const FIRST: [usize; 4] = [0, 2, 4, 6];
 
 /// The two equations on one arc.
 struct Rolls<'a> {
@@ -125,7 +131,8 @@ impl Rolls<'_> {
         let (m_ww, m_we, m_ee) = (i_i + m.a, m.b - i_i, i_i + i_e + m.d);
         let q_w = -c_bi - m.f - model.damping_nm_s_per_rad * u - 0.5 * m.a_slope * u * u
             + m.d_slope * v * (0.5 * v + speed);
-        let q_e = c_bi + c_be - model.loads.abutment_nm_per_rad * e
+        let q_e = c_bi + c_be
+            - model.loads.abutment_nm_per_rad * e
             - m.b_slope * u * u
             - m.d_slope * u * (v + speed);
         let inverse = 1.0 / (m_ww * m_ee - m_we * m_we);
@@ -141,7 +148,8 @@ impl Rolls<'_> {
         let inner = model.inner_inertia_kg_m2 * (v_rate - u_rate) - drag - c_bi;
         let outer = c_be - drag - model.loads.abutment_nm_per_rad * e - model.outer_inertia_kg_m2 * v_rate;
         let orbit = model.curve.speed_rad_s() + v - c.sigma * u;
-        let n_be = c.outer + c.outer_by_inner * inner - c.outer_by_outer * outer + c.centrifugal * orbit * orbit;
+        let n_be =
+            c.outer + c.outer_by_inner * inner - c.outer_by_outer * outer + c.centrifugal * orbit * orbit;
         let ratio = |t: f64, n: f64| if n > 0.0 { t.abs() / n } else { 0.0 };
         [ratio(inner * c.per_oa, c.n_bi), ratio(outer * c.per_ob, n_be), -c.n_bi, c.n_bi, n_be]
     }
@@ -160,12 +168,21 @@ impl Rolls<'_> {
 
     /// Everything at (t, y).
     #[inline(always)]
-    fn sight(&mut self, t: f64, y: &Pair) -> (Sight, [f64; 2]) {
+    fn sight(&mut self, t: f64, y: &Pair) -> Sight {
         let outside = self.torques_nm(t);
         let piece = self.table.piece(y[0]);
         let (m, c) = (piece.motion(y[0]), piece.contacts(y[0]));
         let a = Self::accelerations(self.model, &m, y, outside);
-        (Sight { t, y: *y, figures: Self::figures(self.model, &c, y, a, outside) }, a)
+        Sight { t, y: *y, rates: a, figures: Self::figures(self.model, &c, y, a, outside) }
+    }
+
+    /// The figures of all looks, where those of some are not known yet.
+    fn complete(&mut self) {
+        for j in (0..LOOKS.len()).filter(|j| !FIRST.contains(j)) {
+            let Sight { t, y, rates, .. } = self.seen[j];
+            let (outside, c) = (self.torques_nm(t), self.table.piece(y[0]).contacts(y[0]));
+            self.seen[j].figures = Self::figures(self.model, &c, &y, rates, outside);
+        }
     }
 }
 
@@ -180,9 +197,14 @@ impl RightHandSide<4> for Rolls<'_> {
 
     #[inline(always)]
     fn slope_at_look(&mut self, look: usize, t: f64, y: &Pair) -> Result<Pair, ()> {
-        let (seen, a) = self.sight(t, y);
-        self.seen[look] = seen;
-        Self::slope_of(y, a)
+        if FIRST.contains(&look) {
+            self.seen[look] = self.sight(t, y);
+        } else {
+            let m = self.table.motion(y[0]);
+            let rates = Self::accelerations(self.model, &m, y, self.torques_nm(t));
+            self.seen[look] = Sight { t, y: *y, rates, figures: [f64::NAN; FIGURES] };
+        }
+        Self::slope_of(y, self.seen[look].rates)
     }
 }
 
@@ -208,16 +230,11 @@ pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSe
     }
     let windup = model.curve.in_arc(arc, state[0]).windup;
     let y: Pair = [windup, state[3], state[7] - state[6], state[7]];
-    let nothing = Sight { t: 0.0, y, figures: [f64::NAN; FIGURES] };
+    let nothing = Sight { t: 0.0, y, rates: [f64::NAN; 2], figures: [f64::NAN; FIGURES] };
     let beat = Beat::new(model.loads.omega_rad_s, model.loads.amplitude_nm, 0.0);
     let mut rolls = Rolls { model, table: Table::new(model, arc), seen: [nothing; LOOKS.len()], beat };
-    let mut run = Stuck {
-        peaks: Peaks::NONE,
-        counters: Counters::default(),
-        passed: 0,
-        interrupted: false,
-        t_s: 0.0,
-    };
+    let mut run =
+        Stuck { peaks: Peaks::NONE, counters: Counters::default(), passed: 0, interrupted: false, t_s: 0.0 };
     integrate(&mut rolls, y, settings, &mut run).then_some(run)
 }
 
@@ -227,7 +244,7 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
     let longest = settings.longest_step_s;
     let (mut t, mut h) = (0.0, longest);
     let mut step = Step::new();
-    let (mut now, mut a) = rolls.sight(t, &y);
+    let mut now = rolls.sight(t, &y);
     run.counters.rhs_evaluations += 1;
     settings.follow.begin_run();
     while t < settings.duration_s {
@@ -240,11 +257,11 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
             return false;
         }
         let rest = settings.duration_s - t;
-        let ahead = rolls.table.junction_ahead_s(&y, a[0]);
+        let ahead = rolls.table.junction_ahead_s(&y, now.rates[0]);
         let trial = h.min(longest).min(rest).min(BEYOND[0] * ahead + BEYOND[1] * longest);
         rolls.seen[0] = now;
         rolls.beat = Beat::new(rolls.beat.omega, rolls.model.loads.amplitude_nm, t);
-        let slope = [y[2], y[3], a[0], a[1]];
+        let slope = [y[2], y[3], now.rates[0], now.rates[1]];
         let taken = step.take(rolls, t, &y, &slope, trial, &tolerance, MOST, &mut run.counters);
         if taken.is_err() || step.error.is_nan() || trial < SHORTEST * longest.min(rest) {
             return false;
@@ -270,14 +287,13 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
                     return false;
                 }
                 run.passed += 1;
-                (now, a) = rolls.sight(t, &y);
+                now = rolls.sight(t, &y);
                 run.counters.rhs_evaluations += 1;
             }
             _ => {
                 t = if trial == rest { settings.duration_s } else { t + trial };
                 y = step.y1;
                 now = rolls.seen[LOOKS.len() - 1];
-                a = [step.slope1()[2], step.slope1()[3]];
             }
         }
         run.t_s = t;
@@ -343,6 +359,24 @@ fn watch(
     settings: &RunSettings,
     run: &mut Stuck,
 ) -> bool {
+    // A figure is smooth over the step: between looks, of which the fastest swing that such steps follow has a dozen in a
+    // period, it rises above them by far less than they differ.
+    let best = run.peaks.figures();
+    let may_hold_a_record = |looks: &mut dyn Iterator<Item = &[f64; FIGURES]>| {
+        let (mut low, mut high) = ([f64::INFINITY; FIGURES], [f64::NEG_INFINITY; FIGURES]);
+        for figures in looks {
+            for i in 0..FIGURES {
+                low[i] = if figures[i] < low[i] { figures[i] } else { low[i] };
+                high[i] = if figures[i] > high[i] { figures[i] } else { high[i] };
+            }
+        }
+        std::array::from_fn::<bool, FIGURES, _>(|i| high[i] + (high[i] - low[i]) >= best[i])
+    };
+    let first = may_hold_a_record(&mut FIRST.iter().map(|&j| &rolls.seen[j].figures));
+    if end.is_none() && !first.contains(&true) {
+        return true;
+    }
+    rolls.complete();
     let mut at = LOOKS;
     let mut seen = rolls.seen;
     let mut count = LOOKS.len();
@@ -353,7 +387,8 @@ fn watch(
             places.insert(0, 0.5 * theta);
         }
         for theta in places {
-            (at[count], seen[count]) = (theta, rolls.sight(step.t + theta * step.h, &d.after(theta * step.h)).0);
+            (at[count], seen[count]) =
+                (theta, rolls.sight(step.t + theta * step.h, &d.after(theta * step.h)));
             count += 1;
             run.counters.rhs_evaluations += 1;
         }
@@ -363,15 +398,13 @@ fn watch(
     let grid = Grid { at: &at[..count] };
     let length = last * step.h;
     let fine = 1e-3 * settings.tolerance;
+    let may = may_hold_a_record(&mut seen[..count].iter().map(|sight| &sight.figures));
     let mut peaks = run.peaks;
     for (i, mut best) in run.peaks.figures().into_iter().enumerate() {
-        let value = |j: usize| seen[j].figures[i];
-        // Between two looks a figure that is smooth over the step rises by no more than all of them differ.
-        let (low, high) =
-            (0..count).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), j| (l.min(value(j)), h.max(value(j))));
-        if high + (high - low) < best {
+        if !may[i] {
             continue;
         }
+        let value = |j: usize| seen[j].figures[i];
         for j in [0, count - 1] {
             if value(j) > best {
                 best = value(j);
@@ -392,7 +425,7 @@ fn watch(
             let Some(d) = dense.as_ref() else { return false };
             let mut figures = |theta: f64| {
                 let elapsed = theta * length;
-                rolls.sight(step.t + elapsed, &d.after(elapsed)).0.figures
+                rolls.sight(step.t + elapsed, &d.after(elapsed)).figures
             };
             let (from, guess, until) = (at[left], grid.extreme(j, value), at[right]);
             let (theta, found) =

@@ -85,6 +85,8 @@ pub(super) struct Table<'a> {
     /// Ends of the present arc.
     from: f64,
     until: f64,
+    /// One over the way between them, 1/rad.
+    per_length: f64,
 }
 
 impl<'a> Table<'a> {
@@ -92,7 +94,7 @@ impl<'a> Table<'a> {
     pub(super) fn new(model: &'a Model, arc: usize) -> Self {
         let pieces = |k: usize| if k == 0 { OCTAVES << CUTS } else { EQUAL };
         let places = (0..model.curve.arc_count()).map(|k| vec![NONE; pieces(k)]).collect();
-        let mut table = Self { model, made: Vec::new(), places, arc, from: 0.0, until: 0.0 };
+        let mut table = Self { model, made: Vec::new(), places, arc, from: 0.0, until: 0.0, per_length: 0.0 };
         table.enter(arc);
         table
     }
@@ -103,6 +105,7 @@ impl<'a> Table<'a> {
         self.arc = arc;
         self.from = if arc == 0 { 0.0 } else { until(arc - 1) };
         self.until = until(arc);
+        self.per_length = 1.0 / (self.until - self.from);
     }
 
     /// Over the upper or lower end of the present arc; false where there is nothing.
@@ -150,7 +153,7 @@ impl<'a> Table<'a> {
     /// The piece of the present arc that holds `w`; the first and the last go on beyond its ends.
     #[inline(always)]
     pub(super) fn piece(&mut self, w: f64) -> &Piece {
-        let share = (w - self.from) / (self.until - self.from);
+        let share = (w - self.from) * self.per_length;
         let index = if self.arc == 0 {
             // Exponent and leading bits of the mantissa count the pieces.
             let place = (share.max(0.0).to_bits() >> (52 - CUTS)) as i64;
@@ -178,21 +181,25 @@ impl<'a> Table<'a> {
         let mut lanes = [[0.0; LANES]; POINTS];
         // Newton along the nodes: dW = (rho_i + rho_e) d alpha.
         let curve = &self.model.curve;
-        let alpha_from = if self.arc == 0 { curve.first_contact_rad() } else { curve.arc_end_rad(self.arc - 1) };
+        let alpha_from =
+            if self.arc == 0 { curve.first_contact_rad() } else { curve.arc_end_rad(self.arc - 1) };
         let alpha_until = curve.arc_end_rad(self.arc);
         let mut alpha = alpha_from + (alpha_until - alpha_from) * (middle - self.from) / length;
+        let mut p = curve.in_arc(self.arc, alpha);
         for (j, node) in basis.nodes.iter().enumerate() {
             let w = middle + node / scale;
-            let mut p = curve.in_arc(self.arc, alpha);
             for _ in 0..20 {
-                let step = (w - p.windup) / (p.rho_i + p.rho_e);
+                let rho = p.rho_i + p.rho_e;
+                let straight = (w - p.windup) / rho;
+                // To the second order: rho' bends the way there.
+                let step = straight - 0.5 * (p.rho_i_slope + p.rho_e_slope) / rho * straight * straight;
                 alpha += step;
                 p = curve.in_arc(self.arc, alpha);
-                if step.abs() < 1e-7 * (alpha - alpha_from).abs() {
+                if step.abs() < 1e-5 * (alpha - alpha_from).abs() {
                     break;
                 }
             }
-            // What is left of the last step, smaller than its square, is a straight line.
+            // What is left is of the order of the third power of the last step.
             lanes[j] = self.model.in_stick(&p, alpha);
         }
         let powers = basis.powers(&lanes);
@@ -263,10 +270,15 @@ impl Piece {
 
     #[inline(always)]
     pub(super) fn contacts(&self, w: f64) -> Contacts {
-        let v = (w - self.middle) * self.scale;
-        let [n_bi, outer] = horner(&self.forces, v);
-        let [per_oa, per_ob, sigma, outer_by_inner, outer_by_outer, centrifugal] = horner(&self.arms, v);
+        let ([n_bi, outer], arms) = self.pressed((w - self.middle) * self.scale);
+        let [per_oa, per_ob, sigma, outer_by_inner, outer_by_outer, centrifugal] = arms;
         Contacts { n_bi, per_oa, per_ob, sigma, outer, outer_by_inner, outer_by_outer, centrifugal }
+    }
+
+    /// Not inlined: lanes that go to memory together are summed two by two.
+    #[inline(never)]
+    fn pressed(&self, v: f64) -> ([f64; 2], [f64; 6]) {
+        (horner(&self.forces, v), horner(&self.arms, v))
     }
 }
 

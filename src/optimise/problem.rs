@@ -5,7 +5,8 @@ use super::evaluate::{Evaluate, Evaluation, Failure};
 use super::goal::{Goal, Measure, measures};
 use super::smooth;
 use crate::design::{
-    Design, EditError, LIMIT_KEYS, LimitKey, Limits, Objective, Optimize, content, lean, with_limits, with_values,
+    Blank, Design, EditError, LIMIT_KEYS, LimitKey, Limits, Objective, Optimize, content, lean, with_limits,
+    with_values,
 };
 use crate::fidelity;
 use crate::margin::{
@@ -70,8 +71,8 @@ impl Fidelity {
 #[derive(Debug, Clone)]
 pub struct ClutchProblem {
     source: String,
-    /// What of it an evaluation reads.
-    lean: OnceLock<String>,
+    /// What of it an evaluation reads, with gaps for the variables; `None`: that is not to be had.
+    lean: OnceLock<Option<Blank>>,
     folder: std::path::PathBuf,
     histories: String,
     variables: Vec<String>,
@@ -171,7 +172,7 @@ impl ClutchProblem {
 
     /// The same problem with other variables.
     pub fn over(&self, variables: Vec<String>) -> Self {
-        Self { variables, ..self.clone() }
+        Self { variables, lean: OnceLock::new(), ..self.clone() }
     }
 
     /// Text of the design file.
@@ -296,7 +297,9 @@ impl ClutchProblem {
             return scene_margins(scenario, &self.limits, true, Some(known), settings);
         }
         let whole = || scene_margins(scenario, &self.limits, true, Some(known), settings);
-        let Ok((plan, prepared)) = fidelity::plan_at(scenario, Some(known), self.fidelity.effort()) else { return whole() };
+        let Ok((plan, prepared)) = fidelity::plan_at(scenario, Some(known), self.fidelity.effort()) else {
+            return whole();
+        };
         let found = demand_quickly(&prepared, settings);
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {
@@ -312,9 +315,10 @@ impl ClutchProblem {
                 let among = |names: &[String]| names.iter().any(|n| n == name);
                 among(&self.scenarios) || self.as_checked && among(&self.checked)
             };
-            lean(&self.source, &asked).unwrap_or_else(|_| self.source.clone())
+            Blank::new(&lean(&self.source, &asked).ok()?, &self.variables)
         });
-        let short = with_values(lean, &self.values(x)).ok().and_then(|text| self.parsed(&text).ok());
+        let text = lean.as_ref().and_then(|blank| blank.filled(x));
+        let short = text.and_then(|text| self.parsed(&text).ok());
         short.map_or_else(|| self.design_at(x), Ok)
     }
 

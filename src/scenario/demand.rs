@@ -90,10 +90,15 @@ pub fn demand(prepared: &Prepared, settings: &Settings) -> RollingDemand {
     demand_at(prepared, settings, Fineness::single(0.1 * settings.tolerance), None)
 }
 
-/// As [`demand`], for a search: two equations instead of ten where friction suffices, at steps of the tolerance itself. By
-/// what it differs from [`demand`] stays below the tolerance (test `the_quick_demand_is_the_demand`).
+/// Tolerance of the steps of a quick run over that of its figures: a step's error is a fifth of it at most, over
+/// [`STEPS_PER_PERIOD_OF_DEMAND`] steps in a period mostly far less, and what it leaves decays.
+const QUICK: f64 = 2.0;
+
+/// As [`demand`], for a search: two equations instead of ten where contact is kept. What it differs by from
+/// [`demand`] stays below the tolerance (test `the_quick_demand_is_the_demand`).
 pub fn demand_quickly(prepared: &Prepared, settings: &Settings) -> RollingDemand {
-    let fineness = Fineness { quick: Some(settings.tolerance), ..Fineness::single(0.1 * settings.tolerance) };
+    let single = Fineness::single(0.1 * settings.tolerance);
+    let fineness = Fineness { quick: Some(QUICK * settings.tolerance), ..single };
     demand_at(prepared, settings, fineness, None)
 }
 

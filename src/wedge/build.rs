@@ -3,6 +3,7 @@
 use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
 use super::patch::InnerCurvature;
+use super::quick::TRUSTED;
 use super::table::{ArcBuilder, ArcTable};
 use crate::clutch::{Carrier, Clutch};
 use crate::numeric::root;
@@ -57,7 +58,19 @@ impl WedgeCurve {
         effort: Effort,
     ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
-        Self::march(statics.map_err(NoCurve::NoElastic)?, exponent(clutch), speed_rad_s, reach_nm, effort)
+        let mut statics = statics.map_err(NoCurve::NoElastic)?;
+        let q = exponent(clutch);
+        if effort == Effort::Full {
+            return Self::march(statics, q, speed_rad_s, reach_nm, effort);
+        }
+        let full = statics.clone();
+        statics.effort = effort;
+        statics.elastic = statics.elastic.quickly();
+        match Self::march(statics, q, speed_rad_s, reach_nm, effort) {
+            Ok(quick) if quick.truncation() < TRUSTED => Ok(quick),
+            // It varies more than a few panels follow, or is none: the full one decides.
+            _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full),
+        }
     }
 
     /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
@@ -176,8 +189,8 @@ pub enum Effort {
     /// To rounding.
     #[default]
     Full,
-    /// A quarter of the closures and no more than 1e-9 of N and windup off (test `a_quick_curve_is_the_curve`): for a
-    /// search, whose answer is looked at once more.
+    /// A quarter of the closures and no more than 1e-8 of N and windup off (test `a_quick_curve_is_the_curve`), or the full
+    /// one where that does not do: for a search, whose answer is looked at once more.
     Search,
 }
 
@@ -194,7 +207,7 @@ impl Effort {
     fn end_width(self) -> [f64; 2] {
         match self {
             Self::Full => [1e-15, 1e-12],
-            Self::Search => [1e-12, 1e-10],
+            Self::Search => [1e-11, 1e-9],
         }
     }
 

@@ -143,7 +143,11 @@ impl WedgeCurve {
     }
     /// Relative size of what the interpolation leaves out, pure number, where N exceeds 1e-10 of its largest.
     pub fn truncation(&self) -> f64 {
-        let skip = |k: usize| if k == 0 { 2 } else { 0 };
+        let skip = |k: usize| match (k, self.effort) {
+            (0, Effort::Full) => 2,
+            (0, Effort::Search) => 1,
+            _ => 0,
+        };
         self.arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k))).fold(0.0, f64::max)
     }
 
@@ -313,9 +317,17 @@ impl WedgeCurve {
             return self.end_torque_nm();
         }
         let arc = &self.arcs[k];
-        arc_end(&self.statics, self.first + k, self.speed_rad_s, arc.n_from, arc.shift, f64::INFINITY, self.effort)
-            .and_then(|(n, _)| self.closure_in(k, n))
-            .map_or(self.end_torque_nm(), |c| c.torque_nm(self.statics.count).v)
+        arc_end(
+            &self.statics,
+            self.first + k,
+            self.speed_rad_s,
+            arc.n_from,
+            arc.shift,
+            f64::INFINITY,
+            self.effort,
+        )
+        .and_then(|(n, _)| self.closure_in(k, n))
+        .map_or(self.end_torque_nm(), |c| c.torque_nm(self.statics.count).v)
     }
 
     /// Equilibrium at first contact.

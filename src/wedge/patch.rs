@@ -181,7 +181,8 @@ impl Statics {
                 let (a, b) = (pair[0].0, pair[1].0);
                 let (fa, fb) = (outside(junction, pair[0].1), outside(junction, pair[1].1));
                 if fa * fb < 0.0
-                    && let Some(n) = root::bracketed(a, b, fa, fb, effort.edge_width() * b, |n| outside(junction, seat(n)))
+                    && let Some(n) =
+                        root::bracketed(a, b, fa, fb, effort.edge_width() * b, |n| outside(junction, seat(n)))
                 {
                     found.push((n, junction, fb < 0.0));
                 }

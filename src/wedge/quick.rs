@@ -2,8 +2,8 @@
 //! else read off these.
 //!
 //! The table to be made has its nodes in alpha, where a force must be looked for by Newton; here that is looked for on the
-//! polynomials, not by closures. One panel where the full table has two, two where it has five: of an ellipse of parameter 6.5
-//! seen from twice as far 4 is left, and 4^-16 = 2e-10.
+//! polynomials, not by closures. One panel where the full table has two, three where it has five: of an ellipse of parameter
+//! 6.5 seen from twice as far 4 is left, and 4^-16 = 2e-10. Where a curve asks for more, its last coefficients tell.
 
 use super::closure::{FIRST_CONTACT_N, NoClosure};
 use super::table::{ArcBuilder, Edge, LANES, Layout, SHAPED_BREAKS, lanes_of, unit_integral};
@@ -12,7 +12,9 @@ use crate::numeric::{panels::Panels, quadrature};
 /// The lanes and what the variable of the table follows from: z d alpha/dN, or alpha.
 const SAMPLED: usize = LANES + 1;
 /// Panels of the first arc, as fractions of its end.
-const BREAKS: [f64; 3] = [0.0, 0.4, 1.0];
+const BREAKS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
+/// Largest truncation of a quick curve that is taken as it is: three tenths of what it may be off.
+pub(super) const TRUSTED: f64 = 3e-9;
 
 /// Where Newton's steps may end, relative: the next would be less than rounding.
 const SETTLED: f64 = 1e-9;
@@ -57,8 +59,9 @@ impl ArcBuilder<'_> {
             in_z.panels(|z| self.sample(z.powi(10).max(FIRST_CONTACT_N), |_, slope| z * slope))?;
         let rate = sampled.combined(&lane(LANES));
         let mean = sure(in_z.panels(|z| {
-            Ok::<_, std::convert::Infallible>([10.0
-                * unit_integral(z, &edges, |x| rate.at(z * x)[0] * x.powi(8))])
+            Ok::<_, std::convert::Infallible>([
+                10.0 * unit_integral(z, &edges, |x| rate.at(z * x)[0] * x.powi(8))
+            ])
         }));
         let q = self.exponent;
         let of = |z: f64| (z.powi(9) * mean.at(z)[0]).powf(1.0 / q);

@@ -43,7 +43,8 @@ pub(super) fn held(x: f64) -> (f64, f64) {
 /// matter only for continuity.
 const FIRST_BREAKS: [f64; 6] = [0.0, 0.02, 0.1, 0.3, 0.6, 1.0];
 /// The same for contacts that are shaped along the axis, which open and close along their length.
-pub(super) const SHAPED_BREAKS: [f64; 14] = [0.0, 0.02, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8, 1.0];
+pub(super) const SHAPED_BREAKS: [f64; 14] =
+    [0.0, 0.02, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8, 1.0];
 
 /// Breaks of the first arc up to `end`.
 fn first_breaks(statics: &Statics, end: f64) -> Vec<f64> {
@@ -167,7 +168,10 @@ impl Layout {
         self.grades.push(grade);
     }
 
-    pub(super) fn panels<const M: usize, E>(&self, f: impl FnMut(f64) -> Result<[f64; M], E>) -> Result<Panels<M>, E> {
+    pub(super) fn panels<const M: usize, E>(
+        &self,
+        f: impl FnMut(f64) -> Result<[f64; M], E>,
+    ) -> Result<Panels<M>, E> {
         Panels::build_graded(&self.breaks, &self.grades, f)
     }
 }
@@ -187,7 +191,8 @@ impl ArcBuilder<'_> {
         if !self.statics.feels_junctions() {
             return Vec::new();
         }
-        let passages = self.statics.edge_passages(self.k, n_from, n_until, self.speed, self.shift, self.effort);
+        let passages =
+            self.statics.edge_passages(self.k, n_from, n_until, self.speed, self.shift, self.effort);
         passages.into_iter().map(|(n, _, comes)| Edge { at: n, comes }).collect()
     }
 
