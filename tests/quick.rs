@@ -42,7 +42,7 @@ fn a_quick_curve_is_the_curve() {
                 continue;
             };
             assert_eq!((full.end().0, full.arc_count()), (quick.end().0, quick.arc_count()), "{name}");
-            let near = |a: f64, b: f64, size: f64| (a - b).abs() < 1e-8 * size;
+            let near = |a: f64, b: f64, size: f64| (a - b).abs() < 1e-7 * size;
             let end = full.end_torque_nm();
             assert!(near(end, quick.end_torque_nm(), end), "{name}");
             assert!(near(full.roll_over_torque_nm(), quick.roll_over_torque_nm(), end), "{name}");
@@ -66,7 +66,7 @@ fn a_quick_curve_is_the_curve() {
                 }
             }
             println!("{name} at {speed}: {worst:.1e}, truncation {:.1e}", quick.truncation());
-            assert!(worst < 1e-8, "{name} at {speed}: {worst:e}");
+            assert!(worst < 1e-7, "{name} at {speed}: {worst:e}");
             for share in [0.01, 0.3, 0.7, 0.99] {
                 let (a, b) = (full.at_torque(share * end), quick.at_torque(share * end));
                 let (Some(a), Some(b)) = (a, b) else { panic!("{name}: {share}") };
@@ -155,7 +155,7 @@ fn an_evaluation_of_a_search_is_one_of_check() {
     let design = Design::read(Path::new(MULTI)).unwrap();
     let task = design.optimize.clone().unwrap();
     let names: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
-    let problem = ClutchProblem::new(&design, &task, names, Fidelity::default());
+    let problem = ClutchProblem::new(&design, &task, names, Fidelity::default()).quickly();
     let sharp = problem.at_fidelity(Fidelity::default().sharper());
     let mut random = fastrand::Rng::with_seed(22);
     let mut worst = 0.0_f64;

@@ -8,12 +8,11 @@ use crate::design::{
     Blank, Design, EditError, LIMIT_KEYS, LimitKey, Limits, Objective, Optimize, content, lean, with_limits,
     with_values,
 };
-use crate::fidelity;
+use crate::fidelity::{self, Effort};
 use crate::margin::{
     Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
 };
-use crate::scenario::{AtRest, Settings, demand_quickly};
-use crate::wedge::Effort;
+use crate::scenario::{AtRest, Settings, demand, demand_quickly};
 use std::sync::OnceLock;
 
 /// How an evaluation is computed.
@@ -38,11 +37,6 @@ impl Fidelity {
         let tolerance = 0.1 * self.settings.tolerance.min(Settings::default().tolerance);
         let settings = Settings { tolerance, ..self.settings.clone() };
         Self { settings, reduced: false }
-    }
-
-    /// What goes into the curves of an evaluation.
-    fn effort(&self) -> Effort {
-        if self.reduced { Effort::Search } else { Effort::Full }
     }
 
     /// What of it an evaluation depends on, as text. Not who follows or stops it; the words in its place keep earlier
@@ -84,6 +78,8 @@ pub struct ClutchProblem {
     /// What every limit keeps of its margin.
     reserve: f64,
     fidelity: Fidelity,
+    /// Whether margins may differ by less than their tolerance: see [`ClutchProblem::quickly`].
+    quick: bool,
     /// Scenarios of `[check]`.
     checked: Vec<String>,
     /// Whether everything that `check` demands is a limit: see [`ClutchProblem::as_checked`].
@@ -124,6 +120,7 @@ impl ClutchProblem {
             corners: vec![Corner::NOMINAL],
             reserve: task.reserve,
             fidelity,
+            quick: false,
             checked: design.check_scenarios.clone(),
             as_checked: false,
         }
@@ -133,6 +130,18 @@ impl ClutchProblem {
     /// raised, the scenarios of `[check]`, the worst sprag off centre.
     pub fn as_checked(&self) -> Self {
         Self { as_checked: true, lean: OnceLock::new(), ..self.clone() }
+    }
+
+    /// The same problem at a quarter of the work: quick curves and quick rolling runs, whose margins differ from those of
+    /// [`Fidelity::settings`] by less than the tolerance there, and by 1e-11 or so where nothing should move them. Not for what
+    /// asks whether a variable has any influence. Of no effect where everything is to run.
+    pub fn quickly(&self) -> Self {
+        Self { quick: self.fidelity.reduced, ..self.clone() }
+    }
+
+    /// What goes into the curves of an evaluation.
+    fn effort(&self) -> Effort {
+        if self.quick { Effort::Search } else { Effort::Full }
     }
 
     /// The same problem under other limits.
@@ -167,7 +176,7 @@ impl ClutchProblem {
 
     /// The same problem at another fidelity.
     pub fn at_fidelity(&self, fidelity: Fidelity) -> Self {
-        Self { fidelity, ..self.clone() }
+        Self { quick: self.quick && fidelity.reduced, fidelity, ..self.clone() }
     }
 
     /// The same problem with other variables.
@@ -257,7 +266,7 @@ impl ClutchProblem {
     /// # Errors
     /// [`Failure::Refused`] where there is no clutch to speak of.
     pub fn look(&self, design: &Design) -> Result<Looked, Failure> {
-        let effort = self.fidelity.effort();
+        let effort = self.effort();
         let state = load_state_at(design, effort).map_err(|e| Failure::Refused(e.to_string()))?;
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
         let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
@@ -297,10 +306,10 @@ impl ClutchProblem {
             return scene_margins(scenario, &self.limits, true, Some(known), settings);
         }
         let whole = || scene_margins(scenario, &self.limits, true, Some(known), settings);
-        let Ok((plan, prepared)) = fidelity::plan_at(scenario, Some(known), self.fidelity.effort()) else {
+        let Ok((plan, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
             return whole();
         };
-        let found = demand_quickly(&prepared, settings);
+        let found = if self.quick { demand_quickly } else { demand }(&prepared, settings);
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {
             return whole();

@@ -189,7 +189,7 @@ pub enum Effort {
     /// To rounding.
     #[default]
     Full,
-    /// A quarter of the closures and no more than 1e-8 of N and windup off (test `a_quick_curve_is_the_curve`), or the full
+    /// A quarter of the closures and no more than 1e-7 of N and windup off (test `a_quick_curve_is_the_curve`), or the full
     /// one where that does not do: for a search, whose answer is looked at once more.
     Search,
 }

@@ -14,7 +14,7 @@ const SAMPLED: usize = LANES + 1;
 /// Panels of the first arc, as fractions of its end.
 const BREAKS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
 /// Largest truncation of a quick curve that is taken as it is: three tenths of what it may be off.
-pub(super) const TRUSTED: f64 = 3e-9;
+pub(super) const TRUSTED: f64 = 3e-8;
 
 /// Where Newton's steps may end, relative: the next would be less than rounding.
 const SETTLED: f64 = 1e-9;
