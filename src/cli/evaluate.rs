@@ -55,7 +55,7 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
     };
     let variables: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
     let fidelity = Fidelity { reduced: !args.full, ..Fidelity::default() };
-    let problem = ClutchProblem::new(&design, task, variables, fidelity);
+    let problem = ClutchProblem::new(&design, task, variables, fidelity).quickly();
     if args.describe {
         output::print_json(&describe_problem(&design, &problem))?;
     }

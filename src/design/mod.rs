@@ -38,8 +38,8 @@ mod variables;
 pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
 pub use draft::{Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
-    EditError, content, other_variables, value_at, with_flanks, with_keys, with_limits, with_sprag,
-    with_values,
+    Blank, EditError, content, lean, other_variables, value_at, with_flanks, with_keys, with_limits,
+    with_sprag, with_values,
 };
 pub use history::is_history;
 pub use inputs::{Input, inputs, unit_of_path};

@@ -26,7 +26,7 @@ pub(super) fn cross(
     let (m_before, _, _) = reduced(model, before, inner, outer);
     let (m_after, coupling_after, rest) = reduced(model, after, inner, outer);
     let Some(rest_inverse) = rest.try_inverse() else { return rates };
-    let alpha_rate = rates[0] * (m_before / m_after).max(0.0).sqrt();
+    let alpha_rate = scaled(rates[0], m_before, m_after);
     // Momenta of (phi, free races) are kept: M_rr w_r + M_ra alpha' = const.
     let (_, coupling_before, _) = reduced(model, before, inner, outer);
     let w = Vector3::new(rates[1], if inner { 0.0 } else { rates[2] }, if outer { 0.0 } else { rates[3] });
@@ -38,6 +38,11 @@ pub(super) fn cross(
         if inner { w[0] - after.rho_i * alpha_rate } else { w[1] },
         if outer { w[0] + after.rho_e * alpha_rate } else { w[2] },
     ]
+}
+
+/// The rate whose kinetic energy is kept where its effective mass changes.
+pub(super) fn scaled(rate: f64, before: f64, after: f64) -> f64 {
+    rate * (before / after).max(0.0).sqrt()
 }
 
 /// (effective mass of alpha, coupling of alpha to (phi, theta_bi, theta_be), mass of those), kg m^2; a race that

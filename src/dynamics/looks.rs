@@ -219,27 +219,19 @@ impl Looks {
         &self.seen[self.count - 1]
     }
 
-    /// The looks beside `j`, itself at an end.
+    /// Where the looks are.
+    fn grid(&self) -> Grid<'_> {
+        Grid { at: &self.at[..self.count] }
+    }
+
+    /// As [`Grid::beside`].
     pub(super) fn beside(&self, j: usize) -> (usize, usize) {
-        (j.saturating_sub(1), (j + 1).min(self.count - 1))
+        self.grid().beside(j)
     }
 
-    /// The parabola through the looks about `j`: its second divided difference, the wider gap, where its top lies.
-    fn parabola(&self, j: usize, value: impl Fn(usize) -> f64) -> (f64, f64, f64) {
-        let m = j.clamp(1, self.count - 2);
-        let x = [self.at[m - 1], self.at[m], self.at[m + 1]];
-        let (bend, top) = parabola(x, [value(m - 1), value(m), value(m + 1)]);
-        (bend, (x[1] - x[0]).max(x[2] - x[1]), top)
-    }
-
-    /// How far a function may rise between the looks beside `j` above all looks: the top of the parabola lies above the
-    /// nearest of three points by at most g^2/4 |second divided difference|, g the wider gap; twice that is allowed for.
-    /// 0 at an end that the parabola passes a quarter of a gap before its top, or where it has none: a function that bends
-    /// upwards is largest at the end itself.
+    /// As [`Grid::overshoot`].
     pub(super) fn overshoot(&self, j: usize, value: impl Fn(usize) -> f64) -> f64 {
-        let (bend, gap, top) = self.parabola(j, value);
-        let beyond = j == 0 && top < -0.25 * gap || j + 1 == self.count && top > 1.0 + 0.25 * gap;
-        if beyond { 0.0 } else { 0.5 * (-bend).max(0.0) * gap * gap }
+        self.grid().overshoot(j, value)
     }
 
     /// Where, as a fraction of the step, a function that is `after` < 0 at `to` falls through zero beyond look `left`, to
@@ -290,6 +282,45 @@ impl Looks {
         let rise = (self.at[b] - self.at[a]) / (fb - fa);
         let bend = ((self.at[c] - self.at[b]) / (fc - fb) - rise) / (fc - fa);
         self.at[a] - rise * fa + bend * fa * fb
+    }
+
+    /// As [`Grid::extreme`].
+    pub(super) fn extreme(&self, j: usize, value: impl Fn(usize) -> f64) -> f64 {
+        self.grid().extreme(j, value)
+    }
+}
+
+/// Where a step is looked at, as fractions of its length: three places at least.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grid<'a> {
+    pub(super) at: &'a [f64],
+}
+
+impl Grid<'_> {
+    /// The looks beside `j`, itself at an end.
+    #[inline]
+    pub(super) fn beside(&self, j: usize) -> (usize, usize) {
+        (j.saturating_sub(1), (j + 1).min(self.at.len() - 1))
+    }
+
+    /// The parabola through the looks about `j`: its second divided difference, the wider gap, where its top lies.
+    #[inline]
+    fn parabola(&self, j: usize, value: impl Fn(usize) -> f64) -> (f64, f64, f64) {
+        let m = j.clamp(1, self.at.len() - 2);
+        let x = [self.at[m - 1], self.at[m], self.at[m + 1]];
+        let (bend, top) = parabola(x, [value(m - 1), value(m), value(m + 1)]);
+        (bend, (x[1] - x[0]).max(x[2] - x[1]), top)
+    }
+
+    /// How far a function may rise between the looks beside `j` above all looks: the top of the parabola lies above the
+    /// nearest of three points by at most g^2/4 |second divided difference|, g the wider gap; twice that is allowed for.
+    /// 0 at an end that the parabola passes a quarter of a gap before its top, or where it has none: a function that bends
+    /// upwards is largest at the end itself.
+    #[inline]
+    pub(super) fn overshoot(&self, j: usize, value: impl Fn(usize) -> f64) -> f64 {
+        let (bend, gap, top) = self.parabola(j, value);
+        let beyond = j == 0 && top < -0.25 * gap || j + 1 == self.at.len() && top > 1.0 + 0.25 * gap;
+        if beyond { 0.0 } else { 0.5 * (-bend).max(0.0) * gap * gap }
     }
 
     /// Where the extreme beside look `j` is to be looked for first.

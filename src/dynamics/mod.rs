@@ -24,6 +24,8 @@ mod published;
 mod rolling;
 mod run;
 mod start;
+mod stick;
+mod stick_table;
 mod swing;
 mod train;
 mod watch;
@@ -35,7 +37,7 @@ pub use memory::{Memory, go_on};
 pub use model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 pub use outside::{events, next_mode};
 pub use published::{PublishedSettings, published};
-pub use rolling::{Rolling, rolling};
+pub use rolling::{Rolling, rolling, rolling_quickly};
 pub use run::{
     Engaged, FastMotion, Held, History, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,
     run_while_it_sticks,

@@ -2,6 +2,7 @@
 
 use super::model::{Grip, Mode, Model, Place, State};
 use super::run::{Run, RunSettings, Stop, run};
+use super::stick::stuck;
 
 /// What pure rolling demands.
 #[derive(Debug, Clone)]
@@ -20,16 +21,43 @@ pub struct Rolling {
 
 /// Run `model` from `state` with both contacts rolling whatever friction that takes.
 pub fn rolling(model: &Model, state: State, place: Place, settings: &RunSettings) -> Rolling {
-    let mode = Mode {
+    let mode = both_roll(place);
+    Rolling::of(model, run(model, state, mode, &RunSettings { rolling: true, ..settings.clone() }))
+}
+
+/// The same figures, peaks and their times, by the two equations that are left where both contacts roll; where those do not
+/// hold, by [`rolling`] itself. `tolerance`: of the steps of the former. The state at the end is not kept.
+pub fn rolling_quickly(
+    model: &Model,
+    state: State,
+    place: Place,
+    settings: &RunSettings,
+    tolerance: f64,
+) -> Rolling {
+    let Some(found) = stuck(model, &state, place, &RunSettings { tolerance, ..settings.clone() }) else {
+        return rolling(model, state, place, settings);
+    };
+    let mut run = Run::start(state, both_roll(place), 0);
+    run.stop = if found.interrupted { Stop::Interrupted } else { Stop::Finished };
+    (run.t_s, run.peaks, run.counters, run.events) = (found.t_s, found.peaks, found.counters, found.passed);
+    Rolling::of(model, run)
+}
+
+fn both_roll(place: Place) -> Mode {
+    Mode {
         place: if place == Place::Open { Place::Arc(0) } else { place },
         inner: Grip::Stick,
         outer: Grip::Stick,
-    };
-    let run = run(model, state, mode, &RunSettings { rolling: true, ..settings.clone() });
-    let p = run.peaks;
-    let outer_asks = !model.outer_holds && p.tan_outer > p.tan_inner;
-    let asked = if outer_asks { p.tan_outer } else { p.tan_inner };
-    let loaded = p.normal_at_tan_n[usize::from(outer_asks)] >= model.loaded_n;
-    let required = (p.normal_min_n > 0.0 && loaded).then_some(asked);
-    Rolling { required_friction: required, normal_min_n: p.normal_min_n, stop: run.stop, run }
+    }
+}
+
+impl Rolling {
+    fn of(model: &Model, run: Run) -> Self {
+        let p = run.peaks;
+        let outer_asks = !model.outer_holds && p.tan_outer > p.tan_inner;
+        let asked = if outer_asks { p.tan_outer } else { p.tan_inner };
+        let loaded = p.normal_at_tan_n[usize::from(outer_asks)] >= model.loaded_n;
+        let required = (p.normal_min_n > 0.0 && loaded).then_some(asked);
+        Self { required_friction: required, normal_min_n: p.normal_min_n, stop: run.stop, run }
+    }
 }

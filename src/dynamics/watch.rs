@@ -157,7 +157,7 @@ pub(super) fn highest(
     mut b: f64,
     worth: f64,
     fine: f64,
-    f: impl Fn(f64) -> f64,
+    mut f: impl FnMut(f64) -> f64,
 ) -> (f64, f64) {
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
     let enough = 1e-5 * (b - a);

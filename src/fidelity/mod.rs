@@ -6,5 +6,6 @@
 mod plan;
 mod run;
 
-pub use plan::{Plan, Term, plan};
+pub use crate::wedge::Effort;
+pub use plan::{Plan, Term, plan, plan_at};
 pub use run::{Planned, simulate};

@@ -2,6 +2,7 @@
 
 use crate::clutch::Scenario;
 use crate::scenario::{AtRest, NoScenario, Prepared, Reduction, prepare_reduced};
+use crate::wedge::Effort;
 
 /// One term, left out or kept.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,10 +43,22 @@ const REACH: f64 = 2.5;
 /// # Errors
 /// [`NoScenario`] where the scenario has no start.
 pub fn plan(scenario: &Scenario, known: Option<AtRest>) -> Result<(Plan, Prepared), NoScenario> {
+    plan_at(scenario, known, Effort::Full)
+}
+
+/// The same with curves at `effort`.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_at(
+    scenario: &Scenario,
+    known: Option<AtRest>,
+    effort: Effort,
+) -> Result<(Plan, Prepared), NoScenario> {
     let (torque, speed) = (scenario.largest_torque_nm(), scenario.mean_speed_rad_s());
     // Torques of a drivetrain are not those of the scene.
     let reach_nm = scenario.drivetrain.is_empty().then_some(REACH * torque);
-    let mut reduction = Reduction { reach_nm };
+    let mut reduction = Reduction { reach_nm, effort };
     let (mut left_out, mut kept) = (Vec::new(), Vec::new());
     if speed == 0.0 {
         left_out.push(Term::free("centrifugal growth of the races", "the scene is at rest"));

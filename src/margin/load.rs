@@ -10,7 +10,7 @@ use crate::design::{Design, Limits};
 use crate::dynamics::alpha_max_rad;
 use crate::profile::{Outline, Profile, clearance_m};
 use crate::scenario::AtRest;
-use crate::wedge::{Elastic, EndReason, StaticPoint, WedgeCurve};
+use crate::wedge::{Effort, Elastic, EndReason, StaticPoint, WedgeCurve};
 
 /// What the static limits are read from: the wedge without its energizing spring, which at such torques presses by parts in
 /// ten thousand harder and lowers |T|/N.
@@ -40,7 +40,15 @@ impl LoadState {
 /// # Errors
 /// [`NoMargins`].
 pub fn load_state(design: &Design) -> Result<LoadState, NoMargins> {
-    let (profile, curve) = curve_at_rest(design)?;
+    load_state_at(design, Effort::Full)
+}
+
+/// The same with a curve at `effort`.
+///
+/// # Errors
+/// [`NoMargins`].
+pub fn load_state_at(design: &Design, effort: Effort) -> Result<LoadState, NoMargins> {
+    let (profile, curve) = curve_at_rest(design, effort)?;
     let flanks = design.clutch.sprags.flanks;
     let outline = flanks.map(|f| Outline::closed(&profile, &f)).transpose().map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;

@@ -18,7 +18,7 @@ mod table;
 
 pub use capacity::{DemandCourse, courses, nominal_capacity};
 pub use limits::{Limit, When, limit_of};
-pub use load::{LoadState, load_state};
+pub use load::{LoadState, load_state, load_state_at};
 pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve};
 pub use row::{Demand, Margin, RESOLUTION, Rule};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
@@ -28,7 +28,7 @@ pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
 use crate::clutch::Scenario;
 use crate::design::{Design, Limits};
 use crate::scenario::{AtRest, Settings};
-use crate::wedge::{NoCurve, WedgeCurve};
+use crate::wedge::{Effort, NoCurve, WedgeCurve};
 
 /// Why no margins can be computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,8 +116,12 @@ pub fn scene_rows(scenario: &Scenario, found: &SceneDemand, limits: &Limits, req
 }
 
 /// The curve of a design at rest.
-fn curve_at_rest(design: &Design) -> Result<(crate::profile::Profile, WedgeCurve), NoMargins> {
+fn curve_at_rest(
+    design: &Design,
+    effort: Effort,
+) -> Result<(crate::profile::Profile, WedgeCurve), NoMargins> {
     let profile = design.clutch.profile().map_err(NoMargins::Profile)?;
-    let curve = WedgeCurve::build(&design.clutch, &profile, 0.0).map_err(NoMargins::Curve)?;
+    let curve = WedgeCurve::build_reaching_at(&design.clutch, &profile, 0.0, None, effort)
+        .map_err(NoMargins::Curve)?;
     Ok((profile, curve))
 }

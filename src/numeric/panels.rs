@@ -164,6 +164,18 @@ impl<const M: usize> Panels<M> {
         Panels { panels: self.panels.iter().map(|p| p.derivative(lanes)).collect() }
     }
 
+    /// The sum of all lanes, each times its weight, as a curve of its own.
+    pub fn combined(&self, weights: &[f64; M]) -> Panels<1> {
+        let sum = |row: &[f64; M]| [row.iter().zip(weights).map(|(c, w)| c * w).sum()];
+        let panel = |p: &Panel<M>| Panel {
+            from: p.from,
+            until: p.until,
+            grade: p.grade,
+            coefficients: p.coefficients.each_ref().map(sum),
+        };
+        Panels { panels: self.panels.iter().map(panel).collect() }
+    }
+
     /// Size of the last two coefficients relative to the largest, worst lane and panel: what the truncated
     /// series still misses, as a pure number. The first `skip` panels are passed over.
     pub fn truncation(&self, skip: usize) -> f64 {

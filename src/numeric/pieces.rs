@@ -91,17 +91,17 @@ impl<const M: usize> Pieces<M> {
 }
 
 /// Chebyshev nodes and how values there become powers.
-struct Basis {
-    nodes: [f64; POINTS],
+pub(crate) struct Basis<const POINTS: usize> {
+    pub(crate) nodes: [f64; POINTS],
     /// weight[k][j]: what the value at node j adds to the coefficient of v^k.
     weight: [[f64; POINTS]; POINTS],
 }
 
-static BASIS: LazyLock<Basis> = LazyLock::new(Basis::new);
+static BASIS: LazyLock<Basis<POINTS>> = LazyLock::new(Basis::new);
 
-impl Basis {
-    fn new() -> Self {
-        const { assert!(LOW <= DEGREE) };
+impl<const POINTS: usize> Basis<POINTS> {
+    pub(crate) fn new() -> Self {
+        const { assert!(LOW <= DEGREE && POINTS > 1) };
         let angle = |j: usize| PI * (j as f64 + 0.5) / POINTS as f64;
         // chebyshev[n][k]: coefficient of v^k in T_n, T_n = 2 v T_{n-1} - T_{n-2}.
         let mut chebyshev = [[0.0; POINTS]; POINTS];
@@ -124,7 +124,8 @@ impl Basis {
         Self { nodes: std::array::from_fn(|j| angle(j).cos()), weight }
     }
 
-    fn powers<const M: usize>(&self, values: &[[f64; M]; POINTS]) -> [[f64; M]; POINTS] {
+    /// Powers of v from the values at the nodes.
+    pub(crate) fn powers<const M: usize>(&self, values: &[[f64; M]; POINTS]) -> [[f64; M]; POINTS] {
         let mut powers = [[0.0; M]; POINTS];
         for (power, weights) in powers.iter_mut().zip(&self.weight) {
             for (value, w) in values.iter().zip(weights) {

@@ -36,6 +36,22 @@ pub const LOOKS: [f64; 7] = [0.0, C[3], C[6], C[5], C[9], C[10], 1.0];
 /// Which of [`LOOKS`] a stage is; 0 where it is none.
 const LOOK_OF: [usize; 12] = [0, 0, 0, 1, 0, 3, 2, 0, 0, 4, 5, 0];
 
+/// State at stage `STAGE`: y + h sum_j a_j k_j, unrolled, without the a_j that are zero.
+#[inline(always)]
+fn reached<const STAGE: usize, const N: usize>(y: &[f64; N], k: &[[f64; N]; 12], h: f64) -> [f64; N] {
+    let mut z = *y;
+    for j in 0..STAGE {
+        let a = A[STAGE - 1][j];
+        if a != 0.0 {
+            let ha = h * a;
+            for i in 0..N {
+                z[i] += ha * k[j][i];
+            }
+        }
+    }
+    z
+}
+
 /// Weighted error that the next length aims at.
 const AIM: f64 = 0.15;
 
@@ -73,13 +89,19 @@ impl<const N: usize> Step<N> {
         let k = &mut self.stages;
         k[0] = *slope0;
         for stage in 1..12 {
-            let mut z = *y;
-            for (k, a) in k.iter().zip(A[stage - 1]) {
-                let ha = h * a;
-                for i in 0..N {
-                    z[i] += ha * k[i];
-                }
-            }
+            let z = match stage {
+                1 => reached::<1, N>(y, k, h),
+                2 => reached::<2, N>(y, k, h),
+                3 => reached::<3, N>(y, k, h),
+                4 => reached::<4, N>(y, k, h),
+                5 => reached::<5, N>(y, k, h),
+                6 => reached::<6, N>(y, k, h),
+                7 => reached::<7, N>(y, k, h),
+                8 => reached::<8, N>(y, k, h),
+                9 => reached::<9, N>(y, k, h),
+                10 => reached::<10, N>(y, k, h),
+                _ => reached::<11, N>(y, k, h),
+            };
             let at = t + C[stage] * h;
             k[stage] = match LOOK_OF[stage] {
                 0 => rhs.slope(at, &z)?,

@@ -5,14 +5,15 @@ use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::goal::{Goal, Measure, measures};
 use super::smooth;
 use crate::design::{
-    Design, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content, with_limits,
-    with_values,
+    Blank, Design, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content, lean,
+    with_limits, with_values,
 };
-use crate::fidelity;
+use crate::fidelity::{self, Effort};
 use crate::margin::{
-    Margin, RESOLUTION, RunOut, SceneDemand, load_state, run_out_margins, scene_margins, scene_rows,
+    Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
 };
-use crate::scenario::{AtRest, Settings, demand};
+use crate::scenario::{AtRest, Settings, demand, demand_quickly};
+use std::sync::OnceLock;
 
 /// How an evaluation is computed.
 #[derive(Debug, Clone)]
@@ -64,6 +65,8 @@ impl Fidelity {
 #[derive(Debug, Clone)]
 pub struct ClutchProblem {
     source: String,
+    /// What of it an evaluation reads, with gaps for the variables; `None`: that is not to be had.
+    lean: OnceLock<Option<Blank>>,
     folder: std::path::PathBuf,
     histories: String,
     variables: Vec<String>,
@@ -77,6 +80,8 @@ pub struct ClutchProblem {
     /// What every limit keeps of its margin.
     reserve: f64,
     fidelity: Fidelity,
+    /// Whether margins may differ by less than their tolerance: see [`ClutchProblem::quickly`].
+    quick: bool,
     /// Scenarios of `[check]`.
     checked: Vec<String>,
     /// Whether everything that `check` demands is a limit: see [`ClutchProblem::as_checked`].
@@ -106,6 +111,7 @@ impl ClutchProblem {
     pub fn new(design: &Design, task: &Optimize, variables: Vec<String>, fidelity: Fidelity) -> Self {
         Self {
             source: design.source.clone(),
+            lean: OnceLock::new(),
             folder: design.folder.clone(),
             histories: design.histories(),
             variables,
@@ -121,6 +127,7 @@ impl ClutchProblem {
             corners: vec![Corner::NOMINAL],
             reserve: task.reserve,
             fidelity,
+            quick: false,
             checked: design.check_scenarios.clone(),
             as_checked: false,
         }
@@ -129,7 +136,19 @@ impl ClutchProblem {
     /// The same problem with everything that `check` demands as a limit: the wanted slip margin even where slip is what is
     /// raised, the scenarios of `[check]`, the worst sprag off centre.
     pub fn as_checked(&self) -> Self {
-        Self { as_checked: true, ..self.clone() }
+        Self { as_checked: true, lean: OnceLock::new(), ..self.clone() }
+    }
+
+    /// The same problem at a quarter of the work: quick curves and quick rolling runs, whose margins differ from those of
+    /// [`Fidelity::settings`] by less than the tolerance there, and by 1e-11 or so where nothing should move them. Not for what
+    /// asks whether a variable has any influence. Of no effect where everything is to run.
+    pub fn quickly(&self) -> Self {
+        Self { quick: self.fidelity.reduced, ..self.clone() }
+    }
+
+    /// What goes into the curves of an evaluation.
+    fn effort(&self) -> Effort {
+        if self.quick { Effort::Search } else { Effort::Full }
     }
 
     /// The same problem under other limits.
@@ -149,27 +168,27 @@ impl ClutchProblem {
 
     /// The same problem on another design file.
     pub fn on(&self, source: String) -> Self {
-        Self { source, ..self.clone() }
+        Self { source, lean: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem with one of its scenarios alone.
     pub fn for_scenario(&self, name: &str) -> Self {
-        Self { scenarios: vec![name.to_owned()], ..self.clone() }
+        Self { scenarios: vec![name.to_owned()], lean: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem without its scenarios.
     pub fn at_rest(&self) -> Self {
-        Self { scenarios: Vec::new(), ..self.clone() }
+        Self { scenarios: Vec::new(), lean: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem at another fidelity.
     pub fn at_fidelity(&self, fidelity: Fidelity) -> Self {
-        Self { fidelity, ..self.clone() }
+        Self { quick: self.quick && fidelity.reduced, fidelity, ..self.clone() }
     }
 
     /// The same problem with other variables.
     pub fn over(&self, variables: Vec<String>) -> Self {
-        Self { variables, ..self.clone() }
+        Self { variables, lean: OnceLock::new(), ..self.clone() }
     }
 
     /// Text of the design file.
@@ -264,7 +283,8 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
     pub fn look(&self, design: &Design) -> Result<Looked, NoEvaluation> {
-        let state = load_state(design).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
+        let effort = self.effort();
+        let state = load_state_at(design, effort).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
         let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
         rows.retain(|m| m.required);
@@ -303,8 +323,10 @@ impl ClutchProblem {
             return scene_margins(scenario, &self.limits, true, Some(known), settings);
         }
         let whole = || scene_margins(scenario, &self.limits, true, Some(known), settings);
-        let Ok((plan, prepared)) = fidelity::plan(scenario, Some(known)) else { return whole() };
-        let found = demand(&prepared, settings);
+        let Ok((plan, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
+            return whole();
+        };
+        let found = if self.quick { demand_quickly } else { demand }(&prepared, settings);
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {
             return whole();
@@ -312,12 +334,28 @@ impl ClutchProblem {
         scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true)
     }
 
+    /// The design at `x` without the scenarios that no margin is asked of; where that is refused, the whole one says why.
+    fn asked_at(&self, x: &[f64]) -> Result<Design, NoEvaluation> {
+        let lean = self.lean.get_or_init(|| {
+            let asked = |name: &str| {
+                let among = |names: &[String]| names.iter().any(|n| n == name);
+                among(&self.scenarios) || self.as_checked && among(&self.checked)
+            };
+            let names: Vec<String> = self.values_at(x).iter().map(|(name, _)| (*name).to_owned()).collect();
+            Blank::new(&lean(&self.source, &asked).ok()?, &names)
+        });
+        let values: Vec<f64> = self.values_at(x).iter().map(|(_, value)| *value).collect();
+        let text = lean.as_ref().and_then(|blank| blank.filled(&values));
+        let short = text.and_then(|text| self.parsed(&text).ok());
+        short.map_or_else(|| self.design_at(x), Ok)
+    }
+
     /// All required margins at `x`, at every corner.
     ///
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch at `x`.
     pub fn look_at(&self, x: &[f64]) -> Result<Looked, NoEvaluation> {
-        let design = self.design_at(x)?;
+        let design = self.asked_at(x)?;
         let mut all = Looked { rows: Vec::new(), measures: Vec::new() };
         for corner in &self.corners {
             let mut found = if corner.is_nominal() {

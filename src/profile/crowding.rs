@@ -27,7 +27,13 @@ struct Feature {
 
 impl Feature {
     fn carries(&self, azimuth: f64) -> bool {
-        let past = (self.from_azimuth - azimuth).rem_euclid(TAU);
+        let past = self.from_azimuth - azimuth;
+        // The remainder of what is less than a turn is itself: no division.
+        let past = match past {
+            within if (0.0..TAU).contains(&within) => within,
+            below if (-TAU..0.0).contains(&below) => below + TAU,
+            far => far.rem_euclid(TAU),
+        };
         past <= self.span + SLACK_RAD || past >= TAU - SLACK_RAD
     }
 }
@@ -92,13 +98,14 @@ impl Neighbours {
         let gap =
             |azimuth: f64| s.dot(&along(azimuth)) - self.support(azimuth) - self.support(azimuth + facing);
         let mut widest = f64::NEG_INFINITY;
+        // far.centre seen by n(phi): c.dir(phi + facing) = (c turned by -facing).n(phi).
+        let there: Vec<Vector2<f64>> = self.features.iter().map(|far| turned(far.centre, -facing)).collect();
         for near in &self.features {
             for azimuth in [near.from_azimuth, near.from_azimuth - near.span] {
                 widest = widest.max(gap(azimuth)).max(gap(azimuth - facing));
             }
-            for far in &self.features {
-                // far.centre seen by n(phi): c.dir(phi + facing) = (c turned by -facing).n(phi).
-                let v = s - near.centre - turned(far.centre, -facing);
+            for (far, there) in self.features.iter().zip(&there) {
+                let v = s - near.centre - there;
                 let azimuth = v.x.atan2(v.y);
                 if near.carries(azimuth) && far.carries(azimuth + facing) {
                     widest = widest.max(gap(azimuth));

@@ -4,7 +4,7 @@ use super::answer::Verdict;
 use super::figures::ErrorEstimate;
 use super::prepare::Prepared;
 use super::simulate::{SLIPPED_M, Settings, verdict};
-use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, run, run_while_it_sticks};
+use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, rolling_quickly, run, run_while_it_sticks};
 use crate::friction::Stribeck;
 
 /// What pure rolling would demand: the basis of slip margin and contact margin.
@@ -48,12 +48,14 @@ pub(super) struct Fineness {
     pub(super) tolerance: f64,
     /// Its longest step as a part of the one chosen.
     pub(super) longest: f64,
+    /// Whether its pure-rolling run may be the quick one, and its tolerance.
+    pub(super) quick: Option<f64>,
 }
 
 impl Fineness {
     /// Of a run that no other follows.
     pub(super) fn single(tolerance: f64) -> Self {
-        Self { tolerance, longest: 1.0 }
+        Self { tolerance, longest: 1.0, quick: None }
     }
 }
 
@@ -86,6 +88,18 @@ pub(super) fn run_settings(
 /// there, no peak of |T|/N says what friction suffices: then that is bisected.
 pub fn demand(prepared: &Prepared, settings: &Settings) -> RollingDemand {
     demand_at(prepared, settings, Fineness::single(0.1 * settings.tolerance), None)
+}
+
+/// Tolerance of the steps of a quick run over that of its figures: a step's error is a fifth of it at most, over
+/// [`STEPS_PER_PERIOD_OF_DEMAND`] steps in a period mostly far less, and what it leaves decays.
+const QUICK: f64 = 2.0;
+
+/// As [`demand`], for a search: two equations instead of ten where contact is kept. What it differs by from
+/// [`demand`] stays below the tolerance (test `the_quick_demand_is_the_demand`).
+pub fn demand_quickly(prepared: &Prepared, settings: &Settings) -> RollingDemand {
+    let single = Fineness::single(0.1 * settings.tolerance);
+    let fineness = Fineness { quick: Some(QUICK * settings.tolerance), ..single };
+    demand_at(prepared, settings, fineness, None)
 }
 
 /// The same at steps as fine as asked for; `near`: the mu_req that was bisected at coarser ones.
@@ -152,7 +166,10 @@ pub(super) fn roll(
             model.to_mut().drive = prepared.model.drive.from(start.t_s).after(&free);
         }
     }
-    let r: Rolling = rolling(&model, state, place, &s);
+    let r: Rolling = match fineness.quick {
+        Some(tolerance) => rolling_quickly(&model, state, place, &s, tolerance),
+        None => rolling(&model, state, place, &s),
+    };
     let finished = r.stop == Stop::Finished;
     let mut required = r.required_friction.filter(|_| finished);
     let mut interrupted = r.stop == Stop::Interrupted;

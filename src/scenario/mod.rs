@@ -13,7 +13,7 @@ mod simulate;
 mod train;
 
 pub use answer::{GaveUp, Simulation, Verdict};
-pub use demand::{RollingDemand, demand};
+pub use demand::{RollingDemand, demand, demand_quickly};
 pub use equilibrium::overrun_swing;
 pub use error::Scales;
 pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures_of};

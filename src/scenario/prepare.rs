@@ -8,7 +8,7 @@ use crate::dynamics::{
 use crate::friction::Stribeck;
 use crate::numeric::course::Course;
 use crate::profile::ProfileError;
-use crate::wedge::{NoCurve, StaticPoint, WedgeCurve};
+use crate::wedge::{Effort, NoCurve, StaticPoint, WedgeCurve};
 
 /// Why a scenario has no start. A named outcome, not a fault of the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,6 +116,8 @@ impl Prepared {
 pub struct Reduction {
     /// Torque beyond which no further arc of the curve is built, N m.
     pub reach_nm: Option<f64>,
+    /// What goes into its curves.
+    pub effort: Effort,
 }
 
 /// The whole curve at rest of a clutch, where it is known already: its scenes need not build it again.
@@ -166,7 +168,8 @@ fn at_start(
     let clutch = &scenario.clutch;
     let profile = clutch.profile().map_err(NoScenario::Profile)?;
     let build = |speed: f64| {
-        WedgeCurve::build_reaching(clutch, &profile, speed, reduction.reach_nm).map_err(NoScenario::Curve)
+        let Reduction { reach_nm, effort } = *reduction;
+        WedgeCurve::build_reaching_at(clutch, &profile, speed, reach_nm, effort).map_err(NoScenario::Curve)
     };
     let at_rest = match known.filter(|k| k.clutch == clutch) {
         Some(known) => known.curve.reaching(reduction.reach_nm),

@@ -103,7 +103,7 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
     }
     let coarsest = (100.0 * settings.tolerance).clamp(1000.0 * STEP_TOLERANCES[1], STEP_TOLERANCES[0]);
     let go = |tolerance: f64, samples: usize, before: Option<&Try>, answered: bool| {
-        let fineness = Fineness { tolerance, longest: (tolerance / coarsest).powf(1.0 / ORDER) };
+        let fineness = Fineness { tolerance, longest: (tolerance / coarsest).powf(1.0 / ORDER), quick: None };
         settings.follow.begin_pass(before.is_none(), tolerance);
         // The coarsest run is never the answer: its energy is not asked for.
         let settings = &Settings { energy: settings.energy && before.is_some(), ..settings.clone() };

@@ -3,6 +3,7 @@
 use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
 use super::patch::InnerCurvature;
+use super::quick::TRUSTED;
 use super::table::{ArcBuilder, ArcTable};
 use crate::clutch::{Carrier, Clutch};
 use crate::numeric::root;
@@ -28,7 +29,7 @@ impl WedgeCurve {
         inner_curvature: InnerCurvature,
     ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), inner_curvature).map_err(NoCurve::NoElastic)?;
-        Self::march(statics, exponent(clutch), speed_rad_s, None)
+        Self::march(statics, exponent(clutch), speed_rad_s, None, Effort::Full)
     }
 
     /// As [`Self::build`], without the arcs after the one that carries `reach_nm` (N m), if that is given: the
@@ -42,8 +43,34 @@ impl WedgeCurve {
         speed_rad_s: f64,
         reach_nm: Option<f64>,
     ) -> Result<Self, NoCurve> {
+        Self::build_reaching_at(clutch, profile, speed_rad_s, reach_nm, Effort::Full)
+    }
+
+    /// The same at `effort`.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_reaching_at(
+        clutch: &Clutch,
+        profile: &Profile,
+        speed_rad_s: f64,
+        reach_nm: Option<f64>,
+        effort: Effort,
+    ) -> Result<Self, NoCurve> {
         let statics = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
-        Self::march(statics.map_err(NoCurve::NoElastic)?, exponent(clutch), speed_rad_s, reach_nm)
+        let mut statics = statics.map_err(NoCurve::NoElastic)?;
+        let q = exponent(clutch);
+        if effort == Effort::Full {
+            return Self::march(statics, q, speed_rad_s, reach_nm, effort);
+        }
+        let full = statics.clone();
+        statics.effort = effort;
+        statics.elastic = statics.elastic.quickly();
+        match Self::march(statics, q, speed_rad_s, reach_nm, effort) {
+            Ok(quick) if quick.truncation() < TRUSTED => Ok(quick),
+            // It varies more than a few panels follow, or is none: the full one decides.
+            _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full),
+        }
     }
 
     /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
@@ -63,7 +90,7 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         (statics.offset_m, statics.carrier) = (offset_m, carrier);
-        Self::march(statics, exponent(clutch), 0.0, None)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
     }
 
     /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).
@@ -75,7 +102,7 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = statics.elastic.local_only();
-        Self::march(statics, exponent(clutch), 0.0, None)
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
     }
 
     /// Arc after arc from first contact to the end, or to the arc that carries `reach_nm`.
@@ -84,6 +111,7 @@ impl WedgeCurve {
         exponent: f64,
         speed_rad_s: f64,
         reach_nm: Option<f64>,
+        effort: Effort,
     ) -> Result<Self, NoCurve> {
         let profile = statics.profile.clone();
         let beta0 = profile.beta0_rad;
@@ -117,12 +145,12 @@ impl WedgeCurve {
                     }
                 }
             }
-            let reach = arc_end(&statics, k, speed_rad_s, n_from, shift, profile.arcs[k].until_rad);
+            let reach = arc_end(&statics, k, speed_rad_s, n_from, shift, profile.arcs[k].until_rad, effort);
             let Some((n_until, reason)) = reach else {
                 end = EndReason::RollsOver;
                 break;
             };
-            let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, exponent }
+            let arc = ArcBuilder { statics: &statics, k, speed: speed_rad_s, shift, exponent, effort }
                 .build(n_from, n_until, windup_from, k == first)
                 .map_err(|_| NoCurve::NoConvergence)?;
             windup_from = arc.windup_rad(arc.alpha_until, (k == first).then_some((alpha0, exponent)));
@@ -140,7 +168,7 @@ impl WedgeCurve {
         if arcs.is_empty() {
             return Err(NoCurve::NoFirstContact);
         }
-        Ok(Self { statics, speed_rad_s, exponent, alpha0, first, arcs, end, touch })
+        Ok(Self { statics, speed_rad_s, exponent, effort, alpha0, first, arcs, end, touch })
     }
 
     /// This curve without the arcs after the one that carries `reach_nm` (N m): what [`Self::build_reaching`] builds, for who has
@@ -151,6 +179,43 @@ impl WedgeCurve {
         match self.arcs.iter().position(carries).filter(|k| k + 1 < self.arcs.len()) {
             Some(k) => Self { arcs: self.arcs[..=k].to_vec(), end: EndReason::NotBuilt, ..self.clone() },
             None => self.clone(),
+        }
+    }
+}
+
+/// How much goes into a curve.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Effort {
+    /// To rounding.
+    #[default]
+    Full,
+    /// A quarter of the closures and no more than 1e-7 of N and windup off (test `a_quick_curve_is_the_curve`), or the full
+    /// one where that does not do: for a search, whose answer is looked at once more.
+    Search,
+}
+
+impl Effort {
+    /// Ratio of a force to the next, and to the first force, where the end of an arc is looked for.
+    fn stride(self) -> [f64; 2] {
+        match self {
+            Self::Full => [1.1, 1.02],
+            Self::Search => [1.6, 1.2],
+        }
+    }
+
+    /// Relative width to which the ends of arcs, and the places where the torque is largest, are located.
+    fn end_width(self) -> [f64; 2] {
+        match self {
+            Self::Full => [1e-15, 1e-12],
+            Self::Search => [1e-11, 1e-9],
+        }
+    }
+
+    /// The same of the edges of the patch.
+    pub(super) fn edge_width(self) -> f64 {
+        match self {
+            Self::Full => 1e-13,
+            Self::Search => 1e-9,
         }
     }
 }
@@ -168,7 +233,9 @@ pub(super) fn arc_end(
     n_from: f64,
     shift: f64,
     until: f64,
+    effort: Effort,
 ) -> Option<(f64, Option<EndReason>)> {
+    let ([ratio, first], [width_off, width_over]) = (effort.stride(), effort.end_width());
     let beta0 = statics.profile.beta0_rad;
     let last = k + 1 == statics.profile.arcs.len();
     let state = |n: f64| statics.closure(k, n, speed, shift).ok();
@@ -176,25 +243,25 @@ pub(super) fn arc_end(
     let both = |n: f64| state(n).map(|c| [until - c.turn_rad(beta0), c.torque_nm(1).d]);
     let left = |n: f64| both(n).map_or(-1.0, |[left, _]| left);
     let rising = |n: f64| both(n).map_or(-1.0, |[_, rising]| rising);
-    let (mut a, mut n) = (n_from.max(FIRST_CONTACT_N), (1.02 * n_from).max(1.0));
+    let (mut a, mut n) = (n_from.max(FIRST_CONTACT_N), (first * n_from).max(1.0));
     let (mut at_a, mut at_n) = (None, both(n));
     for _ in 0..4000 {
         if at_n.is_none_or(|[left, rising]| left <= 0.0 || rising <= 0.0) {
             break;
         }
         (a, at_a) = (n, at_n);
-        n *= 1.1;
+        n *= ratio;
         at_n = both(n);
     }
     let [left_a, rising_a] = at_a.or_else(|| both(a)).unwrap_or([-1.0; 2]);
     let [left_n, rising_n] = at_n.unwrap_or([-1.0; 2]);
     let off = at_n.is_some() && left_n <= 0.0;
-    let n_off = if off { root::bracketed(a, n, left_a, left_n, 1e-15 * n, left)? } else { n };
+    let n_off = if off { root::bracketed(a, n, left_a, left_n, width_off * n, left)? } else { n };
     let rising_off = if off { rising(n_off) } else { rising_n };
     if rising_off > 0.0 && off {
         return Some((n_off, last.then_some(EndReason::OffProfile)));
     }
-    let n_over = root::bracketed(a, n_off, rising_a, rising_off, 1e-12 * n, rising)?;
+    let n_over = root::bracketed(a, n_off, rising_a, rising_off, width_over * n, rising)?;
     // Stay where the closure exists.
     let n_over = if state(n_over).is_some() { n_over } else { n_over * (1.0 - 1e-9) };
     state(n_over).filter(|_| n_over > n_from)?;

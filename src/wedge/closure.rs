@@ -1,5 +1,6 @@
 //! Static equilibrium of one sprag at a given inner normal force: the only static iteration of the project.
 
+use super::build::Effort;
 use super::elastic::{Elastic, NoElastic};
 use super::off_centre::turned;
 use super::patch::{InnerApproach, InnerCurvature};
@@ -131,6 +132,8 @@ pub struct Statics {
     pub profile: Profile,
     /// The curvature that laws which know the radius are given at A.
     pub inner_curvature: InnerCurvature,
+    /// How far a closure settles.
+    pub(super) effort: Effort,
     /// Axis of the inner race against that of the outer at this sprag before it rolls on: along OC_e, and across it, m.
     pub(super) offset_m: [f64; 2],
     /// The race that this stays with.
@@ -155,6 +158,7 @@ impl Statics {
         Ok(Self {
             count: s.count,
             inner_curvature,
+            effort: Effort::Full,
             offset_m: [0.0; 2],
             carrier: Carrier::default(),
             elastic: Elastic::new(clutch)?,
@@ -257,7 +261,13 @@ impl Statics {
             // The turn carries some 5e-15 of rounding, which a large step of curvature makes 1e-15 of delta_H.
             let there = rolled_on.v.abs() <= 1e-14 && rolled_on.d.abs() <= 1e-12 * on.d.abs();
             let still = moved.v <= 1e-14 && moved.d <= 1e-13 && there;
-            let settled = still && change <= 4.0 * f64::EPSILON && slope_change <= 1e-14
+            // What is left is a hundredth of the last change.
+            let enough = self.effort == Effort::Search
+                && there
+                && change.max(moved.v) < 1e-10
+                && slope_change.max(moved.d) < 1e-8;
+            let settled = enough
+                || still && change <= 4.0 * f64::EPSILON && slope_change <= 1e-14
                 || still
                     && round > 4
                     && change >= residual

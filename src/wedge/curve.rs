@@ -1,6 +1,6 @@
 //! The wedge curve of one design at one mean speed: built once (`build`), then only evaluated.
 
-use super::build::arc_end;
+use super::build::{Effort, arc_end};
 use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::elastic::NoElastic;
 use super::table::{ArcTable, held, point};
@@ -68,6 +68,8 @@ pub struct WedgeCurve {
     pub(super) statics: Statics,
     pub(super) speed_rad_s: f64,
     pub(super) exponent: f64,
+    /// What went into it and goes into what is asked of it.
+    pub(super) effort: Effort,
     pub(super) alpha0: f64,
     pub(super) first: usize,
     pub(super) arcs: Vec<ArcTable>,
@@ -141,7 +143,11 @@ impl WedgeCurve {
     }
     /// Relative size of what the interpolation leaves out, pure number, where N exceeds 1e-10 of its largest.
     pub fn truncation(&self) -> f64 {
-        let skip = |k: usize| if k == 0 { 2 } else { 0 };
+        let skip = |k: usize| match (k, self.effort) {
+            (0, Effort::Full) => 2,
+            (0, Effort::Search) => 1,
+            _ => 0,
+        };
         self.arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k))).fold(0.0, f64::max)
     }
 
@@ -260,8 +266,35 @@ impl WedgeCurve {
             if fa > 0.0 && k == 0 {
                 continue;
             }
+            if self.effort == Effort::Search
+                && let Some(found) = self.newton(k, torque_nm, [a, b], [fa, fb])
+            {
+                return Some((k, found));
+            }
             let n = if fa >= 0.0 { a } else { root::bracketed(a, b, fa, fb, 1e-15 * b, miss)? };
             return self.closure_in(k, n).map(|c| (k, c));
+        }
+        None
+    }
+
+    /// The same on arc `k` between two forces (N) at which the torque misses `torque_nm` by `misses`, by its slope; `None` where
+    /// that leads out of them.
+    fn newton(&self, k: usize, torque_nm: f64, [a, b]: [f64; 2], [fa, fb]: [f64; 2]) -> Option<Closure> {
+        let mut n = if fa < 0.0 { a + (b - a) * fa / (fa - fb) } else { a };
+        for _ in 0..12 {
+            let c = self.closure_in(k, n)?;
+            let torque = c.torque_nm(self.statics.count);
+            let step = (torque_nm - torque.v) / torque.d;
+            if step.abs() <= 1e-14 * n {
+                return Some(c);
+            }
+            n += step;
+            if !(a..=b).contains(&n) {
+                return None;
+            }
+            if step.abs() < 1e-7 * n {
+                return self.closure_in(k, n);
+            }
         }
         None
     }
@@ -284,9 +317,17 @@ impl WedgeCurve {
             return self.end_torque_nm();
         }
         let arc = &self.arcs[k];
-        arc_end(&self.statics, self.first + k, self.speed_rad_s, arc.n_from, arc.shift, f64::INFINITY)
-            .and_then(|(n, _)| self.closure_in(k, n))
-            .map_or(self.end_torque_nm(), |c| c.torque_nm(self.statics.count).v)
+        arc_end(
+            &self.statics,
+            self.first + k,
+            self.speed_rad_s,
+            arc.n_from,
+            arc.shift,
+            f64::INFINITY,
+            self.effort,
+        )
+        .and_then(|(n, _)| self.closure_in(k, n))
+        .map_or(self.end_torque_nm(), |c| c.torque_nm(self.statics.count).v)
     }
 
     /// Equilibrium at first contact.

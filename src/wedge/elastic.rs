@@ -175,6 +175,12 @@ impl Elastic {
         self.race_inner_m_per_n * n_bi + self.race_outer_m_per_n * n_be
     }
 
+    /// With laws that cost less ([`Approach::quickly`]).
+    pub(super) fn quickly(self) -> Self {
+        let inner = self.inner.into_iter().map(Approach::quickly).collect();
+        Self { inner, outer: self.outer.quickly(), ..self }
+    }
+
     /// Without growth of the rings and compression of the body.
     pub(super) fn local_only(self) -> Self {
         Self { race_inner_m_per_n: 0.0, race_outer_m_per_n: 0.0, body_m_per_n: 0.0, ..self }

@@ -15,12 +15,14 @@ mod curve;
 mod elastic;
 mod off_centre;
 mod patch;
+mod quick;
 mod samples;
 mod stiffness;
 mod table;
 
 pub use crate::contact::{Edge, Peak};
 pub use axial::{Along, Lengthwise, Side, along, asks_for_slices, even_load_error};
+pub use build::Effort;
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};

@@ -7,6 +7,7 @@
 //! about B. The wedge keeps the contact point; therefore dC/dN keeps its jump where that passes a junction, the kink of
 //! the torque curve. With the resultant's shift the jump would be spread over the patch's width.
 
+use super::build::Effort;
 use super::closure::{Closure, Statics};
 use super::curve::WedgeCurve;
 use crate::clutch::{Clutch, InnerArc};
@@ -147,6 +148,7 @@ impl Statics {
         n_until: f64,
         speed_rad_s: f64,
         shift_rad: f64,
+        effort: Effort,
     ) -> Vec<(f64, usize, bool)> {
         // Forces between which each junction is looked for: a passage each way inside one of these would be missed,
         // which costs accuracy of the table and shows in its truncation.
@@ -179,7 +181,8 @@ impl Statics {
                 let (a, b) = (pair[0].0, pair[1].0);
                 let (fa, fb) = (outside(junction, pair[0].1), outside(junction, pair[1].1));
                 if fa * fb < 0.0
-                    && let Some(n) = root::bracketed(a, b, fa, fb, 1e-13 * b, |n| outside(junction, seat(n)))
+                    && let Some(n) =
+                        root::bracketed(a, b, fa, fb, effort.edge_width() * b, |n| outside(junction, seat(n)))
                 {
                     found.push((n, junction, fb < 0.0));
                 }
@@ -203,6 +206,7 @@ impl WedgeCurve {
                 n_until,
                 self.speed_rad_s(),
                 self.shift_rad(k),
+                Effort::Full,
             );
             for (n, junction, comes) in passages {
                 match list.iter_mut().rev().find(|s| s.junction == junction) {

@@ -5,6 +5,7 @@
 //! later arcs in alpha itself. Inside an arc every lane is one smooth function, but where an edge of the patch at A
 //! passes a junction and the law knows the radius: there delta_H goes on as (x - x_0)^(5/2), and a panel ends.
 
+use super::build::Effort;
 use super::closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 use super::curve::WedgePoint;
 use crate::numeric::{
@@ -13,7 +14,7 @@ use crate::numeric::{
     quadrature,
 };
 
-const LANES: usize = 11;
+pub(super) const LANES: usize = 11;
 /// Lanes of the table that is read: those of the panels, the slopes of rho_i and rho_e, and the windup, W/s^q on the
 /// first arc, W on the later ones.
 pub(super) const READ: usize = LANES + 3;
@@ -42,7 +43,8 @@ pub(super) fn held(x: f64) -> (f64, f64) {
 /// matter only for continuity.
 const FIRST_BREAKS: [f64; 6] = [0.0, 0.02, 0.1, 0.3, 0.6, 1.0];
 /// The same for contacts that are shaped along the axis, which open and close along their length.
-const SHAPED_BREAKS: [f64; 14] = [0.0, 0.02, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8, 1.0];
+pub(super) const SHAPED_BREAKS: [f64; 14] =
+    [0.0, 0.02, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8, 1.0];
 
 /// Breaks of the first arc up to `end`.
 fn first_breaks(statics: &Statics, end: f64) -> Vec<f64> {
@@ -96,7 +98,7 @@ pub(super) fn point(v: &[f64; READ], n_bi: f64, slope: f64, unit: f64) -> WedgeP
     }
 }
 
-fn lanes_of(c: &Closure, normal_lane: f64) -> [f64; LANES] {
+pub(super) fn lanes_of(c: &Closure, normal_lane: f64) -> [f64; LANES] {
     let (rho_i, rho_e) = c.rolling_ratios();
     [
         c.lengths.oa.v,
@@ -115,23 +117,23 @@ fn lanes_of(c: &Closure, normal_lane: f64) -> [f64; LANES] {
 
 /// Where an edge of the patch passes a junction, in one of the variables N, N^0.1, s, alpha.
 #[derive(Debug, Clone, Copy)]
-struct Edge {
-    at: f64,
+pub(super) struct Edge {
+    pub(super) at: f64,
     /// The patch comes upon the junction; else it leaves it. Half-integer powers lie on the side where the junction is
     /// under the patch.
-    comes: bool,
+    pub(super) comes: bool,
 }
 
 /// Panels: their breaks and how each is graded.
-struct Layout {
-    breaks: Vec<f64>,
+pub(super) struct Layout {
+    pub(super) breaks: Vec<f64>,
     grades: Vec<Grade>,
 }
 
 impl Layout {
     /// `fixed` breaks with those of `edges` that lie inside; a fixed one gives way to an edge near it. An edge so near
     /// to an end or to the one before that its panel would be a thousandth of the whole is left to the panel.
-    fn new(fixed: &[f64], edges: &[Edge]) -> Self {
+    pub(super) fn new(fixed: &[f64], edges: &[Edge]) -> Self {
         let (from, until) = (fixed[0], fixed[fixed.len() - 1]);
         let apart = 1e-3 * (until - from);
         let mut kept: Vec<Edge> = Vec::new();
@@ -166,7 +168,10 @@ impl Layout {
         self.grades.push(grade);
     }
 
-    fn panels<const M: usize, E>(&self, f: impl FnMut(f64) -> Result<[f64; M], E>) -> Result<Panels<M>, E> {
+    pub(super) fn panels<const M: usize, E>(
+        &self,
+        f: impl FnMut(f64) -> Result<[f64; M], E>,
+    ) -> Result<Panels<M>, E> {
         Panels::build_graded(&self.breaks, &self.grades, f)
     }
 }
@@ -177,6 +182,7 @@ pub(super) struct ArcBuilder<'a> {
     pub(super) speed: f64,
     pub(super) shift: f64,
     pub(super) exponent: f64,
+    pub(super) effort: Effort,
 }
 
 impl ArcBuilder<'_> {
@@ -185,11 +191,12 @@ impl ArcBuilder<'_> {
         if !self.statics.feels_junctions() {
             return Vec::new();
         }
-        let passages = self.statics.edge_passages(self.k, n_from, n_until, self.speed, self.shift);
+        let passages =
+            self.statics.edge_passages(self.k, n_from, n_until, self.speed, self.shift, self.effort);
         passages.into_iter().map(|(n, _, comes)| Edge { at: n, comes }).collect()
     }
 
-    fn closure(&self, n: f64) -> Result<Closure, NoClosure> {
+    pub(super) fn closure(&self, n: f64) -> Result<Closure, NoClosure> {
         self.statics.closure(self.k, n, self.speed, self.shift)
     }
 
@@ -203,7 +210,9 @@ impl ArcBuilder<'_> {
         let end = self.closure(n_until)?;
         let alpha_until = end.alpha.v;
         let edges = self.edges(n_from, n_until);
-        let (lanes, windup) = if first {
+        let (lanes, windup) = if self.effort == Effort::Search {
+            self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until)?
+        } else if first {
             let (lanes, layout, edges) = self.first(n_until, &edges)?;
             let windup = first_windup(&lanes, &layout, &edges, self.exponent);
             (lanes, windup)
@@ -273,7 +282,7 @@ impl ArcBuilder<'_> {
 
 /// Integral of f(x) over [0, 1] in two halves, and split where z x passes an edge: to rounding for the weights x^8
 /// and x^9 used here.
-fn unit_integral(z: f64, edges: &[Edge], f: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn unit_integral(z: f64, edges: &[Edge], f: impl Fn(f64) -> f64) -> f64 {
     let mut splits = vec![0.0, 0.5, 1.0];
     splits.extend(edges.iter().map(|e| e.at / z).filter(|x| *x < 1.0));
     splits.sort_by(f64::total_cmp);

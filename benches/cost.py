@@ -1,0 +1,64 @@
+"""Reads what callgrind wrote of one binary (cost.sh): instructions per evaluation, by phase."""
+import collections
+import re
+import sys
+
+POINTS = 4
+
+
+def read(path):
+    """Instructions in all; by function those inside its calls; calls by function."""
+    names, inclusive, calls = {}, collections.Counter(), collections.Counter()
+    total, at, callee = 0, None, None
+    for line in open(path):
+        if named := re.match(r"(c?)fn=\((\d+)\)(?: (.*))?", line):
+            called, key, name = named.groups()
+            names.setdefault(key, name)
+            if called:
+                callee = names[key]
+            else:
+                at = names[key]
+        elif line.startswith("calls="):
+            calls[callee] += int(line[6:].split()[0])
+        elif re.match(r"[+\-*\d]", line) and at:
+            cost = int(line.split()[-1])
+            if callee:
+                inclusive[callee] += cost
+                callee = None
+            else:
+                total += cost
+    return total, inclusive, calls
+
+
+binary, points, nothing = sys.argv[1:]
+total, inclusive, calls = read(points)
+idle, idle_inclusive, _ = read(nothing)
+whole = (total - idle) / POINTS
+
+
+def of(*names):
+    """What the first of these functions that is there (others are inlined) took, per evaluation."""
+    for name in names:
+        found = [n for n in inclusive if re.search(name, n)]
+        if found:
+            return max(inclusive[n] - idle_inclusive[n] for n in found) / POINTS
+    return 0.0
+
+
+curves = of(r"WedgeCurve>::march$")
+at_rest = of(r"margin::curve_at_rest$", r"margin::load::load_state_at$", r"margin::load::load_state$")
+phases = {
+    "the file: values put in, read": of(r"design::edit::with_values$") + of(r"design::Design>::parse_in$"),
+    "curves": curves,
+    "rows of the load state": of(r"smooth::load_rows$", r"margin::load_margins$"),
+    "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - (curves - at_rest), 0.0),
+    "pure-rolling runs": of(r"demand::roll$", r"demand::demand_at$"),
+}
+phases["all else"] = whole - sum(phases.values())
+print(f"\n{binary}: {whole / 1e6:.2f} M instructions per evaluation")
+for phase, cost in phases.items():
+    print(f"  {phase:<36}{cost / 1e6:>8.2f} M {100 * cost / whole:>6.1f} %")
+closures = sum(n for function, n in calls.items() if function.endswith("Statics::closure"))
+if closures:
+    took = of(r"Statics::closure$") * POINTS / closures
+    print(f"  closures: {closures / POINTS:.0f}, of {took / 1e3:.1f} k each")

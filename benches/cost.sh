@@ -1,0 +1,31 @@
+#!/bin/sh
+# Where an evaluation's instructions go, by phase: callgrind counts them, the same on every run and under any load.
+#
+#   benches/cost.sh FILE.toml BINARY...
+#   benches/cost.sh designs/huang2017-multi-arc.toml before target/release/sprag-design
+#
+# Each binary evaluates the start of FILE's [optimize] and three points beside it; what it does without a point is taken off.
+# Needs valgrind and python3.
+set -eu
+[ $# -ge 2 ] || { sed -n '2,8p' "$0"; exit 2; }
+design=$1
+shift
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$1" evaluate "$design" --describe </dev/null | python3 -c '
+import json, sys
+variables = json.loads(sys.stdin.readline())["variables"]
+for share in (0.0, 0.03, -0.02, 0.05):
+    def at(k, v):
+        x = v["start"] + share * (-1) ** k * (v["max"] - v["min"])
+        return v["start"] if v["whole"] else min(max(x, v["min"]), v["max"])
+    print([at(k, v) for k, v in enumerate(variables)])
+' >"$work/points"
+: >"$work/nothing"
+for binary in "$@"; do
+    for what in points nothing; do
+        valgrind --tool=callgrind --callgrind-out-file="$work/of-$what" \
+            "$binary" evaluate "$design" --threads 1 <"$work/$what" >/dev/null 2>"$work/log"
+    done
+    python3 "$(dirname "$0")/cost.py" "$binary" "$work/of-points" "$work/of-nothing"
+done

@@ -1,0 +1,464 @@
+//! Both contacts roll: two degrees of freedom instead of four, and a right-hand side that costs a tenth.
+//!
+//! With w = theta_be - theta_bi up to a constant, so that w is the windup W(alpha), and e = theta_be, rolling leaves
+//!
+//!   alpha' = kappa w',  phi' = e' - sigma w',   kappa = 1/(rho_i + rho_e),  sigma = rho_e kappa,
+//!
+//! and the kinetic energy (m_ww w'^2 + 2 m_we w' e' + m_ee e'^2)/2 with
+//!
+//!   m_ww = I_bi + A,  m_we = B - I_bi,  m_ee = I_bi + I_be + D,
+//!   A = n_s [I_g (kappa - sigma)^2 + m_g OC_g^2 sigma^2],  B = n_s [I_g (kappa - sigma) - m_g OC_g^2 sigma],
+//!   D = n_s [I_g + m_g OC_g^2],
+//!
+//! all functions of w ([`super::stick_table`]). Lagrange's equations, which are (13) and (15) under these constraints:
+//!
+//!   m_ww w'' + m_we e'' = -C_bi - F(w) - C_rl w' - A' w'^2/2 + D' (e'^2/2 + Omega e')
+//!   m_we w'' + m_ee e'' = C_bi + C_be - k_ab e - B' w'^2 - D' w' (e' + Omega)
+//!
+//! F = C(w) - n_s kappa K_r (alpha_max - alpha): the clutch's torque at Omega less what the spring gives. What rolling asks of the
+//! contacts is read off the races, n_s T_bi OA = I_bi (e'' - w'') - C_rl w' - C_bi.
+//!
+//! This is the run of a search. It says nothing where it would have to leave the closed contact; then [`super::rolling()`] is
+//! asked, which is also what it is tested against.
+
+use super::crossing::scaled;
+use super::events::FIGURES;
+use super::looks::Grid;
+use super::model::{Model, Place, State};
+use super::run::{Peaks, RunSettings};
+use super::stick_table::{Contacts, Motion, Table};
+use super::watch::highest;
+use crate::numeric::root;
+use crate::ode::dop853::{Dense, LOOKS, Step};
+use crate::ode::rhs::RightHandSide;
+use crate::ode::step::{Counters, Tolerance};
+
+/// w, e, w', e'; rad, rad/s.
+type Pair = [f64; 4];
+
+/// What comes of such a run.
+#[derive(Debug, Clone)]
+pub(super) struct Stuck {
+    pub(super) peaks: Peaks,
+    pub(super) counters: Counters,
+    /// Junctions passed.
+    pub(super) passed: u64,
+    /// Whether it was stopped from outside.
+    pub(super) interrupted: bool,
+    /// Time reached, s.
+    pub(super) t_s: f64,
+}
+
+/// What is seen at one instant.
+#[derive(Debug, Clone, Copy)]
+struct Sight {
+    t: f64,
+    y: Pair,
+    /// w'' and e''.
+    rates: [f64; 2],
+    /// Not yet known at the looks that are not [`FIRST`].
+    figures: [f64; FIGURES],
+}
+
+/// The looks, of [`LOOKS`], that tell whether a step may hold a record; the others are asked where it may.
+const FIRST: [usize; 4] = [0, 2, 4, 6];
+
+/// The two equations on one arc.
+struct Rolls<'a> {
+    model: &'a Model,
+    table: Table<'a>,
+    seen: [Sight; LOOKS.len()],
+    beat: Beat,
+}
+
+/// amplitude sin(omega t) near a time at which it is known: by the addition theorem and Taylor's series, at a quarter of what
+/// a sine costs.
+#[derive(Debug, Clone, Copy)]
+struct Beat {
+    from_s: f64,
+    omega: f64,
+    /// Amplitude times sine and cosine at `from_s`.
+    sine: f64,
+    cosine: f64,
+}
+
+impl Beat {
+    /// Angle from `from_s` up to which the series are good to 1e-15, rad: 0.5^14/14!.
+    const REACH: f64 = 0.5;
+
+    fn new(omega: f64, amplitude: f64, t: f64) -> Self {
+        let (sine, cosine) = (omega * t).sin_cos();
+        Self { from_s: t, omega, sine: amplitude * sine, cosine: amplitude * cosine }
+    }
+
+    #[inline(always)]
+    fn at(&self, t: f64) -> f64 {
+        let x = self.omega * (t - self.from_s);
+        if x.abs() > Self::REACH {
+            let (sine, cosine) = x.sin_cos();
+            return self.sine * cosine + self.cosine * sine;
+        }
+        let q = x * x;
+        // Both side by side: sin x/x and cos x in powers of x^2.
+        let mut sum = SERIES[SERIES.len() - 1];
+        for row in SERIES[..SERIES.len() - 1].iter().rev() {
+            for lane in 0..2 {
+                sum[lane] = sum[lane] * q + row[lane];
+            }
+        }
+        self.sine * sum[1] + self.cosine * (sum[0] * x)
+    }
+}
+
+/// Coefficients of x^2k of sin x/x and cos x.
+const SERIES: [[f64; 2]; 7] = [
+    [1.0, 1.0],
+    [-1.0 / 6.0, -1.0 / 2.0],
+    [1.0 / 120.0, 1.0 / 24.0],
+    [-1.0 / 5_040.0, -1.0 / 720.0],
+    [1.0 / 362_880.0, 1.0 / 40_320.0],
+    [-1.0 / 39_916_800.0, -1.0 / 3_628_800.0],
+    [1.0 / 6_227_020_800.0, 1.0 / 479_001_600.0],
+];
+
+impl Rolls<'_> {
+    /// Accelerations (w'', e'') under the torques `outside` (C_bi, C_be).
+    #[inline(always)]
+    fn accelerations(model: &Model, m: &Motion, y: &Pair, [c_bi, c_be]: [f64; 2]) -> [f64; 2] {
+        let (i_i, i_e) = (model.inner_inertia_kg_m2, model.outer_inertia_kg_m2);
+        let speed = model.curve.speed_rad_s();
+        let [_, e, u, v] = *y;
+        let (m_ww, m_we, m_ee) = (i_i + m.a, m.b - i_i, i_i + i_e + m.d);
+        let q_w = -c_bi - m.f - model.damping_nm_s_per_rad * u - 0.5 * m.a_slope * u * u
+            + m.d_slope * v * (0.5 * v + speed);
+        let q_e = c_bi + c_be
+            - model.loads.abutment_nm_per_rad * e
+            - m.b_slope * u * u
+            - m.d_slope * u * (v + speed);
+        let inverse = 1.0 / (m_ww * m_ee - m_we * m_we);
+        [(q_w * m_ee - q_e * m_we) * inverse, (m_ww * q_e - m_we * q_w) * inverse]
+    }
+
+    /// Figures as in [`super::events::Look`] where the accelerations are `a`.
+    #[inline(always)]
+    fn figures(model: &Model, c: &Contacts, y: &Pair, a: [f64; 2], outside: [f64; 2]) -> [f64; FIGURES] {
+        let ([_, e, u, v], [u_rate, v_rate], [c_bi, c_be]) = (*y, a, outside);
+        let drag = model.damping_nm_s_per_rad * u;
+        // n_s T_bi OA and n_s T_be OB.
+        let inner = model.inner_inertia_kg_m2 * (v_rate - u_rate) - drag - c_bi;
+        let outer = c_be - drag - model.loads.abutment_nm_per_rad * e - model.outer_inertia_kg_m2 * v_rate;
+        let orbit = model.curve.speed_rad_s() + v - c.sigma * u;
+        let n_be =
+            c.outer + c.outer_by_inner * inner - c.outer_by_outer * outer + c.centrifugal * orbit * orbit;
+        let ratio = |t: f64, n: f64| if n > 0.0 { t.abs() / n } else { 0.0 };
+        [ratio(inner * c.per_oa, c.n_bi), ratio(outer * c.per_ob, n_be), -c.n_bi, c.n_bi, n_be]
+    }
+
+    #[inline(always)]
+    fn slope_of(y: &Pair, [u_rate, v_rate]: [f64; 2]) -> Result<Pair, ()> {
+        let finite = (0.0 * u_rate + 0.0 * v_rate) == 0.0;
+        if finite { Ok([y[2], y[3], u_rate, v_rate]) } else { Err(()) }
+    }
+
+    /// C_bi and C_be at `t`, N m: no course and no flange acts here.
+    #[inline(always)]
+    fn torques_nm(&self, t: f64) -> [f64; 2] {
+        [self.model.loads.inner_nm, self.beat.at(t)]
+    }
+
+    /// Everything at (t, y).
+    #[inline(always)]
+    fn sight(&mut self, t: f64, y: &Pair) -> Sight {
+        let outside = self.torques_nm(t);
+        let piece = self.table.piece(y[0]);
+        let (m, c) = (piece.motion(y[0]), piece.contacts(y[0]));
+        let a = Self::accelerations(self.model, &m, y, outside);
+        Sight { t, y: *y, rates: a, figures: Self::figures(self.model, &c, y, a, outside) }
+    }
+
+    /// The figures of all looks, where those of some are not known yet.
+    fn complete(&mut self) {
+        for j in (0..LOOKS.len()).filter(|j| !FIRST.contains(j)) {
+            let Sight { t, y, rates, .. } = self.seen[j];
+            let (outside, c) = (self.torques_nm(t), self.table.piece(y[0]).contacts(y[0]));
+            self.seen[j].figures = Self::figures(self.model, &c, &y, rates, outside);
+        }
+    }
+}
+
+impl RightHandSide<4> for Rolls<'_> {
+    type Failure = ();
+
+    #[inline(always)]
+    fn slope(&mut self, t: f64, y: &Pair) -> Result<Pair, ()> {
+        let m = self.table.motion(y[0]);
+        Self::slope_of(y, Self::accelerations(self.model, &m, y, self.torques_nm(t)))
+    }
+
+    #[inline(always)]
+    fn slope_at_look(&mut self, look: usize, t: f64, y: &Pair) -> Result<Pair, ()> {
+        if FIRST.contains(&look) {
+            self.seen[look] = self.sight(t, y);
+        } else {
+            let m = self.table.motion(y[0]);
+            let rates = Self::accelerations(self.model, &m, y, self.torques_nm(t));
+            self.seen[look] = Sight { t, y: *y, rates, figures: [f64::NAN; FIGURES] };
+        }
+        Self::slope_of(y, self.seen[look].rates)
+    }
+}
+
+/// Shortest step, as a part of the longest, before the general run, which has implicit steps as well, is the better one.
+const SHORTEST: f64 = 1e-3;
+/// How far beyond a junction that lies ahead a step goes, in parts of the way there and of the longest step: what lies
+/// beyond is lost.
+const BEYOND: [f64; 2] = [1.05, 0.01];
+/// Weighted error up to which a step is taken.
+const MOST: f64 = 1.5;
+
+/// Run `model` from `state` on arc `place` with both contacts rolling. `None` where that leaves the closed contact or asks for
+/// more than these equations hold: a course of speed or torque, damped contacts, a contact B that holds whatever it takes.
+pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSettings) -> Option<Stuck> {
+    let Place::Arc(arc) = place else { return None };
+    let plain = model.drive.speed_rad_s.is_none()
+        && model.drive.torque_nm.is_none()
+        && model.drive.flanges.is_none()
+        && model.hunt_crossley_s_per_m == 0.0
+        && !model.outer_holds;
+    if !plain || settings.samples > 0 || settings.energy {
+        return None;
+    }
+    let windup = model.curve.in_arc(arc, state[0]).windup;
+    let y: Pair = [windup, state[3], state[7] - state[6], state[7]];
+    let nothing = Sight { t: 0.0, y, rates: [f64::NAN; 2], figures: [f64::NAN; FIGURES] };
+    let beat = Beat::new(model.loads.omega_rad_s, model.loads.amplitude_nm, 0.0);
+    let mut rolls = Rolls { model, table: Table::new(model, arc), seen: [nothing; LOOKS.len()], beat };
+    let mut run =
+        Stuck { peaks: Peaks::NONE, counters: Counters::default(), passed: 0, interrupted: false, t_s: 0.0 };
+    integrate(&mut rolls, y, settings, &mut run).then_some(run)
+}
+
+/// False where the run leaves what these equations hold.
+fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut Stuck) -> bool {
+    let tolerance = tolerance(settings);
+    let longest = settings.longest_step_s;
+    let (mut t, mut h) = (0.0, longest);
+    let mut step = Step::new();
+    let mut now = rolls.sight(t, &y);
+    run.counters.rhs_evaluations += 1;
+    settings.follow.begin_run();
+    while t < settings.duration_s {
+        if settings.follow.stopped() {
+            run.interrupted = true;
+            break;
+        }
+        settings.follow.tell(t);
+        if run.counters.steps + run.counters.rejections >= settings.most_steps || rolls.table.is_left(y[0]) {
+            return false;
+        }
+        let rest = settings.duration_s - t;
+        let ahead = rolls.table.junction_ahead_s(&y, now.rates[0]);
+        let trial = h.min(longest).min(rest).min(BEYOND[0] * ahead + BEYOND[1] * longest);
+        rolls.seen[0] = now;
+        rolls.beat = Beat::new(rolls.beat.omega, rolls.model.loads.amplitude_nm, t);
+        let slope = [y[2], y[3], now.rates[0], now.rates[1]];
+        let taken = step.take(rolls, t, &y, &slope, trial, &tolerance, MOST, &mut run.counters);
+        if taken.is_err() || step.error.is_nan() || trial < SHORTEST * longest.min(rest) {
+            return false;
+        }
+        // A step that was cut short says nothing against a longer one.
+        h = if trial < h { h.max(step.next_h()) } else { step.next_h() };
+        if step.error > MOST {
+            run.counters.rejections += 1;
+            h = step.next_h().min(0.9 * trial);
+            continue;
+        }
+        run.counters.steps += 1;
+        let mut dense = None;
+        let Some(end) = first_passage(rolls, &step, &mut dense, &mut run.counters) else { return false };
+        if !watch(rolls, &step, end, &mut dense, settings, run) {
+            return false;
+        }
+        match (end, &dense) {
+            (Some(theta), Some(d)) => {
+                t += theta * trial;
+                y = d.after(theta * trial);
+                if !rolls.pass(&mut y) {
+                    return false;
+                }
+                run.passed += 1;
+                now = rolls.sight(t, &y);
+                run.counters.rhs_evaluations += 1;
+            }
+            _ => {
+                t = if trial == rest { settings.duration_s } else { t + trial };
+                y = step.y1;
+                now = rolls.seen[LOOKS.len() - 1];
+            }
+        }
+        run.t_s = t;
+    }
+    true
+}
+
+/// As [`RunSettings::tolerance_in`] has it while both contacts stick.
+fn tolerance(settings: &RunSettings) -> Tolerance<4> {
+    let relative = 0.2 * settings.tolerance;
+    let (angle, rate) = (1e-2 * relative, 5.0 * relative);
+    Tolerance { relative, absolute: [angle, angle, rate, rate], integrated: [0.0; 4] }
+}
+
+/// Where, as a fraction of the step, w leaves its arc first; `Some(None)`: nowhere. `None`: the right-hand side failed.
+fn first_passage(
+    rolls: &mut Rolls,
+    step: &Step<4>,
+    dense: &mut Option<Dense<4>>,
+    counters: &mut Counters,
+) -> Option<Option<f64>> {
+    let [from, until] = rolls.table.ends();
+    // How far beyond an end, positive outside.
+    let beyond = |w: f64| (from - w).max(w - until);
+    for j in 1..LOOKS.len() {
+        let [a, b] = [rolls.seen[j - 1].y, rolls.seen[j].y];
+        let gap = (LOOKS[j] - LOOKS[j - 1]) * step.h;
+        // Between two looks w may turn: of the parabola by its rates, half the gap times the product over the difference.
+        let turns = a[2] * b[2] < 0.0;
+        let rise = if turns { gap * (a[2] * b[2] / (a[2] - b[2])).abs() } else { 0.0 };
+        if beyond(a[0]).max(beyond(b[0])) + rise <= 0.0 {
+            continue;
+        }
+        if dense.is_none() {
+            *dense = Some(step.dense(rolls, counters).ok()?);
+        }
+        let d = dense.as_ref()?;
+        let at = |theta: f64| d.after(theta * step.h);
+        let (low, mut high) = (LOOKS[j - 1], LOOKS[j]);
+        if turns {
+            let top = root::bracketed(low, high, a[2], at(high)[2], 1e-9, |theta| at(theta)[2]);
+            high = top.filter(|&top| beyond(at(top)[0]) > 0.0).unwrap_or(high);
+        }
+        let (start, end) = (if j == 1 { beyond(a[0]) } else { beyond(at(low)[0]) }, beyond(at(high)[0]));
+        if end <= 0.0 {
+            continue;
+        }
+        if start >= 0.0 {
+            // At the junction already, and leaving.
+            return Some(Some(low));
+        }
+        return Some(root::bracketed(low, high, start, end, 1e-13, |theta| beyond(at(theta)[0])));
+    }
+    Some(None)
+}
+
+/// Records of the step up to `end`. False: the right-hand side failed.
+fn watch(
+    rolls: &mut Rolls,
+    step: &Step<4>,
+    end: Option<f64>,
+    dense: &mut Option<Dense<4>>,
+    settings: &RunSettings,
+    run: &mut Stuck,
+) -> bool {
+    // A figure is smooth over the step: between looks, of which the fastest swing that such steps follow has a dozen in a
+    // period, it rises above them by far less than they differ.
+    let best = run.peaks.figures();
+    let may_hold_a_record = |looks: &mut dyn Iterator<Item = &[f64; FIGURES]>| {
+        let (mut low, mut high) = ([f64::INFINITY; FIGURES], [f64::NEG_INFINITY; FIGURES]);
+        for figures in looks {
+            for i in 0..FIGURES {
+                low[i] = if figures[i] < low[i] { figures[i] } else { low[i] };
+                high[i] = if figures[i] > high[i] { figures[i] } else { high[i] };
+            }
+        }
+        std::array::from_fn::<bool, FIGURES, _>(|i| high[i] + (high[i] - low[i]) >= best[i])
+    };
+    let first = may_hold_a_record(&mut FIRST.iter().map(|&j| &rolls.seen[j].figures));
+    if end.is_none() && !first.contains(&true) {
+        return true;
+    }
+    rolls.complete();
+    let mut at = LOOKS;
+    let mut seen = rolls.seen;
+    let mut count = LOOKS.len();
+    if let (Some(theta), Some(d)) = (end, dense.as_ref()) {
+        count = LOOKS.iter().filter(|&&l| l < theta).count().min(LOOKS.len() - 2).max(1);
+        let mut places = vec![theta];
+        if count == 1 {
+            places.insert(0, 0.5 * theta);
+        }
+        for theta in places {
+            (at[count], seen[count]) =
+                (theta, rolls.sight(step.t + theta * step.h, &d.after(theta * step.h)));
+            count += 1;
+            run.counters.rhs_evaluations += 1;
+        }
+    }
+    let last = at[count - 1];
+    at[..count].iter_mut().for_each(|a| *a /= last);
+    let grid = Grid { at: &at[..count] };
+    let length = last * step.h;
+    let fine = 1e-3 * settings.tolerance;
+    let may = may_hold_a_record(&mut seen[..count].iter().map(|sight| &sight.figures));
+    let mut peaks = run.peaks;
+    for (i, mut best) in run.peaks.figures().into_iter().enumerate() {
+        if !may[i] {
+            continue;
+        }
+        let value = |j: usize| seen[j].figures[i];
+        for j in [0, count - 1] {
+            if value(j) > best {
+                best = value(j);
+                peaks.keep(i, seen[j].t, best, seen[j].figures[super::events::N_BI]);
+            }
+        }
+        for j in 0..count {
+            let enough = best + fine * best.abs();
+            let (left, right) = grid.beside(j);
+            let top = value(j) >= value(left) && value(j) >= value(right);
+            if !top || value(j) + grid.overshoot(j, value) <= enough {
+                continue;
+            }
+            if dense.is_none() {
+                let Ok(d) = step.dense(rolls, &mut run.counters) else { return false };
+                *dense = Some(d);
+            }
+            let Some(d) = dense.as_ref() else { return false };
+            let mut figures = |theta: f64| {
+                let elapsed = theta * length;
+                rolls.sight(step.t + elapsed, &d.after(elapsed)).figures
+            };
+            let (from, guess, until) = (at[left], grid.extreme(j, value), at[right]);
+            let (theta, found) =
+                highest(from, guess, until, enough, fine * value(j).abs(), |theta| figures(theta)[i]);
+            if found > best {
+                best = found;
+                peaks.keep(i, step.t + theta * length, best, figures(theta)[super::events::N_BI]);
+            }
+        }
+    }
+    run.peaks = peaks;
+    true
+}
+
+impl Rolls<'_> {
+    /// Over the junction at which `y` is, into the next arc: e's momentum and kinetic energy are kept, as [`super::crossing`]
+    /// has it. False where there is none.
+    fn pass(&mut self, y: &mut Pair) -> bool {
+        let [from, until] = self.table.ends();
+        let up = y[0] - 0.5 * (from + until) > 0.0;
+        let [_, _, u, v] = *y;
+        let (i_i, i_e) = (self.model.inner_inertia_kg_m2, self.model.outer_inertia_kg_m2);
+        let masses = |m: &Motion| (i_i + m.a, m.b - i_i, i_i + i_e + m.d);
+        let junction = if up { until } else { from };
+        let (ww, we, ee) = masses(&self.table.motion(junction));
+        let momentum = we * u + ee * v;
+        let before = ww - we * we / ee;
+        if !self.table.pass(up) {
+            return false;
+        }
+        let (ww, we, ee) = masses(&self.table.motion(junction));
+        let u = scaled(u, before, ww - we * we / ee);
+        *y = [junction, y[1], u, (momentum - we * u) / ee];
+        true
+    }
+}

@@ -1,0 +1,174 @@
+//! What a search computes with less work is what `check` and `simulate` compute: curves, demands, whole evaluations.
+
+use sprag_design::clutch::StressState;
+use sprag_design::dynamics::{RunSettings, rolling, rolling_quickly};
+use sprag_design::optimise::{ClutchProblem, Evaluate, Fidelity};
+use sprag_design::scenario::{demand, demand_quickly, prepare};
+use sprag_design::wedge::Effort;
+use sprag_design::{ContactLaw, Design, Settings, WedgeCurve};
+use std::path::Path;
+
+const MULTI: &str = "designs/huang2017-multi-arc.toml";
+
+fn designs() -> Vec<Design> {
+    let mut files: Vec<_> = std::fs::read_dir("designs").unwrap().map(|f| f.unwrap().path()).collect();
+    files.retain(|f| f.extension().is_some_and(|e| e == "toml"));
+    files.sort();
+    files.iter().map(|f| Design::read(f).unwrap()).collect()
+}
+
+#[test]
+fn a_quick_curve_is_the_curve() {
+    let elastic = |state| ContactLaw::Elastic { state };
+    let laws = [
+        ContactLaw::Hertz,
+        elastic(StressState::Layer),
+        elastic(StressState::PlaneStrain),
+        ContactLaw::Slice { coefficient: 3.944e-5 },
+    ];
+    let mut cases: Vec<(String, sprag_design::Clutch)> =
+        designs().into_iter().map(|d| (d.name.clone(), d.clutch)).collect();
+    for law in laws {
+        let clutch = Design::read(Path::new(MULTI)).unwrap().clutch;
+        cases.push((format!("multi-arc, {law:?}"), sprag_design::Clutch { contact: law, ..clutch }));
+    }
+    for (name, clutch) in cases {
+        let profile = clutch.profile().unwrap();
+        for speed in [0.0, 1000.0] {
+            let full = WedgeCurve::build(&clutch, &profile, speed);
+            let quick = WedgeCurve::build_reaching_at(&clutch, &profile, speed, None, Effort::Search);
+            let (Ok(full), Ok(quick)) = (&full, &quick) else {
+                assert_eq!(full.is_ok(), quick.is_ok(), "{name}");
+                continue;
+            };
+            assert_eq!((full.end().0, full.arc_count()), (quick.end().0, quick.arc_count()), "{name}");
+            let near = |a: f64, b: f64, size: f64| (a - b).abs() < 1e-7 * size;
+            let end = full.end_torque_nm();
+            assert!(near(end, quick.end_torque_nm(), end), "{name}");
+            assert!(near(full.roll_over_torque_nm(), quick.roll_over_torque_nm(), end), "{name}");
+            let mut worst = 0.0_f64;
+            for i in 1..400 {
+                // As dense at small loads as at large ones.
+                let alpha = full.first_contact_rad()
+                    + (full.end().1 - full.first_contact_rad()) * (f64::from(i) / 400.0).powi(2);
+                let k = full.arc_at(alpha);
+                let (a, b) = (full.in_arc(k, alpha), quick.in_arc(k, alpha));
+                for (a, b, size) in [
+                    (a.n_bi, b.n_bi, a.n_bi),
+                    (a.windup, b.windup, a.windup),
+                    (a.t_static, b.t_static, a.t_static.abs().max(a.n_bi * 0.05)),
+                    (a.rho_i + a.rho_e, b.rho_i + b.rho_e, a.rho_i + a.rho_e),
+                    (a.oa, b.oa, a.oa),
+                    (a.ob, b.ob, a.ob),
+                    (a.oc_g, b.oc_g, a.oc_g),
+                ] {
+                    worst = worst.max((a - b).abs() / size);
+                }
+            }
+            println!("{name} at {speed}: {worst:.1e}, truncation {:.1e}", quick.truncation());
+            assert!(worst < 1e-7, "{name} at {speed}: {worst:e}");
+            for share in [0.01, 0.3, 0.7, 0.99] {
+                let (a, b) = (full.at_torque(share * end), quick.at_torque(share * end));
+                let (Some(a), Some(b)) = (a, b) else { panic!("{name}: {share}") };
+                for (a, b) in [
+                    (a.normal_inner_n, b.normal_inner_n),
+                    (a.tan_omega, b.tan_omega),
+                    (a.windup_rad, b.windup_rad),
+                    (a.hertz_inner_pa, b.hertz_inner_pa),
+                ] {
+                    assert!(near(a, b, a), "{name} at {share}: {a} {b}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn two_equations_roll_as_four_do() {
+    // Down to where steps reach rounding: the same motion, derived twice.
+    for name in ["high-6", "low-10", "rated-45", "rated-45-at-speed"] {
+        let design = Design::read(Path::new(MULTI)).unwrap();
+        let p = prepare(design.scenario(name).unwrap()).unwrap();
+        let settings = RunSettings {
+            tolerance: 1e-11,
+            duration_s: 0.1,
+            longest_step_s: p.period_s.unwrap() / 14.0,
+            most_events: 100_000,
+            most_steps: 100_000,
+            samples: 0,
+            rolling: true,
+            energy: false,
+            history: Default::default(),
+            follow: Default::default(),
+        };
+        let four = rolling(&p.model, p.state, p.mode.place, &settings);
+        let two = rolling_quickly(&p.model, p.state, p.mode.place, &settings, 1e-11);
+        assert!(two.run.counters != four.run.counters, "{name}: the same run");
+        let (a, b) = (four.run.peaks, two.run.peaks);
+        for (a, b) in [
+            (a.tan_inner, b.tan_inner),
+            (a.tan_outer, b.tan_outer),
+            (a.normal_min_n, b.normal_min_n),
+            (a.normal_max_n, b.normal_max_n),
+            (a.normal_outer_max_n, b.normal_outer_max_n),
+        ] {
+            assert!((a / b - 1.0).abs() < 2e-10, "{name}: {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn the_quick_demand_is_the_demand() {
+    let (mut worst, mut scenes) = (0.0_f64, 0);
+    for design in designs() {
+        for scene in &design.scenarios {
+            let Ok(p) = prepare(scene) else { continue };
+            let exact = demand(&p, &Settings { tolerance: 1e-9, ..Settings::default() });
+            let quick = demand_quickly(&p, &Settings::default());
+            let name = format!("{}, {}", design.name, scene.name);
+            assert_eq!(
+                (exact.finished, exact.by_bisection, exact.required_friction.is_some()),
+                (quick.finished, quick.by_bisection, quick.required_friction.is_some()),
+                "{name}"
+            );
+            let off = [
+                exact.required_friction.zip(quick.required_friction).map_or(0.0, |(a, b)| b / a - 1.0),
+                quick.contact_margin - exact.contact_margin,
+                quick.normal_max_n[0] / exact.normal_max_n[0].max(1e-30) - 1.0,
+                quick.normal_max_n[1] / exact.normal_max_n[1].max(1e-30) - 1.0,
+            ];
+            let off = off.into_iter().map(f64::abs).fold(0.0, f64::max);
+            println!("{name}: {off:.1e}, {} right-hand sides", quick.rhs_evaluations);
+            if !exact.by_bisection {
+                assert!(off < 1e-6, "{name}: {off:e}");
+                worst = worst.max(off);
+                scenes += 1;
+            }
+        }
+    }
+    println!("{scenes} scenes, {worst:.1e} off at most");
+    assert!(scenes > 15, "{scenes}");
+}
+
+#[test]
+fn an_evaluation_of_a_search_is_one_of_check() {
+    let design = Design::read(Path::new(MULTI)).unwrap();
+    let task = design.optimize.clone().unwrap();
+    let names: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
+    let problem = ClutchProblem::new(&design, &task, names, Fidelity::default()).quickly();
+    let sharp = problem.at_fidelity(Fidelity::default().sharper());
+    let mut random = fastrand::Rng::with_seed(22);
+    let mut worst = 0.0_f64;
+    for _ in 0..40 {
+        let x: Vec<f64> = task.variables.iter().map(|v| v.min + random.f64() * (v.max - v.min)).collect();
+        let (Ok(quick), Ok(sharp)) = (problem.evaluate(&x), sharp.evaluate(&x)) else { continue };
+        let pairs =
+            quick.objectives.iter().chain(&quick.limits).zip(sharp.objectives.iter().chain(&sharp.limits));
+        for (i, (a, b)) in pairs.enumerate() {
+            let off = (a - b).abs() / b.abs().max(1.0);
+            assert!(off < 1e-6, "margin {i} at {x:?}: {a} {b}");
+            worst = worst.max(off);
+        }
+    }
+    println!("{worst:.1e} off at most");
+}
