@@ -48,7 +48,6 @@ fn senseless_flags_are_refused_with_code_2() {
         "sprag-design stiffness a.toml --max-torque inf",
         "sprag-design stiffness a.toml --torques 1 --max-torque 2",
         "sprag-design stiffness a.toml --contact balls",
-        "sprag-design simulate a.toml",
         "sprag-design simulate a.toml --scenario s --step 0",
         "sprag-design check a.toml --threads 0",
         "sprag-design check a.toml --frob",

@@ -47,6 +47,8 @@ try {
   step("opens with the margins that check prints");
   close(await margin(page, "hertz-nominal-inner"), checked()["hertz-nominal-inner"]);
   await page.waitForFunction(() => document.querySelectorAll("#scenes tr:not(.stale)").length >= 4, null, { timeout: 60000 });
+  await page.waitForFunction(() => /^HELD: all [0-9]+ required limits/.test(document.getElementById("banner").textContent), null, { timeout: 60000 });
+  assert.match(await page.textContent("#figures"), /outside ⌀52.46 mm.*mass/);
   await page.screenshot({ path: `${pictures}/studio-1280.png`, fullPage: true });
 
   step("a slider's move is answered by the number that check prints");

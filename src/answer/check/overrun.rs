@@ -1,7 +1,8 @@
 //! Overrun in the margin check: words, JSON, table.
 
+use crate::clutch::ScenarioKind;
 use crate::design::{Design, Limits};
-use crate::margin::{LoadState, OverrunCurve, OverrunPoint, overrun_curve};
+use crate::margin::{LoadState, OverrunCurve, OverrunPoint, overrun_at, overrun_curve};
 use crate::report::{Column, Table, Unit};
 use crate::wedge::NoCurve;
 use serde::Serialize;
@@ -33,13 +34,28 @@ pub(super) fn curve(
         let pairs = [(&mut curve.outer_race, there.outer_race), (&mut curve.inner_race, there.inner_race)];
         for (points, there) in pairs {
             // A curve that ends early does not reach lift-off.
-            if let Some(last) = there.last().filter(|p| p.speed_rad_s >= speed) {
-                let at = points.partition_point(|p| p.speed_rad_s < speed);
-                points.insert(at, *last);
-            }
+            there
+                .last()
+                .filter(|p| p.speed_rad_s >= speed)
+                .into_iter()
+                .for_each(|last| insert(points, *last));
+        }
+    }
+    // Speeds at which the file lets the inner race run, the outer one held.
+    for scenario in &design.scenarios {
+        if let ScenarioKind::Overrun { speed_rad_s: 0.0, overrun_rad_s } = scenario.kind {
+            insert(&mut curve.inner_race, overrun_at(design, state, 0.0, overrun_rad_s)?);
         }
     }
     Ok(curve)
+}
+
+/// A point among others, speeds ascending; none twice.
+fn insert(points: &mut Vec<OverrunPoint>, point: OverrunPoint) {
+    let at = points.partition_point(|p| p.speed_rad_s < point.speed_rad_s);
+    if points.get(at).is_none_or(|p| p.speed_rad_s > point.speed_rad_s) {
+        points.insert(at, point);
+    }
 }
 
 /// One speed of the JSON.

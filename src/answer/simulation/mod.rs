@@ -154,7 +154,7 @@ impl Design {
     /// use sprag_design::{Design, answer::simulation::SimulationSettings};
     ///
     /// let design = Design::read("designs/huang2017-multi-arc.toml".as_ref())?;
-    /// let answer = design.simulate("low-6", &Ask::default())?;
+    /// let answer = design.simulate("low-6", &SimulationSettings::default())?;
     /// assert_eq!(answer.verdict(), Some("sticks"));
     /// assert!(answer.body.slip_margin.is_some_and(|margin| margin > 0.0));
     /// let history = answer.history();
