@@ -8,7 +8,7 @@ use crate::report::svg::{Anchor, BODY, EDGE, INK, RACE, SOFT, Svg, polyline, tex
 const WIDTH: f64 = 680.0;
 const HEIGHT: f64 = 440.0;
 /// Where the enlarged sprag begins.
-const SPLIT: f64 = 268.0;
+const SPLIT: f64 = 278.0;
 /// Largest diameter of the front view.
 const WIDEST: f64 = 205.0;
 /// Pixels of a page per metre of paper: 96 an inch.
