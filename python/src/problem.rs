@@ -25,7 +25,7 @@ impl Problem {
         };
         let variables: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
         let fidelity = Fidelity { reduced: !full, ..Fidelity::default() };
-        let problem = ClutchProblem::new(design, task, variables, fidelity);
+        let problem = ClutchProblem::new(design, task, variables, fidelity).quickly();
         let about = |v: &sprag_design::design::OptimizeVariable| object!({ "name": v.name, "min": v.min, "max": v.max, "start": v.start, "whole": v.whole });
         let variables: Vec<_> = task.variables.iter().map(about).collect();
         let about = json(&object!({ "aim": task.objective.name(), "variables": variables }))?;
