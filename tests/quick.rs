@@ -67,6 +67,9 @@ fn a_quick_curve_is_the_curve() {
             }
             println!("{name} at {speed}: {worst:.1e}, truncation {:.1e}", quick.truncation());
             assert!(worst < 1e-7, "{name} at {speed}: {worst:e}");
+            // The full one has been built in its place: where an edge of the patch lies near an arc's end.
+            let refused = worst == 0.0;
+            assert_eq!(refused, name == "Series 8.33, 160 mm" && speed > 0.0, "{name} at {speed}");
             for share in [0.01, 0.3, 0.7, 0.99] {
                 let (a, b) = (full.at_torque(share * end), quick.at_torque(share * end));
                 let (Some(a), Some(b)) = (a, b) else { panic!("{name}: {share}") };
@@ -150,25 +153,70 @@ fn the_quick_demand_is_the_demand() {
     assert!(scenes > 15, "{scenes}");
 }
 
+/// The multi-arc clutch with law `law`.
+fn multi(law: &str) -> String {
+    let text = std::fs::read_to_string(MULTI).unwrap();
+    text.replace("law = \"roller\"", &format!("law = \"{law}\"")).replace("roller_coefficient", "# ")
+}
+
+/// A scene for a design that has none.
+const CRANKING: &str = "
+[[scenarios]]
+name = \"cranking\"
+kind = \"transient\"
+preload_nm = 50.0
+torque_step_nm = 20.0
+step_time_s = 0.003
+abutment_stiffness_nm_per_rad = 20000.0
+duration_s = 0.03
+speed_rpm = 0.0
+";
+
+/// Design `file` with `more` and two radii to be found.
+fn with_radii(file: &str, more: &str) -> String {
+    let text = std::fs::read_to_string(file).unwrap();
+    format!(
+        "{text}{more}\n[optimize]\nobjective = \"slip-margin\"\nscenarios = [\"cranking\"]\nvariables = [\n\
+         {{ name = \"r_i1_mm\", min = 4.0, max = 4.3 }},\n{{ name = \"r_i2_mm\", min = 4.1, max = 4.4 }},\n]\nseed = 1\n"
+    )
+}
+
 #[test]
 fn an_evaluation_of_a_search_is_one_of_check() {
-    let design = Design::read(Path::new(MULTI)).unwrap();
-    let task = design.optimize.clone().unwrap();
-    let names: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
-    let problem = ClutchProblem::new(&design, &task, names, Fidelity::default()).quickly();
-    let sharp = problem.at_fidelity(Fidelity::default().sharper());
-    let mut random = fastrand::Rng::with_seed(22);
-    let mut worst = 0.0_f64;
-    for _ in 0..40 {
-        let x: Vec<f64> = task.variables.iter().map(|v| v.min + random.f64() * (v.max - v.min)).collect();
-        let (Ok(quick), Ok(sharp)) = (problem.evaluate(&x), sharp.evaluate(&x)) else { continue };
-        let pairs =
-            quick.objectives.iter().chain(&quick.limits).zip(sharp.objectives.iter().chain(&sharp.limits));
-        for (i, (a, b)) in pairs.enumerate() {
-            let off = (a - b).abs() / b.abs().max(1.0);
-            assert!(off < 1e-6, "margin {i} at {x:?}: {a} {b}");
-            worst = worst.max(off);
+    let roller = std::fs::read_to_string(MULTI).unwrap();
+    let cases = [
+        ("roller", roller, 40),
+        ("elastic", multi("elastic"), 20),
+        ("hertz", multi("hertz"), 10),
+        ("starter", with_radii("designs/starter.toml", ""), 10),
+        ("FE check", with_radii("designs/fe-check-24.toml", CRANKING), 10),
+    ];
+    for (name, text, count) in cases {
+        let design = Design::parse(&text, name).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let task = design.optimize.clone().unwrap();
+        let names: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
+        let problem = ClutchProblem::new(&design, &task, names, Fidelity::default()).quickly();
+        let sharp = problem.at_fidelity(Fidelity::default().sharper());
+        let mut random = fastrand::Rng::with_seed(22);
+        let (mut worst, mut compared) = (0.0_f64, 0);
+        for _ in 0..count {
+            let x: Vec<f64> = task.variables.iter().map(|v| v.min + random.f64() * (v.max - v.min)).collect();
+            let (quick, sharp) = (problem.evaluate(&x), sharp.evaluate(&x));
+            assert_eq!(quick.is_ok(), sharp.is_ok(), "{name} at {x:?}");
+            let (Ok(quick), Ok(sharp)) = (quick, sharp) else { continue };
+            let pairs = quick
+                .objectives
+                .iter()
+                .chain(&quick.limits)
+                .zip(sharp.objectives.iter().chain(&sharp.limits));
+            for (i, (a, b)) in pairs.enumerate() {
+                let off = (a - b).abs() / b.abs().max(1.0);
+                assert!(off < 1e-6, "{name}: margin {i} at {x:?}: {a} {b}");
+                worst = worst.max(off);
+            }
+            compared += 1;
         }
+        println!("{name}: {worst:.1e} off at most at {compared} of {count} points");
+        assert!(2 * compared >= count, "{name}: {compared}");
     }
-    println!("{worst:.1e} off at most");
 }

@@ -3,6 +3,7 @@
 use super::build::{Effort, arc_end};
 use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::elastic::NoElastic;
+use super::quick::lowest;
 use super::table::{ArcTable, held, point};
 use crate::numeric::root;
 
@@ -141,11 +142,12 @@ impl WedgeCurve {
     pub fn statics(&self) -> &Statics {
         &self.statics
     }
-    /// Relative size of what the interpolation leaves out, pure number, where N exceeds 1e-10 of its largest.
+    /// Relative size of what the interpolation leaves out, pure number, where N exceeds 1e-10 of its largest; 1e-5
+    /// with [`Effort::Search`].
     pub fn truncation(&self) -> f64 {
         let skip = |k: usize| match (k, self.effort) {
             (0, Effort::Full) => 2,
-            (0, Effort::Search) => 1,
+            (0, Effort::Search) => lowest(self.exponent),
             _ => 0,
         };
         self.arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k))).fold(0.0, f64::max)

@@ -2,7 +2,7 @@
 //! else read off these.
 //!
 //! The table to be made has its nodes in alpha, where a force must be looked for by Newton; here that is looked for on the
-//! polynomials, not by closures. One panel where the full table has two, three where it has five: of an ellipse of parameter
+//! polynomials, not by closures. One panel where the full table has two, three or four where it has five: of an ellipse of parameter
 //! 6.5 seen from twice as far 4 is left, and 4^-16 = 2e-10. Where a curve asks for more, its last coefficients tell.
 
 use super::closure::{FIRST_CONTACT_N, NoClosure};
@@ -13,8 +13,19 @@ use crate::numeric::{panels::Panels, quadrature};
 const SAMPLED: usize = LANES + 1;
 /// Panels of the first arc, as fractions of its end.
 const BREAKS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
+/// The same for a logarithmic law: there z d alpha/dN ~ z ln z is not smooth at first contact, and what the lowest panel makes of it
+/// goes on into alpha beyond it, less by the tenth power of their ratio.
+const LOGARITHMIC_BREAKS: [f64; 5] = [0.0, 0.1, 0.3, 0.6, 1.0];
+/// q of logarithmic laws.
+const LOGARITHMIC: f64 = 10.0;
 /// Largest truncation of a quick curve that is taken as it is: three tenths of what it may be off.
 pub(super) const TRUSTED: f64 = 3e-8;
+
+/// Lowest panels of the first arc for which [`TRUSTED`] is not asked: those below 1e-5 of its largest N, where what a closure
+/// leaves unsettled is more than that of OC_g', which is next to nothing there. `exponent`: q of the law.
+pub(super) fn lowest(exponent: f64) -> usize {
+    if exponent == LOGARITHMIC { 2 } else { 1 }
+}
 
 /// Where Newton's steps may end, relative: the next would be less than rounding.
 const SETTLED: f64 = 1e-9;
@@ -49,7 +60,11 @@ impl ArcBuilder<'_> {
     fn first_quickly(&self, n_until: f64, edges: &[Edge]) -> Result<(Panels<LANES>, Panels<1>), NoClosure> {
         let z_end = n_until.powf(0.1);
         let edges: Vec<Edge> = edges.iter().map(|e| Edge { at: e.at.powf(0.1), ..*e }).collect();
-        let breaks: &[f64] = if self.statics.elastic.is_shaped() { &SHAPED_BREAKS } else { &BREAKS };
+        let breaks: &[f64] = match self.exponent {
+            _ if self.statics.elastic.is_shaped() => &SHAPED_BREAKS,
+            LOGARITHMIC => &LOGARITHMIC_BREAKS,
+            _ => &BREAKS,
+        };
         let over = |end: f64, edges: &[Edge]| {
             let fixed: Vec<f64> = breaks.iter().map(|b| b * end).collect();
             Layout::new(&fixed, edges)
