@@ -41,20 +41,6 @@ pub fn no_clutch(file: &Path, why: &NoMargins) -> Failure {
     Failure::NoClutch(format!("{}: {why}; keys that decide it: {keys}", file.display()))
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_clutch_without_a_curve_is_told_with_file_and_keys() {
-        let why = NoMargins::Curve(NoCurve::NoConvergence);
-        let text = no_clutch(Path::new("a.toml"), &why).to_json()["message"].to_string();
-        for word in ["a.toml", "did not converge", "contact, material", "sprags.inner_arcs"] {
-            assert!(text.contains(word), "{text}");
-        }
-    }
-}
-
 /// The answers to `files` one after another; the worst exit code of all. A table or page is of one file.
 ///
 /// # Errors
@@ -78,4 +64,18 @@ pub fn each(
         worst = if exit.code() > worst.code() { exit } else { worst };
     }
     Ok(worst)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clutch_without_a_curve_is_told_with_file_and_keys() {
+        let why = NoMargins::Curve(NoCurve::NoConvergence);
+        let text = no_clutch(Path::new("a.toml"), &why).to_json()["message"].to_string();
+        for word in ["a.toml", "did not converge", "contact, material", "sprags.inner_arcs"] {
+            assert!(text.contains(word), "{text}");
+        }
+    }
 }
