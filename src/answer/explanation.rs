@@ -57,6 +57,10 @@ fn limit(code: &str) -> Option<Explanation> {
         "allowed by",
         limit.key.map_or("the design itself".to_owned(), |key| format!("limits.{key}")),
     ));
+    if let Some(also) = Objective::ALL.into_iter().find(|o| o.name() == code) {
+        let better = if also.sense() > 0.0 { "more" } else { "less" };
+        lines.push(("as an objective of [optimize]", format!("{}; {better} is better", also.words())));
+    }
     Some(Explanation { kind: "a limit", lines })
 }
 

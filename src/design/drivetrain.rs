@@ -68,7 +68,7 @@ fn names(files: &[DriveFile], out: &mut Findings) -> bool {
     let before = out.problems.len();
     for (i, file) in files.iter().enumerate() {
         let key = |name: &str| format!("drivetrain[{i}].{name}");
-        if RACES.iter().any(|(race, _)| *race == file.name) {
+        if RACES.iter().any(|(race, _)| *race == file.name.replace(' ', "-")) {
             let allowed = "a name that is none of a race".to_owned();
             out.refuse(&[&key("name")], allowed, "rename it: the races are there already".to_owned());
         } else if let Some(first) = files[..i].iter().position(|f| f.name == file.name) {

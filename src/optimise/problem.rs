@@ -201,6 +201,11 @@ impl ClutchProblem {
         &self.variables
     }
 
+    /// What goes with which variable.
+    pub fn links(&self) -> &[(String, Link)] {
+        &self.links
+    }
+
     /// Limits.
     pub fn limits(&self) -> &Limits {
         &self.limits

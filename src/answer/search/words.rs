@@ -4,7 +4,7 @@ use super::Story;
 use crate::answer::check::margin_text;
 use crate::design::Objective;
 use crate::margin::Margin;
-use crate::optimise::{Optima, Price, PriceKind, Status, Variable};
+use crate::optimise::{NO_INFLUENCE, Optima, Price, PriceKind, Status, Variable};
 use crate::report::{error_beside, significant};
 
 /// Digits to which an objective is shown.
@@ -205,8 +205,9 @@ impl Story {
         objectives.chain(limits).chain(lower).chain(upper).collect()
     }
 
-    /// Variables whose value in the file lies outside their bounds, a sentence each.
-    pub fn moved_inside(&self) -> Vec<String> {
+    /// Variables whose value in the file lies outside their bounds, numbers that went with one, and an objective that none of them
+    /// changes, a sentence each.
+    pub fn notes_on_variables(&self) -> Vec<String> {
         let outside = self.found.variables.iter().filter(|v| v.start != v.given);
         let line = |v: &Variable| {
             format!(
@@ -214,7 +215,33 @@ impl Story {
                 v.name, v.given, v.min, v.max, v.start
             )
         };
-        outside.map(line).collect()
+        let mut lines: Vec<String> = outside.map(line).collect();
+        lines.extend(self.linked());
+        let felt = |slopes: &Vec<f64>| slopes.iter().any(|s| s.abs() >= NO_INFLUENCE);
+        // Margins of scenes are level where no friction suffices.
+        let of_scenes = matches!(self.found.aim, Objective::SlipMargin | Objective::ContactMargin);
+        if !of_scenes && !self.found.influence.objectives.iter().any(felt) {
+            lines.push(format!(
+                "No variable changes the {} at the start: if that is no accident, name one that does, or let one take further \
+                 numbers along (its keys moves and scales).",
+                self.found.aim.words()
+            ));
+        }
+        lines
+    }
+
+    /// What went with a variable, a line each.
+    fn linked(&self) -> impl Iterator<Item = String> {
+        self.found.problem.links().iter().filter_map(|(name, link)| {
+            let variable = self.made().variables.iter().find(|v| v.name == *name)?;
+            let at = |value: f64| significant(link.by + link.times * value, 6);
+            Some(format!(
+                "{} goes with {name}: {} -> {}",
+                link.path,
+                at(variable.given),
+                at(self.value(variable))
+            ))
+        })
     }
 
     /// What the optimum gained or lost when it was looked at with everything.

@@ -25,8 +25,8 @@ pub struct TrainMode {
     pub shape: Vec<(String, f64)>,
 }
 
-/// Squares of frequencies below this part of the largest are those of the whole train turning: a choice, far above rounding.
-const RIGID: f64 = 1e-11;
+/// Squares of frequencies below this part of the largest are lost in its rounding: a choice, some hundred roundings.
+const LOST: f64 = 1e-13;
 
 impl Model {
     /// Eigenfrequencies with the clutch engaged at `alpha_rad` of its curve, under `torque_nm` > 0 there, lowest first; the
@@ -66,7 +66,10 @@ impl Model {
                 damping[(i, i)] += body.fixed.drag_nm_s_per_rad;
             }
         }
-        let found = eigen(&mass, &damping, &stiffness)?;
+        // The clutch joins all of it: nothing but an abutment or a given speed keeps the whole from turning.
+        let given = train.is_some_and(|t| (2..2 + t.bodies.len()).any(|b| free[b].is_none()));
+        let turns = self.loads.abutment_nm_per_rad == 0.0 && !given;
+        let found = eigen(&mass, &damping, &stiffness, turns)?;
         Some(found.into_iter().map(|one| one.named(train, &free, &mass)).collect())
     }
 
@@ -115,8 +118,13 @@ struct Found {
 }
 
 /// Modes of M x'' + D x' + K x = 0, M and K symmetric, by x = L^-T z with M = L L^T. The damped eigenvalue of a mode is the
-/// one of next magnitude.
-fn eigen(mass: &DMatrix<f64>, damping: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<Vec<Found>> {
+/// one of next magnitude. Where the whole `turns` freely its own mode, the slowest, is left out.
+fn eigen(
+    mass: &DMatrix<f64>,
+    damping: &DMatrix<f64>,
+    stiffness: &DMatrix<f64>,
+    turns: bool,
+) -> Option<Vec<Found>> {
     if [mass, damping, stiffness].into_iter().flatten().any(|x| !x.is_finite()) {
         return None;
     }
@@ -137,8 +145,10 @@ fn eigen(mass: &DMatrix<f64>, damping: &DMatrix<f64>, stiffness: &DMatrix<f64>) 
     first_order.view_mut((n, n), (n, n)).copy_from(&(-d / scale));
     let mut damped: Vec<Complex<f64>> =
         first_order.complex_eigenvalues().iter().filter(|l| l.im >= 0.0).copied().collect();
-    let mut order: Vec<usize> = (0..n).filter(|&i| own.eigenvalues[i] > RIGID * fastest).collect();
+    let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| own.eigenvalues[a].total_cmp(&own.eigenvalues[b]));
+    order.drain(..usize::from(turns));
+    order.retain(|&i| own.eigenvalues[i] > LOST * fastest);
     let mode = |i: usize| {
         let rate = own.eigenvalues[i].sqrt();
         let off = |l: &Complex<f64>| (l.norm() - rate / scale).abs();
