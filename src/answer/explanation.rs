@@ -59,7 +59,7 @@ fn limit(code: &str) -> Option<Explanation> {
     ));
     if let Some(also) = Objective::ALL.into_iter().find(|o| o.name() == code) {
         let better = if also.sense() > 0.0 { "more" } else { "less" };
-        lines.push(("as an objective of [optimize]", format!("{}; {better} is better", also.words())));
+        lines.push(("also", format!("an objective of [optimize]: {}; {better} is better", also.words())));
     }
     Some(Explanation { kind: "a limit", lines })
 }
