@@ -105,27 +105,23 @@ impl Elastic {
             .map(|a| LineContact::external(a.radius_m, r.inner_radius_m, length_m, e_inner))
             .collect::<Result<Vec<_>, _>>()?;
         let outer_contact = LineContact::internal(s.outer_radius_m, r.outer_radius_m, length_m, e_outer)?;
-        let ratio = match clutch.contact {
-            ContactLaw::Slice { .. } => Some(SliceRatio::shared(clutch.axial.slices)?),
-            _ => None,
-        };
         let half_height_m = 0.5 * (r.outer_radius_m - r.inner_radius_m);
         let half = [race(true, m.inner_race)?, race(false, m.outer_race)?];
         let law = |contact: &LineContact, side: &Race, wall_m: f64| -> Result<Approach, NoElastic> {
-            Ok(match (clutch.contact, &ratio) {
-                (ContactLaw::Elastic { state }, _) => return elastic_law(contact, clutch, side, state),
-                (ContactLaw::Roller { coefficient }, _) => Approach::roller(contact, coefficient),
-                (ContactLaw::Slice { coefficient }, Some(ratio)) => {
-                    Approach::slice(contact, coefficient, ratio.clone())
+            Ok(match clutch.contact {
+                ContactLaw::Elastic { state } => return elastic_law(contact, clutch, side, state),
+                ContactLaw::Roller { coefficient } => Approach::roller(contact, coefficient),
+                ContactLaw::Slice { coefficient } => {
+                    Approach::slice(contact, coefficient, SliceRatio::shared(clutch.axial.slices)?)
                 }
-                (ContactLaw::Hertz, _) => Approach::hertz(
+                ContactLaw::Hertz => Approach::hertz(
                     contact,
                     [
                         HertzBody { material: m.sprag, depth_m: half_height_m },
                         HertzBody { material: *side.material(), depth_m: wall_m },
                     ],
                 ),
-                _ => Approach::din26281(contact),
+                ContactLaw::Din26281 => Approach::din26281(contact),
             }?)
         };
         let inner_wall_m = r.inner_radius_m - r.inner_bore_radius_m;
