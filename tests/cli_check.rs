@@ -415,6 +415,9 @@ fn several_files_are_answered_one_after_another() {
     assert_eq!((each[0].status.code(), both.status.code()), (Some(0), Some(1)));
     let lines = stdout(&run(&["check", files[0], files[1], "--json", "--quiet"]));
     assert_eq!(lines.lines().count(), 2);
+    // One that is not there does not keep the others from being answered.
+    let missing = run(&["check", files[0], "no-such.toml", files[1], "--json", "--quiet"]);
+    assert_eq!((stdout(&missing).lines().count(), missing.status.code()), (3, Some(2)));
     for args in [["--report", "x.html"], ["--csv", "x.csv"], ["--overrun-csv", "x.csv"]] {
         let refused = run(&[&["check", files[0], files[1]], &args[..]].concat());
         assert_eq!(refused.status.code(), Some(2), "{args:?}");

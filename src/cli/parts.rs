@@ -41,10 +41,11 @@ pub fn no_clutch(file: &Path, why: &NoMargins) -> Failure {
     Failure::NoClutch(format!("{}: {why}; keys that decide it: {keys}", file.display()))
 }
 
-/// The answers to `files` one after another; the worst exit code of all. A table or page is of one file.
+/// The answers to `files` one after another; the worst exit code of all. A table or page is of one file. One that fails does not
+/// keep the others from being answered.
 ///
 /// # Errors
-/// The first [`Failure`].
+/// The first [`Failure`], after the answers of all.
 pub fn each(
     files: &[PathBuf],
     context: &Context,
@@ -55,15 +56,18 @@ pub fn each(
             "--csv and --report are of one FILE; `compare` puts several designs side by side on one page",
         ));
     }
-    let mut worst = Exit::Held;
+    let (mut worst, mut failed) = (Exit::Held, None);
     for (k, file) in files.iter().enumerate() {
         if k > 0 {
             context.answer("\n")?;
         }
-        let exit = one(file)?;
-        worst = if exit.code() > worst.code() { exit } else { worst };
+        match one(file) {
+            Ok(exit) => worst = if exit.code() > worst.code() { exit } else { worst },
+            Err(Failure::Interrupted) => return Err(Failure::Interrupted),
+            Err(why) => failed = failed.or(Some(why)),
+        }
     }
-    Ok(worst)
+    failed.map_or(Ok(worst), Err)
 }
 
 #[cfg(test)]

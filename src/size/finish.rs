@@ -202,6 +202,9 @@ fn made(wanted: &Requirements, draft: &mut Draft, settings: &Settings) -> Result
     Ok(made)
 }
 
+/// How a first design's comment begins that is true no longer once it has been optimised.
+pub const NOT_OPTIMISED: &str = "Nothing in it is optimised";
+
 /// For names and comments.
 fn short(value: f64) -> f64 {
     rounded(value, 7)
@@ -227,16 +230,16 @@ fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Ve
     asked.extend(wanted.lift_off_rad_s.map(|w| format!("lifted off by {} rpm{off}", rpm(w))));
     let space_mm = short((draft.races_m[2] - draft.races_m[1]) * 1e3);
     let left = least.map_or_else(String::new, |r| {
-        format!(" The least margin is {} %, {}.", rounded(100.0 * r.margin(), 3), r.code())
+        format!(" (least margin {} %, {})", rounded(100.0 * r.margin(), 3), r.code())
     });
     let command = if wanted.purpose.is_some() { "new" } else { "size" };
     let mut lines = vec![
         format!("Written by sprag-design {command} {}", env!("CARGO_PKG_VERSION")),
         format!("Why this file exists: a first design for {}.", asked.join(", ")),
         format!(
-            "Race space {space_mm} mm in the proportions of a maker's 8.33 mm series, as wide as its limits ask.{left}"
+            "Race space {space_mm} mm in the proportions of a maker's 8.33 mm series, as wide as its limits ask."
         ),
-        "Nothing in it is optimised: check, then optimize.".to_owned(),
+        format!("{NOT_OPTIMISED}{left}: check, then optimize."),
     ];
     if let Some(purpose) = wanted.purpose {
         lines.push(format!("For: {}, {}.", purpose.name, purpose.words));

@@ -11,7 +11,7 @@ mod purpose;
 mod requirements;
 mod search;
 
-pub use finish::{Drag, Made};
+pub use finish::{Drag, Made, NOT_OPTIMISED};
 pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
 pub use requirements::{BadRequirement, FRICTION, PEAK_OVER_NOMINAL, Requirements, Wish, torques_nm};
 pub use search::{NoSize, Sized, Tried, size};

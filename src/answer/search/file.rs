@@ -5,6 +5,7 @@ use super::Story;
 use crate::answer::{VERSION, WRITTEN_BY};
 use crate::design::{Design, EditError, with_notes};
 use crate::optimise::Variable;
+use crate::size::NOT_OPTIMISED;
 
 /// The new design file; `command`: who asked for it.
 ///
@@ -68,10 +69,12 @@ pub fn further_files(story: &Story) -> Vec<(&'static str, &'static str, &str)> {
 /// Last line of a head.
 const END: &str = "#";
 
-/// `text` without the head of an earlier search, whose figures are not those of this file; with a note on each value that
-/// is not that of `design`.
+/// `text` without the head of an earlier search, whose figures are not those of this file, and without what a first design says
+/// of itself; with a note on each value that is not that of `design`.
 fn body(design: &Design, text: &str) -> Result<String, EditError> {
-    with_notes(&design.source, without_head(text))
+    let noted = with_notes(&design.source, without_head(text))?;
+    let past = |line: &&str| line.strip_prefix("# ").is_some_and(|said| said.starts_with(NOT_OPTIMISED));
+    Ok(noted.split_inclusive('\n').filter(|line| !past(line)).collect())
 }
 
 fn without_head(text: &str) -> &str {
