@@ -44,6 +44,15 @@ const WIDER: f64 = 0.36;
 /// Outside over outer track that is tried, the catalogue's first: thinner rings where stresses and growth allow.
 pub(super) const OUTSIDES: [f64; 4] = [1.4, 1.33, 1.27, 1.22];
 
+/// Steps of the radii outside and of the arcs, m: what a shop puts on a drawing.
+const RING_STEP_M: f64 = 1e-4;
+const ARC_STEP_M: f64 = 5e-6;
+
+/// To the nearest multiple of `step_m`.
+fn to_step(m: f64, step_m: f64) -> f64 {
+    (m / step_m).round() * step_m
+}
+
 /// Longest sprags, m: of the race space, or of the width asked for.
 pub(super) fn longest_m(wanted: &Requirements, space_m: f64) -> f64 {
     let most = LENGTHS.1 * space_m;
@@ -61,8 +70,9 @@ pub(super) fn draft(wanted: &Requirements, space_m: f64, [wall, outside]: [f64; 
     let bore = 0.5 * wanted.bore_m;
     let track = bore + wall * (WALLS.0 * wanted.bore_m).max(WALLS.1 * space_m);
     let outer = track + space_m;
-    let outside = wanted.outside_m.map_or(outside * outer, |d| (outside * outer).min(0.5 * d));
-    let (r_e, r_i) = (ARCS.0 * space_m, ARCS.1 * space_m);
+    let outside = to_step(outside * outer, RING_STEP_M);
+    let outside = wanted.outside_m.map_or(outside, |d| outside.min(0.5 * d));
+    let (r_e, r_i) = (to_step(ARCS.0 * space_m, ARC_STEP_M), to_step(ARCS.1 * space_m, ARC_STEP_M));
     let count = (std::f64::consts::PI * (track + outer) / (PITCH * space_m)).floor() as usize;
     let mut draft = Draft {
         name: "sizing".to_owned(),
