@@ -1,13 +1,15 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # Where an evaluation's instructions go, by phase: callgrind counts them, the same on every run and under any load.
 #
 #   benches/cost.sh FILE.toml BINARY...
 #   benches/cost.sh designs/huang2017-multi-arc.toml before target/release/sprag-design
 #
 # Each binary evaluates the start of FILE's [optimize] and three points beside it; what it does without a point is taken off.
-# Needs valgrind and python3.
+# Installs valgrind where it is absent; needs python3.
 set -eu
 [ $# -ge 2 ] || { sed -n '2,8p' "$0"; exit 2; }
+. "$(dirname "$0")/../tests/install.sh"
+need valgrind valgrind
 design=$1
 shift
 work=$(mktemp -d)

@@ -29,6 +29,7 @@
 //! | 4 | [`fidelity`] | what a scene can leave out, and what that costs |
 //! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
+//! | 4 | [`life`] | pitting, fatigue of rings, indentation and slip by chance in a life of loads |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
 //! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |
 //! | 4 | [`size`] | a first design from space, torques, speeds, friction, steel and what it is for |
@@ -115,6 +116,7 @@ pub mod friction;
 pub mod identify;
 pub mod import;
 pub mod kinematics;
+pub mod life;
 pub mod margin;
 pub mod material;
 pub mod numeric;

@@ -49,9 +49,10 @@ fn the_main_job_finds_the_known_optimum_and_check_holds_it() {
     let objective = best["objective"].as_f64().unwrap();
     assert!((told["start"]["objective"].as_f64().unwrap() - 0.3432).abs() < 1e-4);
     assert!((0.402..0.415).contains(&objective), "{objective}");
-    // The same with a free centroid is what the search alone has always come to, to the bit.
-    assert_eq!(told["free_centroid"]["objective"], 0.407874235586823);
-    assert_eq!(told["free_centroid"]["evaluations"], 484);
+    // With a free centroid it comes to what a search by full evaluations, each climb to its end, came to in 484 evaluations.
+    let bound = told["free_centroid"]["objective"].as_f64().unwrap();
+    assert!((bound - 0.407874235586823).abs() < 1e-8, "{bound}");
+    assert!(told["free_centroid"]["evaluations"].as_u64().unwrap() < 400, "{}", told["free_centroid"]);
     let active: Vec<&str> =
         told["active_constraints"].as_array().unwrap().iter().map(|v| v.as_str().unwrap()).collect();
     assert!(active.contains(&"hoop-inner"), "{active:?}");

@@ -16,6 +16,7 @@ pub mod finite_elements;
 pub mod identification;
 pub mod imported;
 pub mod left_out;
+pub mod life;
 pub mod page;
 pub mod search;
 pub mod simulation;

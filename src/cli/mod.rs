@@ -19,6 +19,7 @@ pub mod import;
 pub mod interrupt;
 pub mod journal;
 mod laws;
+pub mod life;
 mod made;
 pub mod materials;
 pub mod new;
@@ -102,6 +103,8 @@ enum Command {
     Stiffness(stiffness::StiffnessArgs),
     /// Run one scenario of the design: histories, slip, contact loss and a verdict
     Simulate(simulate::SimulateArgs),
+    /// Life under repeated loads: pitting, fatigue of the races, indentation, slip by chance
+    Life(life::LifeArgs),
     /// Search for a better design within the limits
     Optimize(optimize::OptimizeArgs),
     /// Margins of one vector of variables per line, for other optimisers
@@ -308,6 +311,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
         Command::Compare(args) => compare::run(&args, &context),
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
+        Command::Life(args) => life::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Evaluate(args) => evaluate::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
@@ -357,6 +361,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Compare(_) => "compare",
         Command::Stiffness(_) => "stiffness",
         Command::Simulate(_) => "simulate",
+        Command::Life(_) => "life",
         Command::Optimize(_) => "optimize",
         Command::Evaluate(_) => "evaluate",
         Command::Accuracy(_) => "accuracy",

@@ -8,6 +8,7 @@ mod drivetrain;
 mod law;
 mod question;
 mod running;
+mod service;
 mod tolerances;
 
 pub use drivetrain::{DriveInertia, DriveTorque, GasTorque, MOST_SHAFTS, Shaft, Towards};
@@ -15,6 +16,7 @@ pub(crate) use law::ROLLER_COEFFICIENT;
 pub use law::{ContactLaw, LAWS, LawFacts, LawName};
 pub use question::{Phrase, Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};
+pub use service::{PittingStrength, RepeatedHistory, RepeatedLoad, RingStrength, Service};
 pub use tolerances::Tolerances;
 
 use crate::material::Material;
@@ -285,5 +287,10 @@ impl Clutch {
             ring(r.inner_bore_radius_m, r.inner_radius_m, m.inner_race.density_kg_m3),
             ring(r.outer_radius_m, r.outer_outside_radius_m, m.outer_race.density_kg_m3),
         ]
+    }
+
+    /// Their sum, kg.
+    pub fn mass_kg(&self) -> f64 {
+        self.masses_kg().iter().sum()
     }
 }

@@ -6,6 +6,7 @@
 
 use super::contact_file::ContactFile;
 use super::drivetrain_file::DriveFile;
+use super::life_file::LifeFile;
 use super::limits::LimitsFile;
 use super::scenario_file::ScenarioFile;
 use super::task_file::{CheckFile, OptimizeFile};
@@ -45,6 +46,8 @@ pub(super) struct DesignFile {
     /// What `check` holds the design to; absent: static limits only.
     #[serde(default)]
     pub check: CheckFile,
+    /// What the clutch goes through in its life, and what its bodies bear; absent: `life` has nothing to do.
+    pub life: Option<LifeFile>,
     /// Scenarios, each with a unique name.
     #[serde(default)]
     pub scenarios: Vec<ScenarioFile>,

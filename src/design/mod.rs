@@ -18,6 +18,7 @@ mod findings;
 mod geometry;
 mod history;
 mod inputs;
+mod life_file;
 mod limits;
 mod notes;
 mod objective;
@@ -52,7 +53,7 @@ pub use shape::{allowed, keys_of, nearest, schema, shape_of};
 pub use steels::beside_the_name;
 pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
 
-use crate::clutch::{Clutch, Scenario, Tolerances};
+use crate::clutch::{Clutch, Scenario, Service, Tolerances};
 
 /// A checked clutch design. Built only by reading a file; never changed afterwards.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,6 +72,8 @@ pub struct Design {
     pub optimize: Option<Optimize>,
     /// What the clutch is made to, if the file says.
     pub tolerances: Option<Tolerances>,
+    /// What it goes through in its life, if the file says.
+    pub service: Option<Service>,
     /// SHA-256 (hex) of the file's text and of the histories that it names.
     pub hash: String,
     /// The file's text, kept for reports and for `optimize` to edit.

@@ -177,6 +177,13 @@ pub struct Link {
     pub times: f64,
 }
 
+impl Link {
+    /// The number where the variable has the value `variable`.
+    pub fn value(&self, variable: f64) -> f64 {
+        self.by + self.times * variable
+    }
+}
+
 /// What `optimize` shall do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Optimize {

@@ -166,55 +166,56 @@ fn check_links(
     file: &DesignFile,
     out: &mut Findings,
 ) -> Vec<Link> {
-    let arcs = file.sprags.inner_arcs.len();
     let v = &task.variables[i];
-    let (mut links, mut refusals) = (Vec::new(), Vec::new());
+    let arcs = file.sprags.inner_arcs.len();
+    let mut links = Vec::new();
     for (list, names) in [("moves", &v.moves), ("scales", &v.scales)] {
         for (k, name) in names.iter().enumerate() {
-            let key = format!("optimize.variables[{i}].{list}[{k}]");
-            let mut refuse =
-                |allowed: &str, hint: String| refusals.push((key.clone(), allowed.to_owned(), hint));
-            let Some(path) = variable_path(name, arcs).filter(|p| !is_whole(p, arcs)) else {
-                refuse(
-                    "a number of the clutch, not a whole one",
-                    format!("name a variable or a path such as races.width_mm; `{name}` is none"),
-                );
-                continue;
-            };
-            let moved =
-                |other: &VariableFile| variable_path(&other.name, arcs).as_deref() == Some(path.as_str());
-            let linked = |other: &VariableFile| {
-                let all = other.moves.iter().chain(&other.scales);
-                all.filter(|n| variable_path(n, arcs).as_deref() == Some(path.as_str())).count()
-            };
-            if task.variables.iter().any(moved) || task.variables.iter().map(linked).sum::<usize>() > 1 {
-                refuse(
-                    "a number that one thing moves",
-                    format!("{path} is a variable itself or goes with another one: name it once"),
-                );
-                continue;
+            let number = |path: &str| out.doc.number(path);
+            match link(task, v, list == "scales", name, given, arcs, &number) {
+                Ok(link) => links.push(link),
+                Err((allowed, help)) => {
+                    let key = format!("optimize.variables[{i}].{list}[{k}]");
+                    out.refuse(&[&key], allowed.to_owned(), help);
+                }
             }
-            if is_whole(&v.name, arcs) || (list == "scales" && given == 0.0) {
-                refuse(
-                    "what can be followed: a variable that takes any number, not 0 where others are in proportion to it",
-                    format!("remove {path}, or make it a variable of its own"),
-                );
-                continue;
-            }
-            let Some(value) = out.doc.number(&path) else {
-                refuse("a number that is in the file", format!("add {path} = ... to the file"));
-                continue;
-            };
-            links.push(match list {
-                "moves" => Link { path, by: value - given, times: 1.0 },
-                _ => Link { path, by: 0.0, times: value / given },
-            });
         }
     }
-    for (key, allowed, hint) in refusals {
-        out.refuse(&[&key], allowed, hint);
-    }
     links
+}
+
+/// The number `name` as it goes with `v`: in proportion, or by the same amount; else what is allowed, and what to do. `number`
+/// reads the file.
+fn link(
+    task: &OptimizeFile,
+    v: &VariableFile,
+    in_proportion: bool,
+    name: &str,
+    given: f64,
+    arcs: usize,
+    number: &dyn Fn(&str) -> Option<f64>,
+) -> Result<Link, (&'static str, String)> {
+    let path = variable_path(name, arcs).filter(|p| !is_whole(p, arcs)).ok_or_else(|| {
+        let help = format!("name a variable or a path such as races.width_mm; `{name}` is none");
+        ("a number of the clutch, not a whole one", help)
+    })?;
+    let is_it = |other: &&String| variable_path(other, arcs).as_deref() == Some(path.as_str());
+    let linked = task.variables.iter().flat_map(|v| v.moves.iter().chain(&v.scales)).filter(is_it).count();
+    if task.variables.iter().any(|v| is_it(&&v.name)) || linked > 1 {
+        let help = format!("{path} is a variable itself or goes with another one: name it once");
+        return Err(("a number that one thing moves", help));
+    }
+    if is_whole(&v.name, arcs) || (in_proportion && given == 0.0) {
+        return Err((
+            "what can be followed: a variable that takes any number, not 0 where others are in proportion to it",
+            format!("remove {path}, or make it a variable of its own"),
+        ));
+    }
+    let Some(value) = number(&path) else {
+        return Err(("a number that is in the file", format!("add {path} = ... to the file")));
+    };
+    let (by, times) = if in_proportion { (0.0, value / given) } else { (value - given, 1.0) };
+    Ok(Link { path, by, times })
 }
 
 fn named_scenarios(key: &str, names: &[String], file: &DesignFile, out: &mut Findings) {

@@ -56,12 +56,8 @@ struct Sight {
     y: Pair,
     /// w'' and e''.
     rates: [f64; 2],
-    /// Not yet known at the looks that are not [`FIRST`].
     figures: [f64; FIGURES],
 }
-
-/// The looks, of [`LOOKS`], that tell whether a step may hold a record; the others are asked where it may.
-const FIRST: [usize; 4] = [0, 2, 4, 6];
 
 /// The two equations on one arc.
 struct Rolls<'a> {
@@ -125,10 +121,9 @@ impl Rolls<'_> {
     /// Accelerations (w'', e'') under the torques `outside` (C_bi, C_be).
     #[inline(always)]
     fn accelerations(model: &Model, m: &Motion, y: &Pair, [c_bi, c_be]: [f64; 2]) -> [f64; 2] {
-        let (i_i, i_e) = (model.inner_inertia_kg_m2, model.outer_inertia_kg_m2);
         let speed = model.curve.speed_rad_s();
         let [_, e, u, v] = *y;
-        let (m_ww, m_we, m_ee) = (i_i + m.a, m.b - i_i, i_i + i_e + m.d);
+        let (m_ww, m_we, m_ee) = masses(model, m);
         let q_w = -c_bi - m.f - model.damping_nm_s_per_rad * u - 0.5 * m.a_slope * u * u
             + m.d_slope * v * (0.5 * v + speed);
         let q_e = c_bi + c_be
@@ -175,15 +170,13 @@ impl Rolls<'_> {
         let a = Self::accelerations(self.model, &m, y, outside);
         Sight { t, y: *y, rates: a, figures: Self::figures(self.model, &c, y, a, outside) }
     }
+}
 
-    /// The figures of all looks, where those of some are not known yet.
-    fn complete(&mut self) {
-        for j in (0..LOOKS.len()).filter(|j| !FIRST.contains(j)) {
-            let Sight { t, y, rates, .. } = self.seen[j];
-            let (outside, c) = (self.torques_nm(t), self.table.piece(y[0]).contacts(y[0]));
-            self.seen[j].figures = Self::figures(self.model, &c, &y, rates, outside);
-        }
-    }
+/// (m_ww, m_we, m_ee) of the kinetic energy.
+#[inline(always)]
+fn masses(model: &Model, m: &Motion) -> (f64, f64, f64) {
+    let (i_i, i_e) = (model.inner_inertia_kg_m2, model.outer_inertia_kg_m2);
+    (i_i + m.a, m.b - i_i, i_i + i_e + m.d)
 }
 
 impl RightHandSide<4> for Rolls<'_> {
@@ -197,13 +190,7 @@ impl RightHandSide<4> for Rolls<'_> {
 
     #[inline(always)]
     fn slope_at_look(&mut self, look: usize, t: f64, y: &Pair) -> Result<Pair, ()> {
-        if FIRST.contains(&look) {
-            self.seen[look] = self.sight(t, y);
-        } else {
-            let m = self.table.motion(y[0]);
-            let rates = Self::accelerations(self.model, &m, y, self.torques_nm(t));
-            self.seen[look] = Sight { t, y: *y, rates, figures: [f64::NAN; FIGURES] };
-        }
+        self.seen[look] = self.sight(t, y);
         Self::slope_of(y, self.seen[look].rates)
     }
 }
@@ -362,9 +349,9 @@ fn watch(
     // A figure is smooth over the step: between looks, of which the fastest swing that such steps follow has a dozen in a
     // period, it rises above them by far less than they differ.
     let best = run.peaks.figures();
-    let may_hold_a_record = |looks: &mut dyn Iterator<Item = &[f64; FIGURES]>| {
+    let may_hold_a_record = |looks: &[Sight]| {
         let (mut low, mut high) = ([f64::INFINITY; FIGURES], [f64::NEG_INFINITY; FIGURES]);
-        for figures in looks {
+        for Sight { figures, .. } in looks {
             for i in 0..FIGURES {
                 low[i] = if figures[i] < low[i] { figures[i] } else { low[i] };
                 high[i] = if figures[i] > high[i] { figures[i] } else { high[i] };
@@ -372,11 +359,9 @@ fn watch(
         }
         std::array::from_fn::<bool, FIGURES, _>(|i| high[i] + (high[i] - low[i]) >= best[i])
     };
-    let first = may_hold_a_record(&mut FIRST.iter().map(|&j| &rolls.seen[j].figures));
-    if end.is_none() && !first.contains(&true) {
+    if end.is_none() && !may_hold_a_record(&rolls.seen).contains(&true) {
         return true;
     }
-    rolls.complete();
     let mut at = LOOKS;
     let mut seen = rolls.seen;
     let mut count = LOOKS.len();
@@ -398,7 +383,7 @@ fn watch(
     let grid = Grid { at: &at[..count] };
     let length = last * step.h;
     let fine = 1e-3 * settings.tolerance;
-    let may = may_hold_a_record(&mut seen[..count].iter().map(|sight| &sight.figures));
+    let may = may_hold_a_record(&seen[..count]);
     let mut peaks = run.peaks;
     for (i, mut best) in run.peaks.figures().into_iter().enumerate() {
         if !may[i] {
@@ -447,16 +432,14 @@ impl Rolls<'_> {
         let [from, until] = self.table.ends();
         let up = y[0] - 0.5 * (from + until) > 0.0;
         let [_, _, u, v] = *y;
-        let (i_i, i_e) = (self.model.inner_inertia_kg_m2, self.model.outer_inertia_kg_m2);
-        let masses = |m: &Motion| (i_i + m.a, m.b - i_i, i_i + i_e + m.d);
         let junction = if up { until } else { from };
-        let (ww, we, ee) = masses(&self.table.motion(junction));
+        let (ww, we, ee) = masses(self.model, &self.table.motion(junction));
         let momentum = we * u + ee * v;
         let before = ww - we * we / ee;
         if !self.table.pass(up) {
             return false;
         }
-        let (ww, we, ee) = masses(&self.table.motion(junction));
+        let (ww, we, ee) = masses(self.model, &self.table.motion(junction));
         let u = scaled(u, before, ww - we * we / ee);
         *y = [junction, y[1], u, (momentum - we * u) / ee];
         true

@@ -8,10 +8,11 @@ use argmin::solver::neldermead::NelderMead;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::law_error::{Apart, covariance};
 use super::no_fit::{NoFit, SoFar};
-use super::observation::{Observation, Use};
+use super::observation::{Observation, ObservedQuantity, Use};
 use super::predict::{NoPrediction, Prediction, design_with, predict};
-use super::statistics::{Knowledge, knowledge};
+use super::statistics::{Doubt, INSEPARABLE, Knowledge, correlation, knowledge, moved_by};
 use crate::design::{Design, is_whole, value_at, variable_names, variable_path};
 use crate::follow::Follow;
 
@@ -68,6 +69,8 @@ pub struct Identified {
     pub before: Vec<f64>,
     /// What the data know of them.
     pub knowledge: Knowledge,
+    /// For two unknowns that these data determine only together: what would tell them apart best.
+    pub apart: Option<Apart>,
     /// Every observation, fitted or held back.
     pub points: Vec<FittedPoint>,
     /// Sum of the squared scaled residuals of the fit, one per start, and that of the solution.
@@ -275,6 +278,12 @@ pub fn identify(
         last.map_err(|why| if stopped() { problem.stopped() } else { nowhere(why) })?;
     let bounds: Vec<(f64, f64)> = unknowns.iter().map(|u| (u.min, u.max)).collect();
     let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &bounds);
+    let law = covariance(&design.clutch.contact, &problem.groups.concat());
+    let by_law = moved_by(&jacobian, &law);
+    for (j, e) in knowledge.estimates.iter_mut().enumerate().filter(|(_, e)| e.half_width.is_some()) {
+        e.by_law = by_law.as_ref().map(|widths| widths[j] * problem.range[j]);
+    }
+    let apart = apart(&problem, &t, &jacobian, &knowledge);
     let mut named = problem.named(&t);
     // What the data say nothing of stays as it was.
     for j in knowledge.without_influence() {
@@ -287,12 +296,53 @@ pub fn identify(
         unknowns: unknowns.to_vec(),
         before,
         knowledge,
+        apart,
         points: points(design, &named, observations),
         sums: (sums, sum),
         evaluations: problem.count.load(Ordering::Relaxed),
         converged,
         source,
     })
+}
+
+/// Which further quantity, seen at the torques of the fit and as well, would tell the two unknowns best apart that are known
+/// together only.
+fn apart(problem: &Problem, t: &[f64], jacobian: &DMatrix<f64>, knowledge: &Knowledge) -> Option<Apart> {
+    let (first, second) = knowledge.undetermined().find_map(|(j, doubt)| match doubt {
+        Doubt::Inseparable(other) => Some((j.min(other), j.max(other))),
+        _ => None,
+    })?;
+    let seen: Vec<&Observation> = problem.groups.concat();
+    let of_kind = |kind: ObservedQuantity| -> Option<Apart> {
+        let mut at: Vec<Observation> =
+            seen.iter().filter(|o| o.torque_nm.is_some()).map(|o| (*o).clone()).collect();
+        at.dedup_by_key(|o| o.torque_nm.map(f64::to_bits));
+        at.iter_mut().for_each(|o| (o.kind, o.value, o.sigma) = (kind, 1.0, Some(1.0)));
+        let more = Problem {
+            groups: grouped(at.iter()),
+            paths: problem.paths.clone(),
+            low: problem.low.clone(),
+            range: problem.range.clone(),
+            count: AtomicUsize::new(0),
+            best: Mutex::new(None),
+            ..*problem
+        };
+        // In parts of what the model says there, as the other rows are in parts of what was seen.
+        let said = more.residuals(t).ok()?.map(|r| r + 1.0);
+        let mut rows = more.jacobian(t).ok()?;
+        for (mut row, said) in rows.row_iter_mut().zip(said.iter()) {
+            row /= *said;
+        }
+        rows /= seen.iter().map(|o| o.scale() / o.value.abs()).fold(f64::INFINITY, f64::min);
+        let mut both = jacobian.clone().insert_rows(jacobian.nrows(), rows.nrows(), 0.0);
+        both.rows_mut(jacobian.nrows(), rows.nrows()).copy_from(&rows);
+        Some(Apart { quantity: kind, pair: (first, second), correlation: correlation(&both, first, second)? })
+    };
+    let known = |kind: &ObservedQuantity| seen.iter().any(|o| o.kind == *kind);
+    let kinds = ObservedQuantity::ALL.into_iter().filter(|kind| kind.needs_torque() && !known(kind));
+    let least =
+        kinds.filter_map(of_kind).min_by(|a, b| a.correlation.abs().total_cmp(&b.correlation.abs()))?;
+    (least.correlation.abs() < INSEPARABLE).then_some(least)
 }
 
 fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>), NoFit> {

@@ -5,12 +5,14 @@
 //! Equations: none; least squares after Bates & Watts, *Nonlinear Regression Analysis*, ch. 2.
 
 mod fit;
+mod law_error;
 mod no_fit;
 mod observation;
 mod predict;
 mod statistics;
 
 pub use fit::{FitSettings, FittedPoint, Identified, Unknown, identify};
+pub use law_error::Apart;
 pub use no_fit::{NoFit, SoFar};
 pub use observation::{Fault, Observation, ObservedQuantity, Use, observations};
 pub use predict::{NoPrediction, Prediction, predict};

@@ -4,11 +4,8 @@ use std::fmt;
 
 use super::observation::{Observation, ObservedQuantity};
 use crate::design::{Design, EditError, with_keys};
-use crate::margin::{LoadState, lift_off_rad_s, load_state, nominal_capacity};
+use crate::margin::{LIFT_OFF_TO_RAD_S, LoadState, lift_off_rad_s, load_state, nominal_capacity};
 use crate::wedge::StaticPoint;
-
-/// Speed up to which a lift-off is looked for, rad/s: 60 000 rev/min.
-const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * std::f64::consts::PI / 30.0;
 
 /// A predicted number and what decided it.
 #[derive(Debug, Clone, PartialEq)]

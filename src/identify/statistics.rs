@@ -35,6 +35,8 @@ pub struct Estimate {
     pub sigma: Option<f64>,
     /// Half width of the 95 % interval (Student's t); `None` as above.
     pub half_width: Option<f64>,
+    /// Half width of the 95 % interval by the error of the contact law alone; `None` as above.
+    pub by_law: Option<f64>,
     /// Why the data do not determine the value; `None` where they do.
     pub doubt: Option<Doubt>,
 }
@@ -140,7 +142,13 @@ pub(super) fn knowledge(
     let place = |k: usize| felt.iter().position(|&j| j == k);
     let estimates = (0..p).map(|j| match place(j) {
         Some(k) => known.estimates[k].over(&felt),
-        None => Estimate { value: values[j], sigma: None, half_width: None, doubt: Some(Doubt::NoInterval) },
+        None => Estimate {
+            value: values[j],
+            sigma: None,
+            half_width: None,
+            by_law: None,
+            doubt: Some(Doubt::NoInterval),
+        },
     });
     let entry = |c: &[Vec<f64>], i: usize, j: usize| match (place(i), place(j)) {
         (Some(a), Some(b)) => c[a][b],
@@ -235,7 +243,7 @@ fn of_all_felt(
                 .map(|(c, r)| r * c[(j, j)].max(0.0).sqrt() / lengths[j] * (bounds[j].1 - bounds[j].0));
             let half_width = sigma.zip(t).map(|(s, t)| s * t);
             let doubt = width_doubt(values[j], half_width, bounds[j]);
-            Estimate { value: values[j], sigma, half_width, doubt }
+            Estimate { value: values[j], sigma, half_width, by_law: None, doubt }
         })
         .collect::<Vec<_>>();
     let correlation = covariance.map(|c| {
@@ -254,6 +262,22 @@ fn of_all_felt(
         }
     }
     Knowledge { estimates, correlation, residual_sigma, freedom, tied, singular_ratio }
+}
+
+/// How far an error of the residuals with the covariance `law` moves a least-squares solution: 1.96 standard deviations of each
+/// unknown, in shares of its range; `None` where the data are blind.
+pub(super) fn moved_by(jacobian: &DMatrix<f64>, law: &DMatrix<f64>) -> Option<Vec<f64>> {
+    let normal = jacobian.transpose() * jacobian;
+    let solution = normal.try_inverse()? * jacobian.transpose();
+    let covariance = &solution * law * solution.transpose();
+    let widths: Vec<f64> = covariance.diagonal().iter().map(|v| 1.96 * v.max(0.0).sqrt()).collect();
+    widths.iter().all(|w| w.is_finite()).then_some(widths)
+}
+
+/// Correlation of two unknowns.
+pub(super) fn correlation(jacobian: &DMatrix<f64>, i: usize, j: usize) -> Option<f64> {
+    let c = (jacobian.transpose() * jacobian).try_inverse()?;
+    Some(c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt()).filter(|r| r.is_finite())
 }
 
 /// What the interval alone says against `value` between the bounds `(least, most)`.
@@ -298,6 +322,16 @@ mod tests {
         assert!(k.tied.is_empty());
         // 0.06 +- 0.6 in a range of 10, 0.99 +- 0.18 in one of 2.
         assert_eq!(k.undetermined().count(), 0, "{k:?}");
+    }
+
+    #[test]
+    fn an_error_common_to_all_rows_moves_a_mean_as_far_as_itself() {
+        // The mean of n rows: independent errors shrink by sqrt(n), a common one not at all.
+        let ones = DMatrix::from_element(8, 1, 1.0);
+        let moved = |covariance: DMatrix<f64>| moved_by(&ones, &covariance).unwrap()[0];
+        assert!((moved(DMatrix::from_element(8, 8, 0.01)) - 1.96 * 0.1).abs() < 1e-12);
+        assert!((moved(0.01 * DMatrix::identity(8, 8)) - 1.96 * 0.1 / 8f64.sqrt()).abs() < 1e-12);
+        assert_eq!(moved_by(&DMatrix::zeros(3, 1), &DMatrix::identity(3, 3)), None);
     }
 
     /// y = a + b x + c, with a second regressor that is nearly the first: both are seen, but not apart.

@@ -1,7 +1,8 @@
 //! Hoop stress of the races: Lame's mean and with the bending between the sprags.
 
-use super::load::Case;
+use super::load::{Case, LoadState};
 use crate::clutch::TrackRun;
+use crate::design::Design;
 use crate::race::Race;
 use crate::wedge::StaticPoint;
 
@@ -39,6 +40,12 @@ pub(super) fn hoop_pa(case: &Case, p: &StaticPoint, which: Which, bending: bool)
         None => plain,
         Some(track) => fitted_pa(track, race, count, normal_n) + (plain - mean),
     }
+}
+
+/// Hoop stress with bending between the sprags of the inner and the outer race in the static state `p`, Pa, magnitudes.
+pub fn rings_pa(design: &Design, state: &LoadState, p: &StaticPoint) -> [f64; 2] {
+    let case = Case { design, limits: &design.limits, state };
+    [Which::Inner, Which::Outer].map(|which| hoop_pa(&case, p, which, true))
 }
 
 fn fitted_pa(track: &TrackRun, race: &Race, count: usize, normal_n: f64) -> f64 {

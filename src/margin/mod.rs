@@ -17,9 +17,12 @@ mod subsurface;
 mod table;
 
 pub use capacity::{DemandCourse, courses, nominal_capacity};
+pub use hoop::rings_pa;
 pub use limits::{Limit, When, limit_of};
 pub use load::{LoadState, load_state, load_state_at};
-pub use overrun::{LIFT_OFF_ERROR, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve};
+pub use overrun::{
+    LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
+};
 pub use row::{Demand, Margin, RESOLUTION, Rule};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};

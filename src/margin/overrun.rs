@@ -109,6 +109,9 @@ pub(super) fn overrun_moments(design: &Design, state: &LoadState, speed_rad_s: f
     }
 }
 
+/// Speed up to which a lift-off is looked for, rad/s: 60 000 turns a minute, a choice.
+pub const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * std::f64::consts::PI / 30.0;
+
 /// How exactly the speed of lift-off is located, by the range in which it is looked for.
 pub const LIFT_OFF_ERROR: f64 = 1e-12;
 

@@ -107,7 +107,8 @@ impl Driver<'_, '_> {
         loop {
             match self.climb(&out, stand)? {
                 End::Converged | End::Feasible => {
-                    let better = if self.settings.poll { self.poll(stand, Phase::Margin)? } else { None };
+                    let polls = self.settings.poll && self.settings.finish;
+                    let better = if polls { self.poll(stand, Phase::Margin)? } else { None };
                     let Some(better) = better else { break };
                     if polled == REPEATS {
                         return Ok(Status::Stalled(Cause::NoDescent));
@@ -155,7 +156,9 @@ impl Driver<'_, '_> {
             }
         }
         *chosen = Some(stand.point.clone());
-        if let Some(point) = self.break_tie(stand)? {
+        if self.settings.finish
+            && let Some(point) = self.break_tie(stand)?
+        {
             *chosen = Some(point);
         }
         Ok(Status::Converged)

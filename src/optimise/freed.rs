@@ -126,7 +126,7 @@ type Asked = (Number, String, &'static str, f64, (f64, f64));
 /// Every limit that bears on what does not hold or holds by a hair, and every dimension of the sprag that is no variable, let go one by one
 /// from the best design of `found`, which is infeasible.
 pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
-    let problem = found.problem.as_checked();
+    let problem = found.problem.as_checked().fully();
     let x = &found.outcome.x;
     let (Ok(text), Ok(here)) = (problem.file_at(x), problem.look_at(x)) else { return Vec::new() };
     desk.begins("what would free it");
@@ -165,6 +165,8 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
         asked.push((Number::Dimension, name, unit, value, between));
     }
     let (lo, hi) = found.bounds();
+    let begins = |name: &String| found.variables.iter().find(|v| v.name == *name).map(|v| v.start);
+    let begun: Vec<f64> = found.searched.iter().filter_map(begins).collect();
     let settings =
         Settings { max_evaluations: EVALUATIONS, poll: false, first_radius: 0.1, ..Settings::default() };
     let let_go = |(number, key, unit, given, between): Asked| {
@@ -185,13 +187,17 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
         let free = |outcome: &Outcome| outcome.evaluation.violation() <= settings.violation_tolerance;
         let mut outcome = climb(&with(x, given))?;
         let mut evaluations = outcome.evaluations;
-        // Where the way from the given value does not lead there: from the limit wide open back towards it.
-        if let Number::Limit(_) = number
-            && !free(&outcome)
-            && !desk.follow().stopped()
-        {
-            let open = if between.0 < given { between.0 } else { between.1 };
-            if let Some(other) = climb(&with(&outcome.x[..x.len()], open)) {
+        // Where the way from there does not lead to it: from the given design, and from the limit wide open back towards it.
+        let open = if between.0 < given { between.0 } else { between.1 };
+        let mut others = vec![with(&begun, given)];
+        if let Number::Limit(_) = number {
+            others.push(with(x, open));
+        }
+        for from in others {
+            if free(&outcome) || desk.follow().stopped() {
+                break;
+            }
+            if let Some(other) = climb(&from) {
                 evaluations += other.evaluations;
                 outcome = if free(&other) { other } else { outcome };
             }
@@ -205,7 +211,7 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
 
 /// The limits at rest that do not hold at the best design of `found`, each for itself.
 pub fn alone(found: &Search, desk: &Desk) -> Vec<Alone> {
-    let problem = found.problem.at_rest();
+    let problem = found.problem.at_rest().fully();
     let (lo, hi) = found.bounds();
     let x = &found.outcome.x;
     let Ok(here) = problem.look_at(x) else { return Vec::new() };

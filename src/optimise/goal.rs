@@ -3,10 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::design::{Design, Limits, Objective};
-use crate::margin::{LoadState, Margin, When, lift_off_rad_s, overrun_at};
+use crate::margin::{LIFT_OFF_TO_RAD_S, LoadState, Margin, When, lift_off_rad_s, overrun_at};
 
-/// Speed up to which a lift-off is looked for, rad/s: 60 000 rev/min.
-const FASTEST_RAD_S: f64 = 60_000.0 / RPM_PER_RAD_S;
 const RPM_PER_RAD_S: f64 = 30.0 / PI;
 
 /// One objective, with the shift and the scale at which it joins the least margin: (measure - from)/span.
@@ -70,7 +68,7 @@ pub(super) fn measures(
             rows.iter().filter(|m| m.is_contact()).map(|m| measure(m.code(), m.margin())).collect()
         }
         Objective::KeepContact | Objective::LiftOff => {
-            let speed = lift_off_rad_s(design, state, FASTEST_RAD_S).unwrap_or(FASTEST_RAD_S);
+            let speed = lift_off_rad_s(design, state, LIFT_OFF_TO_RAD_S).unwrap_or(LIFT_OFF_TO_RAD_S);
             vec![measure("lift-off".to_owned(), objective.sense() * speed * RPM_PER_RAD_S)]
         }
         Objective::Drag => {
@@ -80,7 +78,7 @@ pub(super) fn measures(
                 |speed| overrun_at(design, state, speed, speed).map_or(0.0, |p| p.state.drag_torque_nm);
             speeds.map(|(when, speed)| measure(format!("drag:{when}"), -drag(speed))).collect()
         }
-        Objective::Mass => less(design.clutch.masses_kg().iter().sum()),
+        Objective::Mass => less(design.clutch.mass_kg()),
         Objective::Width => less(races.width_m),
         Objective::OutsideDiameter => less(2.0 * races.outer_outside_radius_m),
         Objective::SlipMargin => {

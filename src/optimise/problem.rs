@@ -146,6 +146,11 @@ impl ClutchProblem {
         Self { quick: self.fidelity.reduced, ..self.clone() }
     }
 
+    /// The same problem with the whole work again: what asks whether a variable has any influence.
+    pub fn fully(&self) -> Self {
+        Self { quick: false, ..self.clone() }
+    }
+
     /// What goes into the curves of an evaluation.
     fn effort(&self) -> Effort {
         if self.quick { Effort::Search } else { Effort::Full }
@@ -237,8 +242,9 @@ impl ClutchProblem {
         let reserve =
             if self.reserve > 0.0 { format!("reserve {:?}\n", self.reserve) } else { String::new() };
         let links = if links.is_empty() { String::new() } else { format!("{links:?}\n") };
+        let quick = if self.quick { "quickly\n" } else { "" };
         format!(
-            "{links}{reserve}{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
+            "{quick}{links}{reserve}{checked}{said}\n{histories}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{fidelity}",
             self.variables, self.limits, self.target, self.scenarios, self.goals, self.corners
         )
     }
@@ -257,7 +263,7 @@ impl ClutchProblem {
             self.variables.iter().map(String::as_str).zip(x.iter().copied()).collect();
         let linked = own.iter().flat_map(|&(name, value)| {
             let of_it = self.links.iter().filter(move |(variable, _)| variable == name);
-            of_it.map(move |(_, link)| (link.path.as_str(), link.by + link.times * value))
+            of_it.map(move |(_, link)| (link.path.as_str(), link.value(value)))
         });
         own.iter().copied().chain(linked).collect()
     }

@@ -236,7 +236,7 @@ pub fn search_problem(
     let (lo, hi) = bounds(&variables, &searched);
     let mut first_refusal = None;
     for (mut branch, problem) in combos {
-        let problem = problem.over(searched.clone());
+        let problem = problem.over(searched.clone()).quickly();
         let begun = rescued(desk, &problem, &x, (&lo, &hi), method);
         let from = begun.unwrap_or_else(|| x.clone());
         let method = if told.is_empty() { method } else { &carried_on };
@@ -281,7 +281,8 @@ pub fn search_problem(
     let settled = matches!(outcome.status, Status::Converged | Status::Stalled(_)) && !searched.is_empty();
     let sensitivity = if settled {
         desk.begins("sensitivities");
-        desk.run(&problem, |problem, run| influence(problem, &outcome.x, &lo, &hi, &method.climb, run)).ok()
+        let whole = problem.fully();
+        desk.run(&whole, |whole, run| influence(whole, &outcome.x, &lo, &hi, &method.climb, run)).ok()
     } else {
         None
     };

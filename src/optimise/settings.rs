@@ -34,6 +34,9 @@ pub struct Settings {
     pub noise: Noise,
     /// First trust radius (largest move of any variable). Default 0.25; in (0, 1].
     pub first_radius: f64,
+    /// Whether to finish: central differences before an end is believed, the poll, the choice on a plateau. Default true;
+    /// without, a climb ends `gain_tolerance` or so below the optimum.
+    pub finish: bool,
     /// Whether to finish by polling points a difference step away along the active margins. Default true.
     pub poll: bool,
     /// Least margin given up, relative to max(1, |t|), when the tie break chooses on a plateau. Default 1e-6;
@@ -56,6 +59,7 @@ impl Default for Settings {
             longest_difference: 1e-2,
             noise: Noise::Relative(1e-10),
             first_radius: 0.25,
+            finish: true,
             poll: true,
             plateau: 1e-6,
             tie_break_gain: 1e-4,
@@ -76,7 +80,23 @@ pub struct BadSetting {
     pub most: f64,
 }
 
+/// How far below its optimum a climb of several may end, as [`Settings::gain_tolerance`]: a fiftieth of what tells two optima
+/// apart.
+const LOOSE: f64 = 2e-5;
+/// The same as [`Settings::optimality_tolerance`].
+const LOOSE_SLOPE: f64 = 1e-2;
+
 impl Settings {
+    /// The same for one climb of several, of which the best alone is finished.
+    pub(super) fn loosely(&self) -> Self {
+        Settings {
+            finish: false,
+            gain_tolerance: self.gain_tolerance.max(LOOSE),
+            optimality_tolerance: self.optimality_tolerance.max(LOOSE_SLOPE),
+            ..self.clone()
+        }
+    }
+
     /// # Errors
     /// The first setting that is out of its range.
     pub fn validate(&self) -> Result<(), BadSetting> {

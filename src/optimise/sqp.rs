@@ -136,7 +136,8 @@ impl Climb<'_, '_> {
         // Once steps are as short as the difference step, the error f'' h/2 of a forward difference is as large as the
         // change of slope that the step is after.
         let coarse = settings.shortest_difference;
-        if !self.central && (small || plan.length <= coarse) {
+        let believed = small && !settings.finish;
+        if !self.central && !believed && (small || plan.length <= coarse) {
             return Verdict::Sharpen;
         }
         let hopeless = !met && plan.elastic > HOPELESS * violation;

@@ -12,6 +12,9 @@ use super::problem::ClutchProblem;
 use super::settings::Settings;
 use super::swarm::swarm;
 
+/// First trust radius of the climb that finishes the best of several: it stands near its optimum.
+const NEAR: f64 = 0.02;
+
 /// Points tried for each start that is to have margins: a choice; most of a box is geometry that does not close.
 const TRIES: usize = 24;
 
@@ -97,6 +100,18 @@ pub struct ClimbRecord {
     pub evaluations: usize,
 }
 
+impl ClimbRecord {
+    fn of(end: &Outcome) -> Self {
+        Self {
+            from: String::new(),
+            ended: Ok(end.status.clone()),
+            least_margin: end.evaluation.least_margin(),
+            violation: end.evaluation.violation(),
+            evaluations: end.evaluations,
+        }
+    }
+}
+
 /// What became of a box.
 #[derive(Debug, Clone)]
 pub(super) struct Climbed {
@@ -126,6 +141,8 @@ pub(super) fn climb_all(
     method: &SearchMethod,
 ) -> Result<Climbed, Refusal> {
     let tolerance = method.climb.violation_tolerance;
+    let several = method.most_starts.max(method.starts) > 1 || !felt_at.is_empty() || method.swarm.is_some();
+    let settings = if several { method.climb.loosely() } else { method.climb.clone() };
     let mut from_box = Points { next: 0, spent: 0 };
     let mut spent_on_swarm = 0;
     // Margins go along where they are known: a climb that is stopped before it begins still has its start.
@@ -156,7 +173,7 @@ pub(super) fn climb_all(
         let outcomes: Vec<(String, Result<Outcome, Refusal>)> = std::mem::take(&mut named)
             .into_par_iter()
             .map(|(from, x, known)| {
-                let outcome = desk.climb(problem, &x, (lo, hi), &method.climb);
+                let outcome = desk.climb(problem, &x, (lo, hi), &settings);
                 let outcome = match (outcome, known) {
                     (Err(Refusal::StoppedAtStart), Some(known)) => Ok(Outcome::stopped_at(x, known)),
                     (outcome, _) => outcome,
@@ -170,12 +187,18 @@ pub(super) fn climb_all(
             break;
         }
     }
+    if several && !desk.stopped() {
+        desk.begins("finish");
+        found.finish(|x| {
+            desk.climb(problem, x, (lo, hi), &Settings { first_radius: NEAR, ..method.climb.clone() })
+        });
+    }
     let Found { starts, best, refusal, .. } = found;
     let optima = Optima::of(&starts, tolerance);
     let spent_on_points = from_box.spent + spent_on_swarm;
     let evaluations = spent_on_points + starts.iter().map(|s| s.evaluations).sum::<usize>();
     match (best, refusal) {
-        (Some(best), _) => {
+        (Some((_, best)), _) => {
             // The best climb may have come to its end; the search of the box has not.
             let status = if desk.stopped() { Status::Interrupted } else { best.status.clone() };
             Ok(Climbed { best: Outcome { status, ..best }, starts, optima, evaluations })
@@ -189,26 +212,41 @@ pub(super) fn climb_all(
 struct Found {
     tolerance: f64,
     starts: Vec<ClimbRecord>,
-    best: Option<Outcome>,
+    /// With its place among `starts`.
+    best: Option<(usize, Outcome)>,
     refusal: Option<Refusal>,
 }
 
 impl Found {
+    fn is_better(&self, a: &Outcome, b: &Outcome) -> bool {
+        rank(&a.evaluation, self.tolerance) < rank(&b.evaluation, self.tolerance)
+    }
+
+    /// The best climb, carried on to its end by `climb`.
+    fn finish(&mut self, climb: impl Fn(&[f64]) -> Result<Outcome, Refusal>) {
+        let Some((at, before)) = self.best.take() else { return };
+        let Ok(mut end) = climb(&before.x) else {
+            self.best = Some((at, before));
+            return;
+        };
+        for iteration in &mut end.history {
+            iteration.evaluations += before.evaluations;
+            iteration.failures += before.failures;
+        }
+        end.history.splice(0..0, before.history);
+        end.evaluations += before.evaluations;
+        end.failures += before.failures;
+        self.starts[at] = ClimbRecord { from: self.starts[at].from.clone(), ..ClimbRecord::of(&end) };
+        self.best = Some((at, end));
+    }
+
     fn add(&mut self, from: String, outcome: Result<Outcome, Refusal>) {
         match outcome {
             Ok(o) => {
-                self.starts.push(ClimbRecord {
-                    from,
-                    ended: Ok(o.status.clone()),
-                    least_margin: o.evaluation.least_margin(),
-                    violation: o.evaluation.violation(),
-                    evaluations: o.evaluations,
-                });
-                let better = self.best.as_ref().is_none_or(|b| {
-                    rank(&o.evaluation, self.tolerance) < rank(&b.evaluation, self.tolerance)
-                });
+                self.starts.push(ClimbRecord { from, ..ClimbRecord::of(&o) });
+                let better = self.best.as_ref().is_none_or(|(_, b)| self.is_better(&o, b));
                 if better {
-                    self.best = Some(o);
+                    self.best = Some((self.starts.len() - 1, o));
                 }
             }
             Err(why) => {

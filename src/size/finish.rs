@@ -2,7 +2,7 @@
 
 use super::Requirements;
 use super::proportions::{COUNTS, lengthen, longest_m, spring};
-use super::purpose::{DRIVE_HZ, STOP};
+use super::purpose::{CREST_S, DRIVE_HZ, STOP};
 use crate::design::{Design, Draft};
 use crate::margin::{
     KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state, margins, overrun_at,
@@ -92,8 +92,7 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
         let inertia = stiffness / (TAU * DRIVE_HZ).powi(2);
         draft.inner_inertia_kg_m2 =
             Some((inertia, format!("guess: ring and drive, which swings on the clutch at {DRIVE_HZ} Hz")));
-        // From the step to the crest it is half a period.
-        draft.step_duration_s = 0.75 / DRIVE_HZ;
+        draft.step_duration_s = CREST_S;
         draft.abutment_nm_per_rad = STOP * stiffness;
         draft.name = format!(
             "{}: bore {} mm, {} Nm",
@@ -191,7 +190,7 @@ fn made(wanted: &Requirements, draft: &mut Draft, settings: &Settings) -> Result
     let sliding_rad_s = wanted.sliding_rad_s();
     let drag = overrun_at(&design, &state, wanted.overrun_rad_s[1], sliding_rad_s).ok();
     let mut made = Made {
-        mass_kg: design.clutch.masses_kg().iter().sum(),
+        mass_kg: design.clutch.mass_kg(),
         drag: drag.map(|p| Drag { torque_nm: p.state.drag_torque_nm, sliding_rad_s }),
         design,
         margins: rows,

@@ -162,6 +162,9 @@ pub(super) const STOP: f64 = 10.0;
 /// First resonance of the drive on the clutch, Hz: what turns with the inner race follows from it.
 pub(super) const DRIVE_HZ: f64 = 25.0;
 
+/// From a sudden torque past the crest of what follows, s: that is half a period of the resonance away.
+pub(super) const CREST_S: f64 = 0.75 / DRIVE_HZ;
+
 /// Abutment of a swing over the softer of clutch and drive: it holds the mean torque and leaves the swing to the clutch.
 const SOFT: f64 = 0.02;
 
@@ -199,7 +202,7 @@ impl Purpose {
             });
         }
         let reversing = self.reversing_share.value * wanted.torque_nm;
-        // Until the reversed drive has come to rest, then past the crest, which is half a period of its resonance away.
+        // Until the reversed drive has come to rest, then past the crest.
         let stopping_s = inner_inertia_kg_m2 * self.free_run_rpm.value * PI / 30.0 / reversing;
         scenes.push(DraftScene {
             name: "engage",
@@ -214,7 +217,7 @@ impl Purpose {
                     "guess: ten times as stiff as the clutch",
                 ),
                 ("bench_inertia_kg_m2", 0.0, "none beside the drive's, inner_inertia_kg_m2"),
-                ("duration_s", (stopping_s + 0.75 / DRIVE_HZ).max(0.02), ""),
+                ("duration_s", (stopping_s + CREST_S).max(0.02), ""),
             ],
             held: false,
         });

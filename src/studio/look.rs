@@ -2,7 +2,9 @@
 
 use super::fields::{Field, fields};
 use crate::design::Design;
-use crate::margin::{LoadState, Margin, NoMargins, lift_off_rad_s, overrun_at, static_margins};
+use crate::margin::{
+    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, lift_off_rad_s, overrun_at, static_margins,
+};
 use crate::report::{Curve, Dash, Drawing, Live, Plot, SpragPose, Unit, live, significant};
 use crate::wedge::{Closure, StaticPoint};
 use serde::Serialize;
@@ -158,10 +160,10 @@ pub struct Seen {
     pub state: LoadState,
     rows: Vec<Margin>,
     samples: Vec<(StaticPoint, Closure)>,
+    /// Size, mass, drag and the speed of lift-off: names and texts.
+    figures: [(&'static str, String); 5],
 }
 
-/// Speed up to which a lift-off is looked for, rad/s.
-const FASTEST_RAD_S: f64 = 6e3;
 /// Points on each arc: enough for the plots of the page.
 const PER_ARC: usize = 24;
 /// Width of the plots, px.
@@ -175,7 +177,8 @@ impl Seen {
     pub fn new(design: Design) -> Result<Self, NoMargins> {
         let (state, rows, _) = static_margins(&design, false)?;
         let samples = state.curve.samples(f64::INFINITY, PER_ARC);
-        Ok(Self { design, state, rows, samples })
+        let figures = figures(&design, &state);
+        Ok(Self { design, state, rows, samples, figures })
     }
 
     /// The answer, with `pinned` as ghost in picture and plots.
@@ -208,30 +211,11 @@ impl Seen {
     }
 
     fn figures(&self, pinned: Option<&Self>) -> Vec<FigureRow> {
-        let before = pinned.map(Self::figure_texts);
-        let row = |(k, (name, text)): (usize, (&'static str, String))| {
-            let pinned = before.as_ref().map(|b| b[k].1.clone()).filter(|was| *was != text);
-            FigureRow { name, text, pinned }
+        let row = |(k, (name, text)): (usize, &(&'static str, String))| {
+            let pinned = pinned.map(|p| p.figures[k].1.clone()).filter(|was| was != text);
+            FigureRow { name, text: text.clone(), pinned }
         };
-        self.figure_texts().into_iter().enumerate().map(row).collect()
-    }
-
-    fn figure_texts(&self) -> [(&'static str, String); 5] {
-        let (design, races) = (&self.design, &self.design.clutch.races);
-        let mass_kg: f64 = design.clutch.masses_kg().iter().sum();
-        let slow = overrun_at(design, &self.state, 0.0, 0.0);
-        let off = lift_off_rad_s(design, &self.state, FASTEST_RAD_S);
-        let none = || "–".to_owned();
-        [
-            ("outside ⌀", Unit::Millimetre.show(2.0 * races.outer_outside_radius_m, 4)),
-            ("width", Unit::Millimetre.show(races.width_m, 4)),
-            ("mass", Unit::Gram.show(mass_kg, 4)),
-            (
-                "drag, slow",
-                slow.map_or_else(|_| none(), |p| Unit::NewtonMetre.show(p.state.drag_torque_nm, 3)),
-            ),
-            ("lift-off at", off.map_or_else(none, |speed| Unit::Rpm.show(speed, 4))),
-        ]
+        self.figures.iter().enumerate().map(row).collect()
     }
 
     fn pose_at_rest(&self) -> SpragPose {
@@ -267,6 +251,20 @@ impl Seen {
             if torque_is_x { plot.marker(t, name) } else { plot.level(t, name) }
         })
     }
+}
+
+fn figures(design: &Design, state: &LoadState) -> [(&'static str, String); 5] {
+    let races = &design.clutch.races;
+    let slow = overrun_at(design, state, 0.0, 0.0);
+    let off = lift_off_rad_s(design, state, LIFT_OFF_TO_RAD_S);
+    let none = || "–".to_owned();
+    [
+        ("outside ⌀", Unit::Millimetre.show(2.0 * races.outer_outside_radius_m, 4)),
+        ("width", Unit::Millimetre.show(races.width_m, 4)),
+        ("mass", Unit::Gram.show(design.clutch.mass_kg(), 4)),
+        ("drag, slow", slow.map_or_else(|_| none(), |p| Unit::NewtonMetre.show(p.state.drag_torque_nm, 3))),
+        ("lift-off at", off.map_or_else(none, |speed| Unit::Rpm.show(speed, 4))),
+    ]
 }
 
 /// The curve of now, full, and the pinned one, dashed; one colour for each everywhere.

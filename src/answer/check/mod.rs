@@ -26,7 +26,8 @@ use crate::clutch::Scenario;
 use crate::design::{Design, beside_the_name};
 use crate::follow::Follow;
 use crate::margin::{
-    LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
+    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows,
+    static_margins,
 };
 use crate::report::{Page, Screen};
 use crate::scenario::Settings;
@@ -35,11 +36,7 @@ use body::Source;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use serde_json::json;
-use std::f64::consts::PI;
 use std::fmt;
-
-/// Speed up to which a lift-off of the sprags is looked for, rad/s: 60 000 rpm, beyond any clutch of this kind.
-pub(crate) const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * PI / 30.0;
 
 /// A design held against each of its limits. As JSON it is the object of `check --json` without the keys that all commands
 /// share; those are fields here.

@@ -49,12 +49,11 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
 /// Outside, width and mass in one line.
 pub(in crate::answer) fn size_line(design: &Design) -> String {
     let races = &design.clutch.races;
-    let mass_kg: f64 = design.clutch.masses_kg().iter().sum();
     format!(
         "⌀ {} outside, {} wide, {}",
         Unit::Millimetre.show_plain(2.0 * races.outer_outside_radius_m, 4),
         Unit::Millimetre.show_plain(races.width_m, 4),
-        Unit::Gram.show_plain(mass_kg, 4)
+        Unit::Gram.show_plain(design.clutch.mass_kg(), 4)
     )
 }
 

@@ -4,13 +4,13 @@ mod figures;
 mod page;
 mod tables;
 
-use super::check::{LIFT_OFF_TO_RAD_S, fine, margin_text};
+use super::check::{fine, margin_text};
 use super::left_out::left_out;
 use super::{Envelope, Provenance};
 use crate::compare::{Scene, SideBySide, Subject, inputs_that_differ, margins, proud_m, scenes};
 use crate::design::{Design, Input};
 use crate::follow::Follow;
-use crate::margin::{Margin, NoMargins};
+use crate::margin::{LIFT_OFF_TO_RAD_S, Margin, NoMargins};
 use crate::report::{Page, Screen, Table, Unit, greek};
 use serde_json::{Value, json};
 

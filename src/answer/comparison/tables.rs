@@ -2,9 +2,9 @@
 
 use super::figures::FIGURES;
 use super::{Comparison, farthest, letter, proud, with_unit};
-use crate::answer::check::{LIFT_OFF_TO_RAD_S, margin_cell};
+use crate::answer::check::margin_cell;
 use crate::compare::Scene;
-use crate::margin::Margin;
+use crate::margin::{LIFT_OFF_TO_RAD_S, Margin};
 use crate::report::{Cell, Column, Screen, Table, Unit, significant};
 
 /// Friction that a scene needs; none where none suffices or it does not run.

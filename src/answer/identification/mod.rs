@@ -53,7 +53,7 @@ impl IdentificationBody {
                 .map(|((u, before), e)| {
                     json!({
                         "name": u.name, "min": u.min, "max": u.max, "before": before, "value": e.value,
-                        "sigma": e.sigma, "half_width_95": e.half_width, "determined": e.doubt.is_none(),
+                        "sigma": e.sigma, "half_width_95": e.half_width, "half_width_95_by_law": e.by_law, "determined": e.doubt.is_none(),
                     })
                 })
                 .collect(),

@@ -18,7 +18,8 @@ pub(super) fn estimates(found: &Identified) -> Table {
         Column::number("max", "To", Unit::One, 6),
         Column::number("before", "Before", Unit::One, 6),
         Column::number("value", "Found", Unit::One, 7),
-        Column::number("half_width_95", "+- (95 %)", Unit::One, 3),
+        Column::number("half_width_95", "± scatter", Unit::One, 3),
+        Column::number("half_width_95_by_law", "± law", Unit::One, 3),
         Column::text("note", "Note"),
     ]);
     for ((u, before), e) in found.unknowns.iter().zip(&found.before).zip(&found.knowledge.estimates) {
@@ -39,6 +40,7 @@ pub(super) fn estimates(found: &Identified) -> Table {
             (*before).into(),
             e.value.into(),
             e.half_width.into(),
+            e.by_law.into(),
             note.into(),
         ]);
     }
@@ -182,6 +184,23 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
         ));
     }
     out.extend(k.undetermined().filter_map(|(j, doubt)| doubt_sentence(found, j, doubt)));
+    if k.estimates.iter().any(|e| e.by_law.is_some()) {
+        out.push(
+            "± at 95 %; scatter: of these data, were the model exact; law: what the contact law's own error beside finite elements, smooth over \
+             torque, moves the value by"
+                .to_owned(),
+        );
+    }
+    if let Some(apart) = &found.apart {
+        let (a, b) = apart.pair;
+        out.push(format!(
+            "to tell {} and {} apart, measure {} at the same torques: their correlation falls to {:.2}",
+            found.unknowns[a].name,
+            found.unknowns[b].name,
+            apart.quantity.column(),
+            apart.correlation
+        ));
+    }
     let name = |i: usize| found.unknowns[i].name.as_str();
     for tied in &k.tied {
         out.push(match tied {

@@ -234,7 +234,7 @@ impl Story {
     fn linked(&self) -> impl Iterator<Item = String> {
         self.found.problem.links().iter().filter_map(|(name, link)| {
             let variable = self.made().variables.iter().find(|v| v.name == *name)?;
-            let at = |value: f64| significant(link.by + link.times * value, 6);
+            let at = |value: f64| significant(link.value(value), 6);
             Some(format!(
                 "{} goes with {name}: {} -> {}",
                 link.path,

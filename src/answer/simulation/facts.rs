@@ -1,5 +1,6 @@
 //! The figures of a simulation as people read them: a table with errors.
 
+use super::train::eigenfrequencies;
 use super::{LIFT_OFF_SEARCH_RAD_S, Ran};
 use crate::clutch::ScenarioKind;
 use crate::margin::LIFT_OFF_ERROR;
@@ -176,9 +177,7 @@ fn motion(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation) {
         );
         f.word("energy balance", &balance);
     }
-    for (i, mode) in
-        prepared.model.drive.train.iter().flat_map(|_| prepared.train_modes()).flatten().enumerate()
-    {
+    for (i, mode) in eigenfrequencies(prepared).iter().enumerate() {
         let damped = format!(
             "{}, damping ratio {}, {} moves most",
             Unit::Hertz.show(mode.frequency_hz, 6),

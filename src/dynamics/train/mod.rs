@@ -54,6 +54,23 @@ pub struct Train {
     begins: Option<[f64; MOST_MORE]>,
 }
 
+impl Body {
+    /// What its shaft passes on to what it is joined to, N m.
+    #[inline]
+    fn passes_nm(&self, twist_rad: f64, rate_rad_s: f64) -> f64 {
+        self.stiffness_nm_per_rad * twist_rad + self.damping_nm_s_per_rad * rate_rad_s
+    }
+}
+
+impl Act {
+    /// Torque on its body where everything is at `at`, `frame_rad` being the integral of the mean speed, N m.
+    #[inline]
+    fn on_body_nm(&self, t: f64, at: &Place, frame_rad: f64) -> f64 {
+        let turned = self.ratio * (at.angle[self.body] + frame_rad);
+        self.ratio * self.torque.at(t, turned)
+    }
+}
+
 /// What is fixed to a body.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Rigid {
@@ -185,6 +202,11 @@ impl Train {
         Self { frame: torque::speed(&speed), ..self }
     }
 
+    /// Whether the speed of `body` is given.
+    fn is_given(&self, body: usize) -> bool {
+        body >= 2 && matches!(self.bodies[body - 2].motion, Motion::Given(..))
+    }
+
     /// Shafts that are integrated.
     pub(super) fn free(&self) -> usize {
         self.bodies.iter().filter(|b| matches!(b.motion, Motion::Free(_))).count()
@@ -261,8 +283,7 @@ impl Train {
             }
         };
         for (b, body) in (2..).zip(&self.bodies) {
-            let shaft =
-                body.stiffness_nm_per_rad * at.twist[b] + body.damping_nm_s_per_rad * at.twist_rate[b];
+            let shaft = body.passes_nm(at.twist[b], at.twist_rate[b]);
             add(b, -shaft);
             add(body.parent, shaft);
             add(b, -body.fixed.drag_nm_s_per_rad * (speed + at.rate[b]));
@@ -273,8 +294,7 @@ impl Train {
         if self.acts.iter().any(|act| (from..until).contains(&act.body)) {
             let frame = self.frame_rad(t, speed);
             for act in self.acts.iter().filter(|act| (from..until).contains(&act.body)) {
-                let turned = act.ratio * (at.angle[act.body] + frame);
-                sum[act.body] += act.ratio * act.torque.at(t, turned);
+                sum[act.body] += act.on_body_nm(t, at, frame);
             }
         }
         sum
@@ -332,10 +352,8 @@ impl Train {
         let frame = self.frame_rad(t, speed);
         let mut power = [0.0; 4];
         for act in &self.acts {
-            let turned = act.ratio * (at.angle[act.body] + frame);
-            let given = act.body >= 2 && matches!(self.bodies[act.body - 2].motion, Motion::Given(..));
-            if !given {
-                power[side[act.body]] += act.ratio * act.torque.at(t, turned) * at.rate[act.body];
+            if !self.is_given(act.body) {
+                power[side[act.body]] += act.on_body_nm(t, &at, frame) * at.rate[act.body];
             }
         }
         for (race, fixed) in self.rigid.iter().enumerate() {

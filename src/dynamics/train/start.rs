@@ -77,7 +77,7 @@ impl Train {
             }
         }
         for act in &self.acts {
-            let driven = act.body >= 2 && matches!(self.bodies[act.body - 2].motion, Motion::Given(..));
+            let driven = self.is_given(act.body);
             if !driven {
                 by_body[act.body] += act.ratio * act.torque.mean_at_start();
             }

@@ -1,0 +1,346 @@
+//! What a life of loads does to a clutch: loads, places, verdict, curves of life.
+
+use super::left_out::{LeftOut, left_out};
+use super::page::begun;
+use super::{Envelope, Provenance};
+use crate::clutch::Service;
+use crate::design::Design;
+use crate::life::{INDENTING_PA, Life, LifePlace, Used, life, part_at};
+use crate::margin::{NoMargins, load_state};
+use crate::report::plot::Curve;
+use crate::report::{Cell, Column, Page, Plot, Screen, Table, Tone, Unit, significant};
+use serde_json::{Value, json};
+use std::fmt;
+
+/// The life of a design.
+#[derive(Debug, Clone)]
+pub struct LifeAnswer<'a> {
+    design: &'a Design,
+    service: &'a Service,
+    /// The figures.
+    pub life: Life,
+}
+
+/// Why there is none.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoLife {
+    /// The design has no `[life]` table.
+    NoService,
+    /// There is no clutch to speak of.
+    NoClutch(NoMargins),
+}
+
+impl fmt::Display for NoLife {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoService => write!(
+                f,
+                "the design has no [life] table; add one with what it goes through, such as\n\n{EXAMPLE}\n\n\
+                 `sprag-design explain life` lists its keys"
+            ),
+            Self::NoClutch(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoLife {}
+
+/// A table to begin with.
+pub const EXAMPLE: &str = "[life]\nloads = [ { torque_nm = 200.0, engagements = 1e5 } ]\n\
+                           pitting = { pressure_mpa = 4200.0, cycles = 1e6 }   # from the maker's curve or own tests";
+
+impl Design {
+    /// What the life that the file names does to the clutch.
+    ///
+    /// # Errors
+    /// [`NoLife`].
+    pub fn life(&self) -> Result<LifeAnswer<'_>, NoLife> {
+        let service = self.service.as_ref().ok_or(NoLife::NoService)?;
+        let life = life(self, service).map_err(NoLife::NoClutch)?;
+        Ok(LifeAnswer { design: self, service, life })
+    }
+}
+
+impl<'a> LifeAnswer<'a> {
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
+    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
+        let life = &self.life;
+        let mpa = |pa: f64| Unit::Megapascal.from_si(pa);
+        let loads = life.loads.iter().map(|l| {
+            json!({
+                "torque_nm": l.torque_nm, "engagements": l.engagements, "carried": l.state.is_some(),
+                "hertz_inner_mpa": l.state.map(|p| mpa(p.hertz_inner_pa)),
+                "hertz_outer_mpa": l.state.map(|p| mpa(p.hertz_outer_pa)),
+                "hoop_inner_mpa": l.state.map(|_| mpa(l.hoop_pa[0])), "hoop_outer_mpa": l.state.map(|_| mpa(l.hoop_pa[1])),
+                "walk_inner_mm": 1e3 * l.walk_m[0], "walk_outer_mm": 1e3 * l.walk_m[1],
+                "passes_inner": l.passes[0], "passes_outer": l.passes[1], "slip_probability": l.slip,
+            })
+        });
+        let places = life.used.iter().map(|u| {
+            json!({
+                "code": u.place.names().0, "cycles": u.cycles, "used": u.sum,
+                "lives": u.lives().filter(|l| l.is_finite()), "mostly_at_nm": u.mostly_nm,
+            })
+        });
+        let body = json!({
+            "held": life.held(), "verdict": self.verdict(), "engagements": life.engagements,
+            "largest_torque_nm": life.largest_nm, "expected_slips": life.slips,
+            "indentation_inner": life.indentation[0], "indentation_outer": life.indentation[1],
+            "places": places.collect::<Vec<_>>(), "loads": loads.collect::<Vec<_>>(),
+        });
+        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
+    }
+
+    /// What a life leaves out beside what statics do.
+    fn left_out(&self) -> Vec<LeftOut> {
+        let more = |term: &str, why: &str, cost: &str| LeftOut {
+            term: term.to_owned(),
+            why: why.to_owned(),
+            cost: cost.to_owned(),
+        };
+        let mut all = vec![
+            more(
+                "calibration",
+                "no maker prints a life curve with its pressures: strengths are the file's",
+                "as good as the strength that is given; 10 % of pressure is a factor 1.9 of pitting life at the exponent 20/3",
+            ),
+            more(
+                "dynamics",
+                "torques are taken as they are given, each engagement as slow",
+                "what `simulate` finds beyond the torque given: put its peak here",
+            ),
+            more(
+                "wear, lubricant, residual stress",
+                "no model here",
+                "unknown; pitting strengths hold for the lubricant and surface that they were found with",
+            ),
+        ];
+        all.extend(left_out(&self.design.clutch));
+        all
+    }
+
+    /// In a sentence.
+    pub fn verdict(&self) -> String {
+        let life = &self.life;
+        let not_carried: Vec<String> = life
+            .loads
+            .iter()
+            .filter(|l| l.state.is_none())
+            .map(|l| Unit::NewtonMetre.show(l.torque_nm, 4))
+            .collect();
+        if !not_carried.is_empty() {
+            return format!("NOT HELD: the clutch does not carry {}", not_carried.join(", "));
+        }
+        match life.decides() {
+            None => "no strength is given, so no life: add pitting = { pressure_mpa = ..., cycles = ... } to [life]".to_owned(),
+            Some(used) => {
+                let sum = used.sum.unwrap_or(0.0);
+                let word = if life.held() { "HELD" } else { "NOT HELD" };
+                format!(
+                    "{word}: {} decides, {} of its life used up, most of it at {}",
+                    used.place.names().1,
+                    Unit::Percent.show(sum, 3),
+                    Unit::NewtonMetre.show(used.mostly_nm, 4)
+                )
+            }
+        }
+    }
+
+    /// Each place: what is used up.
+    pub fn places(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::text("place", "Place"),
+            Column::number("cycles", "Cycles", Unit::One, 4),
+            Column::number("used_percent", "Used up", Unit::Percent, 3),
+            Column::number("lives", "Lives", Unit::One, 3),
+            Column::number("mostly_at_nm", "Mostly at", Unit::NewtonMetre, 4),
+            Column::text("verdict", "Verdict"),
+        ]);
+        for used in &self.life.used {
+            let Used { sum, .. } = *used;
+            let verdict = match sum {
+                Some(sum) => {
+                    Cell::Verdict(sum <= 1.0, if sum <= 1.0 { "held" } else { "NOT HELD" }.to_owned())
+                }
+                None => "strength not given".into(),
+            };
+            table.row(vec![
+                used.place.names().1.into(),
+                used.cycles.into(),
+                sum.map_or(Cell::Empty, Cell::Si),
+                used.lives().filter(|l| l.is_finite()).map_or(Cell::Empty, Cell::Si),
+                if sum.is_some() { used.mostly_nm.into() } else { Cell::Empty },
+                verdict,
+            ]);
+        }
+        table
+    }
+
+    /// Each load: what one engagement at it does.
+    pub fn loads(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
+            Column::number("engagements", "Engagements", Unit::One, 4),
+            Column::number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4),
+            Column::number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4),
+            Column::number("hoop_inner_mpa", "Hoop inner", Unit::Megapascal, 4),
+            Column::number("hoop_outer_mpa", "Hoop outer", Unit::Megapascal, 4),
+            Column::number("walk_inner_mm", "Walk inner", Unit::Millimetre, 3),
+            Column::number("walk_outer_mm", "Walk outer", Unit::Millimetre, 3),
+            Column::number("slip_probability", "Slips, of one", Unit::One, 2),
+        ]);
+        for l in &self.life.loads {
+            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
+            table.row(vec![
+                l.torque_nm.into(),
+                l.engagements.into(),
+                of(l.state.map(|p| p.hertz_inner_pa)),
+                of(l.state.map(|p| p.hertz_outer_pa)),
+                of(l.state.map(|_| l.hoop_pa[0])),
+                of(l.state.map(|_| l.hoop_pa[1])),
+                of(l.state.map(|_| l.walk_m[0])),
+                of(l.state.map(|_| l.walk_m[1])),
+                of(l.slip),
+            ]);
+        }
+        table
+    }
+
+    /// What the tables do not say.
+    fn remarks(&self) -> Vec<String> {
+        let life = &self.life;
+        let [inner, outer] = life.indentation;
+        let mut all = Vec::new();
+        if inner > 0.0 {
+            let pressure = Unit::Megapascal.show(INDENTING_PA, 4);
+            let says = |place: &str, factor: f64| match factor >= 1.0 {
+                true => format!("{place} bears {} times its load until it indents", significant(factor, 3)),
+                false => {
+                    format!("{place} is indented: it bears {} of its load", Unit::Percent.show(factor, 3))
+                }
+            };
+            all.push(format!(
+                "At {} the {}, the {} ({pressure}, a permanent 1e-4 of the diameter: ISO 76, line contacts, 58 HRC or more)",
+                Unit::NewtonMetre.show(life.largest_nm, 4),
+                says("inner contact", inner),
+                says("outer contact", outer)
+            ));
+        }
+        if let Some(slips) = life.slips {
+            all.push(format!(
+                "Slip by chance: {} slips are expected in {} engagements (μs {} ± {}, torques ± {}; lognormal, independent)",
+                significant(slips, 2),
+                significant(life.engagements, 4),
+                significant(self.design.clutch.friction.static_, 4),
+                Unit::Percent.show(self.service.friction_scatter, 3),
+                Unit::Percent.show(self.service.torque_scatter, 3)
+            ));
+        }
+        if let Some(p) = &self.service.pitting {
+            all.push(format!(
+                "Pitting: {} cycles at {}, exponent {} of the pressure; places of a track are met {}",
+                significant(p.cycles, 4),
+                Unit::Megapascal.show(p.pressure_pa, 4),
+                significant(p.exponent, 4),
+                if self.service.same_places {
+                    "in every engagement"
+                } else {
+                    "where a sprag happens to stand"
+                }
+            ));
+        }
+        for history in &self.service.histories {
+            all.push(format!(
+                "{}: peaks above half of the largest are an engagement each (Tsubakimoto), rings by rainflow (ASTM E1049), in hundredths \
+                 of the largest torque, rounded up",
+                history.name
+            ));
+        }
+        all
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        let design = self.design;
+        let loads = self.loads();
+        // A history has up to fifty.
+        let more = loads.rows.len().saturating_sub(MOST_ROWS);
+        let shown = Table { rows: loads.rows.iter().take(MOST_ROWS).cloned().collect(), ..loads };
+        let more = if more > 0 {
+            format!("{more} smaller loads: --csv, --json or --report\n")
+        } else {
+            String::new()
+        };
+        format!(
+            "{}  {}\n\n{}\n{}{more}\n{}\n{}\n",
+            design.name,
+            design.hash.get(..12).unwrap_or(&design.hash),
+            self.places().to_text(screen),
+            shown.to_text(screen),
+            self.remarks().join("\n"),
+            self.verdict()
+        )
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, provenance: &Provenance) -> Page {
+        let mut page = begun("Life", self.design, &provenance.command);
+        match self.life.decides() {
+            None => page.verdict_in(Tone::Plain, &self.verdict()),
+            Some(_) => page.verdict(self.life.held(), &self.verdict()),
+        };
+        page.list(self.remarks());
+        let known = self.life.used.iter().any(|u| u.sum.is_some());
+        if known {
+            page.figure(
+                &self.curves().to_svg(),
+                "Engagements at one torque alone until a place is used up. Dots: the loads of this life.",
+            );
+        }
+        page.heading("Places").table(
+            "Used up: Miner's sum over this life; lives: how often it fits in. Cycles of a track: contacts that one place of it sees.",
+            &self.places(),
+        );
+        page.heading("Loads").table(
+            "Of histories in classes. Walk: what the contact rolls on sprag and race; hoop: with bending between the sprags.",
+            &self.loads(),
+        );
+        self.envelope(provenance.run_time_s).close(&mut page);
+        page
+    }
+
+    /// Torque over engagements until each place with a strength is used up.
+    fn curves(&self) -> Plot {
+        let mut plot = Plot::new("Engagements", "Torque, Nm");
+        plot.log_x = true;
+        let Ok(state) = load_state(self.design) else { return plot };
+        let end = state.curve.end_torque_nm();
+        let torques: Vec<f64> = (1..=POINTS).map(|i| end * i as f64 / POINTS as f64 * (1.0 - 1e-9)).collect();
+        for place in LifePlace::ALL {
+            let points: Vec<[f64; 2]> = torques
+                .iter()
+                .filter_map(|&torque| {
+                    let part = part_at(self.design, self.service, &state, place, torque)?;
+                    Some([1.0 / part, torque]).filter(|p| (1.0..=MOST_ENGAGEMENTS).contains(&p[0]))
+                })
+                .collect();
+            if !points.is_empty() {
+                plot.curves.push(Curve::new(place.names().1, points));
+            }
+        }
+        let loads = self.life.loads.iter().map(|l| [l.engagements, l.torque_nm]).collect();
+        plot.curves.push(Curve {
+            dots: true,
+            dash: crate::report::plot::Dash::Dotted,
+            ..Curve::new("loads of this life", loads)
+        });
+        plot
+    }
+}
+
+/// Points of a curve of life.
+const POINTS: usize = 120;
+/// Beyond so many no curve is drawn.
+const MOST_ENGAGEMENTS: f64 = 1e10;
+/// Loads that the text shows.
+const MOST_ROWS: usize = 12;

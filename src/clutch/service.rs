@@ -1,0 +1,67 @@
+//! What a clutch goes through in its life, and what its bodies bear again and again.
+//!
+//! In: nothing. Out: [`Service`], SI. Absent: what comes of it (`life`). Equations: none.
+
+/// A life's loads, and strengths where they are known.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Service {
+    /// Engagements by torque.
+    pub loads: Vec<RepeatedLoad>,
+    /// Torques over time.
+    pub histories: Vec<RepeatedHistory>,
+    /// What the contacts bear; `None`: not known, so no life until pitting.
+    pub pitting: Option<PittingStrength>,
+    /// What the races bear as rings; `None`: not known.
+    pub rings: Option<RingStrength>,
+    /// Whether the sprags engage at the same places of the races every time (indexing by whole turns); else anywhere.
+    pub same_places: bool,
+    /// Coefficient of variation of the static friction coefficient: standard deviation over mean.
+    pub friction_scatter: f64,
+    /// The same of each torque.
+    pub torque_scatter: f64,
+}
+
+/// A torque that is carried again and again, from nothing to it and back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RepeatedLoad {
+    /// N m.
+    pub torque_nm: f64,
+    /// How often in the life.
+    pub engagements: f64,
+}
+
+/// A measured or computed torque over time that recurs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RepeatedHistory {
+    /// File, as the design names it.
+    pub name: String,
+    /// Time, s, and torque, N m, engaging positive.
+    pub rows: Vec<[f64; 2]>,
+    /// How often in the life.
+    pub times: f64,
+}
+
+/// One point of the life of a contact, and its slope: cycles = `cycles` (pressure/`pressure_pa`)^-`exponent`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PittingStrength {
+    /// Largest Hertz pressure that is borne `cycles` times, Pa.
+    pub pressure_pa: f64,
+    /// Load cycles at that pressure.
+    pub cycles: f64,
+    /// Exponent of the pressure.
+    pub exponent: f64,
+}
+
+/// One point of the life of a ring under a stress about zero, its slope, and its strength once: cycles = `cycles`
+/// (amplitude/`amplitude_pa`)^-`exponent`, tensile mean stress after Goodman.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RingStrength {
+    /// Amplitude about zero that is borne `cycles` times, Pa.
+    pub amplitude_pa: f64,
+    /// Cycles at that amplitude.
+    pub cycles: f64,
+    /// Exponent of the amplitude.
+    pub exponent: f64,
+    /// Tensile strength, Pa.
+    pub ultimate_pa: f64,
+}

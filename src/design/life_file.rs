@@ -1,0 +1,157 @@
+//! `[life]` as written, and the same in SI.
+//!
+//! In: TOML text, histories. Out: [`Service`]. Absent: what comes of it (`life`). Equations: none. The doc comments are the
+//! schema's descriptions.
+
+use super::findings::Findings;
+use super::history::HistoryKind;
+use super::scenarios::{Load, refuse_history};
+use crate::clutch::{PittingStrength, RepeatedHistory, RepeatedLoad, RingStrength, Service};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// What the clutch goes through in its life, and what its bodies bear again and again: read by `life`.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LifeFile {
+    /// Engagements by torque.
+    #[serde(default)]
+    pub loads: Vec<LoadFile>,
+    /// Torques over time, counted: peaks above half of the largest are an engagement each, rings by rainflow.
+    #[serde(default)]
+    pub histories: Vec<RepeatedFile>,
+    /// What a contact of sprag and race bears; absent: no life until pitting.
+    pub pitting: Option<PittingFile>,
+    /// What the races bear as rings; absent: no life until they break.
+    pub rings: Option<RingFile>,
+    /// Whether every engagement finds the sprags at the same places of the races (indexing by whole turns); absent or false: anywhere.
+    #[serde(default)]
+    pub same_places: bool,
+    /// Scatter of the static friction coefficient from engagement to engagement: standard deviation over mean, which is
+    /// friction.static; 0: none, and no probability of slip.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub friction_scatter: f64,
+    /// The same of every torque of `loads` and `histories`, which are means.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub torque_scatter: f64,
+}
+
+/// A torque that is carried again and again, from nothing to it and back.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LoadFile {
+    /// Torque, N m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub torque_nm: f64,
+    /// Engagements at it in the life.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub engagements: f64,
+}
+
+/// A torque over time that recurs.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RepeatedFile {
+    /// CSV file in the folder of the design, header `time_s,torque_nm`; engaging torque positive.
+    #[schemars(length(min = 1))]
+    pub torque_history_csv: String,
+    /// How often in the life.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub times: f64,
+}
+
+/// One point of the pitting life of the contacts and its slope: cycles = cycles (pressure/pressure_mpa)^-exponent.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PittingFile {
+    /// Largest Hertz pressure that is borne `cycles` times, MPa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pressure_mpa: f64,
+    /// Load cycles at it, with the reliability that the life shall have.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub cycles: f64,
+    /// Exponent of the pressure; absent: 20/3, twice the 10/3 of the load in ISO 281 for line contacts.
+    #[serde(default = "line_contact")]
+    #[schemars(extend("minimum" = 1, "maximum" = 50))]
+    pub exponent: f64,
+}
+
+/// ISO 281:2007: the life of line contacts goes with the load to the power -10/3, and the pressure with its root.
+fn line_contact() -> f64 {
+    20.0 / 3.0
+}
+
+/// One point of the life of a ring under a stress about zero, its slope, and the strength of its steel.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RingFile {
+    /// Amplitude of the hoop stress about zero that is borne `cycles` times, MPa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub amplitude_mpa: f64,
+    /// Cycles at it, with the reliability that the life shall have.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub cycles: f64,
+    /// Exponent of the amplitude.
+    #[schemars(extend("minimum" = 1, "maximum" = 50))]
+    pub exponent: f64,
+    /// Tensile strength, MPa: a tensile mean stress takes its share of it (Goodman).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub ultimate_mpa: f64,
+}
+
+/// `[life]` in SI; `None` with the reasons in `out`.
+pub(super) fn service(file: &LifeFile, load: Load<'_>, out: &mut Findings) -> Option<Service> {
+    if file.loads.is_empty() && file.histories.is_empty() {
+        let help = "add loads = [ { torque_nm = ..., engagements = ... } ], or histories".to_owned();
+        out.refuse(&["life"], "a table with loads or histories".to_owned(), help);
+        return None;
+    }
+    let mut histories = Some(Vec::new());
+    for (i, entry) in file.histories.iter().enumerate() {
+        let rows = load(&entry.torque_history_csv, HistoryKind::Torque);
+        let key = format!("life.histories[{i}].torque_history_csv");
+        match rows {
+            Ok(rows) if rows.iter().any(|row| row[1] > 0.0) => {
+                let one =
+                    RepeatedHistory { name: entry.torque_history_csv.clone(), rows, times: entry.times };
+                histories = histories.map(|all: Vec<_>| all.into_iter().chain([one]).collect());
+            }
+            Ok(_) => {
+                let help = "name a history in which the clutch carries torque, or remove it".to_owned();
+                out.refuse(&[&key], "a history with a torque above 0".to_owned(), help);
+                histories = None;
+            }
+            Err(found) => {
+                if let Some(found) = found {
+                    refuse_history(&key, found, out);
+                }
+                histories = None;
+            }
+        }
+    }
+    let pa = |mpa: f64| mpa * 1e6;
+    Some(Service {
+        loads: file
+            .loads
+            .iter()
+            .map(|l| RepeatedLoad { torque_nm: l.torque_nm, engagements: l.engagements })
+            .collect(),
+        histories: histories?,
+        pitting: file.pitting.map(|p| PittingStrength {
+            pressure_pa: pa(p.pressure_mpa),
+            cycles: p.cycles,
+            exponent: p.exponent,
+        }),
+        rings: file.rings.map(|r| RingStrength {
+            amplitude_pa: pa(r.amplitude_mpa),
+            cycles: r.cycles,
+            exponent: r.exponent,
+            ultimate_pa: pa(r.ultimate_mpa),
+        }),
+        same_places: file.same_places,
+        friction_scatter: file.friction_scatter,
+        torque_scatter: file.torque_scatter,
+    })
+}

@@ -1,0 +1,373 @@
+//! What clutches fail of in time: pitting of contacts, fatigue of rings, indentation by a single load, slip by chance.
+//!
+//! In: a `Design` with its [`Service`], and its static curve. Out: [`Life`]: each load with what it does, each place with the
+//! part of its life that is used up. Absent: wear and drag in overrun, heat, dynamics (torques are as given).
+//! Equations: Miner's sum, the power laws of [`crate::clutch::PittingStrength`] and [`crate::clutch::RingStrength`], Goodman's mean stress.
+//!
+//! An engagement presses each sprag once along the path that its contact walks, always the same path: the sprag has one load
+//! cycle an engagement. A place of a track is met only where a sprag stands: n_s (walk + 2 a)/(2 pi R) times an engagement
+//! in the mean where sprags come to stand anywhere. The pressure of a cycle is the largest, that at the torque. The stress of a
+//! ring swings from that at the least to that at the largest torque of a cycle, bending between the sprags included: as if the worst place
+//! were the same each time.
+
+pub mod count;
+pub mod slip;
+
+use crate::clutch::{PittingStrength, RingStrength, Service};
+use crate::design::Design;
+use crate::margin::{LoadState, NoMargins, load_state, rings_pa};
+use crate::wedge::StaticPoint;
+use count::{engagements, rainflow, turning_points};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Largest pressure of line contacts at which the permanent indentation of both bodies together is 1e-4 of the roller's
+/// diameter, Pa, hardness at least 58 HRC: ISO 76:2006, roller bearings.
+pub const INDENTING_PA: f64 = 4.0e9;
+
+/// Classes of torque that histories are counted in, each counted at its upper edge: pressures come out at most half a
+/// hundredth too high.
+const CLASSES: usize = 100;
+
+/// Where a life is used up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LifePlace {
+    /// Sprag, at its contact with the inner race.
+    SpragInside,
+    /// Sprag, at its contact with the outer race.
+    SpragOutside,
+    /// Track of the inner race.
+    InnerTrack,
+    /// Track of the outer race.
+    OuterTrack,
+    /// Inner race as a ring.
+    InnerRing,
+    /// Outer race as a ring.
+    OuterRing,
+}
+
+impl LifePlace {
+    /// All, contacts first.
+    pub const ALL: [Self; 6] = [
+        Self::SpragInside,
+        Self::SpragOutside,
+        Self::InnerTrack,
+        Self::OuterTrack,
+        Self::InnerRing,
+        Self::OuterRing,
+    ];
+
+    /// The race of a ring: 0 inner, 1 outer; `None` of a contact.
+    fn race(self) -> Option<usize> {
+        match self {
+            Self::InnerRing => Some(0),
+            Self::OuterRing => Some(1),
+            _ => None,
+        }
+    }
+
+    fn is_inside(self) -> bool {
+        matches!(self, Self::SpragInside | Self::InnerTrack)
+    }
+
+    /// Contacts in one engagement.
+    fn times(self, load: &LoadEffect) -> f64 {
+        match self {
+            Self::InnerTrack => load.passes[0],
+            Self::OuterTrack => load.passes[1],
+            _ => 1.0,
+        }
+    }
+
+    /// Code and words.
+    pub fn names(self) -> (&'static str, &'static str) {
+        match self {
+            Self::SpragInside => ("pitting-sprag-inside", "pitting of the sprags, inner contact"),
+            Self::SpragOutside => ("pitting-sprag-outside", "pitting of the sprags, outer contact"),
+            Self::InnerTrack => ("pitting-inner-track", "pitting of the inner race"),
+            Self::OuterTrack => ("pitting-outer-track", "pitting of the outer race"),
+            Self::InnerRing => ("fatigue-inner-ring", "fatigue of the inner race as a ring"),
+            Self::OuterRing => ("fatigue-outer-ring", "fatigue of the outer race as a ring"),
+        }
+    }
+}
+
+/// A load and what one engagement at it does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadEffect {
+    /// Torque, N m.
+    pub torque_nm: f64,
+    /// Engagements in the life.
+    pub engagements: f64,
+    /// The static state; `None`: the clutch does not carry this torque.
+    pub state: Option<StaticPoint>,
+    /// Hoop stress of inner and outer race with bending, Pa, magnitudes; 0 where not carried.
+    pub hoop_pa: [f64; 2],
+    /// What the contact walks on the sprag and on the race from first contact on, inner and outer, m.
+    pub walk_m: [f64; 2],
+    /// Contacts that a place of the track sees in one engagement, inner and outer track.
+    pub passes: [f64; 2],
+    /// Probability of slip; `None` where friction has no scatter.
+    pub slip: Option<f64>,
+}
+
+/// How much of a place's life is used up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Used {
+    /// Where.
+    pub place: LifePlace,
+    /// Miner's sum over the life asked for, 1 or less being held; `None` where the strength is not given.
+    pub sum: Option<f64>,
+    /// Cycles in the life.
+    pub cycles: f64,
+    /// Torque of the load that uses up most, N m.
+    pub mostly_nm: f64,
+}
+
+impl Used {
+    /// How often the life asked for fits in; infinite where nothing is used up.
+    pub fn lives(&self) -> Option<f64> {
+        self.sum.map(|sum| if sum > 0.0 { 1.0 / sum } else { f64::INFINITY })
+    }
+}
+
+/// All of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Life {
+    /// Loads by torque, falling; those of histories in classes.
+    pub loads: Vec<LoadEffect>,
+    /// Each place.
+    pub used: Vec<Used>,
+    /// Largest torque, N m.
+    pub largest_nm: f64,
+    /// By what a single load may exceed the largest until it indents, load over load: (4000 MPa/p_0)^2, inner and outer contact.
+    pub indentation: [f64; 2],
+    /// Slips that are expected in the life.
+    pub slips: Option<f64>,
+    /// Engagements in the life.
+    pub engagements: f64,
+}
+
+impl Life {
+    /// Whether the clutch carries every load and every known life is long enough.
+    pub fn held(&self) -> bool {
+        self.loads.iter().all(|l| l.state.is_some())
+            && self.used.iter().all(|u| u.sum.is_none_or(|sum| sum <= 1.0))
+    }
+
+    /// The place whose life is used up most.
+    pub fn decides(&self) -> Option<&Used> {
+        self.used
+            .iter()
+            .filter(|u| u.sum.is_some())
+            .max_by(|a, b| a.sum.unwrap_or(0.0).total_cmp(&b.sum.unwrap_or(0.0)))
+    }
+}
+
+/// The life of `design` in the service that its file names.
+///
+/// # Errors
+/// [`NoMargins`] where there is no clutch to speak of.
+pub fn life(design: &Design, service: &Service) -> Result<Life, NoMargins> {
+    let state = load_state(design)?;
+    let (counted, cycles) = counted(service);
+    let loads: Vec<LoadEffect> =
+        counted.iter().rev().map(|(torque_nm, n)| effect(design, service, &state, *torque_nm, *n)).collect();
+    let used = LifePlace::ALL.map(|place| used(design, service, &state, place, &loads, &cycles)).to_vec();
+    let largest = loads.first();
+    let indents = |pa: Option<f64>| pa.map_or(0.0, |pa| (INDENTING_PA / pa).powi(2));
+    Ok(Life {
+        used,
+        largest_nm: largest.map_or(0.0, |l| l.torque_nm),
+        indentation: [
+            indents(largest.and_then(|l| Some(l.state?.hertz_inner_pa))),
+            indents(largest.and_then(|l| Some(l.state?.hertz_outer_pa))),
+        ],
+        slips: loads.iter().map(|l| Some(l.slip? * l.engagements)).sum(),
+        engagements: loads.iter().map(|l| l.engagements).sum(),
+        loads,
+    })
+}
+
+/// Engagements by torque (N m), rising, and cycles of the rings: (least, largest torque, number).
+type Counted = (Vec<(f64, f64)>, Vec<[f64; 3]>);
+
+fn counted(service: &Service) -> Counted {
+    let mut loads: Vec<(f64, f64)> = Vec::new();
+    let mut cycles: Vec<[f64; 3]> = Vec::new();
+    for load in &service.loads {
+        loads.push((load.torque_nm, load.engagements));
+        cycles.push([0.0, load.torque_nm, load.engagements]);
+    }
+    for history in &service.histories {
+        let points = turning_points(&history.rows);
+        let largest = points.iter().copied().fold(0.0, f64::max);
+        let class = |torque: f64| (torque / largest * CLASSES as f64).ceil() as usize;
+        let torque = |class: usize| largest * class as f64 / CLASSES as f64;
+        let mut by_peak: BTreeMap<usize, f64> = BTreeMap::new();
+        for peak in engagements(&points) {
+            *by_peak.entry(class(peak)).or_default() += history.times;
+        }
+        loads.extend(by_peak.into_iter().map(|(k, n)| (torque(k), n)));
+        let mut by_swing: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+        for cycle in rainflow(&points).iter().filter(|c| c.to_nm > 0.0) {
+            // The least torque in its lower class: the swing comes out larger.
+            let low = (cycle.from_nm / largest * CLASSES as f64).floor() as usize;
+            *by_swing.entry((low, class(cycle.to_nm))).or_default() += cycle.count * history.times;
+        }
+        cycles.extend(by_swing.into_iter().map(|((a, b), n)| [torque(a), torque(b), n]));
+    }
+    loads.sort_by(|a, b| a.0.total_cmp(&b.0));
+    (loads, cycles)
+}
+
+/// What one engagement at `torque_nm` does.
+pub fn effect(
+    design: &Design,
+    service: &Service,
+    state: &LoadState,
+    torque_nm: f64,
+    engagements: f64,
+) -> LoadEffect {
+    let clutch = &design.clutch;
+    let p = state.curve.at_torque(torque_nm);
+    let walk_m = p.map_or([0.0; 2], |p| walks_m(design, state, &p));
+    let half_m = |pa: f64, n: f64| {
+        if pa > 0.0 { 2.0 * n / (PI * clutch.contact_length_m() * pa) } else { 0.0 }
+    };
+    let races = &clutch.races;
+    let around = |walk: f64, half: f64, radius: f64| match service.same_places {
+        true => 1.0,
+        false => clutch.sprags.count as f64 * (walk + 2.0 * half) / (2.0 * PI * radius),
+    };
+    let passes = p.map_or([0.0; 2], |p| {
+        [
+            around(walk_m[0], half_m(p.hertz_inner_pa, p.normal_inner_n), races.inner_radius_m),
+            around(walk_m[1], half_m(p.hertz_outer_pa, p.normal_outer_n), races.outer_radius_m),
+        ]
+    });
+    let required =
+        |torque: f64| state.curve.at_torque(torque).map_or(f64::INFINITY, |p| p.tan_omega.max(p.tan_nu));
+    let scatter = [service.friction_scatter, service.torque_scatter];
+    let slip =
+        (scatter[0] > 0.0).then(|| slip::probability(clutch.friction.static_, torque_nm, scatter, required));
+    let hoop_pa = p.map_or([0.0; 2], |p| rings_pa(design, state, &p));
+    LoadEffect { torque_nm, engagements, state: p, hoop_pa, walk_m, passes, slip }
+}
+
+/// Lengths of the inner and the outer arc between first contact and the contact at `p`, m: rolling lays the same length on the
+/// race.
+fn walks_m(design: &Design, state: &LoadState, p: &StaticPoint) -> [f64; 2] {
+    let sprags = &design.clutch.sprags;
+    let (mut inner, mut from) = (0.0, 0.0);
+    for arc in &sprags.inner_arcs {
+        let until = arc.until_rad.min(p.contact_turn_rad);
+        inner += arc.radius_m * (until - from).max(0.0);
+        from = arc.until_rad;
+    }
+    // B lies on the line from O through C_e: what the body turns against that line, the contact walks.
+    let turned = state.curve.closure_at_normal(p.normal_inner_n).map_or(0.0, |(_, c)| c.rotation.v);
+    [inner, sprags.outer_radius_m * turned]
+}
+
+/// Miner's sum of a place.
+fn used(
+    design: &Design,
+    service: &Service,
+    state: &LoadState,
+    place: LifePlace,
+    loads: &[LoadEffect],
+    cycles: &[[f64; 3]],
+) -> Used {
+    // (cycles, part of the life that they use up, torque)
+    let parts: Vec<(f64, Option<f64>, f64)> = match place.race() {
+        Some(race) => {
+            let one = |[from, to, n]: &[f64; 3]| {
+                let part = ring_part(design, service, state, race, *from, *to);
+                (*n, part.map(|part| n * part), *to)
+            };
+            cycles.iter().map(one).collect()
+        }
+        None => {
+            let one = |l: &LoadEffect| {
+                let n = l.engagements * place.times(l);
+                (n, contact_part(service, l, place).map(|part| n * part), l.torque_nm)
+            };
+            loads.iter().map(one).collect()
+        }
+    };
+    let share = |(_, part, _): &(f64, Option<f64>, f64)| part.unwrap_or(0.0);
+    let mostly = parts.iter().max_by(|a, b| share(a).total_cmp(&share(b)));
+    Used {
+        place,
+        sum: parts.iter().map(|(_, part, _)| *part).sum(),
+        cycles: parts.iter().map(|p| p.0).sum(),
+        mostly_nm: mostly.map_or(0.0, |p| p.2),
+    }
+}
+
+/// Part of a place's life that one engagement at `torque_nm` uses up; `None` where its strength is not given or the torque not
+/// carried.
+pub fn part_at(
+    design: &Design,
+    service: &Service,
+    state: &LoadState,
+    place: LifePlace,
+    torque_nm: f64,
+) -> Option<f64> {
+    match place.race() {
+        Some(race) => ring_part(design, service, state, race, 0.0, torque_nm),
+        None => {
+            let load =
+                effect(design, &Service { friction_scatter: 0.0, ..service.clone() }, state, torque_nm, 1.0);
+            contact_part(service, &load, place).map(|part| part * place.times(&load))
+        }
+    }
+}
+
+/// One swing of a race as a ring between two torques.
+fn ring_part(
+    design: &Design,
+    service: &Service,
+    state: &LoadState,
+    race: usize,
+    from_nm: f64,
+    to_nm: f64,
+) -> Option<f64> {
+    let stress = |torque: f64| match torque > 0.0 {
+        true => state.curve.at_torque(torque).map(|p| rings_pa(design, state, &p)[race]),
+        false => Some(0.0),
+    };
+    // The inner race is pressed together: its mean stress takes nothing.
+    let sign = if race == 0 { -1.0 } else { 1.0 };
+    let (low, high) = (sign * stress(from_nm)?, sign * stress(to_nm)?);
+    service.rings.as_ref().map(|strength| strength.part(low, high))
+}
+
+/// One contact at the pressure of a load.
+fn contact_part(service: &Service, load: &LoadEffect, place: LifePlace) -> Option<f64> {
+    let p = load.state.as_ref()?;
+    let pa = if place.is_inside() { p.hertz_inner_pa } else { p.hertz_outer_pa };
+    service.pitting.as_ref().map(|strength| strength.part(pa))
+}
+
+impl PittingStrength {
+    /// Part of the life that one cycle at the pressure `pa` uses up.
+    pub fn part(&self, pa: f64) -> f64 {
+        (pa / self.pressure_pa).powf(self.exponent) / self.cycles
+    }
+}
+
+impl RingStrength {
+    /// Part of the life that one swing between two stresses (Pa) uses up: the amplitude about zero that does as much, after
+    /// Goodman, sigma_a/(1 - sigma_m/R_m); all of it where the mean alone breaks the ring.
+    pub fn part(&self, low_pa: f64, high_pa: f64) -> f64 {
+        let (amplitude, mean) = (0.5 * (high_pa - low_pa).abs(), 0.5 * (high_pa + low_pa));
+        let left = 1.0 - mean.max(0.0) / self.ultimate_pa;
+        if left <= 0.0 {
+            1.0
+        } else {
+            (amplitude / left / self.amplitude_pa).powf(self.exponent) / self.cycles
+        }
+    }
+}

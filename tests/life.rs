@@ -1,0 +1,172 @@
+//! A life of loads: sums by hand, counting, chance, and what is refused.
+
+#[path = "common/program.rs"]
+mod program;
+
+use program::*;
+use sprag_design::clutch::RingStrength;
+use sprag_design::life::{INDENTING_PA, LifePlace};
+use sprag_design::margin::{LIMITS, load_state, margins, rings_pa};
+use sprag_design::{Design, Settings};
+use std::f64::consts::PI;
+
+const FILE: &str = "designs/indexing-life.toml";
+
+fn design(changes: &[(&str, &str)]) -> Design {
+    let mut text = std::fs::read_to_string(FILE).unwrap();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    Design::parse(&text, FILE).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const HISTORY: &str =
+    "histories = [ { torque_history_csv = \"indexing-torque.csv\", times = 2e6 } ]   # a stroke\n";
+
+fn of(life: &sprag_design::life::Life, place: LifePlace) -> f64 {
+    life.used.iter().find(|u| u.place == place).unwrap().sum.unwrap()
+}
+
+#[test]
+fn one_load_by_hand() {
+    let design = design(&[(HISTORY, "")]);
+    let answer = design.life().unwrap();
+    let life = &answer.life;
+    let state = load_state(&design).unwrap();
+    let p = state.curve.at_torque(600.0).unwrap();
+    let part = |pa: f64| (pa / 4.2e9).powf(20.0 / 3.0) / 1e6;
+    let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
+    near(of(life, LifePlace::SpragInside), 2e3 * part(p.hertz_inner_pa));
+    near(of(life, LifePlace::SpragOutside), 2e3 * part(p.hertz_outer_pa));
+    // A place of the track is met as often as sprags' contacts, with their widths, cover it.
+    let [load] = life.loads.as_slice() else { panic!("{:?}", life.loads) };
+    let cover = 22.0 * (load.walk_m[0] + 2.0 * p.half_width_inner_m)
+        / (2.0 * PI * design.clutch.races.inner_radius_m);
+    assert!((load.passes[0] / cover - 1.0).abs() < 0.02, "{} {cover}", load.passes[0]);
+    near(of(life, LifePlace::InnerTrack), 2e3 * load.passes[0] * part(p.hertz_inner_pa));
+    // Rings: half the stress is amplitude, half mean; the inner one is pressed, and its mean takes nothing.
+    let [inner, outer] = rings_pa(&design, &state, &p).map(|pa| 0.5 * pa);
+    near(of(life, LifePlace::OuterRing), 2e3 * (outer / (1.0 - outer / 2.2e9) / 450e6).powi(9) / 1e7);
+    near(of(life, LifePlace::InnerRing), 2e3 * (inner / 450e6).powi(9) / 1e7);
+    near(life.indentation[0], (INDENTING_PA / p.hertz_inner_pa).powi(2));
+    // The stress is that of check's row with bending.
+    let rows = margins(&design, &[], &Settings::default()).unwrap();
+    assert!(LIMITS.iter().any(|l| l.code == "hoop-outer-bending"));
+    let row = rows.iter().find(|r| r.code() == "hoop-outer-bending").unwrap();
+    near(row.demand_in_unit().unwrap() * 1e6, 2.0 * outer);
+}
+
+#[test]
+fn the_contacts_walk_as_far_as_races_and_sprags_roll() {
+    // A leads B by beta; what both contacts walk on their races is the windup and what beta grows by.
+    for file in [FILE, "designs/huang2017-multi-arc.toml", "designs/starter.toml"] {
+        let design = Design::read(file.as_ref()).unwrap();
+        let state = load_state(&design).unwrap();
+        let service = Default::default();
+        for share in [0.1, 0.4, 0.8] {
+            let torque = share * state.curve.end_torque_nm();
+            let load = sprag_design::life::effect(&design, &service, &state, torque, 1.0);
+            let p = load.state.unwrap();
+            let beta = |n: f64| state.curve.closure_at_normal(n).unwrap().1.beta.v;
+            let races = &design.clutch.races;
+            let walked = load.walk_m[0] / races.inner_radius_m + load.walk_m[1] / races.outer_radius_m;
+            let want = p.windup_rad + beta(p.normal_inner_n) - state.curve.touch().beta.v;
+            // Radii under load differ from those at rest by what yields.
+            assert!((walked / want - 1.0).abs() < 0.01, "{file} {share}: {walked} {want}");
+        }
+    }
+}
+
+#[test]
+fn loads_add_up_and_a_history_is_its_peaks() {
+    let twice = design(&[
+        (HISTORY, ""),
+        (
+            "loads = [ { torque_nm = 600.0, engagements = 2e3 } ]",
+            "loads = [ { torque_nm = 600.0, engagements = 1.5e3 }, { torque_nm = 600.0, engagements = 5e2 } ]",
+        ),
+    ]);
+    let once = design(&[(HISTORY, "")]);
+    let (a, b) = (once.life().unwrap().life, twice.life().unwrap().life);
+    for place in LifePlace::ALL {
+        assert!((of(&a, place) / of(&b, place) - 1.0).abs() < 1e-12);
+    }
+    // The stroke peaks at 480 and 400 Nm, and at 280 Nm, above half of 480 too: three engagements each time; its swings bend the rings.
+    let history =
+        design(&[("loads = [ { torque_nm = 600.0, engagements = 2e3 } ]            # a jam\n", "")]);
+    let life = history.life().unwrap().life;
+    let loads: Vec<(f64, f64)> = life.loads.iter().map(|l| (l.torque_nm, l.engagements)).collect();
+    assert_eq!(loads.iter().map(|l| l.1).collect::<Vec<_>>(), [2e6, 2e6, 2e6]);
+    for ((class, _), peak) in loads.iter().zip([480.0, 400.0, 280.0]) {
+        assert!(*class >= peak && *class < peak + 4.8 + 1e-9, "{class} {peak}");
+    }
+    let rings = life.used.iter().find(|u| u.place == LifePlace::OuterRing).unwrap();
+    assert!(rings.cycles > 3e6 && rings.mostly_nm == 480.0, "{rings:?}");
+    // Where the sprags always stand at the same places, a track bears what the sprag bears.
+    let same = design(&[("friction_scatter = 0.10", "same_places = true\nfriction_scatter = 0.10")])
+        .life()
+        .unwrap()
+        .life;
+    assert_eq!(of(&same, LifePlace::InnerTrack), of(&same, LifePlace::SpragInside));
+}
+
+#[test]
+fn goodman_at_its_limits() {
+    let ring = RingStrength { amplitude_pa: 300e6, cycles: 1e7, exponent: 8.0, ultimate_pa: 2e9 };
+    assert_eq!(ring.part(-300e6, 300e6), 1e-7);
+    assert_eq!(ring.part(2e9, 2.1e9), 1.0);
+    assert!(ring.part(0.0, 600e6) > ring.part(-600e6, 0.0));
+    assert_eq!(ring.part(-600e6, 0.0), 1e-7);
+}
+
+#[test]
+fn chance_rises_with_scatter_and_torque_beyond_the_end_is_lost() {
+    let of = |friction: &str, torque: &str| {
+        let changed = design(&[
+            ("friction_scatter = 0.10", &format!("friction_scatter = {friction}")),
+            ("torque_scatter = 0.05", &format!("torque_scatter = {torque}")),
+        ]);
+        changed.life().unwrap().life
+    };
+    let slips = |f: &str, t: &str| of(f, t).slips.unwrap();
+    assert!(slips("0.05", "0.0") < slips("0.10", "0.0") && slips("0.10", "0.0") < slips("0.20", "0.0"));
+    assert_eq!(of("0.0", "0.05").slips, None);
+    let lost = design(&[("torque_nm = 600.0, engagements", "torque_nm = 60000.0, engagements")]);
+    let answer = lost.life().unwrap();
+    assert!(!answer.life.held() && answer.verdict().starts_with("NOT HELD: the clutch does not carry 6"));
+    assert!(answer.life.loads[0].slip.unwrap() > 1.0 - 1e-12);
+}
+
+#[test]
+fn the_command_answers_and_refuses() {
+    let out = run(&["life", FILE, "--json"]);
+    let told = json(&out);
+    assert_eq!(told["held"], out.status.code() == Some(0));
+    assert_eq!(told["places"].as_array().unwrap().len(), 6);
+    assert!(told["expected_slips"].as_f64().unwrap() >= 0.0);
+    let out = run(&["life", "designs/starter.toml"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&out.stderr).contains("[life]"));
+    let refused = |change: (&str, &str), says: &str| {
+        let text = std::fs::read_to_string(FILE).unwrap();
+        assert!(text.contains(change.0));
+        let error = Design::parse(&text.replace(change.0, change.1), FILE).unwrap_err().to_string();
+        let all: String = Design::parse(&text.replace(change.0, change.1), FILE)
+            .unwrap_err()
+            .problems()
+            .iter()
+            .map(|p| format!("{} {} {} {}\n", p.key, p.found, p.allowed, p.help))
+            .collect();
+        assert!(all.contains(says), "{error}\n{all}");
+    };
+    refused(("engagements = 2e3", "engagements = -1"), "above 0");
+    refused(("engagements = 2e3", "engagement = 2e3"), "engagements");
+    refused(("\"indexing-torque.csv\"", "\"nowhere.csv\""), "no such file");
+    refused(("\"indexing-torque.csv\"", "\"speed-ramp.csv\""), "time_s,torque_nm");
+    refused(("friction_scatter = 0.10", "friction_scatter = 1.5"), "1");
+    let text = std::fs::read_to_string(FILE).unwrap();
+    let cut = text.find("loads = ").unwrap();
+    let error = Design::parse(&text[..cut], FILE).unwrap_err();
+    assert!(error.problems().iter().any(|p| p.key == "life"), "{error}");
+}
