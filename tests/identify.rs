@@ -203,3 +203,41 @@ fn questions_that_make_no_sense_are_refused() {
     let skipped = "use,torque_nm,windup_deg\ncheck,10,1.2\n";
     assert!(matches!(found(skipped, &radii(), 1), Err(NoFit::NothingToFit)));
 }
+
+/// A soft shaft's modulus (110 GPa) beside the centre distance from windups by finite elements: the law's error of half a per
+/// cent moves the pair along a valley, and forces tell the two apart as well as the proposal says.
+#[test]
+fn the_laws_own_error_is_in_the_interval_and_the_proposed_measurement_tells_the_two_apart() {
+    let text = include_str!("reference/soft_shaft.toml");
+    let windups = include_str!("reference/soft_shaft_windup.csv");
+    let design = Design::parse(text, "soft_shaft.toml").unwrap();
+    let unknowns = [
+        unknown("material.inner_race.youngs_modulus_gpa", 50.0, 220.0),
+        unknown("sprags.centre_distance_mm", 0.6, 0.8),
+    ];
+    let settings = FitSettings { starts: 1, seed: 1, evaluations: 200 };
+    let fitted = |csv: &str| {
+        identify(&design, &observations(csv).unwrap(), &unknowns, &settings, &Follow::nobody()).unwrap()
+    };
+    let off = |found: &Identified| found.knowledge.estimates[0].value - 110.0;
+    let alone = fitted(windups);
+    let modulus = &alone.knowledge.estimates[0];
+    assert!(off(&alone).abs() > modulus.half_width.unwrap(), "scatter alone misses it: {modulus:?}");
+    assert!(off(&alone).abs() < modulus.by_law.unwrap() && modulus.doubt.is_some(), "{modulus:?}");
+    let apart = alone.apart.unwrap();
+    assert!(matches!(apart.quantity.column(), "normal_inner_n" | "normal_outer_n"), "{apart:?}");
+
+    let curve = WedgeCurve::build(&design.clutch, &design.clutch.profile().unwrap(), 0.0).unwrap();
+    let mut csv = windups.replacen("windup_deg", &format!("windup_deg,{}", apart.quantity.column()), 1);
+    for line in windups.lines().skip(1) {
+        let torque: f64 = line.split(',').next().unwrap().parse().unwrap();
+        let point = curve.at_torque(torque).unwrap();
+        let inner = apart.quantity.column() == "normal_inner_n";
+        let normal = if inner { point.normal_inner_n } else { point.normal_outer_n };
+        csv = csv.replacen(line, &format!("{line},{normal}"), 1);
+    }
+    let both = fitted(&csv);
+    let correlation = both.knowledge.correlation.as_ref().unwrap()[0][1];
+    assert!((correlation - apart.correlation).abs() < 0.1, "{correlation} {apart:?}");
+    assert!(both.apart.is_none() && off(&both).abs() < 0.25 * off(&alone).abs(), "{:?}", both.knowledge);
+}

@@ -339,7 +339,7 @@ fn apart(problem: &Problem, t: &[f64], jacobian: &DMatrix<f64>, knowledge: &Know
         Some(Apart { quantity: kind, pair: (first, second), correlation: correlation(&both, first, second)? })
     };
     let known = |kind: &ObservedQuantity| seen.iter().any(|o| o.kind == *kind);
-    let kinds = ObservedQuantity::ALL.into_iter().filter(|kind| kind.needs_torque() && !known(kind));
+    let kinds = ObservedQuantity::ALL.into_iter().filter(|kind| kind.seen_on_a_bench() && !known(kind));
     let least =
         kinds.filter_map(of_kind).min_by(|a, b| a.correlation.abs().total_cmp(&b.correlation.abs()))?;
     (least.correlation.abs() < INSEPARABLE).then_some(least)

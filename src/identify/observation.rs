@@ -67,6 +67,11 @@ impl ObservedQuantity {
     pub fn needs_torque(self) -> bool {
         !matches!(self, Self::NominalTorque | Self::EndTorque | Self::LiftOff)
     }
+
+    /// Whether a bench with a torque can see it: windup by encoders, normal forces by the hoop strain of the races.
+    pub fn seen_on_a_bench(self) -> bool {
+        matches!(self, Self::Windup | Self::NormalInner | Self::NormalOuter)
+    }
 }
 
 /// What a row is for.

@@ -194,7 +194,7 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
     if let Some(apart) = &found.apart {
         let (a, b) = apart.pair;
         out.push(format!(
-            "to tell {} and {} apart, measure {} at the same torques: their correlation falls to {:.2}",
+            "to tell {} and {} apart, measure {} at the same torques as well: their correlation falls to {:.2}",
             found.unknowns[a].name,
             found.unknowns[b].name,
             apart.quantity.column(),
