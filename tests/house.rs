@@ -51,7 +51,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // real, and a tolerance felt, on the profile itself.
     ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),
     // Asks for margins and static points as they are; knows no law.
-    ("identify", &["follow", "numeric", "design", "wedge", "margin"]),
+    ("identify", &["follow", "numeric", "clutch", "design", "wedge", "margin"]),
     // A first design: proportions, then whatever the margins say.
     ("size", &["numeric", "material", "clutch", "design", "profile", "scenario", "margin"]),
     // Files beside one another, then whatever the margins say.
@@ -67,8 +67,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "answer",
         &[
             "follow", "material", "profile", "clutch", "design", "contact", "wedge", "dynamics", "scenario",
-            "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export",
-            "import",
+            "fidelity", "accuracy", "margin", "life", "optimise", "identify", "size", "compare", "report",
+            "export", "import",
         ],
     ),
     // Questions about the text of a design, and their answers as a page shows them.

@@ -18,6 +18,7 @@ const EXAMPLES: &str = "\
 Examples:
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --csv history.csv --report high-10.html
+  sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --figures
   sprag-design simulate designs/huang2017-multi-arc.toml --scenario high-10 --method published --step 2e-6
   sprag-design simulate designs/huang2017-bench.toml --scenario in-and-out --report in-and-out.html
 
@@ -78,6 +79,9 @@ pub struct SimulateArgs {
     /// Run everything, also what the scene cannot feel (arcs never touched, the friction law where nothing slips)
     #[arg(long)]
     pub full: bool,
+    /// Print all figures of the scene, not the ten alone that say most of it
+    #[arg(long)]
+    pub figures: bool,
 }
 
 /// Run the command.
@@ -121,7 +125,7 @@ fn one(
     let run_time_s = start.elapsed().as_secs_f64();
     let other = format!("{}, contact damping changed", scenario.name);
     let damping = while_shown(&other, event, context, || ran.damping_effect(settings));
-    report(&SimulationAnswer::new(ran, damping, settings), run_time_s, context)
+    report(&SimulationAnswer::new(ran, damping, settings), run_time_s, args, context)
 }
 
 impl SimulateArgs {
@@ -153,13 +157,19 @@ fn computed(design: &Design, scenario: &Scenario, settings: &SimulationSettings,
     })
 }
 
-fn report(found: &SimulationAnswer, run_time_s: f64, context: &Context) -> Result<Exit, Failure> {
+fn report(
+    found: &SimulationAnswer,
+    run_time_s: f64,
+    args: &SimulateArgs,
+    context: &Context,
+) -> Result<Exit, Failure> {
     if context.outputs.csv.is_some() {
         context.outputs.write_csv(&found.history().table());
     }
     context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
     context.print(&found.envelope(run_time_s))?;
-    context.answer(&found.text(context.screen))?;
+    let text = if args.figures { SimulationAnswer::text_with_all_figures } else { SimulationAnswer::text };
+    context.answer(&text(found, context.screen))?;
     for note in &found.body.notes {
         context.message(&format!("note: {note}"));
     }

@@ -46,7 +46,7 @@ pub use history::is_history;
 pub use inputs::{Input, inputs, unit_of_path};
 pub use limits::{LIMIT_KEYS, LimitKey, Limits};
 pub use notes::with_notes;
-pub use objective::{Link, Objective, Optimize, OptimizeVariable};
+pub use objective::{Link, Objective, Optimize, OptimizeVariable, multiple};
 pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
 pub use set::with_setting;
 pub use shape::{allowed, keys_of, nearest, schema, shape_of};

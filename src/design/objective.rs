@@ -175,13 +175,22 @@ pub struct Link {
     pub by: f64,
     /// What the variable is multiplied with.
     pub times: f64,
+    /// Step to whose nearest multiple the number is rounded, in its unit; `None`: it is not.
+    pub step: Option<f64>,
 }
 
 impl Link {
     /// The number where the variable has the value `variable`.
     pub fn value(&self, variable: f64) -> f64 {
-        self.by + self.times * variable
+        let exact = self.by + self.times * variable;
+        self.step.map_or(exact, |step| multiple((exact / step).round(), step))
     }
+}
+
+/// `times` steps, to nine decimals: 835 of 0.005 are 4.175.
+pub fn multiple(times: f64, step: f64) -> f64 {
+    const DECIMALS: f64 = 1e9;
+    (times * step * DECIMALS).round() / DECIMALS
 }
 
 /// What `optimize` shall do.

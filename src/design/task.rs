@@ -215,7 +215,7 @@ fn link(
         return Err(("a number that is in the file", format!("add {path} = ... to the file")));
     };
     let (by, times) = if in_proportion { (0.0, value / given) } else { (value - given, 1.0) };
-    Ok(Link { path, by, times })
+    Ok(Link { path, by, times, step: None })
 }
 
 fn named_scenarios(key: &str, names: &[String], file: &DesignFile, out: &mut Findings) {

@@ -11,7 +11,7 @@ use super::realise::is_centroid;
 use super::search::Search;
 use super::settings::Settings;
 use super::starts::rank;
-use crate::design::variable_unit;
+use crate::design::{Link, multiple, variable_unit};
 use crate::margin::Margin;
 use std::cmp::Ordering;
 
@@ -25,8 +25,6 @@ const ROUNDS: usize = 40;
 const FULL: usize = 12;
 /// Evaluations of the climb of what has no step.
 const REST: usize = 150;
-/// Decimals of a length on the grid, mm: so that 835 steps of 0.005 mm are 4.175 mm.
-const DECIMALS: f64 = 1e9;
 
 /// A design of the grid.
 #[derive(Debug, Clone)]
@@ -43,6 +41,8 @@ pub struct OnGrid {
     pub objective_error: f64,
     /// Design file.
     pub file: String,
+    /// What goes with a variable of this name, in steps too.
+    pub links: Vec<(String, Link)>,
 }
 
 /// No point near holds every limit: the nearest one.
@@ -78,7 +78,7 @@ struct Ladder {
 
 impl Ladder {
     fn value(&self, k: i64) -> f64 {
-        (k as f64 * self.step * DECIMALS).round() / DECIMALS
+        multiple(k as f64, self.step)
     }
 
     fn within(&self, k: i64) -> i64 {
@@ -99,10 +99,14 @@ impl Ladder {
     }
 }
 
+/// Whether a number is a length that a shop makes.
+pub(super) fn made(name: &str) -> bool {
+    variable_unit(name) == Some("mm") && !is_centroid(name)
+}
+
 /// The optimum of `search` with its lengths in steps of `step_mm`; `None` where no variable is a length that is made.
 pub fn stepped(search: &Search, step_mm: f64, desk: &Desk) -> Option<Stepped> {
     let (lo, hi) = search.bounds();
-    let made = |name: &str| variable_unit(name) == Some("mm") && !is_centroid(name);
     let ladders: Vec<Ladder> = (0..search.searched.len())
         .filter(|&i| step_mm > 0.0 && made(&search.searched[i]))
         .map(|at| {
@@ -116,13 +120,9 @@ pub fn stepped(search: &Search, step_mm: f64, desk: &Desk) -> Option<Stepped> {
         return None;
     }
     desk.begins("steps that can be made");
-    let mut grid = Grid {
-        problem: &search.problem,
-        base: search.outcome.x.clone(),
-        ladders,
-        seen: Vec::new(),
-        evaluations: 0,
-    };
+    let problem = search.problem.with_links_in_steps(step_mm);
+    let mut grid =
+        Grid { problem: &problem, base: search.outcome.x.clone(), ladders, seen: Vec::new(), evaluations: 0 };
     grid.look_around(desk);
     grid.fit_the_rest((&lo, &hi), search, desk);
     let variables = grid.ladders.iter().map(|l| search.searched[l.at].clone()).collect();
@@ -266,6 +266,7 @@ impl Grid<'_> {
                         objective,
                         objective_error: (objective - before).abs(),
                         file,
+                        links: self.problem.links().to_vec(),
                     });
                 }
                 _ if off.x.is_empty() => off = OffGrid { x: x.clone(), not_held: broken },

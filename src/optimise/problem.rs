@@ -3,6 +3,7 @@
 use super::corner::{Corner, perturbed};
 use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::goal::{Goal, Measure, measures};
+use super::grid::made;
 use super::smooth;
 use crate::design::{
     Blank, Design, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content, lean,
@@ -169,6 +170,15 @@ impl ClutchProblem {
     /// The same problem held at several corners of the tolerances at once: the least over all of them counts.
     pub fn at_corners(&self, corners: Vec<Corner>) -> Self {
         Self { corners, ..self.clone() }
+    }
+
+    /// The same problem with the lengths that go with a variable in steps of `step`, in their unit.
+    pub fn with_links_in_steps(&self, step: f64) -> Self {
+        let mut problem = Self { lean: OnceLock::new(), ..self.clone() };
+        for (_, link) in problem.links.iter_mut().filter(|(_, link)| made(&link.path)) {
+            link.step = Some(step);
+        }
+        problem
     }
 
     /// The same problem on another design file.

@@ -126,6 +126,16 @@ fn links_in_proportion_keep_their_ratio() {
         clutch.spring.drag_torque_nm
     );
     assert_ne!(both.identity(), scaled(r#""races.width_mm""#).identity());
+
+    // In steps of 0.04 mm: 9.01 mm of width becomes 9.00; a torque is no length and keeps its ratio.
+    x[0] = 9.01;
+    let stepped = both.with_links_in_steps(0.04);
+    let clutch = stepped.design_at(&x).unwrap().clutch;
+    assert_eq!(clutch.races.width_m, 9e-3);
+    assert!((clutch.spring.drag_torque_nm / (9.01 / 6.0 * 0.0166) - 1.0).abs() < 1e-12);
+    assert_ne!(both.identity(), stepped.identity());
+    let file = stepped.finished_file(&x).unwrap();
+    assert!(file.contains("width_mm = 9.0"), "{file}");
 }
 
 /// A capacity is the largest peak torque, with the nominal torque in proportion, that every static limit holds: also where one

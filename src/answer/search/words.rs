@@ -232,14 +232,15 @@ impl Story {
 
     /// What went with a variable, a line each.
     fn linked(&self) -> impl Iterator<Item = String> {
-        self.found.problem.links().iter().filter_map(|(name, link)| {
+        let as_searched = self.found.problem.links();
+        let links = self.on_grid().map_or(as_searched, |on_grid| &on_grid.links);
+        links.iter().zip(as_searched).filter_map(|((name, link), (_, exact))| {
             let variable = self.made().variables.iter().find(|v| v.name == *name)?;
-            let at = |value: f64| significant(link.value(value), 6);
             Some(format!(
                 "{} goes with {name}: {} -> {}",
                 link.path,
-                at(variable.given),
-                at(self.value(variable))
+                significant(exact.value(variable.given), 6),
+                significant(link.value(self.value(variable)), 6)
             ))
         })
     }

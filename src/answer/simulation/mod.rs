@@ -90,8 +90,18 @@ impl SimulationAnswer {
         }
     }
 
-    /// The answer on a terminal.
+    /// The answer on a terminal: the verdict and the figures that say most of it.
     pub fn text(&self, screen: Screen) -> String {
+        let (first, all) = facts::first_and_all(facts::table(self));
+        let mut text = format!("{}\n\n{}", self.verdict_line(), first.to_text(screen));
+        if let Some(all) = all {
+            text += &format!("\nAll {} figures: --figures, --report or --json\n", all.rows.len());
+        }
+        text
+    }
+
+    /// The same with every figure.
+    pub fn text_with_all_figures(&self, screen: Screen) -> String {
         format!("{}\n\n{}", self.verdict_line(), facts::table(self).to_text(screen))
     }
 
