@@ -147,7 +147,7 @@ METHODS = [("scipy differential evolution", differential_evolution), ("pymoo gen
 def ours(design, threads):
     with tempfile.TemporaryDirectory() as folder:
         begun = time.perf_counter()
-        done = subprocess.run([TOOL, "optimize", design, "-o", os.path.join(folder, "new.toml"), "--json", "--quiet",
+        done = subprocess.run([TOOL, "optimize", design, "-o", os.path.join(folder, "new.toml"), "--json", "--quiet", "--step-mm", "0",
                                "--threads", str(threads)], capture_output=True, text=True)
         seconds = time.perf_counter() - begun
         found = json.loads(done.stdout)

@@ -30,6 +30,7 @@
 //! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
 //! | 4 | [`life`] | pitting, fatigue of rings, indentation and slip by chance in a life of loads |
+//! | 4 | [`reengage`] | slip under load and the blow when the clutch grips again |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
 //! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |
 //! | 4 | [`size`] | a first design from space, torques, speeds, friction, steel and what it is for |
@@ -124,6 +125,7 @@ pub mod ode;
 pub mod optimise;
 pub mod profile;
 pub mod race;
+pub mod reengage;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod scenario;

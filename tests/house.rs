@@ -45,6 +45,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "scenario",
         ],
     ),
+    // A motion of the element and the curve that it ends on.
+    ("reengage", &["follow", "clutch", "wedge", "dynamics", "element"]),
     // Loads of a life on the static curve; strengths are the file's.
     ("life", &["numeric", "clutch", "design", "wedge", "margin"]),
     // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made

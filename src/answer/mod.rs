@@ -18,6 +18,7 @@ pub mod imported;
 pub mod left_out;
 pub mod life;
 pub mod page;
+pub mod reengagement;
 pub mod search;
 pub mod simulation;
 pub mod sizing;

@@ -28,6 +28,7 @@ pub mod origin;
 pub mod output;
 pub mod parts;
 pub mod progress;
+pub mod reengage;
 pub mod schema;
 pub mod sheet;
 pub mod simulate;
@@ -105,6 +106,8 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     /// Life under repeated loads: pitting, fatigue of the races, indentation, slip by chance
     Life(life::LifeArgs),
+    /// Slip under load, and the blow when the clutch grips again
+    Reengage(reengage::ReengageArgs),
     /// Search for a better design within the limits
     Optimize(optimize::OptimizeArgs),
     /// Margins of one vector of variables per line, for other optimisers
@@ -312,6 +315,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Life(args) => life::run(&args, &context),
+        Command::Reengage(args) => reengage::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Evaluate(args) => evaluate::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
@@ -362,6 +366,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Stiffness(_) => "stiffness",
         Command::Simulate(_) => "simulate",
         Command::Life(_) => "life",
+        Command::Reengage(_) => "reengage",
         Command::Optimize(_) => "optimize",
         Command::Evaluate(_) => "evaluate",
         Command::Accuracy(_) => "accuracy",

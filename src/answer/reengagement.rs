@@ -1,0 +1,316 @@
+//! What a slip under load and the blow after it do to a clutch: each path of slip, verdict, curve.
+
+use super::left_out::{LeftOut, left_out};
+use super::page::begun;
+use super::{Envelope, Provenance};
+use crate::design::Design;
+use crate::dynamics::Stop;
+use crate::element::NoElement;
+use crate::follow::Follow;
+use crate::margin::{When, load_margins, load_state};
+use crate::reengage::{Blow, Blows, NoBlow, SlipCase, blows};
+use crate::report::plot::Curve;
+use crate::report::{Cell, Column, Page, Plot, Screen, Table, Unit, significant};
+use serde_json::{Value, json};
+use std::fmt;
+
+/// What a user may choose; what is `None` is taken from the design.
+#[derive(Debug, Clone)]
+pub struct ReengagementSettings {
+    /// Torque that is carried when the slip begins, N m; `None`: the nominal torque of `[limits]`.
+    pub torque_nm: Option<f64>,
+    /// What turns with the inner and the outer race, these included, kg m^2; `None`: the races alone.
+    pub inertia_kg_m2: [Option<f64>; 2],
+    /// Friction while it slips; `None`: half of `friction.kinetic`.
+    pub friction: Option<f64>,
+    /// Speed of both races, rad/s.
+    pub speed_rad_s: f64,
+    /// Paths of slip at the inner track, m.
+    pub paths_m: Vec<f64>,
+    /// Followed and stopped by.
+    pub follow: Follow,
+}
+
+impl Default for ReengagementSettings {
+    fn default() -> Self {
+        Self {
+            torque_nm: None,
+            inertia_kg_m2: [None; 2],
+            friction: None,
+            speed_rad_s: 0.0,
+            paths_m: vec![1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2],
+            follow: Follow::nobody(),
+        }
+    }
+}
+
+/// A slip and its blows.
+#[derive(Debug, Clone)]
+pub struct ReengagementAnswer<'a> {
+    design: &'a Design,
+    /// What was asked.
+    pub case: SlipCase,
+    /// What came of it.
+    pub found: Blows,
+    /// Peak torque that every limit bears, N m, and the limit that sets it.
+    pub bears: Option<(f64, String)>,
+}
+
+/// Why there is none.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoReengagement {
+    /// The clutch cannot begin so.
+    NoStart(NoElement),
+    /// A setting makes no sense: what is allowed.
+    Refused(&'static str),
+    /// It was stopped.
+    Interrupted,
+}
+
+impl fmt::Display for NoReengagement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoStart(why) => why.fmt(f),
+            Self::Refused(allowed) => write!(f, "allowed: {allowed}"),
+            Self::Interrupted => f.write_str("stopped"),
+        }
+    }
+}
+
+impl std::error::Error for NoReengagement {}
+
+impl Design {
+    /// Slip under load and the blow when the clutch grips again, for each path of slip.
+    ///
+    /// # Errors
+    /// [`NoReengagement`].
+    pub fn reengagement(
+        &self,
+        settings: &ReengagementSettings,
+    ) -> Result<ReengagementAnswer<'_>, NoReengagement> {
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        let races = &self.clutch.races;
+        let own = [races.inner_inertia_kg_m2, races.outer_inertia_kg_m2];
+        let case = SlipCase {
+            torque_nm: settings.torque_nm.or(self.limits.nominal_torque_nm).unwrap_or(0.0),
+            speed_rad_s: settings.speed_rad_s,
+            inertia_kg_m2: [0, 1].map(|race| settings.inertia_kg_m2[race].unwrap_or(own[race])),
+            friction: settings.friction.unwrap_or(0.5 * self.clutch.friction.kinetic),
+            paths_m: settings.paths_m.clone(),
+        };
+        let rising = case.paths_m.windows(2).all(|w| w[0] < w[1]);
+        if !positive(case.torque_nm) {
+            return Err(NoReengagement::Refused(
+                "a torque above 0: --torque, or nominal_torque_nm in [limits]",
+            ));
+        } else if !case.inertia_kg_m2.into_iter().all(positive) {
+            return Err(NoReengagement::Refused("inertias above 0"));
+        } else if !(case.friction.is_finite() && case.friction >= 0.0) {
+            return Err(NoReengagement::Refused("a friction of 0 or more"));
+        } else if case.paths_m.is_empty() || !rising || !case.paths_m.iter().copied().all(positive) {
+            return Err(NoReengagement::Refused("paths above 0, each longer than the one before"));
+        }
+        let found = blows(&self.clutch, &case, &settings.follow).map_err(|why| match why {
+            NoBlow::Start(why) => NoReengagement::NoStart(why),
+            NoBlow::Interrupted => NoReengagement::Interrupted,
+        })?;
+        let bears = load_state(self).ok().and_then(|state| {
+            let rows = load_margins(self, &self.limits, true, &state);
+            let at_peak = rows.iter().filter(|r| r.required && r.limit.when != When::Nominal);
+            let all = at_peak.filter_map(|r| Some((r.torque_capacity_nm?, r.code())));
+            all.min_by(|a, b| a.0.total_cmp(&b.0))
+        });
+        Ok(ReengagementAnswer { design: self, case, found, bears })
+    }
+}
+
+impl<'a> ReengagementAnswer<'a> {
+    /// Whether the clutch bears every blow.
+    pub fn held(&self) -> bool {
+        self.found.ended.is_none() && self.found.list.iter().all(|blow| self.bears_it(blow))
+    }
+
+    fn bears_it(&self, blow: &Blow) -> bool {
+        let most_nm = self.bears.as_ref().map_or(f64::INFINITY, |(torque_nm, _)| *torque_nm);
+        blow.peak.is_some_and(|p| p.torque_nm <= most_nm)
+    }
+
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
+    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
+        let case = &self.case;
+        let list = self.found.list.iter().map(|b| {
+            json!({
+                "path_mm": 1e3 * b.path_m, "slip_ms": 1e3 * b.slip_s, "peak_ms": 1e3 * b.peak_s, "path_in_all_mm": 1e3 * b.path_in_all_m,
+                "speed_rpm": Unit::Rpm.from_si(b.speed_rad_s), "peak_torque_nm": b.peak.map(|p| p.torque_nm),
+                "peak_by_energy_nm": b.by_energy_nm,
+                "hertz_inner_mpa": b.peak.map(|p| Unit::Megapascal.from_si(p.hertz_inner_pa)),
+                "held": self.bears_it(b), "ended": b.ended.map(Stop::name),
+            })
+        });
+        let body = json!({
+            "held": self.held(), "verdict": self.verdict(), "torque_nm": case.torque_nm, "friction": case.friction,
+            "speed_rpm": Unit::Rpm.from_si(case.speed_rad_s), "inertia_inner_kg_m2": case.inertia_kg_m2[0],
+            "inertia_outer_kg_m2": case.inertia_kg_m2[1], "bears_nm": self.bears.as_ref().map(|b| b.0),
+            "bears_by": self.bears.as_ref().map(|b| b.1.as_str()), "blows": list.collect::<Vec<_>>(),
+            "needs_friction": self.found.holds, "slip_ended": self.found.ended.map(|(stop, _)| stop.name()),
+        });
+        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
+    }
+
+    fn left_out(&self) -> Vec<LeftOut> {
+        let more = |term: &str, why: &str, cost: &str| LeftOut {
+            term: term.to_owned(),
+            why: why.to_owned(),
+            cost: cost.to_owned(),
+        };
+        let mut all = vec![
+            more(
+                "shafts",
+                "both inertias are rigid with their races",
+                "a soft shaft lowers the blow: put the drive into [[drivetrain]] and simulate a transient",
+            ),
+            more(
+                "cage and neighbours",
+                "a sprag that is thrown out is stopped by nothing but its spring",
+                "a cage brings it back sooner: less speed, a smaller blow",
+            ),
+        ];
+        all.extend(left_out(&self.design.clutch));
+        all
+    }
+
+    /// In a sentence.
+    pub fn verdict(&self) -> String {
+        if let Some(needed) = self.found.holds {
+            return format!(
+                "HELD: it does not slip: {} needs a friction of {}, and {} is there",
+                Unit::NewtonMetre.show(self.case.torque_nm, 4),
+                significant(needed, 3),
+                significant(self.case.friction, 3)
+            );
+        }
+        if let Some((stop, at_s)) = self.found.ended {
+            return match stop {
+                Stop::FellAway => format!(
+                    "NOT HELD: the sprags are thrown out of reach {} after the slip begins, the clutch does not grip again",
+                    Unit::Millisecond.show(at_s, 3)
+                ),
+                other => format!(
+                    "NOT HELD: the slip cannot be followed beyond {} ({})",
+                    Unit::Millisecond.show(at_s, 3),
+                    other.name()
+                ),
+            };
+        }
+        let limit = self.bears.as_ref().map_or(String::new(), |(torque_nm, code)| {
+            format!(", of {} that {code} allows", Unit::NewtonMetre.show(*torque_nm, 4))
+        });
+        let path = |b: &Blow| Unit::Millimetre.show(b.path_m, 3);
+        match self.found.list.iter().find(|b| !self.bears_it(b)) {
+            Some(b) => match &b.peak {
+                Some(p) => format!(
+                    "NOT HELD: after {} of slip the blow comes to {}{limit}",
+                    path(b),
+                    Unit::NewtonMetre.show(p.torque_nm, 4)
+                ),
+                None => {
+                    format!("NOT HELD: after {} of slip the blow goes beyond the end of the curve", path(b))
+                }
+            },
+            None => {
+                let most = self.found.list.iter().filter_map(|b| Some((b, b.peak?.torque_nm)));
+                most.max_by(|a, b| a.1.total_cmp(&b.1)).map_or("HELD".to_owned(), |(b, torque_nm)| {
+                    format!("HELD: after {} of slip {}{limit}", path(b), Unit::NewtonMetre.show(torque_nm, 4))
+                })
+            }
+        }
+    }
+
+    /// Each path of slip with its blow.
+    pub fn blows(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::number("path_mm", "Slip", Unit::Millimetre, 3),
+            Column::number("slip_ms", "Lasts", Unit::Millisecond, 3),
+            Column::number("peak_ms", "Blow at", Unit::Millisecond, 3),
+            Column::number("path_in_all_mm", "Slip in all", Unit::Millimetre, 3),
+            Column::number("speed_rpm", "Speed gained", Unit::Rpm, 3),
+            Column::number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4),
+            Column::number("times", "Times the torque", Unit::One, 3),
+            Column::number("peak_by_energy_nm", "By energy", Unit::NewtonMetre, 4),
+            Column::number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4),
+            Column::text("verdict", "Verdict"),
+        ]);
+        for b in &self.found.list {
+            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
+            let held = self.bears_it(b);
+            let word = match (held, b.peak) {
+                (true, _) => "held",
+                (false, Some(_)) => "NOT HELD",
+                (false, None) if b.ended == Some(Stop::FellAway) => "THROWN OUT",
+                (false, None) => "OVERLOADED",
+            };
+            table.row(vec![
+                b.path_m.into(),
+                b.slip_s.into(),
+                b.peak_s.into(),
+                b.path_in_all_m.into(),
+                b.speed_rad_s.into(),
+                of(b.peak.map(|p| p.torque_nm)),
+                of(b.peak.map(|p| p.torque_nm / self.case.torque_nm)),
+                of(b.by_energy_nm.filter(|_| b.ended != Some(Stop::FellAway))),
+                of(b.peak.map(|p| p.hertz_inner_pa)),
+                Cell::Verdict(held, word.to_owned()),
+            ]);
+        }
+        table
+    }
+
+    /// What was taken, in sentences.
+    fn remarks(&self) -> Vec<String> {
+        let case = &self.case;
+        let [inner, outer] = case.inertia_kg_m2.map(|i| significant(i, 4));
+        vec![
+            format!(
+                "{} carried when the friction falls to {}; {inner} kg m² turn with the inner race, {outer} kg m² with the outer one, both rigidly",
+                Unit::NewtonMetre.show(case.torque_nm, 4),
+                significant(case.friction, 3),
+            ),
+            "Slip, lasts: path at the inner track and time until the design's friction is back; blow at: when the load is largest; slip in all:              path until then; speed gained: largest speed of the races against one another"
+                .to_owned(),
+            "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however short the slip".to_owned(),
+        ]
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        let hash = self.design.hash.get(..12).unwrap_or(&self.design.hash);
+        let found = match self.found.list.is_empty() {
+            true => String::new(),
+            false => format!("{}\n{}\n", self.blows().to_text(screen), self.remarks().join("\n")),
+        };
+        format!("{}  {hash}\n\n{found}{}\n", self.design.name, self.verdict())
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, provenance: &Provenance) -> Page {
+        let mut page = begun("Slip and re-engagement", self.design, &provenance.command);
+        page.verdict(self.held(), &self.verdict());
+        page.list(self.remarks());
+        let points = |of: &dyn Fn(&Blow) -> Option<f64>| -> Vec<[f64; 2]> {
+            self.found.list.iter().filter_map(|b| Some([1e3 * b.path_m, of(b)?])).collect()
+        };
+        let mut plot = Plot::new("Slip until the friction is back, mm", "Torque, Nm");
+        plot.log_x = true;
+        plot.curves.push(Curve::new("blow", points(&|b| Some(b.peak?.torque_nm))));
+        plot.curves.push(Curve::new("by energy, nothing lost", points(&|b| b.by_energy_nm)));
+        if let Some((most_nm, code)) = &self.bears {
+            plot.curves.push(Curve::new(&format!("allowed by {code}"), points(&|_| Some(*most_nm))));
+        }
+        if !self.found.list.is_empty() {
+            page.figure(&plot.to_svg(), "Largest torque when the clutch grips again.");
+            page.table("Each path of slip.", &self.blows());
+        }
+        self.envelope(provenance.run_time_s).close(&mut page);
+        page
+    }
+}

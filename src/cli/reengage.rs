@@ -1,0 +1,81 @@
+//! `reengage`: slip under load and the blow when the clutch grips again.
+
+use super::exit::{Exit, Failure};
+use super::output::path_text;
+use super::{Context, parts, positive};
+use crate::answer::reengagement::{NoReengagement, ReengagementSettings};
+use clap::Args;
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  sprag-design reengage designs/starter.toml --torque 50 --inner-inertia 0.05 --outer-inertia 0.05 --friction 0.06
+  sprag-design reengage designs/starter.toml --torque 50 --friction 0.06 --paths 0.1,1,10 --report blow.html
+
+The clutch carries a torque; its friction falls, it slips, and after a path of slip the friction is back: how large is the blow? The
+inertias are those of the races with all that turns rigidly with them. Exit code 1 where a blow is beyond what the limits at
+peak torque allow, or the sprags are thrown out of reach.";
+
+/// Arguments of `reengage`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct ReengageArgs {
+    /// Design files (TOML)
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// Torque carried when the slip begins, Nm [default: nominal_torque_nm in [limits]]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = positive)]
+    pub torque: Option<f64>,
+    /// What turns with the inner race, kg m², the race included [default: the race alone]
+    #[arg(long, value_name = "KG_M2", allow_hyphen_values = true, value_parser = positive)]
+    pub inner_inertia: Option<f64>,
+    /// What turns with the outer race, kg m², the race included [default: the race alone]
+    #[arg(long, value_name = "KG_M2", allow_hyphen_values = true, value_parser = positive)]
+    pub outer_inertia: Option<f64>,
+    /// Friction of the contacts while they slip [default: half of friction.kinetic]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = positive)]
+    pub friction: Option<f64>,
+    /// Speed of both races when the slip begins, rpm [default: 0]
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = positive)]
+    pub speed: Option<f64>,
+    /// Paths of slip at the inner track after which the friction is back, mm, rising [default: 0.1,0.3,1,3,10,30]
+    #[arg(long, value_name = "MM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',')]
+    pub paths: Option<Vec<f64>>,
+}
+
+/// Run the command.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(args: &ReengageArgs, context: &Context) -> Result<Exit, Failure> {
+    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
+    context.outputs.check(&inputs, &[])?;
+    parts::each(&args.files, context, |file| one(args, file, context))
+}
+
+fn one(args: &ReengageArgs, file: &Path, context: &Context) -> Result<Exit, Failure> {
+    let design = parts::read_design(file, context)?;
+    let plain = ReengagementSettings::default();
+    let settings = ReengagementSettings {
+        torque_nm: args.torque,
+        inertia_kg_m2: [args.inner_inertia, args.outer_inertia],
+        friction: args.friction,
+        speed_rad_s: args.speed.map_or(0.0, |rpm| rpm * PI / 30.0),
+        paths_m: args.paths.as_ref().map_or(plain.paths_m, |list| list.iter().map(|mm| 1e-3 * mm).collect()),
+        follow: context.follow.clone(),
+    };
+    let started = Instant::now();
+    let found = match design.reengagement(&settings) {
+        Ok(found) => found,
+        Err(NoReengagement::Interrupted) => return Ok(Exit::Interrupted),
+        Err(why) => return Err(Failure::malformed(format!("{}: {why}", path_text(file)))),
+    };
+    let run_time_s = started.elapsed().as_secs_f64();
+    context.outputs.write_csv(&found.blows());
+    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
+    context.answer(&found.text(context.screen))?;
+    context.print(&found.envelope(run_time_s))?;
+    Ok(if found.held() { Exit::Held } else { Exit::NotHeld })
+}

@@ -1,0 +1,238 @@
+//! Slip under load and the blow when the clutch grips again: what brought helicopters down.
+//!
+//! In: a `Design`, the torque it carries, what turns with both races, the friction while it slips. Out: [`Blow`] for each path of slip.
+//! Absent: what makes it slip (oil, wear, dirt); shafts, which soften the blow (a `[[drivetrain]]` scene has them); heat of the slip.
+//! Equations: (13) and (15) by [`crate::element`], and the balance of energy below.
+//!
+//! The clutch carries C in equilibrium; from one instant on its contacts have the friction of the slip. The wedge throws the sprags
+//! out, they fly until the spring has brought them back, and the torque drives the races apart. After a path of slip the friction is that
+//! of the design again, and the clutch grips as soon as the sprags are back. The races are fastest against one another when
+//! the clutch carries C once more; from there on that speed w goes into its windup. With J = J_i J_e/(J_i + J_e) and no loss
+//!
+//!   J w^2/2 = integral from W(C) to W_max of (C(W) - C) dW,
+//!
+//! which is [`Blow::by_energy_nm`]; slip while the load rises takes some of it.
+
+use crate::clutch::{Clutch, Friction};
+use crate::dynamics::{Run, Stop};
+use crate::element::{Beginning, Element, NoElement, Settings, Torque};
+use crate::follow::Follow;
+use crate::wedge::{StaticPoint, WedgeCurve};
+use std::f64::consts::TAU;
+
+/// What is asked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlipCase {
+    /// Torque that the clutch carries and that goes on acting, N m.
+    pub torque_nm: f64,
+    /// Speed of both races before, rad/s.
+    pub speed_rad_s: f64,
+    /// What turns with the inner and the outer race, these included, kg m^2.
+    pub inertia_kg_m2: [f64; 2],
+    /// Friction coefficient of both contacts while they slip.
+    pub friction: f64,
+    /// Paths of slip between the tracks at the inner track, m, each above 0, rising.
+    pub paths_m: Vec<f64>,
+}
+
+/// What follows after one path of slip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Blow {
+    /// Path of slip after which the friction is back, m at the inner track.
+    pub path_m: f64,
+    /// When that was, s after the slip began.
+    pub slip_s: f64,
+    /// When the load was largest, s after the slip began.
+    pub peak_s: f64,
+    /// Path of the races against one another until they stood still against one another for the first time, m at the inner track.
+    pub path_in_all_m: f64,
+    /// Largest speed of the races against one another, rad/s.
+    pub speed_rad_s: f64,
+    /// Largest load thereafter; `None`: beyond the end of the curve, the sprags roll over or an arc ends.
+    pub peak: Option<StaticPoint>,
+    /// Largest torque by the balance of energy, nothing lost, N m; `None`: beyond the end of the curve.
+    pub by_energy_nm: Option<f64>,
+    /// Why the run ended where it has not come to its end.
+    pub ended: Option<Stop>,
+}
+
+/// Why there is no answer.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoBlow {
+    /// The clutch has no such start.
+    Start(NoElement),
+    /// It was asked to stop.
+    Interrupted,
+}
+
+/// What a slip comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Blows {
+    /// One for each path, as far as it slips.
+    pub list: Vec<Blow>,
+    /// Where it does not slip: |T|/N at the inner contact, which the friction is enough for.
+    pub holds: Option<f64>,
+    /// Why it did not slip as far as the next path, and when, s after the slip began.
+    pub ended: Option<(Stop, f64)>,
+}
+
+/// Halvings of an advance until the path is met.
+const HALVINGS: usize = 24;
+/// Advances in a period of the races on the clutch.
+const ADVANCES: f64 = 64.0;
+/// Periods that are waited for a slip to begin.
+const PERIODS: f64 = 3.0;
+/// Advances at most until the clutch has gripped.
+const MOST: usize = 200_000;
+
+/// Inertia of two races against one another, kg m^2.
+fn reduced([inner, outer]: [f64; 2]) -> f64 {
+    inner * outer / (inner + outer)
+}
+
+/// Torque up to which `energy_j` winds the clutch up from `torque_nm` on, that torque doing its part; `None`: not on the curve.
+pub fn by_energy_nm(curve: &WedgeCurve, torque_nm: f64, energy_j: f64) -> Option<f64> {
+    const PANELS: u32 = 4096;
+    let end_nm = curve.end_torque_nm() * (1.0 - 1e-12);
+    let (mut left_j, mut before) = (energy_j, [torque_nm, curve.at_torque(torque_nm)?.windup_rad]);
+    for k in 1..=PANELS {
+        let here_nm = torque_nm + (end_nm - torque_nm) * f64::from(k) / f64::from(PANELS);
+        let windup_rad = curve.at_torque(here_nm)?.windup_rad;
+        let work_j = (0.5 * (before[0] + here_nm) - torque_nm) * (windup_rad - before[1]);
+        if work_j >= left_j {
+            // Work rises with the square of the torque where the panel begins at the torque that acts.
+            let [from, until] = [before[0] - torque_nm, here_nm - torque_nm];
+            return Some(torque_nm + (from * from + (until * until - from * from) * left_j / work_j).sqrt());
+        }
+        left_j -= work_j;
+        before = [here_nm, windup_rad];
+    }
+    None
+}
+
+/// How far a slip comes.
+enum Slipped {
+    There,
+    /// Not at all: |T|/N.
+    Holds(f64),
+    Ended(Stop),
+}
+
+/// A clutch between two inertias under equal torques.
+struct Drive<'a> {
+    case: &'a SlipCase,
+    radius_m: f64,
+    /// Angle of the races against one another at the start, rad.
+    begun_rad: f64,
+    dt_s: f64,
+    follow: &'a Follow,
+}
+
+impl Drive<'_> {
+    /// Path (m at the inner track) and speed (rad/s) of the races against one another, in the sense of the torque.
+    fn apart(&self, element: &Element) -> (f64, f64) {
+        let [inner, outer] = element.motion().flanges;
+        let path_m = (outer.angle_rad - inner.angle_rad - self.begun_rad) * self.radius_m;
+        (path_m, outer.speed_rad_s - inner.speed_rad_s)
+    }
+
+    fn advance(&self, element: &mut Element, dt_s: f64) -> Result<Run, NoBlow> {
+        if self.follow.stopped() {
+            return Err(NoBlow::Interrupted);
+        }
+        let torque_nm = self.case.torque_nm;
+        let torques = [Torque::constant(-torque_nm), Torque::constant(torque_nm)];
+        element.advance(dt_s, torques).map_err(|why| NoBlow::Start(NoElement::Malformed(why)))
+    }
+
+    /// Let it slip on until it has come to `path_m`.
+    fn slip_to(&self, slips: &mut Element, path_m: f64) -> Result<Slipped, NoBlow> {
+        let (mut dt_s, mut halved) = (self.dt_s, 0);
+        for _ in 0..MOST {
+            let before = slips.save();
+            let run = self.advance(slips, dt_s)?;
+            if self.apart(slips).0 <= path_m {
+                let slid = slips.slips().iter().any(|s| s.time_s > 0.0) || slips.motion().open;
+                if run.stop != Stop::Finished {
+                    return Ok(Slipped::Ended(run.stop));
+                }
+                if !slid && slips.t_s() > PERIODS * ADVANCES * self.dt_s {
+                    return Ok(Slipped::Holds(run.peaks.tan_inner));
+                }
+                continue;
+            }
+            if halved == HALVINGS {
+                return Ok(Slipped::There);
+            }
+            // Back, and on by half the step.
+            slips.restore(&before).map_err(|why| NoBlow::Start(NoElement::Malformed(why)))?;
+            (dt_s, halved) = (0.5 * dt_s, halved + 1);
+        }
+        Ok(Slipped::Ended(Stop::StepLimit))
+    }
+
+    /// Grip again with the friction of `held` from where `slips` stands.
+    fn grip(&self, slips: &Element, held: &Clutch, path_m: f64) -> Result<Blow, NoBlow> {
+        let mut grips = slips.exchanged(held).map_err(NoBlow::Start)?;
+        let slip_s = grips.t_s();
+        let (mut most_n, mut peak_s, mut speed_rad_s, mut ended) = (0.0, slip_s, 0.0_f64, None);
+        for _ in 0..MOST {
+            let before_s = grips.t_s();
+            let run = self.advance(&mut grips, self.dt_s)?;
+            if run.peaks.normal_max_n > most_n {
+                (most_n, peak_s) = (run.peaks.normal_max_n, before_s + run.peaks.at_s[3]);
+            }
+            if run.stop != Stop::Finished {
+                ended = Some(run.stop);
+                break;
+            }
+            let (_, speed) = self.apart(&grips);
+            speed_rad_s = speed_rad_s.max(speed);
+            // Wound up and on its way back.
+            if speed < 0.0 {
+                break;
+            }
+        }
+        let curve = &grips.model().curve;
+        let energy_j = 0.5 * reduced(self.case.inertia_kg_m2) * speed_rad_s * speed_rad_s;
+        Ok(Blow {
+            path_m,
+            slip_s,
+            peak_s,
+            path_in_all_m: self.apart(&grips).0,
+            speed_rad_s,
+            peak: curve.at_normal(most_n).filter(|_| ended.is_none()),
+            by_energy_nm: by_energy_nm(curve, self.case.torque_nm, energy_j),
+            ended,
+        })
+    }
+}
+
+/// The blow after each path of slip.
+///
+/// # Errors
+/// [`NoBlow`].
+pub fn blows(clutch: &Clutch, case: &SlipCase, follow: &Follow) -> Result<Blows, NoBlow> {
+    let mut held = clutch.clone();
+    [held.races.inner_inertia_kg_m2, held.races.outer_inertia_kg_m2] = case.inertia_kg_m2;
+    let friction = Friction { static_: case.friction, kinetic: case.friction, ..held.friction };
+    let slippery = Clutch { friction, ..held.clone() };
+    let (torque_nm, speed_rad_s) = (case.torque_nm, case.speed_rad_s);
+    let beginning = Beginning { torque_nm, speed_rad_s, ..Beginning::default() };
+    let settings = Settings { tolerance: 1e-9, ..Settings::default() };
+    let rests = Element::new(&held, &beginning, &settings).map_err(NoBlow::Start)?;
+    let stiffness = rests.model().curve.at_torque(torque_nm).map_or(1.0, |p| p.k_tangent_nm_per_rad);
+    let dt_s = TAU * (reduced(case.inertia_kg_m2) / stiffness).sqrt() / ADVANCES;
+    let mut drive = Drive { case, radius_m: clutch.races.inner_radius_m, begun_rad: 0.0, dt_s, follow };
+    drive.begun_rad = drive.apart(&rests).0 / drive.radius_m;
+    let mut slips = rests.exchanged(&slippery).map_err(NoBlow::Start)?;
+    let mut found = Blows { list: Vec::with_capacity(case.paths_m.len()), holds: None, ended: None };
+    for &path_m in &case.paths_m {
+        match drive.slip_to(&mut slips, path_m)? {
+            Slipped::There => found.list.push(drive.grip(&slips, &held, path_m)?),
+            Slipped::Holds(needed) => return Ok(Blows { holds: Some(needed), ..found }),
+            Slipped::Ended(stop) => return Ok(Blows { ended: Some((stop, slips.t_s())), ..found }),
+        }
+    }
+    Ok(found)
+}

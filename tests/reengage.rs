@@ -1,0 +1,107 @@
+//! Slip and the blow after it: held against the balance of energy, limits, and from outside.
+
+#[path = "common/program.rs"]
+mod program;
+
+use program::*;
+use sprag_design::dynamics::Stop;
+use sprag_design::reengage::{Blow, Blows, SlipCase, blows, by_energy_nm};
+use sprag_design::{Design, Follow, WedgeCurve};
+
+const FILE: &str = "designs/starter.toml";
+
+fn case(friction: f64, inertia_kg_m2: [f64; 2], paths_m: &[f64]) -> SlipCase {
+    SlipCase { torque_nm: 50.0, speed_rad_s: 0.0, inertia_kg_m2, friction, paths_m: paths_m.to_vec() }
+}
+
+fn found(case: &SlipCase) -> Blows {
+    let design = Design::read(FILE.as_ref()).unwrap();
+    blows(&design.clutch, case, &Follow::nobody()).unwrap()
+}
+
+fn peak(blow: &Blow) -> f64 {
+    blow.peak.unwrap().torque_nm
+}
+
+/// The integral by the midpoint rule over the windup, which is another path through the curve than the one of the library.
+#[test]
+fn the_torque_by_energy_holds_that_energy() {
+    let clutch = Design::read(FILE.as_ref()).unwrap().clutch;
+    let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
+    for (torque_nm, energy_j) in [(50.0, 1.0), (50.0, 20.0), (300.0, 5.0), (50.0, 1e-4)] {
+        let most = by_energy_nm(&curve, torque_nm, energy_j).unwrap();
+        let windup = |nm: f64| curve.at_torque(nm).unwrap().windup_rad;
+        let n = 20_000;
+        let step = (most - torque_nm) / f64::from(n);
+        let work: f64 = (0..n)
+            .map(|k| {
+                let from = torque_nm + step * f64::from(k);
+                (from + 0.5 * step - torque_nm) * (windup(from + step) - windup(from))
+            })
+            .sum();
+        assert!((work / energy_j - 1.0).abs() < 1e-3, "{torque_nm} {energy_j}: {work}");
+    }
+    assert_eq!(by_energy_nm(&curve, 50.0, 1e6), None);
+}
+
+/// Nothing comes from nowhere, and what is lost while the contacts slip on is little.
+#[test]
+fn a_blow_is_a_little_less_than_the_energy_of_the_races_allows() {
+    let one = found(&case(0.06, [0.05, 0.05], &[1e-4, 1e-3, 1e-2]));
+    assert!(one.ended.is_none() && one.holds.is_none() && one.list.len() == 3);
+    for blow in &one.list {
+        let lost = 1.0 - peak(blow) / blow.by_energy_nm.unwrap();
+        assert!((0.0..0.01).contains(&lost), "{lost} {blow:?}");
+        assert!(blow.peak_s > blow.slip_s && blow.path_in_all_m > blow.path_m);
+    }
+    // A short slip lasts as long as the sprags fly: half the path makes no difference.
+    let shorter = found(&case(0.06, [0.05, 0.05], &[5e-5]));
+    assert!((peak(&shorter.list[0]) / peak(&one.list[0]) - 1.0).abs() < 0.05);
+    // A long one: the torque drives the inertia of both against one another, w^2 = 2 C s/(J R), less what is passed on.
+    let long = &one.list[2];
+    let radius_m = Design::read(FILE.as_ref()).unwrap().clutch.races.inner_radius_m;
+    let free = (2.0 * 50.0 * long.path_in_all_m / (0.025 * radius_m)).sqrt();
+    assert!((0.95..1.0).contains(&(long.speed_rad_s / free)), "{} {free}", long.speed_rad_s);
+}
+
+/// Only the inertia of the races against one another counts.
+#[test]
+fn inertias_change_places() {
+    let [a, b] = [[0.02, 0.3], [0.3, 0.02]].map(|inertia| found(&case(0.06, inertia, &[1e-3])));
+    assert!((peak(&a.list[0]) / peak(&b.list[0]) - 1.0).abs() < 0.02, "{a:?} {b:?}");
+}
+
+#[test]
+fn what_holds_and_what_is_thrown_out_are_answers() {
+    let holds = found(&case(0.09, [0.05, 0.05], &[1e-3]));
+    assert!(holds.list.is_empty() && (0.06..0.075).contains(&holds.holds.unwrap()), "{holds:?}");
+    let thrown = found(&case(0.03, [5.55e-4, 4.31e-3], &[1e-3, 1e-2]));
+    assert_eq!(thrown.ended.unwrap().0, Stop::FellAway, "{thrown:?}");
+}
+
+#[test]
+fn the_command_in_every_form() {
+    let folder = Folder::new();
+    let (csv, page) = (folder.path("blow.csv"), folder.path("blow.html"));
+    let args = ["reengage", FILE, "--torque", "50", "--friction", "0.06", "--paths", "1,3"];
+    let inertias = ["--inner-inertia", "0.05", "--outer-inertia", "0.05"];
+    let output =
+        run(&[&args[..], &inertias, &["--json", "--csv", &csv, "--report", &page, "--quiet"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let value = json(&output);
+    has_envelope(&value);
+    assert_eq!(value["blows"].as_array().unwrap().len(), 2);
+    let torque = value["blows"][0]["peak_torque_nm"].as_f64().unwrap();
+    let by_hand = peak(&found(&case(0.06, [0.05, 0.05], &[1e-3])).list[0]);
+    assert_eq!(torque.to_bits(), by_hand.to_bits());
+    assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 3);
+    assert!(is_self_contained(page).contains("blow"));
+    let thrown = run(&["reengage", FILE, "--torque", "50", "--friction", "0.03", "--quiet"]);
+    assert_eq!(thrown.status.code(), Some(1));
+    assert!(stdout(&thrown).contains("thrown out of reach"), "{}", stdout(&thrown));
+    for (wrong, word) in [("--paths=3,1", "each longer"), ("--torque=-1", "above zero")] {
+        let refused = run(&["reengage", FILE, wrong, "--friction", "0.06"]);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&refused.stderr).contains(word), "{refused:?}");
+    }
+}
