@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Renew the outputs that README and guide show: python3 docs/shown.py BINARY [PAGE ...]
 
-Every block of text that begins with `$ sprag-design` is run as `tests/guide.rs` runs it, and what is shown of its output
-is replaced by what is printed now: as many lines as before, `...` standing for any number; a part between two `...` is
-looked for by likeness. Look at the difference before it is committed. Standard library only.
+Every block of text that begins with `$ sprag-design`, or `$ echo '...' | sprag-design`, is run as `tests/guide.rs` runs it,
+and what is shown of its output is replaced by what is printed now: as many lines as before, `...` standing for any number; a
+part between two `...` is looked for by likeness. Look at the difference before it is committed. Standard library only.
 """
 
 import difflib
@@ -58,7 +58,7 @@ def renew(page, binary):
         line = lines[i]
         if line.startswith("```"):
             inside = line == "```text" and not inside
-        if not (inside and line.startswith("$ sprag-design")):
+        if not (inside and line.startswith(("$ sprag-design", "$ echo '"))):
             out.append(line)
             i += 1
             continue
@@ -73,8 +73,10 @@ def renew(page, binary):
         while not (lines[i].startswith("```") or lines[i].startswith("$ ")):
             shown.append(lines[i])
             i += 1
+        given, _, command = command.rpartition("' | ")
         words = shlex.split(command)[1:]
-        run = subprocess.run([binary, *words, "--quiet"], cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        given = given.removeprefix("echo '")
+        run = subprocess.run([binary, *words, "--quiet"], cwd=folder, capture_output=True, text=True, input=given)
         printed = [p.rstrip() for p in run.stdout.rstrip("\n").split("\n")]
         tail = []
         while shown and not shown[-1].strip():
@@ -86,6 +88,6 @@ def renew(page, binary):
 
 if __name__ == "__main__":
     binary = str(pathlib.Path(sys.argv[1]).resolve())
-    pages = sys.argv[2:] or ["README.md", *sorted(str(p) for p in pathlib.Path("docs/src").glob("*.md"))]
+    pages = sys.argv[2:] or ["README.md", *sorted(str(p) for p in pathlib.Path("docs/src").rglob("*.md"))]
     for page in pages:
         renew(pathlib.Path(page), binary)

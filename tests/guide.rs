@@ -1,13 +1,15 @@
 //! README and guide tell what the program does: every command in them is run, every line of output shown is printed.
 //!
 //! A block of text that begins with `$ sprag-design` is run, line by line, in one folder for each page, beside a copy of
-//! `designs/`. Of the output shown each line must be printed, in this order; a line `...` stands for any number of lines.
+//! `designs/`; `$ echo '...' | sprag-design` gives it standard input. Of the output shown each line must be printed, in this
+//! order; a line `...` stands for any number of lines. Every command has a page, and every link leads to a file.
 
 #[path = "common/program.rs"]
 mod program;
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output, Stdio};
 
 struct Step {
     command: String,
@@ -68,12 +70,36 @@ fn missing<'s>(shown: &'s [String], printed: &str) -> Option<&'s str> {
     None
 }
 
-fn pages() -> Vec<PathBuf> {
-    let mut pages = vec![PathBuf::from("README.md")];
-    let guide = std::fs::read_dir("docs/src").unwrap().map(|e| e.unwrap().path());
-    pages.extend(guide.filter(|p| p.extension().is_some_and(|e| e == "md")));
+/// README and every page of the guide below `root`.
+fn pages(root: &Path) -> Vec<PathBuf> {
+    let mut pages = vec![root.join("README.md")];
+    for folder in ["docs/src", "docs/src/commands"] {
+        let entries = std::fs::read_dir(root.join(folder)).unwrap().map(|e| e.unwrap().path());
+        pages.extend(entries.filter(|p| p.extension().is_some_and(|e| e == "md")));
+    }
     pages.sort();
     pages
+}
+
+/// What `echo 'INPUT' | COMMAND` gives on standard input, and the command.
+fn with_input(line: &str) -> (&str, &str) {
+    line.strip_prefix("echo '").and_then(|rest| rest.split_once("' | ")).unwrap_or(("", line))
+}
+
+fn run(args: &str, input: &str, here: &Path) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_sprag-design"))
+        .args(args.split_whitespace().map(|a| a.trim_matches('\'')))
+        .arg("--quiet")
+        .current_dir(here)
+        .env("NO_COLOR", "1")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A command that reads nothing may have ended.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    child.wait_with_output().unwrap()
 }
 
 fn copied(from: &Path, to: &Path) {
@@ -92,22 +118,17 @@ fn copied(from: &Path, to: &Path) {
 #[test]
 fn every_command_of_readme_and_guide_prints_what_they_show() {
     let mut count = 0;
-    for page in pages() {
+    for page in pages(Path::new("")) {
         let text = std::fs::read_to_string(&page).unwrap();
         let folder = program::Folder::new();
         let here = PathBuf::from(folder.path(""));
         copied(Path::new("designs"), &here.join("designs"));
         copied(Path::new("tests/reference"), &here.join("tests/reference"));
         for step in steps(&text) {
-            let Some(args) = step.command.strip_prefix("sprag-design ") else { continue };
+            let (input, command) = with_input(&step.command);
+            let Some(args) = command.strip_prefix("sprag-design ") else { continue };
             count += 1;
-            let out = Command::new(env!("CARGO_BIN_EXE_sprag-design"))
-                .args(args.split_whitespace().map(|a| a.trim_matches('\'')))
-                .arg("--quiet")
-                .current_dir(&here)
-                .env("NO_COLOR", "1")
-                .output()
-                .unwrap();
+            let out = run(args, input, &here);
             let printed =
                 format!("{}{}", String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
             let place = format!("{}: {}", page.display(), step.command);
@@ -117,7 +138,50 @@ fn every_command_of_readme_and_guide_prints_what_they_show() {
             }
         }
     }
-    assert!(count >= 15, "only {count} commands found");
+    assert!(count >= 40, "only {count} commands found");
+}
+
+/// The names in the section `Commands:` of the help.
+fn commands() -> Vec<String> {
+    let help = program::stdout(&program::run(&["--help"]));
+    let section = help.lines().skip_while(|l| *l != "Commands:").skip(1).take_while(|l| !l.is_empty());
+    let names = section.filter(|l| !l.starts_with("   ")).filter_map(|l| l.split_whitespace().next());
+    names.filter(|n| *n != "help").map(str::to_owned).collect()
+}
+
+#[test]
+fn every_command_has_its_page() {
+    let commands = commands();
+    assert!(commands.len() >= 19, "{commands:?}");
+    let contents = std::fs::read_to_string("docs/src/SUMMARY.md").unwrap();
+    for name in commands {
+        assert!(Path::new(&format!("docs/src/commands/{name}.md")).exists(), "no page of {name}");
+        assert!(contents.contains(&format!("(commands/{name}.md)")), "{name} is not in SUMMARY.md");
+    }
+}
+
+/// The targets of the links and pictures of a page that are files.
+fn links(page: &str) -> Vec<&str> {
+    let outside_code = page.split("```").step_by(2);
+    let targets =
+        outside_code.flat_map(|text| text.split("](").skip(1)).filter_map(|rest| rest.split(')').next());
+    targets
+        .filter(|t| !t.contains("://"))
+        .map(|t| t.split('#').next().unwrap_or(t))
+        .filter(|t| !t.is_empty())
+        .collect()
+}
+
+/// `GUIDE_ROOT` names another folder than the source's, as `.ci/release` does with the archive unpacked.
+#[test]
+fn every_link_of_readme_and_guide_leads_to_a_file() {
+    let root = PathBuf::from(std::env::var("GUIDE_ROOT").unwrap_or_default());
+    for page in pages(&root) {
+        let text = std::fs::read_to_string(&page).unwrap();
+        for link in links(&text) {
+            assert!(page.with_file_name(link).exists(), "{}: {link} leads nowhere", page.display());
+        }
+    }
 }
 
 #[test]
@@ -128,4 +192,9 @@ fn what_is_shown_must_stand_there_in_its_order() {
     assert_eq!(missing(&steps[0].shown, "one\ntwo\nthree\n"), None);
     assert_eq!(missing(&steps[0].shown, "one\ntwo\n"), Some("three"));
     assert_eq!(missing(&steps[0].shown, "zero\none\nthree"), Some("one"));
+    assert_eq!(with_input("echo '[1, 2]' | sprag-design a"), ("[1, 2]", "sprag-design a"));
+    assert_eq!(
+        links("[a](b.md#c) ![d](e.png) [f](#g) [h](https://i)\n```\n[j](k)\n```\n"),
+        ["b.md", "e.png"]
+    );
 }
