@@ -60,8 +60,9 @@ fn a_blow_is_a_little_less_than_the_energy_of_the_races_allows() {
     // A long one: the torque drives the inertia of both against one another, w^2 = 2 C s/(J R), less what is passed on.
     let long = &one.list[2];
     let radius_m = Design::read(FILE.as_ref()).unwrap().clutch.races.inner_radius_m;
-    let free = (2.0 * 50.0 * long.path_in_all_m / (0.025 * radius_m)).sqrt();
-    assert!((0.95..1.0).contains(&(long.speed_rad_s / free)), "{} {free}", long.speed_rad_s);
+    let free = |path_m: f64| (2.0 * 50.0 * path_m / (0.025 * radius_m)).sqrt();
+    let (least, most) = (0.95 * free(long.path_m), free(long.path_in_all_m));
+    assert!((least..most).contains(&long.speed_rad_s), "{} {least} {most}", long.speed_rad_s);
 }
 
 /// Only the inertia of the races against one another counts.
@@ -89,7 +90,7 @@ fn the_command_in_every_form() {
         run(&[&args[..], &inertias, &["--json", "--csv", &csv, "--report", &page, "--quiet"]].concat());
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let value = json(&output);
-    has_envelope(&value);
+    assert!(value["left_out"].as_array().unwrap().iter().any(|l| l["term"] == "shafts"));
     assert_eq!(value["blows"].as_array().unwrap().len(), 2);
     let torque = value["blows"][0]["peak_torque_nm"].as_f64().unwrap();
     let by_hand = peak(&found(&case(0.06, [0.05, 0.05], &[1e-3])).list[0]);
