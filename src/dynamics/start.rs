@@ -159,6 +159,11 @@ const BESIDE: f64 = 1e-4;
 /// Lift-off (no N_bi > 0 in equilibrium) is an answer. Whether the sprags stay there, and how far beside it the equations of
 /// motion settle, [`super::swing()`] says.
 pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> Overrun {
+    overrun_under(clutch, curve, alpha_max, |_| mu)
+}
+
+/// The same with a friction coefficient at A that depends on N_bi, N.
+pub fn overrun_under(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: impl Fn(f64) -> f64) -> Overrun {
     let k_r = clutch.spring.stiffness_nm_per_rad;
     let speed = curve.speed_rad_s();
     let touch = curve.touch();
@@ -172,6 +177,7 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
             (c.alpha.v, c.lengths.oa.v, c.lengths.ob.v, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v)
         };
         let l = levers(oa, ob, oc_g, bg, g);
+        let mu = mu(n);
         let t_bi = -mu * n;
         let t_be = t_bi * oa / ob;
         let f_c = clutch.sprags.mass_kg * oc_g * speed * speed;
