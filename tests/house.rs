@@ -52,7 +52,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     // Loads of a life on the static curve; strengths are the file's.
-    ("life", &["numeric", "clutch", "design", "wedge", "margin"]),
+    ("life", &["numeric", "lubrication", "clutch", "design", "friction", "wedge", "margin"]),
     // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
     // real, and a tolerance felt, on the profile itself.
     ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),

@@ -13,6 +13,13 @@ pub struct FilmContact {
     pub length_m: f64,
 }
 
+impl FilmContact {
+    /// Half of the width over which the bodies are flat under `load_n` (Hertz), m.
+    pub fn half_width_m(&self, load_n: f64) -> f64 {
+        (8.0 * load_n * self.radius_m / (PI * self.modulus_pa * self.length_m)).sqrt()
+    }
+}
+
 /// A lubricant at one temperature, without pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fluid {

@@ -7,6 +7,8 @@ use std::f64::consts::PI;
 pub const STEEL_CONDUCTIVITY: f64 = 46.0;
 /// sqrt(k rho c) of it, J/(m^2 K s^(1/2)): rho 7850 kg/m^3, c 475 J/(kg K).
 pub const STEEL_EFFUSIVITY: f64 = 13_097.0;
+/// kappa = k/(rho c) of it, m^2/s.
+pub const STEEL_DIFFUSIVITY_M2_S: f64 = 1.2336e-5;
 
 /// Conductances between contact A, inner race, sprags, outer race and the oil with its housing, W/K; all above 0.
 #[derive(Debug, Clone, Copy, PartialEq)]

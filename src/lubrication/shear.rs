@@ -23,7 +23,7 @@ pub struct Shear {
 /// [`nahme_factor`]. Rolling: integral (h/2) dp/dx dx of the rigid contact, 3.251 eta u l sqrt(2 R/h_0), u = v/2. Both against the
 /// numerical solution in `tests/lubrication.rs`.
 pub fn shear(contact: &FilmContact, fluid: &Fluid, film: &Film, load_n: f64, sliding_m_s: f64, thinning_per_k: f64) -> Shear {
-    let FilmContact { radius_m, modulus_pa, length_m } = *contact;
+    let FilmContact { radius_m, length_m, .. } = *contact;
     let h = film.thickness_m;
     if h <= 0.0 {
         return Shear { couette_n: 0.0, rolling_n: 0.0, pressure_pa: 0.0, nahme: 0.0 };
@@ -32,9 +32,8 @@ pub fn shear(contact: &FilmContact, fluid: &Fluid, film: &Film, load_n: f64, sli
     let end = 1.0 + c * c;
     let angle = c.atan() + 0.5 * PI;
     let wedge = (2.0 * radius_m * end / h).sqrt();
-    let half_width = (8.0 * load_n * radius_m / (length_m * PI * modulus_pa)).sqrt();
     let rigid = angle * wedge;
-    let path = rigid.hypot(2.0 * half_width / h);
+    let path = rigid.hypot(2.0 * contact.half_width_m(load_n) / h);
     let pressure_pa = load_n / (length_m * h * path);
     let viscosity = fluid.viscosity_pa_s * roelands(fluid, pressure_pa);
     let nahme = thinning_per_k * viscosity * sliding_m_s * sliding_m_s / super::OIL_CONDUCTIVITY;

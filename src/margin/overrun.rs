@@ -26,6 +26,8 @@ pub struct OverrunPoint {
     pub lubricated: Option<Lubricated>,
     /// The small swing about that equilibrium, races at held speeds; `None` where A is open or nothing slides.
     pub swing: Option<Swing>,
+    /// The same with the film's friction alone, without its squeeze; `None` without a film.
+    pub swing_by_friction: Option<Swing>,
     /// Growth of the outer track, (7), m.
     pub growth_m: f64,
     /// Hoop stress at the bore of the outer race by rotation alone, Pa, tension positive.
@@ -85,6 +87,9 @@ fn point(design: &Design, state: &LoadState, curve: &WedgeCurve, speed_rad_s: f6
         friction: found.friction,
         state: found.state,
         lubricated: found.lubricated,
+        swing_by_friction: found.lubricated.and_then(|l| {
+            l.swing_by_friction(&found.state, clutch, curve, state.alpha_max_rad, speed_rad_s)
+        }),
         swing: found.swing(clutch, curve, state.alpha_max_rad, speed_rad_s),
         growth_m: ring.centrifugal_bore_growth_m(curve.speed_rad_s()),
         rotation_hoop_pa: ring.rotating_bore_hoop_pa(curve.speed_rad_s()),

@@ -2,9 +2,9 @@
 
 use super::prepare::sliding_friction;
 use crate::clutch::{Clutch, Lubrication};
-use crate::dynamics::{Overrun, Swing, overrun, overrun_under, swing_on_film};
+use crate::dynamics::{Overrun, Swing, overrun, overrun_under, swing_on_film, swing_with_friction};
 use crate::friction::{FilmFriction, FilmState};
-use crate::lubrication::{Heat, Network, moving_strip, standing_strip};
+use crate::lubrication::{FilmContact, Heat, Network, moving_strip, standing_strip};
 use crate::numeric::root;
 use crate::wedge::WedgeCurve;
 use std::f64::consts::PI;
@@ -57,6 +57,20 @@ impl Sliding {
     pub fn swing(&self, clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, sliding_rad_s: f64) -> Option<Swing> {
         let film = self.lubricated.as_ref().map(|l| &l.law);
         swing_on_film(clutch, curve, alpha_max_rad, &self.state, sliding_rad_s, film)
+    }
+}
+
+impl Lubricated {
+    /// The small swing with the film's friction alone, without what its thickness does; arguments as of [`sliding()`].
+    pub fn swing_by_friction(
+        &self,
+        steady: &Overrun,
+        clutch: &Clutch,
+        curve: &WedgeCurve,
+        alpha_max_rad: f64,
+        sliding_rad_s: f64,
+    ) -> Option<Swing> {
+        swing_with_friction(clutch, curve, alpha_max_rad, steady, sliding_rad_s, Some(&self.law))
     }
 }
 
@@ -113,11 +127,11 @@ impl Steady<'_> {
         let speed = self.sliding_rad_s * races.inner_radius_m;
         let film = law.at(speed, state.normal_inner_n).film;
         let contact = &law.contact;
-        let flat = |radius: f64, n: f64| (8.0 * n * radius / (PI * contact.modulus_pa * contact.length_m)).sqrt();
         let wetted = (2.0 * contact.radius_m * film.thickness_m).sqrt();
-        let half = flat(contact.radius_m, state.normal_inner_n).hypot(wetted);
+        let half = contact.half_width_m(state.normal_inner_n).hypot(wetted);
         let outer_radius = 1.0 / (1.0 / sprags.outer_radius_m - 1.0 / races.outer_radius_m);
-        let outer_half = flat(outer_radius, state.normal_outer_n).max(1e-6);
+        let outer = FilmContact { radius_m: outer_radius, ..*contact };
+        let outer_half = outer.half_width_m(state.normal_outer_n).max(1e-6);
         let count = sprags.count as f64;
         let length = count * contact.length_m;
         let ring = |r: f64, far: f64| 2.0 * PI * (r * races.width_m + (r * r - far * far).abs() + far * races.width_m);

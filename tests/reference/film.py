@@ -94,7 +94,10 @@ def solve(m, el, cells=900, start=None):
             if not p.any():             # without pressure the load does not feel H0 yet
                 full[n], rhs[n] = 0, 0
                 full[n, n] = 1
-            d = np.linalg.solve(full, rhs)
+            try:
+                d = np.linalg.solve(full, rhs)
+            except np.linalg.LinAlgError:
+                return p, h0, False
             step = 1.0
             top = max(p.max(), 1e-9)
             big = np.abs(d[:n]).max()
@@ -124,6 +127,8 @@ def main():
     for el in [0.0, 2.0, 5.0, 10.0, 15.0]:
         start = None
         for m in levels:
+            if el * np.sqrt(m / (2 * np.pi)) > 9:
+                continue                    # Barus' exponent at the Hertz pressure: beyond it nothing is oil any more
             best = None
             if el > 0:
                 # walk up in L from the isoviscous solution at this load
