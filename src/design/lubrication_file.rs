@@ -108,9 +108,14 @@ pub(super) fn lubrication(file: &DesignFile, out: &mut Findings) -> Option<Optio
         ..*named
     };
     if oil.nu100_m2_s >= oil.nu40_m2_s {
+        let [nu40, nu100] = ["lubrication.nu40_mm2_s", "lubrication.nu100_mm2_s"];
+        let (keys, allowed) = match f.nu100_mm2_s {
+            Some(_) => ([nu100, nu40, "lubrication.oil"], format!("less than at 40 C, {} mm^2/s", 1e6 * oil.nu40_m2_s)),
+            None => ([nu40, nu100, "lubrication.oil"], format!("more than at 100 C, {} mm^2/s", 1e6 * oil.nu100_m2_s)),
+        };
         out.refuse(
-            &["lubrication.nu100_mm2_s", "lubrication.nu40_mm2_s", "lubrication.oil"],
-            format!("less than at 40 C, {} mm^2/s", 1e6 * oil.nu40_m2_s),
+            &keys,
+            allowed,
             "give both viscosities of the data sheet: oils thin as they get warm".to_owned(),
         );
         return None;

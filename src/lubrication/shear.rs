@@ -20,7 +20,7 @@ pub struct Shear {
 ///
 /// Couette: eta v l C with C = integral dx/h: of a rigid contact up to where the film breaks 2.0144 sqrt(2 R/h_0), of a flat one 2 a/h, together the
 /// root of the squares of both; viscosity at the mean pressure load/(l h C) by Roelands, at the walls' temperature, times
-/// [`nahme_factor`]. Rolling: integral (h/2) dp/dx dx of the rigid contact, 3.251 eta u l sqrt(2 R/h_0), u = v/2. Both against the
+/// [`nahme_factor`]; the stress bends round to its limit, tau/sqrt(1 + (tau/tau_L)^2) (Lee and Hamrock 1990). Rolling: integral (h/2) dp/dx dx of the rigid contact, 3.251 eta u l sqrt(2 R/h_0), u = v/2. Both against the
 /// numerical solution in `tests/lubrication.rs`.
 pub fn shear(contact: &FilmContact, fluid: &Fluid, film: &Film, load_n: f64, sliding_m_s: f64, thinning_per_k: f64) -> Shear {
     let FilmContact { radius_m, length_m, .. } = *contact;
@@ -34,16 +34,24 @@ pub fn shear(contact: &FilmContact, fluid: &Fluid, film: &Film, load_n: f64, sli
     let wedge = (2.0 * radius_m * end / h).sqrt();
     let rigid = angle * wedge;
     let path = rigid.hypot(2.0 * contact.half_width_m(load_n) / h);
-    let pressure_pa = load_n / (length_m * h * path);
+    let area = length_m * h * path;
+    let pressure_pa = load_n / area;
     let viscosity = fluid.viscosity_pa_s * roelands(fluid, pressure_pa);
     let nahme = thinning_per_k * viscosity * sliding_m_s * sliding_m_s / super::OIL_CONDUCTIVITY;
+    let newtonian_pa = viscosity * sliding_m_s / h * nahme_factor(nahme);
     let gradient = 6.0 * (angle - 0.5 * end * (c / end + angle));
     Shear {
-        couette_n: viscosity * sliding_m_s * length_m * path * nahme_factor(nahme),
+        couette_n: area * newtonian_pa / (newtonian_pa / limiting_pa(pressure_pa)).hypot(1.0),
         rolling_n: gradient * fluid.viscosity_pa_s * 0.5 * sliding_m_s * length_m * wedge,
         pressure_pa,
         nahme,
     }
+}
+
+/// Shear stress that an oil under pressure bears at most, Pa: tau_L = 2 MPa + 0.06 p, typical of mineral oils (0.04 to 0.1 of the
+/// pressure: Bair and Winer 1979).
+fn limiting_pa(pressure_pa: f64) -> f64 {
+    2e6 + 0.06 * pressure_pa
 }
 
 /// eta(p)/eta(0) by Roelands (1966), Z from alpha: exp[(ln eta + 9.67)((1 + p/196.2 MPa)^Z - 1)], Z = alpha 196.2 MPa/(ln eta + 9.67).

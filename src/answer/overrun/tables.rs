@@ -55,10 +55,10 @@ fn of_effects() -> Vec<Kind> {
         (Column::number("growth_rate_per_s", "Growth, film", Unit::PerSecond, 3), |l| {
             maybe(l.point.swing.map(|s| s.growth_rate_per_s))
         }),
-        (Column::number("growth_by_friction_per_s", "its friction alone", Unit::PerSecond, 3), |l| {
+        (Column::number("growth_by_friction_per_s", "Growth, friction alone", Unit::PerSecond, 3), |l| {
             maybe(l.point.swing_by_friction.map(|s| s.growth_rate_per_s))
         }),
-        (Column::number("growth_dry_per_s", "by (12)", Unit::PerSecond, 3), |l| {
+        (Column::number("growth_dry_per_s", "Growth, (12)", Unit::PerSecond, 3), |l| {
             maybe(l.dry.swing.map(|s| s.growth_rate_per_s))
         }),
         (Column::number("sprag_wear_first_hour_um", "Sprag, 1st hour", Unit::Micrometre, 3), |l| {
