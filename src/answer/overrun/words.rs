@@ -100,6 +100,17 @@ impl OverrunAnswer<'_> {
                 place(l)
             ));
         }
+        let by_friction = self.lines.iter().filter(|l| growth(l).is_none()).filter_map(|l| {
+            Some((l, l.point.swing_by_friction.filter(|s| s.grows())?.growth_rate_per_s))
+        });
+        if let Some((l, rate)) = by_friction.max_by(|a, b| a.1.total_cmp(&b.1)) {
+            all.push(format!(
+                "Note: what keeps the sprags from swinging at {} is that the film must be squeezed; by its friction alone a swing would \
+                 grow by {}, as it may where oil is short",
+                place(l),
+                Unit::PerSecond.show(rate, 3)
+            ));
+        }
         let films = || self.lines.iter().filter_map(|l| Some((l, l.point.lubricated?.film)));
         if let Some((l, f)) = films().filter(|(_, f)| f.lambda < 1.0).min_by(|a, b| a.1.lambda.total_cmp(&b.1.lambda)) {
             all.push(format!(
