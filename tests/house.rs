@@ -28,10 +28,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("dynamics", &["follow", "numeric", "ode", "clutch", "kinematics", "friction", "wedge"]),
     // A scenario may be given another friction law, so it names that law.
     // What slides on a film is at the temperature of its heat balance.
-    (
-        "scenario",
-        &["follow", "numeric", "lubrication", "clutch", "profile", "friction", "wedge", "dynamics"],
-    ),
+    ("scenario", &["follow", "numeric", "lubrication", "clutch", "profile", "friction", "wedge", "dynamics"]),
     // Begins as a scene does.
     ("element", &["follow", "clutch", "dynamics", "scenario"]),
     ("fidelity", &["numeric", "clutch", "profile", "contact", "wedge", "dynamics", "scenario"]),
@@ -72,8 +69,25 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "answer",
         &[
-            "follow", "material", "lubrication", "profile", "clutch", "design", "contact", "wedge", "dynamics",
-            "scenario", "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export",
+            "follow",
+            "material",
+            "lubrication",
+            "profile",
+            "clutch",
+            "design",
+            "contact",
+            "wedge",
+            "dynamics",
+            "scenario",
+            "fidelity",
+            "accuracy",
+            "margin",
+            "optimise",
+            "identify",
+            "size",
+            "compare",
+            "report",
+            "export",
             "import",
         ],
     ),

@@ -8,7 +8,7 @@ use sprag_design::answer::overrun::{OverrunQuestion, RunningRace};
 use sprag_design::dynamics::{alpha_max_rad, overrun, swing, swing_on_film, swing_with_friction};
 use sprag_design::friction::FilmFriction;
 use sprag_design::lubrication::*;
-use sprag_design::margin::{load_state, overrun_at};
+use sprag_design::margin::{FILM, load_state, margins, overrun_at};
 use sprag_design::scenario::{Settings, simulate};
 use sprag_design::{Design, clutch::Friction, wedge::WedgeCurve};
 use std::f64::consts::PI;
@@ -128,7 +128,8 @@ fn squeezing_is_reynolds_with_a_rate() {
         }
     }
     let j = sums[2] - sums[1] * sums[1] / sums[0];
-    let want = 12.0 * fluid.viscosity_pa_s * contact.length_m * (2.0 * contact.radius_m / least).powf(1.5) * j;
+    let want =
+        12.0 * fluid.viscosity_pa_s * contact.length_m * (2.0 * contact.radius_m / least).powf(1.5) * j;
     near(squeeze_n_s_per_m(&contact, &fluid, least * 1.226_011_7), want, 1e-5);
 }
 
@@ -230,7 +231,11 @@ fn heat_balances_and_goes_where_it_can() {
     near(one.contact, 60.0 + 50.0 + 2.0, 1e-9);
     let design = changed(&[]);
     let speeds = [30.0, 100.0, 300.0, 1000.0];
-    let question = OverrunQuestion { race: RunningRace::Outer, speeds_rad_s: speeds.to_vec(), temperatures_c: vec![0.0, 60.0, 120.0] };
+    let question = OverrunQuestion {
+        race: RunningRace::Outer,
+        speeds_rad_s: speeds.to_vec(),
+        temperatures_c: vec![0.0, 60.0, 120.0],
+    };
     let answer = design.overrun(&question).unwrap();
     assert_eq!(answer.lines.len(), 12);
     for l in &answer.lines {
@@ -243,7 +248,12 @@ fn heat_balances_and_goes_where_it_can() {
         // The film is as warm as it was taken to be.
         let t = film.heat.temperatures;
         assert!((film.film_c - 0.5 * (t.inner_race + t.sprags)).abs() < 1e-9);
-        assert!(t.contact >= t.inner_race && t.contact >= t.sprags && t.sprags >= t.outer_race && t.outer_race > l.oil_c);
+        assert!(
+            t.contact >= t.inner_race
+                && t.contact >= t.sprags
+                && t.sprags >= t.outer_race
+                && t.outer_race > l.oil_c
+        );
         // Drag is the friction of the film at the load of the equilibrium.
         let v = l.speed_rad_s * design.clutch.races.inner_radius_m;
         let t_bi = film.law.at(v, l.point.state.normal_inner_n).tangential_n;
@@ -290,7 +300,8 @@ fn wear_by_hand() {
     let answer = design.overrun(&OverrunQuestion::default()).unwrap();
     let line = &answer.lines[4];
     let film = line.point.lubricated.unwrap().film;
-    let rubbed = 1e-18 * film.asperities * line.point.state.normal_inner_n * line.speed_rad_s * 0.01111 * 3600.0;
+    let rubbed =
+        1e-18 * film.asperities * line.point.state.normal_inner_n * line.speed_rad_s * 0.01111 * 3600.0;
     near(line.wear.unwrap().race_m, 12.0 * rubbed / (2.0 * PI * 0.01111 * 6e-3), 1e-9);
     // The slip: Archard's depth is k p s.
     let slip = answer.slip.unwrap();
@@ -312,7 +323,9 @@ fn nothing_changes_without_the_table_or_where_no_film_slides() {
     let wet = changed(&[]);
     let (state, at) = (load_state(&wet).unwrap(), 100.0);
     let [on_film, by_law] = [&wet, &dry].map(|d| overrun_at(d, &state, at, at).unwrap());
-    assert!(on_film.lubricated.is_some() && by_law.lubricated.is_none() && by_law.swing_by_friction.is_none());
+    assert!(
+        on_film.lubricated.is_some() && by_law.lubricated.is_none() && by_law.swing_by_friction.is_none()
+    );
     assert!(on_film.state.drag_torque_nm < by_law.state.drag_torque_nm);
     // The scene of the file is the answer of the command.
     let scene = &wet.scenarios[0];
@@ -330,6 +343,22 @@ fn nothing_changes_without_the_table_or_where_no_film_slides() {
     });
     assert_eq!(a.theta_inner_rad.to_bits(), b.theta_inner_rad.to_bits());
     assert_eq!((a.steps, a.events), (b.steps, b.events));
+}
+
+#[test]
+fn the_limit_is_the_film_of_the_command() {
+    let limited = changed(&[("slip_margin = 0.10", "film_lambda = 1.0\nfilm_at_rpm = 1036.0")]);
+    let rows = margins(&limited, &[], &Default::default()).unwrap();
+    let row = rows.iter().find(|r| r.limit == &FILM).unwrap();
+    let speeds = vec![1036.0 * PI / 30.0];
+    let question = OverrunQuestion { speeds_rad_s: speeds, ..Default::default() };
+    let answer = limited.overrun(&question).unwrap();
+    assert_eq!(row.allowable, answer.lines[0].point.lubricated.unwrap().film.lambda);
+    near(row.margin(), row.allowable - 1.0, 1e-12);
+    let dry = std::fs::read_to_string(MULTI).unwrap();
+    let dry = dry.replace("slip_margin = 0.10", "film_lambda = 1.0\nfilm_at_rpm = 1036.0");
+    let error = Design::parse(&dry, MULTI).unwrap_err();
+    assert!(error.problems().iter().any(|p| p.key == "limits.film_lambda" && p.allowed.contains("[lubrication]")));
 }
 
 #[test]
@@ -357,16 +386,26 @@ fn the_commands_answer_and_refuse() {
         let text = std::fs::read_to_string(FILE).unwrap();
         assert!(text.contains(change.0));
         let error = Design::parse(&text.replace(change.0, change.1), FILE).unwrap_err();
-        let found = error.problems().iter().any(|p| {
-            p.key == key && format!("{} {} {}", p.found, p.allowed, p.help).contains(says)
-        });
+        let found = error
+            .problems()
+            .iter()
+            .any(|p| p.key == key && format!("{} {} {}", p.found, p.allowed, p.help).contains(says));
         assert!(found, "{key}: {:?}", error.problems());
     };
     refused(("\"ISO VG 32\"", "\"ISO VG 33\""), "lubrication.oil", "did you mean ISO VG 32?");
     refused(("\"ISO VG 32\"", "\"butter\""), "lubrication.oil", "sprag-design oils");
     refused(("temperature_c = 60.0", "temperature_c = 600.0"), "lubrication.temperature_c", "250");
-    refused(("temperature_c = 60.0", "temperature_c = 60.0\nnu40_mm2_s = 4.0"), "lubrication.nu40_mm2_s", "more than at 100 C");
+    refused(
+        ("temperature_c = 60.0", "temperature_c = 60.0\nnu40_mm2_s = 4.0"),
+        "lubrication.nu40_mm2_s",
+        "more than at 100 C",
+    );
     refused(("race_roughness_um = 0.25", "race_roughness_um = 0.0"), "lubrication.race_roughness_um", "0");
-    refused(("race_roughness_um = 0.25", "race_rouhness_um = 0.25"), "lubrication.race_rouhness_um", "race_roughness_um");
+    refused(
+        ("race_roughness_um = 0.25", "race_rouhness_um = 0.25"),
+        "lubrication.race_rouhness_um",
+        "race_roughness_um",
+    );
+    refused(("slip_margin = 0.10", "film_lambda = 1.0"), "limits.film_lambda", "film_at_rpm");
     refused(("path_mm = 1.0", "path_mm = -1.0"), "lubrication.slip.path_mm", "0");
 }

@@ -14,9 +14,7 @@ pub fn run(context: &Context) -> Result<Exit, Failure> {
     context.outputs.refuse_foreign()?;
     context.outputs.write_csv(&table());
     if context.json {
-        output::print_json(
-            &json!({ "tool": output::TOOL, "version": output::VERSION, "oils": list() }),
-        )?;
+        output::print_json(&json!({ "tool": output::TOOL, "version": output::VERSION, "oils": list() }))?;
         return Ok(Exit::Held);
     }
     context.answer(&text(context.screen))?;

@@ -185,6 +185,19 @@ pub(super) fn body_yield(file: &DesignFile, out: &mut Findings) {
     }
 }
 
+/// A film needs an oil.
+pub(super) fn film(file: &DesignFile, out: &mut Findings) {
+    let key = ["limits.film_lambda", "optimize.limits.film_lambda"].into_iter().find(|k| out.doc.entry(k).is_some());
+    if let (Some(key), None) = (key, &file.lubrication) {
+        out.refuse(
+            &[key],
+            "only together with [lubrication]: without an oil there is no film".to_owned(),
+            "add [lubrication] with oil, temperature_c, race_roughness_um and sprag_roughness_um, or remove the limit"
+                .to_owned(),
+        );
+    }
+}
+
 /// A tolerance must leave its quantity above 0.
 pub(super) fn tolerances(file: &DesignFile, out: &mut Findings) {
     let Some(t) = &file.tolerances else { return };

@@ -97,7 +97,9 @@ pub(super) fn lubrication(file: &DesignFile, out: &mut Findings) -> Option<Optio
     let Some(named) = oil(&f.oil) else {
         let names: Vec<&str> = OILS.iter().map(|o| o.name).collect();
         let like = nearest(&f.oil, &names).map_or(String::new(), |name| format!("did you mean {name}? "));
-        let help = format!("{like}`sprag-design oils` lists them; nu40_mm2_s and nu100_mm2_s say of another what it has");
+        let help = format!(
+            "{like}`sprag-design oils` lists them; nu40_mm2_s and nu100_mm2_s say of another what it has"
+        );
         out.refuse(&["lubrication.oil"], names.join(", "), help);
         return None;
     };
@@ -110,8 +112,14 @@ pub(super) fn lubrication(file: &DesignFile, out: &mut Findings) -> Option<Optio
     if oil.nu100_m2_s >= oil.nu40_m2_s {
         let [nu40, nu100] = ["lubrication.nu40_mm2_s", "lubrication.nu100_mm2_s"];
         let (keys, allowed) = match f.nu100_mm2_s {
-            Some(_) => ([nu100, nu40, "lubrication.oil"], format!("less than at 40 C, {} mm^2/s", 1e6 * oil.nu40_m2_s)),
-            None => ([nu40, nu100, "lubrication.oil"], format!("more than at 100 C, {} mm^2/s", 1e6 * oil.nu100_m2_s)),
+            Some(_) => (
+                [nu100, nu40, "lubrication.oil"],
+                format!("less than at 40 C, {} mm^2/s", 1e6 * oil.nu40_m2_s),
+            ),
+            None => (
+                [nu40, nu100, "lubrication.oil"],
+                format!("more than at 100 C, {} mm^2/s", 1e6 * oil.nu100_m2_s),
+            ),
         };
         out.refuse(
             &keys,
@@ -131,6 +139,10 @@ pub(super) fn lubrication(file: &DesignFile, out: &mut Findings) -> Option<Optio
         sprag_wear_m2_per_n: 1e-9 * f.sprag_wear_mm3_per_nm,
         race_wear_m2_per_n: 1e-9 * f.race_wear_mm3_per_nm,
         to_oil_w_per_k: [f.inner_race_to_oil_w_per_k, f.sprags_to_oil_w_per_k, f.outer_race_to_oil_w_per_k],
-        slip: f.slip.map(|s| SlipCase { torque_nm: s.torque_nm, speed_m_s: s.speed_m_s, path_m: m(s.path_mm) }),
+        slip: f.slip.map(|s| SlipCase {
+            torque_nm: s.torque_nm,
+            speed_m_s: s.speed_m_s,
+            path_m: m(s.path_mm),
+        }),
     }))
 }

@@ -163,7 +163,12 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
 }
 
 /// The same with a friction coefficient at A that depends on N_bi, N.
-pub fn overrun_under(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: impl Fn(f64) -> f64) -> Overrun {
+pub fn overrun_under(
+    clutch: &Clutch,
+    curve: &WedgeCurve,
+    alpha_max: f64,
+    mu: impl Fn(f64) -> f64,
+) -> Overrun {
     let k_r = clutch.spring.stiffness_nm_per_rad;
     let speed = curve.speed_rad_s();
     let touch = curve.touch();

@@ -166,7 +166,8 @@ impl Beside {
         let at = |x: f64| f(touch + x, 0.0);
         let low = (0..60).map(|i| near * 0.5_f64.powi(i)).find(|&x| at(x) >= 0.0)?;
         let high = (0..60).map(|i| near * 2.0_f64.powi(i)).find(|&x| at(x) <= 0.0)?;
-        let x = if low == high { low } else { root::bracketed(low, high, at(low), at(high), 1e-15 * high, at)? };
+        let x =
+            if low == high { low } else { root::bracketed(low, high, at(low), at(high), 1e-15 * high, at)? };
         let by_alpha = (at(x * (1.0 + BESIDE)) - at(x * (1.0 - BESIDE))) / (2.0 * BESIDE * x);
         let p = curve.in_arc(0, touch + x);
         // alpha' changes friction over the sliding speed, or over 1/gamma_b where that is less.

@@ -1,9 +1,7 @@
 //! Friction of contact A on a film of oil, over sliding speed and load.
 
 use crate::clutch::Clutch;
-use crate::lubrication::{
-    Film, FilmContact, Fluid, Shear, asperity_share, film, shear, squeeze_n_s_per_m,
-};
+use crate::lubrication::{Film, FilmContact, Fluid, Shear, asperity_share, film, shear, squeeze_n_s_per_m};
 
 /// Inner contact of a clutch that overruns: the race slides through it, the sprag stands.
 ///

@@ -12,8 +12,11 @@ mod shear;
 mod viscosity;
 mod wear;
 
-pub use film::{Film, Fluid, FilmContact, Regime, film, squeeze_n_s_per_m};
-pub use heat::{Heat, Network, STEEL_CONDUCTIVITY, STEEL_DIFFUSIVITY_M2_S, STEEL_EFFUSIVITY, Temperatures, flash_k, moving_strip, standing_strip};
+pub use film::{Film, FilmContact, Fluid, Regime, film, squeeze_n_s_per_m};
+pub use heat::{
+    Heat, Network, STEEL_CONDUCTIVITY, STEEL_DIFFUSIVITY_M2_S, STEEL_EFFUSIVITY, Temperatures, flash_k,
+    moving_strip, standing_strip,
+};
 pub use oil::{BaseOil, OILS, Oil, oil};
 pub use shear::{Shear, asperity_share, nahme_factor, roelands, shear};
 pub use viscosity::{OIL_CONDUCTIVITY, Walther};

@@ -86,7 +86,13 @@ impl Oil {
 const VG: &str = "40 C and grade ISO 3448; 100 C and density typical of a mineral oil of viscosity index 95 to 100; alpha Gold";
 
 /// An oil from the numbers of data sheets: mm^2/s.
-const fn from_sheet(name: &'static str, base: BaseOil, nu: [f64; 2], density: f64, source: &'static str) -> Oil {
+const fn from_sheet(
+    name: &'static str,
+    base: BaseOil,
+    nu: [f64; 2],
+    density: f64,
+    source: &'static str,
+) -> Oil {
     Oil { name, base, nu40_m2_s: 1e-6 * nu[0], nu100_m2_s: 1e-6 * nu[1], density_kg_m3: density, source }
 }
 
@@ -103,8 +109,20 @@ pub const OILS: [Oil; 19] = [
     from_sheet("ISO VG 220", BaseOil::Mineral, [220.0, 19.0], 892.0, VG),
     from_sheet("ISO VG 320", BaseOil::Mineral, [320.0, 24.1], 897.0, VG),
     from_sheet("ISO VG 460", BaseOil::Mineral, [460.0, 30.5], 901.0, VG),
-    from_sheet("PAO 6", BaseOil::Pao, [30.5, 5.9], 827.0, "typical of makers' sheets for polyalphaolefin, 6 mm^2/s at 100 C; alpha Gold"),
-    from_sheet("PAO 40", BaseOil::Pao, [395.0, 40.0], 847.0, "typical of makers' sheets for polyalphaolefin, 40 mm^2/s at 100 C; alpha Gold"),
+    from_sheet(
+        "PAO 6",
+        BaseOil::Pao,
+        [30.5, 5.9],
+        827.0,
+        "typical of makers' sheets for polyalphaolefin, 6 mm^2/s at 100 C; alpha Gold",
+    ),
+    from_sheet(
+        "PAO 40",
+        BaseOil::Pao,
+        [395.0, 40.0],
+        847.0,
+        "typical of makers' sheets for polyalphaolefin, 40 mm^2/s at 100 C; alpha Gold",
+    ),
     from_sheet(
         "MIL-PRF-7808",
         BaseOil::Ester,
@@ -119,7 +137,13 @@ pub const OILS: [Oil; 19] = [
         1003.5,
         "turbine oil: 4.90 to 5.40 mm^2/s at 100 C, at least 23.0 at 40 C; values of Mobil Jet Oil II; alpha Gold (ester)",
     ),
-    from_sheet("ATF Dexron III", BaseOil::Mineral, [34.0, 7.3], 865.0, "typical of makers' sheets; alpha Gold (mineral)"),
+    from_sheet(
+        "ATF Dexron III",
+        BaseOil::Mineral,
+        [34.0, 7.3],
+        865.0,
+        "typical of makers' sheets; alpha Gold (mineral)",
+    ),
     from_sheet(
         "grease, mineral VG 100",
         BaseOil::Mineral,

@@ -1,6 +1,6 @@
 //! Forces along a film: shear by sliding and by rolling, what heat takes of it, and what the asperities carry.
 
-use super::film::{BREAKS, Film, Fluid, FilmContact};
+use super::film::{BREAKS, Film, FilmContact, Fluid};
 use std::f64::consts::PI;
 
 /// Forces on the faster of two surfaces, against its motion, N.
@@ -22,7 +22,14 @@ pub struct Shear {
 /// root of the squares of both; viscosity at the mean pressure load/(l h C) by Roelands, at the walls' temperature, times
 /// [`nahme_factor`]; the stress bends round to its limit, tau/sqrt(1 + (tau/tau_L)^2) (Lee and Hamrock 1990). Rolling: integral (h/2) dp/dx dx of the rigid contact, 3.251 eta u l sqrt(2 R/h_0), u = v/2. Both against the
 /// numerical solution in `tests/lubrication.rs`.
-pub fn shear(contact: &FilmContact, fluid: &Fluid, film: &Film, load_n: f64, sliding_m_s: f64, thinning_per_k: f64) -> Shear {
+pub fn shear(
+    contact: &FilmContact,
+    fluid: &Fluid,
+    film: &Film,
+    load_n: f64,
+    sliding_m_s: f64,
+    thinning_per_k: f64,
+) -> Shear {
     let FilmContact { radius_m, length_m, .. } = *contact;
     let h = film.thickness_m;
     if h <= 0.0 {

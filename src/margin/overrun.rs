@@ -87,9 +87,9 @@ fn point(design: &Design, state: &LoadState, curve: &WedgeCurve, speed_rad_s: f6
         friction: found.friction,
         state: found.state,
         lubricated: found.lubricated,
-        swing_by_friction: found.lubricated.and_then(|l| {
-            l.swing_by_friction(&found.state, clutch, curve, state.alpha_max_rad, speed_rad_s)
-        }),
+        swing_by_friction: found
+            .lubricated
+            .and_then(|l| l.swing_by_friction(&found.state, clutch, curve, state.alpha_max_rad, speed_rad_s)),
         swing: found.swing(clutch, curve, state.alpha_max_rad, speed_rad_s),
         growth_m: ring.centrifugal_bore_growth_m(curve.speed_rad_s()),
         rotation_hoop_pa: ring.rotating_bore_hoop_pa(curve.speed_rad_s()),

@@ -21,5 +21,5 @@ pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures
 pub use prepare::{
     AtRest, FreeRun, NoScenario, Prepared, Reduction, prepare, prepare_reduced, sliding_friction,
 };
-pub use sliding::{Lubricated, Sliding, sliding};
 pub use simulate::{Settings, published_steps, simulate, simulate_prepared, simulate_published};
+pub use sliding::{Lubricated, Sliding, sliding};

@@ -44,7 +44,9 @@ pub fn sliding(clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, sliding_
         steady.at(steady.balanced_c()?)
     });
     match lubricated {
-        Some((state, lubricated)) => Sliding { state, friction: state.tan_inner, lubricated: Some(lubricated) },
+        Some((state, lubricated)) => {
+            Sliding { state, friction: state.tan_inner, lubricated: Some(lubricated) }
+        }
         None => {
             let state = overrun(clutch, curve, alpha_max_rad, by_law);
             Sliding { state, friction: by_law, lubricated: None }
@@ -54,7 +56,13 @@ pub fn sliding(clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, sliding_
 
 impl Sliding {
     /// The small swing about it; arguments as of [`sliding()`].
-    pub fn swing(&self, clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, sliding_rad_s: f64) -> Option<Swing> {
+    pub fn swing(
+        &self,
+        clutch: &Clutch,
+        curve: &WedgeCurve,
+        alpha_max_rad: f64,
+        sliding_rad_s: f64,
+    ) -> Option<Swing> {
         let film = self.lubricated.as_ref().map(|l| &l.law);
         swing_on_film(clutch, curve, alpha_max_rad, &self.state, sliding_rad_s, film)
     }
@@ -93,7 +101,9 @@ impl Steady<'_> {
             return None;
         }
         let film = law.at(speed, state.normal_inner_n);
-        let heat = self.network(&law, &state).solve(state.drag_torque_nm * self.sliding_rad_s, self.lubrication.temperature_c)?;
+        let heat = self
+            .network(&law, &state)
+            .solve(state.drag_torque_nm * self.sliding_rad_s, self.lubrication.temperature_c)?;
         Some((state, Lubricated { law, film, film_c, heat }))
     }
 
@@ -134,7 +144,9 @@ impl Steady<'_> {
         let outer_half = outer.half_width_m(state.normal_outer_n).max(1e-6);
         let count = sprags.count as f64;
         let length = count * contact.length_m;
-        let ring = |r: f64, far: f64| 2.0 * PI * (r * races.width_m + (r * r - far * far).abs() + far * races.width_m);
+        let ring = |r: f64, far: f64| {
+            2.0 * PI * (r * races.width_m + (r * r - far * far).abs() + far * races.width_m)
+        };
         let areas = [
             ring(races.inner_radius_m, races.inner_bore_radius_m),
             2.0 * count * sprags.length_m * (races.outer_radius_m - races.inner_radius_m),

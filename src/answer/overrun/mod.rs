@@ -137,7 +137,15 @@ impl Design {
             }
         }
         let slip = slip_effect(self, &state);
-        Ok(OverrunAnswer { design: self, lubrication, state, question, lines, lift_off_rad_s: lift_off, slip })
+        Ok(OverrunAnswer {
+            design: self,
+            lubrication,
+            state,
+            question,
+            lines,
+            lift_off_rad_s: lift_off,
+            slip,
+        })
     }
 }
 
@@ -150,7 +158,10 @@ struct OilAt {
 
 impl OilAt {
     fn new(design: &Design, oil_c: f64) -> Self {
-        let with = |lubrication| Design { clutch: Clutch { lubrication, ..design.clutch.clone() }, ..design.clone() };
+        let with = |lubrication| Design {
+            clutch: Clutch { lubrication, ..design.clutch.clone() },
+            ..design.clone()
+        };
         let wet = with(design.clutch.lubrication.map(|l| Lubrication { temperature_c: oil_c, ..l }));
         Self { oil_c, wet, dry: with(None) }
     }
@@ -203,9 +214,16 @@ impl<'a> OverrunAnswer<'a> {
             "lift_off_rpm": self.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)),
             "lines": lines.collect::<Vec<_>>(), "slip": slip, "warnings": self.warnings(),
         });
-        let balance = self.lines.iter().filter_map(|l| Some(l.point.lubricated.as_ref()?.heat.balance_error()));
+        let balance =
+            self.lines.iter().filter_map(|l| Some(l.point.lubricated.as_ref()?.heat.balance_error()));
         let error = json!({ "heat_balance": balance.fold(0.0, f64::max) });
-        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: Some(error), body }
+        Envelope {
+            design: self.design,
+            run_time_s,
+            left_out: self.left_out(),
+            error_estimate: Some(error),
+            body,
+        }
     }
 
     /// What overrun leaves out beside what statics do.

@@ -16,7 +16,10 @@ pub(super) fn page(answer: &OverrunAnswer<'_>, provenance: &Provenance) -> Page 
     let mut page = begun("Overrun", answer.design, &provenance.command);
     let warnings = answer.warnings();
     let tone = if warnings.iter().any(|w| w.starts_with("Warning")) { Tone::Bad } else { Tone::Plain };
-    let first = warnings.first().cloned().unwrap_or_else(|| "steady overrun stays; asperities hardly touch".to_owned());
+    let first = warnings
+        .first()
+        .cloned()
+        .unwrap_or_else(|| "steady overrun stays; asperities hardly touch".to_owned());
     page.verdict_in(tone, &first);
     page.list(answer.remarks().into_iter().chain(warnings.into_iter().skip(1)));
     let sets = curves(answer);
@@ -65,7 +68,8 @@ fn curves(answer: &OverrunAnswer<'_>) -> Vec<(String, Vec<OverrunLine>)> {
     if high <= 0.0 {
         return Vec::new();
     }
-    let end = answer.lift_off_rad_s.filter(|_| answer.question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
+    let end =
+        answer.lift_off_rad_s.filter(|_| answer.question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
     let low = low.min(0.1 * high);
     let at = |i: usize| low * (high / low).powf(i as f64 / (POINTS - 1) as f64);
     let one = |&oil_c: &f64| {

@@ -3,8 +3,11 @@
 use super::{OverrunAnswer, OverrunLine};
 use crate::report::{Cell, Column, Table, Unit};
 
+/// What a line has in one column.
+type Shown = fn(&OverrunLine) -> Cell;
+
 /// A column and what stands in it.
-type Kind = (Column, fn(&OverrunLine) -> Cell);
+type Kind = (Column, Shown);
 
 fn maybe(value: Option<f64>) -> Cell {
     value.map_or(Cell::Empty, Cell::Si)
@@ -19,7 +22,9 @@ fn oil_and_speed() -> [Kind; 2] {
 
 fn of_film() -> Vec<Kind> {
     vec![
-        (Column::number("normal_inner_n", "N at A", Unit::Newton, 4), |l| l.point.state.normal_inner_n.into()),
+        (Column::number("normal_inner_n", "N at A", Unit::Newton, 4), |l| {
+            l.point.state.normal_inner_n.into()
+        }),
         (Column::number("film_um", "Film", Unit::Micrometre, 3), |l| {
             maybe(l.point.lubricated.map(|f| f.film.film.thickness_m))
         }),
@@ -30,9 +35,13 @@ fn of_film() -> Vec<Kind> {
         (Column::number("asperities_percent", "By asperities", Unit::Percent, 3), |l| {
             maybe(l.point.lubricated.map(|f| f.film.asperities))
         }),
-        (Column::number("friction", "μ", Unit::One, 3), |l| maybe(l.point.lubricated.map(|_| l.point.friction))),
+        (Column::number("friction", "μ", Unit::One, 3), |l| {
+            maybe(l.point.lubricated.map(|_| l.point.friction))
+        }),
         (Column::number("friction_dry", "μ by (12)", Unit::One, 3), |l| l.dry.friction.into()),
-        (Column::number("drag_torque_nm", "Drag", Unit::NewtonMetre, 3), |l| l.point.state.drag_torque_nm.into()),
+        (Column::number("drag_torque_nm", "Drag", Unit::NewtonMetre, 3), |l| {
+            l.point.state.drag_torque_nm.into()
+        }),
         (Column::number("drag_torque_dry_nm", "Drag by (12)", Unit::NewtonMetre, 3), |l| {
             l.dry.state.drag_torque_nm.into()
         }),
@@ -41,7 +50,9 @@ fn of_film() -> Vec<Kind> {
 
 fn of_effects() -> Vec<Kind> {
     vec![
-        (Column::number("heat_w", "Heat", Unit::Watt, 3), |l| maybe(l.point.lubricated.map(|f| f.heat.heat_w))),
+        (Column::number("heat_w", "Heat", Unit::Watt, 3), |l| {
+            maybe(l.point.lubricated.map(|f| f.heat.heat_w))
+        }),
         (Column::number("film_c", "Film, C", Unit::One, 4), |l| maybe(l.point.lubricated.map(|f| f.film_c))),
         (Column::number("inner_race_c", "Inner race, C", Unit::One, 4), |l| {
             maybe(l.point.lubricated.map(|f| f.heat.temperatures.inner_race))
@@ -71,7 +82,7 @@ fn of_effects() -> Vec<Kind> {
 }
 
 fn table(answer: &OverrunAnswer<'_>, kinds: impl IntoIterator<Item = Kind>) -> Table {
-    let (columns, cells): (Vec<Column>, Vec<fn(&OverrunLine) -> Cell>) = kinds.into_iter().unzip();
+    let (columns, cells): (Vec<Column>, Vec<Shown>) = kinds.into_iter().unzip();
     let mut table = Table::new(columns);
     for line in &answer.lines {
         table.row(cells.iter().map(|cell| cell(line)).collect());

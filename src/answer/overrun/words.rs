@@ -90,19 +90,23 @@ impl OverrunAnswer<'_> {
     /// What one should not overlook.
     pub fn warnings(&self) -> Vec<String> {
         let mut all = Vec::new();
-        let place = |l: &OverrunLine| format!("{} C, {}", significant(l.oil_c, 3), Unit::Rpm.show(l.speed_rad_s, 4));
+        let place =
+            |l: &OverrunLine| format!("{} C, {}", significant(l.oil_c, 3), Unit::Rpm.show(l.speed_rad_s, 4));
         let growth = |l: &OverrunLine| l.point.swing.filter(|s| s.grows()).map(|s| s.growth_rate_per_s);
         let worst = self.lines.iter().filter(|l| growth(l).is_some());
-        if let Some((l, rate)) = worst.filter_map(|l| Some((l, growth(l)?))).max_by(|a, b| a.1.total_cmp(&b.1)) {
+        if let Some((l, rate)) =
+            worst.filter_map(|l| Some((l, growth(l)?))).max_by(|a, b| a.1.total_cmp(&b.1))
+        {
             all.push(format!(
                 "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}",
                 Unit::PerSecond.show(rate, 3),
                 place(l)
             ));
         }
-        let by_friction = self.lines.iter().filter(|l| growth(l).is_none()).filter_map(|l| {
-            Some((l, l.point.swing_by_friction.filter(|s| s.grows())?.growth_rate_per_s))
-        });
+        let by_friction =
+            self.lines.iter().filter(|l| growth(l).is_none()).filter_map(|l| {
+                Some((l, l.point.swing_by_friction.filter(|s| s.grows())?.growth_rate_per_s))
+            });
         if let Some((l, rate)) = by_friction.max_by(|a, b| a.1.total_cmp(&b.1)) {
             all.push(format!(
                 "Note: what keeps the sprags from swinging at {} is that the film must be squeezed; by its friction alone a swing would \
@@ -112,7 +116,9 @@ impl OverrunAnswer<'_> {
             ));
         }
         let films = || self.lines.iter().filter_map(|l| Some((l, l.point.lubricated?.film)));
-        if let Some((l, f)) = films().filter(|(_, f)| f.lambda < 1.0).min_by(|a, b| a.1.lambda.total_cmp(&b.1.lambda)) {
+        if let Some((l, f)) =
+            films().filter(|(_, f)| f.lambda < 1.0).min_by(|a, b| a.1.lambda.total_cmp(&b.1.lambda))
+        {
             all.push(format!(
                 "Warning: λ {} at {}: asperities carry {} of the load, and wear",
                 significant(f.lambda, 3),
