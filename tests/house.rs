@@ -54,7 +54,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // real, and a tolerance felt, on the profile itself.
     ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),
     // Asks for margins and static points as they are; knows no law.
-    ("identify", &["follow", "numeric", "design", "wedge", "margin"]),
+    ("identify", &["follow", "numeric", "clutch", "design", "wedge", "margin"]),
     // A first design: proportions, then whatever the margins say.
     ("size", &["numeric", "material", "clutch", "design", "profile", "scenario", "margin"]),
     // Files beside one another, then whatever the margins say.
@@ -82,6 +82,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "fidelity",
             "accuracy",
             "margin",
+            "life",
             "optimise",
             "identify",
             "size",
