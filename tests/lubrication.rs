@@ -358,7 +358,9 @@ fn the_limit_is_the_film_of_the_command() {
     let dry = std::fs::read_to_string(MULTI).unwrap();
     let dry = dry.replace("slip_margin = 0.10", "film_lambda = 1.0\nfilm_at_rpm = 1036.0");
     let error = Design::parse(&dry, MULTI).unwrap_err();
-    assert!(error.problems().iter().any(|p| p.key == "limits.film_lambda" && p.allowed.contains("[lubrication]")));
+    assert!(
+        error.problems().iter().any(|p| p.key == "limits.film_lambda" && p.allowed.contains("[lubrication]"))
+    );
 }
 
 #[test]

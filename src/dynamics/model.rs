@@ -254,11 +254,15 @@ impl Model {
         let swing = self.mass_kg * p.oc_g * p.oc_g_slope;
         let centrifugal = if open { phi_rate * phi_rate } else { phi_rate * phi_rate - speed * speed };
         let (n_bi, damping) = self.damped(p, speed, da);
-        let f_alpha = n
+        let mut f_alpha = n
             * (damping + self.spring_nm_per_rad * (self.alpha_max_rad - y[0])
                 - if open { 0.0 } else { wedge }
                 + swing * centrifugal
                 - self.inertia_kg_m2 * spin);
+        if let Some(film) = &self.film {
+            // The film's pressure acts ahead of A: N_bi x_p (1 + rho_i), by virtual work.
+            f_alpha += n * n_bi * film.ahead_m(v_a.max(0.0), n_bi) * (1.0 + p.rho_i);
+        }
         let orbit = self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g;
         let f_phi = -n * (2.0 * swing * da * phi_rate + orbit * spin);
         let drag = self.damping_nm_s_per_rad * (di - de);

@@ -69,6 +69,16 @@ impl FilmFriction {
         FilmState { film, lambda, asperities, shear, tangential_n }
     }
 
+    /// x_p, how far ahead of the contact, where the race comes from, the film's pressure acts, m: the moments on the film are in
+    /// balance, so x_p N = 2 R F with F the rolling shear of either surface, whatever the regime; the asperities' part acts at the contact.
+    pub fn ahead_m(&self, speed_abs_m_s: f64, normal_n: f64) -> f64 {
+        if normal_n <= LEAST_N {
+            return 0.0;
+        }
+        let state = self.at(speed_abs_m_s, normal_n);
+        (1.0 - state.asperities) * 2.0 * self.contact.radius_m * state.shear.rolling_n / normal_n
+    }
+
     /// T/N; that of the asperities without a load, where T is none.
     pub fn coefficient(&self, speed_abs_m_s: f64, normal_n: f64) -> f64 {
         match normal_n > LEAST_N {

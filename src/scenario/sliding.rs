@@ -96,7 +96,9 @@ impl Steady<'_> {
     fn at(&self, film_c: f64) -> Option<(Overrun, Lubricated)> {
         let law = FilmFriction::of(self.clutch, film_c)?;
         let speed = self.sliding_rad_s * self.clutch.races.inner_radius_m;
-        let state = overrun_under(self.clutch, self.curve, self.alpha_max_rad, |n| law.coefficient(speed, n));
+        let state = overrun_under(self.clutch, self.curve, self.alpha_max_rad, |n| {
+            [law.coefficient(speed, n), law.ahead_m(speed, n)]
+        });
         if state.normal_inner_n <= 0.0 {
             return None;
         }
