@@ -76,7 +76,7 @@ fn film_and_shear_are_those_of_the_numerical_solution() {
     let mut regimes = Vec::new();
     let mut worst: f64 = 0.0;
     for row in &rows {
-        let [m, l, h_min, _, at_top, couette, roll, _] = row[..] else { panic!("{row:?}") };
+        let [m, l, h_min, at_centre, at_top, couette, roll, _] = row[..] else { panic!("{row:?}") };
         let (contact, fluid, speed, load) = with_numbers(m, l);
         let found = film(&contact, &fluid, speed, load);
         near(found.load, m, 1e-12);
@@ -97,6 +97,12 @@ fn film_and_shear_are_those_of_the_numerical_solution() {
             near(shear.rolling_n / unit, roll, 0.09);
         }
         if m <= 0.05 {
+            // The moments on the film balance: its pressure acts 2 R F/w ahead, F the rolling shear; the script has the gap there.
+            let ahead = 2.0 * roll / m;
+            near(at_centre, h_min + 0.5 * ahead * ahead, 0.01);
+            let rough =
+                FilmFriction { contact, fluid, thinning_per_k: 0.0, roughness_m: 1e-12, boundary: 0.1 };
+            near(rough.ahead_m(speed, load) / (contact.radius_m * 1e-11f64.powf(0.25)), ahead, 0.02);
             // Martin: h_min = 2.448 eta u_s R/w; the film at the largest pressure is 1.226 times that.
             near(h_min * m, 2.448, 0.01);
             near(at_top / h_min, 1.226, 0.005);
@@ -253,6 +259,13 @@ fn heat_balances_and_goes_where_it_can() {
                 && t.contact >= t.sprags
                 && t.sprags >= t.outer_race
                 && t.outer_race > l.oil_c
+        );
+        // The equations of motion settle where the balance of moments does: within what the centrifugal force leaves.
+        let swing = l.point.swing.unwrap();
+        near(
+            swing.normal_inner_n,
+            l.point.state.normal_inner_n,
+            if l.speed_rad_s < 200.0 { 5e-3 } else { 0.05 },
         );
         // Drag is the friction of the film at the load of the equilibrium.
         let v = l.speed_rad_s * design.clutch.races.inner_radius_m;

@@ -33,7 +33,7 @@ impl Walther {
 
     /// Kinematic viscosity at `celsius`, m^2/s.
     pub fn nu_m2_s(&self, celsius: f64) -> f64 {
-        let want = 10f64.powf(10f64.powf(self.a - self.b * (KELVIN + celsius).log10()));
+        let want = 10f64.powf(10f64.powf(self.a - self.b * (KELVIN + celsius).log10())).min(MOST);
         // Newton from the term that is all but everything; Z rises with nu.
         let mut nu = (want - 0.7).max(LEAST);
         for _ in 0..40 {
@@ -50,3 +50,5 @@ impl Walther {
 
 /// Where D341 ends, mm^2/s.
 const LEAST: f64 = 0.21;
+/// Where D341 ends above, mm^2/s: no oil flows any more.
+const MOST: f64 = 2e7;

@@ -14,11 +14,6 @@ pub(super) fn left_out() -> Vec<LeftOut> {
             "a starved or greased track has a film of a third to nearly none: look at the figures of a higher temperature",
         ),
         new(
-            "where the film's pressure acts",
-            "the film's force along the surface is put at A; its pressure is not in the middle of the contact",
-            "up to some 10 % of the normal force where the oil carries alone; not estimated further",
-        ),
-        new(
             "drag beside the contacts",
             "churning, cage, seals and bearings have no model",
             "often more than the contacts' drag at high speed; measure it",
@@ -35,6 +30,9 @@ pub(super) fn left_out() -> Vec<LeftOut> {
         ),
     ]
 }
+
+/// Part of the contact's relative radius up to which a film is thin, and the contact a parabola.
+const THIN: f64 = 0.01;
 
 impl OverrunAnswer<'_> {
     /// Oil, surfaces, lift-off, slip.
@@ -134,6 +132,18 @@ impl OverrunAnswer<'_> {
                 place(l),
                 Film::CHECKED[0],
                 Film::CHECKED[1]
+            ));
+        }
+        let thick = self.lines.iter().filter_map(|l| {
+            let on_film = l.point.lubricated?;
+            let thickness_m = on_film.film.film.thickness_m;
+            (thickness_m > THIN * on_film.law.contact.radius_m).then_some((l, thickness_m))
+        });
+        if let Some((l, thickness_m)) = thick.max_by(|a, b| a.1.total_cmp(&b.1)) {
+            all.push(format!(
+                "Warning: a film of {} at {} is no thin one: the sprags float on oil too thick for them, and its figures are an order at best",
+                Unit::Micrometre.show(thickness_m, 3),
+                place(l)
             ));
         }
         if let Some(s) = self.slip.filter(|s| s.peclet < 5.0) {
