@@ -153,6 +153,7 @@ impl OverrunAnswer<'_> {
                 kelvin(s.flash_k)
             ));
         }
+        all.sort_by_key(|line: &String| line.starts_with("Note"));
         all
     }
 }
