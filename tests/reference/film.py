@@ -9,8 +9,9 @@ speeds, x = R U^(1/4) X, h = R U^(1/2) H, p = E' U^(1/4) P, the whole problem ha
     d/dX(H^3 exp(-L P) dP/dX) = 6 dH/dX where P > 0,      H = H0 + X^2/2 - (4/pi) integral P ln|X - S| dS,      integral P dX = M.
 
 Finite volumes on a graded grid, the elastic integral exact for pressure constant in a cell, Barus' viscosity; P >= 0
-(Reynolds' condition) by an active set inside Newton's method; steps in load from the rigid limit. Shear on either surface from the same
-pressure: couette = integral dX/H over the pressurised part times 1 (viscosity with exp(L P)), roll = integral (H/2) dP/dX dX.
+(Reynolds' condition) by an active set inside Newton's method; steps in load from the rigid limit. From the same pressure: couette =
+integral exp(L P)/H dX where P > 0, the shear by sliding; roll = integral (H/2) dP/dX dX, that by rolling; h_centre, the gap at the
+centre of pressure; h_at_top, that at the largest pressure.
 """
 import sys
 import numpy as np

@@ -237,12 +237,13 @@ impl<'a> OverrunAnswer<'a> {
     pub fn text(&self, screen: Screen) -> String {
         let design = self.design;
         format!(
-            "{}  {}\n\n{}\n{}\n{}\n",
+            "{}  {}\n\n{}\n{}\n{}\n{}\n",
             design.name,
             design.hash.get(..12).unwrap_or(&design.hash),
             self.remarks().join("\n"),
             self.films().to_text(screen),
-            self.effects().to_text(screen),
+            self.heat().to_text(screen),
+            self.swing_and_wear().to_text(screen),
         ) + &self.warnings().iter().map(|w| format!("{w}\n")).collect::<String>()
     }
 

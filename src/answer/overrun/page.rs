@@ -49,9 +49,13 @@ pub(super) fn page(answer: &OverrunAnswer<'_>, provenance: &Provenance) -> Page 
         "Regimes: I or V, the oil keeps its viscosity or thickens under pressure; R or E, the bodies stay round or flatten.",
         &answer.films(),
     );
-    page.heading("Heat, swing, wear").table(
+    page.heading("Heat").table(
+        "Means of the bodies; the film is taken to be as warm as the mean of the two that rub.",
+        &answer.heat(),
+    );
+    page.heading("Swing and wear").table(
         "Growth of a small swing of the sprags: above 0 the overrun does not stay. Wear of a sprag grows with the power 2/3 of time.",
-        &answer.effects(),
+        &answer.swing_and_wear(),
     );
     answer.envelope(provenance.run_time_s).close(&mut page);
     page

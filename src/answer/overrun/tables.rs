@@ -16,7 +16,7 @@ fn maybe(value: Option<f64>) -> Cell {
 fn oil_and_speed() -> [Kind; 2] {
     [
         (Column::number("oil_c", "Oil, C", Unit::One, 3), |l| l.oil_c.into()),
-        (Column::number("speed_rpm", "Speed", Unit::Rpm, 5), |l| l.speed_rad_s.into()),
+        (Column::number("speed_rpm", "Speed", Unit::Rpm, 4), |l| l.speed_rad_s.into()),
     ]
 }
 
@@ -48,7 +48,7 @@ fn of_film() -> Vec<Kind> {
     ]
 }
 
-fn of_effects() -> Vec<Kind> {
+fn of_heat() -> Vec<Kind> {
     vec![
         (Column::number("heat_w", "Heat", Unit::Watt, 3), |l| {
             maybe(l.point.lubricated.map(|f| f.heat.heat_w))
@@ -63,6 +63,11 @@ fn of_effects() -> Vec<Kind> {
         (Column::number("outer_race_c", "Outer race, C", Unit::One, 4), |l| {
             maybe(l.point.lubricated.map(|f| f.heat.temperatures.outer_race))
         }),
+    ]
+}
+
+fn of_swing_and_wear() -> Vec<Kind> {
+    vec![
         (Column::number("growth_rate_per_s", "Growth, film", Unit::PerSecond, 3), |l| {
             maybe(l.point.swing.map(|s| s.growth_rate_per_s))
         }),
@@ -96,13 +101,18 @@ impl OverrunAnswer<'_> {
         table(self, oil_and_speed().into_iter().chain(of_film()))
     }
 
-    /// Heat, temperatures, growth of the swing, wear.
-    pub fn effects(&self) -> Table {
-        table(self, oil_and_speed().into_iter().chain(of_effects()))
+    /// Heat and temperatures.
+    pub fn heat(&self) -> Table {
+        table(self, oil_and_speed().into_iter().chain(of_heat()))
     }
 
-    /// Both, for CSV.
+    /// Growth of the swing, wear.
+    pub fn swing_and_wear(&self) -> Table {
+        table(self, oil_and_speed().into_iter().chain(of_swing_and_wear()))
+    }
+
+    /// All, for CSV.
     pub fn all(&self) -> Table {
-        table(self, oil_and_speed().into_iter().chain(of_film()).chain(of_effects()))
+        table(self, oil_and_speed().into_iter().chain(of_film()).chain(of_heat()).chain(of_swing_and_wear()))
     }
 }
