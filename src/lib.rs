@@ -17,11 +17,12 @@
 //! | 1 | [`material`] | elastic constants, density, a library of steels |
 //! | 1 | [`profile`] | tangent arcs, outline, mass properties, crowding of neighbours |
 //! | 1 | [`race`] | growth and hoop stress of rings, press fits, body compression |
+//! | 1 | [`lubrication`] | oils, film of a line contact, its shear, heat and wear; never heard of a clutch |
 //! | 1 | [`clutch`] | the nouns, SI: a clutch and its parts, radii as run, what happens to it |
 //! | 1 | [`design`] | the design file, read, checked, changed; the only way in for mm, degrees, GPa |
 //! | 2 | [`kinematics`] | lengths, angles, levers, rolling ratios |
 //! | 2 | [`contact`] | local line contact: roller law, Hertz, slices |
-//! | 2 | [`friction`] | coefficient over speed |
+//! | 2 | [`friction`] | coefficient over speed, dry and on a film |
 //! | 3 | [`wedge`] | the only static iteration: the curve N(alpha) of one design at one speed |
 //! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |
 //! | 4 | [`scenario`] | a named scene in, history and verdict out |
@@ -118,6 +119,7 @@ pub mod identify;
 pub mod import;
 pub mod kinematics;
 pub mod life;
+pub mod lubrication;
 pub mod margin;
 pub mod material;
 pub mod numeric;

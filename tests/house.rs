@@ -14,18 +14,21 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("material", &[]),
     ("profile", &["material", "numeric"]),
     ("race", &["material", "numeric"]),
+    // Oils and films: a contact is two radii, a modulus and a length.
+    ("lubrication", &[]),
     // Values in SI and the contact laws by name; radii as run follow from those as made by a press fit.
-    ("clutch", &["material", "profile", "race"]),
+    ("clutch", &["material", "profile", "race", "lubrication"]),
     // Files: no law of physics and no allowable. The narrowest working sprag is drawn where a file names no flanks.
-    ("design", &["numeric", "material", "profile", "clutch"]),
+    ("design", &["numeric", "material", "profile", "lubrication", "clutch"]),
     // Strangers to one another: no law of row 2 knows another law, a design or a sprag's profile.
     ("kinematics", &["numeric"]),
     ("contact", &["material", "numeric"]),
-    ("friction", &["numeric", "clutch"]),
+    ("friction", &["numeric", "lubrication", "clutch"]),
     ("wedge", &["numeric", "material", "profile", "clutch", "kinematics", "contact", "race"]),
     ("dynamics", &["follow", "numeric", "ode", "clutch", "kinematics", "friction", "wedge"]),
     // A scenario may be given another friction law, so it names that law.
-    ("scenario", &["follow", "numeric", "clutch", "profile", "friction", "wedge", "dynamics"]),
+    // What slides on a film is at the temperature of its heat balance.
+    ("scenario", &["follow", "numeric", "lubrication", "clutch", "profile", "friction", "wedge", "dynamics"]),
     // Begins as a scene does.
     ("element", &["follow", "clutch", "dynamics", "scenario"]),
     ("fidelity", &["numeric", "clutch", "profile", "contact", "wedge", "dynamics", "scenario"]),
@@ -48,7 +51,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // A motion of the element and the curve that it ends on.
     ("reengage", &["follow", "clutch", "wedge", "dynamics", "element"]),
     // Loads of a life on the static curve; strengths are the file's.
-    ("life", &["numeric", "clutch", "design", "wedge", "margin"]),
+    ("life", &["numeric", "lubrication", "clutch", "design", "friction", "wedge", "margin"]),
     // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
     // real, and a tolerance felt, on the profile itself.
     ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),
@@ -68,9 +71,29 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "answer",
         &[
-            "follow", "material", "profile", "clutch", "design", "contact", "wedge", "dynamics", "scenario",
-            "fidelity", "accuracy", "margin", "life", "optimise", "identify", "size", "compare", "report",
-            "export", "import",
+            "follow",
+            "material",
+            "lubrication",
+            "profile",
+            "clutch",
+            "design",
+            "contact",
+            "wedge",
+            "dynamics",
+            "scenario",
+            "fidelity",
+            "accuracy",
+            "margin",
+            "life",
+            "element",
+            "reengage",
+            "optimise",
+            "identify",
+            "size",
+            "compare",
+            "report",
+            "export",
+            "import",
         ],
     ),
     // Questions about the text of a design, and their answers as a page shows them.
@@ -124,6 +147,7 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/size/finish.rs", "words of the new file"),
     ("src/size/search.rs", "words of what was tried"),
     ("src/size/purpose.rs", "what is taken of a drive where nobody says: numbers and keys of the new file"),
+    ("src/lubrication/oil.rs", "sources of the oils, in the words of data sheets"),
     ("src/wedge/elastic.rs", "words of an error"),
 ];
 

@@ -17,6 +17,8 @@ pub mod identification;
 pub mod imported;
 pub mod left_out;
 pub mod life;
+pub mod oils;
+pub mod overrun;
 pub mod page;
 pub mod reengagement;
 pub mod search;

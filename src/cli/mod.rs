@@ -23,9 +23,11 @@ pub mod life;
 mod made;
 pub mod materials;
 pub mod new;
+pub mod oils;
 pub mod optimize;
 pub mod origin;
 pub mod output;
+pub mod overrun;
 pub mod parts;
 pub mod progress;
 pub mod reengage;
@@ -108,6 +110,8 @@ enum Command {
     Life(life::LifeArgs),
     /// Slip under load, and the blow when the clutch grips again
     Reengage(reengage::ReengageArgs),
+    /// Overrun on a film of oil: film, drag, heat, temperatures, stability, wear, flash of a slip
+    Overrun(overrun::OverrunArgs),
     /// Search for a better design within the limits
     Optimize(optimize::OptimizeArgs),
     /// Margins of one vector of variables per line, for other optimisers
@@ -128,6 +132,8 @@ enum Command {
     Explain(explain::ExplainArgs),
     /// List the steels that a design may name, with their constants, allowed stresses and sources
     Materials,
+    /// List the oils and greases that a design may name, with viscosities and sources
+    Oils,
     /// Print the JSON Schema of the design file
     Schema,
     /// Print a completion script for a shell
@@ -316,6 +322,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Life(args) => life::run(&args, &context),
         Command::Reengage(args) => reengage::run(&args, &context),
+        Command::Overrun(args) => overrun::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Evaluate(args) => evaluate::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
@@ -326,6 +333,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
         Command::Import(args) => import::run(&args, &context),
         Command::Explain(args) => explain::run(&args, &context),
         Command::Materials => materials::run(&context),
+        Command::Oils => oils::run(&context),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();
@@ -338,12 +346,13 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
 }
 
 /// Commands, why common options mean nothing to them, and which.
-const MEANINGLESS: [(&str, &str, &[&str]); 8] = [
+const MEANINGLESS: [(&str, &str, &[&str]); 9] = [
     ("explain", "its answer is a few words", &["csv", "report", "set", "force", "threads", "quiet"]),
     ("new", "it makes a design, it reads none", &["set"]),
     ("size", "it makes a design, it reads none", &["set"]),
     ("studio", "its answers are shown in the browser", &["json", "csv", "report", "force"]),
     ("materials", "steels are a table, they have no page", &["report", "set", "threads", "quiet"]),
+    ("oils", "oils are a table, they have no page", &["report", "set", "threads", "quiet"]),
     ("schema", "its answer is one JSON object", &["csv", "report", "set", "force", "threads", "quiet"]),
     ("completions", "its answer is a script", &["json", "csv", "report", "set", "force", "threads", "quiet"]),
     (
@@ -367,6 +376,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Simulate(_) => "simulate",
         Command::Life(_) => "life",
         Command::Reengage(_) => "reengage",
+        Command::Overrun(_) => "overrun",
         Command::Optimize(_) => "optimize",
         Command::Evaluate(_) => "evaluate",
         Command::Accuracy(_) => "accuracy",
@@ -377,6 +387,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Import(_) => "import",
         Command::Explain(_) => "explain",
         Command::Materials => "materials",
+        Command::Oils => "oils",
         Command::Schema => "schema",
         Command::Completions { .. } => "completions",
     }

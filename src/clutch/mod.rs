@@ -6,6 +6,7 @@
 
 mod drivetrain;
 mod law;
+mod lubrication;
 mod question;
 mod running;
 mod service;
@@ -14,6 +15,7 @@ mod tolerances;
 pub use drivetrain::{DriveInertia, DriveTorque, GasTorque, MOST_SHAFTS, Shaft, Towards};
 pub(crate) use law::ROLLER_COEFFICIENT;
 pub use law::{ContactLaw, LAWS, LawFacts, LawName};
+pub use lubrication::{Lubrication, SlipCase};
 pub use question::{Phrase, Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};
 pub use service::{PittingStrength, RepeatedHistory, RepeatedLoad, RingStrength, Service};
@@ -242,6 +244,8 @@ pub struct Clutch {
     pub materials: Materials,
     /// Friction.
     pub friction: Friction,
+    /// What lubricates contact A where it slides in overrun; `None`: (12) alone.
+    pub lubrication: Option<Lubrication>,
     /// Local contact law.
     pub contact: ContactLaw,
     /// How sprag and race lie along the axis.

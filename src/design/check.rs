@@ -9,7 +9,7 @@ use super::contact_file::{ContactFile, StateFile};
 use super::file::{DesignFile, FrictionModelFile, RacesFile};
 use super::findings::Findings;
 use super::limits::{LIMIT_KEYS, LimitsFile};
-use super::{axial, eccentricity, geometry, running, steels};
+use super::{axial, eccentricity, geometry, lubrication_file, running, steels};
 use crate::clutch::{
     Clutch, ContactLaw, Friction, LawName, Materials, ROLLER_COEFFICIENT, Races, Spring, StressState,
 };
@@ -37,6 +37,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
     let races = races(&file.races, materials.as_ref(), out);
     let friction = friction(file, out);
     let contact = contact(&file.contact, out);
+    let lubrication = lubrication_file::lubrication(file, out);
     let hunt_crossley_s_per_m = file.contact.hunt_crossley_s_per_m;
     let spring = Spring {
         stiffness_nm_per_rad: file.spring.stiffness_nm_per_rad,
@@ -62,6 +63,7 @@ pub(super) fn clutch(file: &DesignFile, out: &mut Findings) -> Option<Clutch> {
         spring,
         materials: materials?,
         friction: friction?,
+        lubrication: lubrication?,
         contact: contact?,
         axial: axial?,
         hunt_crossley_s_per_m,
@@ -179,6 +181,21 @@ pub(super) fn body_yield(file: &DesignFile, out: &mut Findings) {
             "only together with flanks, or a width_mm above 0: without them the body has no narrowest section"
                 .to_owned(),
             "add flanks = { rear_mm = ..., front_mm = ... } to [sprags], or remove the limit".to_owned(),
+        );
+    }
+}
+
+/// A film needs an oil.
+pub(super) fn film(file: &DesignFile, out: &mut Findings) {
+    let key = ["limits.film_lambda", "optimize.limits.film_lambda"]
+        .into_iter()
+        .find(|k| out.doc.entry(k).is_some());
+    if let (Some(key), None) = (key, &file.lubrication) {
+        out.refuse(
+            &[key],
+            "only together with [lubrication]: without an oil there is no film".to_owned(),
+            "add [lubrication] with oil, temperature_c, race_roughness_um and sprag_roughness_um, or remove the limit"
+                .to_owned(),
         );
     }
 }

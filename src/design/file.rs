@@ -8,6 +8,7 @@ use super::contact_file::ContactFile;
 use super::drivetrain_file::DriveFile;
 use super::life_file::LifeFile;
 use super::limits::LimitsFile;
+use super::lubrication_file::LubricationFile;
 use super::scenario_file::ScenarioFile;
 use super::task_file::{CheckFile, OptimizeFile};
 use super::tolerances_file::TolerancesFile;
@@ -37,6 +38,8 @@ pub(super) struct DesignFile {
     pub friction: FrictionFile,
     /// Temperatures of the bodies in service; absent: all at the reference temperature.
     pub thermal: Option<ThermalFile>,
+    /// Oil or grease, roughness and what leads heat away; absent: no film, friction law (12) alone.
+    pub lubrication: Option<LubricationFile>,
     /// Local contact law; absent: elastic, square ends.
     #[serde(default)]
     pub contact: ContactFile,

@@ -14,6 +14,7 @@ type Need = (&'static str, &'static str);
 const AT_NOMINAL: &[Need] = &[("nominal_torque_nm", "the torque at which this limit is held")];
 const AT_PEAK: &[Need] = &[("peak_torque_nm", "the torque at which this limit is held")];
 const AT_PEAK_BELOW_CASE: &[Need] = &[AT_PEAK[0], ("case_depth_mm", "the depth at which the core begins")];
+const AT_FILM_SPEED: &[Need] = &[("film_at_rpm", "the speed at which this limit is held")];
 const ALONE: &[Need] = &[];
 
 /// One number of `[limits]`.
@@ -156,6 +157,10 @@ limits! {
         "Overrun speed up to which the sprags must not lift off, rev/min.";
     lift_off_by_rpm: "exclusiveMinimum" 0, "rpm" -> lift_off_by_rad_s by rad_s, ALONE,
         "Overrun speed of the outer race by which the sprags must have lifted off the inner race, rev/min.";
+    film_lambda: "exclusiveMinimum" 0, "" -> film_lambda by same, AT_FILM_SPEED,
+        "Smallest ratio wanted of film to roughness at the sliding inner contact at film_at_rpm; needs [lubrication].";
+    film_at_rpm: "exclusiveMinimum" 0, "rpm" -> film_at_rad_s by rad_s, ALONE,
+        "Speed of the inner race in overrun, the outer one at rest, at which film_lambda is held, rev/min.";
 }
 
 #[cfg(test)]

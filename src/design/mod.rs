@@ -20,6 +20,7 @@ mod history;
 mod inputs;
 mod life_file;
 mod limits;
+mod lubrication_file;
 mod notes;
 mod objective;
 mod open;

@@ -31,7 +31,7 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
 
 /// Tables besides whose numbers have their unit here; those of `[limits]` have it in [`LIMIT_KEYS`](super::LIMIT_KEYS).
 #[cfg(test)]
-const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal"];
+const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal", "lubrication"];
 
 /// Unit of every number in these tables by the last step of its path, as printed; a pure number has none.
 const UNITS: &[(&str, &str)] = &[
@@ -41,6 +41,7 @@ const UNITS: &[(&str, &str)] = &[
     ("bearing_stiffness_n_per_um", "N/um"),
     ("bench_inertia_kg_m2", "kg m^2"),
     ("bore_mm", "mm"),
+    ("boundary_friction", ""),
     ("centre_distance_mm", "mm"),
     ("compression_ratio", ""),
     ("count", ""),
@@ -67,6 +68,7 @@ const UNITS: &[(&str, &str)] = &[
     ("inner_inertia_kg_m2", "kg m^2"),
     ("inner_interference_um", "um"),
     ("inner_race_c", "°C"),
+    ("inner_race_to_oil_w_per_k", "W/K"),
     ("inner_radius_mm", "mm"),
     ("intake_pressure_mpa", "MPa"),
     ("kinetic", ""),
@@ -74,18 +76,24 @@ const UNITS: &[(&str, &str)] = &[
     ("load_factor", ""),
     ("mass_kg", "kg"),
     ("mean_pressure_mpa", "MPa"),
+    ("nu100_mm2_s", "mm^2/s"),
+    ("nu40_mm2_s", "mm^2/s"),
     ("offset_mm", "mm"),
     ("order", ""),
     ("outer_inertia_kg_m2", "kg m^2"),
     ("outer_interference_um", "um"),
     ("outer_outside_radius_mm", "mm"),
     ("outer_race_c", "°C"),
+    ("outer_race_to_oil_w_per_k", "W/K"),
     ("outer_radius_mm", "mm"),
     ("overrun_rpm", "rpm"),
+    ("path_mm", "mm"),
     ("phase_rad", "rad"),
     ("poisson_ratio", ""),
     ("polytropic_exponent", ""),
     ("preload_nm", "Nm"),
+    ("race_roughness_um", "um"),
+    ("race_wear_mm3_per_nm", "mm^3/(Nm)"),
     ("radius_mm", "mm"),
     ("ratio", ""),
     ("rear_mm", "mm"),
@@ -96,13 +104,18 @@ const UNITS: &[(&str, &str)] = &[
     ("roller_coefficient", ""),
     ("shaft_bore_radius_mm", "mm"),
     ("slices", ""),
+    ("speed_m_s", "m/s"),
     ("speed_rpm", "rpm"),
+    ("sprag_roughness_um", "um"),
+    ("sprag_wear_mm3_per_nm", "mm^3/(Nm)"),
     ("sprags_c", "°C"),
+    ("sprags_to_oil_w_per_k", "W/K"),
     ("static", ""),
     ("step_time_s", "s"),
     ("stiffness_nm_per_rad", "Nm/rad"),
     ("stop_stiffness_nm_per_rad", "Nm/rad"),
     ("stroke_mm", "mm"),
+    ("temperature_c", "°C"),
     ("tilt_mrad", "mrad"),
     ("torque_nm", "Nm"),
     ("torque_step_nm", "Nm"),

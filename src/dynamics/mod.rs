@@ -42,6 +42,8 @@ pub use run::{
     Engaged, FastMotion, Held, History, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,
     run_while_it_sticks,
 };
-pub use start::{Overrun, alpha_max_rad, overrun, preloaded, settled, settled_end_torque_nm, settled_point};
-pub use swing::{Swing, swing};
+pub use start::{
+    Overrun, alpha_max_rad, overrun, overrun_under, preloaded, settled, settled_end_torque_nm, settled_point,
+};
+pub use swing::{Swing, swing, swing_on_film, swing_with_friction};
 pub use train::{NodeMotion, Train, TrainMode, TrainRun};

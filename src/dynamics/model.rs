@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::drive::{Drive, Loads};
 use crate::clutch::Clutch;
-use crate::friction::Stribeck;
+use crate::friction::{FilmFriction, Stribeck};
 use crate::wedge::{WedgeCurve, WedgePoint};
 
 /// Length of the state: 4 angles (rad), 4 rates (rad/s), signed slip distances at A and B (m).
@@ -51,6 +51,8 @@ pub struct Model {
     pub curve: WedgeCurve,
     /// Friction law.
     pub friction: Stribeck,
+    /// What takes its place at A where that slides on a film.
+    pub film: Option<FilmFriction>,
     /// Whether B rolls without slip whatever that takes (Vernay's assumption).
     pub outer_holds: bool,
     /// Loads.
@@ -102,6 +104,7 @@ impl Model {
         Self {
             curve,
             friction: Stribeck::of(&clutch.friction),
+            film: None,
             outer_holds: clutch.friction.outer_holds,
             loads,
             drive: Drive::default(),
@@ -155,6 +158,15 @@ impl Model {
             slip_velocity_inner(p.oa, p.rho_i, rates[0], rates[1], rates[2]),
             slip_velocity_outer(p.ob, p.rho_e, rates[0], rates[1], rates[3]),
         )
+    }
+
+    /// mu at A, sliding at `speed_m_s` >= 0 under `n_bi`, N.
+    #[inline(always)]
+    fn sliding_inner(&self, speed_m_s: f64, n_bi: f64) -> f64 {
+        match &self.film {
+            None => self.friction.coefficient(speed_m_s),
+            Some(film) => film.coefficient(speed_m_s, n_bi),
+        }
     }
 
     /// Inverse of the sprags' 2x2 mass matrix in (alpha, phi), 1/(kg m^2):
@@ -242,11 +254,15 @@ impl Model {
         let swing = self.mass_kg * p.oc_g * p.oc_g_slope;
         let centrifugal = if open { phi_rate * phi_rate } else { phi_rate * phi_rate - speed * speed };
         let (n_bi, damping) = self.damped(p, speed, da);
-        let f_alpha = n
+        let mut f_alpha = n
             * (damping + self.spring_nm_per_rad * (self.alpha_max_rad - y[0])
                 - if open { 0.0 } else { wedge }
                 + swing * centrifugal
                 - self.inertia_kg_m2 * spin);
+        if let Some(film) = &self.film {
+            // The film's pressure acts ahead of A: N_bi x_p (1 + rho_i), by virtual work.
+            f_alpha += n * n_bi * film.ahead_m(v_a.max(0.0), n_bi) * (1.0 + p.rho_i);
+        }
         let orbit = self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g;
         let f_phi = -n * (2.0 * swing * da * phi_rate + orbit * spin);
         let drag = self.damping_nm_s_per_rad * (di - de);
@@ -279,7 +295,7 @@ impl Model {
         } else {
             a[(0, 0)] = 1.0;
             b[0] = match mode.inner {
-                Grip::Slip(s) if !open => -s * self.friction.coefficient((s * v_a).max(0.0)) * n_bi,
+                Grip::Slip(s) if !open => -s * self.sliding_inner((s * v_a).max(0.0), n_bi) * n_bi,
                 _ => 0.0,
             };
         }

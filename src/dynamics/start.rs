@@ -159,6 +159,17 @@ const BESIDE: f64 = 1e-4;
 /// Lift-off (no N_bi > 0 in equilibrium) is an answer. Whether the sprags stay there, and how far beside it the equations of
 /// motion settle, [`super::swing()`] says.
 pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> Overrun {
+    overrun_under(clutch, curve, alpha_max, |_| [mu, 0.0])
+}
+
+/// The same where A's friction coefficient depends on N_bi, N, and its pressure acts ahead of A by x_p, m, where the race comes from:
+/// [mu, x_p]. N_bi then goes through O at the azimuth of A less x_p/OA, which leaves T_be OB = T_bi OA.
+pub fn overrun_under(
+    clutch: &Clutch,
+    curve: &WedgeCurve,
+    alpha_max: f64,
+    sliding: impl Fn(f64) -> [f64; 2],
+) -> Overrun {
     let k_r = clutch.spring.stiffness_nm_per_rad;
     let speed = curve.speed_rad_s();
     let touch = curve.touch();
@@ -172,12 +183,15 @@ pub fn overrun(clutch: &Clutch, curve: &WedgeCurve, alpha_max: f64, mu: f64) -> 
             (c.alpha.v, c.lengths.oa.v, c.lengths.ob.v, c.oc_g.v, c.beta.v + c.gamma.v, c.gamma.v)
         };
         let l = levers(oa, ob, oc_g, bg, g);
+        let [mu, ahead] = sliding(n);
+        let pressed = bg - ahead / oa;
+        let h_i = levers(oa, ob, oc_g, pressed, g).h_i;
         let t_bi = -mu * n;
         let t_be = t_bi * oa / ob;
         let f_c = clutch.sprags.mass_kg * oc_g * speed * speed;
-        let n_be = (n * bg.cos() + t_bi * bg.sin() - t_be * g.sin() + f_c) / g.cos();
+        let n_be = (n * pressed.cos() + t_bi * bg.sin() - t_be * g.sin() + f_c) / g.cos();
         let spring = k_r * (alpha_max - alpha);
-        let parts = [l.h_i * n, -l.h_e * n_be, -l.b_i * t_bi, -l.b_e * t_be];
+        let parts = [h_i * n, -l.h_e * n_be, -l.b_i * t_bi, -l.b_e * t_be];
         let left = spring - parts.iter().sum::<f64>();
         let size = spring.abs() + parts.iter().map(|m| m.abs()).sum::<f64>();
         let drag_torque_nm = -t_bi * oa * clutch.sprags.count as f64;

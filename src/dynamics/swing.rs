@@ -1,13 +1,14 @@
 //! Whether a steady overrun stays: growth and frequency of the sprag's swing about it.
 
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Matrix3};
 
 use super::drive::Loads;
 use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::start::Overrun;
 use crate::clutch::Clutch;
+use crate::friction::FilmFriction;
 use crate::numeric::root;
-use crate::wedge::WedgeCurve;
+use crate::wedge::{WedgeCurve, WedgePoint};
 
 /// A small swing of the sprag about steady overrun, alpha - alpha_0 ~ exp(growth t) cos(2 pi frequency t).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,39 +66,123 @@ pub fn swing(
     steady: &Overrun,
     overrun_rad_s: f64,
 ) -> Option<Swing> {
-    if steady.normal_inner_n <= 0.0 || overrun_rad_s <= 0.0 {
-        return None;
-    }
-    let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
-    // Races that nothing turns: the largest number, as infinity times 0 is none.
-    let held = Model {
-        inner_inertia_kg_m2: f64::MAX,
-        outer_inertia_kg_m2: f64::MAX,
-        ..Model::new(clutch, curve.clone(), still, alpha_max_rad, 0.0)
-    };
-    let mode = Mode { place: Place::Arc(0), inner: Grip::Slip(1.0), outer: Grip::Stick };
-    let f = |alpha: f64, alpha_rate: f64| {
-        let mut y = [0.0; N_STATE];
-        (y[0], y[4], y[6]) = (alpha, alpha_rate, overrun_rad_s);
-        held.forces(&mode, 0.0, &y).acceleration[0]
-    };
-    // From first contact on: alpha'' falls with alpha, and the equilibrium of the statics is near.
-    let touch = curve.first_contact_rad();
-    let near = steady.alpha_rad - touch;
-    let at = |x: f64| f(touch + x, 0.0);
-    let low = (0..60).map(|i| near * 0.5_f64.powi(i)).find(|&x| at(x) >= 0.0)?;
-    let high = (0..60).map(|i| near * 2.0_f64.powi(i)).find(|&x| at(x) <= 0.0)?;
-    let x = if low == high { low } else { root::bracketed(low, high, at(low), at(high), 1e-15 * high, at)? };
-    let by_alpha = (at(x * (1.0 + BESIDE)) - at(x * (1.0 - BESIDE))) / (2.0 * BESIDE * x);
-    let p = curve.in_arc(0, touch + x);
-    // alpha' changes friction over the sliding speed, or over 1/gamma_b where that is less.
-    let least = overrun_rad_s.min(1.0 / (held.friction.decay_s_per_m * p.oa));
-    let beside = BESIDE * least / (p.rho_i + p.rho_e);
-    let by_rate = (f(touch + x, beside) - f(touch + x, -beside)) / (2.0 * beside);
-    let eigenvalues = Matrix2::new(0.0, 1.0, by_alpha, by_rate).complex_eigenvalues();
+    swing_with_friction(clutch, curve, alpha_max_rad, steady, overrun_rad_s, None)
+}
+
+/// The same with the friction of `film` at A, which follows load and speed at once, and nothing else of it.
+pub fn swing_with_friction(
+    clutch: &Clutch,
+    curve: &WedgeCurve,
+    alpha_max_rad: f64,
+    steady: &Overrun,
+    overrun_rad_s: f64,
+    film: Option<&FilmFriction>,
+) -> Option<Swing> {
+    Some(Beside::of(clutch, curve, alpha_max_rad, steady, overrun_rad_s, film)?.swing())
+}
+
+/// The same with A on `film`; without one as [`swing()`].
+///
+/// The film is a spring and a damper in line with the bodies. With its change of thickness delta, A's bodies feel
+/// alpha + delta/X', X' = tan omega OA (rho_i + rho_e) being what a turn presses the wedge together by, so that
+///
+///   d/dt (alpha, alpha', delta) = (alpha', f_alpha (alpha + delta/X') + f_alpha' alpha',
+///                                 -[N' (alpha + delta/X') + k (delta - h_v OA (rho_i + rho_e) alpha')]/c)
+///
+/// about the equilibrium, with N' = dN_bi/dalpha, the film's k = -dN/dh, h_v = dh/dv and squeeze damping c
+/// ([`FilmFriction::compliance`]). In f friction follows load and speed at once.
+pub fn swing_on_film(
+    clutch: &Clutch,
+    curve: &WedgeCurve,
+    alpha_max_rad: f64,
+    steady: &Overrun,
+    overrun_rad_s: f64,
+    film: Option<&FilmFriction>,
+) -> Option<Swing> {
+    let beside = Beside::of(clutch, curve, alpha_max_rad, steady, overrun_rad_s, film)?;
+    let Some(film) = film else { return Some(beside.swing()) };
+    let p = &beside.point;
+    let turn = p.oa * (p.rho_i + p.rho_e);
+    let pressed = curve.touch().t_ratio * turn;
+    let normal = |x: f64| curve.in_arc(0, curve.first_contact_rad() + x).n_bi;
+    let x = beside.pressed_in_rad;
+    let by_turn = (normal(x * (1.0 + BESIDE)) - normal(x * (1.0 - BESIDE))) / (2.0 * BESIDE * x);
+    let [stiffness, by_speed, squeeze] = film.compliance(overrun_rad_s * p.oa, p.n_bi);
+    // The third unknown is delta/X', rad.
+    let rate = [-by_turn, stiffness * by_speed * turn, -by_turn - stiffness * pressed]
+        .map(|of| of / (squeeze * pressed));
+    #[rustfmt::skip]
+    let matrix = Matrix3::new(
+        0.0,             1.0,            0.0,
+        beside.by_alpha, beside.by_rate, beside.by_alpha,
+        rate[0],         rate[1],        rate[2],
+    );
+    let eigenvalues = matrix.complex_eigenvalues();
     Some(Swing {
         growth_rate_per_s: eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max),
-        frequency_hz: eigenvalues[0].im.abs() / std::f64::consts::TAU,
+        frequency_hz: eigenvalues.iter().map(|l| l.im).fold(0.0, f64::max) / std::f64::consts::TAU,
         normal_inner_n: p.n_bi,
     })
+}
+
+/// The equilibrium of the equations of motion and how they change beside it.
+struct Beside {
+    /// alpha beyond first contact, rad.
+    pressed_in_rad: f64,
+    point: WedgePoint,
+    by_alpha: f64,
+    by_rate: f64,
+}
+
+impl Beside {
+    fn of(
+        clutch: &Clutch,
+        curve: &WedgeCurve,
+        alpha_max_rad: f64,
+        steady: &Overrun,
+        overrun_rad_s: f64,
+        film: Option<&FilmFriction>,
+    ) -> Option<Self> {
+        if steady.normal_inner_n <= 0.0 || overrun_rad_s <= 0.0 {
+            return None;
+        }
+        let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
+        // Races that nothing turns: the largest number, as infinity times 0 is none.
+        let held = Model {
+            film: film.copied(),
+            inner_inertia_kg_m2: f64::MAX,
+            outer_inertia_kg_m2: f64::MAX,
+            ..Model::new(clutch, curve.clone(), still, alpha_max_rad, 0.0)
+        };
+        let mode = Mode { place: Place::Arc(0), inner: Grip::Slip(1.0), outer: Grip::Stick };
+        let f = |alpha: f64, alpha_rate: f64| {
+            let mut y = [0.0; N_STATE];
+            (y[0], y[4], y[6]) = (alpha, alpha_rate, overrun_rad_s);
+            held.forces(&mode, 0.0, &y).acceleration[0]
+        };
+        // From first contact on: alpha'' falls with alpha, and the equilibrium of the statics is near.
+        let touch = curve.first_contact_rad();
+        let near = steady.alpha_rad - touch;
+        let at = |x: f64| f(touch + x, 0.0);
+        let low = (0..60).map(|i| near * 0.5_f64.powi(i)).find(|&x| at(x) >= 0.0)?;
+        let high = (0..60).map(|i| near * 2.0_f64.powi(i)).find(|&x| at(x) <= 0.0)?;
+        let x =
+            if low == high { low } else { root::bracketed(low, high, at(low), at(high), 1e-15 * high, at)? };
+        let by_alpha = (at(x * (1.0 + BESIDE)) - at(x * (1.0 - BESIDE))) / (2.0 * BESIDE * x);
+        let p = curve.in_arc(0, touch + x);
+        // alpha' changes friction over the sliding speed, or over 1/gamma_b where that is less.
+        let least = overrun_rad_s.min(1.0 / (held.friction.decay_s_per_m * p.oa));
+        let beside = BESIDE * least / (p.rho_i + p.rho_e);
+        let by_rate = (f(touch + x, beside) - f(touch + x, -beside)) / (2.0 * beside);
+        Some(Self { pressed_in_rad: x, point: p, by_alpha, by_rate })
+    }
+
+    fn swing(&self) -> Swing {
+        let eigenvalues = Matrix2::new(0.0, 1.0, self.by_alpha, self.by_rate).complex_eigenvalues();
+        Swing {
+            growth_rate_per_s: eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max),
+            frequency_hz: eigenvalues[0].im.abs() / std::f64::consts::TAU,
+            normal_inner_n: self.point.n_bi,
+        }
+    }
 }

@@ -1,7 +1,11 @@
-//! Friction coefficient of a dry or boundary-lubricated contact.
+//! Friction coefficient of a dry or boundary-lubricated contact, and of one on a film of oil.
 //!
 //! In: sliding speed, coefficients of a design. Out: coefficient and its slope. Absent: forces, directions, memory, any notion of
-//! sticking (the room that holds the state decides that). Equations: (12).
+//! sticking (the room that holds the state decides that). Equations: (12), the film's of `lubrication`.
+
+mod film;
+
+pub use film::{FilmFriction, FilmState};
 
 use crate::clutch::Friction;
 

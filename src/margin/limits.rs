@@ -66,6 +66,7 @@ pub(super) enum Of {
     ReEngagement,
     KeepContact,
     LiftOff,
+    Film,
     // scenes.rs
     Slip,
     Contact,

@@ -2,7 +2,7 @@
 
 use super::capacity::axial_from_nm;
 use super::limits::{Limit, Of, When};
-use super::overrun::overrun_moments;
+use super::overrun::{overrun_at, overrun_moments};
 use super::row::{Demand, Margin};
 use super::table::LIMITS;
 use super::{NoMargins, curve_at_rest};
@@ -152,6 +152,12 @@ fn unloaded_row(case: &Case, limit: &'static Limit) -> Option<Margin> {
         Of::LiftOff => {
             let (opening, closing) = overrun_moments(design, state, limits.lift_off_by_rad_s?);
             (closing, opening)
+        }
+        // Sprags that the spring does not press on need no film.
+        Of::Film => {
+            let (wanted, speed) = (limits.film_lambda?, limits.film_at_rad_s?);
+            let point = overrun_at(design, state, 0.0, speed).ok()?;
+            (wanted, point.lubricated?.film.lambda)
         }
         _ => return None,
     };

@@ -26,7 +26,7 @@ pub use overrun::{
 pub use row::{Demand, Margin, RESOLUTION, Rule};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
-pub use table::{CONTACT, END_OF_PROFILE, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
+pub use table::{CONTACT, END_OF_PROFILE, FILM, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
 
 use crate::clutch::Scenario;
 use crate::design::{Design, Limits};

@@ -7,10 +7,10 @@
 
 use super::load::LoadState;
 use crate::design::Design;
-use crate::dynamics::{Overrun, Swing, overrun, swing};
+use crate::dynamics::{Overrun, Swing};
 use crate::kinematics::levers;
 use crate::numeric::root;
-use crate::scenario::sliding_friction;
+use crate::scenario::{Lubricated, sliding};
 use crate::wedge::{FIRST_CONTACT_N, NoCurve, WedgeCurve};
 
 /// One steady overrun.
@@ -22,8 +22,12 @@ pub struct OverrunPoint {
     pub friction: f64,
     /// Equilibrium of one sprag, and the drag torque of all.
     pub state: Overrun,
+    /// Contact A on its film, and its heat; `None` without `[lubrication]` and where A is open.
+    pub lubricated: Option<Lubricated>,
     /// The small swing about that equilibrium, races at held speeds; `None` where A is open or nothing slides.
     pub swing: Option<Swing>,
+    /// The same with the film's friction alone, without its squeeze; `None` without a film.
+    pub swing_by_friction: Option<Swing>,
     /// Growth of the outer track, (7), m.
     pub growth_m: f64,
     /// Hoop stress at the bore of the outer race by rotation alone, Pa, tension positive.
@@ -77,13 +81,16 @@ pub fn overrun_at(
 fn point(design: &Design, state: &LoadState, curve: &WedgeCurve, speed_rad_s: f64) -> OverrunPoint {
     let clutch = &design.clutch;
     let ring = &state.curve.statics().elastic.outer_race;
-    let mu = sliding_friction(clutch, speed_rad_s);
-    let found = overrun(clutch, curve, state.alpha_max_rad, mu);
+    let found = sliding(clutch, curve, state.alpha_max_rad, speed_rad_s);
     OverrunPoint {
         speed_rad_s,
-        friction: mu,
-        state: found,
-        swing: swing(clutch, curve, state.alpha_max_rad, &found, speed_rad_s),
+        friction: found.friction,
+        state: found.state,
+        lubricated: found.lubricated,
+        swing_by_friction: found
+            .lubricated
+            .and_then(|l| l.swing_by_friction(&found.state, clutch, curve, state.alpha_max_rad, speed_rad_s)),
+        swing: found.swing(clutch, curve, state.alpha_max_rad, speed_rad_s),
         growth_m: ring.centrifugal_bore_growth_m(curve.speed_rad_s()),
         rotation_hoop_pa: ring.rotating_bore_hoop_pa(curve.speed_rad_s()),
     }

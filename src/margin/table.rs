@@ -142,6 +142,22 @@ pub static LIFT_OFF: Limit = Limit {
     ..KEEP_CONTACT
 };
 
+/// A film between sprag and inner race.
+pub static FILM: Limit = Limit {
+    code: "film",
+    key: Some("film_lambda"),
+    name: |_| "wanted ratio of film to roughness against that of the sliding inner contact",
+    unit: "1",
+    per_si: 1.0,
+    when: When::Overrun,
+    rule: Rule::Ratio,
+    explanation: "Thickness of the oil film at the inner contact over the roughness of both surfaces, in overrun of the inner race at \
+                  film_at_rpm: what is wanted against what there is. A thicker or cooler oil, smoother surfaces, longer sprags or a \
+                  weaker spring raise it.",
+    ends_curve: false,
+    of: Of::Film,
+};
+
 /// Friction that a scenario needs.
 pub static SLIP: Limit = Limit {
     code: "slip",
@@ -373,6 +389,7 @@ pub static LIMITS: &[&Limit] = &[
     },
     &KEEP_CONTACT,
     &LIFT_OFF,
+    &FILM,
     &SLIP,
     &CONTACT,
     &Limit {

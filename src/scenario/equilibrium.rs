@@ -6,7 +6,7 @@ use super::error::Scales;
 use super::prepare::Prepared;
 use super::simulate::{Settings, hertz_at, hertz_peak};
 use crate::clutch::{Scenario, ScenarioKind, Start};
-use crate::dynamics::{Neglected, Peaks, SlipRecord, Stop, Swing, swing};
+use crate::dynamics::{Neglected, Peaks, SlipRecord, Stop, Swing, swing_on_film};
 use crate::wedge::StaticPoint;
 
 /// Static and overrunning scenarios: equilibrium, no integration.
@@ -72,8 +72,15 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
 /// The small swing about the steady overrun of `scenario`; `None` for other kinds and for sprags that have lifted off.
 pub fn overrun_swing(scenario: &Scenario, prepared: &Prepared) -> Option<Swing> {
     let ScenarioKind::Overrun { overrun_rad_s, .. } = scenario.kind else { return None };
-    let model = &prepared.model;
-    swing(&scenario.clutch, &model.curve, model.alpha_max_rad, prepared.overrun.as_ref()?, overrun_rad_s)
+    let (model, steady) = (&prepared.model, prepared.overrun.as_ref()?);
+    swing_on_film(
+        &scenario.clutch,
+        &model.curve,
+        model.alpha_max_rad,
+        steady,
+        overrun_rad_s,
+        model.film.as_ref(),
+    )
 }
 
 /// To what part every figure of an equilibrium is right: what of the torque is left over, what the windup's interpolation

@@ -10,6 +10,7 @@ mod error;
 mod figures;
 mod prepare;
 mod simulate;
+mod sliding;
 mod train;
 
 pub use answer::{GaveUp, Simulation, Verdict};
@@ -21,3 +22,4 @@ pub use prepare::{
     AtRest, FreeRun, NoScenario, Prepared, Reduction, prepare, prepare_reduced, sliding_friction,
 };
 pub use simulate::{Settings, published_steps, simulate, simulate_prepared, simulate_published};
+pub use sliding::{Lubricated, Sliding, sliding};

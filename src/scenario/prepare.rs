@@ -1,5 +1,6 @@
 //! From a scenario of the design to a model with an initial state.
 
+use super::sliding::sliding;
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{
     Drive, Grip, Loads, Mode, Model, N_STATE, Overrun, Place, State, Train, alpha_max_rad, overrun,
@@ -85,7 +86,7 @@ impl FreeRun {
     /// The steady overrun of the sprags of `model` under the friction law `law`, alpha as of the model's curve.
     fn steady(&self, model: &Model, law: &Stribeck) -> Overrun {
         let curve = self.curve.as_ref().unwrap_or(&model.curve);
-        let mu = sliding(&self.clutch, law, self.speed_rad_s);
+        let mu = friction_under(&self.clutch, law, self.speed_rad_s);
         let free = overrun(&self.clutch, curve, model.alpha_max_rad, mu);
         let moved = model.curve.first_contact_rad() - curve.first_contact_rad();
         Overrun { alpha_rad: free.alpha_rad + moved, ..free }
@@ -288,8 +289,10 @@ fn at_start(
         }
         ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
             let curve = build(speed_rad_s)?;
-            let steady = overrun(clutch, &curve, alpha_max, sliding_friction(clutch, overrun_rad_s));
-            let model = Model::new(clutch, curve, still, alpha_max, 0.0);
+            let sliding = sliding(clutch, &curve, alpha_max, overrun_rad_s);
+            let steady = sliding.state;
+            let mut model = Model::new(clutch, curve, still, alpha_max, 0.0);
+            model.film = sliding.lubricated.map(|l| l.law);
             let mut state = [0.0; N_STATE];
             state[0] = steady.alpha_rad;
             let mode = Mode { place: Place::Arc(0), inner: Grip::Slip(1.0), outer: Grip::Stick };
@@ -300,10 +303,10 @@ fn at_start(
 
 /// mu at A, where the inner race runs ahead of the sprags by `overrun_rad_s`.
 pub fn sliding_friction(clutch: &Clutch, overrun_rad_s: f64) -> f64 {
-    sliding(clutch, &Stribeck::of(&clutch.friction), overrun_rad_s)
+    friction_under(clutch, &Stribeck::of(&clutch.friction), overrun_rad_s)
 }
 
-fn sliding(clutch: &Clutch, law: &Stribeck, overrun_rad_s: f64) -> f64 {
+fn friction_under(clutch: &Clutch, law: &Stribeck, overrun_rad_s: f64) -> f64 {
     law.coefficient(overrun_rad_s * clutch.races.inner_radius_m)
 }
 

@@ -98,6 +98,9 @@ pub struct OverrunSection {
     pub drag_torque_slow_nm: f64,
     /// All speeds looked at: outer race runs, then inner race.
     pub points: Vec<OverrunRow>,
+    /// Whether the sliding contact is on a film of oil.
+    #[serde(skip)]
+    pub on_film: bool,
     /// That the equilibrium does not stay; null where it does.
     pub warning: Option<String>,
 }
@@ -148,6 +151,7 @@ impl OverrunSection {
             },
             gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
+            on_film: curve.inner_race.iter().any(|p| p.lubricated.is_some()),
             warning: warning(&points, wanted_rpm),
             points,
         }
@@ -172,8 +176,9 @@ impl OverrunSection {
             })
         };
         format!(
-            "Overrun: drag {slow} when slow; {}; {}; the centrifugal force is {} (gamma {:.3} deg: the centroid lies {} the \
+            "Overrun{}: drag {slow} when slow; {}; {}; the centrifugal force is {} (gamma {:.3} deg: the centroid lies {} the \
              sprag's outer centre)",
+            if self.on_film { " on a film of oil (`overrun` says more)" } else { "" },
             at("outer"),
             at("inner"),
             self.centrifugal,

@@ -1,0 +1,60 @@
+//! The oils and greases that a design may name, as a table, as JSON and in words.
+
+use crate::lubrication::OILS;
+use crate::report::{Column, Screen, Table, Unit};
+use serde_json::{Value, json};
+
+/// The oils with what they are reckoned with.
+pub fn table() -> Table {
+    let mut table = Table::new(vec![
+        Column::text("name", "Name"),
+        Column::text("base", "Base oil"),
+        Column::number("nu40_mm2_s", "40 C, mm²/s", Unit::One, 4),
+        Column::number("nu100_mm2_s", "100 C, mm²/s", Unit::One, 3),
+        Column::number("density_kg_m3", "Density 15 C, kg/m³", Unit::One, 4),
+        Column::number("alpha40_per_gpa", "α 40 C, 1/GPa", Unit::One, 3),
+        Column::number("alpha100_per_gpa", "α 100 C, 1/GPa", Unit::One, 3),
+    ]);
+    for o in &OILS {
+        table.row(vec![
+            o.name.into(),
+            o.base.name().into(),
+            (1e6 * o.nu40_m2_s).into(),
+            (1e6 * o.nu100_m2_s).into(),
+            o.density_kg_m3.into(),
+            (1e9 * o.pressure_coefficient_per_pa(40.0)).into(),
+            (1e9 * o.pressure_coefficient_per_pa(100.0)).into(),
+        ]);
+    }
+    table
+}
+
+/// The same as JSON, with the source of each.
+pub fn list() -> Vec<Value> {
+    let one = |o: &crate::lubrication::Oil| {
+        json!({
+            "name": o.name,
+            "base": o.base.name(),
+            "nu40_mm2_s": 1e6 * o.nu40_m2_s,
+            "nu100_mm2_s": 1e6 * o.nu100_m2_s,
+            "density_kg_m3": o.density_kg_m3,
+            "alpha40_per_gpa": 1e9 * o.pressure_coefficient_per_pa(40.0),
+            "alpha100_per_gpa": 1e9 * o.pressure_coefficient_per_pa(100.0),
+            "source": o.source,
+        })
+    };
+    OILS.iter().map(one).collect()
+}
+
+/// The same on a terminal.
+pub fn text(screen: Screen) -> String {
+    let mut text = table().to_text(screen);
+    text.push_str(
+        "\nNamed in a design as [lubrication] oil = \"ISO VG 32\"; nu40_mm2_s and nu100_mm2_s beside the name win over it. Values are \
+         typical of each kind, no maker's promise.\n\n",
+    );
+    for o in &OILS {
+        text.push_str(&format!("{}: {}\n", o.name, o.source));
+    }
+    text
+}

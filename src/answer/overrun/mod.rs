@@ -1,0 +1,254 @@
+//! Overrun on a film: drag, heat, temperatures, growth of the swing, wear, over speeds and temperatures; a slip.
+
+mod page;
+mod tables;
+mod words;
+
+use super::left_out::{LeftOut, left_out};
+use super::{Envelope, Provenance};
+use crate::clutch::{Clutch, Lubrication};
+use crate::design::Design;
+use crate::life::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
+use crate::margin::{
+    LIFT_OFF_TO_RAD_S, LoadState, NoMargins, OverrunPoint, lift_off_rad_s, load_state, overrun_at,
+};
+use crate::report::{Screen, Unit};
+use serde_json::{Value, json};
+use std::fmt;
+
+/// Which race runs; the other stands.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum RunningRace {
+    /// The inner race, past sprags that stand.
+    #[default]
+    Inner,
+    /// The outer race, and the sprags with it: they feel their centrifugal force.
+    Outer,
+}
+
+impl RunningRace {
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inner => "inner",
+            Self::Outer => "outer",
+        }
+    }
+}
+
+/// What is asked.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OverrunQuestion {
+    /// Race that runs.
+    pub race: RunningRace,
+    /// Speeds, rad/s; none: 1, 2, 5 ... up to lift-off and 50 m/s.
+    pub speeds_rad_s: Vec<f64>,
+    /// Temperatures of the oil, C; none: that of the file.
+    pub temperatures_c: Vec<f64>,
+}
+
+/// One speed at one temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OverrunLine {
+    /// Temperature of the oil, C.
+    pub oil_c: f64,
+    /// Speed, rad/s.
+    pub speed_rad_s: f64,
+    /// On the film.
+    pub point: OverrunPoint,
+    /// By the friction law (12) alone, as without `[lubrication]`.
+    pub dry: OverrunPoint,
+    /// Wear in an hour.
+    pub wear: Option<HourlyWear>,
+}
+
+/// The overrun of a design.
+#[derive(Debug, Clone)]
+pub struct OverrunAnswer<'a> {
+    design: &'a Design,
+    lubrication: &'a Lubrication,
+    state: LoadState,
+    /// What was asked.
+    pub question: OverrunQuestion,
+    /// Temperatures one after another, speeds in each.
+    pub lines: Vec<OverrunLine>,
+    /// Lift-off of the outer race, rad/s: it does not depend on friction, which ends with the force at A.
+    pub lift_off_rad_s: Option<f64>,
+    /// The slip that the file asks for.
+    pub slip: Option<SlipEffect>,
+}
+
+/// Why there is none.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoOverrun {
+    /// The design has no `[lubrication]`.
+    NoLubrication,
+    /// There is no clutch to speak of.
+    NoClutch(NoMargins),
+}
+
+impl fmt::Display for NoOverrun {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoLubrication => write!(
+                f,
+                "the design has no [lubrication] table; add one, such as\n\n{EXAMPLE}\n\n`sprag-design explain lubrication` lists its keys"
+            ),
+            Self::NoClutch(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoOverrun {}
+
+/// A table to begin with.
+pub const EXAMPLE: &str = "[lubrication]\noil = \"ISO VG 32\"          # `sprag-design oils`\ntemperature_c = 60.0\n\
+                           race_roughness_um = 0.25   # Rq\nsprag_roughness_um = 0.25  # Rq";
+
+/// Speeds where none are asked for, rev/min.
+const USUAL_RPM: [f64; 8] = [50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10_000.0];
+/// Speed of the track beyond which nobody runs such a clutch, m/s.
+const FASTEST_M_S: f64 = 50.0;
+
+impl Design {
+    /// Overrun on the film that `[lubrication]` names.
+    ///
+    /// # Errors
+    /// [`NoOverrun`].
+    pub fn overrun(&self, question: &OverrunQuestion) -> Result<OverrunAnswer<'_>, NoOverrun> {
+        let lubrication = self.clutch.lubrication.as_ref().ok_or(NoOverrun::NoLubrication)?;
+        let state = load_state(self).map_err(NoOverrun::NoClutch)?;
+        let lift_off = lift_off_rad_s(self, &state, LIFT_OFF_TO_RAD_S);
+        let mut question = question.clone();
+        if question.temperatures_c.is_empty() {
+            question.temperatures_c.push(lubrication.temperature_c);
+        }
+        if question.speeds_rad_s.is_empty() {
+            let track = self.clutch.races.inner_radius_m;
+            let lift = lift_off.filter(|_| question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
+            let usual = USUAL_RPM.iter().map(|rpm| rpm * std::f64::consts::PI / 30.0);
+            question.speeds_rad_s = usual.filter(|w| *w < lift && *w * track <= FASTEST_M_S).collect();
+        }
+        let mut lines = Vec::new();
+        for &oil_c in &question.temperatures_c {
+            let there = OilAt::new(self, oil_c);
+            for &speed in &question.speeds_rad_s {
+                lines.push(there.line(&state, question.race, speed).map_err(NoOverrun::NoClutch)?);
+            }
+        }
+        let slip = slip_effect(self, &state);
+        Ok(OverrunAnswer {
+            design: self,
+            lubrication,
+            state,
+            question,
+            lines,
+            lift_off_rad_s: lift_off,
+            slip,
+        })
+    }
+}
+
+/// The design with its oil at another temperature, and without.
+struct OilAt {
+    oil_c: f64,
+    wet: Design,
+    dry: Design,
+}
+
+impl OilAt {
+    fn new(design: &Design, oil_c: f64) -> Self {
+        let with = |lubrication| Design {
+            clutch: Clutch { lubrication, ..design.clutch.clone() },
+            ..design.clone()
+        };
+        let wet = with(design.clutch.lubrication.map(|l| Lubrication { temperature_c: oil_c, ..l }));
+        Self { oil_c, wet, dry: with(None) }
+    }
+
+    fn line(&self, state: &LoadState, race: RunningRace, speed_rad_s: f64) -> Result<OverrunLine, NoMargins> {
+        let outer = if race == RunningRace::Outer { speed_rad_s } else { 0.0 };
+        let at = |design: &Design| overrun_at(design, state, outer, speed_rad_s).map_err(NoMargins::Curve);
+        let (point, dry) = (at(&self.wet)?, at(&self.dry)?);
+        let wear = hourly_wear(&self.wet, &point);
+        Ok(OverrunLine { oil_c: self.oil_c, speed_rad_s, point, dry, wear })
+    }
+}
+
+impl<'a> OverrunAnswer<'a> {
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
+    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
+        let um = |m: f64| 1e6 * m;
+        let lines = self.lines.iter().map(|l| {
+            let film = l.point.lubricated.as_ref();
+            let heat = film.map(|f| f.heat);
+            json!({
+                "oil_c": l.oil_c, "speed_rpm": Unit::Rpm.from_si(l.speed_rad_s),
+                "normal_inner_n": l.point.state.normal_inner_n, "lifted_off": l.point.state.normal_inner_n <= 0.0,
+                "film_um": film.map(|f| um(f.film.film.thickness_m)), "lambda": film.map(|f| f.film.lambda),
+                "regime": film.map(|f| f.film.film.regime.name()), "moes_load": film.map(|f| f.film.film.load),
+                "moes_lubricant": film.map(|f| f.film.film.lubricant), "asperity_share": film.map(|f| f.film.asperities),
+                "nahme": film.map(|f| f.film.shear.nahme), "friction": l.point.friction, "friction_dry": l.dry.friction,
+                "drag_torque_nm": l.point.state.drag_torque_nm, "drag_torque_dry_nm": l.dry.state.drag_torque_nm,
+                "heat_w": heat.map(|h| h.heat_w), "film_c": film.map(|f| f.film_c),
+                "contact_c": heat.map(|h| h.temperatures.contact), "inner_race_c": heat.map(|h| h.temperatures.inner_race),
+                "sprags_c": heat.map(|h| h.temperatures.sprags), "outer_race_c": heat.map(|h| h.temperatures.outer_race),
+                "heat_balance_error": heat.map(|h| h.balance_error()),
+                "growth_rate_per_s": l.point.swing.map(|s| s.growth_rate_per_s),
+                "growth_by_friction_per_s": l.point.swing_by_friction.map(|s| s.growth_rate_per_s),
+                "growth_dry_per_s": l.dry.swing.map(|s| s.growth_rate_per_s),
+                "swing_frequency_hz": l.point.swing.map(|s| s.frequency_hz),
+                "sprag_wear_first_hour_um": l.wear.map(|w| um(w.sprag_m)), "race_wear_um_per_hour": l.wear.map(|w| um(w.race_m)),
+            })
+        });
+        let slip = self.slip.map(|s| {
+            json!({
+                "torque_nm": s.case.torque_nm, "speed_m_s": s.case.speed_m_s, "path_mm": 1e3 * s.case.path_m, "normal_n": s.normal_n,
+                "friction": s.friction, "flash_k": s.flash_k, "peclet": s.peclet,
+                "sprag_wear_um": um(s.sprag_m), "race_wear_um": um(s.race_m),
+            })
+        });
+        let oil = self.lubrication.oil;
+        let body = json!({
+            "oil": oil.name, "race": self.question.race.name(), "composite_roughness_um": um(self.lubrication.roughness_m()),
+            "lift_off_rpm": self.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)),
+            "lines": lines.collect::<Vec<_>>(), "slip": slip, "warnings": self.warnings(),
+        });
+        let balance =
+            self.lines.iter().filter_map(|l| Some(l.point.lubricated.as_ref()?.heat.balance_error()));
+        let error = json!({ "heat_balance": balance.fold(0.0, f64::max) });
+        Envelope {
+            design: self.design,
+            run_time_s,
+            left_out: self.left_out(),
+            error_estimate: Some(error),
+            body,
+        }
+    }
+
+    /// What overrun leaves out beside what statics do.
+    fn left_out(&self) -> Vec<LeftOut> {
+        let mut all = words::left_out();
+        all.extend(left_out(&self.design.clutch));
+        all
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        let design = self.design;
+        format!(
+            "{}  {}\n\n{}\n{}\n{}\n{}\n",
+            design.name,
+            design.hash.get(..12).unwrap_or(&design.hash),
+            self.remarks().join("\n"),
+            self.films().to_text(screen),
+            self.heat().to_text(screen),
+            self.swing_and_wear().to_text(screen),
+        ) + &self.warnings().iter().map(|w| format!("{w}\n")).collect::<String>()
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, provenance: &Provenance) -> crate::report::Page {
+        page::page(self, provenance)
+    }
+}

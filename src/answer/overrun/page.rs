@@ -1,0 +1,86 @@
+//! The page of an overrun.
+
+use super::super::page::{begun, half};
+use super::{OilAt, OverrunAnswer, OverrunLine, RunningRace};
+use crate::answer::Provenance;
+use crate::report::plot::{Curve, Dash};
+use crate::report::{Page, Plot, Tone, Unit, significant};
+
+/// Speeds of a curve.
+const POINTS: usize = 24;
+
+/// What a plot shows of a line.
+type Shown = fn(&OverrunLine) -> Option<f64>;
+
+pub(super) fn page(answer: &OverrunAnswer<'_>, provenance: &Provenance) -> Page {
+    let mut page = begun("Overrun", answer.design, &provenance.command);
+    let warnings = answer.warnings();
+    let tone = if warnings.iter().any(|w| w.starts_with("Warning")) { Tone::Bad } else { Tone::Plain };
+    let first = warnings
+        .first()
+        .cloned()
+        .unwrap_or_else(|| "steady overrun stays; asperities hardly touch".to_owned());
+    page.verdict_in(tone, &first);
+    page.list(answer.remarks().into_iter().chain(warnings.into_iter().skip(1)));
+    let sets = curves(answer);
+    let plot = |title: &str, shown: Shown| {
+        let mut plot = Plot::new("Speed, rpm", title);
+        plot.log_x = true;
+        for (name, lines) in &sets {
+            plot.curves.push(Curve::new(name, points(lines, shown)));
+        }
+        plot
+    };
+    let mut drag = plot("Drag, Nm", |l| Some(l.point.state.drag_torque_nm));
+    if let Some((_, lines)) = sets.first() {
+        let dry = points(lines, |l| Some(l.dry.state.drag_torque_nm));
+        drag.curves.push(Curve { dash: Dash::Dotted, ..Curve::new("by (12)", dry) });
+    }
+    let lambda = plot("λ", |l| l.point.lubricated.map(|f| f.film.lambda)).level(1.0, "1");
+    let friction = plot("μ", |l| l.point.lubricated.map(|_| l.point.friction));
+    let warmth = plot("Film, C", |l| l.point.lubricated.map(|f| f.film_c));
+    page.figures(&[
+        (half(drag), "Drag of all sprags; dotted: by the friction law (12) alone."),
+        (half(friction), "Stribeck curve of the inner contact, at the load that the sprags settle at."),
+        (half(lambda), "Film over roughness."),
+        (half(warmth), "Temperature of the film by the heat balance."),
+    ]);
+    page.heading("Film and drag").table(
+        "Regimes: I or V, the oil keeps its viscosity or thickens under pressure; R or E, the bodies stay round or flatten.",
+        &answer.films(),
+    );
+    page.heading("Heat").table(
+        "Means of the bodies; the film is taken to be as warm as the mean of the two that rub.",
+        &answer.heat(),
+    );
+    page.heading("Swing and wear").table(
+        "Growth of a small swing of the sprags: above 0 the overrun does not stay. Wear of a sprag grows with the power 2/3 of time.",
+        &answer.swing_and_wear(),
+    );
+    answer.envelope(provenance.run_time_s).close(&mut page);
+    page
+}
+
+fn points(lines: &[OverrunLine], shown: Shown) -> Vec<[f64; 2]> {
+    lines.iter().filter_map(|l| Some([Unit::Rpm.from_si(l.speed_rad_s), shown(l)?])).collect()
+}
+
+/// For each temperature the speeds between the least and the largest asked for, evenly on a logarithm.
+fn curves(answer: &OverrunAnswer<'_>) -> Vec<(String, Vec<OverrunLine>)> {
+    let speeds = || answer.question.speeds_rad_s.iter().copied().filter(|w| *w > 0.0);
+    let (low, high) = speeds().fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), w| (a.min(w), b.max(w)));
+    if high <= 0.0 {
+        return Vec::new();
+    }
+    let end =
+        answer.lift_off_rad_s.filter(|_| answer.question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
+    let low = low.min(0.1 * high);
+    let at = |i: usize| low * (high / low).powf(i as f64 / (POINTS - 1) as f64);
+    let one = |&oil_c: &f64| {
+        let there = OilAt::new(answer.design, oil_c);
+        let lines = (0..POINTS).map(at).filter(|w| *w < end);
+        let lines = lines.filter_map(|w| there.line(&answer.state, answer.question.race, w).ok()).collect();
+        (format!("{} C", significant(oil_c, 3)), lines)
+    };
+    answer.question.temperatures_c.iter().map(one).collect()
+}

@@ -1,0 +1,163 @@
+//! What the tables of an overrun do not say.
+
+use super::{LeftOut, OverrunAnswer, OverrunLine};
+use crate::lubrication::Film;
+use crate::report::{Unit, significant};
+
+/// What overrun on a film leaves out.
+pub(super) fn left_out() -> Vec<LeftOut> {
+    let new = LeftOut::new;
+    vec![
+        new(
+            "starvation",
+            "inlets are full of oil",
+            "a starved or greased track has a film of a third to nearly none: look at the figures of a higher temperature",
+        ),
+        new(
+            "drag beside the contacts",
+            "churning, cage, seals and bearings have no model",
+            "often more than the contacts' drag at high speed; measure it",
+        ),
+        new(
+            "constants of oil, asperities and wear",
+            "alpha by Gold and the asperities' share by Olver and Spikes are typical; Archard's k is the file's",
+            "film 10 %, friction in mixed lubrication 30 %, wear a factor of ten",
+        ),
+        new(
+            "film in engagement",
+            "torsional, engaging and transient scenes keep the friction law (12)",
+            "the film must be squeezed out first: some microseconds to a millisecond more of slip",
+        ),
+    ]
+}
+
+/// Part of the contact's relative radius up to which a film is thin, and the contact a parabola.
+const THIN: f64 = 0.01;
+
+impl OverrunAnswer<'_> {
+    /// Oil, surfaces, lift-off, slip.
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let l = self.lubrication;
+        let mut all = Vec::new();
+        for &c in &self.question.temperatures_c {
+            all.push(format!(
+                "{} at {} C: {} mm²/s, {} mPa s, α {} 1/GPa; σ {} (Rq of race and sprag)",
+                l.oil.name,
+                significant(c, 3),
+                significant(1e6 * l.oil.walther().nu_m2_s(c), 3),
+                significant(1e3 * l.oil.viscosity_pa_s(c), 3),
+                significant(1e9 * l.oil.pressure_coefficient_per_pa(c), 3),
+                Unit::Micrometre.show(l.roughness_m(), 3),
+            ));
+        }
+        all.push(match self.lift_off_rad_s {
+            Some(w) => format!(
+                "The {} race runs; sprags lift off at {} of the outer race, whatever the oil: drag ends with the force at A",
+                self.question.race.name(),
+                Unit::Rpm.show(w, 4)
+            ),
+            None => format!("The {} race runs; the sprags do not lift off", self.question.race.name()),
+        });
+        if let Some(s) = &self.slip {
+            all.push(format!(
+                "A slip of {} at {} under {}: μ {}, flash {} above the bodies; wears {} off each sprag, {} off the race under it",
+                Unit::Millimetre.show(s.case.path_m, 3),
+                Unit::MetrePerSecond.show(s.case.speed_m_s, 3),
+                Unit::NewtonMetre.show(s.case.torque_nm, 4),
+                significant(s.friction, 3),
+                kelvin(s.flash_k),
+                Unit::Micrometre.show(s.sprag_m, 3),
+                Unit::Micrometre.show(s.race_m, 3),
+            ));
+        } else if let Some(case) = &l.slip {
+            all.push(format!(
+                "No slip: {} is beyond what the clutch carries",
+                Unit::NewtonMetre.show(case.torque_nm, 4)
+            ));
+        }
+        if l.to_oil_w_per_k.iter().any(Option::is_none) {
+            all.push(
+                "Conductances to the oil are estimated, 200 W/(m² K) of the bodies' surfaces: temperatures are good to a factor of two \
+                 of their rise"
+                    .to_owned(),
+            );
+        }
+        all
+    }
+
+    /// What one should not overlook.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        let place =
+            |l: &OverrunLine| format!("{} C, {}", significant(l.oil_c, 3), Unit::Rpm.show(l.speed_rad_s, 4));
+        let growth = |l: &OverrunLine| l.point.swing.filter(|s| s.grows()).map(|s| s.growth_rate_per_s);
+        let worst = self.lines.iter().filter(|l| growth(l).is_some());
+        if let Some((l, rate)) =
+            worst.filter_map(|l| Some((l, growth(l)?))).max_by(|a, b| a.1.total_cmp(&b.1))
+        {
+            all.push(format!(
+                "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}",
+                Unit::PerSecond.show(rate, 3),
+                place(l)
+            ));
+        }
+        let by_friction =
+            self.lines.iter().filter(|l| growth(l).is_none()).filter_map(|l| {
+                Some((l, l.point.swing_by_friction.filter(|s| s.grows())?.growth_rate_per_s))
+            });
+        if let Some((l, rate)) = by_friction.max_by(|a, b| a.1.total_cmp(&b.1)) {
+            all.push(format!(
+                "Note: what keeps the sprags from swinging at {} is that the film must be squeezed; by its friction alone a swing would \
+                 grow by {}, as it may where oil is short",
+                place(l),
+                Unit::PerSecond.show(rate, 3)
+            ));
+        }
+        let films = || self.lines.iter().filter_map(|l| Some((l, l.point.lubricated?.film)));
+        if let Some((l, f)) =
+            films().filter(|(_, f)| f.lambda < 1.0).min_by(|a, b| a.1.lambda.total_cmp(&b.1.lambda))
+        {
+            all.push(format!(
+                "Warning: λ {} at {}: asperities carry {} of the load, and wear",
+                significant(f.lambda, 3),
+                place(l),
+                Unit::Percent.show(f.asperities, 3)
+            ));
+        }
+        if let Some((l, f)) = films().find(|(_, f)| !f.film.is_checked() && f.lambda > 0.0) {
+            all.push(format!(
+                "Warning: Moes' numbers M {}, L {} at {} lie beyond those that the formula was checked at here (M {}, L {})",
+                significant(f.film.load, 3),
+                significant(f.film.lubricant, 3),
+                place(l),
+                Film::CHECKED[0],
+                Film::CHECKED[1]
+            ));
+        }
+        let thick = self.lines.iter().filter_map(|l| {
+            let on_film = l.point.lubricated?;
+            let thickness_m = on_film.film.film.thickness_m;
+            (thickness_m > THIN * on_film.law.contact.radius_m).then_some((l, thickness_m))
+        });
+        if let Some((l, thickness_m)) = thick.max_by(|a, b| a.1.total_cmp(&b.1)) {
+            all.push(format!(
+                "Warning: a film of {} at {} is no thin one: the sprags float on oil too thick for them, and its figures are an order at best",
+                Unit::Micrometre.show(thickness_m, 3),
+                place(l)
+            ));
+        }
+        if let Some(s) = self.slip.filter(|s| s.peclet < 5.0) {
+            all.push(format!(
+                "Note: Peclet number of the slip {}, below 5: heat goes sideways too, the flash is less than {}",
+                significant(s.peclet, 2),
+                kelvin(s.flash_k)
+            ));
+        }
+        all.sort_by_key(|line: &String| line.starts_with("Note"));
+        all
+    }
+}
+
+fn kelvin(k: f64) -> String {
+    format!("{} K", significant(k, 3))
+}

@@ -1,0 +1,88 @@
+//! `overrun`: film, drag, heat, swing and wear of a clutch that overruns.
+
+use super::exit::{Exit, Failure};
+use super::output::path_text;
+use super::{Context, number, parts, positive};
+use crate::answer::overrun::{NoOverrun, OverrunQuestion, RunningRace};
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  sprag-design overrun designs/lubricated.toml
+  sprag-design overrun designs/lubricated.toml --speeds 300,1000,3000 --temperatures 20,60,100
+  sprag-design overrun designs/lubricated.toml --race outer --report overrun.html
+  sprag-design overrun designs/lubricated.toml --set lubrication.oil='\"ISO VG 100\"' --json
+
+Oil, roughness and conductances stand in the table [lubrication] of the design: `sprag-design explain lubrication`;
+`sprag-design oils` lists the oils.";
+
+/// Arguments of `overrun`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct OverrunArgs {
+    /// Design files (TOML) with a table [lubrication]
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// Speeds of the race that runs, rpm, comma separated [default: 50, 100, 200, 500 ... up to lift-off and 50 m/s]
+    #[arg(long, value_name = "RPM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',')]
+    pub speeds: Vec<f64>,
+    /// Temperatures of the oil, C, comma separated [default: lubrication.temperature_c]
+    #[arg(long, value_name = "C,...", allow_hyphen_values = true, value_parser = oil_temperature, value_delimiter = ',')]
+    pub temperatures: Vec<f64>,
+    /// Race that runs, the other one stands
+    #[arg(long, value_name = "RACE", value_enum, default_value = "inner")]
+    pub race: RaceName,
+}
+
+/// A race, as flags have it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum RaceName {
+    /// The inner race, past sprags that stand
+    Inner,
+    /// The outer race, the sprags with it
+    Outer,
+}
+
+/// A temperature within the range of `lubrication.temperature_c`.
+fn oil_temperature(text: &str) -> Result<f64, String> {
+    let celsius = number(text)?;
+    match (-60.0..=250.0).contains(&celsius) {
+        true => Ok(celsius),
+        false => Err("a temperature from -60 to 250 C is needed".to_owned()),
+    }
+}
+
+/// Run the command.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(args: &OverrunArgs, context: &Context) -> Result<Exit, Failure> {
+    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
+    context.outputs.check(&inputs, &[])?;
+    let question = OverrunQuestion {
+        race: match args.race {
+            RaceName::Inner => RunningRace::Inner,
+            RaceName::Outer => RunningRace::Outer,
+        },
+        speeds_rad_s: args.speeds.iter().map(|rpm| rpm * std::f64::consts::PI / 30.0).collect(),
+        temperatures_c: args.temperatures.clone(),
+    };
+    parts::each(&args.files, context, |file| one(file, &question, context))
+}
+
+fn one(file: &Path, question: &OverrunQuestion, context: &Context) -> Result<Exit, Failure> {
+    let design = parts::read_design(file, context)?;
+    let started = Instant::now();
+    let found = design.overrun(question).map_err(|why| match why {
+        NoOverrun::NoClutch(why) => parts::no_clutch(file, &why),
+        NoOverrun::NoLubrication => Failure::malformed(format!("{}: {why}", path_text(file))),
+    })?;
+    let run_time_s = started.elapsed().as_secs_f64();
+    context.outputs.write_csv(&found.all());
+    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
+    context.answer(&found.text(context.screen))?;
+    context.print(&found.envelope(run_time_s))?;
+    Ok(Exit::Held)
+}

@@ -1,0 +1,166 @@
+//! Steady overrun as it is: friction by (12), or by the film at the temperature of its heat balance.
+
+use super::prepare::sliding_friction;
+use crate::clutch::{Clutch, Lubrication};
+use crate::dynamics::{Overrun, Swing, overrun, overrun_under, swing_on_film, swing_with_friction};
+use crate::friction::{FilmFriction, FilmState};
+use crate::lubrication::{FilmContact, Heat, Network, moving_strip, standing_strip};
+use crate::numeric::root;
+use crate::wedge::WedgeCurve;
+use std::f64::consts::PI;
+
+/// Steady overrun with what lubricates it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sliding {
+    /// Forces of one sprag, and the drag of all.
+    pub state: Overrun,
+    /// Friction coefficient of A; (12)'s where A is open.
+    pub friction: f64,
+    /// Contact A on its film; `None` without `[lubrication]` and where A is open.
+    pub lubricated: Option<Lubricated>,
+}
+
+/// Contact A on its film, and where its heat goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lubricated {
+    /// Its law at that temperature.
+    pub law: FilmFriction,
+    /// The film.
+    pub film: FilmState,
+    /// Temperature of the film, C.
+    pub film_c: f64,
+    /// Where the heat goes.
+    pub heat: Heat,
+}
+
+/// Heat that goes from a wetted steel surface to oil that splashes, W/(m^2 K): an estimate, 50 in mist to 1000 in a jet.
+const TO_OIL_W_PER_M2_K: f64 = 200.0;
+
+/// The sprags of `clutch` on `curve`, A sliding at `sliding_rad_s`.
+pub fn sliding(clutch: &Clutch, curve: &WedgeCurve, alpha_max_rad: f64, sliding_rad_s: f64) -> Sliding {
+    let by_law = sliding_friction(clutch, sliding_rad_s);
+    let lubricated = clutch.lubrication.as_ref().and_then(|lubrication| {
+        let steady = Steady { clutch, lubrication, curve, alpha_max_rad, sliding_rad_s };
+        steady.at(steady.balanced_c()?)
+    });
+    match lubricated {
+        Some((state, lubricated)) => {
+            Sliding { state, friction: state.tan_inner, lubricated: Some(lubricated) }
+        }
+        None => {
+            let state = overrun(clutch, curve, alpha_max_rad, by_law);
+            Sliding { state, friction: by_law, lubricated: None }
+        }
+    }
+}
+
+impl Sliding {
+    /// The small swing about it; arguments as of [`sliding()`].
+    pub fn swing(
+        &self,
+        clutch: &Clutch,
+        curve: &WedgeCurve,
+        alpha_max_rad: f64,
+        sliding_rad_s: f64,
+    ) -> Option<Swing> {
+        let film = self.lubricated.as_ref().map(|l| &l.law);
+        swing_on_film(clutch, curve, alpha_max_rad, &self.state, sliding_rad_s, film)
+    }
+}
+
+impl Lubricated {
+    /// The small swing with the film's friction alone, without what its thickness does; arguments as of [`sliding()`].
+    pub fn swing_by_friction(
+        &self,
+        steady: &Overrun,
+        clutch: &Clutch,
+        curve: &WedgeCurve,
+        alpha_max_rad: f64,
+        sliding_rad_s: f64,
+    ) -> Option<Swing> {
+        swing_with_friction(clutch, curve, alpha_max_rad, steady, sliding_rad_s, Some(&self.law))
+    }
+}
+
+/// A lubricated overrun whose temperature is looked for.
+struct Steady<'a> {
+    clutch: &'a Clutch,
+    lubrication: &'a Lubrication,
+    curve: &'a WedgeCurve,
+    alpha_max_rad: f64,
+    sliding_rad_s: f64,
+}
+
+impl Steady<'_> {
+    /// With the film at `film_c`; `None` where A is open.
+    fn at(&self, film_c: f64) -> Option<(Overrun, Lubricated)> {
+        let law = FilmFriction::of(self.clutch, film_c)?;
+        let speed = self.sliding_rad_s * self.clutch.races.inner_radius_m;
+        let state = overrun_under(self.clutch, self.curve, self.alpha_max_rad, |n| {
+            [law.coefficient(speed, n), law.ahead_m(speed, n)]
+        });
+        if state.normal_inner_n <= 0.0 {
+            return None;
+        }
+        let film = law.at(speed, state.normal_inner_n);
+        let heat = self
+            .network(&law, &state)
+            .solve(state.drag_torque_nm * self.sliding_rad_s, self.lubrication.temperature_c)?;
+        Some((state, Lubricated { law, film, film_c, heat }))
+    }
+
+    /// Temperature of the film, C: the mean of the bodies beside it, where what they reach is what the film was taken to have.
+    /// `None` where A is open.
+    fn balanced_c(&self) -> Option<f64> {
+        let oil_c = self.lubrication.temperature_c;
+        let left = |film_c: f64| {
+            self.at(film_c).map_or(oil_c - film_c, |(_, l)| {
+                let t = l.heat.temperatures;
+                0.5 * (t.inner_race + t.sprags) - film_c
+            })
+        };
+        self.at(oil_c)?;
+        if !self.lubrication.heat_balance {
+            return Some(oil_c);
+        }
+        let at_oil = left(oil_c);
+        if at_oil <= 0.0 {
+            return Some(oil_c);
+        }
+        // Warmer oil drags less, or at most as its asperities do.
+        let high = (0..40).map(|i| oil_c + at_oil * 1.5f64.powi(i)).find(|&c| left(c) <= 0.0)?;
+        root::bracketed(oil_c, high, at_oil, left(high), 1e-11 * high.abs().max(1.0), left)
+    }
+
+    /// Conductances: those of the file, the others by the surfaces of plain rings; contacts as strips as wide as they are flattened, or
+    /// wetted where that is more.
+    fn network(&self, law: &FilmFriction, state: &Overrun) -> Network {
+        let Clutch { races, sprags, .. } = self.clutch;
+        let speed = self.sliding_rad_s * races.inner_radius_m;
+        let film = law.at(speed, state.normal_inner_n).film;
+        let contact = &law.contact;
+        let wetted = (2.0 * contact.radius_m * film.thickness_m).sqrt();
+        let half = contact.half_width_m(state.normal_inner_n).hypot(wetted);
+        let outer_radius = 1.0 / (1.0 / sprags.outer_radius_m - 1.0 / races.outer_radius_m);
+        let outer = FilmContact { radius_m: outer_radius, ..*contact };
+        let outer_half = outer.half_width_m(state.normal_outer_n).max(1e-6);
+        let count = sprags.count as f64;
+        let length = count * contact.length_m;
+        let ring = |r: f64, far: f64| {
+            2.0 * PI * (r * races.width_m + (r * r - far * far).abs() + far * races.width_m)
+        };
+        let areas = [
+            ring(races.inner_radius_m, races.inner_bore_radius_m),
+            2.0 * count * sprags.length_m * (races.outer_radius_m - races.inner_radius_m),
+            ring(races.outer_radius_m, races.outer_outside_radius_m),
+        ];
+        let given = self.lubrication.to_oil_w_per_k;
+        let to_oil = |i: usize| given[i].unwrap_or(TO_OIL_W_PER_M2_K * areas[i]);
+        Network {
+            into_race: moving_strip(length, half, speed).max(1e-9),
+            into_sprags: standing_strip(length, half, contact.radius_m),
+            through_outer: 0.5 * standing_strip(length, outer_half, sprags.outer_radius_m),
+            to_oil: std::array::from_fn(to_oil),
+        }
+    }
+}
