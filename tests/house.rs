@@ -50,6 +50,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
     // real, and a tolerance felt, on the profile itself.
     ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),
+    // Points of a box, and whatever the margins say there.
+    ("sweep", &["numeric", "design", "margin", "optimise"]),
     // Asks for margins and static points as they are; knows no law.
     ("identify", &["follow", "numeric", "design", "wedge", "margin"]),
     // A first design: proportions, then whatever the margins say.
@@ -67,8 +69,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "answer",
         &[
             "follow", "material", "profile", "clutch", "design", "contact", "wedge", "dynamics", "scenario",
-            "fidelity", "accuracy", "margin", "optimise", "identify", "size", "compare", "report", "export",
-            "import",
+            "fidelity", "accuracy", "margin", "optimise", "sweep", "identify", "size", "compare", "report",
+            "export", "import",
         ],
     ),
     // Questions about the text of a design, and their answers as a page shows them.
@@ -83,7 +85,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "element", "accuracy", "margin", "optimise", "identify", "size", "report", "export", "import",
+            "element", "accuracy", "margin", "optimise", "sweep", "identify", "size", "report", "export", "import",
             "studio",
         ],
     ),
