@@ -85,8 +85,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "element", "accuracy", "margin", "optimise", "sweep", "identify", "size", "report", "export", "import",
-            "studio",
+            "element", "accuracy", "margin", "optimise", "sweep", "identify", "size", "report", "export",
+            "import", "studio",
         ],
     ),
 ];

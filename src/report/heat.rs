@@ -76,7 +76,8 @@ impl HeatMap {
         };
         let x = Axis { log: false, range: range(&self.x_edges), px: [LEFT_PX, width - RIGHT_PX] };
         let y = Axis { log: false, range: range(&self.y_edges), px: [height - BOTTOM_PX, top] };
-        let mut svg = Svg::new(width, height, &format!("{}: {} over {}", self.title, self.y_title, self.x_title));
+        let mut svg =
+            Svg::new(width, height, &format!("{}: {} over {}", self.title, self.y_title, self.x_title));
         svg.title_text([LEFT_PX, 15.0], &self.title);
         for (shade, at, row) in legend {
             let line = 26.0 + ROW_PX * row;
@@ -115,7 +116,9 @@ impl HeatMap {
     /// One path for each shade; neighbours in a row are one rectangle.
     fn draw_tiles(&self, svg: &mut Svg, x: &Axis, y: &Axis) {
         let mut paths: BTreeMap<Shade, String> = BTreeMap::new();
-        for (row, (tiles, edges)) in self.tiles.chunks(self.columns()).zip(self.y_edges.windows(2)).enumerate() {
+        for (row, (tiles, edges)) in
+            self.tiles.chunks(self.columns()).zip(self.y_edges.windows(2)).enumerate()
+        {
             let mut from = 0;
             for run in tiles.chunk_by(|a, b| a.0 == b.0) {
                 let until = from + run.len();
@@ -152,7 +155,8 @@ impl HeatMap {
             }
         }
         if !path.is_empty() {
-            let style = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.6\" stroke-linecap=\"square\"");
+            let style =
+                format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.6\" stroke-linecap=\"square\"");
             svg.path(&path, &style);
         }
     }

@@ -72,8 +72,10 @@ impl Strip {
                         _ => bands.push([from, until]),
                     }
                 }
-                let d: String =
-                    bands.iter().map(|[from, until]| rectangle([*from, y], [until - from, BAND_PX])).collect();
+                let d: String = bands
+                    .iter()
+                    .map(|[from, until]| rectangle([*from, y], [until - from, BAND_PX]))
+                    .collect();
                 if !d.is_empty() {
                     svg.path(&d, &format!("fill=\"{}\"", colour(state)));
                 }

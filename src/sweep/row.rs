@@ -81,8 +81,8 @@ impl Sweep {
             let sample = Sample::of(&task, &Sampling::Sobol { count: LOOKED_AT, seed: 0 }).ok()?;
             (0..sample.count()).find_map(|i| names(&sample.point(i)).ok())
         };
-        let names = names(&start)
-            .or_else(|why| elsewhere().ok_or_else(|| NoSweep::Nowhere(why.to_string())))?;
+        let names =
+            names(&start).or_else(|why| elsewhere().ok_or_else(|| NoSweep::Nowhere(why.to_string())))?;
         Ok(Self { problem, task, names })
     }
 

@@ -38,10 +38,9 @@ impl FromStr for Sampling {
     /// As it is displayed.
     fn from_str(text: &str) -> Result<Self, ()> {
         match text.split(' ').collect::<Vec<_>>()[..] {
-            ["sobol", count, "seed", seed] => Ok(Self::Sobol {
-                count: count.parse().map_err(|_| ())?,
-                seed: seed.parse().map_err(|_| ())?,
-            }),
+            ["sobol", count, "seed", seed] => {
+                Ok(Self::Sobol { count: count.parse().map_err(|_| ())?, seed: seed.parse().map_err(|_| ())? })
+            }
             ["grid", steps] => {
                 let step = |text: &str| {
                     let (name, n) = text.split_once('=')?;

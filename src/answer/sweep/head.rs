@@ -140,7 +140,8 @@ mod tests {
     #[test]
     fn a_head_reads_back_as_it_was_written() {
         let text = include_str!("../../../designs/huang2017-multi-arc.toml");
-        let design = Design::parse(&text.replace("name = \"Huang 2017", "name = \"a; name b\\n"), "a").unwrap();
+        let design =
+            Design::parse(&text.replace("name = \"Huang 2017", "name = \"a; name b\\n"), "a").unwrap();
         for head in [
             SweepHead::vectors(&design, "sobol 9 seed 1"),
             SweepHead::margins(&design, "grid r_i2_mm=3", false, true),
@@ -151,7 +152,9 @@ mod tests {
             let back: SweepHead = format!("{line}\r\n").parse().unwrap();
             assert!(back == head && SweepHead::begins(&line), "{line}");
             assert_eq!(back.differs(&head), None);
-            assert!(SweepHead { points: "x".into(), ..head.clone() }.differs(&head).unwrap().contains("points"));
+            assert!(
+                SweepHead { points: "x".into(), ..head.clone() }.differs(&head).unwrap().contains("points")
+            );
         }
         assert!("# sprag-design sweep 1; vectors".parse::<SweepHead>().is_err());
     }

@@ -197,7 +197,10 @@ impl SweepMap {
             let x: Option<Vec<f64>> =
                 self.columns.variables.iter().map(|&at| row.get(at).and_then(finite)).collect();
             let Some(x) = x else {
-                return Err(NoMap { line: records.line(), what: "a variable is no finite number".to_owned() });
+                return Err(NoMap {
+                    line: records.line(),
+                    what: "a variable is no finite number".to_owned(),
+                });
             };
             for (v, x) in self.variables.iter_mut().zip(x) {
                 v.range = [v.range[0].min(x), v.range[1].max(x)];
@@ -219,9 +222,9 @@ impl SweepMap {
                 return Err(NoMap::whole("other columns than in the first table"));
             }
             return match (&self.head, head) {
-                (Some(first), Some(head)) => {
-                    head.differs(first).map_or(Ok(()), |why| Err(NoMap::whole(format!("another sweep than the first table: {why}"))))
-                }
+                (Some(first), Some(head)) => head.differs(first).map_or(Ok(()), |why| {
+                    Err(NoMap::whole(format!("another sweep than the first table: {why}")))
+                }),
                 _ => Ok(()),
             };
         }
@@ -232,7 +235,11 @@ impl SweepMap {
         let Some(by) = place(&self.by) else {
             let known: Vec<&str> = names.iter().map(String::as_str).collect();
             let meant = nearest(&self.by, &known).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
-            return Err(NoMap::whole(format!("no column {}{meant} There are: {}", self.by, known.join(", "))));
+            return Err(NoMap::whole(format!(
+                "no column {}{meant} There are: {}",
+                self.by,
+                known.join(", ")
+            )));
         };
         if variables.is_empty() {
             return Err(NoMap::whole("no column is a variable; ask `evaluate` for --columns variables too"));

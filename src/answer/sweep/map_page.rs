@@ -34,9 +34,15 @@ impl SweepMap {
             .map(|(v, x)| format!("{} = {}", v.name, plain(*x, 6)))
             .collect();
         let what = match (best.held, best.least) {
-            (true, Some(least)) => format!("Best point held: {}, least objective {}", best.index, significant(least, 4)),
-            (true, None) => format!("Best point held: {}, {} {}", best.index, self.by, significant(best.value, 4)),
-            (false, _) => format!("Nearest point: {}, {} {}", best.index, self.by, significant(best.value, 4)),
+            (true, Some(least)) => {
+                format!("Best point held: {}, least objective {}", best.index, significant(least, 4))
+            }
+            (true, None) => {
+                format!("Best point held: {}, {} {}", best.index, self.by, significant(best.value, 4))
+            }
+            (false, _) => {
+                format!("Nearest point: {}, {} {}", best.index, self.by, significant(best.value, 4))
+            }
         };
         Some(format!("{what}; {}", x.join(", ")))
     }
@@ -123,12 +129,13 @@ impl SweepMap {
     /// The answer as one JSON object.
     pub fn object(&self) -> Value {
         let range = |[low, high]: [f64; 2]| json!({ "from": low, "to": high });
-        let variables = self.variables.iter().map(
-            |v| json!({ "name": v.name, "range": range(v.range), "held": v.held.map(range) }),
+        let variables = self
+            .variables
+            .iter()
+            .map(|v| json!({ "name": v.name, "range": range(v.range), "held": v.held.map(range) }));
+        let best = self.best.as_ref().map(
+            |b| json!({ "index": b.index, "x": b.x, "value": b.value, "least": b.least, "held": b.held }),
         );
-        let best = self.best.as_ref().map(|b| {
-            json!({ "index": b.index, "x": b.x, "value": b.value, "least": b.least, "held": b.held })
-        });
         let deciding: Vec<Value> = self
             .ranked()
             .into_iter()
@@ -145,7 +152,8 @@ impl SweepMap {
 
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
-        let of = |text: fn(&SweepHead) -> &str| self.head.as_ref().map_or(String::new(), |h| text(h).to_owned());
+        let of =
+            |text: fn(&SweepHead) -> &str| self.head.as_ref().map_or(String::new(), |h| text(h).to_owned());
         let mut page = Page::new(PageHead {
             title: "Map of a sweep".to_owned(),
             tool: TOOL.to_owned(),
@@ -180,9 +188,13 @@ impl SweepMap {
                 ),
             );
         }
-        page.heading("Variables").table("Held: least and greatest value of points that hold every limit.", &self.variables_table());
+        page.heading("Variables").table(
+            "Held: least and greatest value of points that hold every limit.",
+            &self.variables_table(),
+        );
         if !self.deciding.is_empty() {
-            page.heading("What decides").table("The limit with the least margin, at all points.", &self.deciding_table());
+            page.heading("What decides")
+                .table("The limit with the least margin, at all points.", &self.deciding_table());
         }
         page.results("results", &self.object());
         page
@@ -258,13 +270,13 @@ impl SweepMap {
     }
 
     fn parallel(&self) -> Parallel {
-        let varying: Vec<usize> =
-            (0..self.variables.len()).filter(|&i| self.variables[i].varies()).collect();
+        let varying: Vec<usize> = (0..self.variables.len()).filter(|&i| self.variables[i].varies()).collect();
         let shown = &varying[..varying.len().min(MOST_AXES - 1)];
         let mut axes: Vec<(String, [f64; 2])> =
             shown.iter().map(|&i| (axis_title(&self.variables[i].name), self.variables[i].range)).collect();
         let values = self.some.iter().map(|p| p.value);
-        let range = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
+        let range =
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
         axes.push((self.by.clone(), range));
         let line = |p: &super::MapPoint| {
             (shown.iter().map(|&i| p.x[i]).chain([p.value]).collect::<Vec<f64>>(), p.held)

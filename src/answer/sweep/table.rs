@@ -62,8 +62,9 @@ impl<R: Read> Records<R> {
         let text = self.record.iter().collect::<Vec<_>>().join(", ");
         if SweepHead::begins(&text) {
             let fault = |what: String| Fault { line: self.line(), what };
-            let head: SweepHead =
-                text.parse().map_err(|()| fault("the first line of a sweep, but cut or changed".to_owned()))?;
+            let head: SweepHead = text
+                .parse()
+                .map_err(|()| fault("the first line of a sweep, but cut or changed".to_owned()))?;
             match &self.head {
                 None if self.names.is_empty() => self.head = Some(head),
                 None => return Err(fault("rows of a sweep behind rows of something else".to_owned())),

@@ -128,8 +128,7 @@ impl<R: Read> Vectors<R> {
             self.variables.iter().zip(&self.columns).map(|(v, &at)| read(v, at)).collect();
         let index = self.index.map_or(Ok(self.next), number);
         let line = self.records.line();
-        let (x, index) =
-            x.and_then(|x| Ok((x, index?))).map_err(|what| NoVectors { line, what })?;
+        let (x, index) = x.and_then(|x| Ok((x, index?))).map_err(|what| NoVectors { line, what })?;
         if let Some(sample) = &self.promised
             && (index >= sample.count() || sample.point(index) != x)
         {
