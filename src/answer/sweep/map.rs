@@ -311,7 +311,7 @@ impl SweepMap {
         let mut records = Records::open(part)?;
         let mut at = 0;
         while let Some(row) = records.next_row()? {
-            let cell = |at: usize| row.get(at).unwrap_or_default();
+            let cell = |at: usize| row.get(at).unwrap_or_default().trim();
             let c = &self.columns;
             let value = finite(cell(c.by));
             let x: Vec<f64> = c.variables.iter().filter_map(|&at| finite(cell(at))).collect();
@@ -399,7 +399,7 @@ impl Cells {
 
 /// A cell as a finite number.
 fn finite(cell: &str) -> Option<f64> {
-    cell.parse().ok().filter(|v: &f64| v.is_finite())
+    cell.trim().parse().ok().filter(|v: &f64| v.is_finite())
 }
 
 /// Bits that are ordered as the numbers are.

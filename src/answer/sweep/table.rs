@@ -26,7 +26,6 @@ impl<R: Read> Records<R> {
         let reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
-            .trim(csv::Trim::All)
             .from_reader(BufReader::new(from));
         let mut file = Self { reader, head: None, names: Vec::new(), record: StringRecord::new() };
         loop {
@@ -34,7 +33,7 @@ impl<R: Read> Records<R> {
                 return Err(Fault { line: 0, what: "no line with the names of columns".to_owned() });
             }
             if !file.is_remark()? {
-                file.names = file.record.iter().map(str::to_owned).collect();
+                file.names = file.record.iter().map(|name| name.trim().to_owned()).collect();
                 if let Some(name) = file.names.first_mut() {
                     *name = name.trim_start_matches('\u{feff}').to_owned();
                 }
@@ -59,7 +58,7 @@ impl<R: Read> Records<R> {
             return Ok(false);
         }
         // A name may hold commas.
-        let text = self.record.iter().collect::<Vec<_>>().join(", ");
+        let text = self.record.iter().collect::<Vec<_>>().join(",");
         if SweepHead::begins(&text) {
             let fault = |what: String| Fault { line: self.line(), what };
             let head: SweepHead = text
@@ -78,13 +77,13 @@ impl<R: Read> Records<R> {
         Ok(true)
     }
 
-    /// The next row, as wide as the names; `None` at the end.
+    /// The next row, as wide as the names, its cells as they stand there; `None` at the end.
     pub fn next_row(&mut self) -> Result<Option<&StringRecord>, Fault> {
         loop {
             if !self.next_record()? {
                 return Ok(None);
             }
-            let again = self.record.iter().eq(self.names.iter().map(String::as_str));
+            let again = self.record.iter().map(str::trim).eq(self.names.iter().map(String::as_str));
             if self.is_remark()? || again {
                 continue;
             }

@@ -77,8 +77,11 @@ impl<R: Read> Vectors<R> {
                     head.design, head.design_hash, design.name, design.hash
                 )));
             }
-            let sampling: Option<Sampling> = head.points.parse().ok();
-            promised = sampling.and_then(|sampling| design.sample(&sampling).ok());
+            let sampling: Sampling = head
+                .points
+                .parse()
+                .map_err(|()| whole(format!("points {}: no sampling that `sample` knows", head.points)))?;
+            promised = Some(design.sample(&sampling).map_err(|why| whole(why.to_string()))?);
         }
         let names: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
         let mut index = None;
@@ -114,14 +117,14 @@ impl<R: Read> Vectors<R> {
     pub fn next_point(&mut self) -> Result<Option<(u64, Vec<f64>)>, NoVectors> {
         let Some(row) = self.records.next_row()? else { return Ok(None) };
         let read = |v: &OptimizeVariable, at: usize| {
-            let cell = row.get(at).unwrap_or_default();
+            let cell = row.get(at).unwrap_or_default().trim();
             match cell.parse::<f64>() {
                 Ok(value) if value.is_finite() => Ok(value),
                 _ => Err(format!("{} = {cell:?}: a finite number is needed", v.name)),
             }
         };
         let number = |at: usize| {
-            let cell = row.get(at).unwrap_or_default();
+            let cell = row.get(at).unwrap_or_default().trim();
             cell.parse::<u64>().map_err(|_| format!("index = {cell:?}: a whole number is needed"))
         };
         let x: Result<Vec<f64>, String> =
