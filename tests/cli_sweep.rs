@@ -143,7 +143,8 @@ fn vectors_that_do_not_fit_are_refused_with_line_and_reason() {
     run(&["sample", MULTI, "--sobol", "4", "--csv", &path]);
     let text = read(&path);
     let third = text.lines().nth(4).unwrap();
-    let moved = format!("{}1", third);
+    let moved = third.replacen(",3.", ",4.", 1);
+    assert_ne!(moved, third);
     for (changed, word) in [
         (text.replace("; design 0", "; design 1"), "vectors of another design"),
         (text.replace("; vectors; ", "; "), "line 1: the first line of a sweep, but cut or changed"),

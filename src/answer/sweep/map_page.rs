@@ -3,7 +3,7 @@
 use super::head::{Holds, SweepHead};
 use super::map::{MapPair, SweepMap};
 use crate::answer::{Provenance, TOOL, VERSION};
-use crate::design::unit_of_key;
+use crate::design::variable_unit;
 use crate::report::heat::{KINDS, SHADES};
 use crate::report::{
     Cell, Column, HeatMap, Page, PageHead, Parallel, Screen, Shade, Table, Tone, Unit, plain, significant,
@@ -293,8 +293,8 @@ fn void_entry(tiles: &[(Shade, Option<bool>)]) -> Option<(Shade, String)> {
 
 /// A variable's name with its unit apart: `r_i2, mm`.
 fn axis_title(name: &str) -> String {
-    let unit = unit_of_key(name).filter(|unit| !unit.is_empty());
-    let bare = unit.and_then(|unit| name.strip_suffix(unit)?.strip_suffix('_'));
+    let unit = variable_unit(name).filter(|unit| !unit.is_empty());
+    let bare = unit.and_then(|unit| name.strip_suffix(&unit.to_lowercase())?.strip_suffix('_'));
     match (bare, unit) {
         (Some(bare), Some(unit)) => format!("{bare}, {unit}"),
         _ => name.to_owned(),
