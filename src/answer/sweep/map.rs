@@ -16,7 +16,7 @@ const MOST_VALUES: usize = 64;
 /// Tiles along an axis of a continuous variable.
 const TILES: [f64; 2] = [4.0, 36.0];
 /// Points in a tile that are wanted, on the average.
-const PER_TILE: f64 = 6.0;
+const PER_TILE: f64 = 20.0;
 /// Planes that are drawn where nobody says which.
 const MOST_PAIRS: usize = 6;
 /// Points kept for parallel coordinates: between half of them and all.
@@ -491,7 +491,7 @@ mod tests {
         let names = TABLE.lines().next().unwrap();
         let map = mapped(&format!("{names}\n{rows}"), &[]).unwrap();
         assert!((KEPT / 2..=KEPT).contains(&map.some.len()), "{}", map.some.len());
-        assert_eq!(map.variables[0].edges.len() - 1, 36);
+        assert_eq!(map.variables[0].edges.len() - 1, 22);
         assert_eq!(map.variables[1].edges.len() - 1, 7);
     }
 }

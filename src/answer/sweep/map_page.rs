@@ -90,7 +90,11 @@ impl SweepMap {
         for i in self.ranked() {
             let (code, points) = &self.deciding[i];
             let share = *points as f64 / all.max(1) as f64;
-            table.row(vec![code.as_str().into(), (*points as f64).into(), share.into()]);
+            table.row(vec![
+                code.as_str().into(),
+                Cell::Count(usize::try_from(*points).unwrap_or(usize::MAX)),
+                share.into(),
+            ]);
         }
         table
     }
@@ -99,8 +103,11 @@ impl SweepMap {
     fn remarks(&self) -> Vec<String> {
         let mut all: Vec<String> = self.best_words().into_iter().collect();
         if let Some(SweepHead { points, holds: Holds::Margins { scenes, .. }, .. }) = &self.head {
-            let scenes = if scenes == "none" { "no scenes: static margins alone" } else { scenes };
-            all.push(format!("Points: {points}; scenes: {scenes}"));
+            let scenes = match scenes.as_str() {
+                "none" => "static margins alone".to_owned(),
+                scenes => format!("static margins and scenes: {scenes}"),
+            };
+            all.push(format!("Points: {points}; {scenes}"));
         }
         if self.pairs_left > 0 {
             all.push(format!("{} more pairs of variables: --over X,Y", self.pairs_left));

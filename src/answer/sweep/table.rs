@@ -23,10 +23,8 @@ pub(super) struct Records<R: Read> {
 impl<R: Read> Records<R> {
     /// With head and names read.
     pub fn open(from: R) -> Result<Self, Fault> {
-        let reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .from_reader(BufReader::new(from));
+        let reader =
+            csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(BufReader::new(from));
         let mut file = Self { reader, head: None, names: Vec::new(), record: StringRecord::new() };
         loop {
             if !file.next_record()? {
