@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use serde_json::json as object;
 use sprag_design::design::Optimize;
 use sprag_design::optimise::{ClutchProblem, Evaluate};
-use sprag_design::sweep::{Sample, Sampling};
+use sprag_design::sweep::{BoxSample, Sampling};
 use sprag_design::{Design, Follow};
 
 /// A design's variables and the margins at their values.
@@ -101,7 +101,7 @@ impl Problem {
     /// Scrambled Sobol points of the box, from number `first` on: those of the command `sample`.
     fn sample(&self, count: u64, seed: u64, first: u64) -> PyResult<Vec<Vec<f64>>> {
         let until = first.saturating_add(count);
-        let sample = Sample::of(&self.task, &Sampling::Sobol { count: until, seed });
+        let sample = BoxSample::of(&self.task, &Sampling::Sobol { count: until, seed });
         let sample = sample.map_err(|why| PyValueError::new_err(why.to_string()))?;
         Ok((first..until).map(|i| sample.point(i)).collect())
     }

@@ -7,7 +7,7 @@ use super::output::path_text;
 use super::sweep::{Emit, Sink, Sunk};
 use crate::answer::sweep::{SweepHead, SweepLines, Vectors};
 use crate::design::Design;
-use crate::sweep::{Sample, Sweep};
+use crate::sweep::{BoxSample, Sweep};
 use rayon::prelude::*;
 use std::fs::File;
 use std::ops::Range;
@@ -22,7 +22,7 @@ type Next<'n> = dyn FnMut() -> Result<Option<(u64, Vec<f64>)>, Failure> + 'n;
 
 /// Where points come from.
 enum Source<'s> {
-    Drawn(Sample),
+    Drawn(BoxSample),
     Table(&'s Path),
 }
 

@@ -85,8 +85,10 @@ impl HeatMap {
             svg.path(&rectangle([at.0, line - 2.0], [SWATCH_PX, 12.0]), &shade.style());
             svg.bare_text([at.0 + SWATCH_PX + 5.0, line + 8.0], Anchor::Start, INK, name);
         }
-        self.draw_tiles(&mut svg, &x, &y);
-        self.draw_border(&mut svg, &x, &y);
+        if self.tiles.len() == self.columns() * self.y_edges.len().saturating_sub(1) {
+            self.draw_tiles(&mut svg, &x, &y);
+            self.draw_border(&mut svg, &x, &y);
+        }
         let frame = rectangle([x.px[0], y.px[1]], [x.px[1] - x.px[0], y.px[0] - y.px[1]]);
         svg.path(&frame, &format!("fill=\"none\" stroke=\"{SOFT}\""));
         draw_below(&mut svg, &x, &x.ticks(PITCH_X_PX), y.px[0], &self.x_title, width);
@@ -110,14 +112,14 @@ impl HeatMap {
     }
 
     fn columns(&self) -> usize {
-        self.x_edges.len().saturating_sub(1).max(1)
+        self.x_edges.len().saturating_sub(1)
     }
 
     /// One path for each shade; neighbours in a row are one rectangle.
     fn draw_tiles(&self, svg: &mut Svg, x: &Axis, y: &Axis) {
         let mut paths: BTreeMap<Shade, String> = BTreeMap::new();
         for (row, (tiles, edges)) in
-            self.tiles.chunks(self.columns()).zip(self.y_edges.windows(2)).enumerate()
+            self.tiles.chunks(self.columns().max(1)).zip(self.y_edges.windows(2)).enumerate()
         {
             let mut from = 0;
             for run in tiles.chunk_by(|a, b| a.0 == b.0) {

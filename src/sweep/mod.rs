@@ -1,6 +1,6 @@
 //! The box of a design's variables looked at as a whole: its points by their number, margins at each.
 //!
-//! In: a `Design` with its `[optimize]` table. Out: [`Sample`], points that are the same whoever computes them; [`Sweep`], margins
+//! In: a `Design` with its `[optimize]` table. Out: [`BoxSample`], points that are the same whoever computes them; [`Sweep`], margins
 //! at a point. Absent: files, text, threads; which points are worth looking at.
 //! Equations: none.
 
@@ -10,4 +10,4 @@ mod sampling;
 
 pub use parts::SweepPart;
 pub use row::{NoSweep, Sweep, SweepRow};
-pub use sampling::{NoSample, Sample, Sampling};
+pub use sampling::{BoxSample, NoSample, Sampling};

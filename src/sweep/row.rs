@@ -1,6 +1,6 @@
 //! Margins at a point, as a sweep counts them.
 
-use super::sampling::{NoSample, Sample, Sampling};
+use super::sampling::{BoxSample, NoSample, Sampling};
 use crate::design::{Design, Optimize};
 use crate::margin::RESOLUTION;
 use crate::optimise::{ClutchProblem, Evaluate, Evaluation, Names};
@@ -78,7 +78,7 @@ impl Sweep {
         let names = |x: &[f64]| problem.look_at(x).map(|looked| problem.names(&looked));
         let start: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
         let elsewhere = || {
-            let sample = Sample::of(&task, &Sampling::Sobol { count: LOOKED_AT, seed: 0 }).ok()?;
+            let sample = BoxSample::of(&task, &Sampling::Sobol { count: LOOKED_AT, seed: 0 }).ok()?;
             (0..sample.count()).find_map(|i| names(&sample.point(i)).ok())
         };
         let names =

@@ -112,7 +112,7 @@ impl std::error::Error for NoSample {}
 
 /// The points that a [`Sampling`] means for one task.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sample {
+pub struct BoxSample {
     axes: Vec<OptimizeVariable>,
     sampling: Sampling,
     /// Of a grid: values along each axis; 1: it stays at its start.
@@ -120,7 +120,7 @@ pub struct Sample {
     count: u64,
 }
 
-impl Sample {
+impl BoxSample {
     /// The points of `task`'s box that `sampling` means.
     ///
     /// # Errors
@@ -245,7 +245,7 @@ mod tests {
             Sampling::Sobol { count: 200_000, seed: 3 },
             Sampling::Grid(vec![("r_i3_mm".into(), 5), (task.variables[0].name.clone(), 4)]),
         ] {
-            let sample = Sample::of(&task, &sampling).unwrap();
+            let sample = BoxSample::of(&task, &sampling).unwrap();
             assert_eq!(sampling.to_string().parse(), Ok(sampling.clone()));
             for index in (0..sample.count()).step_by(997).chain([sample.count() - 1]) {
                 let x = sample.point(index);
@@ -259,7 +259,7 @@ mod tests {
     fn a_grid_has_every_combination_once_and_ends_on_the_bounds() {
         let task = task();
         let sampling = Sampling::Grid(vec![("r_i3_mm".into(), 3), ("r_i2_mm".into(), 2)]);
-        let sample = Sample::of(&task, &sampling).unwrap();
+        let sample = BoxSample::of(&task, &sampling).unwrap();
         let points: Vec<[f64; 2]> =
             (0..sample.count()).map(|i| sample.point(i)).map(|x| [x[0], x[1]]).collect();
         assert_eq!(points, [[3.6, 3.6], [3.6, 4.4], [3.6, 5.2], [4.8, 3.6], [4.8, 4.4], [4.8, 5.2]]);
@@ -278,9 +278,9 @@ mod tests {
             (vec![(name.clone(), 2), (name, 2)], "twice"),
             (vec![("r_i3_mm".to_owned(), u64::MAX), ("centroid_x_mm".to_owned(), 2)], "2^63"),
         ] {
-            let why = Sample::of(&task, &Sampling::Grid(steps)).unwrap_err().to_string();
+            let why = BoxSample::of(&task, &Sampling::Grid(steps)).unwrap_err().to_string();
             assert!(why.contains(word), "{why}");
         }
-        assert_eq!(Sample::of(&task, &Sampling::Sobol { count: 0, seed: 0 }), Err(NoSample::Count));
+        assert_eq!(BoxSample::of(&task, &Sampling::Sobol { count: 0, seed: 0 }), Err(NoSample::Count));
     }
 }

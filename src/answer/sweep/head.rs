@@ -141,7 +141,7 @@ mod tests {
     fn a_head_reads_back_as_it_was_written() {
         let text = include_str!("../../../designs/huang2017-multi-arc.toml");
         let design =
-            Design::parse(&text.replace("name = \"Huang 2017", "name = \"a; name b\\n"), "a").unwrap();
+            Design::parse(&text.replace("name = \"Huang 2017", "name = \"a; name b, c"), "a").unwrap();
         for head in [
             SweepHead::vectors(&design, "sobol 9 seed 1"),
             SweepHead::margins(&design, "grid r_i2_mm=3", false, true),

@@ -365,7 +365,7 @@ impl SweepMap {
         if self.best.as_ref().is_none_or(|best| rank(&point) > rank(best)) {
             self.best = Some(point.clone());
         }
-        if self.seen % self.stride == 0 {
+        if self.seen.is_multiple_of(self.stride) {
             self.some.push(point);
         }
         self.seen += 1;

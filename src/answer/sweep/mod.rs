@@ -16,10 +16,10 @@ pub use map::{Cells, MapPair, MapPoint, MapVariable, NoMap, SweepMap};
 pub use vectors::{NoVectors, Vectors};
 
 use crate::design::Design;
-use crate::sweep::{NoSample, NoSweep, Sample, Sampling, Sweep};
+use crate::sweep::{BoxSample, NoSample, NoSweep, Sampling, Sweep};
 
 impl Design {
-    /// The points of the `[optimize]` table's box that `sampling` means: [`Sample::point`] has them one by one.
+    /// The points of the `[optimize]` table's box that `sampling` means: [`BoxSample::point`] has them one by one.
     ///
     /// # Errors
     /// [`NoSample`].
@@ -34,8 +34,8 @@ impl Design {
     /// assert!(held < 20);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn sample(&self, sampling: &Sampling) -> Result<Sample, NoSample> {
-        Sample::of(self.optimize.as_ref().ok_or(NoSample::NoTask)?, sampling)
+    pub fn sample(&self, sampling: &Sampling) -> Result<BoxSample, NoSample> {
+        BoxSample::of(self.optimize.as_ref().ok_or(NoSample::NoTask)?, sampling)
     }
 
     /// Margins at points of the box; `at_rest`: without scenes, `full`: nothing is left out that a scene cannot feel.

@@ -4,13 +4,13 @@ use super::head::{Holds, SweepHead};
 use super::lines::{FIXED, begin_vectors, vector_line};
 use super::table::{Fault, Records};
 use crate::design::{Design, OptimizeVariable, nearest};
-use crate::sweep::{Sample, Sampling};
+use crate::sweep::{BoxSample, Sampling};
 use sha2::{Digest, Sha256};
 use std::fmt;
 use std::io::Read;
 use std::ops::Range;
 
-impl Sample {
+impl BoxSample {
     /// The points of `range` as CSV, chunk by chunk: two lines first, then one for each point.
     pub fn csv<'s>(&'s self, design: &'s Design, range: Range<u64>) -> impl Iterator<Item = Vec<u8>> + 's {
         let head = SweepHead::vectors(design, &self.sampling().to_string());
@@ -50,7 +50,7 @@ pub struct Vectors<R: Read> {
     columns: Vec<usize>,
     index: Option<usize>,
     /// The points that the head promises.
-    promised: Option<Sample>,
+    promised: Option<BoxSample>,
     next: u64,
     digest: Sha256,
 }
