@@ -33,6 +33,7 @@
 //! | 4 | [`life`] | pitting, fatigue of rings, indentation and slip by chance in a life of loads |
 //! | 4 | [`reengage`] | slip under load and the blow when the clutch grips again |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
+//! | 4 | [`sweep`] | the box of the variables as a whole: points by their number, margins at each |
 //! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |
 //! | 4 | [`size`] | a first design from space, torques, speeds, friction, steel and what it is for |
 //! | 4 | [`compare`] | designs side by side: what differs in their files, and what comes of it |
@@ -134,6 +135,7 @@ pub mod scenario;
 pub mod size;
 #[cfg(feature = "report")]
 pub mod studio;
+pub mod sweep;
 pub mod wedge;
 
 pub use clutch::{Clutch, ContactLaw, Scenario, ScenarioKind};

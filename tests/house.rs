@@ -55,6 +55,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
     // real, and a tolerance felt, on the profile itself.
     ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),
+    // Points of a box, and whatever the margins say there.
+    ("sweep", &["numeric", "design", "margin", "optimise"]),
     // Asks for margins and static points as they are; knows no law.
     ("identify", &["follow", "numeric", "clutch", "design", "wedge", "margin"]),
     // A first design: proportions, then whatever the margins say.
@@ -88,6 +90,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "element",
             "reengage",
             "optimise",
+            "sweep",
             "identify",
             "size",
             "compare",
@@ -108,8 +111,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "element", "accuracy", "margin", "optimise", "identify", "size", "report", "export", "import",
-            "studio",
+            "element", "accuracy", "margin", "optimise", "sweep", "identify", "size", "report", "export",
+            "import", "studio",
         ],
     ),
 ];

@@ -1,18 +1,21 @@
 //! The class `_core.Problem`: the optimiser's evaluator.
 
 use crate::errors::json;
+use crate::pool;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use rayon::prelude::*;
 use serde_json::json as object;
-use sprag_design::Design;
-use sprag_design::optimise::{ClutchProblem, Evaluate, Fidelity};
+use sprag_design::design::Optimize;
+use sprag_design::optimise::{ClutchProblem, Evaluate};
+use sprag_design::sweep::{BoxSample, Sampling};
+use sprag_design::{Design, Follow};
 
 /// A design's variables and the margins at their values.
 #[pyclass(frozen, module = "sprag_design._core")]
 pub struct Problem {
     problem: ClutchProblem,
-    /// Name, least and greatest value of each variable.
-    bounds: Vec<(String, f64, f64)>,
+    task: Optimize,
     about: String,
 }
 
@@ -23,40 +26,41 @@ impl Problem {
                 "{file}: the design has no [optimize] table; add one with objective, scenarios and variables"
             )));
         };
-        let variables: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
-        let fidelity = Fidelity { reduced: !full, ..Fidelity::default() };
-        let problem = ClutchProblem::new(design, task, variables, fidelity).quickly();
+        let problem = ClutchProblem::of_task(design, task, full);
         let about = |v: &sprag_design::design::OptimizeVariable| object!({ "name": v.name, "min": v.min, "max": v.max, "start": v.start, "whole": v.whole });
         let variables: Vec<_> = task.variables.iter().map(about).collect();
         let about = json(&object!({ "aim": task.objective.name(), "variables": variables }))?;
-        let bounds = task.variables.iter().map(|v| (v.name.clone(), v.min, v.max)).collect();
-        Ok(Self { problem, bounds, about })
+        Ok(Self { problem, task: task.clone(), about })
     }
 
     /// Refuse what is no vector of this problem.
     fn checked(&self, x: &[f64]) -> PyResult<()> {
-        let count = self.bounds.len();
+        let count = self.task.variables.len();
         if x.len() != count {
-            let names: Vec<&str> = self.bounds.iter().map(|b| b.0.as_str()).collect();
+            let names: Vec<&str> = self.task.variables.iter().map(|v| v.name.as_str()).collect();
             let found = x.len();
             return Err(PyValueError::new_err(format!(
                 "{found} values for {count} variables: {}",
                 names.join(", ")
             )));
         }
-        let outside =
-            x.iter().zip(&self.bounds).enumerate().find(|(_, (x, (_, lo, hi)))| !(lo..=hi).contains(x));
-        match outside {
-            Some((i, (x, (name, lo, hi)))) => Err(PyValueError::new_err(format!(
-                "x[{i}], {name} = {x}, lies outside its bounds {lo} to {hi}"
-            ))),
-            None => Ok(()),
-        }
+        self.task.outside(x).map_or(Ok(()), |why| Err(PyValueError::new_err(why)))
     }
 }
 
 /// Objectives and limits, or the reason why there are none.
 type Evaluated = (Vec<f64>, Vec<f64>, f64, f64, bool, Option<String>);
+
+fn evaluated(problem: &ClutchProblem, x: &[f64]) -> Evaluated {
+    match problem.evaluate(x) {
+        Ok(e) => {
+            let (least, violation) = (e.least_margin(), e.violation());
+            let feasible = violation <= sprag_design::margin::RESOLUTION;
+            (e.objectives, e.limits, least, violation, feasible, None)
+        }
+        Err(why) => (Vec::new(), Vec::new(), f64::NAN, f64::NAN, false, Some(why.to_string())),
+    }
+}
 
 #[pymethods]
 impl Problem {
@@ -79,14 +83,27 @@ impl Problem {
     fn evaluate(&self, py: Python<'_>, x: Vec<f64>) -> PyResult<Evaluated> {
         self.checked(&x)?;
         // One evaluation uses one thread, so that a process that was forked needs no pool for it.
-        match py.detach(|| self.problem.evaluate(&x)) {
-            Ok(e) => {
-                let (least, violation) = (e.least_margin(), e.violation());
-                let feasible = violation <= sprag_design::margin::RESOLUTION;
-                Ok((e.objectives, e.limits, least, violation, feasible, None))
-            }
-            Err(why) => Ok((Vec::new(), Vec::new(), f64::NAN, f64::NAN, false, Some(why.to_string()))),
-        }
+        Ok(py.detach(|| evaluated(&self.problem, &x)))
+    }
+
+    /// The same of many points side by side, in their order.
+    fn evaluate_all(&self, py: Python<'_>, points: Vec<Vec<f64>>) -> PyResult<Vec<Evaluated>> {
+        points.iter().try_for_each(|x| self.checked(x))?;
+        let (problem, follow) = (self.problem.clone(), Follow::new());
+        let stop = follow.clone();
+        let one = move |x: Vec<f64>| (!stop.stopped()).then(|| evaluated(&problem, &x));
+        let all =
+            pool::compute(py, &follow, move || points.into_par_iter().map(one).collect::<Option<Vec<_>>>())?;
+        // What was stopped has raised already.
+        Ok(all.unwrap_or_default())
+    }
+
+    /// Scrambled Sobol points of the box, from number `first` on: those of the command `sample`.
+    fn sample(&self, count: u64, seed: u64, first: u64) -> PyResult<Vec<Vec<f64>>> {
+        let until = first.saturating_add(count);
+        let sample = BoxSample::of(&self.task, &Sampling::Sobol { count: until, seed });
+        let sample = sample.map_err(|why| PyValueError::new_err(why.to_string()))?;
+        Ok((first..until).map(|i| sample.point(i)).collect())
     }
 
     /// The design file at x.

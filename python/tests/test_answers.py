@@ -77,6 +77,16 @@ def test_evaluate_is_that_of_the_command(design: sd.Design, command: Command) ->
     assert (problem.objectives, problem.limits) == (described["objectives"], described["limits"])
 
 
+def test_points_and_their_margins_are_those_of_the_command(design: sd.Design, command: Command) -> None:
+    problem = design.problem()
+    points = problem.sample(5, seed=3, first=2)
+    said = command("sample", MULTI_ARC, "--sobol", "7", "--seed", "3", "--first", "2").stdout.splitlines()[2:]
+    assert points.tolist() == [[float(v) for v in line.split(",")[1:]] for line in said]
+    assert problem.evaluate_all(points) == [problem.evaluate(x) for x in points]
+    with pytest.raises(ValueError, match="lies outside its bounds"):
+        problem.evaluate_all([problem.start, [50.0] * 4])
+
+
 def test_optimize_is_that_of_the_command(design: sd.Design, command: Command, tmp_path: Path) -> None:
     better = tmp_path / "better.toml"
     said = command("optimize", MULTI_ARC, "-o", better, "--starts", "1", "--evaluations", "60", "--json", "--quiet")

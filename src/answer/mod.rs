@@ -26,6 +26,7 @@ pub mod simulation;
 pub mod sizing;
 pub mod steels;
 pub mod stiffness;
+pub mod sweep;
 
 pub use envelope::{Envelope, Provenance, TOOL, VERSION, WRITTEN_BY};
 pub use left_out::LeftOut;

@@ -1,10 +1,11 @@
 //! `evaluate`: the optimiser's evaluator for other programs, a vector per line in, margins per line out.
 
 use super::exit::{Exit, Failure};
-use super::{Context, output, parts};
+use super::sweep::PointArgs;
+use super::{Context, evaluate_points, output, parts};
 use crate::answer::search::{describe_problem, evaluate_line};
 use crate::design::Optimize;
-use crate::optimise::{ClutchProblem, Fidelity};
+use crate::optimise::ClutchProblem;
 use clap::Args;
 use serde_json::Value;
 use std::io::BufRead;
@@ -17,6 +18,8 @@ const EXAMPLES: &str = "\
 Examples:
   echo '[3.6, 4.2, -0.2, 0.2]' | sprag-design evaluate designs/huang2017-multi-arc.toml
   sprag-design evaluate designs/huang2017-multi-arc.toml --describe
+  sprag-design evaluate designs/huang2017-multi-arc.toml --vectors vectors.csv --csv margins.csv
+  sprag-design evaluate designs/huang2017-multi-arc.toml --static --sobol 1e6 --part 3/8 --csv part-3.csv
 
 Each line on standard input is a JSON array: the values of the variables of [optimize], in the file's order and units.
 Each gets one line on standard output, in the order of the lines and as soon as it is known; several lines are evaluated
@@ -24,7 +27,13 @@ side by side, as --threads says, with the same answers for any number of threads
 maximises); limits (each must be 0 or more); least, the least objective; violation, the largest -limit or 0; feasible.
 Where x is out of bounds or there is no clutch at it: x and refused, the reason. A line that is no such array: malformed, and exit code 2 at
 the end. --describe tells names, bounds and start first. Ctrl-C ends at once (exit code 130), and so does a reader that
-goes away before the last answer (exit code 141, as of programs that a closed pipe ends).";
+goes away before the last answer (exit code 141, as of programs that a closed pipe ends).
+
+With --vectors, --sobol or --grid the answer is a table instead, to standard output or --csv: a line for each point with its number,
+variables, least objective, least margin of all limits and the limit that has it (margin, deciding), feasible (1 or 0), objectives, limits, and
+the reason where there is no clutch. The same bytes for any number of threads and, but for the first two lines of each file, for any
+parts. A file that is there, whole and of the same question, is left as it is (--force: computed again); one that was cut is made anew.
+Exit code 0 whatever is held. `map` draws it.";
 
 /// Arguments of `evaluate`.
 #[derive(Debug, Clone, Args)]
@@ -39,6 +48,18 @@ pub struct EvaluateArgs {
     /// Leave nothing out that a scene cannot feel
     #[arg(long)]
     pub full: bool,
+    /// Without the scenes of [optimize]: static margins alone
+    #[arg(long = "static")]
+    pub at_rest: bool,
+    /// Points to draw instead of lines to read.
+    #[command(flatten)]
+    pub points: PointArgs,
+    /// Points from a table (CSV): a column for each variable, as `sample` writes it or anybody else
+    #[arg(long, value_name = "PATH.csv", conflicts_with_all = ["sobol", "grid"], help_heading = "Points")]
+    pub vectors: Option<PathBuf>,
+    /// Columns of the table, the point's number first in any case: names, or variables, objectives, limits [default: all]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', help_heading = "Points")]
+    pub columns: Vec<String>,
 }
 
 /// Run the command.
@@ -46,6 +67,10 @@ pub struct EvaluateArgs {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
+    let of_points = args.vectors.is_some() || args.points.sampling().is_some();
+    if !of_points {
+        refuse_of_points_alone(args, context)?;
+    }
     let design = parts::read_design(&args.file, context)?;
     let Some(task) = design.optimize.as_ref() else {
         return Err(Failure::malformed(format!(
@@ -53,9 +78,16 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
             args.file.display()
         )));
     };
-    let variables: Vec<String> = task.variables.iter().map(|v| v.name.clone()).collect();
-    let fidelity = Fidelity { reduced: !args.full, ..Fidelity::default() };
-    let problem = ClutchProblem::new(&design, task, variables, fidelity).quickly();
+    if of_points {
+        if args.describe {
+            return Err(Failure::malformed(
+                "--describe goes with lines of JSON; a table names its columns itself",
+            ));
+        }
+        return evaluate_points::run(args, &design, context);
+    }
+    let problem = ClutchProblem::of_task(&design, task, args.full);
+    let problem = if args.at_rest { problem.at_rest() } else { problem };
     if args.describe {
         output::print_json(&describe_problem(&design, &problem))?;
     }
@@ -74,6 +106,22 @@ pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
         }
     }
     Ok(if malformed { Exit::Malformed } else { Exit::Held })
+}
+
+/// Refuse what means something of a table of points alone.
+fn refuse_of_points_alone(args: &EvaluateArgs, context: &Context) -> Result<(), Failure> {
+    if context.outputs.csv.is_some() {
+        let why = "its answer is a JSON object for each line that it reads";
+        return Err(Failure::malformed(format!(
+            "--csv has no meaning with evaluate: {why}; with --vectors, --sobol or --grid it is a table"
+        )));
+    }
+    if args.points.is_part() || !args.columns.is_empty() {
+        return Err(Failure::malformed(
+            "--part, --first, --count and --columns are of a table of points: --vectors, --sobol or --grid",
+        ));
+    }
+    Ok(())
 }
 
 /// The answer to a line, and whether the line was no vector.

@@ -10,6 +10,7 @@ mod clock;
 mod command_line;
 pub mod compare;
 pub mod evaluate;
+mod evaluate_points;
 pub mod exit;
 pub mod explain;
 pub mod export;
@@ -21,6 +22,7 @@ pub mod journal;
 mod laws;
 pub mod life;
 mod made;
+pub mod map;
 pub mod materials;
 pub mod new;
 pub mod oils;
@@ -31,12 +33,14 @@ pub mod overrun;
 pub mod parts;
 pub mod progress;
 pub mod reengage;
+pub mod sample;
 pub mod schema;
 pub mod sheet;
 pub mod simulate;
 pub mod size;
 pub mod stiffness;
 pub mod studio;
+pub mod sweep;
 
 use crate::answer::{Envelope, Provenance};
 use crate::follow::Follow;
@@ -116,6 +120,10 @@ enum Command {
     Optimize(optimize::OptimizeArgs),
     /// Margins of one vector of variables per line, for other optimisers
     Evaluate(evaluate::EvaluateArgs),
+    /// Points of the box of the variables, for `evaluate` and other programs
+    Sample(sample::SampleArgs),
+    /// Plots of a sweep: margins over two variables, what decides, the border of what is held
+    Map(map::MapArgs),
     /// Error against run time of every method and fidelity, and the stability map
     Accuracy(accuracy::AccuracyArgs),
     /// Your own clutch: asks what it is for, its space, torque and speeds, and writes the design file
@@ -325,6 +333,8 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
         Command::Overrun(args) => overrun::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Evaluate(args) => evaluate::run(&args, &context),
+        Command::Sample(args) => sample::run(&args, &context),
+        Command::Map(args) => map::run(&args, &context),
         Command::Accuracy(args) => accuracy::run(&args, &context),
         Command::New(args) => new::run(&args, &context),
         Command::Size(args) => size::run(&args, &context),
@@ -346,7 +356,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
 }
 
 /// Commands, why common options mean nothing to them, and which.
-const MEANINGLESS: [(&str, &str, &[&str]); 9] = [
+const MEANINGLESS: [(&str, &str, &[&str]); 11] = [
     ("explain", "its answer is a few words", &["csv", "report", "set", "force", "threads", "quiet"]),
     ("new", "it makes a design, it reads none", &["set"]),
     ("size", "it makes a design, it reads none", &["set"]),
@@ -355,11 +365,9 @@ const MEANINGLESS: [(&str, &str, &[&str]); 9] = [
     ("oils", "oils are a table, they have no page", &["report", "set", "threads", "quiet"]),
     ("schema", "its answer is one JSON object", &["csv", "report", "set", "force", "threads", "quiet"]),
     ("completions", "its answer is a script", &["json", "csv", "report", "set", "force", "threads", "quiet"]),
-    (
-        "evaluate",
-        "its answer is a JSON object for each line that it reads",
-        &["json", "csv", "report", "force", "quiet"],
-    ),
+    ("evaluate", "its answer is a JSON object for each line that it reads", &["json", "report"]),
+    ("sample", "its answer is a table of points", &["json", "report", "threads"]),
+    ("map", "its tables name the design", &["set", "threads", "quiet"]),
 ];
 
 fn takes(command: &str, option: &str) -> bool {
@@ -379,6 +387,8 @@ fn name_of(command: &Command) -> &'static str {
         Command::Overrun(_) => "overrun",
         Command::Optimize(_) => "optimize",
         Command::Evaluate(_) => "evaluate",
+        Command::Sample(_) => "sample",
+        Command::Map(_) => "map",
         Command::Accuracy(_) => "accuracy",
         Command::New(_) => "new",
         Command::Size(_) => "size",

@@ -1,6 +1,7 @@
 //! What a file is by its name, and whether this tool has written it: somebody else's file is not replaced in silence.
 
 pub use crate::answer::WRITTEN_BY;
+use crate::answer::sweep::SweepHead;
 use crate::design::is_history;
 use std::fs::File;
 use std::io::Read;
@@ -140,7 +141,10 @@ impl FileKind {
             // Its description comes first, as it is.
             Self::Unit => head.starts_with("PK") && head.contains(UNIT),
             Self::Journal => true,
-            Self::Table => !is_history(head) && head.lines().next().is_some_and(is_our_header),
+            Self::Table => {
+                let ours = |line: &str| is_our_header(line) || SweepHead::begins(line);
+                !is_history(head) && head.lines().next().is_some_and(ours)
+            }
         }
     }
 }
@@ -168,6 +172,7 @@ mod tests {
             (FileKind::Table, "code,name,demand\n1,2,3\n", "Time [s];Torque\n"),
             (FileKind::Table, "label,races.inner_radius_mm,torque_nm\n", "time_s,torque_nm\n0,1\n"),
             (FileKind::Table, "model,design\n", "notes\n"),
+            (FileKind::Table, "# sprag-design sweep 0.2.0; vectors; a\n", "# by hand\n"),
         ] {
             assert!(kind.wrote(ours) && !kind.wrote(theirs), "{kind:?}");
         }

@@ -25,8 +25,16 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// # Errors
 /// As [`print()`].
 pub fn heard(text: &str) -> Result<bool, Failure> {
+    heard_bytes(text.as_bytes())
+}
+
+/// The same of bytes.
+///
+/// # Errors
+/// As [`print()`].
+pub fn heard_bytes(bytes: &[u8]) -> Result<bool, Failure> {
     let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(bytes).and_then(|()| out.flush()) {
         Ok(()) => Ok(true),
         Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(false),
         Err(e) => Err(Failure::Failed(format!("standard output: {e}"))),
@@ -258,28 +266,39 @@ fn is_special(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|m| !m.is_file() && !m.is_dir())
 }
 
-/// Write `bytes` so that `path` holds either its old content or all of the new, whatever happens in
-/// between: a temporary file beside it, flushed to disk, then renamed over it.
+/// Write `bytes` so that `path` holds either its old content or all of the new, whatever happens in between.
 ///
 /// # Errors
 /// What failed, naming the path; the temporary file is removed.
 fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), String> {
     let named = |e: io::Error| format!("cannot write {}: {e}", path.display());
+    write_by(path, named, |file| file.write_all(bytes).map_err(named))
+}
+
+/// Let `fill` write so that `path` holds either its old content or all of the new, whatever happens in
+/// between: a temporary file beside it, flushed to disk, then renamed over it.
+///
+/// # Errors
+/// What `fill` says, or what failed, as `named` puts it; the temporary file is removed.
+pub fn write_by<E>(
+    path: &Path,
+    named: impl Fn(io::Error) -> E,
+    fill: impl FnOnce(&mut File) -> Result<(), E>,
+) -> Result<(), E> {
     if is_special(path) {
-        let mut device = OpenOptions::new().write(true).open(path).map_err(named)?;
-        return device.write_all(bytes).map_err(named);
+        return fill(&mut OpenOptions::new().write(true).open(path).map_err(named)?);
     }
     // Behind a link the linked file is replaced, not the link.
     let target = resolved(path);
     let folder = folder_of(&target);
-    let (temporary, mut file) = Temporary::create(&folder).map_err(named)?;
-    file.write_all(bytes).map_err(named)?;
+    let (temporary, mut file) = Temporary::create(&folder).map_err(&named)?;
+    fill(&mut file)?;
     if let Ok(old) = fs::metadata(&target) {
-        file.set_permissions(old.permissions()).map_err(named)?;
+        file.set_permissions(old.permissions()).map_err(&named)?;
     }
-    file.sync_all().map_err(named)?;
+    file.sync_all().map_err(&named)?;
     drop(file);
-    fs::rename(&temporary.0, &target).map_err(named)?;
+    fs::rename(&temporary.0, &target).map_err(&named)?;
     // The rename itself reaches the disk with the folder; where folders cannot be opened (Windows) it does so anyway.
     if let Ok(folder) = File::open(&folder) {
         let _ = folder.sync_all();

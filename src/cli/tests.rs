@@ -83,7 +83,8 @@ fn the_help_of_a_command_shows_only_what_it_takes() {
         ("materials", &["--report"][..]),
         ("schema", &["--csv", "--report"]),
         ("completions", &["--json", "--csv", "--report"]),
-        ("evaluate", &["--json", "--csv", "--report"]),
+        ("evaluate", &["--json", "--report"]),
+        ("sample", &["--json", "--report"]),
         ("check", &[]),
         ("size", &[]),
     ] {

@@ -214,6 +214,15 @@ pub struct Optimize {
     pub seed: u64,
 }
 
+impl Optimize {
+    /// The first value of `x` beyond its bounds, in words; `None`: all lie within.
+    pub fn outside(&self, x: &[f64]) -> Option<String> {
+        let (i, (v, x)) =
+            self.variables.iter().zip(x).enumerate().find(|(_, (v, x))| !(v.min..=v.max).contains(x))?;
+        Some(format!("x[{i}], {} = {x}, lies outside its bounds {} to {}", v.name, v.min, v.max))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

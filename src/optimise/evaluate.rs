@@ -49,7 +49,10 @@ impl Evaluation {
     }
 
     /// The same evaluation, or why it cannot be used: `shape` is the count of objectives and limits seen first.
-    pub(super) fn checked(self, shape: Option<(usize, usize)>) -> Result<Self, NoEvaluation> {
+    ///
+    /// # Errors
+    /// [`NoEvaluation::Shape`], [`NoEvaluation::NotFinite`].
+    pub fn checked(self, shape: Option<(usize, usize)>) -> Result<Self, NoEvaluation> {
         let found = (self.objectives.len(), self.limits.len());
         let expected = shape.unwrap_or((found.0.max(1), found.1));
         if found != expected {

@@ -134,6 +134,13 @@ impl ClutchProblem {
         }
     }
 
+    /// The task of `design` as other optimisers are given it: all variables free, quickly unless `full`.
+    pub fn of_task(design: &Design, task: &Optimize, full: bool) -> Self {
+        let variables = task.variables.iter().map(|v| v.name.clone()).collect();
+        let fidelity = Fidelity { reduced: !full, ..Fidelity::default() };
+        Self::new(design, task, variables, fidelity).quickly()
+    }
+
     /// The same problem with everything that `check` demands as a limit: the wanted slip margin even where slip is what is
     /// raised, the scenarios of `[check]`, the worst sprag off centre.
     pub fn as_checked(&self) -> Self {

@@ -16,6 +16,7 @@ use super::smooth::ROOM as ROOM_LEFT;
 use super::starts::SearchMethod;
 use crate::design::{Design, EditError, Optimize, OptimizeVariable, other_variables, with_flanks};
 use crate::margin::load_state;
+use crate::numeric::sobol::sobol;
 use crate::profile::Flanks;
 use crate::profile::{MassProperties, Outline, Profile, STEEPEST_RAD, clearance_m};
 
@@ -240,7 +241,7 @@ fn nearest(optimum: &Design) -> Result<(Nearest, [(f64, f64); 4]), String> {
     let (lo, hi): (Vec<f64>, Vec<f64>) = ranges.iter().copied().unzip();
     let seed = 1;
     let point = |i: u32| -> Vec<f64> {
-        (0..4).map(|d| lo[d] + f64::from(sobol_burley::sample(i, d as u32, seed)) * (hi[d] - lo[d])).collect()
+        (0..4).map(|d| lo[d] + sobol(u64::from(i), d, seed) * (hi[d] - lo[d])).collect()
     };
     let mut looks: Vec<(f64, f64, Vec<f64>)> = (0..LOOKS)
         .filter_map(|i| {

@@ -11,6 +11,7 @@ use super::outcome::{Outcome, Refusal, Status};
 use super::problem::ClutchProblem;
 use super::settings::Settings;
 use super::swarm::swarm;
+use crate::numeric::sobol::sobol;
 
 /// First trust radius of the climb that finishes the best of several: it stands near its optimum.
 const NEAR: f64 = 0.02;
@@ -289,11 +290,10 @@ impl Points {
         let last = self.next + (wanted * TRIES) as u32;
         desk.run(problem, |problem, run| {
             let mut memo = super::journal::Memo::new(problem, run, usize::MAX);
-            let scramble = method.seed as u32 ^ (method.seed >> 32) as u32;
             while found.len() < wanted && self.next < last {
                 let some: Vec<Vec<f64>> = (self.next..self.next + wanted as u32)
                     .map(|i| {
-                        let share = |d: usize| f64::from(sobol_burley::sample(i, d as u32, scramble));
+                        let share = |d: usize| sobol(u64::from(i), d, method.seed);
                         (0..lo.len()).map(|d| lo[d] + share(d) * (hi[d] - lo[d])).collect()
                     })
                     .collect();

@@ -6,8 +6,10 @@
 
 pub mod bars;
 pub mod drawing;
+pub mod heat;
 pub mod number;
 pub mod page;
+pub mod parallel;
 pub mod plot;
 pub mod strip;
 mod svg;
@@ -15,8 +17,10 @@ pub mod table;
 
 pub use bars::{Bar, Bars, Tone};
 pub use drawing::{Drawing, DrawnArc, Live, SpragPose, live};
+pub use heat::{HeatMap, Shade};
 pub use number::{Unit, error_beside, plain, significant};
 pub use page::{Page, PageHead, greek};
+pub use parallel::Parallel;
 pub use plot::{Curve, Dash, Marker, Plot};
 pub use strip::{Span, Strip};
 pub use table::{Cell, Column, Screen, Table};

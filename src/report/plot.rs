@@ -9,7 +9,7 @@ use super::svg::{Anchor, INK, RULE, SOFT, Svg, polyline, text_width};
 use scale::{Extent, thinned};
 use style::{Style, styles};
 
-pub(super) use axis::{Axis, draw_below};
+pub(super) use axis::{Axis, draw_below, draw_left};
 
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -214,15 +214,7 @@ impl Plot {
         let style = format!("fill=\"none\" stroke=\"{SOFT}\"");
         svg.path(&polyline(&frame, true), &style);
         draw_below(svg, x, &x_ticks, bottom, &self.x_title, self.size_px[0]);
-        for tick in &y_ticks {
-            let length = if tick.text.is_empty() { 3.0 } else { 5.0 };
-            svg.line([left - length, tick.px], [left, tick.px], &style);
-            svg.bare_text([left - 8.0, tick.px + 4.0], Anchor::End, SOFT, &tick.text);
-        }
-        // A title longer than the frame is tall leans into the figure.
-        let half = text_width(&self.y_title, TEXT_PX) / 2.0;
-        let middle = (0.5 * (top + bottom)).max(half + 2.0).min((self.size_px[1] - half - 2.0).max(0.0));
-        svg.rising_text([14.0, middle], INK, &self.y_title);
+        draw_left(svg, y, &y_ticks, left, &self.y_title, self.size_px[1]);
     }
 
     /// Lines between gaps, and dots; a point alone between gaps has no line and is shown as a dot in any case.

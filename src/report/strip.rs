@@ -1,7 +1,7 @@
 //! Coloured bands over time, one row per thing observed: which state held when.
 
 use super::plot::{Axis, LEFT_PX, PITCH_X_PX, RIGHT_PX, draw_below};
-use super::svg::{Anchor, INK, RULE, SERIES, SOFT, Svg, px, text_width};
+use super::svg::{Anchor, INK, RULE, SERIES, SOFT, Svg, rectangle, text_width};
 
 /// A stretch in one state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +55,7 @@ impl Strip {
         let mut at = LEFT_PX;
         for (state, name) in self.states.iter().enumerate() {
             let style = format!("fill=\"{}\"", colour(state));
-            svg.path(&rectangle(at, 4.0, 14.0, 12.0), &style);
+            svg.path(&rectangle([at, 4.0], [14.0, 12.0]), &style);
             svg.bare_text([at + 19.0, 14.0], Anchor::Start, INK, name);
             at += 19.0 + text_width(name, 12.0) + 16.0;
         }
@@ -72,8 +72,10 @@ impl Strip {
                         _ => bands.push([from, until]),
                     }
                 }
-                let d: String =
-                    bands.iter().map(|[from, until]| rectangle(*from, y, until - from, BAND_PX)).collect();
+                let d: String = bands
+                    .iter()
+                    .map(|[from, until]| rectangle([*from, y], [until - from, BAND_PX]))
+                    .collect();
                 if !d.is_empty() {
                     svg.path(&d, &format!("fill=\"{}\"", colour(state)));
                 }
@@ -90,11 +92,6 @@ impl Strip {
         let [low, high] = self.range;
         if low.is_finite() && high.is_finite() && high > low { self.range } else { [0.0, 1.0] }
     }
-}
-
-/// Path data of a rectangle.
-fn rectangle(x: f64, y: f64, width: f64, height: f64) -> String {
-    format!("M{} {}h{}v{}h-{}Z", px(x), px(y), px(width), px(height), px(width))
 }
 
 #[cfg(test)]

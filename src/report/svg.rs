@@ -48,6 +48,11 @@ pub fn polyline(points: &[[f64; 2]], closed: bool) -> String {
     d
 }
 
+/// Path data of a rectangle from its upper left corner.
+pub fn rectangle([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
+    format!("M{} {}h{}v{}h-{}Z", px(x), px(y), px(width), px(height), px(width))
+}
+
 /// Path data of a full circle.
 pub fn circle(centre: [f64; 2], radius: f64) -> String {
     let [x, y] = centre;

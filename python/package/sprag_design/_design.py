@@ -8,7 +8,7 @@ import numbers
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._answers import (
@@ -24,6 +24,9 @@ from ._answers import (
     simulation_of,
     stiffness_of,
 )
+
+if TYPE_CHECKING:
+    from ._answers import Numbers
 
 Setting = bool | int | float | str | Sequence[Any]
 
@@ -301,6 +304,22 @@ class Problem:
         values = [float(v) for v in x]
         objectives, limits, least, violation, feasible, refused = self._core.evaluate(values)
         return Evaluation(tuple(values), tuple(objectives), tuple(limits), least, violation, feasible, refused)
+
+    def evaluate_all(self, points: Iterable[Iterable[float]]) -> list[Evaluation]:
+        """Margins at many points, rows of an array say, side by side on all cores; in their order. As :meth:`evaluate`."""
+        rows = [[float(v) for v in x] for x in points]
+        return [
+            Evaluation(tuple(x), tuple(objectives), tuple(limits), least, violation, feasible, refused)
+            for x, (objectives, limits, least, violation, feasible, refused) in zip(
+                rows, self._core.evaluate_all(rows), strict=True
+            )
+        ]
+
+    def sample(self, count: int, *, seed: int = 1, first: int = 0) -> Numbers:
+        """``count`` scrambled Sobol points of the box, a row each, from number ``first`` on: those of the command ``sample``."""
+        import numpy as np
+
+        return np.array(self._core.sample(count, seed, first), dtype=np.float64)
 
     def design_at(self, x: Iterable[float]) -> Design:
         """The design with the values ``x``, and with the limits of ``[optimize]``, so that ``check`` holds it to what was

@@ -15,19 +15,12 @@ pub fn evaluate_line(problem: &ClutchProblem, task: &Optimize, at: usize, text: 
     match read
         .and_then(|x| if x.len() == count { Ok(x) } else { Err(format!("{} numbers, not {count}", x.len())) })
     {
-        Ok(x) => match outside(task, &x) {
+        Ok(x) => match task.outside(&x) {
             Some(why) => (json!({ "x": x, "refused": why }), false),
             None => (answer(problem, &x), false),
         },
         Err(why) => (json!({ "malformed": format!("line {at}: {why}") }), true),
     }
-}
-
-/// The first value beyond its bounds, in words.
-fn outside(task: &Optimize, x: &[f64]) -> Option<String> {
-    let (i, (v, x)) =
-        task.variables.iter().zip(x).enumerate().find(|(_, (v, x))| !(v.min..=v.max).contains(x))?;
-    Some(format!("x[{i}], {} = {x}, lies outside its bounds {} to {}", v.name, v.min, v.max))
 }
 
 /// One line of the answer.

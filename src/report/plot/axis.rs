@@ -117,6 +117,27 @@ pub(in crate::report) fn draw_below(
     svg.bare_text([middle, y_px + 38.0], Anchor::Middle, INK, title);
 }
 
+/// Ticks, texts and title left of a line at `x_px`, within a figure `height_px` high.
+pub(in crate::report) fn draw_left(
+    svg: &mut Svg,
+    axis: &Axis,
+    ticks: &[Tick],
+    x_px: f64,
+    title: &str,
+    height_px: f64,
+) {
+    let style = format!("fill=\"none\" stroke=\"{SOFT}\"");
+    for Tick { px, text } in ticks {
+        let length = if text.is_empty() { 3.0 } else { 5.0 };
+        svg.line([x_px - length, *px], [x_px, *px], &style);
+        svg.bare_text([x_px - 8.0, px + 4.0], Anchor::End, SOFT, text);
+    }
+    // A title longer than the frame is tall leans into the figure.
+    let half = text_width(title, super::TEXT_PX) / 2.0;
+    let middle = 0.5 * (axis.px[0] + axis.px[1]);
+    svg.rising_text([14.0, middle.max(half + 2.0).min((height_px - half - 2.0).max(0.0))], INK, title);
+}
+
 /// Middle of a text that belongs at `px` of a figure `width_px` wide: near an edge it leans inwards.
 pub(super) fn within(px: f64, text: &str, width_px: f64) -> f64 {
     let half = text_width(text, super::TEXT_PX) / 2.0;

@@ -1,0 +1,195 @@
+//! `evaluate` of points that are drawn or read from a table: a line of margins for each, the same for any part and any number of threads.
+
+use super::Context;
+use super::evaluate::EvaluateArgs;
+use super::exit::{Exit, Failure};
+use super::output::path_text;
+use super::sweep::{Emit, Sink, Sunk};
+use crate::answer::sweep::{SweepHead, SweepLines, Vectors};
+use crate::design::Design;
+use crate::sweep::{BoxSample, Sweep};
+use rayon::prelude::*;
+use std::fs::File;
+use std::ops::Range;
+use std::path::Path;
+use std::time::Instant;
+
+/// Points that a thread is given at once: what is in memory does not grow with the table.
+const CHUNK: usize = 64;
+
+/// Points and their numbers, in order; `None` behind the last.
+type Next<'n> = dyn FnMut() -> Result<Option<(u64, Vec<f64>)>, Failure> + 'n;
+
+/// Where points come from.
+enum Source<'s> {
+    Drawn(BoxSample),
+    Table(&'s Path),
+}
+
+/// Counts of a run.
+#[derive(Default)]
+struct Tally {
+    points: u64,
+    held: u64,
+    void: u64,
+}
+
+/// Run the command.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(args: &EvaluateArgs, design: &Design, context: &Context) -> Result<Exit, Failure> {
+    let file = path_text(&args.file);
+    let named = |why: String| Failure::malformed(format!("{file}: {why}"));
+    let sweep = design.sweep(args.at_rest, args.full).map_err(|why| named(why.to_string()))?;
+    let (source, points, all) = match (&args.vectors, args.points.sampling()) {
+        (Some(path), _) => {
+            let inputs = [args.file.as_path(), path];
+            context.outputs.check(&inputs, &[])?;
+            let (points, all) = surveyed(path, design)?;
+            (Source::Table(path), points, all)
+        }
+        (None, Some(sampling)) => {
+            let sample = design.sample(&sampling).map_err(|why| named(why.to_string()))?;
+            let all = sample.count();
+            (Source::Drawn(sample), sampling.to_string(), all)
+        }
+        (None, None) => return Err(Failure::malformed("no points asked for")),
+    };
+    let range = args.points.range(all)?;
+    let head = SweepHead::margins(design, &points, args.at_rest, args.full);
+    let lines = SweepLines::new(head, &sweep, &args.columns)
+        .map_err(|why| Failure::malformed(format!("--columns: {why}")))?;
+    let started = Instant::now();
+    let sink = Sink::of(&context.outputs);
+    let progress = context.progress("evaluate", "points", Some(range.end - range.start));
+    let mut tally = Tally::default();
+    let sunk = sink.fill(
+        &lines.begin(),
+        || last_of(&source, &range, design),
+        |emit| {
+            let done = |n: u64| progress.advance(n);
+            over(&source, range.clone(), design, &mut |next| {
+                evaluated(&sweep, &lines, next, emit, context, &mut tally, &done)
+            })
+        },
+    )?;
+    drop(progress);
+    match sunk {
+        Sunk::Unheard => return Ok(Exit::Unheard),
+        Sunk::Standing => context.message(&format!("{}: there already", sink.place())),
+        Sunk::Written => {
+            let seconds = started.elapsed().as_secs_f64();
+            let Tally { points, held, void } = tally;
+            context.message(&format!(
+                "{}: {points} points, {held} hold every limit, {void} without a clutch; {seconds:.2} s, {:.0} points/s on {} threads",
+                sink.place(),
+                points as f64 / seconds.max(1e-9),
+                rayon::current_num_threads()
+            ));
+        }
+    }
+    Ok(Exit::Held)
+}
+
+/// Evaluate what `next` gives, in order.
+fn evaluated(
+    sweep: &Sweep,
+    lines: &SweepLines,
+    next: &mut Next,
+    emit: &mut Emit,
+    context: &Context,
+    tally: &mut Tally,
+    done: &dyn Fn(u64),
+) -> Result<bool, Failure> {
+    if !emit(&lines.begin())? {
+        return Ok(false);
+    }
+    let most = CHUNK * rayon::current_num_threads();
+    loop {
+        let mut chunk = Vec::with_capacity(most);
+        while chunk.len() < most
+            && let Some(point) = next()?
+        {
+            chunk.push(point);
+        }
+        if chunk.is_empty() {
+            return Ok(true);
+        }
+        let count = chunk.len() as u64;
+        let of = |(index, x): (u64, Vec<f64>)| {
+            (!context.follow.stopped()).then(|| {
+                let row = sweep.row(x);
+                (lines.line(index, &row), row.feasible(), row.found.is_err())
+            })
+        };
+        let rows: Vec<Option<(Vec<u8>, bool, bool)>> = chunk.into_par_iter().map(of).collect();
+        let mut piece = Vec::new();
+        for row in rows {
+            let Some((line, held, void)) = row else { return Err(Failure::Interrupted) };
+            piece.extend(line);
+            tally.points += 1;
+            tally.held += u64::from(held);
+            tally.void += u64::from(void);
+        }
+        if !emit(&piece)? {
+            return Ok(false);
+        }
+        done(count);
+    }
+}
+
+/// Give `then` the points of `range`, one after another.
+fn over(
+    source: &Source,
+    range: Range<u64>,
+    design: &Design,
+    then: &mut dyn FnMut(&mut Next) -> Result<bool, Failure>,
+) -> Result<bool, Failure> {
+    match source {
+        Source::Drawn(sample) => {
+            let mut left = range;
+            then(&mut || Ok(left.next().map(|index| (index, sample.point(index)))))
+        }
+        Source::Table(path) => {
+            let mut vectors = opened(path, design)?;
+            let mut next = || vectors.next_point().map_err(|why| refused(path, &why.to_string()));
+            for _ in 0..range.start {
+                next()?;
+            }
+            let mut left = range;
+            then(&mut || left.next().map_or(Ok(None), |_| next()))
+        }
+    }
+}
+
+/// Number of the last point of `range`.
+fn last_of(source: &Source, range: &Range<u64>, design: &Design) -> Result<Option<u64>, Failure> {
+    let Some(last) = range.clone().next_back() else { return Ok(None) };
+    let mut number = None;
+    over(source, last..last + 1, design, &mut |next| {
+        number = next()?.map(|(index, _)| index);
+        Ok(true)
+    })?;
+    Ok(number)
+}
+
+fn refused(path: &Path, why: &str) -> Failure {
+    Failure::malformed(format!("{}: {why}", path_text(path)))
+}
+
+fn opened(path: &Path, design: &Design) -> Result<Vectors<File>, Failure> {
+    // It is read more than once.
+    if path.exists() && !path.is_file() {
+        return Err(refused(path, "is no file: vectors are read twice"));
+    }
+    let file = File::open(path).map_err(|e| refused(path, &format!("cannot be read: {e}")))?;
+    Vectors::open(design, file).map_err(|why| refused(path, &why.to_string()))
+}
+
+/// All vectors of the table read once: which points these are, and how many.
+fn surveyed(path: &Path, design: &Design) -> Result<(String, u64), Failure> {
+    let mut vectors = opened(path, design)?;
+    while vectors.next_point().map_err(|why| refused(path, &why.to_string()))?.is_some() {}
+    Ok((vectors.points(), vectors.count()))
+}

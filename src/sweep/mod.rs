@@ -1,0 +1,13 @@
+//! The box of a design's variables looked at as a whole: its points by their number, margins at each.
+//!
+//! In: a `Design` with its `[optimize]` table. Out: [`BoxSample`], points that are the same whoever computes them; [`Sweep`], margins
+//! at a point. Absent: files, text, threads; which points are worth looking at.
+//! Equations: none.
+
+mod parts;
+mod row;
+mod sampling;
+
+pub use parts::SweepPart;
+pub use row::{NoSweep, Sweep, SweepRow};
+pub use sampling::{BoxSample, NoSample, Sampling};
