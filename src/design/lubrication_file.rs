@@ -23,7 +23,7 @@ pub(super) struct LubricationFile {
     /// Kinematic viscosity at 40 C from the data sheet, mm^2/s, in place of that of the name.
     #[schemars(extend("minimum" = 1, "maximum" = 5000))]
     pub nu40_mm2_s: Option<f64>,
-    /// The same at 100 C.
+    /// Kinematic viscosity at 100 C from the data sheet, mm^2/s.
     #[schemars(extend("minimum" = 1, "maximum" = 1000))]
     pub nu100_mm2_s: Option<f64>,
     /// Temperature of oil and housing, C.
@@ -45,7 +45,7 @@ pub(super) struct LubricationFile {
     #[serde(default = "boundary_lubricated")]
     #[schemars(extend("minimum" = 0))]
     pub sprag_wear_mm3_per_nm: f64,
-    /// The same of the inner race.
+    /// Archard's coefficient of the inner race, mm^3/(N m), of the load that asperities carry.
     #[serde(default = "boundary_lubricated")]
     #[schemars(extend("minimum" = 0))]
     pub race_wear_mm3_per_nm: f64,
