@@ -131,13 +131,25 @@ impl<'a> LifeAnswer<'a> {
         if !not_carried.is_empty() {
             return format!("NOT HELD: the clutch does not carry {}", not_carried.join(", "));
         }
+        if let Some(load) = life.slipping() {
+            return format!(
+                "NOT HELD: it slips at {}: that needs a friction of {}, and {} is there in the mean",
+                Unit::NewtonMetre.show(load.torque_nm, 4),
+                significant(load.required_friction.unwrap_or(f64::INFINITY), 4),
+                significant(life.friction, 4)
+            );
+        }
         match life.decides() {
             None => "no strength is given, so no life: add pitting = { pressure_mpa = ..., cycles = ... } to [life]".to_owned(),
             Some(used) => {
                 let sum = used.sum.unwrap_or(0.0);
                 let word = if life.held() { "HELD" } else { "NOT HELD" };
+                let indents = match life.indentation.iter().any(|factor| *factor < 1.0) {
+                    true => format!("; {} indents a contact", Unit::NewtonMetre.show(life.largest_nm, 4)),
+                    false => String::new(),
+                };
                 format!(
-                    "{word}: {} decides, {} of its life used up, most of it at {}",
+                    "{word}: {} decides, {} of its life used up, most of it at {}{indents}",
                     used.place.names().1,
                     Unit::Percent.show(sum, 3),
                     Unit::NewtonMetre.show(used.mostly_nm, 4)
@@ -162,6 +174,7 @@ impl<'a> LifeAnswer<'a> {
                 Some(sum) => {
                     Cell::Verdict(sum <= 1.0, if sum <= 1.0 { "held" } else { "NOT HELD" }.to_owned())
                 }
+                None if self.life.loads.iter().any(|l| l.state.is_none()) => "torque not carried".into(),
                 None => "strength not given".into(),
             };
             table.row(vec![
@@ -251,8 +264,8 @@ impl<'a> LifeAnswer<'a> {
         }
         for history in &self.service.histories {
             all.push(format!(
-                "{}: peaks above half of the largest are an engagement each (Tsubakimoto), rings by rainflow (ASTM E1049), in hundredths \
-                 of the largest torque, rounded up",
+                "{}: peaks above half of the largest (Tsubakimoto) and what rises from below half of its own peak are an engagement each, rings by \
+                 rainflow (ASTM E1049), in hundredths of the largest torque, rounded up; it begins and ends at rest",
                 history.name
             ));
         }
@@ -286,8 +299,8 @@ impl<'a> LifeAnswer<'a> {
     pub fn page(&self, provenance: &Provenance) -> Page {
         let mut page = begun("Life", self.design, &provenance.command);
         match self.life.decides() {
-            None => page.verdict_in(Tone::Plain, &self.verdict()),
-            Some(_) => page.verdict(self.life.held(), &self.verdict()),
+            None if self.life.held() => page.verdict_in(Tone::Plain, &self.verdict()),
+            _ => page.verdict(self.life.held(), &self.verdict()),
         };
         page.list(self.remarks());
         let known = self.life.used.iter().any(|u| u.sum.is_some());

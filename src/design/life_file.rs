@@ -108,6 +108,12 @@ pub(super) fn service(file: &LifeFile, load: Load<'_>, out: &mut Findings) -> Op
         out.refuse(&["life"], "a table with loads or histories".to_owned(), help);
         return None;
     }
+    if file.torque_scatter > 0.0 && file.friction_scatter == 0.0 {
+        let help = "say how far the friction scatters, 0.10 or so; a catalogue's factor of safety hides it"
+            .to_owned();
+        out.refuse(&["life.friction_scatter"], "above 0 where the torque scatters".to_owned(), help);
+        return None;
+    }
     let mut histories = Some(Vec::new());
     for (i, entry) in file.histories.iter().enumerate() {
         let rows = load(&entry.torque_history_csv, HistoryKind::Torque);

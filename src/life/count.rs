@@ -14,7 +14,7 @@ pub struct Cycle {
 /// Ups and downs smaller than this share of the largest value are no turning points: noise.
 pub const NOISE: f64 = 0.01;
 
-/// Values of `rows` (time, torque) at which the torque turns, first and last included; torques below 0, in overrun, count
+/// Values of `rows` (time, torque) at which the torque turns; it begins and ends at 0, torques below 0, in overrun, count
 /// as 0, and what comes back by less than [`NOISE`] of the largest does not turn.
 pub fn turning_points(rows: &[[f64; 2]]) -> Vec<f64> {
     let largest = rows.iter().map(|r| r[1]).fold(0.0, f64::max);
@@ -22,7 +22,8 @@ pub fn turning_points(rows: &[[f64; 2]]) -> Vec<f64> {
     let mut points: Vec<f64> = Vec::new();
     // The extreme since the last turning point, and the way it lies: up, down or not yet known.
     let (mut extreme, mut up) = (None::<f64>, None::<bool>);
-    for value in rows.iter().map(|r| r[1].max(0.0)) {
+    let rest = rows.first().map(|_| 0.0);
+    for value in rest.into_iter().chain(rows.iter().map(|r| r[1].max(0.0))).chain(rest) {
         let Some(last) = extreme else {
             points.push(value);
             extreme = Some(value);
@@ -45,14 +46,15 @@ pub fn turning_points(rows: &[[f64; 2]]) -> Vec<f64> {
     points
 }
 
-/// Peaks among turning points that count as an engagement each: those above half of the largest. Tsubakimoto, technical data
-/// of cam clutches, engagement fatigue life.
-pub fn engagements(points: &[f64]) -> Vec<f64> {
-    let largest = points.iter().copied().fold(0.0, f64::max);
+/// Engagements (peak, N m; number) of turning points: each peak above half of the largest (Tsubakimoto, technical data of cam
+/// clutches, engagement fatigue life), and of the smaller ones each that the torque comes to from less than half of it.
+pub fn engagements(points: &[f64]) -> Vec<(f64, f64)> {
+    let half_nm = 0.5 * points.iter().copied().fold(0.0, f64::max);
     let left = |i: usize| i == 0 || points[i - 1] < points[i];
     let right = |i: usize| points.get(i + 1).is_none_or(|next| *next < points[i]);
-    let peaks = (0..points.len()).filter(|&i| left(i) && right(i)).map(|i| points[i]);
-    peaks.filter(|p| *p > 0.5 * largest).collect()
+    let peaks = (0..points.len()).filter(|&i| left(i) && right(i)).map(|i| (points[i], 1.0));
+    let smaller = rainflow(points).into_iter().filter(|c| c.to_nm <= half_nm && c.from_nm <= 0.5 * c.to_nm);
+    peaks.filter(|p| p.0 > half_nm).chain(smaller.map(|c| (c.to_nm, c.count))).filter(|p| p.0 > 0.0).collect()
 }
 
 /// Rainflow cycles of turning points: ASTM E1049-85, 5.4.4.
@@ -100,10 +102,14 @@ mod tests {
         let torque = [0.0, 50.0, 49.8, 100.0, 99.5, 99.9, 20.0, -30.0, -10.0, 60.0, 40.0, 80.0, 10.0];
         let rows: Vec<[f64; 2]> = torque.iter().enumerate().map(|(i, v)| [i as f64, *v]).collect();
         let points = turning_points(&rows);
-        assert_eq!(points, [0.0, 100.0, 0.0, 60.0, 40.0, 80.0, 10.0]);
-        assert_eq!(engagements(&points), [100.0, 60.0, 80.0]);
+        assert_eq!(points, [0.0, 100.0, 0.0, 60.0, 40.0, 80.0, 0.0]);
+        assert_eq!(engagements(&points), [(100.0, 1.0), (60.0, 1.0), (80.0, 1.0)]);
+        // Small strokes beside a large one are engagements too; a ripple on one is none.
+        let strokes = engagements(&[0.0, 290.0, 0.0, 144.0, 0.0, 144.0, 100.0, 140.0, 0.0]);
+        let of = |peak: f64| -> f64 { strokes.iter().filter(|e| e.0 == peak).map(|e| e.1).sum() };
+        assert_eq!([290.0, 144.0, 140.0].map(of), [1.0, 2.0, 0.0], "{strokes:?}");
         assert!(turning_points(&[]).is_empty() && engagements(&[0.0, 0.0]).is_empty());
-        assert_eq!(turning_points(&[[0.0, 5.0], [1.0, 5.0]]), [5.0]);
+        assert_eq!(turning_points(&[[0.0, 5.0], [1.0, 5.0]]), [0.0, 5.0, 0.0]);
     }
 
     #[test]

@@ -7,8 +7,8 @@
 //! An engagement presses each sprag once along the path that its contact walks, always the same path: the sprag has one load
 //! cycle an engagement. A place of a track is met only where a sprag stands: n_s (walk + 2 a)/(2 pi R) times an engagement
 //! in the mean where sprags come to stand anywhere. The pressure of a cycle is the largest, that at the torque. The stress of a
-//! ring swings from that at the least to that at the largest torque of a cycle, bending between the sprags included: as if the worst place
-//! were the same each time.
+//! ring swings from that at the least to that at the largest torque of a cycle, from that of the fit at rest on, bending between the
+//! sprags included: as if the worst place were the same each time.
 
 pub mod count;
 pub mod slip;
@@ -18,7 +18,7 @@ pub use wear::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
 
 use crate::clutch::{PittingStrength, RingStrength, Service};
 use crate::design::Design;
-use crate::margin::{LoadState, NoMargins, load_state, rings_pa};
+use crate::margin::{LoadState, NoMargins, load_state, ring_places_pa, rings_pa};
 use crate::wedge::StaticPoint;
 use count::{engagements, rainflow, turning_points};
 use std::collections::BTreeMap;
@@ -110,6 +110,8 @@ pub struct LoadEffect {
     pub walk_m: [f64; 2],
     /// Contacts that a place of the track sees in one engagement, inner and outer track.
     pub passes: [f64; 2],
+    /// Static friction that holds this torque, the larger of both contacts; `None`: the clutch does not carry it.
+    pub required_friction: Option<f64>,
     /// Probability of slip; `None` where friction has no scatter.
     pub slip: Option<f64>,
 }
@@ -149,13 +151,21 @@ pub struct Life {
     pub slips: Option<f64>,
     /// Engagements in the life.
     pub engagements: f64,
+    /// Mean static friction.
+    pub friction: f64,
 }
 
 impl Life {
-    /// Whether the clutch carries every load and every known life is long enough.
+    /// Whether the clutch carries every load without slip, friction and torque at their means, and every known life is long enough.
     pub fn held(&self) -> bool {
         self.loads.iter().all(|l| l.state.is_some())
+            && self.slipping().is_none()
             && self.used.iter().all(|u| u.sum.is_none_or(|sum| sum <= 1.0))
+    }
+
+    /// The largest load that slips with friction and torque at their means.
+    pub fn slipping(&self) -> Option<&LoadEffect> {
+        self.loads.iter().find(|l| l.required_friction.is_some_and(|needed| needed > self.friction))
     }
 
     /// The place whose life is used up most.
@@ -188,6 +198,7 @@ pub fn life(design: &Design, service: &Service) -> Result<Life, NoMargins> {
         ],
         slips: loads.iter().map(|l| Some(l.slip? * l.engagements)).sum(),
         engagements: loads.iter().map(|l| l.engagements).sum(),
+        friction: design.clutch.friction.static_,
         loads,
     })
 }
@@ -208,8 +219,8 @@ fn counted(service: &Service) -> Counted {
         let class = |torque: f64| (torque / largest * CLASSES as f64).ceil() as usize;
         let torque = |class: usize| largest * class as f64 / CLASSES as f64;
         let mut by_peak: BTreeMap<usize, f64> = BTreeMap::new();
-        for peak in engagements(&points) {
-            *by_peak.entry(class(peak)).or_default() += history.times;
+        for (peak, n) in engagements(&points) {
+            *by_peak.entry(class(peak)).or_default() += n * history.times;
         }
         loads.extend(by_peak.into_iter().map(|(k, n)| (torque(k), n)));
         let mut by_swing: BTreeMap<(usize, usize), f64> = BTreeMap::new();
@@ -255,7 +266,8 @@ pub fn effect(
     let slip =
         (scatter[0] > 0.0).then(|| slip::probability(clutch.friction.static_, torque_nm, scatter, required));
     let hoop_pa = p.map_or([0.0; 2], |p| rings_pa(design, state, &p));
-    LoadEffect { torque_nm, engagements, state: p, hoop_pa, walk_m, passes, slip }
+    let required_friction = p.map(|_| required(torque_nm));
+    LoadEffect { torque_nm, engagements, state: p, hoop_pa, walk_m, passes, required_friction, slip }
 }
 
 /// Lengths of the inner and the outer arc between first contact and the contact at `p`, m: rolling lays the same length on the
@@ -337,14 +349,14 @@ fn ring_part(
     from_nm: f64,
     to_nm: f64,
 ) -> Option<f64> {
-    let stress = |torque: f64| match torque > 0.0 {
-        true => state.curve.at_torque(torque).map(|p| rings_pa(design, state, &p)[race]),
-        false => Some(0.0),
+    let places = |torque: f64| match torque > 0.0 {
+        true => Some(ring_places_pa(design, state, race, Some(&state.curve.at_torque(torque)?))),
+        false => Some(ring_places_pa(design, state, race, None)),
     };
-    // The inner race is pressed together: its mean stress takes nothing.
-    let sign = if race == 0 { -1.0 } else { 1.0 };
-    let (low, high) = (sign * stress(from_nm)?, sign * stress(to_nm)?);
-    service.rings.as_ref().map(|strength| strength.part(low, high))
+    let (low, high) = (places(from_nm)?, places(to_nm)?);
+    let strength = service.rings.as_ref()?;
+    let parts = low.into_iter().zip(high).map(|(low, high)| strength.part(low, high));
+    parts.max_by(f64::total_cmp)
 }
 
 /// One contact at the pressure of a load.
@@ -363,14 +375,13 @@ impl PittingStrength {
 
 impl RingStrength {
     /// Part of the life that one swing between two stresses (Pa) uses up: the amplitude about zero that does as much, after
-    /// Goodman, sigma_a/(1 - sigma_m/R_m); all of it where the mean alone breaks the ring.
+    /// Goodman, sigma_a/(1 - sigma_m/R_m); all of it where the larger one breaks the ring.
     pub fn part(&self, low_pa: f64, high_pa: f64) -> f64 {
+        if low_pa.max(high_pa) >= self.ultimate_pa {
+            return 1.0;
+        }
         let (amplitude, mean) = (0.5 * (high_pa - low_pa).abs(), 0.5 * (high_pa + low_pa));
         let left = 1.0 - mean.max(0.0) / self.ultimate_pa;
-        if left <= 0.0 {
-            1.0
-        } else {
-            (amplitude / left / self.amplitude_pa).powf(self.exponent) / self.cycles
-        }
+        (amplitude / left / self.amplitude_pa).powf(self.exponent) / self.cycles
     }
 }

@@ -48,6 +48,27 @@ pub fn rings_pa(design: &Design, state: &LoadState, p: &StaticPoint) -> [f64; 2]
     [Which::Inner, Which::Outer].map(|which| hoop_pa(&case, p, which, true))
 }
 
+/// Hoop stress with bending between the sprags of the inner (0) or the outer race (1), with its sign, Pa, tension positive, at the places
+/// where it may be worst: track and joint of a fitted race, else the worst place of the ring twice. `p`: the static state,
+/// none at rest, where the fit's own stress is left.
+pub fn ring_places_pa(design: &Design, state: &LoadState, race: usize, p: Option<&StaticPoint>) -> [f64; 2] {
+    let case = Case { design, limits: &design.limits, state };
+    let (elastic, count, running) = (case.elastic(), case.count(), design.clutch.running.as_ref());
+    let (ring, normal_n, track) = match race {
+        0 => (&elastic.inner_race, p.map_or(0.0, |p| p.normal_inner_n), running.map(|r| &r.inner)),
+        _ => (&elastic.outer_race, p.map_or(0.0, |p| p.normal_outer_n), running.map(|r| &r.outer)),
+    };
+    let bending = ring.hoop_with_bending_pa(count, normal_n);
+    match track.filter(|track| track.joint_pressure_pa != 0.0) {
+        None => [bending; 2],
+        Some(track) => {
+            let more = bending - ring.hoop_at_bore_pa(count, normal_n);
+            [(ring.track_m(), track.hoop_at_track_pa), (track.joint_m, track.hoop_at_joint_pa)]
+                .map(|(at_m, fit_pa)| fit_pa + ring.hoop_at_radius_pa(count, normal_n, at_m) + more)
+        }
+    }
+}
+
 fn fitted_pa(track: &TrackRun, race: &Race, count: usize, normal_n: f64) -> f64 {
     let places = [(race.track_m(), track.hoop_at_track_pa), (track.joint_m, track.hoop_at_joint_pa)];
     let worst = |(at_m, fit_pa): (f64, f64)| {

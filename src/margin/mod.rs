@@ -17,7 +17,7 @@ mod subsurface;
 mod table;
 
 pub use capacity::{DemandCourse, courses, nominal_capacity};
-pub use hoop::rings_pa;
+pub use hoop::{ring_places_pa, rings_pa};
 pub use limits::{Limit, When, limit_of};
 pub use load::{LoadState, load_state, load_state_at};
 pub use overrun::{
