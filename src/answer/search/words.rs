@@ -115,14 +115,21 @@ impl Story {
                     names.join(" against ")
                 );
             }
-            Status::EvaluationLimit => format!("stopped at the evaluation limit{}", hints.evaluation_limit),
+            Status::EvaluationLimit => {
+                format!("stopped at the evaluation limit of each climb{}", hints.evaluation_limit)
+            }
             Status::Interrupted => hints.stopped.to_owned(),
             Status::Stalled(cause) => format!("stalled ({cause:?})"),
+        };
+        // A limit of 3 beside 122 evaluations is no contradiction.
+        let counted = match self.status() {
+            Status::EvaluationLimit => " in all, those before and after the climbs too",
+            _ => "",
         };
         if self.feasible() {
             let reserve = found.problem.reserve();
             format!(
-                "{} {} -> {} ({}), every limit held{}{}; {why} after {} evaluations{}{}{}",
+                "{} {} -> {} ({}), every limit held{}{}; {why} after {} evaluations{counted}{}{}{}",
                 found.aim.words(),
                 shown(found.aim, before),
                 shown(found.aim, after),
@@ -146,7 +153,7 @@ impl Story {
             )
         } else {
             format!(
-                "no feasible design found: {why} after {} evaluations; not held: {}{}",
+                "no feasible design found: {why} after {} evaluations{counted}; not held: {}{}",
                 self.evaluations(),
                 self.not_held().join(", "),
                 self.worst()
