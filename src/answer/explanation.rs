@@ -45,7 +45,8 @@ pub fn explain(name: &str) -> Option<Explanation> {
 
 fn limit(code: &str) -> Option<Explanation> {
     let limit = limit_of(code)?;
-    let scene = code.split_once(':').map_or("a scenario", |(_, scene)| scene.split(" @ ").next().unwrap_or(scene));
+    let scene =
+        code.split_once(':').map_or("a scenario", |(_, scene)| scene.split(" @ ").next().unwrap_or(scene));
     let mut lines = vec![
         ("holds", limit.name().replace("{scene}", scene)),
         ("is", limit.explanation.split_whitespace().collect::<Vec<_>>().join(" ")),
@@ -126,7 +127,10 @@ mod tests {
             }
         }
         let holds = |name: &str| explain(name).unwrap().lines[0].1.clone();
-        assert!(holds("slip:high-10").contains("that high-10 needs") && holds("slip").contains("that a scenario needs"));
+        assert!(
+            holds("slip:high-10").contains("that high-10 needs")
+                && holds("slip").contains("that a scenario needs")
+        );
         assert!(holds("contact:swing @ +friction").contains("force in swing over"));
         assert!(explain("run-out-grip-inner").is_some());
         let keys =

@@ -152,8 +152,7 @@ fn corners(mean: &[Point]) -> Vec<usize> {
         })
         .collect();
     let turn = |i: usize, by: isize| turns[(i as isize + by).rem_euclid(RAYS as isize) as usize];
-    let peaks =
-        (0..RAYS).filter(|&i| (1..=reach).all(|k| turns[i] > turn(i, -k) && turns[i] >= turn(i, k)));
+    let peaks = (0..RAYS).filter(|&i| (1..=reach).all(|k| turns[i] > turn(i, -k) && turns[i] >= turn(i, k)));
     let (mut corners, others): (Vec<usize>, Vec<usize>) = peaks.partition(|&i| turns[i] > CORNER_RAD);
     // Mean turn beside a corner, out of its reach.
     let beside = |i: usize, side: isize| {
