@@ -5,7 +5,7 @@ use crate::answer::check::margin_text;
 use crate::design::Objective;
 use crate::margin::Margin;
 use crate::optimise::{NO_INFLUENCE, Optima, Price, PriceKind, Status, Variable};
-use crate::report::{error_beside, significant};
+use crate::report::{Unit, error_beside, significant};
 
 /// Digits to which an objective is shown.
 pub(crate) const SHOWN_DIGITS: usize = 5;
@@ -111,7 +111,8 @@ impl Story {
                 }
                 return format!(
                     "infeasible: no design within the bounds holds every limit; the least violation is \
-                     {least_violation:.4}, held up by {}",
+                     {} (by so much the worst margin of the nearest design is too small), held up by {}",
+                    Unit::Percent.show(*least_violation, 2),
                     names.join(" against ")
                 );
             }
