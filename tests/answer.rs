@@ -172,4 +172,8 @@ fn a_design_is_set_from_values_wherever_it_lies() {
     assert_eq!((other.clutch.friction.static_, other.histories), (0.11, bench().histories));
     let why = set("friction.statik", "0.11").expect_err("no such key");
     assert_eq!((why.file(), why.problems()[0].key.as_str()), ("here.toml", "friction.statik"));
+    // The file does not hold what is quoted.
+    let why = set("sprags.count", "-3").expect_err("no count");
+    assert_eq!(why.file(), "here.toml");
+    assert!(why.to_string().starts_with("here.toml with sprags.count=-3:"), "{why}");
 }

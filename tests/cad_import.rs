@@ -322,7 +322,7 @@ fn the_command_writes_a_design_that_is_checked() {
     assert_eq!(refused.status.code(), Some(2));
     let text = stdout(&run(&["import", &drawing]));
     assert!(text.contains("no --template") && text.contains("no design written"), "{text}");
-    for (file, word) in [("no.dxf", "no such file"), (TEMPLATE, "number")] {
+    for (file, word) in [("no.dxf", "no such file"), (TEMPLATE, "a table of x, y")] {
         let output = run(&["import", file]);
         assert_eq!(output.status.code(), Some(2));
         let text = String::from_utf8(output.stderr).unwrap();

@@ -45,8 +45,10 @@ pub fn explain(name: &str) -> Option<Explanation> {
 
 fn limit(code: &str) -> Option<Explanation> {
     let limit = limit_of(code)?;
+    let scene =
+        code.split_once(':').map_or("a scenario", |(_, scene)| scene.split(" @ ").next().unwrap_or(scene));
     let mut lines = vec![
-        ("holds", limit.name().to_owned()),
+        ("holds", limit.name().replace("{scene}", scene)),
         ("is", limit.explanation.split_whitespace().collect::<Vec<_>>().join(" ")),
         ("margin", limit.rule.words().to_owned()),
     ];
@@ -124,7 +126,13 @@ mod tests {
                 assert!(found.lines.iter().any(|(_, line)| line.len() > 5), "{asked}: {:?}", found.lines);
             }
         }
-        assert!(explain("slip:high-10").is_some() && explain("run-out-grip-inner").is_some());
+        let holds = |name: &str| explain(name).unwrap().lines[0].1.clone();
+        assert!(
+            holds("slip:high-10").contains("that high-10 needs")
+                && holds("slip").contains("that a scenario needs")
+        );
+        assert!(holds("contact:swing @ +friction").contains("force in swing over"));
+        assert!(explain("run-out-grip-inner").is_some());
         let keys =
             |name: &str| explain(name).unwrap().lines.iter().find(|l| l.0 == "keys").unwrap().1.clone();
         assert!(keys("scenarios").contains("preload_nm") && keys("races").contains("width_mm"));

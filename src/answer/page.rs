@@ -77,15 +77,42 @@ pub fn draw_sheet(page: &mut Page, design: &Design, profile: &Profile) {
     page.true_figure(&svg, "Radii as run; inner, outer: the tracks. ν, ω: angles of the strut AB to the radii at B and A; junctions by the turn of the contact; races as plain rings.");
 }
 
-/// Every value of the design file: a short table for each of its parts, a wide one for the scenes.
+/// As many columns of the scenes' table fit a page.
+const SCENE_COLUMNS: usize = 8;
+
+/// Every value of the design file: a short table for each of its parts, one for the scenes, or one for each where that would be
+/// too wide.
 pub fn draw_inputs(page: &mut Page, design: &Design) {
     let all = inputs(&design.source);
     let (scenes, others): (Vec<&Input>, Vec<&Input>) =
         all.iter().partition(|i| i.path.starts_with("scenarios["));
     page.columns(&short_tables(&others));
-    if !scenes.is_empty() {
-        page.table("scenarios", &scene_table(&scenes));
+    if scenes.is_empty() {
+        return;
     }
+    let table = scene_table(&scenes);
+    if table.columns.len() <= SCENE_COLUMNS {
+        page.table("scenarios", &table);
+    } else {
+        page.columns(&each_scene(&table));
+    }
+}
+
+/// A short table for each row of the scenes' table: what it says of that scene.
+fn each_scene(scenes: &Table) -> Vec<(String, Table)> {
+    let one = |row: &Vec<Cell>| {
+        let mut table = Table::new(vec![Column::text("key", "Key"), Column::text("value", "Value")]);
+        for (column, cell) in scenes.columns.iter().zip(row).skip(1).filter(|(_, cell)| **cell != Cell::Empty)
+        {
+            table.row(vec![column.heading.as_str().into(), cell.clone()]);
+        }
+        let name = match row.first() {
+            Some(Cell::Text(name)) => format!("scenario {name}"),
+            _ => "scenario".to_owned(),
+        };
+        (name, table)
+    };
+    scenes.rows.iter().map(one).collect()
 }
 
 /// A table for each part of the file; a row of a list (arc, variable) in one line.

@@ -1,8 +1,13 @@
 //! The steels that a design may name, as a table, as JSON and in words.
 
-use crate::material::STEELS;
+use crate::material::{STEELS, Steel};
 use crate::report::{Column, Screen, Table, Unit};
 use serde_json::{Value, json};
+
+/// Thermal expansion, um/(m K). Divided, since 1e6 times 11.4e-6 is 11.399999999999999.
+fn expansion_um_per_m_k(steel: &Steel) -> f64 {
+    steel.expansion_per_k / 1e-6
+}
 
 /// The steels with their constants and allowed stresses.
 pub fn table() -> Table {
@@ -24,7 +29,7 @@ pub fn table() -> Table {
             s.material.youngs_modulus_pa.into(),
             s.material.poisson_ratio.into(),
             s.material.density_kg_m3.into(),
-            (1e6 * s.expansion_per_k).into(),
+            expansion_um_per_m_k(s).into(),
             s.race_stress_pa.into(),
             s.hertz_nominal_pa.into(),
             s.hertz_peak_pa.into(),
@@ -44,7 +49,7 @@ pub fn list() -> Vec<Value> {
                 "youngs_modulus_gpa": s.material.youngs_modulus_pa / 1e9,
                 "poisson_ratio": s.material.poisson_ratio,
                 "density_kg_m3": s.material.density_kg_m3,
-                "expansion_um_per_m_k": s.expansion_per_k * 1e6,
+                "expansion_um_per_m_k": expansion_um_per_m_k(s),
                 "race_stress_mpa": s.race_stress_pa / 1e6,
                 "hertz_nominal_mpa": s.hertz_nominal_pa / 1e6,
                 "hertz_peak_mpa": s.hertz_peak_pa / 1e6,

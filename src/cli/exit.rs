@@ -54,6 +54,17 @@ pub enum Failure {
     Interrupted,
 }
 
+/// Messages are wrapped at blanks: a name with hyphens, which may be typed again, stays whole. To be called before the first.
+pub fn keep_names_whole() {
+    let handler = |_: &dyn miette::Diagnostic| -> Box<dyn miette::ReportHandler> {
+        Box::new(
+            miette::MietteHandlerOpts::new().word_splitter(textwrap::WordSplitter::NoHyphenation).build(),
+        )
+    };
+    // Refused where a program that carries this one has a handler of its own.
+    let _ = miette::set_hook(Box::new(move |of| handler(of)));
+}
+
 impl Failure {
     /// A malformed question in one sentence, without a place in a file; control characters in it are shown, not sent.
     pub fn malformed(message: impl AsRef<str>) -> Self {

@@ -267,6 +267,7 @@ fn ended(args: Vec<String>) -> Exit {
         }
     };
     let json = cli.common.json && takes(name_of(&cli.command), "json");
+    exit::keep_names_whole();
     match dispatch(cli, &args) {
         Ok(exit) => exit,
         Err(failure) => {

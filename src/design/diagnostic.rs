@@ -112,6 +112,8 @@ impl fmt::Display for Problem {
 #[derive(Debug)]
 pub struct DesignError {
     file: String,
+    /// What was set in the file's text before it was looked at, in words behind its name; empty: nothing.
+    set: String,
     source: Option<Box<NamedSource<String>>>,
     problems: Vec<Problem>,
 }
@@ -128,7 +130,18 @@ impl DesignError {
         let file = shown(file);
         let short = !source.is_empty() && source.lines().all(|line| line.len() <= LONGEST_SHOWN);
         let source = short.then(|| Box::new(NamedSource::new(&file, masked(source)).with_language("TOML")));
-        Self { file, source, problems }
+        Self { file, set: String::new(), source, problems }
+    }
+
+    /// The same of a text that the file does not hold: with `settings` (path, value) set in it.
+    pub(super) fn with_set(mut self, settings: &[(String, String)]) -> Self {
+        let each: Vec<String> = settings.iter().map(|(key, value)| format!("{key}={value}")).collect();
+        self.set = shown(&format!(" with {}", each.join(", ")));
+        let name = format!("{}{}", self.file, self.set);
+        self.source = self
+            .source
+            .map(|text| Box::new(NamedSource::new(name, text.inner().clone()).with_language("TOML")));
+        self
     }
 
     /// A file that could not be read.
@@ -141,7 +154,7 @@ impl DesignError {
             help: help.to_owned(),
             also: Vec::new(),
         };
-        Self { file: shown(file), source: None, problems: vec![problem] }
+        Self { file: shown(file), set: String::new(), source: None, problems: vec![problem] }
     }
 
     /// Name of the file.
@@ -181,7 +194,7 @@ impl fmt::Display for DesignError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, problem) in self.problems.iter().take(MOST_TOLD).enumerate() {
             let line_break = if i == 0 { "" } else { "\n" };
-            write!(f, "{line_break}{}:", self.file)?;
+            write!(f, "{line_break}{}{}:", self.file, self.set)?;
             if let Some(place) = &problem.place {
                 write!(f, "{}:{}:", place.line, place.column)?;
             }
@@ -200,10 +213,6 @@ impl fmt::Display for DesignError {
 impl std::error::Error for DesignError {}
 
 impl Diagnostic for DesignError {
-    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new("design"))
-    }
-
     fn source_code(&self) -> Option<&dyn SourceCode> {
         self.source.as_deref().map(|s| s as &dyn SourceCode)
     }

@@ -36,7 +36,7 @@ impl Design {
     }
 
     /// The same with values set as [`with_setting`] sets them, in this order: (path, value as typed). An error in what they
-    /// make of the file points at the changed text.
+    /// make of the file points at the changed text and says what was set.
     ///
     /// # Errors
     /// As [`Design::read`], and where a path names nothing that can be set.
@@ -78,7 +78,10 @@ impl Design {
                 DesignError::in_source(name_for_errors, "", vec![problem])
             })?;
         }
-        Self::parse_in(&self.folder, &source, name_for_errors)
+        Self::parse_in(&self.folder, &source, name_for_errors).map_err(|refused| {
+            // A history is as it lies there.
+            if refused.file() == name_for_errors { refused.with_set(settings) } else { refused }
+        })
     }
 
     /// Check the text of a design file; `name_for_errors` stands for the file in messages, and histories are named

@@ -13,7 +13,7 @@ use super::no_fit::{NoFit, SoFar};
 use super::observation::{Observation, ObservedQuantity, Use};
 use super::predict::{NoPrediction, Prediction, design_with, predict};
 use super::statistics::{Doubt, INSEPARABLE, Knowledge, correlation, knowledge, moved_by};
-use crate::design::{Design, is_whole, value_at, variable_names, variable_path};
+use crate::design::{Design, inputs, is_whole, nearest, value_at, variable_names, variable_path};
 use crate::follow::Follow;
 
 /// A parameter to be found, between bounds in the unit of its name.
@@ -360,14 +360,23 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
             )));
         }
         let path = variable_path(&u.name, arcs).or_else(|| u.name.contains('.').then(|| u.name.clone()));
-        let known = variable_names(arcs).join(", ");
+        let known = variable_names(arcs);
+        // A name that is like `name` among those, in words behind a refusal.
+        let near = |names: &[&str]| {
+            nearest(&u.name, names).map_or(String::new(), |near| format!("; did you mean {near}?"))
+        };
         let path = path.ok_or_else(|| {
+            let near = near(&known.iter().map(String::as_str).collect::<Vec<_>>());
+            let known = known.join(", ");
             refuse(format!(
-                "no such variable; there are {known}, and the dotted path of any number in the file"
+                "no such variable{near}; there are {known}, and the dotted path of any number in the file"
             ))
         })?;
-        let value = value_at(&design.source, &path)
-            .ok_or_else(|| refuse(format!("the design file holds no number {path}; write it there first")))?;
+        let value = value_at(&design.source, &path).ok_or_else(|| {
+            let there = inputs(&design.source);
+            let near = near(&there.iter().map(|input| input.path.as_str()).collect::<Vec<_>>());
+            refuse(format!("the design file holds no number {path}{near}; a key that it lacks is to be written there first"))
+        })?;
         if is_whole(&path, arcs) {
             return Err(refuse(format!(
                 "a whole number, and identify searches only what varies smoothly; try each value by itself: write it into the \

@@ -1,5 +1,6 @@
 //! The table of what was measured: CSV text in, observations out.
 
+use crate::design::nearest;
 use crate::wedge::SMALLEST_TORQUE_NM;
 use std::fmt;
 
@@ -190,15 +191,22 @@ fn is_known(name: &str) -> bool {
 }
 
 fn check_header(header: &[String]) -> Result<(), Fault> {
-    // Where no column is known it may be any file: nothing of it is repeated.
-    let ours = header.iter().any(|name| is_known(name));
+    // Where no column is known and they are no names it may be any file: nothing of it is repeated.
+    let is_name =
+        |name: &String| name.len() < 40 && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    let ours = header.iter().any(|name| is_known(name)) || header.len() > 1 && header.iter().all(is_name);
     for (i, name) in header.iter().enumerate() {
         let column = if ours { name.clone() } else { format!("column {}", i + 1) };
         let fault =
             |found: String, allowed: String| Fault { line: 1, column: column.clone(), found, allowed };
         if !is_known(name) {
+            let known: Vec<&str> = ["label", "use", "torque_nm"]
+                .into_iter()
+                .chain(ObservedQuantity::ALL.map(ObservedQuantity::column))
+                .collect();
+            let near = nearest(name, &known).map_or(String::new(), |near| format!(" (did you mean {near}?)"));
             return Err(fault(
-                "an unknown column".to_owned(),
+                format!("an unknown column{near}"),
                 format!(
                     "label, use, torque_nm, {}, each of these with _sigma, or a dotted key of the design file",
                     kinds()

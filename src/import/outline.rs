@@ -12,6 +12,8 @@ const RAYS: usize = 720;
 const REACH: usize = 12;
 /// Turn over that reach from which it is a corner, rad: an arc turns by half as much.
 const CORNER_RAD: f64 = 0.32;
+/// What a gentle corner turns more than the arc on its one side, rad; its other side is a flank, which turns by less than that.
+const GENTLE_RAD: f64 = 0.05;
 /// Rays left out beside a corner: edges are rounded.
 const BESIDE: usize = 4;
 /// Two arcs that miss a common tangent by more than this are refused, rad.
@@ -138,7 +140,8 @@ fn filled(points: &[Point]) -> Vec<Point> {
     out
 }
 
-/// Rays on which the outline turns sharply.
+/// Rays on which the outline turns sharply. Where these are fewer than four, the clearest gentle ones too: a flank may run nearly
+/// tangent into an arc.
 fn corners(mean: &[Point]) -> Vec<usize> {
     let at = |i: usize, by: isize| mean[(i as isize + by).rem_euclid(RAYS as isize) as usize];
     let reach = REACH as isize;
@@ -149,11 +152,24 @@ fn corners(mean: &[Point]) -> Vec<usize> {
         })
         .collect();
     let turn = |i: usize, by: isize| turns[(i as isize + by).rem_euclid(RAYS as isize) as usize];
-    (0..RAYS)
-        .filter(|&i| {
-            turns[i] > CORNER_RAD && (1..=reach).all(|k| turns[i] > turn(i, -k) && turns[i] >= turn(i, k))
+    let peaks = (0..RAYS).filter(|&i| (1..=reach).all(|k| turns[i] > turn(i, -k) && turns[i] >= turn(i, k)));
+    let (mut corners, others): (Vec<usize>, Vec<usize>) = peaks.partition(|&i| turns[i] > CORNER_RAD);
+    // Mean turn beside a corner, out of its reach.
+    let beside = |i: usize, side: isize| {
+        (reach + 1..=2 * reach).map(|k| turn(i, side * k)).sum::<f64>() / REACH as f64
+    };
+    let mut gentle: Vec<(f64, usize)> = others
+        .into_iter()
+        .filter_map(|i| {
+            let (before, after) = (beside(i, -1), beside(i, 1));
+            let more = turns[i] - before.max(after);
+            (more > GENTLE_RAD && before.min(after).abs() < GENTLE_RAD).then_some((more, i))
         })
-        .collect()
+        .collect();
+    gentle.sort_by(|a, b| b.0.total_cmp(&a.0));
+    corners.extend(gentle.iter().map(|g| g.1).take(4_usize.saturating_sub(corners.len())));
+    corners.sort_unstable();
+    corners
 }
 
 /// Line of least squares through points in order, and the farthest of them over its length.

@@ -11,9 +11,12 @@ const GAP: f64 = 1.5;
 pub(super) fn read(text: &str) -> Result<Drawn, NoImport> {
     const HELP: &str = "give a table of x, y in mm, one point a line, in order round the outline; or a .dxf";
     let lines = || text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.starts_with('#'));
-    let Some((_, first)) = lines().next() else {
+    let Some((at, first)) = lines().next() else {
         return Err(NoImport::new(None, "an empty file", HELP));
     };
+    if first.contains('=') {
+        return Err(NoImport::new(at + 1, format!("{first:?}, a key as in a design file (TOML)"), HELP));
+    }
     if first.starts_with("ISO-10303-21") {
         return Err(NoImport::new(1, "a STEP file", super::dxf::STEP_HELP));
     }

@@ -1,6 +1,7 @@
 //! What statics says of a design, as the page shows it.
 
 use super::fields::{Field, fields};
+use crate::answer::check::in_place_of_margin;
 use crate::design::Design;
 use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, lift_off_rad_s, overrun_at, static_margins,
@@ -300,8 +301,8 @@ pub(super) fn row(r: &Margin) -> MarginRow {
         (true, true, true) => MarginColour::Amber,
         (true, true, false) => MarginColour::Green,
     };
-    let shown = r.shown_margin().map_or("no demand".to_owned(), |m| Unit::Percent.show(m, 3));
-    let text = if r.computed() { shown } else { "not computed".to_owned() };
+    let shown = || r.shown_margin().map_or("no demand".to_owned(), |m| Unit::Percent.show(m, 3));
+    let text = in_place_of_margin(r).map_or_else(shown, str::to_owned);
     MarginRow {
         code: r.code(),
         name: format!("{}. {}", r.name, r.limit.explanation),

@@ -1,6 +1,6 @@
 "use strict";
 const $ = (id) => document.getElementById(id);
-const state = { text: "", saved: "", pinned: null, undo: [], redo: [], look: null, scene: null, playing: false };
+const state = { text: "", saved: "", pinned: null, undo: [], redo: [], look: null, scene: null, playing: false, torque: 0 };
 
 const thisPage = Math.random().toString(36).slice(2);
 
@@ -279,13 +279,15 @@ function pose() {
     const [from, to] = scene.frame;
     document.querySelectorAll("#plots .cursor").forEach((c) => { c.style.left = `${100 * (from + part * (to - from))}%`; });
   } else {
-    const top = Math.min(found.end[0], 1.5 * found.asked_nm || found.end[0]);
-    here = at("torque_nm", part * top);
+    // The torque stays when the curve's end moves: forces before and after a change are at the same one.
+    const top = topTorque(), torque = Math.min(state.torque, top);
+    if (!$("mode").value) $("scrub").value = (1000 * torque) / top;
+    here = at("torque_nm", torque);
     forces = [here.normal_inner_n, here.tangential_inner_n, here.normal_outer_n, here.tangential_outer_n];
     relative = -here.windup_rad;
     const last = at("torque_nm", top);
     largest = Math.hypot(last.normal_inner_n, last.tangential_inner_n);
-    $("now").textContent = `${short(part * top, 4)} Nm`;
+    $("now").textContent = `${short(torque, 4)} Nm`;
   }
   draw(here, forces, slips, relative, largest);
   const read = [["N inner", short(forces[0]) + " N"], ["T inner", short(forces[1]) + " N"], ["T/N inner", forces[0] > 0 ? short(forces[1] / forces[0]) : "open"], ["windup", short((-relative * 180) / Math.PI) + "°"]];
@@ -344,13 +346,14 @@ $("mode").addEventListener("change", () => {
   const name = $("mode").value;
   state.scene = null;
   $("course").hidden = $("play").hidden = $("slowly").hidden = true;
-  $("scrub").value = name ? 0 : nominal();
-  if (name) newest("scene", (signal) => play(name, signal)).catch(complain); else pose();
+  if (!name) return pose();
+  $("scrub").value = 0;
+  newest("scene", (signal) => play(name, signal)).catch(complain);
 });
-// Where the torque's slider stands at nominal torque, or where nobody names one a good way up.
-function nominal() {
-  const { end, asked_nm, nominal_nm } = state.look, top = Math.min(end[0], 1.5 * asked_nm || end[0]);
-  return nominal_nm > 0 ? Math.min(1000, (1000 * nominal_nm) / top) : 600;
+// The torque at the right end of its slider.
+function topTorque() {
+  const { end, asked_nm } = state.look;
+  return Math.min(end[0], 1.5 * asked_nm || end[0]);
 }
 function stop() { state.playing = false; $("play").textContent = "Play"; }
 $("play").addEventListener("click", () => {
@@ -369,7 +372,11 @@ $("play").addEventListener("click", () => {
   };
   requestAnimationFrame(step);
 });
-$("scrub").addEventListener("input", () => { stop(); pose(); });
+$("scrub").addEventListener("input", () => {
+  stop();
+  if (!$("mode").value) state.torque = (Number($("scrub").value) / 1000) * topTorque();
+  pose();
+});
 
 /* Undo, pin, save, search ------------------------------------------------------------------------------------------ */
 const go = (from, to) => () => {
@@ -458,7 +465,8 @@ async function load(first) {
     $("file").textContent = first.file;
     $("filename").value = first.save_as;
     await look();
-    $("scrub").value = nominal();
+    // Nominal torque, or where nobody names one a good way up.
+    state.torque = state.look.nominal_nm > 0 ? state.look.nominal_nm : 0.6 * topTorque();
     pose();
   } catch (error) { complain(error); $("banner").textContent = error.message || String(error); $("banner").className = "verdict broken"; }
 }

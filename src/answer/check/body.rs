@@ -349,9 +349,23 @@ pub fn unit_cell(r: &Margin) -> Cell {
     if r.limit.unit == "1" { "".into() } else { r.limit.unit.into() }
 }
 
+/// What stands in place of a margin that is no number: no friction suffices, its scene lies beyond the end of the curve, or a run
+/// met its limit of work.
+pub fn in_place_of_margin(r: &Margin) -> Option<&'static str> {
+    match r.demand {
+        Demand::NoneSuffices => Some(NONE_SUFFICES),
+        Demand::Overloaded { .. } if r.margin() <= -1.0 => Some(OVERLOADED),
+        Demand::NotComputed => Some(NOT_COMPUTED),
+        _ => None,
+    }
+}
+
 /// The margin as people read it, for a column in percent; of slip the slip margin.
 pub fn margin_cell(r: &Margin) -> Cell {
-    r.shown_margin().map_or(NO_DEMAND.into(), Cell::from)
+    match in_place_of_margin(r) {
+        Some(words) => words.into(),
+        None => r.shown_margin().map_or(NO_DEMAND.into(), Cell::from),
+    }
 }
 
 fn capacity_cell(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> Cell {
@@ -417,16 +431,22 @@ pub fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
     table
 }
 
-/// A margin in percent; a limit that nothing demands has none.
+/// A margin in percent, or the words in its place; a limit that nothing demands has none.
 pub fn margin_text(row: &Margin) -> String {
-    row.shown_margin().map_or(NO_DEMAND.to_owned(), |margin| Unit::Percent.show(margin, 3))
+    match in_place_of_margin(row) {
+        Some(words) => words.to_owned(),
+        None => row.shown_margin().map_or(NO_DEMAND.to_owned(), |margin| Unit::Percent.show(margin, 3)),
+    }
 }
 
 /// The same with the word margin before it, of slip with what is wanted.
 pub fn margin_words(row: &Margin) -> String {
+    let is_number = in_place_of_margin(row).is_none();
     match row.is_slip() {
-        true => format!("slip margin {}, {}", margin_text(row), wanted_text(row)),
-        false => format!("margin {}", margin_text(row)),
+        true if is_number => format!("slip margin {}, {}", margin_text(row), wanted_text(row)),
+        true => format!("slip margin: {}, {}", margin_text(row), wanted_text(row)),
+        false if is_number => format!("margin {}", margin_text(row)),
+        false => format!("margin: {}", margin_text(row)),
     }
 }
 

@@ -14,8 +14,8 @@ mod text;
 
 pub use body::{Capacity, CheckBody, CheckRow, Deciding};
 pub use body::{
-    NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, is_beyond, margin_cell,
-    margin_text, margin_words, people_table, unit_cell,
+    NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, in_place_of_margin,
+    is_beyond, margin_cell, margin_text, margin_words, people_table, unit_cell,
 };
 
 pub(super) use text::{REACHED_AT, size_line};

@@ -20,7 +20,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
     page.heading("Margins");
     let statics = check.rows.get(..check.static_rows).unwrap_or(&check.rows);
     page.table(
-        "Margin = allowable / demand − 1 (`check` says which have another rule); held from 0 up. Reached at: torque at which the limit \
+        "Margin = allowable / demand − 1 (the page of check says which have another rule); held from 0 up. Reached at: torque at which the limit \
          would be reached; >: not before the curve ends.",
         &people_table(statics, end_nm),
     );

@@ -197,8 +197,9 @@ fn farthest(points: &[[f64; 2]]) -> Option<String> {
     let [turn, h] = points.iter().max_by(|a, b| a[1].abs().total_cmp(&b[1].abs()))?;
     (h.abs() > 1e-12).then(|| {
         greek(&format!(
-            "farthest apart {} at a turn of {}",
-            Unit::Micrometre.show(*h, 3),
+            "farthest apart {} ({} A) at a turn of {}",
+            Unit::Micrometre.show(h.abs(), 3),
+            if *h > 0.0 { "outside" } else { "inside" },
             Unit::Radian.show(*turn, 3)
         ))
     })

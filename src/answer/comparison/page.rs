@@ -58,10 +58,11 @@ pub(super) fn page(compared: &Comparison<'_>, answer: &Envelope<'_, Value>, comm
             &tables::scenes(compared),
         );
     }
-    for (i, s) in compared.subjects.iter().enumerate().skip(1) {
-        page.source(&format!("Design file {}: {}", letter(i), s.design.name), &s.design.source);
-    }
     answer.close(&mut page);
+    for (i, s) in compared.subjects.iter().enumerate().skip(1) {
+        let (name, hash) = (&s.design.name, &s.design.hash);
+        page.source(&format!("Design file {}: {name}, hash {hash}", letter(i)), &s.design.source);
+    }
     page
 }
 

@@ -177,10 +177,12 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
         found.evaluations,
         found.sums.0.iter().map(|s| significant(*s, 5)).collect::<Vec<_>>().join(", ")
     ));
-    if k.freedom == 0 {
+    // Unknowns without influence have a sentence of their own.
+    let felt = found.unknowns.len() - k.without_influence().len();
+    if k.freedom == 0 && felt > 0 {
         out.push(format!(
-            "as many unknowns as observations, or more: no confidence can be stated ({} unknowns)",
-            found.unknowns.len()
+            "as many unknowns as observations, or more: no confidence can be stated ({felt} unknown{})",
+            if felt == 1 { "" } else { "s" }
         ));
     }
     out.extend(k.undetermined().filter_map(|(j, doubt)| doubt_sentence(found, j, doubt)));

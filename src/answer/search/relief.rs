@@ -129,7 +129,13 @@ fn freed_sentence(f: &optimise::Freed) -> String {
     let value = |v: f64| format!("{} {}", significant(v, 4), f.unit);
     match f.needed {
         Some(v) => format!("{} in {}: {}", f.what, f.scenario, bound(v, f.given, f.unit)),
-        None => format!("{} in {}: no value up to {} frees it alone", f.what, f.scenario, value(f.tried_to)),
+        None => format!(
+            "{} in {}: frees it at no value between {} and {}, the last one looked at",
+            f.what,
+            f.scenario,
+            value(f.given),
+            value(f.tried_to)
+        ),
     }
 }
 
@@ -171,7 +177,14 @@ pub(super) fn relief_parts(story: &Story, relief: &optimise::Relief) -> Vec<Stor
         lines.push(format!("no value was found that frees it alone: {}", in_vain.join(", ")));
     }
     lines.extend(story.alone.iter().map(alone_sentence));
-    let of_scenes: Vec<String> = relief.freed.iter().map(freed_sentence).collect();
+    // A parameter that was turned in vain says nothing beside one that frees its scenario.
+    let frees = |scene: &str| relief.freed.iter().any(|f| f.scenario == scene && f.needed.is_some());
+    let of_scenes: Vec<String> = relief
+        .freed
+        .iter()
+        .filter(|f| f.needed.is_some() || !frees(&f.scenario))
+        .map(freed_sentence)
+        .collect();
     let part = |heading, lines| StoryPart { heading, lines, ..StoryPart::default() };
     [
         part("What would free it (one change alone, the variables chosen anew)", lines),

@@ -2,7 +2,7 @@
 
 use super::{Hints, SearchAnswer, Story};
 use crate::answer::page::{begun, draw, draw_sheet, drawing, pose_at_rest};
-use crate::answer::{Envelope, Provenance, TOOL};
+use crate::answer::{Envelope, Provenance};
 use crate::design::{Design, shown};
 use crate::optimise::Iteration;
 use crate::report::{Curve, Dash, Page, Plot, Screen};
@@ -120,7 +120,9 @@ impl SearchReport<'_> {
         page.heading("How it was found");
         let history = &story.found.outcome.history;
         let path = |pick: fn(&Iteration) -> f64| -> Vec<[f64; 2]> {
-            history.iter().map(|it| [it.evaluations as f64, pick(it)]).collect()
+            // The first step is known after the first slopes; it starts where the search did.
+            let start = history.first().map(|it| [0.0, pick(it)]);
+            start.into_iter().chain(history.iter().map(|it| [it.evaluations as f64, pick(it)])).collect()
         };
         let plot = Plot::new("Evaluations of the clutch", "Margin")
             .curve("least scaled objective", path(|it| it.least_margin))
@@ -159,6 +161,6 @@ impl SearchReport<'_> {
         plot.curves.extend(before.map(|curve| Curve { dash: Dash::Dashed, ..curve }));
         plot.curves.extend(depth(&after, &q).map(|points| Curve::new("after", points).coloured(0)));
         let plot = plot.level(self.design.clutch.friction.static_, "\u{3bc}s");
-        page.figure(&plot.to_svg(), &format!("Static friction demand at the inner contact ({TOOL})."));
+        page.figure(&plot.to_svg(), "Static friction demand at the inner contact.");
     }
 }

@@ -5,7 +5,7 @@ use crate::answer::check::margin_text;
 use crate::design::Objective;
 use crate::margin::Margin;
 use crate::optimise::{NO_INFLUENCE, Optima, Price, PriceKind, Status, Variable};
-use crate::report::{error_beside, significant};
+use crate::report::{Unit, error_beside, significant};
 
 /// Digits to which an objective is shown.
 pub(crate) const SHOWN_DIGITS: usize = 5;
@@ -111,18 +111,26 @@ impl Story {
                 }
                 return format!(
                     "infeasible: no design within the bounds holds every limit; the least violation is \
-                     {least_violation:.4}, held up by {}",
+                     {} (by so much the worst margin of the nearest design is too small), held up by {}",
+                    Unit::Percent.show(*least_violation, 2),
                     names.join(" against ")
                 );
             }
-            Status::EvaluationLimit => format!("stopped at the evaluation limit{}", hints.evaluation_limit),
+            Status::EvaluationLimit => {
+                format!("stopped at the evaluation limit of each climb{}", hints.evaluation_limit)
+            }
             Status::Interrupted => hints.stopped.to_owned(),
             Status::Stalled(cause) => format!("stalled ({cause:?})"),
+        };
+        // A limit of 3 beside 122 evaluations is no contradiction.
+        let counted = match self.status() {
+            Status::EvaluationLimit => " in all, those before and after the climbs too",
+            _ => "",
         };
         if self.feasible() {
             let reserve = found.problem.reserve();
             format!(
-                "{} {} -> {} ({}), every limit held{}{}; {why} after {} evaluations{}{}{}",
+                "{} {} -> {} ({}), every limit held{}{}; {why} after {} evaluations{counted}{}{}{}",
                 found.aim.words(),
                 shown(found.aim, before),
                 shown(found.aim, after),
@@ -146,7 +154,7 @@ impl Story {
             )
         } else {
             format!(
-                "no feasible design found: {why} after {} evaluations; not held: {}{}",
+                "no feasible design found: {why} after {} evaluations{counted}; not held: {}{}",
                 self.evaluations(),
                 self.not_held().join(", "),
                 self.worst()

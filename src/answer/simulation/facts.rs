@@ -2,6 +2,7 @@
 
 use super::train::eigenfrequencies;
 use super::{LIFT_OFF_SEARCH_RAD_S, Ran};
+use crate::answer::check::{NONE_SUFFICES, OVERLOADED};
 use crate::clutch::ScenarioKind;
 use crate::margin::LIFT_OFF_ERROR;
 use crate::report::{Cell, Column, Table, Unit, significant};
@@ -268,7 +269,10 @@ fn instead(quantity: Quantity, d: &RollingDemand) -> Option<String> {
         Quantity::Friction if d.overloaded => {
             Some("overloaded: rolling goes beyond the end of the curve".to_owned())
         }
-        Quantity::Friction => Some("none suffices".to_owned()),
+        Quantity::Friction => Some(NONE_SUFFICES.to_owned()),
+        Quantity::Margin if d.required_friction.is_some() => None,
+        Quantity::Margin if d.overloaded => Some(OVERLOADED.to_owned()),
+        Quantity::Margin => Some(NONE_SUFFICES.to_owned()),
         Quantity::ContactMargin if d.finished => None,
         Quantity::ContactMargin if d.contact_margin < 0.0 => {
             let most = Unit::Percent.show(d.contact_margin, 4);

@@ -2,7 +2,7 @@
 
 use super::Ran;
 use crate::clutch::ScenarioKind;
-use crate::dynamics::{Stop, Swing};
+use crate::dynamics::{Grip, Mode, Place, Stop, Swing};
 use crate::margin::{lift_off_rad_s as lift_off, load_state};
 use crate::report::Unit;
 use crate::scenario::{NoScenario, Prepared, Simulation, Verdict, overrun_swing};
@@ -114,7 +114,7 @@ fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String 
         Some(Verdict::Sticks) if s.demand.is_some_and(|d| d.slip_margin < 0.0) => {
             format!("slips by less than 1 um, which counts as sticking; {margin}")
         }
-        Some(Verdict::Sticks) => margin,
+        Some(Verdict::Sticks) => on_the_way(s).map_or(margin.clone(), |way| format!("{way}; {margin}")),
         Some(Verdict::SlipsEngaging) if kind.is_at_rest() => margin,
         Some(Verdict::SlipsOverrunning | Verdict::SlipsEngaging) => format!("{}; {margin}", shifted(s)),
         Some(Verdict::Disengages) => {
@@ -138,6 +138,25 @@ fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String 
                 .to_owned()
         }
     }
+}
+
+/// What came before a run that ends sticking: overrunning until the clutch engaged, slip to and fro, contact lost. `None` where it
+/// stuck throughout.
+fn on_the_way(s: &Simulation) -> Option<String> {
+    let time = |t_s: f64| Unit::Millisecond.show(t_s, 4);
+    let overran = s.engaged.filter(|e| e.t_s > 0.0).map(|e| format!("overran until {}", time(e.t_s)));
+    let slipped = (s.inner.distance_m > 0.0)
+        .then(|| format!("slipped by {} in all", Unit::Micrometre.show(s.inner.distance_m, 4)));
+    let open = (s.contact_lost_s > 0.0).then(|| format!("lost contact for {}", time(s.contact_lost_s)));
+    let parts: Vec<String> = [overran, slipped, open].into_iter().flatten().collect();
+    if parts.is_empty() {
+        return None;
+    }
+    let sticks = |mode: &Mode| mode.place != Place::Open && mode.inner == Grip::Stick;
+    let first_of_last = s.modes.iter().rposition(|(_, mode)| !sticks(mode)).map(|last| last + 1);
+    let from = first_of_last.and_then(|k| s.modes.get(k));
+    let since = from.map_or(String::new(), |(t_s, _)| format!(", sticks from {} on", time(*t_s)));
+    Some(format!("{}{since}", parts.join(", ")))
 }
 
 /// Which way the inner contact has slipped and the inner race gone: with slip at the outer contact and what turns without

@@ -2,11 +2,15 @@
 
 use super::{Drawing, SpragPose, spread, subscript};
 use crate::report::number::Unit;
-use crate::report::svg::{Anchor, EDGE, INK, PAPER, RULE, SERIES, SOFT, Svg, polyline};
+use crate::report::svg::{Anchor, EDGE, INK, PAPER, RULE, SERIES, SOFT, Svg, polyline, text_width};
 
-const WIDTH: f64 = 560.0;
+/// Width of the picture itself, px; the texts stand to the right of it.
+const PICTURE: f64 = 350.0;
 const HEIGHT: f64 = 300.0;
+/// Least width of the texts, px.
 const COLUMN: f64 = 210.0;
+/// Room on either side of the texts, px.
+const BESIDE: f64 = 16.0;
 const MARGIN: f64 = 34.0;
 
 /// A point of the body frame with its name.
@@ -34,7 +38,6 @@ fn named(pose: &SpragPose, index: usize, many: bool) -> Vec<Named> {
 }
 
 pub fn svg(drawing: &Drawing) -> String {
-    let mut svg = Svg::new(WIDTH, HEIGHT, "Arc centres and centroid in the body frame, enlarged");
     // A sprag drawn in several positions has one body: its centres are shown once.
     let mut poses = drawing.drawable();
     poses.dedup_by(|b, a| a.arcs == b.arcs && a.centroid_m == b.centroid_m);
@@ -42,12 +45,19 @@ pub fn svg(drawing: &Drawing) -> String {
     for (index, pose) in poses.iter().enumerate() {
         points.extend(named(pose, index, poses.len() > 1));
     }
+    let text = |point: &Named| {
+        let [mx, my] = point.at_m.map(|v| Unit::Millimetre.from_si(v));
+        format!("{} ({mx:.4}, {my:.4}) mm", point.name).replace('-', "\u{2212}")
+    };
+    let widest = points.iter().map(|p| text_width(&text(p), 12.0)).fold(0.0, f64::max);
+    let column = COLUMN.max(widest + 2.0 * BESIDE);
+    let mut svg = Svg::new(PICTURE + column, HEIGHT, "Arc centres and centroid in the body frame, enlarged");
     let range = |axis: usize| {
         let values = points.iter().map(|p| p.at_m[axis]);
         (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
     };
     let ((left, right), (low, high)) = (range(0), range(1));
-    let width = WIDTH - COLUMN - 2.0 * MARGIN;
+    let width = PICTURE - 2.0 * MARGIN;
     let scale = (width / (right - left)).min((HEIGHT - 2.0 * MARGIN) / (high - low));
     if !scale.is_finite() {
         return svg.finish();
@@ -59,12 +69,12 @@ pub fn svg(drawing: &Drawing) -> String {
     // Axes of the body frame through C_e.
     let rule = format!("fill=\"none\" stroke=\"{RULE}\" stroke-width=\"1\"");
     let origin = px([0.0, 0.0]);
-    svg.line([8.0, origin[1]], [WIDTH - COLUMN, origin[1]], &rule);
+    svg.line([8.0, origin[1]], [PICTURE, origin[1]], &rule);
     svg.line([origin[0], 8.0], [origin[0], HEIGHT - 8.0], &rule);
-    svg.text([WIDTH - COLUMN - 4.0, origin[1] - 5.0], Anchor::End, SOFT, "x");
+    svg.text([PICTURE - 4.0, origin[1] - 5.0], Anchor::End, SOFT, "x");
     svg.text([origin[0] + 6.0, 16.0], Anchor::Start, SOFT, "y, radially outward");
     let wanted: Vec<f64> = points.iter().map(|p| px(p.at_m)[1] + 4.0).collect();
-    let x = WIDTH - COLUMN + 16.0;
+    let x = PICTURE + BESIDE;
     for (point, y) in points.iter().zip(spread(&wanted, 18.0, 20.0, HEIGHT - 10.0)) {
         let at = px(point.at_m);
         svg.path(
@@ -73,9 +83,7 @@ pub fn svg(drawing: &Drawing) -> String {
         );
         let colour = point.series.map_or(EDGE, |i| SERIES[i % 6]);
         svg.dot(at, 3.4, &format!("fill=\"{colour}\" stroke=\"{PAPER}\" stroke-width=\"1\""));
-        let [mx, my] = point.at_m.map(|v| Unit::Millimetre.from_si(v));
-        let text = format!("{} ({mx:.4}, {my:.4}) mm", point.name).replace('-', "\u{2212}");
-        svg.text([x, y], Anchor::Start, INK, &text);
+        svg.text([x, y], Anchor::Start, INK, &text(point));
     }
     svg.finish()
 }
