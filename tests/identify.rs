@@ -241,3 +241,24 @@ fn the_laws_own_error_is_in_the_interval_and_the_proposed_measurement_tells_the_
     assert!((correlation - apart.correlation).abs() < 0.1, "{correlation} {apart:?}");
     assert!(both.apart.is_none() && off(&both).abs() < 0.25 * off(&alone).abs(), "{:?}", both.knowledge);
 }
+
+/// Standard errors that come with the data bound what is known, however well a line happens to run through them; a value at a
+/// bound is not determined.
+#[test]
+fn given_errors_and_bounds_count() {
+    let exact = bench(&PLANTED, 0.0);
+    let with_sigma = |relative: f64| {
+        let mut lines = exact.lines();
+        let mut csv = format!("{},windup_deg_sigma\n", lines.next().unwrap());
+        for line in lines {
+            let windup: f64 = line.split(',').nth(1).unwrap().parse().unwrap();
+            writeln!(csv, "{line},{}", relative * windup).unwrap();
+        }
+        found(&csv, &radii(), 1).unwrap().knowledge.estimates[0].half_width.unwrap()
+    };
+    let (one, five) = (with_sigma(0.001), with_sigma(0.005));
+    assert!(one > 1e-4 && (five / one - 5.0).abs() < 0.05, "{one} {five}");
+    let low = [unknown("r_i2_mm", 3.7, 3.9), unknown("r_i3_mm", 3.7, 4.6)];
+    let beyond = found(&exact, &low, 2).unwrap().knowledge;
+    assert!(beyond.estimates[0].doubt.is_some(), "{:?}", beyond.estimates[0]);
+}

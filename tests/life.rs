@@ -74,7 +74,8 @@ fn a_press_fit_is_there_before_the_load() {
         of(&design(&changes).life().unwrap().life, LifePlace::OuterRing)
     };
     let (slight, strong) = (with("10.0", "torque_nm = 600.0"), with("40.0", "torque_nm = 600.0"));
-    assert!((strong / slight - 1.0).abs() < 0.05, "{slight} {strong}");
+    // The fit closes the race gap a little, which is a per cent of force and a ninth power of that.
+    assert!((strong / slight - 1.0).abs() < 0.1, "{slight} {strong}");
     assert!(with("40.0", "torque_nm = 0.01") < 1e-20 * slight);
     // What it leaves at rest is compression, which the load takes off first: less of the strength goes to the mean.
     let mean = |fit_um: &str| {

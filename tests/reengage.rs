@@ -44,14 +44,14 @@ fn the_torque_by_energy_holds_that_energy() {
     assert_eq!(by_energy_nm(&curve, 50.0, 1e6), None);
 }
 
-/// Nothing comes from nowhere, and what is lost while the contacts slip on is little.
+/// Nothing comes from nowhere: slip while the load rises takes a little, the sprags' own motion brings a little.
 #[test]
-fn a_blow_is_a_little_less_than_the_energy_of_the_races_allows() {
+fn a_blow_is_what_the_energy_of_the_races_allows() {
     let one = found(&case(0.06, [0.05, 0.05], &[1e-4, 1e-3, 1e-2]));
     assert!(one.ended.is_none() && one.holds.is_none() && one.list.len() == 3);
     for blow in &one.list {
         let lost = 1.0 - peak(blow) / blow.by_energy_nm.unwrap();
-        assert!((0.0..0.01).contains(&lost), "{lost} {blow:?}");
+        assert!(lost.abs() < 0.005, "{lost} {blow:?}");
         assert!(blow.peak_s > blow.slip_s && blow.path_in_all_m > blow.path_m);
     }
     // A short slip lasts as long as the sprags fly: half the path makes no difference.

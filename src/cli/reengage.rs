@@ -4,6 +4,7 @@ use super::exit::{Exit, Failure};
 use super::output::path_text;
 use super::{Context, parts, positive};
 use crate::answer::reengagement::{NoReengagement, ReengagementSettings};
+use crate::dynamics::Stop;
 use clap::Args;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -34,12 +35,12 @@ pub struct ReengageArgs {
     /// What turns with the outer race, kg m², the race included [default: the race alone]
     #[arg(long, value_name = "KG_M2", allow_hyphen_values = true, value_parser = positive)]
     pub outer_inertia: Option<f64>,
-    /// Friction of the contacts while they slip [default: half of friction.kinetic]
+    /// Friction of the contacts while they slip [default: 0.95 of what the torque needs]
     #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = positive)]
     pub friction: Option<f64>,
-    /// Speed of both races when the slip begins, rpm [default: 0]
-    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = positive)]
-    pub speed: Option<f64>,
+    /// Speed of both races when the slip begins, rpm
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, default_value_t = 0.0)]
+    pub speed: f64,
     /// Paths of slip at the inner track after which the friction is back, mm, rising [default: 0.1,0.3,1,3,10,30]
     #[arg(long, value_name = "MM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',')]
     pub paths: Option<Vec<f64>>,
@@ -62,14 +63,14 @@ fn one(args: &ReengageArgs, file: &Path, context: &Context) -> Result<Exit, Fail
         torque_nm: args.torque,
         inertia_kg_m2: [args.inner_inertia, args.outer_inertia],
         friction: args.friction,
-        speed_rad_s: args.speed.map_or(0.0, |rpm| rpm * PI / 30.0),
+        speed_rad_s: args.speed * PI / 30.0,
         paths_m: args.paths.as_ref().map_or(plain.paths_m, |list| list.iter().map(|mm| 1e-3 * mm).collect()),
         follow: context.follow.clone(),
     };
     let started = Instant::now();
     let found = match design.reengagement(&settings) {
         Ok(found) => found,
-        Err(NoReengagement::Interrupted) => return Ok(Exit::Interrupted),
+        Err(why @ NoReengagement::Refused(_)) => return Err(Failure::malformed(why.to_string())),
         Err(why) => return Err(Failure::malformed(format!("{}: {why}", path_text(file)))),
     };
     let run_time_s = started.elapsed().as_secs_f64();
@@ -77,5 +78,12 @@ fn one(args: &ReengageArgs, file: &Path, context: &Context) -> Result<Exit, Fail
     context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
     context.answer(&found.text(context.screen))?;
     context.print(&found.envelope(run_time_s))?;
-    Ok(if found.held() { Exit::Held } else { Exit::NotHeld })
+    let ends =
+        found.found.list.iter().filter_map(|blow| blow.ended).chain(found.found.ended.map(|(stop, _)| stop));
+    Ok(match ends.last() {
+        Some(Stop::Interrupted) => Exit::Interrupted,
+        Some(stop) if stop.gave_up() => Exit::Failed,
+        _ if found.held() => Exit::Held,
+        _ => Exit::NotHeld,
+    })
 }

@@ -277,11 +277,15 @@ pub fn identify(
     let (residuals, jacobian) =
         last.map_err(|why| if stopped() { problem.stopped() } else { nowhere(why) })?;
     let bounds: Vec<(f64, f64)> = unknowns.iter().map(|u| (u.min, u.max)).collect();
-    let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &bounds);
+    let given = problem.groups.iter().flatten().all(|o| o.sigma.is_some());
+    let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &bounds, given);
     let law = covariance(&design.clutch.contact, &problem.groups.concat());
-    let by_law = moved_by(&jacobian, &law);
-    for (j, e) in knowledge.estimates.iter_mut().enumerate().filter(|(_, e)| e.half_width.is_some()) {
-        e.by_law = by_law.as_ref().map(|widths| widths[j] * problem.range[j]);
+    let silent = knowledge.without_influence();
+    let felt: Vec<usize> = (0..unknowns.len()).filter(|j| !silent.contains(j)).collect();
+    let by_law = moved_by(&jacobian.select_columns(&felt), &law);
+    for (&j, width) in felt.iter().zip(by_law.iter().flatten()) {
+        let e = &mut knowledge.estimates[j];
+        e.by_law = e.half_width.map(|_| width * problem.range[j]);
     }
     let apart = apart(&problem, &t, &jacobian, &knowledge);
     let mut named = problem.named(&t);

@@ -46,6 +46,8 @@ pub struct Estimate {
 pub enum Doubt {
     /// No interval can be stated: a blind direction, or no more observations than unknowns.
     NoInterval,
+    /// The value lies at one of its bounds: the best one may lie beyond.
+    AtBound,
     /// The interval is as wide as the range of the bounds.
     WiderThanBounds,
     /// The half width of the interval is more than half the value, within bounds of one sign.
@@ -122,12 +124,13 @@ impl Knowledge {
 }
 
 /// From the Jacobian of the scaled residuals by the unknowns over their ranges, and the residuals at the solution; `bounds`
-/// are (least, most) of each. Unknowns without effect are left aside, and the others judged without them.
+/// are (least, most) of each; `given`: each residual is in standard errors that the data came with, which then bound what is known. Unknowns without effect are left aside, and the others judged without them.
 pub(super) fn knowledge(
     jacobian: &DMatrix<f64>,
     residuals: &DVector<f64>,
     values: &[f64],
     bounds: &[(f64, f64)],
+    given: bool,
 ) -> Knowledge {
     let p = jacobian.ncols();
     let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
@@ -137,7 +140,7 @@ pub(super) fn knowledge(
     let of_felt: Vec<(f64, f64)> = felt.iter().map(|&j| bounds[j]).collect();
     let known = match felt.is_empty() {
         true => Knowledge::NONE,
-        false => of_all_felt(&jacobian.select_columns(&felt), residuals, &pick(values), &of_felt),
+        false => of_all_felt(&jacobian.select_columns(&felt), residuals, &pick(values), &of_felt, given),
     };
     let place = |k: usize| felt.iter().position(|&j| j == k);
     let estimates = (0..p).map(|j| match place(j) {
@@ -199,6 +202,7 @@ fn of_all_felt(
     residuals: &DVector<f64>,
     values: &[f64],
     bounds: &[(f64, f64)],
+    given: bool,
 ) -> Knowledge {
     let (m, p) = jacobian.shape();
     let freedom = m.saturating_sub(p);
@@ -239,7 +243,7 @@ fn of_all_felt(
         .map(|j| {
             let sigma = covariance
                 .as_ref()
-                .zip(residual_sigma)
+                .zip(residual_sigma.map(|s| if given { s.max(1.0) } else { s }))
                 .map(|(c, r)| r * c[(j, j)].max(0.0).sqrt() / lengths[j] * (bounds[j].1 - bounds[j].0));
             let half_width = sigma.zip(t).map(|(s, t)| s * t);
             let doubt = width_doubt(values[j], half_width, bounds[j]);
@@ -285,6 +289,7 @@ fn width_doubt(value: f64, half_width: Option<f64>, (least, most): (f64, f64)) -
     let wide = |known: f64| half_width.is_some_and(|w| w >= TOO_WIDE * known);
     match half_width {
         None => Some(Doubt::NoInterval),
+        Some(_) if (value - least).min(most - value) <= 1e-9 * (most - least) => Some(Doubt::AtBound),
         Some(_) if wide(most - least) => Some(Doubt::WiderThanBounds),
         // Between bounds of both signs a value near 0 is as good as any other.
         Some(_) if least * most > 0.0 && wide(value.abs()) => Some(Doubt::WiderThanValue),
@@ -308,7 +313,7 @@ mod tests {
         let residuals = DVector::from_fn(5, |i, _| intercept + slope * x[i] - y[i]);
         // Ranges 10 and 2: derivatives by the share of the range.
         let jacobian = DMatrix::from_fn(5, 2, |i, j| if j == 0 { 10.0 } else { 2.0 * x[i] });
-        let k = knowledge(&jacobian, &residuals, &[intercept, slope], &[(-5.0, 5.0), (0.5, 2.5)]);
+        let k = knowledge(&jacobian, &residuals, &[intercept, slope], &[(-5.0, 5.0), (0.5, 2.5)], false);
         let s2 = residuals.norm_squared() / 3.0;
         let square: f64 = x.iter().map(|x| x * x).sum();
         let want = [(s2 * square / (5.0 * sxx)).sqrt(), (s2 / sxx).sqrt()];
@@ -345,7 +350,7 @@ mod tests {
                 range * if j == 0 { x(i) } else { near(i) }
             });
             let residuals = DVector::from_fn(6, |i, _| scatter * [1.0, -1.0, -1.0, 1.0, 1.0, -1.0][i]);
-            knowledge(&jacobian, &residuals, &[2.0, 0.1], &bounds)
+            knowledge(&jacobian, &residuals, &[2.0, 0.1], &bounds, false)
         };
         let doubts = |k: &Knowledge| k.undetermined().map(|(_, doubt)| doubt).collect::<Vec<_>>();
         let narrow = [(1.9, 2.1), (0.0, 0.2)];
@@ -368,7 +373,7 @@ mod tests {
             let x = 1.0 + i as f64;
             [x, 2.0 * x, x * x, 0.0][j]
         });
-        let k = knowledge(&jacobian, &DVector::from_element(6, 0.1), &[1.0; 4], &[(0.5, 1.5); 4]);
+        let k = knowledge(&jacobian, &DVector::from_element(6, 0.1), &[1.0; 4], &[(0.5, 1.5); 4], false);
         assert_eq!(k.correlation, None);
         assert!(k.estimates.iter().all(|e| e.sigma.is_none()));
         let directions: Vec<&Vec<f64>> = k
@@ -392,12 +397,14 @@ mod tests {
             &residuals,
             &[1.0, 2.0],
             &[(0.5, 1.5), (1.5, 2.5)],
+            false,
         );
         let beside = knowledge(
             &DMatrix::from_fn(6, 3, |i, j| [column(0, i), 1e-9, column(1, i)][j]),
             &residuals,
             &[1.0, 7.0, 2.0],
             &[(0.5, 1.5), (6.0, 8.0), (1.5, 2.5)],
+            false,
         );
         assert_eq!(alone.undetermined().count(), 0, "{alone:?}");
         assert_eq!([&beside.estimates[0], &beside.estimates[2]], [&alone.estimates[0], &alone.estimates[1]]);
@@ -407,7 +414,8 @@ mod tests {
         let (a, b) = (alone.correlation.unwrap(), beside.correlation.unwrap());
         assert!(b[0][2] == a[0][1] && b[1][1] == 1.0 && b[0][1].is_nan() && b[1][2].is_nan(), "{b:?}");
         // Nothing is felt at all.
-        let none = knowledge(&DMatrix::zeros(6, 2), &residuals, &[1.0, 2.0], &[(0.5, 1.5), (1.5, 2.5)]);
+        let none =
+            knowledge(&DMatrix::zeros(6, 2), &residuals, &[1.0, 2.0], &[(0.5, 1.5), (1.5, 2.5)], false);
         assert_eq!(none.without_influence(), [0, 1]);
     }
 
@@ -418,7 +426,7 @@ mod tests {
                 let x = 1.0 + i as f64;
                 x + if j == 1 { apart * if i.is_multiple_of(2) { 1.0 } else { -1.0 } } else { 0.0 }
             });
-            knowledge(&jacobian, &DVector::from_element(6, 1e-9), &[1.0, 1.0], &[(0.5, 1.5); 2])
+            knowledge(&jacobian, &DVector::from_element(6, 1e-9), &[1.0, 1.0], &[(0.5, 1.5); 2], false)
         };
         let doubts = |k: &Knowledge| k.undetermined().map(|(_, doubt)| doubt).collect::<Vec<_>>();
         let near = with(0.3);

@@ -1,7 +1,7 @@
 //! Slip under load and the blow when the clutch grips again: what brought helicopters down.
 //!
 //! In: a `Design`, the torque it carries, what turns with both races, the friction while it slips. Out: [`Blow`] for each path of slip.
-//! Absent: what makes it slip (oil, wear, dirt); shafts, which soften the blow (a `[[drivetrain]]` scene has them); heat of the slip.
+//! Absent: damping between the races; what makes it slip (oil, wear, dirt); shafts, which soften the blow (a `[[drivetrain]]` scene has them); heat of the slip.
 //! Equations: (13) and (15) by [`crate::element`], and the balance of energy below.
 //!
 //! The clutch carries C in equilibrium; from one instant on its contacts have the friction of the slip. The wedge throws the sprags
@@ -61,8 +61,6 @@ pub struct Blow {
 pub enum NoBlow {
     /// The clutch has no such start.
     Start(NoElement),
-    /// It was asked to stop.
-    Interrupted,
 }
 
 /// What a slip comes to.
@@ -72,6 +70,8 @@ pub struct Blows {
     pub list: Vec<Blow>,
     /// Where it does not slip: |T|/N at the inner contact, which the friction is enough for.
     pub holds: Option<f64>,
+    /// Friction that holds the torque: the larger of tan omega and tan nu.
+    pub needs: f64,
     /// Why it did not slip as far as the next path, and when, s after the slip began.
     pub ended: Option<(Stop, f64)>,
 }
@@ -137,9 +137,6 @@ impl Drive<'_> {
     }
 
     fn advance(&self, element: &mut Element, dt_s: f64) -> Result<Run, NoBlow> {
-        if self.follow.stopped() {
-            return Err(NoBlow::Interrupted);
-        }
         let torque_nm = self.case.torque_nm;
         let torques = [Torque::constant(-torque_nm), Torque::constant(torque_nm)];
         element.advance(dt_s, torques).map_err(|why| NoBlow::Start(NoElement::Malformed(why)))
@@ -149,6 +146,9 @@ impl Drive<'_> {
     fn slip_to(&self, slips: &mut Element, path_m: f64) -> Result<Slipped, NoBlow> {
         let (mut dt_s, mut halved) = (self.dt_s, 0);
         for _ in 0..MOST {
+            if self.follow.stopped() {
+                return Ok(Slipped::Ended(Stop::Interrupted));
+            }
             let before = slips.save();
             let run = self.advance(slips, dt_s)?;
             if self.apart(slips).0 <= path_m {
@@ -176,7 +176,12 @@ impl Drive<'_> {
         let mut grips = slips.exchanged(held).map_err(NoBlow::Start)?;
         let slip_s = grips.t_s();
         let (mut most_n, mut peak_s, mut speed_rad_s, mut ended) = (0.0, slip_s, 0.0_f64, None);
+        let mut wound = false;
         for _ in 0..MOST {
+            if self.follow.stopped() {
+                ended = Some(Stop::Interrupted);
+                break;
+            }
             let before_s = grips.t_s();
             let run = self.advance(&mut grips, self.dt_s)?;
             if run.peaks.normal_max_n > most_n {
@@ -190,8 +195,12 @@ impl Drive<'_> {
             speed_rad_s = speed_rad_s.max(speed);
             // Wound up and on its way back.
             if speed < 0.0 {
+                wound = true;
                 break;
             }
+        }
+        if !wound && ended.is_none() {
+            ended = Some(Stop::StepLimit);
         }
         let curve = &grips.model().curve;
         let energy_j = 0.5 * reduced(self.case.inertia_kg_m2) * speed_rad_s * speed_rad_s;
@@ -202,7 +211,8 @@ impl Drive<'_> {
             path_in_all_m: self.apart(&grips).0,
             speed_rad_s,
             peak: curve.at_normal(most_n).filter(|_| ended.is_none()),
-            by_energy_nm: by_energy_nm(curve, self.case.torque_nm, energy_j),
+            by_energy_nm: by_energy_nm(curve, self.case.torque_nm, energy_j)
+                .filter(|_| matches!(ended, None | Some(Stop::CurveEnd))),
             ended,
         })
     }
@@ -215,18 +225,22 @@ impl Drive<'_> {
 pub fn blows(clutch: &Clutch, case: &SlipCase, follow: &Follow) -> Result<Blows, NoBlow> {
     let mut held = clutch.clone();
     [held.races.inner_inertia_kg_m2, held.races.outer_inertia_kg_m2] = case.inertia_kg_m2;
+    // A damper between the races would take from the blow what nobody has measured.
+    held.races.viscous_damping_nm_s_per_rad = 0.0;
     let friction = Friction { static_: case.friction, kinetic: case.friction, ..held.friction };
     let slippery = Clutch { friction, ..held.clone() };
     let (torque_nm, speed_rad_s) = (case.torque_nm, case.speed_rad_s);
     let beginning = Beginning { torque_nm, speed_rad_s, ..Beginning::default() };
     let settings = Settings { tolerance: 1e-9, ..Settings::default() };
     let rests = Element::new(&held, &beginning, &settings).map_err(NoBlow::Start)?;
-    let stiffness = rests.model().curve.at_torque(torque_nm).map_or(1.0, |p| p.k_tangent_nm_per_rad);
+    let at_torque = rests.model().curve.at_torque(torque_nm);
+    let stiffness = at_torque.map_or(1.0, |p| p.k_tangent_nm_per_rad);
+    let needs = at_torque.map_or(f64::INFINITY, |p| p.tan_omega.max(p.tan_nu));
     let dt_s = TAU * (reduced(case.inertia_kg_m2) / stiffness).sqrt() / ADVANCES;
     let mut drive = Drive { case, radius_m: clutch.races.inner_radius_m, begun_rad: 0.0, dt_s, follow };
     drive.begun_rad = drive.apart(&rests).0 / drive.radius_m;
     let mut slips = rests.exchanged(&slippery).map_err(NoBlow::Start)?;
-    let mut found = Blows { list: Vec::with_capacity(case.paths_m.len()), holds: None, ended: None };
+    let mut found = Blows { list: Vec::with_capacity(case.paths_m.len()), holds: None, needs, ended: None };
     for &path_m in &case.paths_m {
         match drive.slip_to(&mut slips, path_m)? {
             Slipped::There => found.list.push(drive.grip(&slips, &held, path_m)?),

@@ -147,7 +147,9 @@ impl<'a> Identification<'a> {
             .zip(&found.before)
             .zip(&found.knowledge.estimates)
             .map(|((u, before), e)| {
-                let width = e.half_width.map_or(String::new(), |w| format!(" +- {w:.3e} (95 %)"));
+                // The larger of scatter and law, which a reader of the file takes for the whole.
+                let width = e.half_width.map(|w| w.max(e.by_law.unwrap_or(0.0)));
+                let width = width.map_or(String::new(), |w| format!(" +- {w:.3e} (95 %)"));
                 let doubt = e.doubt.map_or(String::new(), |doubt| format!(", {}", in_short(found, doubt)));
                 format!("#   {}: {} -> {}{width}{doubt}\n", u.name, before, e.value)
             })

@@ -97,6 +97,7 @@ pub(super) fn correlation(found: &Identified) -> Option<Table> {
 pub(super) fn in_short(found: &Identified, doubt: Doubt) -> String {
     match doubt {
         Doubt::Inseparable(other) => format!("determined only together with {}", found.unknowns[other].name),
+        Doubt::AtBound => "not determined: at a bound".to_owned(),
         _ => "not determined".to_owned(),
     }
 }
@@ -134,6 +135,10 @@ fn doubt_sentence(found: &Identified, j: usize, doubt: Doubt) -> Option<String> 
     );
     Some(match doubt {
         Doubt::NoInterval => return None,
+        Doubt::AtBound => format!(
+            "{} ends at a bound of {} to {}: the best value may lie beyond; widen the bounds, or the model does not fit these data",
+            u.name, u.min, u.max
+        ),
         Doubt::WiderThanBounds => format!(
             "{interval} says no more than its bounds {} to {} did: add data that feel it, or leave it out of the unknowns",
             u.min, u.max
@@ -147,6 +152,9 @@ fn doubt_sentence(found: &Identified, j: usize, doubt: Doubt) -> Option<String> 
         ),
     })
 }
+
+/// Root of chi^2 over the degrees of freedom from which on standard errors are doubted: a choice, far beyond chance for ten rows.
+const TOO_MUCH: f64 = 2.0;
 
 /// How good it is and what cannot be told apart.
 pub(super) fn sentences(found: &Identified) -> Vec<String> {
@@ -177,6 +185,14 @@ pub(super) fn sentences(found: &Identified) -> Vec<String> {
         found.evaluations,
         found.sums.0.iter().map(|s| significant(*s, 5)).collect::<Vec<_>>().join(", ")
     ));
+    let given =
+        found.points.iter().all(|p| p.observation.sigma.is_some() || p.observation.purpose == Use::Check);
+    if let Some(times) = k.residual_sigma.filter(|times| given && *times > TOO_MUCH) {
+        out.push(format!(
+            "the residuals are {} times the standard errors given: these are too small, or the model does not fit",
+            significant(times, 3)
+        ));
+    }
     // Unknowns without influence have a sentence of their own.
     let felt = found.unknowns.len() - k.without_influence().len();
     if k.freedom == 0 && felt > 0 {
