@@ -92,6 +92,7 @@ fn key(name: &str) -> Option<Explanation> {
     }
     let text = |key: &str| schema.get(key).and_then(|v| v.as_str()).unwrap_or("").to_owned();
     lines.push(("is", text("description")));
+    lines.extend(of_arc(name).map(|words| ("here", words)));
     let key = path.rsplit('.').next()?;
     if let Some(unit) = unit_of_key(key).filter(|unit| !unit.is_empty()) {
         lines.push(("unit", unit.to_owned()));
@@ -103,6 +104,17 @@ fn key(name: &str) -> Option<Explanation> {
         kind: if keys.is_empty() { "a key of the design file" } else { "a table of the design file" },
         lines,
     })
+}
+
+/// What a variable of one arc is, with the number of that arc: `r_i2_mm`.
+fn of_arc(name: &str) -> Option<String> {
+    let (k, words) = VARIABLES.iter().find_map(|(pattern, _, words)| {
+        let (before, behind) = pattern.split_once("{k}")?;
+        let k: usize = name.strip_prefix(before)?.strip_suffix(behind)?.parse().ok()?;
+        Some((k, words))
+    })?;
+    let words = words.replace("k+1", &(k + 1).to_string()).replace("arc k", &format!("arc {k}"));
+    Some(format!("{words}; arcs count from 1, from first contact on, rows of the file from 0"))
 }
 
 /// The refusal of a name that nothing has, with the nearest one.
@@ -136,6 +148,8 @@ mod tests {
         let keys =
             |name: &str| explain(name).unwrap().lines.iter().find(|l| l.0 == "keys").unwrap().1.clone();
         assert!(keys("scenarios").contains("preload_nm") && keys("races").contains("width_mm"));
+        assert!(of_arc("r_i2_mm").unwrap().starts_with("radius of inner arc 2;"));
+        assert!(of_arc("junction_1_rad").unwrap().contains("arc 1 gives way to arc 2;"));
         assert!(explain("limits.hertz_peak_mpa").is_some() && explain("nothing").is_none());
         assert!(unknown("hoop-iner").contains("did you mean hoop-inner?"));
     }

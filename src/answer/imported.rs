@@ -35,10 +35,10 @@ impl Imported<'_> {
          arcs, {:.2} um from the outer arc; rms {:.2} and {:.2} um. Races, spring, limits are the template's.\n#\n",
             file,
             command,
-            1e6 * found.inner.max_m,
-            1e6 * found.outer.max_m,
-            1e6 * found.inner.rms_m,
-            1e6 * found.outer.rms_m,
+            1e6 * felt(found.inner.max_m),
+            1e6 * felt(found.outer.max_m),
+            1e6 * felt(found.inner.rms_m),
+            1e6 * felt(found.outer.rms_m),
         )
     }
 
@@ -154,8 +154,16 @@ impl Imported<'_> {
     }
 }
 
+/// Below this a distance is what rounding leaves, m: a thousandth of an atom's size is no error of a drawing.
+const ROUNDING_M: f64 = 1e-13;
+
+/// A distance without what rounding leaves, m.
+fn felt(length_m: f64) -> f64 {
+    if length_m < ROUNDING_M { 0.0 } else { length_m }
+}
+
 fn worst(found: &FittedSprag, of: fn(&Arcs) -> f64) -> f64 {
-    1e6 * of(&found.inner).max(of(&found.outer))
+    1e6 * felt(of(&found.inner).max(of(&found.outer)))
 }
 
 fn table(found: &FittedSprag) -> Table {
@@ -173,11 +181,11 @@ fn table(found: &FittedSprag) -> Table {
             table.row(vec![
                 if name == "outer arc" { name.into() } else { format!("{name} {}", k + 1).into() },
                 arc.radius_m.into(),
-                arc.radius_error_m.into(),
+                felt(arc.radius_error_m).into(),
                 arc.span_rad.into(),
                 Cell::Count(arc.points),
-                side.max_m.into(),
-                side.rms_m.into(),
+                felt(side.max_m).into(),
+                felt(side.rms_m).into(),
             ]);
         }
     }
@@ -188,15 +196,15 @@ fn side_json(side: &Arcs) -> Value {
     let arc = |a: &crate::import::Arc| {
         json!({
             "radius_mm": 1e3 * a.radius_m,
-            "radius_standard_error_um": 1e6 * a.radius_error_m,
+            "radius_standard_error_um": 1e6 * felt(a.radius_error_m),
             "centre_mm": [1e3 * a.centre_m.x, 1e3 * a.centre_m.y],
             "span_rad": a.span_rad,
             "points": a.points,
         })
     };
     json!({
-        "max_um": 1e6 * side.max_m,
-        "rms_um": 1e6 * side.rms_m,
+        "max_um": 1e6 * felt(side.max_m),
+        "rms_um": 1e6 * felt(side.rms_m),
         "arcs": side.arcs.iter().map(arc).collect::<Vec<_>>(),
     })
 }

@@ -23,9 +23,9 @@ pub(super) fn overrun(
         }
         half(plot)
     };
-    let drag = Plot::new("Speed of the race that runs, rpm", "Drag torque, mNm")
-        .curve("outer race runs", of("outer", |p| 1e3 * p.drag_torque_nm))
-        .curve("inner race runs", of("inner", |p| 1e3 * p.drag_torque_nm));
+    let drag = Plot::new("Speed of the race that runs, rpm", "Drag torque, Nm")
+        .curve("outer race runs", of("outer", |p| p.drag_torque_nm))
+        .curve("inner race runs", of("inner", |p| p.drag_torque_nm));
     let forces = Plot::new("Speed of the outer race, rpm", "Normal force of one sprag, N")
         .curve("at A", of("outer", |p| p.normal_inner_n))
         .curve("at B", of("outer", |p| p.normal_outer_n));

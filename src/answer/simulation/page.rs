@@ -290,7 +290,7 @@ fn pressures(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, 
     };
     page.figure(
         &plot.to_svg(),
-        &format!("Hertz pressure p0 at both contacts beside that of the static load.{rated}"),
+        &format!("Hertz pressure p₀ at both contacts beside that of the static load.{rated}"),
     );
     let curve = &prepared.model.curve;
     let elastic = &curve.statics().elastic;
@@ -312,7 +312,8 @@ fn pressures(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, 
         .filter_map(|(name, n)| Some((name, over_length(n)?)))
         .collect();
     let Some(slices) = curves.first().map(|c| c.1.len()) else { return };
-    let mut plot = Plot::new("Along the sprag, mm", "Contact pressure, inner, MPa").sized(720.0, 300.0);
+    let mut plot =
+        Plot::new("Place along the sprag, mm", "Pressure at the inner contact, MPa").sized(720.0, 300.0);
     for (name, points) in curves {
         plot = plot.curve(name, points);
     }

@@ -193,7 +193,7 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
         let text = format!(
             "{}, {} {}",
             subscript("C", k + 1),
-            subscript("r", k + 1),
+            subscript("rᵢ", k + 1),
             Unit::Millimetre.show_plain(arc.radius_m, 6)
         );
         notes.push(Note { at, text, left: false, wanted: at[1] });

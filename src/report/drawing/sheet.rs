@@ -2,7 +2,7 @@
 
 use super::{Drawing, SpragPose, clutch, detail};
 use crate::report::number::{Unit, plain};
-use crate::report::svg::{Anchor, BODY, EDGE, INK, RACE, SOFT, Svg, polyline, text_width};
+use crate::report::svg::{Anchor, BODY, EDGE, INK, PAPER, RACE, SOFT, Svg, polyline, text_width};
 
 /// As wide as A4 between its margins, px.
 const WIDTH: f64 = 680.0;
@@ -151,7 +151,13 @@ impl Across {
             None if self.y < self.from_y => {
                 svg.text([(left + right) / 2.0, self.y - 5.0], Anchor::Middle, INK, &self.text);
             }
-            None => svg.text([right + 5.0, y], Anchor::Start, INK, &self.text),
+            None => {
+                // The extension lines of larger diameters are broken where they would run through it.
+                let (from, until) = (right + 3.0, right + 7.0 + 0.9 * text_width(&self.text, 12.0));
+                let ground = [[from, y - 11.0], [until, y - 11.0], [until, y + 4.0], [from, y + 4.0]];
+                svg.path(&polyline(&ground, true), &format!("fill=\"{PAPER}\""));
+                svg.text([right + 5.0, y], Anchor::Start, INK, &self.text);
+            }
         }
     }
 }
