@@ -30,8 +30,8 @@
 //! | 4 | [`fidelity`] | what a scene can leave out, and what that costs |
 //! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
-//! | 4 | [`life`] | pitting, fatigue of rings, indentation and slip by chance in a life of loads |
 //! | 4 | [`reengage`] | slip under load and the blow when the clutch grips again |
+//! | 4 | [`life`] | pitting, fatigue of rings, indentation and slip by chance in a life of loads |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
 //! | 4 | [`sweep`] | the box of the variables as a whole: points by their number, margins at each |
 //! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |

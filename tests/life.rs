@@ -67,16 +67,16 @@ fn a_press_fit_is_there_before_the_load() {
         let changes = [
             (HISTORY, ""),
             ("outer_interference_um = 25.0", fit.as_str()),
-            ("torque_nm = 600.0", torque),
+            ("{ torque_nm = 600.0", torque),
             // No share of the mean.
             ("ultimate_mpa = 2200.0", "ultimate_mpa = 1e9"),
         ];
         of(&design(&changes).life().unwrap().life, LifePlace::OuterRing)
     };
-    let (slight, strong) = (with("10.0", "torque_nm = 600.0"), with("40.0", "torque_nm = 600.0"));
+    let (slight, strong) = (with("10.0", "{ torque_nm = 600.0"), with("40.0", "{ torque_nm = 600.0"));
     // The fit closes the race gap a little, which is a per cent of force and a ninth power of that.
     assert!((strong / slight - 1.0).abs() < 0.1, "{slight} {strong}");
-    assert!(with("40.0", "torque_nm = 0.01") < 1e-20 * slight);
+    assert!(with("40.0", "{ torque_nm = 0.01") < 1e-20 * slight);
     // What it leaves at rest is compression, which the load takes off first: less of the strength goes to the mean.
     let mean = |fit_um: &str| {
         let fit = format!("outer_interference_um = {fit_um}");

@@ -5,16 +5,16 @@ mod program;
 
 use program::*;
 use sprag_design::dynamics::Stop;
-use sprag_design::reengage::{Blow, Blows, SlipCase, blows, by_energy_nm};
+use sprag_design::reengage::{Blow, Blows, SlipUnderLoad, blows, by_energy_nm};
 use sprag_design::{Design, Follow, WedgeCurve};
 
 const FILE: &str = "designs/starter.toml";
 
-fn case(friction: f64, inertia_kg_m2: [f64; 2], paths_m: &[f64]) -> SlipCase {
-    SlipCase { torque_nm: 50.0, speed_rad_s: 0.0, inertia_kg_m2, friction, paths_m: paths_m.to_vec() }
+fn case(friction: f64, inertia_kg_m2: [f64; 2], paths_m: &[f64]) -> SlipUnderLoad {
+    SlipUnderLoad { torque_nm: 50.0, speed_rad_s: 0.0, inertia_kg_m2, friction, paths_m: paths_m.to_vec() }
 }
 
-fn found(case: &SlipCase) -> Blows {
+fn found(case: &SlipUnderLoad) -> Blows {
     let design = Design::read(FILE.as_ref()).unwrap();
     blows(&design.clutch, case, &Follow::nobody()).unwrap()
 }
@@ -99,7 +99,7 @@ fn the_command_in_every_form() {
     assert!(is_self_contained(page).contains("blow"));
     let thrown = run(&["reengage", FILE, "--torque", "50", "--friction", "0.03", "--quiet"]);
     assert_eq!(thrown.status.code(), Some(1));
-    assert!(stdout(&thrown).contains("thrown out of reach"), "{}", stdout(&thrown));
+    assert!(stdout(&thrown).contains("thrown farther than their spring reaches"), "{}", stdout(&thrown));
     for (wrong, word) in [("--paths=3,1", "each longer"), ("--torque=-1", "above zero")] {
         let refused = run(&["reengage", FILE, wrong, "--friction", "0.06"]);
         assert_eq!(refused.status.code(), Some(2));

@@ -8,7 +8,7 @@ use crate::dynamics::Stop;
 use crate::element::NoElement;
 use crate::follow::Follow;
 use crate::margin::{When, load_margins, load_state};
-use crate::reengage::{Blow, Blows, NoBlow, SlipCase, blows};
+use crate::reengage::{Blow, Blows, NoBlow, SlipUnderLoad, blows};
 use crate::report::plot::Curve;
 use crate::report::{Cell, Column, Page, Plot, Screen, Table, Unit, significant};
 use serde_json::{Value, json};
@@ -52,7 +52,7 @@ pub const SHORT: f64 = 0.95;
 pub struct ReengagementAnswer<'a> {
     design: &'a Design,
     /// What was asked.
-    pub case: SlipCase,
+    pub case: SlipUnderLoad,
     /// What came of it.
     pub found: Blows,
     /// Peak torque that every limit bears, N m, and the limit that sets it.
@@ -91,7 +91,7 @@ impl Design {
         let positive = |x: f64| x.is_finite() && x > 0.0;
         let races = &self.clutch.races;
         let own = [races.inner_inertia_kg_m2, races.outer_inertia_kg_m2];
-        let mut case = SlipCase {
+        let mut case = SlipUnderLoad {
             torque_nm: settings.torque_nm.or(self.limits.nominal_torque_nm).unwrap_or(0.0),
             speed_rad_s: settings.speed_rad_s,
             inertia_kg_m2: [0, 1].map(|race| settings.inertia_kg_m2[race].unwrap_or(own[race])),

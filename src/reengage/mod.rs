@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 
 /// What is asked.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SlipCase {
+pub struct SlipUnderLoad {
     /// Torque that the clutch carries and that goes on acting, N m.
     pub torque_nm: f64,
     /// Speed of both races before, rad/s.
@@ -120,7 +120,7 @@ enum Slipped {
 
 /// A clutch between two inertias under equal torques.
 struct Drive<'a> {
-    case: &'a SlipCase,
+    case: &'a SlipUnderLoad,
     radius_m: f64,
     /// Angle of the races against one another at the start, rad.
     begun_rad: f64,
@@ -222,7 +222,7 @@ impl Drive<'_> {
 ///
 /// # Errors
 /// [`NoBlow`].
-pub fn blows(clutch: &Clutch, case: &SlipCase, follow: &Follow) -> Result<Blows, NoBlow> {
+pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<Blows, NoBlow> {
     let mut held = clutch.clone();
     [held.races.inner_inertia_kg_m2, held.races.outer_inertia_kg_m2] = case.inertia_kg_m2;
     // A damper between the races would take from the blow what nobody has measured.
