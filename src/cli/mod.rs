@@ -429,7 +429,7 @@ fn context(common: Common, args: &[String]) -> Result<Context, Failure> {
             "--csv - and --json both write to standard output: give --csv a file",
         ));
     }
-    let follow = interrupt::install();
+    let follow = interrupt::install(common.quiet);
     if let Some(threads) = common.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(usize::from(threads))
