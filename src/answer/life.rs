@@ -111,7 +111,7 @@ impl<'a> LifeAnswer<'a> {
             ),
             more(
                 "wear, lubricant, residual stress",
-                "no model here",
+                "wear in overrun: `overrun`; the others: no model",
                 "unknown; pitting strengths hold for the lubricant and surface that they were found with",
             ),
         ];
