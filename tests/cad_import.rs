@@ -101,6 +101,25 @@ fn a_drawing_comes_back_as_the_sprag_that_was_drawn() {
     }
 }
 
+/// A sprag as `new` makes it: its flanks run nearly tangent into the inner arc, at 7 deg.
+#[test]
+fn gentle_corners_are_found() {
+    const SPRAG: &str = "[sprags]\ncount = 24\nlength_mm = 12.0\nouter_radius_mm = 5.5\ncentre_distance_mm = 0.6257\n\
+        inner_arcs = [{ radius_mm = 2.915, until_rad = 0.4774 }]\nflanks = { rear_mm = 2.6084, front_mm = 3.1204 }\n\
+        [races]\ninner_bore_radius_mm = 20.0\ninner_radius_mm = 27.2\nouter_radius_mm = 35.53\n\
+        outer_outside_radius_mm = 43.3\nwidth_mm = 15.0\nviscous_damping_nm_s_per_rad = 0.1\n";
+    let text = std::fs::read_to_string(TEMPLATE).unwrap();
+    let (before, rest) = text.split_once("[sprags]").unwrap();
+    let (_, behind) = rest.split_once("[spring]").unwrap();
+    let design = Design::parse(&format!("{before}{SPRAG}[spring]{behind}"), "new.toml").unwrap();
+    let got = sprag(&read_dxf(&drawing(&design), None).unwrap(), &wanted(&design)).unwrap();
+    same(&got, &design, 1.0, 2e-8);
+    // Measured with steps of some 4 um.
+    let points = measured(&outline(&design), 1500);
+    let got = sprag(&read_points(&table(&points)).unwrap(), &wanted(&design)).unwrap();
+    same(&got, &design, 1.0, 2e-8);
+}
+
 #[test]
 fn where_it_lies_how_large_and_which_side_up_changes_nothing() {
     let design = Design::read("designs/huang2017-single-arc.toml".as_ref()).unwrap();

@@ -93,7 +93,8 @@ fn scenes(design: &Design, check: &CheckAnswer) -> Table {
             name.as_str().into(),
             friction(found),
             found.static_friction.into(),
-            found.slip_margin().into(),
+            // Where no friction suffices there is none, as the column before says.
+            found.demand.as_ref().ok().and_then(|d| d.required_friction).map(|_| found.slip_margin()).into(),
             found.contact_margin().into(),
             verdict,
         ]);

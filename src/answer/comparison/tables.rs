@@ -2,7 +2,7 @@
 
 use super::figures::FIGURES;
 use super::{Comparison, farthest, letter, proud, with_unit};
-use crate::answer::check::margin_cell;
+use crate::answer::check::{in_place_of_margin, margin_cell};
 use crate::compare::Scene;
 use crate::margin::{LIFT_OFF_TO_RAD_S, Margin};
 use crate::report::{Cell, Column, Screen, Table, Unit, significant};
@@ -97,6 +97,9 @@ pub(super) fn margins(compared: &Comparison<'_>) -> Table {
         if let [a, b] = row.values.as_slice() {
             cells.push(match (a, b) {
                 (Some(a), Some(b)) if a.shown_margin() == b.shown_margin() => "=".into(),
+                (Some(a), Some(b)) if [a, b].into_iter().any(|m| in_place_of_margin(m).is_some()) => {
+                    Cell::Empty
+                }
                 (Some(a), Some(b)) => (shown(b) - shown(a)).into(),
                 _ => Cell::Empty,
             });
@@ -138,7 +141,11 @@ pub(super) fn scenes(compared: &Comparison<'_>) -> Table {
             (None, _) => "does not run".into(),
         };
         cells.extend(row.values.iter().map(|s| s.map_or(Cell::Empty, friction)));
-        cells.extend(row.values.iter().map(|s| s.map_or(Cell::Empty, |s| s.found.slip_margin().into())));
+        cells.extend(
+            row.values.iter().map(|s| {
+                s.map_or(Cell::Empty, |s| required_friction(s).map(|_| s.found.slip_margin()).into())
+            }),
+        );
         table.row(cells);
     }
     table
