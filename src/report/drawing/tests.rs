@@ -97,7 +97,7 @@ fn the_sheet_has_every_dimension_at_a_scale_that_it_states() {
         "no load, scale 5:1",
         "rₑ 4.68 mm",
         "rᵢ₁ 4.02 mm",
-        "r₃ 4.15 mm",
+        "rᵢ₃ 4.15 mm",
         "race gap 8.33 mm",
         "e₁ = C₁Cₑ 0.62 mm",
         "ω 4.",
