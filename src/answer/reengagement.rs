@@ -292,7 +292,8 @@ impl<'a> ReengagementAnswer<'a> {
                 Unit::NewtonMetre.show(case.torque_nm, 4),
                 significant(case.friction, 3),
             ),
-            "Slip, lasts: path at the inner track and time until the design's friction is back; blow at: when the load is largest; slip in all:              path until then; speed gained: largest speed of the races against one another"
+            "Slip, lasts: path at the inner track and time until the design's friction is back; times: blow over the torque carried; by energy: \
+             nothing lost; speed gained: largest speed of the races against one another; in all: path until these stand still against one another"
                 .to_owned(),
             "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however short the slip".to_owned(),
         ]

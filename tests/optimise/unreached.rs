@@ -111,6 +111,10 @@ fn what_check_demands_counts_within_the_tolerances() {
     assert_eq!(made.yield_share, 0.0);
 }
 
+/// An oil before the friction of the design.
+const OIL: &str = "[lubrication]\noil = \"ISO VG 32\"\ntemperature_c = 60.0\nrace_roughness_um = 0.25\n\
+                   sprag_roughness_um = 0.25\n\n[friction]\n";
+
 /// Every number of `[limits]` that a search is under is in its new file.
 #[test]
 fn every_limit_searched_under_is_written() {
@@ -129,8 +133,16 @@ fn every_limit_searched_under_is_written() {
             _ => "777.7",
         };
         let limits = format!("limits = {{ {key} = {value}, case_depth_mm = 1.13 }}");
-        let limits = if key == "case_depth_mm" { "limits = { case_depth_mm = 1.13 }" } else { &limits };
-        let design = changed(HUANG, &[("limits = { keep_contact_to_rpm = 6000 }", limits)]);
+        let limits = match key {
+            "case_depth_mm" => "limits = { case_depth_mm = 1.13 }",
+            // A film needs its speed, and both an oil.
+            "film_lambda" => "limits = { film_lambda = 777.7, film_at_rpm = 500 }",
+            "film_at_rpm" => "limits = { film_lambda = 1.5, film_at_rpm = 777.7 }",
+            _ => &limits,
+        };
+        let oil = if key.starts_with("film_") { OIL } else { "[friction]\n" };
+        let design =
+            changed(HUANG, &[("limits = { keep_contact_to_rpm = 6000 }", limits), ("[friction]\n", oil)]);
         let x: Vec<f64> = task(&design).variables.iter().map(|v| v.start).collect();
         let file = super::clutch::problem(&design).finished_file(&x).unwrap();
         let written: toml::Table = toml::from_str(&file).unwrap();
