@@ -48,7 +48,7 @@ pub struct EvaluateArgs {
     /// Leave nothing out that a scene cannot feel
     #[arg(long)]
     pub full: bool,
-    /// Without the scenes of [optimize]: static margins alone
+    /// Without the scenes of the table `optimize`: static margins alone
     #[arg(long = "static")]
     pub at_rest: bool,
     /// Points to draw instead of lines to read.

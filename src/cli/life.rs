@@ -22,7 +22,7 @@ or a torque is not carried.";
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct LifeArgs {
-    /// Design files (TOML) with a table [life]
+    /// Design files (TOML) with a table `life`
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
 }

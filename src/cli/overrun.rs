@@ -22,7 +22,7 @@ Oil, roughness and conductances stand in the table [lubrication] of the design: 
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct OverrunArgs {
-    /// Design files (TOML) with a table [lubrication]
+    /// Design files (TOML) with a table `lubrication`
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     /// Speeds of the race that runs, rpm, comma separated [default: 50, 100, 200, 500 ... up to lift-off and 50 m/s]

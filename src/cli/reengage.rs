@@ -26,7 +26,7 @@ pub struct ReengageArgs {
     /// Design files (TOML)
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
-    /// Torque carried when the slip begins, Nm [default: nominal_torque_nm in [limits]]
+    /// Torque carried when the slip begins, Nm [default: limits.nominal_torque_nm]
     #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = positive)]
     pub torque: Option<f64>,
     /// What turns with the inner race, kg m², the race included [default: the race alone]

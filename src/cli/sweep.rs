@@ -14,7 +14,7 @@ use std::path::Path;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Points")]
 pub struct PointArgs {
-    /// N scrambled Sobol points over all variables of [optimize]
+    /// N scrambled Sobol points over all variables of the table `optimize`
     #[arg(long, value_name = "N", value_parser = counted)]
     pub sobol: Option<u64>,
     /// Seed of the scrambling [default: 1]

@@ -158,7 +158,7 @@ limits! {
     lift_off_by_rpm: "exclusiveMinimum" 0, "rpm" -> lift_off_by_rad_s by rad_s, ALONE,
         "Overrun speed of the outer race by which the sprags must have lifted off the inner race, rev/min.";
     film_lambda: "exclusiveMinimum" 0, "" -> film_lambda by same, AT_FILM_SPEED,
-        "Smallest ratio wanted of film to roughness at the sliding inner contact at film_at_rpm; needs [lubrication].";
+        "Smallest ratio wanted of film to roughness at the sliding inner contact at film_at_rpm; needs the table `lubrication`.";
     film_at_rpm: "exclusiveMinimum" 0, "rpm" -> film_at_rad_s by rad_s, ALONE,
         "Speed of the inner race in overrun, the outer one at rest, at which film_lambda is held, rev/min.";
 }

@@ -122,7 +122,7 @@ pub const LIFT_OFF_TO_RAD_S: f64 = 60_000.0 * std::f64::consts::PI / 30.0;
 /// How exactly the speed of lift-off is located, by the range in which it is looked for.
 pub const LIFT_OFF_ERROR: f64 = 1e-12;
 
-/// Lift-off speed of the outer race, rad/s: opening = closing moment, which is where [`overrun`] ends to find a normal
+/// Lift-off speed of the outer race, rad/s: opening = closing moment, which is where [`overrun_at`] ends to find a normal
 /// force at A; `None` where contact is kept to `up_to`.
 pub fn lift_off_rad_s(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Option<f64> {
     let left = |speed: f64| {
