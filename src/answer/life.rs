@@ -93,23 +93,18 @@ impl<'a> LifeAnswer<'a> {
 
     /// What a life leaves out beside what statics do.
     fn left_out(&self) -> Vec<LeftOut> {
-        let more = |term: &str, why: &str, cost: &str| LeftOut {
-            term: term.to_owned(),
-            why: why.to_owned(),
-            cost: cost.to_owned(),
-        };
         let mut all = vec![
-            more(
+            LeftOut::new(
                 "calibration",
                 "no maker prints a life curve with its pressures: strengths are the file's",
                 "as good as the strength that is given; 10 % of pressure is a factor 1.9 of pitting life at the exponent 20/3",
             ),
-            more(
+            LeftOut::new(
                 "dynamics",
                 "torques are taken as they are given, each engagement as slow",
                 "what `simulate` finds beyond the torque given: put its peak here",
             ),
-            more(
+            LeftOut::new(
                 "wear, lubricant, residual stress",
                 "wear in overrun: `overrun`; the others: no model",
                 "unknown; pitting strengths hold for the lubricant and surface that they were found with",
@@ -287,7 +282,7 @@ impl<'a> LifeAnswer<'a> {
         format!(
             "{}  {}\n\n{}\n{}{more}\n{}\n{}\n",
             design.name,
-            design.hash.get(..12).unwrap_or(&design.hash),
+            design.short_hash(),
             self.places().to_text(screen),
             shown.to_text(screen),
             self.remarks().join("\n"),

@@ -8,7 +8,7 @@ use crate::dynamics::Stop;
 use crate::element::NoElement;
 use crate::follow::Follow;
 use crate::margin::{When, load_margins, load_state};
-use crate::reengage::{Blow, Blows, NoBlow, SlipUnderLoad, blows};
+use crate::reengage::{Blow, Blows, SlipUnderLoad, blows};
 use crate::report::plot::Curve;
 use crate::report::{Cell, Column, Page, Plot, Screen, Table, Unit, significant};
 use serde_json::{Value, json};
@@ -113,11 +113,9 @@ impl Design {
         let state = load_state(self).ok();
         if settings.friction.is_none() {
             let at_torque = state.as_ref().and_then(|state| state.curve.at_torque(case.torque_nm));
-            case.friction = at_torque.map_or(0.0, |p| SHORT * p.tan_omega.max(p.tan_nu));
+            case.friction = at_torque.map_or(0.0, |p| SHORT * p.required_friction());
         }
-        let found = blows(&self.clutch, &case, &settings.follow).map_err(|why| match why {
-            NoBlow::Start(why) => NoReengagement::NoStart(why),
-        })?;
+        let found = blows(&self.clutch, &case, &settings.follow).map_err(NoReengagement::NoStart)?;
         let bears = state.and_then(|state| {
             let rows = load_margins(self, &self.limits, true, &state);
             let at_peak = rows.iter().filter(|r| r.required && r.limit.when != When::Nominal);
@@ -162,23 +160,18 @@ impl<'a> ReengagementAnswer<'a> {
     }
 
     fn left_out(&self) -> Vec<LeftOut> {
-        let more = |term: &str, why: &str, cost: &str| LeftOut {
-            term: term.to_owned(),
-            why: why.to_owned(),
-            cost: cost.to_owned(),
-        };
         let mut all = vec![
-            more(
+            LeftOut::new(
                 "shafts",
                 "both inertias are rigid with their races",
                 "a soft shaft lowers the blow: put the drive into [[drivetrain]] and simulate a transient",
             ),
-            more(
+            LeftOut::new(
                 "damping between the races",
                 "races.viscous_damping_nm_s_per_rad is taken as 0: where nobody has measured it, it would take from the blow",
                 "a damper of 0.1 Nm s/rad takes 5 % of the blow of the starter after 30 mm, between light races far more",
             ),
-            more(
+            LeftOut::new(
                 "cage and neighbours",
                 "a sprag that is thrown out is stopped by nothing but its spring",
                 "a cage brings it back sooner: less speed, a smaller blow",
@@ -301,7 +294,7 @@ impl<'a> ReengagementAnswer<'a> {
 
     /// The answer on a terminal.
     pub fn text(&self, screen: Screen) -> String {
-        let hash = self.design.hash.get(..12).unwrap_or(&self.design.hash);
+        let hash = self.design.short_hash();
         let found = match self.found.list.is_empty() {
             true => String::new(),
             false => format!("{}\n{}\n", self.blows().to_text(screen), self.remarks().join("\n")),

@@ -134,7 +134,7 @@ fn text(sized: &Sized, end_nm: f64, written: Option<&str>, screen: Screen) -> St
     format!(
         "{}  {}\n\n{}\n{}\n{}\n{}\n{REACHED_AT}\n{}\n",
         design.name,
-        design.hash.get(..12).unwrap_or(&design.hash),
+        design.short_hash(),
         tried_table(&sized.tried, Some(sized.taken)).to_text(screen),
         people_table(&sized.made.margins, end_nm).to_text(screen),
         verdict(sized),

@@ -46,14 +46,14 @@ pub fn turning_points(rows: &[[f64; 2]]) -> Vec<f64> {
     points
 }
 
-/// Engagements (peak, N m; number) of turning points: each peak above half of the largest (Tsubakimoto, technical data of cam
+/// Engagements (peak, N m; number) of turning points and their rainflow cycles: each peak above half of the largest (Tsubakimoto, technical data of cam
 /// clutches, engagement fatigue life), and of the smaller ones each that the torque comes to from less than half of it.
-pub fn engagements(points: &[f64]) -> Vec<(f64, f64)> {
+pub fn engagements(points: &[f64], swings: &[Cycle]) -> Vec<(f64, f64)> {
     let half_nm = 0.5 * points.iter().copied().fold(0.0, f64::max);
     let left = |i: usize| i == 0 || points[i - 1] < points[i];
     let right = |i: usize| points.get(i + 1).is_none_or(|next| *next < points[i]);
     let peaks = (0..points.len()).filter(|&i| left(i) && right(i)).map(|i| (points[i], 1.0));
-    let smaller = rainflow(points).into_iter().filter(|c| c.to_nm <= half_nm && c.from_nm <= 0.5 * c.to_nm);
+    let smaller = swings.iter().filter(|c| c.to_nm <= half_nm && c.from_nm <= 0.5 * c.to_nm);
     peaks.filter(|p| p.0 > half_nm).chain(smaller.map(|c| (c.to_nm, c.count))).filter(|p| p.0 > 0.0).collect()
 }
 
@@ -103,6 +103,7 @@ mod tests {
         let rows: Vec<[f64; 2]> = torque.iter().enumerate().map(|(i, v)| [i as f64, *v]).collect();
         let points = turning_points(&rows);
         assert_eq!(points, [0.0, 100.0, 0.0, 60.0, 40.0, 80.0, 0.0]);
+        let engagements = |points: &[f64]| engagements(points, &rainflow(points));
         assert_eq!(engagements(&points), [(100.0, 1.0), (60.0, 1.0), (80.0, 1.0)]);
         // Small strokes beside a large one are engagements too; a ripple on one is none.
         let strokes = engagements(&[0.0, 290.0, 0.0, 144.0, 0.0, 144.0, 100.0, 140.0, 0.0]);

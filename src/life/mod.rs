@@ -219,12 +219,13 @@ fn counted(service: &Service) -> Counted {
         let class = |torque: f64| (torque / largest * CLASSES as f64).ceil() as usize;
         let torque = |class: usize| largest * class as f64 / CLASSES as f64;
         let mut by_peak: BTreeMap<usize, f64> = BTreeMap::new();
-        for (peak, n) in engagements(&points) {
+        let swings = rainflow(&points);
+        for (peak, n) in engagements(&points, &swings) {
             *by_peak.entry(class(peak)).or_default() += n * history.times;
         }
         loads.extend(by_peak.into_iter().map(|(k, n)| (torque(k), n)));
         let mut by_swing: BTreeMap<(usize, usize), f64> = BTreeMap::new();
-        for cycle in rainflow(&points).iter().filter(|c| c.to_nm > 0.0) {
+        for cycle in swings.iter().filter(|c| c.to_nm > 0.0) {
             // The least torque in its lower class: the swing comes out larger.
             let low = (cycle.from_nm / largest * CLASSES as f64).floor() as usize;
             *by_swing.entry((low, class(cycle.to_nm))).or_default() += cycle.count * history.times;
@@ -243,6 +244,16 @@ pub fn effect(
     torque_nm: f64,
     engagements: f64,
 ) -> LoadEffect {
+    let required =
+        |torque: f64| state.curve.at_torque(torque).map_or(f64::INFINITY, |p| p.required_friction());
+    let scatter = [service.friction_scatter, service.torque_scatter];
+    let friction = design.clutch.friction.static_;
+    let slip = (scatter[0] > 0.0).then(|| slip::probability(friction, torque_nm, scatter, required));
+    LoadEffect { engagements, slip, ..once(design, service, state, torque_nm) }
+}
+
+/// One engagement at `torque_nm`, without chance.
+fn once(design: &Design, service: &Service, state: &LoadState, torque_nm: f64) -> LoadEffect {
     let clutch = &design.clutch;
     let p = state.curve.at_torque(torque_nm);
     let walk_m = p.map_or([0.0; 2], |p| walks_m(design, state, &p));
@@ -260,14 +271,18 @@ pub fn effect(
             around(walk_m[1], half_m(p.hertz_outer_pa, p.normal_outer_n), races.outer_radius_m),
         ]
     });
-    let required =
-        |torque: f64| state.curve.at_torque(torque).map_or(f64::INFINITY, |p| p.tan_omega.max(p.tan_nu));
-    let scatter = [service.friction_scatter, service.torque_scatter];
-    let slip =
-        (scatter[0] > 0.0).then(|| slip::probability(clutch.friction.static_, torque_nm, scatter, required));
     let hoop_pa = p.map_or([0.0; 2], |p| rings_pa(design, state, &p));
-    let required_friction = p.map(|_| required(torque_nm));
-    LoadEffect { torque_nm, engagements, state: p, hoop_pa, walk_m, passes, required_friction, slip }
+    let required_friction = p.map(|p| p.required_friction());
+    LoadEffect {
+        torque_nm,
+        engagements: 1.0,
+        state: p,
+        hoop_pa,
+        walk_m,
+        passes,
+        required_friction,
+        slip: None,
+    }
 }
 
 /// Lengths of the inner and the outer arc between first contact and the contact at `p`, m: rolling lays the same length on the
@@ -333,8 +348,7 @@ pub fn part_at(
     match place.race() {
         Some(race) => ring_part(design, service, state, race, 0.0, torque_nm),
         None => {
-            let load =
-                effect(design, &Service { friction_scatter: 0.0, ..service.clone() }, state, torque_nm, 1.0);
+            let load = once(design, service, state, torque_nm);
             contact_part(service, &load, place).map(|part| part * place.times(&load))
         }
     }

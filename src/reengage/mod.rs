@@ -1,6 +1,6 @@
 //! Slip under load and the blow when the clutch grips again: what brought helicopters down.
 //!
-//! In: a `Design`, the torque it carries, what turns with both races, the friction while it slips. Out: [`Blow`] for each path of slip.
+//! In: a clutch, the torque it carries, what turns with both races, the friction while it slips. Out: [`Blow`] for each path of slip.
 //! Absent: damping between the races; what makes it slip (oil, wear, dirt); shafts, which soften the blow (a `[[drivetrain]]` scene has them); heat of the slip.
 //! Equations: (13) and (15) by [`crate::element`], and the balance of energy below.
 //!
@@ -54,13 +54,6 @@ pub struct Blow {
     pub by_energy_nm: Option<f64>,
     /// Why the run ended where it has not come to its end.
     pub ended: Option<Stop>,
-}
-
-/// Why there is no answer.
-#[derive(Debug, Clone, PartialEq)]
-pub enum NoBlow {
-    /// The clutch has no such start.
-    Start(NoElement),
 }
 
 /// What a slip comes to.
@@ -136,14 +129,14 @@ impl Drive<'_> {
         (path_m, outer.speed_rad_s - inner.speed_rad_s)
     }
 
-    fn advance(&self, element: &mut Element, dt_s: f64) -> Result<Run, NoBlow> {
+    fn advance(&self, element: &mut Element, dt_s: f64) -> Result<Run, NoElement> {
         let torque_nm = self.case.torque_nm;
         let torques = [Torque::constant(-torque_nm), Torque::constant(torque_nm)];
-        element.advance(dt_s, torques).map_err(|why| NoBlow::Start(NoElement::Malformed(why)))
+        element.advance(dt_s, torques).map_err(NoElement::Malformed)
     }
 
     /// Let it slip on until it has come to `path_m`.
-    fn slip_to(&self, slips: &mut Element, path_m: f64) -> Result<Slipped, NoBlow> {
+    fn slip_to(&self, slips: &mut Element, path_m: f64) -> Result<Slipped, NoElement> {
         let (mut dt_s, mut halved) = (self.dt_s, 0);
         for _ in 0..MOST {
             if self.follow.stopped() {
@@ -165,15 +158,15 @@ impl Drive<'_> {
                 return Ok(Slipped::There);
             }
             // Back, and on by half the step.
-            slips.restore(&before).map_err(|why| NoBlow::Start(NoElement::Malformed(why)))?;
+            slips.restore(&before).map_err(NoElement::Malformed)?;
             (dt_s, halved) = (0.5 * dt_s, halved + 1);
         }
         Ok(Slipped::Ended(Stop::StepLimit))
     }
 
     /// Grip again with the friction of `held` from where `slips` stands.
-    fn grip(&self, slips: &Element, held: &Clutch, path_m: f64) -> Result<Blow, NoBlow> {
-        let mut grips = slips.exchanged(held).map_err(NoBlow::Start)?;
+    fn grip(&self, slips: &Element, held: &Clutch, path_m: f64) -> Result<Blow, NoElement> {
+        let mut grips = slips.exchanged(held)?;
         let slip_s = grips.t_s();
         let (mut most_n, mut peak_s, mut speed_rad_s, mut ended) = (0.0, slip_s, 0.0_f64, None);
         let mut wound = false;
@@ -221,8 +214,8 @@ impl Drive<'_> {
 /// The blow after each path of slip.
 ///
 /// # Errors
-/// [`NoBlow`].
-pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<Blows, NoBlow> {
+/// [`NoElement`]: the clutch has no such start.
+pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<Blows, NoElement> {
     let mut held = clutch.clone();
     [held.races.inner_inertia_kg_m2, held.races.outer_inertia_kg_m2] = case.inertia_kg_m2;
     // A damper between the races would take from the blow what nobody has measured.
@@ -232,14 +225,14 @@ pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<B
     let (torque_nm, speed_rad_s) = (case.torque_nm, case.speed_rad_s);
     let beginning = Beginning { torque_nm, speed_rad_s, ..Beginning::default() };
     let settings = Settings { tolerance: 1e-9, ..Settings::default() };
-    let rests = Element::new(&held, &beginning, &settings).map_err(NoBlow::Start)?;
+    let rests = Element::new(&held, &beginning, &settings)?;
     let at_torque = rests.model().curve.at_torque(torque_nm);
     let stiffness = at_torque.map_or(1.0, |p| p.k_tangent_nm_per_rad);
-    let needs = at_torque.map_or(f64::INFINITY, |p| p.tan_omega.max(p.tan_nu));
+    let needs = at_torque.map_or(f64::INFINITY, |p| p.required_friction());
     let dt_s = TAU * (reduced(case.inertia_kg_m2) / stiffness).sqrt() / ADVANCES;
     let mut drive = Drive { case, radius_m: clutch.races.inner_radius_m, begun_rad: 0.0, dt_s, follow };
     drive.begun_rad = drive.apart(&rests).0 / drive.radius_m;
-    let mut slips = rests.exchanged(&slippery).map_err(NoBlow::Start)?;
+    let mut slips = rests.exchanged(&slippery)?;
     let mut found = Blows { list: Vec::with_capacity(case.paths_m.len()), holds: None, needs, ended: None };
     for &path_m in &case.paths_m {
         match drive.slip_to(&mut slips, path_m)? {

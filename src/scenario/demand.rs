@@ -112,7 +112,7 @@ pub(super) fn demand_at(
     let mu = prepared.model.friction.static_;
     if prepared.duration_s == 0.0 {
         let f = prepared.at_rest();
-        let required = f.map(|f| f.tan_omega.max(f.tan_nu));
+        let required = f.map(|f| f.required_friction());
         return RollingDemand {
             required_friction: required,
             by_bisection: false,

@@ -48,6 +48,11 @@ pub struct StaticPoint {
 }
 
 impl StaticPoint {
+    /// Static friction with which neither contact slips: the larger of tan omega and tan nu.
+    pub fn required_friction(&self) -> f64 {
+        self.tan_omega.max(self.tan_nu)
+    }
+
     /// No load at all.
     pub const UNLOADED: Self = Self {
         torque_nm: 0.0,

@@ -43,7 +43,7 @@ pub(super) fn designs(compared: &Comparison<'_>) -> Table {
         Column::text("verdict", "Required limits"),
     ]);
     for (i, (s, file)) in compared.subjects.iter().zip(compared.files).enumerate() {
-        let hash = s.design.hash.get(..12).unwrap_or(&s.design.hash);
+        let hash = s.design.short_hash();
         let verdict = if s.held() { "held" } else { "NOT HELD" };
         table.row(vec![
             letter(i).into(),

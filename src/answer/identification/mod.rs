@@ -122,7 +122,7 @@ impl<'a> Identification<'a> {
         let mut out = format!(
             "{}  {}\n\n{}\n{}\n",
             design.name,
-            design.hash.get(..12).unwrap_or(&design.hash),
+            design.short_hash(),
             estimates(found).to_text(screen),
             residuals(found).to_text(screen)
         );

@@ -239,7 +239,7 @@ impl<'a> OverrunAnswer<'a> {
         format!(
             "{}  {}\n\n{}\n{}\n{}\n{}\n",
             design.name,
-            design.hash.get(..12).unwrap_or(&design.hash),
+            design.short_hash(),
             self.remarks().join("\n"),
             self.films().to_text(screen),
             self.heat().to_text(screen),

@@ -129,7 +129,7 @@ pub fn csv_table(laws: &[LawCurve]) -> Table {
 /// The answer for a terminal.
 pub(super) fn text(study: &StiffnessStudy, screen: Screen) -> String {
     let (design, laws) = (&study.design, study.laws());
-    let mut out = format!("{}  {}\n\n", design.name, design.hash.get(..12).unwrap_or(&design.hash));
+    let mut out = format!("{}  {}\n\n", design.name, design.short_hash());
     for law in laws {
         out.push_str(&format!("{}\n", law.clutch.contact.description(&law.clutch.axial)));
     }
