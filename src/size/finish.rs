@@ -245,7 +245,7 @@ fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Ve
     }
     if let Some(count) = wanted.engagements {
         lines.push(format!(
-            "Engagements wanted: {count}. Kept as a note: no life is computed, neither fatigue nor wear."
+            "Engagements wanted: {count}. Kept as a note: whether it lives as long is told by the command `life`, from a table [life]."
         ));
     }
     lines
