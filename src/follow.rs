@@ -37,7 +37,7 @@ pub struct RunProgress {
     pub run: u64,
     /// Number of the pass, from 1: all runs at one tolerance of the steps.
     pub pass: u64,
-    /// That tolerance, pure number.
+    /// That tolerance, pure number; 0: steps of one length.
     pub tolerance: f64,
 }
 

@@ -49,6 +49,9 @@ pub(super) fn while_shown<T>(
 
 /// Which run it is.
 fn words(what: &str, run: &RunProgress) -> String {
+    if run.tolerance == 0.0 {
+        return format!("{what}: run {}", run.run);
+    }
     format!("{what}: pass {} (steps to {:.0e}), run {}", run.pass, run.tolerance, run.run)
 }
 

@@ -6,7 +6,6 @@ use super::{Context, parts, positive};
 use crate::answer::simulation::{
     self as scene, Ran, RefusedSetting, Setting, SimulationAnswer, SimulationSettings,
 };
-use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::report::plain;
@@ -119,12 +118,12 @@ fn one(
     };
     settings.validate_for(scenario).map_err(|why| refusal(why, args.window))?;
     refuse_unknown_to_published(args)?;
-    let event = scenario.kind.duration_s().filter(|_| args.method == MethodName::Event);
+    let duration_s = scenario.kind.duration_s();
     let start = Instant::now();
-    let ran = while_shown(&scenario.name, event, context, || computed(&design, scenario, settings, context));
+    let ran = while_shown(&scenario.name, duration_s, context, || Ran::new(&design, scenario, settings));
     let run_time_s = start.elapsed().as_secs_f64();
     let other = format!("{}, contact damping changed", scenario.name);
-    let damping = while_shown(&other, event, context, || ran.damping_effect(settings));
+    let damping = while_shown(&other, duration_s, context, || ran.damping_effect(settings));
     report(&SimulationAnswer::new(ran, damping, settings), run_time_s, args, context)
 }
 
@@ -145,16 +144,6 @@ impl SimulateArgs {
             follow: context.follow.clone(),
         }
     }
-}
-
-fn computed(design: &Design, scenario: &Scenario, settings: &SimulationSettings, context: &Context) -> Ran {
-    let steps = settings.published_steps(scenario);
-    let progress = steps.map(|steps| context.progress("published scheme", "steps", Some(steps)));
-    Ran::new(design, scenario, settings, &mut |steps| {
-        if let Some(progress) = &progress {
-            progress.set(steps);
-        }
-    })
 }
 
 fn report(

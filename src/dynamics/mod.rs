@@ -20,6 +20,7 @@ mod looks;
 mod memory;
 mod model;
 mod outside;
+#[cfg(feature = "validation")]
 mod published;
 mod rolling;
 mod run;
@@ -36,6 +37,7 @@ pub use energy::EnergyBalance;
 pub use memory::{Memory, go_on};
 pub use model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 pub use outside::{events, next_mode};
+#[cfg(feature = "validation")]
 pub use published::{PublishedSettings, published};
 pub use rolling::{Rolling, rolling, rolling_quickly};
 pub use run::{

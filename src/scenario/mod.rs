@@ -9,6 +9,8 @@ mod equilibrium;
 mod error;
 mod figures;
 mod prepare;
+#[cfg(feature = "validation")]
+mod published;
 mod simulate;
 mod sliding;
 mod train;
@@ -21,5 +23,7 @@ pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures
 pub use prepare::{
     AtRest, FreeRun, NoScenario, Prepared, Reduction, prepare, prepare_reduced, sliding_friction,
 };
-pub use simulate::{Settings, published_steps, simulate, simulate_prepared, simulate_published};
+#[cfg(feature = "validation")]
+pub use published::{published_steps, simulate_published};
+pub use simulate::{Settings, simulate, simulate_prepared};
 pub use sliding::{Lubricated, Sliding, sliding};

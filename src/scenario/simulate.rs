@@ -7,7 +7,7 @@ use super::error::Scales;
 use super::figures::ErrorEstimate;
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::clutch::Scenario;
-use crate::dynamics::{Grip, History, Place, PublishedSettings, Run, SlipRecord, Stop, published, run};
+use crate::dynamics::{Grip, History, Place, Run, SlipRecord, Stop, run};
 use crate::follow::Follow;
 
 /// Settings of a simulation.
@@ -164,8 +164,8 @@ pub fn simulate_prepared(prepared: &Prepared, settings: &Settings, reduced: bool
 
 /// One run with the demand of pure rolling beside it, at one tolerance.
 #[derive(Clone)]
-struct Try {
-    run: Run,
+pub(super) struct Try {
+    pub(super) run: Run,
     /// `None`: nothing is to stick, or interrupted.
     demand: Option<RollingDemand>,
     /// Whether the run is the pure-rolling run.
@@ -174,7 +174,12 @@ struct Try {
 
 impl Try {
     /// `answered`: coarser runs have come to the end, a run that does not is no answer and needs no demand.
-    fn new(prepared: &Prepared, run: Run, answered: bool, demand: impl FnOnce() -> RollingDemand) -> Self {
+    pub(super) fn new(
+        prepared: &Prepared,
+        run: Run,
+        answered: bool,
+        demand: impl FnOnce() -> RollingDemand,
+    ) -> Self {
         // What overruns to the end is not to stick: there is no demand.
         let holds = prepared.overrun.is_none() || run.engaged.is_some();
         let in_vain = run.stop == Stop::Interrupted || answered && run.stop.gave_up();
@@ -187,7 +192,7 @@ impl Try {
         self.demand.filter(|d| d.by_bisection)?.required_friction
     }
 
-    fn interrupted(&self) -> bool {
+    pub(super) fn interrupted(&self) -> bool {
         self.run.stop == Stop::Interrupted || self.demand.is_some_and(|d| d.interrupted)
     }
 
@@ -233,55 +238,11 @@ fn attempt(
     Try::new(prepared, go(), answered, || demand)
 }
 
-/// Simulate `scenario` with the paper's own scheme, kept as a reference: at `step_s` and at half of it; the
-/// first is the answer, the difference its error estimate, which is large because the scheme does not converge.
-/// `go_on` is asked now and then with the steps taken so far, of [`published_steps`]; false interrupts.
-///
-/// # Errors
-/// As [`simulate`].
-pub fn simulate_published(
-    scenario: &Scenario,
-    settings: &Settings,
-    step_s: f64,
-    band_m_s: f64,
-    go_on: &mut dyn FnMut(u64) -> bool,
-) -> Result<Simulation, NoScenario> {
-    let prepared = prepare(scenario)?;
-    if prepared.duration_s == 0.0 {
-        return Ok(steady(&prepared, settings));
-    }
-    if prepared.model.drive.train.is_some() {
-        return Err(NoScenario::PublishedTrain);
-    }
-    let duration_s = prepared.duration_s;
-    let mut go = |step_s: f64, samples: usize, before: u64, tolerance: f64| -> Try {
-        let s = PublishedSettings { duration_s, step_s, band_m_s, samples };
-        let run = published(&prepared.model, prepared.state, &s, &mut |steps| go_on(before + steps));
-        Try::new(&prepared, run, false, || demand_at(&prepared, settings, Fineness::single(tolerance), None))
-    };
-    let answer = go(step_s, settings.samples, 0, 1e-3 * settings.tolerance);
-    let before = answer.run.counters.steps;
-    let other = if answer.interrupted() {
-        answer.clone()
-    } else {
-        go(0.5 * step_s, 0, before, 1e-2 * settings.tolerance)
-    };
-    let s = conclude(&prepared, settings, &answer, &other, None, [0.0; 2]);
-    let (a, b) = (answer.run.state[2], other.run.state[2]);
-    Ok(Simulation { spread_rad: [a.min(b), a.max(b)], ..s })
-}
-
-/// Steps of both runs of [`simulate_published`] over `duration_s`.
-pub fn published_steps(duration_s: f64, step_s: f64) -> u64 {
-    let steps = |step_s| PublishedSettings { duration_s, step_s, band_m_s: 0.0, samples: 0 }.steps();
-    steps(step_s) + steps(0.5 * step_s)
-}
-
 /// The answer `fine`, its error by `other` and, where there was one, by the difference `before`; the verdict of both. Where
 /// they do not agree to the tolerance two may lie near one another by chance: the verdict then is at least as doubtful as
 /// the errors of net slip before them, `doubts` (m). Runs that gave up have ended at different times: that is no error, yet
 /// a contact that was lost for long before is a verdict. What the energy balance leaves over was seen by no run.
-fn conclude(
+pub(super) fn conclude(
     prepared: &Prepared,
     settings: &Settings,
     fine: &Try,

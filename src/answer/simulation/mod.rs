@@ -8,6 +8,8 @@ mod history;
 mod left_out;
 mod notes;
 mod page;
+#[cfg(feature = "validation")]
+mod published;
 mod settings;
 mod table;
 mod train;
@@ -28,7 +30,7 @@ use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::fidelity::{self, Term};
 use crate::report::{Page, Screen};
-use crate::scenario::{NoScenario, Prepared, Simulation, prepare, simulate_published};
+use crate::scenario::{NoScenario, Prepared, Simulation};
 use serde::{Serialize, Serializer};
 use serde_json::json;
 use std::fmt;
@@ -152,7 +154,7 @@ pub fn simulate(
         known: design.scenarios.iter().map(|s| s.name.clone()).collect(),
     })?;
     settings.validate_for(scenario).map_err(NoAnswer::Refused)?;
-    let ran = Ran::new(design, scenario, settings, &mut |_| ());
+    let ran = Ran::new(design, scenario, settings);
     let damping = ran.damping_effect(settings);
     Ok(SimulationAnswer::new(ran, damping, settings))
 }
@@ -180,27 +182,15 @@ impl Design {
 }
 
 impl Ran {
-    /// Run `scenario` of `design`. `progress` is told the steps taken, of [`SimulationSettings::published_steps`]; the event method tells
-    /// [`SimulationSettings::follow`].
-    pub fn new(
-        design: &Design,
-        scenario: &Scenario,
-        settings: &SimulationSettings,
-        progress: &mut dyn FnMut(u64),
-    ) -> Self {
-        let run = settings.of_run(scenario);
-        let found = if settings.is_published() {
-            prepare(scenario).and_then(|prepared| {
-                let (step_s, band_m_s) = (settings.published_step_s(), settings.published_band_m_s());
-                let simulation = simulate_published(scenario, &run, step_s, band_m_s, &mut |steps| {
-                    progress(steps);
-                    !settings.follow.stopped()
-                })?;
-                Ok(((prepared, simulation), Vec::new(), Vec::new()))
-            })
-        } else {
-            fidelity::simulate(scenario, &run, settings.full)
-                .map(|planned| ((planned.prepared, planned.simulation), planned.left_out, planned.kept))
+    /// Run `scenario` of `design`; [`SimulationSettings::follow`] is told how far it is.
+    pub fn new(design: &Design, scenario: &Scenario, settings: &SimulationSettings) -> Self {
+        let found = match settings.method {
+            Integration::Event => fidelity::simulate(scenario, &settings.of_run(scenario), settings.full)
+                .map(|planned| ((planned.prepared, planned.simulation), planned.left_out, planned.kept)),
+            #[cfg(feature = "validation")]
+            Integration::Published { .. } => {
+                settings.run_published(scenario).map(|ran| (ran, Vec::new(), Vec::new()))
+            }
         };
         let (outcome, planned, kept) = match found {
             Ok((outcome, planned, kept)) => (Ok(outcome), planned, kept),
@@ -209,6 +199,7 @@ impl Ran {
         let method = match settings.method {
             _ if scenario.kind.duration_s().is_none() => "equilibrium",
             Integration::Event => "event",
+            #[cfg(feature = "validation")]
             Integration::Published { .. } => "published",
         };
         let own = Design { clutch: scenario.clutch.clone(), ..design.clone() };

@@ -4,19 +4,13 @@ use crate::clutch::Scenario;
 use crate::dynamics::History;
 use crate::follow::Follow;
 use crate::report::plain;
-use crate::scenario::{Settings, published_steps};
+use crate::scenario::Settings;
 use std::fmt;
 
-/// The paper's step, s.
-const PUBLISHED_STEP_S: f64 = 1e-5;
-/// Half width of the published scheme's band; the paper gives none, a choice.
-const PUBLISHED_BAND_M_S: f64 = 1e-4;
 /// Tolerances that make sense: below, rounding rules; above, events are missed.
 const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
 /// Shortest step that makes sense, s: below, rounding of the time rules.
 const SHORTEST_STEP_S: f64 = 1e-9;
-/// Steps of the published scheme that one simulation takes on: some hours.
-const MOST_STEPS: u64 = 1_000_000_000;
 
 /// Rows of the history of a short scene: one that these show well.
 const ROWS: usize = 1200;
@@ -33,7 +27,8 @@ pub enum Integration {
     /// Stick as a constraint, every change of mode located.
     #[default]
     Event,
-    /// The paper's scheme: Runge-Kutta with a narrow band around zero velocity; does not converge.
+    /// The paper's scheme (feature `validation`): Runge-Kutta with a narrow band around zero velocity; does not converge.
+    #[cfg(feature = "validation")]
     Published {
         /// Half width of the band of zero velocity, m/s; `None`: 1e-4.
         band_m_s: Option<f64>,
@@ -134,22 +129,8 @@ impl SimulationSettings {
     pub fn validate_for(&self, scenario: &Scenario) -> Result<(), RefusedSetting> {
         self.validate()?;
         let Some(duration) = scenario.kind.duration_s() else { return Ok(()) };
-        if self.is_published() {
-            let step = self.published_step_s();
-            if step > duration && self.step_s.is_some() {
-                let allowed = format!("at most the duration of the scenario, {duration} s");
-                return Err(refused(Setting::Step, step, allowed));
-            }
-            let steps = published_steps(duration, step);
-            if steps > MOST_STEPS {
-                let least = step * (steps as f64 / MOST_STEPS as f64);
-                let allowed = format!(
-                    "{least:.1e} s or more: at most {:e} steps in twice the scenario's {duration} s, the second time halved",
-                    MOST_STEPS as f64
-                );
-                return Err(refused(Setting::Step, step, allowed));
-            }
-        }
+        #[cfg(feature = "validation")]
+        self.validate_published(duration)?;
         match self.window_s {
             // The published scheme knows no window.
             Some([_, until]) if until > duration && !self.is_published() => {
@@ -159,25 +140,8 @@ impl SimulationSettings {
         }
     }
 
-    /// Steps that the published scheme takes in `scenario`, both runs; `None` where another method runs, or none.
-    pub fn published_steps(&self, scenario: &Scenario) -> Option<u64> {
-        let duration = scenario.kind.duration_s().filter(|_| self.is_published())?;
-        Some(published_steps(duration, self.published_step_s()))
-    }
-
     pub(super) fn is_published(&self) -> bool {
-        matches!(self.method, Integration::Published { .. })
-    }
-
-    pub(super) fn published_step_s(&self) -> f64 {
-        self.step_s.unwrap_or(PUBLISHED_STEP_S)
-    }
-
-    pub(super) fn published_band_m_s(&self) -> f64 {
-        match self.method {
-            Integration::Published { band_m_s: Some(band) } => band,
-            _ => PUBLISHED_BAND_M_S,
-        }
+        self.method != Integration::Event
     }
 
     /// How many samples, and of what. Where 1200 do not show a scene well there are more, and changes of mode and extremes
@@ -207,6 +171,6 @@ impl SimulationSettings {
     }
 }
 
-fn refused(setting: Setting, found: f64, allowed: String) -> RefusedSetting {
+pub(super) fn refused(setting: Setting, found: f64, allowed: String) -> RefusedSetting {
     RefusedSetting { setting, found, allowed }
 }
