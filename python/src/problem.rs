@@ -73,9 +73,9 @@ impl Problem {
     /// Names of objectives and limits, those of the start.
     fn names(&self, py: Python<'_>, x: Vec<f64>) -> PyResult<(Vec<String>, Vec<String>)> {
         self.checked(&x)?;
-        let looked = py.detach(|| self.problem.look_at(&x));
-        let looked = looked.map_err(|why| crate::errors::no_clutch(py, &why))?;
-        let names = self.problem.names(&looked);
+        let assessed = py.detach(|| self.problem.assess_at(&x));
+        let assessed = assessed.map_err(|why| crate::errors::no_clutch(py, &why))?;
+        let names = self.problem.names(&assessed);
         Ok((names.objectives, names.limits))
     }
 

@@ -81,14 +81,16 @@ impl Evaluate for LetGo<'_> {
         let Some((&value, rest)) = x.split_last() else {
             return Err(NoEvaluation::Refused("no variable".to_owned()));
         };
-        let looked = match self.number {
-            Number::Limit(key) => self.problem.under(key.with(self.problem.limits(), value)).look_at(rest)?,
-            Number::Dimension => self.problem.look_at(x)?,
+        let assessed = match self.number {
+            Number::Limit(key) => {
+                self.problem.under(key.with(self.problem.limits(), value)).assess_at(rest)?
+            }
+            Number::Dimension => self.problem.assess_at(x)?,
         };
         let off = (value - self.given) / self.range;
         Ok(Evaluation {
             objectives: vec![-off, off],
-            limits: with_slopes(self.problem, &looked.rows),
+            limits: with_slopes(self.problem, &assessed.rows),
             tie_break: 0.0,
         })
     }
@@ -112,8 +114,8 @@ struct OneLimit<'p> {
 
 impl Evaluate for OneLimit<'_> {
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
-        let looked = self.problem.look_at(x)?;
-        let row = looked.rows.iter().find(|r| r.is_of(self.row));
+        let assessed = self.problem.assess_at(x)?;
+        let row = assessed.rows.iter().find(|r| r.is_of(self.row));
         let row = row.ok_or_else(|| NoEvaluation::Refused(format!("no {}", self.row.code())))?;
         let margin = self.problem.left(row);
         Ok(Evaluation { objectives: vec![margin], limits: Vec::new(), tie_break: 0.0 })
@@ -128,7 +130,7 @@ type Asked = (Number, String, &'static str, f64, (f64, f64));
 pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
     let problem = found.problem.as_checked().fully();
     let x = &found.outcome.x;
-    let (Ok(text), Ok(here)) = (problem.file_at(x), problem.look_at(x)) else { return Vec::new() };
+    let (Ok(text), Ok(here)) = (problem.file_at(x), problem.assess_at(x)) else { return Vec::new() };
     desk.begins("what would free it");
     let tight: Vec<&Margin> = here.rows.iter().filter(|m| problem.left(m) < TIGHT).collect();
     let eased = |rows: &[Margin]| {
@@ -139,7 +141,7 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
         let Some(value) = key.value(problem.limits()).filter(|v| *v > 0.0) else { continue };
         let felt = |share: f64| {
             let moved = problem.under(key.with(problem.limits(), value * (1.0 + share)));
-            moved.look_at(x).is_ok_and(|looked| eased(&looked.rows))
+            moved.assess_at(x).is_ok_and(|assessed| eased(&assessed.rows))
         };
         let between = if felt(FELT) {
             (value, value * FACTOR)
@@ -214,7 +216,7 @@ pub fn alone(found: &Search, desk: &Desk) -> Vec<Alone> {
     let problem = found.problem.at_rest().fully();
     let (lo, hi) = found.bounds();
     let x = &found.outcome.x;
-    let Ok(here) = problem.look_at(x) else { return Vec::new() };
+    let Ok(here) = problem.assess_at(x) else { return Vec::new() };
     let one = |row: &Margin| {
         let only = OneLimit { problem: &problem, row };
         let settings = Settings { max_evaluations: EVALUATIONS, poll: false, ..Settings::default() };

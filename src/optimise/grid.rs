@@ -252,16 +252,18 @@ impl Grid<'_> {
         let full = self.problem.at_fidelity(self.problem.fidelity().sharper());
         let mut off = OffGrid { x: Vec::new(), not_held: Vec::new() };
         for (x, _) in self.seen.iter().take(FULL) {
-            let (Ok(looked), Ok(searched)) = (full.look_at(x), self.problem.look_at(x)) else { continue };
+            let (Ok(assessed), Ok(searched)) = (full.assess_at(x), self.problem.assess_at(x)) else {
+                continue;
+            };
             self.evaluations += 1;
-            let broken = looked.rows.iter().filter(|m| !full.held(m));
+            let broken = assessed.rows.iter().filter(|m| !full.held(m));
             let broken: Vec<(String, f64)> = broken.map(|m| (m.code(), full.left(m))).collect();
             match self.problem.finished_file(x) {
                 Ok(file) if broken.is_empty() => {
-                    let (objective, before) = (full.value(&looked, 0), self.problem.value(&searched, 0));
+                    let (objective, before) = (full.value(&assessed, 0), self.problem.value(&searched, 0));
                     return Ok(OnGrid {
                         x: x.clone(),
-                        rows: looked.rows,
+                        rows: assessed.rows,
                         as_searched: searched.rows,
                         objective,
                         objective_error: (objective - before).abs(),

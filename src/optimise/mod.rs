@@ -49,7 +49,7 @@ pub use journal::{Entry, Journal, SearchRun, Watch};
 pub use outcome::{Active, Cause, Iteration, Outcome, Refusal, Residuals, Status, TrialOutcome};
 pub use pareto::{Front, FrontPoint, front};
 pub use price::{Price, PriceKind};
-pub use problem::{ClutchProblem, Fidelity, Looked, Names};
+pub use problem::{Assessment, ClutchProblem, Fidelity, Names};
 pub use realise::{Nearest, Realised, is_centroid, realise};
 pub use relief::{Freed, Relief, relief};
 pub use robust::{Robust, RobustSearch, Spread, robust, spread};

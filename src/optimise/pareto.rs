@@ -63,8 +63,8 @@ pub fn front(
     let mut beaten = 0;
     let seen = |x: &[f64], evaluations: &mut usize| -> Result<Vec<f64>, NoEvaluation> {
         *evaluations += 1;
-        let looked = all.look_at(x)?;
-        Ok((0..aims.len()).map(|k| all.value(&looked, k)).collect())
+        let assessed = all.assess_at(x)?;
+        Ok((0..aims.len()).map(|k| all.value(&assessed, k)).collect())
     };
     for &aim in aims {
         desk.begins(&format!("anchor {aim}"));

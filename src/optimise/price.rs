@@ -3,7 +3,7 @@
 use super::goal::capacity_of;
 use super::influence::Influence;
 use super::outcome::Outcome;
-use super::problem::{ClutchProblem, Looked};
+use super::problem::{Assessment, ClutchProblem};
 use super::settings::Settings;
 use crate::design::variable_unit;
 use crate::margin::{Demand, Margin, Rule, When, courses, load_state};
@@ -47,7 +47,7 @@ pub enum PriceKind {
 /// that are not active, and slopes below the tolerance of the climb, are what its subproblem leaves: no prices.
 pub(super) fn prices(
     problem: &ClutchProblem,
-    best: &Looked,
+    best: &Assessment,
     outcome: &Outcome,
     table: &Influence,
     (lo, hi): (&[f64], &[f64]),
@@ -106,7 +106,7 @@ fn ratio_of(row: &Margin) -> Option<f64> {
 }
 
 /// Prices of the allowables that decide a torque capacity; none where no capacity is raised.
-fn capacity_prices(problem: &ClutchProblem, best: &Looked, outcome: &Outcome) -> Vec<Price> {
+fn capacity_prices(problem: &ClutchProblem, best: &Assessment, outcome: &Outcome) -> Vec<Price> {
     let capacities = outcome.active.objectives.iter().filter_map(|&i| {
         let measure = best.measures.get(i)?;
         let row = best.rows.iter().find(|row| capacity_of(row) == measure.code)?;

@@ -91,7 +91,7 @@ pub struct ClutchProblem {
 
 /// Everything known of one clutch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Looked {
+pub struct Assessment {
     /// All required margins.
     pub rows: Vec<Margin>,
     /// What the goals raise, goal by goal.
@@ -310,7 +310,7 @@ impl ClutchProblem {
     ///
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
-    pub fn look(&self, design: &Design) -> Result<Looked, NoEvaluation> {
+    pub fn assess(&self, design: &Design) -> Result<Assessment, NoEvaluation> {
         let effort = self.effort();
         let state = load_state_at(design, effort).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
@@ -342,7 +342,7 @@ impl ClutchProblem {
                 .unwrap_or_default();
             rows.extend(off_centre.into_iter().filter(|m| m.required));
         }
-        Ok(Looked { rows, measures: measures_of_goals })
+        Ok(Assessment { rows, measures: measures_of_goals })
     }
 
     fn scene(&self, scenario: &crate::clutch::Scenario, known: AtRest) -> Vec<Margin> {
@@ -382,14 +382,14 @@ impl ClutchProblem {
     ///
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch at `x`.
-    pub fn look_at(&self, x: &[f64]) -> Result<Looked, NoEvaluation> {
+    pub fn assess_at(&self, x: &[f64]) -> Result<Assessment, NoEvaluation> {
         let design = self.asked_at(x)?;
-        let mut all = Looked { rows: Vec::new(), measures: Vec::new() };
+        let mut all = Assessment { rows: Vec::new(), measures: Vec::new() };
         for corner in &self.corners {
             let mut found = if corner.is_nominal() {
-                self.look(&design)?
+                self.assess(&design)?
             } else {
-                self.look(&perturbed(&design, corner).map_err(|e| NoEvaluation::Refused(e.to_string()))?)?
+                self.assess(&perturbed(&design, corner).map_err(|e| NoEvaluation::Refused(e.to_string()))?)?
             };
             if !corner.is_nominal() {
                 let name = corner.name();
@@ -432,10 +432,10 @@ impl ClutchProblem {
     }
 
     /// Names in the order of [`Evaluation`].
-    pub fn names(&self, looked: &Looked) -> Names {
+    pub fn names(&self, assessed: &Assessment) -> Names {
         Names {
-            objectives: looked.measures.iter().map(|m| m.code.clone()).collect(),
-            limits: looked.rows.iter().filter(|m| self.is_limit(m)).map(|m| m.code()).collect(),
+            objectives: assessed.measures.iter().map(|m| m.code.clone()).collect(),
+            limits: assessed.rows.iter().filter(|m| self.is_limit(m)).map(|m| m.code()).collect(),
         }
     }
 
@@ -446,12 +446,12 @@ impl ClutchProblem {
 
     /// Objectives, each (measure - from)/span of its goal; limits; and the largest Hertz pressure in GPa as the tie
     /// break.
-    pub fn evaluation(&self, looked: &Looked) -> Evaluation {
-        let pressure = looked.rows.iter().filter(|m| m.is_static_pressure());
+    pub fn evaluation(&self, assessed: &Assessment) -> Evaluation {
+        let pressure = assessed.rows.iter().filter(|m| m.is_static_pressure());
         let pressed = self.goals.iter().any(|g| g.objective == Objective::PeakPressure);
         Evaluation {
-            objectives: looked.measures.iter().map(|m| self.goals[m.goal].scaled(m.value)).collect(),
-            limits: self.limit_rows(&looked.rows).iter().map(|m| self.left(m)).collect(),
+            objectives: assessed.measures.iter().map(|m| self.goals[m.goal].scaled(m.value)).collect(),
+            limits: self.limit_rows(&assessed.rows).iter().map(|m| self.left(m)).collect(),
             // MPa to GPa.
             tie_break: match pressed {
                 true => 0.0,
@@ -461,9 +461,9 @@ impl ClutchProblem {
     }
 
     /// The least measure of goal `k`, in its objective's own unit ([`Objective::unit`]).
-    pub fn value(&self, looked: &Looked, k: usize) -> f64 {
+    pub fn value(&self, assessed: &Assessment, k: usize) -> f64 {
         let least =
-            looked.measures.iter().filter(|m| m.goal == k).map(|m| m.value).fold(f64::INFINITY, f64::min);
+            assessed.measures.iter().filter(|m| m.goal == k).map(|m| m.value).fold(f64::INFINITY, f64::min);
         self.goals[k].objective.sense() * least
     }
 
@@ -481,7 +481,7 @@ impl ClutchProblem {
 
 impl Evaluate for ClutchProblem {
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
-        self.look_at(x).map(|looked| self.evaluation(&looked))
+        self.assess_at(x).map(|assessed| self.evaluation(&assessed))
     }
 }
 

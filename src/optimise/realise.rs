@@ -9,7 +9,7 @@ use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::influence::Influence;
 use super::journal::SearchRun;
 use super::outcome::Outcome;
-use super::problem::{ClutchProblem, Looked};
+use super::problem::{Assessment, ClutchProblem};
 use super::search::{NoSearch, Search, Variable, search_problem};
 use super::settings::Settings;
 use super::smooth::ROOM as ROOM_LEFT;
@@ -58,7 +58,7 @@ pub struct Realised {
     /// Flanks and what comes with them.
     pub nearest: Nearest,
     /// All margins and the objective of the clutch with these flanks, all else as the search left it.
-    pub looked: Looked,
+    pub assessed: Assessment,
     /// The objective there, in its own unit.
     pub objective: f64,
     /// Design file with these flanks.
@@ -152,15 +152,15 @@ pub fn realise(
     let text = with_flank_variables(&text, &joint).map_err(|e| fail(e.to_string()))?;
     let problem = found.problem.on(text.clone()).over(others);
     let full = problem.at_fidelity(problem.fidelity().sharper());
-    let looked = full.look_at(&x).map_err(NoSearch::Start)?;
-    let objective = full.value(&looked, 0);
+    let assessed = full.assess_at(&x).map_err(NoSearch::Start)?;
+    let objective = full.value(&assessed, 0);
     desk.begins("search with flanks in place of the centroid");
     let problem = problem.over(joint.variables.iter().map(|v| v.name.clone()).collect());
     let (made, searched) = match search_problem(&problem, &joint, &method.carried_on(), desk) {
         Ok(search) => (search, true),
         Err(_) => (standing(found, &problem, &joint)?, false),
     };
-    Ok(Some(Realised { nearest, looked, objective, file: text, made: Box::new(made), searched }))
+    Ok(Some(Realised { nearest, assessed, objective, file: text, made: Box::new(made), searched }))
 }
 
 /// A search with flanks that was not begun: its start as the answer.
@@ -179,8 +179,8 @@ fn standing(found: &Search, problem: &ClutchProblem, joint: &Optimize) -> Result
         })
         .collect();
     let x: Vec<f64> = variables.iter().map(|v| v.start).collect();
-    let as_searched = problem.look_at(&x).map_err(NoSearch::Start)?;
-    let best = problem.at_fidelity(problem.fidelity().sharper()).look_at(&x).map_err(NoSearch::Start)?;
+    let as_searched = problem.assess_at(&x).map_err(NoSearch::Start)?;
+    let best = problem.at_fidelity(problem.fidelity().sharper()).assess_at(&x).map_err(NoSearch::Start)?;
     let file =
         problem.finished_file(&x).map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;
     let (after, before) = (problem.value(&best, 0), problem.value(&as_searched, 0));

@@ -49,13 +49,13 @@ pub struct Relief {
 /// Looks for the least preload, abutment stiffness and damping with which the scenarios that fail at `outcome.x` hold.
 pub fn relief(design: &Design, problem: &ClutchProblem, outcome: &Outcome, desk: &Desk) -> Relief {
     let mut told = Relief::default();
-    let (Ok(text), Ok(looked)) = (problem.file_at(&outcome.x), problem.look_at(&outcome.x)) else {
+    let (Ok(text), Ok(assessed)) = (problem.file_at(&outcome.x), problem.assess_at(&outcome.x)) else {
         return told;
     };
     desk.begins("what would free it");
     let failing = |m: &&Margin| !problem.held(m);
     let of_scene = |m: &Margin, name: &str| m.scene.as_deref() == Some(name);
-    let rows = || looked.rows.iter().filter(failing);
+    let rows = || assessed.rows.iter().filter(failing);
     told.other_limits =
         rows().filter(|m| !design.scenarios.iter().any(|s| of_scene(m, &s.name))).map(Margin::code).collect();
     for (i, scene) in design.scenarios.iter().enumerate() {
@@ -66,7 +66,7 @@ pub fn relief(design: &Design, problem: &ClutchProblem, outcome: &Outcome, desk:
         let mut holds = |key: &str, value: f64| {
             told.evaluations += 1;
             let changed = with_keys(&text, &[(key, value)]).ok()?;
-            let found = alone.look(&alone.parsed(&changed).ok()?).ok()?;
+            let found = alone.assess(&alone.parsed(&changed).ok()?).ok()?;
             Some(found.rows.iter().filter(|m| of_scene(m, &scene.name)).all(|m| alone.held(m)))
         };
         let mut turn = |key: String, what, unit, given: f64, ways: &[f64]| {

@@ -121,9 +121,9 @@ pub fn spread(
 ) -> Result<Robust, NoSearch> {
     let problem = &problem.as_checked();
     let nominal_problem = problem.at_corners(vec![Corner::NOMINAL]);
-    let looked = nominal_problem.look_at(x).map_err(NoSearch::Start)?;
-    let names = nominal_problem.names(&looked);
-    let nominal = nominal_problem.evaluation(&looked);
+    let assessed = nominal_problem.assess_at(x).map_err(NoSearch::Start)?;
+    let names = nominal_problem.names(&assessed);
+    let nominal = nominal_problem.evaluation(&assessed);
     desk.begins("corners of the tolerances");
     let ends = corners(of);
     let at_ends = at_each(problem, x, &ends, desk);

@@ -7,7 +7,7 @@ use super::evaluate::NoEvaluation;
 use super::influence::{Influence, influence};
 use super::outcome::{Outcome, Refusal, Status};
 use super::price::{Price, prices};
-use super::problem::{ClutchProblem, Fidelity, Looked, Names};
+use super::problem::{Assessment, ClutchProblem, Fidelity, Names};
 use super::realise::is_centroid;
 use super::starts::{ClimbRecord, Climbed, Optima, SearchMethod, climb_all, idle_everywhere, rank, rescued};
 use crate::design::{Design, Objective, Optimize};
@@ -196,7 +196,7 @@ pub fn search_problem(
         })
         .collect();
     let x0: Vec<f64> = variables.iter().map(|v| v.start).collect();
-    let start = whole.look_at(&x0).map_err(NoSearch::Start)?;
+    let start = whole.assess_at(&x0).map_err(NoSearch::Start)?;
     let mut evaluations = 1;
     let continuous: Vec<String> =
         task.variables.iter().filter(|v| !v.whole).map(|v| v.name.clone()).collect();
@@ -274,9 +274,9 @@ pub fn search_problem(
             v.best = *value;
         }
     }
-    let as_searched = problem.look_at(&outcome.x).map_err(NoSearch::Start)?;
+    let as_searched = problem.assess_at(&outcome.x).map_err(NoSearch::Start)?;
     let full = problem.at_fidelity(problem.fidelity().sharper());
-    let best = full.look_at(&outcome.x).map_err(NoSearch::Start)?;
+    let best = full.assess_at(&outcome.x).map_err(NoSearch::Start)?;
     evaluations += 2;
     let settled = matches!(outcome.status, Status::Converged | Status::Stalled(_)) && !searched.is_empty();
     let sensitivity = if settled {
@@ -302,7 +302,7 @@ pub fn search_problem(
     let file = problem
         .finished_file(&outcome.x)
         .map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;
-    let value = |looked: &Looked| problem.value(looked, 0);
+    let value = |assessed: &Assessment| problem.value(assessed, 0);
     Ok(Search {
         aim: problem.goals()[0].objective,
         names: problem.names(&as_searched),

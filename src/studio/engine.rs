@@ -1,7 +1,7 @@
 //! The one object that the page talks to.
 
-use super::look::{Look, Seen};
-use super::scene::{SceneLook, SceneRow, scene_look, scene_row};
+use super::scene::{SceneRow, SceneView, scene_row, scene_view};
+use super::view::{Solved, StudioView};
 use crate::design::{Design, DesignError, with_setting};
 use crate::margin::NoMargins;
 use crate::scenario::{NoScenario, Settings};
@@ -53,7 +53,7 @@ pub struct Engine {
     file: String,
     /// Where histories are looked for.
     folder: PathBuf,
-    kept: Mutex<Vec<(String, Arc<Seen>)>>,
+    kept: Mutex<Vec<(String, Arc<Solved>)>>,
 }
 
 /// Texts that are kept: now, the pinned one, and a step back for each.
@@ -69,30 +69,30 @@ impl Engine {
         Ok(Design::parse_in(&self.folder, text, &self.file)?)
     }
 
-    fn seen(&self, text: &str) -> Result<Arc<Seen>, StudioRefusal> {
+    fn solved(&self, text: &str) -> Result<Arc<Solved>, StudioRefusal> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(at) = kept.iter().position(|(t, _)| t == text) {
             let entry = kept.remove(at);
-            let seen = entry.1.clone();
+            let solved = entry.1.clone();
             kept.push(entry);
-            return Ok(seen);
+            return Ok(solved);
         }
         drop(kept);
-        let seen = Arc::new(Seen::new(self.design(text)?)?);
+        let solved = Arc::new(Solved::new(self.design(text)?)?);
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.push((text.to_owned(), seen.clone()));
+        kept.push((text.to_owned(), solved.clone()));
         let over = kept.len().saturating_sub(KEPT);
         kept.drain(..over);
-        Ok(seen)
+        Ok(solved)
     }
 
     /// Statics of a text, with a pinned one as ghost.
     ///
     /// # Errors
     /// [`StudioRefusal`] where the text is no design or the clutch has no curve; a pinned text that is refused is left out.
-    pub fn check(&self, text: &str, pinned: Option<&str>) -> Result<Look, StudioRefusal> {
-        let pinned = pinned.and_then(|text| self.seen(text).ok());
-        Ok(self.seen(text)?.look(pinned.as_deref()))
+    pub fn check(&self, text: &str, pinned: Option<&str>) -> Result<StudioView, StudioRefusal> {
+        let pinned = pinned.and_then(|text| self.solved(text).ok());
+        Ok(self.solved(text)?.view(pinned.as_deref()))
     }
 
     /// Margins and demand of one scenario.
@@ -100,21 +100,25 @@ impl Engine {
     /// # Errors
     /// [`StudioRefusal`].
     pub fn scene_row(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneRow, StudioRefusal> {
-        let seen = self.seen(text)?;
-        let scenario =
-            seen.design.scenario(name).ok_or_else(|| StudioRefusal::said(format!("no scenario {name:?}")))?;
-        Ok(scene_row(&seen.design, &seen.state, scenario, settings))
+        let solved = self.solved(text)?;
+        let scenario = solved
+            .design
+            .scenario(name)
+            .ok_or_else(|| StudioRefusal::said(format!("no scenario {name:?}")))?;
+        Ok(scene_row(&solved.design, &solved.state, scenario, settings))
     }
 
     /// The course of one scenario.
     ///
     /// # Errors
     /// [`StudioRefusal`].
-    pub fn scene(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneLook, StudioRefusal> {
-        let seen = self.seen(text)?;
-        let scenario =
-            seen.design.scenario(name).ok_or_else(|| StudioRefusal::said(format!("no scenario {name:?}")))?;
-        Ok(scene_look(scenario, settings)?)
+    pub fn scene(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneView, StudioRefusal> {
+        let solved = self.solved(text)?;
+        let scenario = solved
+            .design
+            .scenario(name)
+            .ok_or_else(|| StudioRefusal::said(format!("no scenario {name:?}")))?;
+        Ok(scene_view(scenario, settings)?)
     }
 
     /// The text with a value set, its comments kept. The new text may still be refused by [`Engine::check`].
@@ -174,7 +178,7 @@ mod tests {
         let text = engine.set(DESIGN, "r_i2_mm", "4.2").unwrap();
         let now = engine.check(&text, Some(DESIGN)).unwrap();
         let margin =
-            |look: &Look| look.margins.iter().find(|m| m.code == "hertz-nominal-inner").unwrap().margin;
+            |view: &StudioView| view.margins.iter().find(|m| m.code == "hertz-nominal-inner").unwrap().margin;
         assert_ne!(margin(&before), margin(&now));
         assert!(now.windup_svg.contains("pinned") && !before.windup_svg.contains("pinned"));
         assert!(now.picture.unwrap().svg.contains("class=\"ghost\""));

@@ -1,6 +1,6 @@
 //! What a scenario says, and its course to be played.
 
-use super::look::{MarginRow, row};
+use super::view::{MarginRow, row};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::dynamics::{Grip, Place, Sample};
@@ -26,7 +26,7 @@ pub struct SceneRow {
 
 /// The course of a scenario.
 #[derive(Debug, Clone, Default, Serialize)]
-pub struct SceneLook {
+pub struct SceneView {
     /// Its name.
     pub name: String,
     /// Verdict, in words.
@@ -74,7 +74,7 @@ pub fn scene_row(design: &Design, state: &LoadState, scenario: &Scenario, settin
 ///
 /// # Errors
 /// [`NoScenario`].
-pub fn scene_look(scenario: &Scenario, settings: &Settings) -> Result<SceneLook, NoScenario> {
+pub fn scene_view(scenario: &Scenario, settings: &Settings) -> Result<SceneView, NoScenario> {
     let prepared = prepare(scenario)?;
     let s = simulate_prepared(&prepared, &Settings { samples: SAMPLES, ..settings.clone() }, false);
     let mut facts = vec![("reached".to_owned(), Unit::Second.show(s.t_s, 4))];
@@ -84,7 +84,7 @@ pub fn scene_look(scenario: &Scenario, settings: &Settings) -> Result<SceneLook,
         let normal = Unit::Newton.show(free.normal_inner_n, 3);
         let heat = Unit::Watt.show(free.drag_torque_nm * overrun_rad_s, 3);
         let on = free.normal_inner_n > 0.0;
-        return Ok(SceneLook {
+        return Ok(SceneView {
             name: scenario.name.clone(),
             verdict: if on {
                 "runs free, sliding on the inner race"
@@ -101,7 +101,7 @@ pub fn scene_look(scenario: &Scenario, settings: &Settings) -> Result<SceneLook,
             ]
             .map(|(name, value)| (name.to_owned(), value))
             .to_vec(),
-            ..SceneLook::default()
+            ..SceneView::default()
         });
     }
     let mut fact = |name: &str, value: String| facts.push((name.to_owned(), value));
@@ -149,7 +149,7 @@ pub fn scene_look(scenario: &Scenario, settings: &Settings) -> Result<SceneLook,
         Grip::Slip(v) if v > 0.0 => 1,
         Grip::Slip(_) => -1,
     };
-    Ok(SceneLook {
+    Ok(SceneView {
         name: scenario.name.clone(),
         verdict: s.verdict.map_or("no verdict", |v| v.name()).to_owned(),
         facts,

@@ -90,17 +90,17 @@ mod tests {
         let text = include_str!("../../designs/huang2017-multi-arc.toml");
         let design = Design::parse(text, "a.toml").unwrap();
         let searching = Searching::begin(design);
-        let mut seen = searching.progress();
-        assert!(seen.running);
-        while seen.running && !seen.said.contains("searching: 1") {
+        let mut solved = searching.progress();
+        assert!(solved.running);
+        while solved.running && !solved.said.contains("searching: 1") {
             std::thread::sleep(Duration::from_millis(5));
-            seen = searching.progress();
+            solved = searching.progress();
         }
         searching.stop();
-        while seen.running {
+        while solved.running {
             std::thread::sleep(Duration::from_millis(5));
-            seen = searching.progress();
+            solved = searching.progress();
         }
-        assert!(seen.said.contains("evaluations") || seen.said.contains("stopped"), "{}", seen.said);
+        assert!(solved.said.contains("evaluations") || solved.said.contains("stopped"), "{}", solved.said);
     }
 }

@@ -75,7 +75,7 @@ impl Sweep {
         let task = design.optimize.clone().ok_or(NoSweep::NoTask)?;
         let problem = ClutchProblem::of_task(design, &task, full);
         let problem = if at_rest { problem.at_rest() } else { problem };
-        let names = |x: &[f64]| problem.look_at(x).map(|looked| problem.names(&looked));
+        let names = |x: &[f64]| problem.assess_at(x).map(|assessed| problem.names(&assessed));
         let start: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
         let elsewhere = || {
             let sample = BoxSample::of(&task, &Sampling::Sobol { count: LOOKED_AT, seed: 0 }).ok()?;

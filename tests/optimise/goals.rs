@@ -82,7 +82,7 @@ fn what_a_clutch_weighs_takes_and_drags_can_be_made_less() {
         let design = changed(&design.source, &[("  { name = \"r_i2_mm\"", LINKED)]);
         let problem = problem(&design);
         let x: Vec<f64> = task(&design).variables.iter().map(|v| v.start + 0.3 * (v.max - v.start)).collect();
-        let (looked, there) = (problem.look_at(&x).unwrap(), problem.design_at(&x).unwrap());
+        let (assessed, there) = (problem.assess_at(&x).unwrap(), problem.design_at(&x).unwrap());
         let (clutch, state) = (&there.clutch, load_state(&there).unwrap());
         assert!((clutch.races.width_m - clutch.sprags.length_m).abs() < 1e-12 && clutch.races.width_m > 7e-3);
         let overrun =
@@ -92,10 +92,10 @@ fn what_a_clutch_weighs_takes_and_drags_can_be_made_less() {
             "width" => x[0],
             "outside-diameter" => 2.0 * x[1],
             "drag" => overrun(0.0).max(overrun(4500.0 * PI / 30.0)),
-            "contact-margin" => looked.rows.iter().find(|m| m.code() == "contact:low-10").unwrap().margin(),
+            "contact-margin" => assessed.rows.iter().find(|m| m.code() == "contact:low-10").unwrap().margin(),
             _ => margin::lift_off_rad_s(&there, &state, 1e4).unwrap() * 30.0 / PI,
         };
-        let value = problem.value(&looked, 0);
+        let value = problem.value(&assessed, 0);
         assert!((value / expected - 1.0).abs() < 1e-9, "{objective}: {value} {expected}");
         let found = search_with(&design, &SearchMethod { starts: 1, ..SearchMethod::default() });
         let (before, after) = found.objective;
@@ -151,8 +151,8 @@ fn a_capacity_is_where_every_limit_just_holds() {
     let design = changed(&text, &[]);
     let problem = problem(&design);
     let x: Vec<f64> = task(&design).variables.iter().map(|v| v.start).collect();
-    let looked = problem.look_at(&x).unwrap();
-    let capacity = problem.value(&looked, 0);
+    let assessed = problem.assess_at(&x).unwrap();
+    let capacity = problem.value(&assessed, 0);
     let state = load_state(&design).unwrap();
     let held = |peak: f64| {
         let limits = sprag_design::Limits {
@@ -165,7 +165,7 @@ fn a_capacity_is_where_every_limit_just_holds() {
             m.held() || ["keep-contact", "re-engagement"].contains(&m.limit.code)
         })
     };
-    let least = looked.measures.iter().min_by(|a, b| a.value.total_cmp(&b.value)).unwrap();
+    let least = assessed.measures.iter().min_by(|a, b| a.value.total_cmp(&b.value)).unwrap();
     println!("{capacity} by {}", least.code);
     assert_eq!(least.code, "capacity:equivalent-inner");
     assert!(held(0.9999 * capacity) && !held(1.0001 * capacity), "{capacity}");
@@ -244,12 +244,12 @@ fn what_the_search_leaves_out_costs_nothing() {
     let x: Vec<f64> = task(&design).variables.iter().map(|v| v.start).collect();
     let reduced = problem(&design);
     let full = reduced.at_fidelity(Fidelity { reduced: false, ..Fidelity::default() });
-    let (a, b) = (reduced.look_at(&x).unwrap(), full.look_at(&x).unwrap());
+    let (a, b) = (reduced.assess_at(&x).unwrap(), full.assess_at(&x).unwrap());
     for (a, b) in a.rows.iter().zip(&b.rows) {
         assert!((a.margin() - b.margin()).abs() < 1e-9, "{}: {} {}", a.code(), a.margin(), b.margin());
     }
     let settings = sprag_design::Settings { tolerance: 1e-4, ..Default::default() };
-    let loose = reduced.at_fidelity(Fidelity { settings, reduced: true }).look_at(&x).unwrap();
+    let loose = reduced.at_fidelity(Fidelity { settings, reduced: true }).assess_at(&x).unwrap();
     for (a, b) in a.rows.iter().zip(&loose.rows) {
         assert!((a.margin() - b.margin()).abs() < 1e-4, "{}: {} {}", a.code(), a.margin(), b.margin());
     }

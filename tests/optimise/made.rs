@@ -35,7 +35,7 @@ fn the_optimum_with_a_free_centroid_can_be_made() {
     assert!((s.mass_kg / 1.8e-3 - 1.0).abs() < 1e-3, "{}", s.mass_kg);
     // Another inertia at 12 000 rpm costs little.
     assert!((made.objective - found.objective.1).abs() < 1e-3, "{} {}", made.objective, found.objective.1);
-    assert!(made.looked.rows.iter().all(|m| m.held()));
+    assert!(made.assessed.rows.iter().all(|m| m.held()));
     assert!(made.searched);
     let on = &made.made;
     println!("{:?} -> {:?}", made.objective, on.objective);
@@ -130,10 +130,10 @@ fn a_friction_corner_is_the_file_with_that_friction() {
     let of = base.tolerances.unwrap();
     let low = corners(&of).into_iter().find(|c| c.shares[5] < 0.0).unwrap();
     let x: Vec<f64> = task(&base).variables.iter().map(|v| v.start).collect();
-    let there = problem(&base).at_corners(vec![low]).look_at(&x).unwrap();
+    let there = problem(&base).at_corners(vec![low]).assess_at(&x).unwrap();
     let file =
         changed(HUANG, &[("static = 0.12 ", "static = 0.11 "), ("kinetic = 0.09 ", "kinetic = 0.0825 ")]);
-    let same = problem(&file).look_at(&x).unwrap();
+    let same = problem(&file).assess_at(&x).unwrap();
     assert_eq!(low.name(), "-friction");
     for (a, b) in there.rows.iter().zip(&same.rows) {
         assert!((a.margin() - b.margin()).abs() < 1e-9, "{} {} {}", a.code(), a.margin(), b.margin());

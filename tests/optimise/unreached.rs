@@ -50,7 +50,7 @@ fn a_dimension_that_is_no_variable_is_named_where_it_frees() {
     let text =
         with_keys(&found.problem.file_at(&first.x).unwrap(), &[("sprags.inner_arcs[0].radius_mm", needed)]);
     let freed = found.problem.parsed(&text.unwrap()).unwrap();
-    let rows = found.problem.look(&freed).unwrap().rows;
+    let rows = found.problem.assess(&freed).unwrap().rows;
     assert!(rows.iter().all(|m| m.held()), "{rows:#?}");
     let each = alone(&found, &desk);
     println!("{each:?}");

@@ -2,7 +2,7 @@
 
 use crate::answer::{TOOL, VERSION};
 use crate::design::{Design, Optimize};
-use crate::optimise::{ClutchProblem, Evaluate, Looked};
+use crate::optimise::{Assessment, ClutchProblem, Evaluate};
 use serde_json::{Value, json};
 
 /// The answer to line number `at`, and whether it was no vector.
@@ -39,7 +39,7 @@ fn answer(problem: &ClutchProblem, x: &[f64]) -> Value {
 pub fn describe_problem(design: &Design, problem: &ClutchProblem) -> Value {
     let Some(task) = design.optimize.as_ref() else { return Value::Null };
     let start: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
-    let names = problem.look_at(&start).map(|looked: Looked| problem.names(&looked)).ok();
+    let names = problem.assess_at(&start).map(|assessed: Assessment| problem.names(&assessed)).ok();
     let variables: Vec<Value> = task
         .variables
         .iter()

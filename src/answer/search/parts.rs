@@ -245,7 +245,7 @@ fn realised_lines(found: &Search, r: &Realised) -> Vec<String> {
     let f = &n.flanks;
     let mm = |m: f64| significant(m * 1e3, 5);
     let at = |p: [f64; 2]| format!("({}, {}) mm", mm(p[0]), mm(p[1]));
-    let held = r.looked.rows.iter().filter(|m| !m.held()).map(|m| m.code()).collect::<Vec<_>>();
+    let held = r.assessed.rows.iter().filter(|m| !m.held()).map(|m| m.code()).collect::<Vec<_>>();
     let limits = if held.is_empty() {
         "every limit held".to_owned()
     } else {

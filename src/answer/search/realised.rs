@@ -99,7 +99,7 @@ impl Flanked {
             mass_kg: n.mass.mass_kg,
             inertia_kg_m2: n.mass.inertia_kg_m2,
             objective: r.objective,
-            margins: codes(&r.looked.rows),
+            margins: codes(&r.assessed.rows),
             searched_on,
         }
     }

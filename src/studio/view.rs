@@ -113,7 +113,7 @@ pub struct FigureRow {
 
 /// The answer of statics.
 #[derive(Debug, Clone, Serialize)]
-pub struct Look {
+pub struct StudioView {
     /// Name of the design.
     pub name: String,
     /// Hash of the file.
@@ -154,7 +154,7 @@ pub struct Look {
 
 /// A design with its statics, kept while the page looks at it.
 #[derive(Debug, Clone)]
-pub struct Seen {
+pub struct Solved {
     /// The design.
     pub design: Design,
     /// Its load state.
@@ -170,7 +170,7 @@ const PER_ARC: usize = 24;
 /// Width of the plots, px.
 const WIDTH: f64 = 380.0;
 
-impl Seen {
+impl Solved {
     /// Statics of a design.
     ///
     /// # Errors
@@ -183,13 +183,13 @@ impl Seen {
     }
 
     /// The answer, with `pinned` as ghost in picture and plots.
-    pub fn look(&self, pinned: Option<&Self>) -> Look {
+    pub fn view(&self, pinned: Option<&Self>) -> StudioView {
         let design = &self.design;
         let mut margins: Vec<MarginRow> = self.rows.iter().map(row).collect();
         sort(&mut margins);
         let limits = &design.limits;
         let sprags = [Some(self), pinned].into_iter().flatten().map(Self::pose_at_rest).collect();
-        Look {
+        StudioView {
             name: design.name.clone(),
             hash: design.hash.clone(),
             held: self.rows.iter().filter(|r| r.required).all(Margin::held),
@@ -271,13 +271,13 @@ fn figures(design: &Design, state: &LoadState) -> [(&'static str, String); 5] {
 /// The curve of now, full, and the pinned one, dashed; one colour for each everywhere.
 fn both(
     mut plot: Plot,
-    now: &Seen,
-    pinned: Option<&Seen>,
+    now: &Solved,
+    pinned: Option<&Solved>,
     up_to_nm: f64,
     point: &dyn Fn(&StaticPoint) -> [f64; 2],
 ) -> Plot {
-    let points = |seen: &Seen| -> Vec<[f64; 2]> {
-        seen.samples.iter().map(|s| &s.0).filter(|p| p.torque_nm <= up_to_nm).map(point).collect()
+    let points = |solved: &Solved| -> Vec<[f64; 2]> {
+        solved.samples.iter().map(|s| &s.0).filter(|p| p.torque_nm <= up_to_nm).map(point).collect()
     };
     plot.curves.push(Curve::new("now", points(now)).coloured(0));
     if let Some(pinned) = pinned {
