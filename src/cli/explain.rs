@@ -2,7 +2,7 @@
 
 use super::exit::{Exit, Failure};
 use super::{Context, output};
-use crate::answer::explanation::{all, explain, groups, unknown};
+use crate::answer::explanation::{Explanation, all, explain, groups, unknown};
 use clap::Args;
 use serde_json::json;
 
@@ -19,7 +19,7 @@ Without a name every name is listed.";
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ExplainArgs {
-    /// Code of a limit, dotted key of the design file, variable, objective or contact law
+    /// Code of a limit, dotted key of the design file, variable, objective, contact law or command
     #[arg(value_name = "NAME")]
     pub name: Option<String>,
 }
@@ -38,7 +38,16 @@ pub fn run(args: &ExplainArgs, context: &Context) -> Result<Exit, Failure> {
         }
         return Ok(Exit::Held);
     };
-    let found = explain(name).ok_or_else(|| Failure::malformed(unknown(name)))?;
+    let command = super::command()
+        .find_subcommand(name)
+        .and_then(|c| c.get_about())
+        .map(|about| ("command", format!("sprag-design {name}: {about}; see sprag-design {name} --help")));
+    let mut found = match (explain(name), &command) {
+        (Some(found), _) => found,
+        (None, Some(_)) => Explanation { kind: "command", lines: Vec::new() },
+        (None, None) => return Err(Failure::malformed(unknown(name))),
+    };
+    found.lines.extend(command);
     let mut text = format!("{name}: {}\n", found.kind);
     for (heading, line) in &found.lines {
         text.push_str(&format!("  {heading:<11} {line}\n"));
