@@ -44,7 +44,7 @@ pub fn run(args: &ExplainArgs, context: &Context) -> Result<Exit, Failure> {
         .map(|about| ("command", format!("sprag-design {name}: {about}; see sprag-design {name} --help")));
     let mut found = match (explain(name), &command) {
         (Some(found), _) => found,
-        (None, Some(_)) => Explanation { kind: "command", lines: Vec::new() },
+        (None, Some(_)) => Explanation { kind: "a command", lines: Vec::new() },
         (None, None) => return Err(Failure::malformed(unknown(name))),
     };
     found.lines.extend(command);

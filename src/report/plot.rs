@@ -21,6 +21,9 @@ pub enum Dash {
     Dashed,
     /// Dots.
     Dotted,
+    /// A thin grey line, for what is to be seen and not to be told apart. A curve like the one before it has no place in the
+    /// legend of its own.
+    Faint,
 }
 
 /// One named curve, in the units of the axis titles.
@@ -225,7 +228,8 @@ impl Plot {
             for run in curve.points.split(|p| !self.drawable(p)).filter(|run| !run.is_empty()) {
                 if run.len() > 1 {
                     let line: Vec<[f64; 2]> = thinned(run, self.size_px[0]).iter().map(at).collect();
-                    svg.path(&polyline(&line, false), &style.line(1.8));
+                    let width_px = if curve.dash == Dash::Faint { 1.0 } else { 1.8 };
+                    svg.path(&polyline(&line, false), &style.line(width_px));
                 }
                 if curve.dots || run.len() == 1 {
                     dots.extend(run.iter().map(|p| (at(p), style.css())));
@@ -242,7 +246,8 @@ impl Plot {
             return rows;
         }
         let mut x = f64::INFINITY;
-        for (index, _) in self.curves.iter().enumerate() {
+        let faint = |index: usize| self.curves.get(index).is_some_and(|c| c.dash == Dash::Faint);
+        for index in (0..self.curves.len()).filter(|&index| !(faint(index) && faint(index.wrapping_sub(1)))) {
             let width = 34.0 + text_width(&self.legend_name(index), TEXT_PX) + 14.0;
             if x + width > self.size_px[0] - RIGHT_PX || rows.is_empty() {
                 rows.push(Vec::new());

@@ -3,12 +3,14 @@
 use super::CheckAnswer;
 use crate::answer::stiffness::junctions;
 use crate::design::Design;
-use crate::margin::courses;
+use crate::margin::{DemandCourse, courses};
 use crate::report::{Curve, Dash, Plot, Unit};
 use crate::wedge::{PLOTTED, StaticPoint};
 
 /// Demands are drawn up to this multiple of their allowable.
 const CUT_AT: f64 = 1.5;
+/// Limits that are told apart; the others are seen to be farther away.
+const NAMED: usize = 5;
 
 /// Demand over allowable of all limits against torque, those that set the capacities marked.
 pub(super) fn limits(design: &Design, check: &CheckAnswer) -> Plot {
@@ -20,17 +22,25 @@ pub(super) fn limits(design: &Design, check: &CheckAnswer) -> Plot {
     let up_to = if reached > 0.0 { 1.25 * reached } else { f64::INFINITY };
     let points: Vec<StaticPoint> = curve.samples(up_to, PLOTTED).into_iter().map(|(p, _)| p).collect();
     let mut plot = Plot::new("Torque, Nm", "Demand / allowable").level(1.0, "limit").sized(720.0, 460.0);
-    for course in courses(&check.rows, design, limits, &check.state, &points) {
-        let sets = set_by.iter().any(|(code, _)| *code == course.code);
-        let cut = |[x, y]: [f64; 2]| [x, if y <= CUT_AT { y } else { f64::NAN }];
-        let dash = match (sets, course.required) {
+    let sets = |course: &DemandCourse| set_by.iter().any(|(code, _)| *code == course.code);
+    let highest =
+        |course: &DemandCourse| course.points.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
+    let mut all = courses(&check.rows, design, limits, &check.state, &points);
+    all.sort_by(|a, b| sets(b).cmp(&sets(a)).then(highest(b).total_cmp(&highest(a))));
+    for (place, course) in all.into_iter().enumerate() {
+        let dash = match (sets(&course), course.required) {
             (true, _) => Dash::Solid,
+            _ if place >= NAMED => Dash::Faint,
             (false, true) => Dash::Dashed,
             (false, false) => Dash::Dotted,
         };
-        let name = if sets { format!("{} (decides)", course.code) } else { course.code };
-        let points = course.points.into_iter().map(cut).collect();
-        plot.curves.push(Curve { dash, ..Curve::new(&name, points) });
+        let name = match dash {
+            Dash::Solid => format!("{} (decides)", course.code),
+            Dash::Faint => "farther away".to_owned(),
+            _ => course.code,
+        };
+        let cut = |[x, y]: [f64; 2]| [x, if y <= CUT_AT { y } else { f64::NAN }];
+        plot.curves.push(Curve { dash, ..Curve::new(&name, course.points.into_iter().map(cut).collect()) });
     }
     for (code, torque_nm) in set_by {
         plot = plot.marker(torque_nm, &code);

@@ -31,8 +31,8 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
     page.figure(
         &charts::limits(design, check).to_svg(),
         "Demand over allowable of every limit that depends on torque; a limit is reached at 1. Full lines: the limits that \
-         set the torque capacities, named at their torque; dashed: other required limits; dotted: shown only. Cut off \
-         above 1.5.",
+         set the torque capacities, named at their torque; dashed: the next required limits; dotted: shown only; grey: \
+         farther away. Cut off above 1.5.",
     );
     page.heading("Margins");
     page.table(

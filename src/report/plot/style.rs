@@ -1,7 +1,7 @@
 //! Colour and line pattern of each curve: no two curves of one plot have both alike.
 
 use super::{Curve, Dash};
-use crate::report::svg::SERIES;
+use crate::report::svg::{SERIES, SOFT};
 
 /// Patterns of one [`Dash`]: the usual one, and those that follow when all colours are taken with it.
 const PATTERNS: usize = 3;
@@ -18,13 +18,13 @@ pub(super) struct Style {
 
 impl Style {
     pub(super) fn css(self) -> &'static str {
-        SERIES[self.colour]
+        if self.dash == Dash::Faint { SOFT } else { SERIES[self.colour] }
     }
 
     /// Attributes of a line in this style, `width_px` thick.
     pub(super) fn line(self, width_px: f64) -> String {
         let dashes = match (self.dash, self.pattern) {
-            (Dash::Solid, 0) => "none",
+            (Dash::Solid, 0) | (Dash::Faint, _) => "none",
             (Dash::Solid, 1) => "18 3",
             (Dash::Solid, _) => "18 3 3 3",
             (Dash::Dashed, 0) => "8 4",
@@ -35,15 +35,16 @@ impl Style {
             (Dash::Dotted, _) => "2 3 2 9",
         };
         let colour = self.css();
+        let soft = if self.dash == Dash::Faint { " stroke-opacity=\"0.5\"" } else { "" };
         format!(
             "fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width_px}\" stroke-dasharray=\"{dashes}\" \
-             stroke-linejoin=\"round\""
+             stroke-linejoin=\"round\"{soft}"
         )
     }
 }
 
-/// One style per curve. A curve that names its colour has it; the others take theirs by their place, or the next that
-/// is free with their dash; then the next pattern. Only beyond 18 curves of one dash does a pair come again.
+/// One style per curve; faint ones look alike. A curve that names its colour has it; the others take theirs by their place,
+/// or the next that is free with their dash; then the next pattern. Only beyond 18 curves of one dash does a pair come again.
 pub(super) fn styles(curves: &[Curve]) -> Vec<Style> {
     let mut taken: Vec<Style> = Vec::with_capacity(curves.len());
     for (index, curve) in curves.iter().enumerate() {
