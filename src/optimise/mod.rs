@@ -16,6 +16,7 @@ mod grid;
 mod hessian;
 mod influence;
 mod journal;
+mod near_corners;
 mod noise;
 mod outcome;
 mod pareto;

@@ -1,7 +1,10 @@
 //! Margins of a design as it may be made, and a design that holds its limits at every corner.
 //!
 //! Monte Carlo draws each quantity evenly over its range. The robust search is the cutting-set method (Mutapcic and Boyd,
-//! Optim. Methods Softw. 24 (2009) 381): climb at a few corners, look at all, add those that are worse, climb again.
+//! Optim. Methods Softw. 24 (2009) 381): climb at a few corners, find those that are worse, add them, climb again. Between its
+//! rounds what a corner takes from the margins is followed by its slopes, so that a climb costs what it costs without
+//! tolerances; all corners are evaluated in the end, and where some margin is not held there, or lower than at the corners of
+//! the set, climbs at the corners themselves follow.
 
 use rayon::prelude::*;
 
@@ -9,11 +12,13 @@ use super::corner::{Corner, corners, half_ranges};
 use super::desk::Desk;
 use super::evaluate::{Evaluation, NoEvaluation};
 use super::journal::Memo;
+use super::near_corners::{NearCorners, climb_on_slopes};
 use super::outcome::{Cause, Status};
 use super::problem::{ClutchProblem, Names};
 use super::search::{NoSearch, refused};
 use super::starts::SearchMethod;
 use crate::clutch::Tolerances;
+use crate::margin::RESOLUTION;
 
 /// Limits farther away than this need no corner of their own: a choice; each corner is a whole evaluation more.
 const NEAR: f64 = 0.2;
@@ -90,7 +95,7 @@ pub struct RobustSearch {
 }
 
 /// All given corners of `problem` at `x`, side by side.
-fn at_each(
+pub(super) fn at_each(
     problem: &ClutchProblem,
     x: &[f64],
     points: &[Corner],
@@ -149,7 +154,7 @@ pub fn spread(
     };
     // A row may be absent at a corner where an arc dropped out; only rows of the same shape compare.
     let alike = |e: &Evaluation| e.objectives.len() == count && e.limits.len() == nominal.limits.len();
-    let holds = |e: &Evaluation| e.violation() <= crate::margin::RESOLUTION;
+    let holds = |e: &Evaluation| e.violation() <= RESOLUTION;
     let everywhere: Vec<(String, &Evaluation)> = std::iter::once(("nominal".to_owned(), &nominal))
         .chain(ends.iter().zip(&at_ends).filter_map(|(c, e)| Some((c.name(), e.as_ref().ok()?))))
         .collect();
@@ -159,7 +164,7 @@ pub fn spread(
             .iter()
             .filter(|(_, e)| alike(e))
             .min_by(|a, b| a.1.limits[j].total_cmp(&b.1.limits[j]))
-            .filter(|(_, e)| e.limits[j] < -crate::margin::RESOLUTION);
+            .filter(|(_, e)| e.limits[j] < -RESOLUTION);
         not_held.extend(worst.map(|(corner, _)| (code.clone(), corner.clone())));
     }
     let unlike = everywhere.iter().filter(|(_, e)| !alike(e) && !holds(e));
@@ -229,16 +234,16 @@ pub fn robust(
     method: &SearchMethod,
     desk: &Desk,
 ) -> Result<RobustSearch, NoSearch> {
-    let ends = corners(of);
-    let mut set = vec![Corner::NOMINAL];
-    let mut x = x0.to_vec();
-    let mut status = Status::Converged;
-    let (mut evaluations, mut rounds) = (0, 0);
-    loop {
-        let at_ends = at_each(problem, &x, &ends, desk);
-        evaluations += ends.len();
-        let fresh = worse_than_set(&set, &ends, &at_ends, &at_each(problem, &x, &set, desk));
-        if fresh.is_empty() {
+    let all = corners(of);
+    let near = climb_on_slopes(problem, x0, (lo, hi), of, method, desk).map_err(refused)?;
+    let NearCorners { mut x, mut set, mut evaluations, mut status } = near;
+    let mut rounds = 0;
+    while !desk.stopped() {
+        let (at_set, at_all) = (at_each(problem, &x, &set, desk), at_each(problem, &x, &all, desk));
+        evaluations += set.len() + all.len();
+        let fresh = worse_than_set(&set, &all, &at_all, &at_set);
+        let held = at_set.iter().all(|e| e.as_ref().is_ok_and(|e| e.violation() <= RESOLUTION));
+        if fresh.is_empty() && held && status == Status::Converged {
             break;
         }
         if rounds == ROUNDS {
@@ -272,7 +277,7 @@ pub fn robust(
 }
 
 /// Corners at which some margin is worse than at all corners of the set, one for each such margin.
-fn worse_than_set(
+pub(super) fn worse_than_set(
     set: &[Corner],
     ends: &[Corner],
     at_ends: &[Result<Evaluation, NoEvaluation>],
