@@ -4,6 +4,13 @@
 //! change: momenta of all coordinates but alpha are kept, and so is kinetic energy, hence
 //! alpha'+ = alpha'- sqrt(m-/m+) with the effective mass m = M_aa - M_ar M_rr^-1 M_ra of the rolling system.
 //! Without rolling contacts nothing jumps.
+//!
+//! A race that its flange moves at a given speed u keeps that, whatever impulse it takes. Where it rolls it ties phi to alpha
+//! (phi' = u + rho_i alpha' at A, u - rho_e alpha' at B), so that the kinetic energy becomes m alpha'^2/2 + g u alpha' + c u^2/2.
+//! The middle term is a total derivative and c is no function of alpha: Jacobi's integral keeps m alpha'^2/2, again
+//! alpha'+ = alpha'- sqrt(m-/m+). With s phi's slope by alpha, rho_i or -rho_e, and r = rho_i + rho_e,
+//! m = n_s (I_g (1 + s)^2 + m_g OC_g^2 s^2), and r^2 times the inertia of the other race where that rolls along. Where
+//! both races are moved and roll nothing is left to alpha: alpha' = (u_e - u_i)/r.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -23,6 +30,10 @@ pub(super) fn cross(
     if !inner && !outer {
         return rates;
     }
+    let [held_i, held_e] = model.held_rad_s2().map(|held| held.is_some());
+    if (held_i && inner) || (held_e && outer) {
+        return tied(model, before, after, rates, [inner, outer], [held_i, held_e]);
+    }
     let (m_before, _, _) = reduced(model, before, inner, outer);
     let (m_after, coupling_after, rest) = reduced(model, after, inner, outer);
     let Some(rest_inverse) = rest.try_inverse() else { return rates };
@@ -37,6 +48,43 @@ pub(super) fn cross(
         w[0],
         if inner { w[0] - after.rho_i * alpha_rate } else { w[1] },
         if outer { w[0] + after.rho_e * alpha_rate } else { w[2] },
+    ]
+}
+
+/// The same where a race that is moved at a given speed rolls; `rolls` and `held`: inner, outer.
+fn tied(
+    model: &Model,
+    before: &WedgePoint,
+    after: &WedgePoint,
+    [da, _, di, de]: [f64; 4],
+    rolls: [bool; 2],
+    held: [bool; 2],
+) -> [f64; 4] {
+    let by_inner = rolls[0] && held[0];
+    let both = rolls[0] && rolls[1];
+    let da = if both && held[0] && held[1] {
+        (de - di) / (after.rho_i + after.rho_e)
+    } else {
+        let other = match (both, by_inner) {
+            (false, _) => 0.0,
+            (true, true) => model.outer_inertia_kg_m2,
+            (true, false) => model.inner_inertia_kg_m2,
+        };
+        let mass = |p: &WedgePoint| {
+            let slope = if by_inner { p.rho_i } else { -p.rho_e };
+            let orbit = model.mass_kg * p.oc_g * p.oc_g;
+            model.count * (model.inertia_kg_m2 * (1.0 + slope).powi(2) + orbit * slope * slope)
+                + other * (p.rho_i + p.rho_e).powi(2)
+        };
+        scaled(da, mass(before), mass(after))
+    };
+    let dp = if by_inner { di + after.rho_i * da } else { de - after.rho_e * da };
+    let roll = |here: bool, rate: f64, rolled: f64| if here { rolled } else { rate };
+    [
+        da,
+        dp,
+        roll(rolls[0] && !held[0], di, dp - after.rho_i * da),
+        roll(rolls[1] && !held[1], de, dp + after.rho_e * da),
     ]
 }
 
