@@ -104,9 +104,9 @@ def test_optimize_is_that_of_the_command(design: sd.Design, command: Command, tm
 
 def test_the_front_is_that_of_the_command(design: sd.Design, command: Command, tmp_path: Path) -> None:
     aims = ["slip-margin", "torque-capacity"]
-    flags = ["--pareto", ",".join(aims), "--points", "2", "--starts", "1", "--evaluations", "8", "--json", "--quiet"]
+    flags = ["--pareto", ",".join(aims), "--points", "2", "--starts", "1", "--evaluations", "60", "--json", "--quiet"]
     said = command("optimize", MULTI_ARC, "-o", tmp_path / "new.toml", *flags)
-    front = design.pareto(aims, points=2, starts=1, evaluations=8)
+    front = design.pareto(aims, points=2, starts=1, evaluations=60)
     assert front.to_dict()["pareto"] == json.loads(said.stdout)["pareto"]
     assert len(front.points) >= 2 and list(front.points[0].objectives) == sorted(aims)
     with pytest.raises(ValueError, match="two or three different"):
