@@ -132,9 +132,14 @@ class Design:
         return Design(self._core.with_settings([(path, _toml(value))]))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the design file. A file that is there is not replaced."""
+        """Write the design file. A file that is there is not replaced; where the disk is full nothing is left."""
         with open(path, "x", encoding="utf-8", newline="") as file:
-            file.write(self.text)
+            try:
+                file.write(self.text)
+                file.flush()
+            except OSError:
+                os.unlink(path)
+                raise
 
     def check(self) -> Check:
         """Hold the design against each of its limits.
