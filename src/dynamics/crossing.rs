@@ -117,3 +117,62 @@ fn reduced(model: &Model, p: &WedgePoint, inner: bool, outer: bool) -> (f64, Vec
     rest[(0, 0)] = pp;
     (aa - ap * ap / pp, Vector3::new(ap, 0.0, 0.0), rest)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use crate::dynamics::{Given, Loads, Ramp, alpha_max_rad};
+    use crate::wedge::WedgeCurve;
+
+    /// A race that is moved is the limit of one whose inertia is large beside the sprags', whose cancellation is then still small.
+    #[test]
+    fn a_moved_race_crosses_a_junction_as_a_heavy_one() {
+        let design = Design::parse(include_str!("../../designs/huang2017-multi-arc.toml"), "design").unwrap();
+        let profile = design.clutch.profile().unwrap();
+        let curve = WedgeCurve::build(&design.clutch, &profile, 0.0).unwrap();
+        let none = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
+        let alpha_max = alpha_max_rad(&design.clutch, &curve);
+        let junction = curve.arc_end_rad(0);
+        let free = Model::new(&design.clutch, curve, none, alpha_max, 0.0);
+        let before = free.point(Place::Arc(0), junction);
+        // The paper's junction jumps by less than 1e-3; here enough to be seen.
+        let after = free.point(Place::Arc(1), junction);
+        let after = WedgePoint { rho_i: 1.05 * after.rho_i, rho_e: 0.97 * after.rho_e, ..after };
+        for moved in [[true, false], [false, true], [true, true]] {
+            let (mut heavy, mut held) = (free.clone(), free.clone());
+            for (race, inertia) in
+                [&mut heavy.inner_inertia_kg_m2, &mut heavy.outer_inertia_kg_m2].into_iter().enumerate()
+            {
+                *inertia = if moved[race] { 10.0 } else { *inertia };
+            }
+            held.drive.flanges = Some(moved.map(|moved| match moved {
+                true => Given::Acceleration(0.0),
+                false => Given::Torque(Ramp::default()),
+            }));
+            for rolls in [[true, true], [true, false], [false, true]] {
+                let grip = |rolls: bool| if rolls { Grip::Stick } else { Grip::Slip(1.0) };
+                let mode = Mode { place: Place::Arc(1), inner: grip(rolls[0]), outer: grip(rolls[1]) };
+                let mut y = [0.0; 10];
+                y[4..8].copy_from_slice(&[7.0, -2.0, 3.0, 5.0]);
+                let rates = free.rates(&mode, &before, &y);
+                let limit = cross(&heavy, &mode, &before, &after, rates);
+                let found = cross(&held, &mode, &before, &after, rates);
+                for (a, b) in found.iter().zip(limit) {
+                    assert!(
+                        (a - b).abs() < 1e-5 * rates[0].abs(),
+                        "{moved:?} {rolls:?}: {found:?} {limit:?}"
+                    );
+                }
+                for race in (0..2).filter(|race| moved[*race]) {
+                    assert_eq!(found[2 + race], rates[2 + race], "{moved:?} {rolls:?}");
+                }
+                // And it rolls on.
+                y[4..8].copy_from_slice(&found);
+                for (a, b) in found.iter().zip(free.rates(&mode, &after, &y)) {
+                    assert!((a - b).abs() < 1e-12 * 10.0, "{moved:?} {rolls:?}");
+                }
+            }
+        }
+    }
+}
