@@ -145,7 +145,7 @@ fn slip_accelerations(p: &WedgePoint, alpha_rate: f64, f: &Forces) -> ((f64, f64
 mod tests {
     use super::*;
     use crate::design::Design;
-    use crate::dynamics::{Given, Loads, Ramp, State, alpha_max_rad};
+    use crate::dynamics::{FlangeDrive, Loads, Ramp, State, alpha_max_rad};
     use crate::friction::Stribeck;
     use crate::wedge::WedgeCurve;
     use nalgebra::Matrix2;
@@ -179,8 +179,8 @@ mod tests {
         // Of eight flanges three are no torque but move their race.
         let moved = (8.0 * random(seed)) as usize;
         model.drive.flanges = Some([0, 1].map(|race| match moved == race || moved == 2 {
-            true => Given::Acceleration(2e3 * (random(seed) - 0.5)),
-            false => Given::Torque(Ramp::default()),
+            true => FlangeDrive::Acceleration(2e3 * (random(seed) - 0.5)),
+            false => FlangeDrive::Torque(Ramp::default()),
         }));
         let alpha = curve.end().1 * random(seed);
         let mut y = [0.0; 10];

@@ -122,7 +122,7 @@ fn reduced(model: &Model, p: &WedgePoint, inner: bool, outer: bool) -> (f64, Vec
 mod tests {
     use super::*;
     use crate::design::Design;
-    use crate::dynamics::{Given, Loads, Ramp, alpha_max_rad};
+    use crate::dynamics::{FlangeDrive, Loads, Ramp, alpha_max_rad};
     use crate::wedge::WedgeCurve;
 
     /// A race that is moved is the limit of one whose inertia is large beside the sprags', whose cancellation is then still small.
@@ -147,8 +147,8 @@ mod tests {
                 *inertia = if moved[race] { 10.0 } else { *inertia };
             }
             held.drive.flanges = Some(moved.map(|moved| match moved {
-                true => Given::Acceleration(0.0),
-                false => Given::Torque(Ramp::default()),
+                true => FlangeDrive::Acceleration(0.0),
+                false => FlangeDrive::Torque(Ramp::default()),
             }));
             for rolls in [[true, true], [true, false], [false, true]] {
                 let grip = |rolls: bool| if rolls { Grip::Stick } else { Grip::Slip(1.0) };
@@ -165,7 +165,8 @@ mod tests {
                     );
                 }
                 for race in (0..2).filter(|race| moved[*race]) {
-                    assert_eq!(found[2 + race], rates[2 + race], "{moved:?} {rolls:?}");
+                    // Where it does not roll it is solved for with the others, to rounding.
+                    assert!((found[2 + race] - rates[2 + race]).abs() < 1e-14, "{moved:?} {rolls:?}");
                 }
                 // And it rolls on.
                 y[4..8].copy_from_slice(&found);

@@ -30,7 +30,7 @@ pub struct Ramp {
 
 /// What a flange does to its race.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Given {
+pub enum FlangeDrive {
     /// It passes on this torque.
     Torque(Ramp),
     /// It moves the race at this acceleration, rad/s^2, whatever torque that takes ([`Model::flange_torques_nm`]).
@@ -45,7 +45,7 @@ pub struct Drive {
     /// Mean speed Omega(t), rad/s, in place of the curve's; angles are measured from its integral.
     pub speed_rad_s: Option<Course>,
     /// What the flanges do to the inner and to the outer race; torques are added to C_bi and C_be.
-    pub flanges: Option<[Given; 2]>,
+    pub flanges: Option<[FlangeDrive; 2]>,
     /// What turns on either side of the clutch. Only a run that begins by [`super::run()`] moves it.
     pub train: Option<Train>,
 }
@@ -88,7 +88,7 @@ impl Drive {
     }
 }
 
-impl Given {
+impl FlangeDrive {
     fn from(self, t: f64) -> Self {
         match self {
             Self::Torque(ramp) => Self::Torque(Ramp { start_nm: ramp.at(t), ..ramp }),
@@ -131,9 +131,9 @@ impl Model {
     /// Acceleration at which the inner and the outer race are moved whatever torque that takes, rad/s^2.
     #[inline(always)]
     pub(super) fn held_rad_s2(&self) -> [Option<f64>; 2] {
-        let held = |given: &Given| match given {
-            Given::Acceleration(a) => Some(*a),
-            Given::Torque(_) => None,
+        let held = |given: &FlangeDrive| match given {
+            FlangeDrive::Acceleration(a) => Some(*a),
+            FlangeDrive::Torque(_) => None,
         };
         self.drive.flanges.as_ref().map_or([None; 2], |both| [held(&both[0]), held(&both[1])])
     }

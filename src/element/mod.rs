@@ -16,7 +16,7 @@ mod motion;
 pub use motion::{Contact, Flange, Motion};
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
-use crate::dynamics::{Drive, Given, Memory, Model, Ramp, Run, RunSettings, SlipRecord, Stop, go_on};
+use crate::dynamics::{Drive, FlangeDrive, Memory, Model, Ramp, Run, RunSettings, SlipRecord, Stop, go_on};
 use crate::follow::Follow;
 use crate::scenario::{NoScenario, prepare};
 use serde::{Deserialize, Serialize};
@@ -303,18 +303,18 @@ impl Element {
     fn under(&mut self, torques_nm: [f64; 2], held: [Option<f64>; 2]) {
         (self.at.torques_nm, self.at.held_rad_s2) = (torques_nm, held);
         let given = |race: usize| match held[race] {
-            Some(acceleration) => Given::Acceleration(acceleration),
-            None => Given::Torque(Ramp { start_nm: torques_nm[race], rate_nm_per_s: 0.0 }),
+            Some(acceleration) => FlangeDrive::Acceleration(acceleration),
+            None => FlangeDrive::Torque(Ramp { start_nm: torques_nm[race], rate_nm_per_s: 0.0 }),
         };
         self.model.drive.flanges = Some([given(0), given(1)]);
     }
 
     /// `port` over the next `dt_s` (s), as the equations of motion have it.
-    fn given(&self, race: usize, port: Port, dt_s: f64) -> Result<Given, Malformed> {
+    fn given(&self, race: usize, port: Port, dt_s: f64) -> Result<FlangeDrive, Malformed> {
         let acceleration = match port {
             Port::Torque(t) => {
                 check_torque(race, t.start_nm).and_then(|()| check_torque(race, t.end_nm))?;
-                return Ok(Given::Torque(Ramp {
+                return Ok(FlangeDrive::Torque(Ramp {
                     start_nm: t.start_nm,
                     rate_nm_per_s: (t.end_nm - t.start_nm) / dt_s,
                 }));
@@ -327,7 +327,7 @@ impl Element {
             Port::Acceleration(acceleration) => acceleration,
         };
         check_acceleration(race, acceleration)?;
-        Ok(Given::Acceleration(acceleration))
+        Ok(FlangeDrive::Acceleration(acceleration))
     }
 
     /// Move on by `dt_s` (s) under what inner and outer flange do: [`Torque`]s, or a [`Port`] each. The run says what happened
@@ -371,8 +371,8 @@ impl Element {
             Port::Speed(_) | Port::Acceleration(_) => 0.0,
         };
         let held = given.map(|given| match given {
-            Given::Acceleration(acceleration) => Some(acceleration),
-            Given::Torque(_) => None,
+            FlangeDrive::Acceleration(acceleration) => Some(acceleration),
+            FlangeDrive::Torque(_) => None,
         });
         self.under(ports.map(reached), held);
         if !self.motion().is_finite() {
