@@ -26,7 +26,7 @@
 //! | 3 | [`wedge`] | the only static iteration: the curve N(alpha) of one design at one speed |
 //! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |
 //! | 4 | [`scenario`] | a named scene in, history and verdict out |
-//! | 4 | [`element`] | a clutch between two flanges, step by step under torques from outside |
+//! | 4 | [`element`] | a clutch between two flanges, step by step under torques or at speeds from outside |
 //! | 4 | [`fidelity`] | what a scene can leave out, and what that costs |
 //! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |

@@ -73,6 +73,25 @@ fn a_unit_holds_description_library_and_design() {
     refused(SINGLE, &["--csv", "a.csv"], "--csv and --report have no meaning here");
     assert_eq!(code(&["export", SINGLE, "--format", "fmu"]).0, Some(2));
     assert_eq!(code(&["export", SINGLE, "--format", "dxf", "--fmi", "3"]).0, Some(2));
+    // Shafts are never left out in silence.
+    let starter = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/starter-engine.toml");
+    refused(starter, &[], "--clutch-alone leaves them out");
+    let alone = [
+        "export",
+        starter,
+        "--format",
+        "fmu",
+        "--library",
+        library_arg,
+        "-o",
+        unit_arg,
+        "--clutch-alone",
+        "--json",
+    ];
+    let alone = run(&alone);
+    let said = String::from_utf8(alone.stdout).unwrap();
+    assert!(alone.status.success() && said.contains("left out as asked: armature, crank"), "{said}");
+    std::fs::remove_file(&unit).unwrap();
     std::fs::write(&unit, "somebody else's").unwrap();
     refused(SINGLE, &[], "has written; name another file");
     std::fs::remove_file(&unit).unwrap();

@@ -8,12 +8,17 @@ use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, json as object};
 use sprag_design::answer::check::NoCheck;
+use sprag_design::answer::life::NoLife;
+use sprag_design::answer::overrun::{NoOverrun, OverrunQuestion, RunningRace};
+use sprag_design::answer::reengagement::{NoReengagement, ReengagementSettings};
 use sprag_design::answer::simulation::{self, Integration, NoAnswer};
 use sprag_design::answer::stiffness::{self, NoStiffness};
-use sprag_design::answer::{LeftOut, search};
+use sprag_design::answer::{Envelope, LeftOut, search};
 use sprag_design::clutch::LAWS;
+use sprag_design::design::Objective;
 use sprag_design::report::{Drawing, SpragPose};
 use sprag_design::{Follow, NoSearch};
+use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -29,6 +34,12 @@ pub struct Design {
 /// What all answers share.
 fn common(seconds: f64, left_out: &[LeftOut], error_estimate: Value) -> PyResult<String> {
     json(&object!({ "run_time_s": seconds, "left_out": left_out, "error_estimate": error_estimate }))
+}
+
+/// Common keys and figures of a whole answer.
+fn parts(answer: &Envelope<'_, Value>) -> PyResult<(String, String)> {
+    let error = answer.error_estimate.clone().unwrap_or(Value::Null);
+    Ok((common(answer.run_time_s, &answer.left_out, error)?, json(&answer.body)?))
 }
 
 /// The same while Ctrl-C has no answer: it is raised before anybody looks.
@@ -198,7 +209,7 @@ impl Design {
         }
     }
 
-    /// Search for a better design: common keys and figures as JSON, and the design found.
+    /// Search for a better design: common keys and figures as JSON, the design found, and the robust one.
     fn optimize(
         &self,
         py: Python<'_>,
@@ -209,7 +220,13 @@ impl Design {
         full: bool,
         step_mm: Option<f64>,
         reserve: Option<f64>,
-    ) -> PyResult<(String, String, Self)> {
+        front: Vec<String>,
+        front_steps: usize,
+        robust: bool,
+        draws: usize,
+    ) -> PyResult<(String, String, Self, Option<Self>)> {
+        let aims = front.iter().map(|aim| aim.parse::<Objective>()).collect::<Result<Vec<_>, _>>();
+        let aims = aims.map_err(|why| PyValueError::new_err(format!("objectives {front:?}: {why}")))?;
         let (design, stop) = (Arc::clone(&self.design), Follow::new());
         let ask = search::SearchSettings {
             evaluations,
@@ -219,8 +236,11 @@ impl Design {
             full,
             step_mm,
             reserve,
+            front: aims,
+            front_steps,
+            robust,
+            draws,
             follow: stop.clone(),
-            ..search::SearchSettings::default()
         };
         let answer = compute(py, &stop, move || {
             let started = Instant::now();
@@ -229,13 +249,84 @@ impl Design {
         match answer {
             Ok((a, seconds)) => {
                 let common = common(seconds, &a.left_out, object!(a.body.objective_error))?;
-                let found = a.design(&self.design, &self.file);
-                Ok((common, json(&a.body)?, Self::of(py, found, self.file.clone())?))
+                let own = |found| Self::of(py, found, self.file.clone());
+                let robust = a.story.robust.as_ref().map(|robust| {
+                    own(sprag_design::Design::parse_in(&self.design.folder, &robust.file, &self.file))
+                });
+                Ok((common, json(&a.body)?, own(a.design(&self.design, &self.file))?, robust.transpose()?))
             }
             Err(NoSearch::Stopped) => Err(stopped()),
             Err(why @ NoSearch::Start(_)) => Err(errors::no_clutch(py, &why)),
             Err(why) => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
         }
+    }
+
+    /// Common keys and figures of the life that the file names, each as JSON.
+    fn life(&self, py: Python<'_>) -> PyResult<(String, String)> {
+        let design = Arc::clone(&self.design);
+        let answer = compute(py, &Follow::nobody(), move || {
+            let started = Instant::now();
+            design.life().map(|a| parts(&a.envelope(started.elapsed().as_secs_f64())))
+        })?;
+        answer.unwrap_or_else(|why| match why {
+            NoLife::NoClutch(why) => Err(errors::no_clutch(py, &why)),
+            NoLife::NoService => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
+        })
+    }
+
+    /// Common keys and figures of overrun on a film, each as JSON; speeds in rpm, temperatures in C.
+    fn overrun(
+        &self,
+        py: Python<'_>,
+        outer: bool,
+        speeds_rpm: Vec<f64>,
+        temperatures_c: Vec<f64>,
+    ) -> PyResult<(String, String)> {
+        let design = Arc::clone(&self.design);
+        let question = OverrunQuestion {
+            race: if outer { RunningRace::Outer } else { RunningRace::Inner },
+            speeds_rad_s: speeds_rpm.iter().map(|rpm| rpm * PI / 30.0).collect(),
+            temperatures_c,
+        };
+        let answer = compute(py, &Follow::nobody(), move || {
+            let started = Instant::now();
+            design.overrun(&question).map(|a| parts(&a.envelope(started.elapsed().as_secs_f64())))
+        })?;
+        answer.unwrap_or_else(|why| match why {
+            NoOverrun::NoClutch(why) => Err(errors::no_clutch(py, &why)),
+            NoOverrun::NoLubrication => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
+        })
+    }
+
+    /// Common keys and figures of a slip under load and the blow after it, each as JSON.
+    #[pyo3(signature = (torque_nm, inertia_kg_m2, friction, speed_rpm, paths_mm))]
+    fn reengage(
+        &self,
+        py: Python<'_>,
+        torque_nm: Option<f64>,
+        inertia_kg_m2: [Option<f64>; 2],
+        friction: Option<f64>,
+        speed_rpm: f64,
+        paths_mm: Option<Vec<f64>>,
+    ) -> PyResult<(String, String)> {
+        let (design, stop) = (Arc::clone(&self.design), Follow::new());
+        let usual = ReengagementSettings::default();
+        let ask = ReengagementSettings {
+            torque_nm,
+            inertia_kg_m2,
+            friction,
+            speed_rad_s: speed_rpm * PI / 30.0,
+            paths_m: paths_mm.map_or(usual.paths_m, |list| list.iter().map(|mm| 1e-3 * mm).collect()),
+            follow: stop.clone(),
+        };
+        let answer = compute(py, &stop, move || {
+            let started = Instant::now();
+            design.reengagement(&ask).map(|a| parts(&a.envelope(started.elapsed().as_secs_f64())))
+        })?;
+        answer.unwrap_or_else(|why| match why {
+            why @ NoReengagement::Refused(_) => Err(PyValueError::new_err(why.to_string())),
+            NoReengagement::NoStart(why) => Err(errors::no_clutch(py, &why)),
+        })
     }
 
     /// The vector of variables and its margins.

@@ -8,6 +8,7 @@ mod errors;
 mod pool;
 mod problem;
 mod simulated;
+mod sweep;
 
 use pyo3::prelude::*;
 use std::ffi::OsString;
@@ -34,5 +35,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(run_command, module)?)?;
     module.add_function(wrap_pyfunction!(contact_laws, module)?)?;
     module.add_function(wrap_pyfunction!(pool::forked, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::map_tables, module)?)?;
     Ok(())
 }

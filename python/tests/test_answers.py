@@ -102,9 +102,110 @@ def test_optimize_is_that_of_the_command(design: sd.Design, command: Command, tm
     assert sd.Design.load(better).check().to_dict()["margins"] == found.design.check().to_dict()["margins"]
 
 
+def test_the_front_is_that_of_the_command(design: sd.Design, command: Command, tmp_path: Path) -> None:
+    aims = ["slip-margin", "torque-capacity"]
+    flags = ["--pareto", ",".join(aims), "--points", "2", "--starts", "1", "--evaluations", "60", "--json", "--quiet"]
+    said = command("optimize", MULTI_ARC, "-o", tmp_path / "new.toml", *flags)
+    front = design.pareto(aims, points=2, starts=1, evaluations=60)
+    assert front.to_dict()["pareto"] == json.loads(said.stdout)["pareto"]
+    assert len(front.points) >= 2 and list(front.points[0].objectives) == sorted(aims)
+    with pytest.raises(ValueError, match="two or three different"):
+        design.pareto(["slip-margin", "slip-margin"])
+    with pytest.raises(ValueError, match="lift-off"):
+        design.pareto(["slip-margin", "beauty"])
+
+
+def test_a_robust_search_is_that_of_the_command(design: sd.Design, command: Command, tmp_path: Path) -> None:
+    path = tmp_path / "made.toml"
+    path.write_text(MULTI_ARC.read_text().replace("[optimize]", "[tolerances]\nsprag_inner_radius_mm = 0.002\n\n[optimize]"))
+    flags = ["--robust", "--draws", "10", "--starts", "1", "--evaluations", "20", "--json", "--quiet"]
+    said = json.loads(command("optimize", path, "-o", tmp_path / "new.toml", *flags).stdout)
+    found = sd.Design.load(path).optimize(starts=1, evaluations=20, robust=True, draws=10)
+    for key in ("best", "tolerances", "robust", "not_done"):
+        assert found.to_dict()[key] == said[key], key
+    assert (found.robust_design is None) == (found.robust is None)
+    if found.robust_design is not None:
+        written = sd.Design.load(tmp_path / "new.robust.toml")
+        assert written.check().to_dict()["margins"] == found.robust_design.check().to_dict()["margins"]
+    with pytest.raises(ValueError, match="tolerances"):
+        design.optimize(robust=True)
+
+
+def test_life_is_that_of_the_command(design: sd.Design, command: Command) -> None:
+    path = DESIGNS / "indexing-life.toml"
+    life = sd.Design.load(path).life()
+    said = command("life", path, "--json", "--quiet")
+    assert mine(life.to_dict()) == figures(said.stdout)
+    assert life.held == (said.returncode == 0) and len(life.places) >= 2
+    with pytest.raises(ValueError, match=r"\[life\]"):
+        design.life()
+
+
+def test_overrun_is_that_of_the_command(design: sd.Design, command: Command) -> None:
+    path = DESIGNS / "lubricated.toml"
+    lubricated = sd.Design.load(path)
+    said = command("overrun", path, "--speeds", "300,1000", "--temperatures", "20,60", "--race", "outer", "--json", "--quiet")
+    found = lubricated.overrun([300, 1000], [20, 60], race="outer")
+    assert mine(found.to_dict()) == figures(said.stdout)
+    assert [(line.oil_c, round(line.speed_rpm)) for line in found.lines] == [(20, 300), (20, 1000), (60, 300), (60, 1000)]
+    assert found.lines[0].film_over_roughness == found.to_dict()["lines"][0]["lambda"]
+    assert mine(lubricated.overrun().to_dict()) == figures(command("overrun", path, "--json", "--quiet").stdout)
+    for options, word in [
+        ({"race": "cage"}, "inner, outer"),
+        ({"speeds_rpm": [0.0]}, "above 0"),
+        ({"speeds_rpm": [float("nan")]}, "above 0"),
+        ({"temperatures_c": [float("nan")]}, "-60 to 250"),
+    ]:
+        with pytest.raises(ValueError, match=word):
+            lubricated.overrun(**options)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="lubrication"):
+        design.overrun()
+
+
+def test_reengage_is_that_of_the_command(command: Command) -> None:
+    path = DESIGNS / "starter.toml"
+    starter = sd.Design.load(path)
+    flags = ["--torque", "50", "--inner-inertia", "0.05", "--outer-inertia", "0.05", "--friction", "0.06", "--paths", "0.1,10"]
+    said = command("reengage", path, *flags, "--json", "--quiet")
+    found = starter.reengage(
+        [0.1, 10], torque_nm=50, inertia_inner_kg_m2=0.05, inertia_outer_kg_m2=0.05, friction=0.06
+    )
+    assert mine(found.to_dict()) == figures(said.stdout)
+    assert found.held == (said.returncode == 0) and [b.path_mm for b in found.blows] == [0.1, 10]
+    for options, word in [
+        ({"torque_nm": float("nan")}, "torque_nm"),
+        ({"paths_mm": [3, 1]}, "longer than the one before"),
+        ({"speed_rpm": float("inf")}, "finite"),
+    ]:
+        with pytest.raises(ValueError, match=word):
+            starter.reengage(**options)  # type: ignore[arg-type]
+
+
+def test_a_map_is_that_of_the_command(command: Command, tmp_path: Path) -> None:
+    table = tmp_path / "margins.csv"
+    said = command("evaluate", MULTI_ARC, "--static", "--grid", "r_i2_mm=4,centroid_x_mm=3", "--csv", table)
+    assert said.returncode == 0, said.stderr
+    answer = sd.map_tables(table, over=[("r_i2_mm", "centroid_x_mm")])
+    assert answer.to_dict() == json.loads(command("map", table, "--json").stdout)
+    plane = answer.planes[0]
+    assert plane.best.shape == plane.decides.shape == (3, 4) == (len(plane.y_edges) - 1, len(plane.x_edges) - 1)
+    assert plane.points.sum() == answer.points == 12 and plane.held.sum() == answer.held
+    with pytest.raises(ValueError, match="cannot be read"):
+        sd.map_tables(tmp_path / "nowhere.csv")
+    with pytest.raises(ValueError, match="r_i2_mm"):
+        sd.map_tables(table, over=[("r_i2", "r_i3_mm")])
+
+
 def test_every_key_of_json_is_an_attribute(design: sd.Design) -> None:
     simulation = design.simulate("low-6")
-    for answer in (design.check(), simulation, design.optimize(starts=1, evaluations=5)):
+    life = sd.Design.load(DESIGNS / "indexing-life.toml").life()
+    overrun = sd.Design.load(DESIGNS / "lubricated.toml").overrun([300])
+    blow = sd.Design.load(DESIGNS / "starter.toml").reengage([1], torque_nm=50, friction=0.06)
+    rows = [(life, "places"), (life, "loads"), (overrun, "lines"), (blow, "blows")]
+    for answer, key in rows:
+        known = {f.name for f in dataclasses.fields(getattr(answer, key)[0])} | {"lambda"}
+        assert set(answer.to_dict()[key][0]) <= known, key
+    for answer in (design.check(), simulation, design.optimize(starts=1, evaluations=5), life, overrun, blow):
         fields = {f.name for f in dataclasses.fields(answer)}
         for key in answer.to_dict():
             name = {"pass": "passed"}.get(key, key)

@@ -101,14 +101,14 @@ impl Design {
         let rising = case.paths_m.windows(2).all(|w| w[0] < w[1]);
         if !positive(case.torque_nm) {
             return Err(NoReengagement::Refused(
-                "a torque above 0: --torque, or nominal_torque_nm in [limits]",
+                "a torque above 0, given or as nominal_torque_nm in [limits]",
             ));
         } else if !case.inertia_kg_m2.into_iter().all(positive) {
             return Err(NoReengagement::Refused("inertias above 0"));
         } else if !(case.friction.is_finite() && case.friction >= 0.0) {
-            return Err(NoReengagement::Refused("a --friction of 0 or more"));
+            return Err(NoReengagement::Refused("a friction of 0 or more"));
         } else if case.paths_m.is_empty() || !rising || !case.paths_m.iter().copied().all(positive) {
-            return Err(NoReengagement::Refused("--paths above 0, each longer than the one before"));
+            return Err(NoReengagement::Refused("paths of slip above 0, each longer than the one before"));
         }
         let state = load_state(self).ok();
         if settings.friction.is_none() {

@@ -30,7 +30,8 @@ turns counterclockwise against the outer one. dxf: release 12, closed polylines 
 CENTRES, CENTRE_LINES, ARC_ENDS, TEXT. step: AP214, prisms with square ends; the clutch is an assembly.
 
 fmu: the clutch between two flanges, torques in, motion out, for co-simulation. The library inside is built by fmu/build.sh
-of the source; it serves both versions of FMI, on the platform that it was built on.
+of the source; it serves both versions of FMI, on the platform that it was built on. A [[drivetrain]] does not go along: it
+is refused, or left out by --clutch-alone.
 
 A deck holds one sector, meshed, and needs nothing else. CalculiX: apt-get install calculix-ccx.";
 
@@ -149,6 +150,9 @@ pub struct ExportArgs {
     /// fmu: the library that fmu/build.sh has built [default: looked for beside this program]
     #[arg(long, value_name = "PATH")]
     pub library: Option<PathBuf>,
+    /// fmu: leave [[drivetrain]] out, where the design has one; the other program has what lies beyond the flanges
+    #[arg(long)]
+    pub clutch_alone: bool,
     /// calculix: where the material is held along the axis [default: layer]
     #[arg(long, value_enum)]
     pub variant: Option<VariantName>,
@@ -202,6 +206,7 @@ fn refuse_meaningless(args: &ExportArgs) -> Result<(), Failure> {
         ("deviation-mm", args.deviation_mm.is_some(), points, "csv with --table points"),
         ("fmi", args.fmi.is_some(), unit, "fmu"),
         ("library", args.library.is_some(), unit, "fmu"),
+        ("clutch-alone", args.clutch_alone, unit, "fmu"),
         ("variant", args.variant.is_some(), deck, "calculix"),
         ("mesh", args.mesh.is_some(), deck, "calculix"),
         ("torque", args.torque.is_some(), deck, "calculix"),

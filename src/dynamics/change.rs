@@ -101,6 +101,7 @@ where
         let held =
             Mode { place, inner: if touching { Grip::Slip(1.0) } else { mode.inner }, outer: mode.outer };
         let after = cross(model, &held, p, &q, rates);
+        self.audit_jump(y, (p, &rates), (&q, &after));
         y[4..8].copy_from_slice(&after);
         if self.settings.rolling {
             return Next::unseen(Mode { place, ..*mode });

@@ -6,7 +6,7 @@
 //!
 //! It is a mixed complementarity problem in x = (n T_bi OA, -n T_be OB): v' = b + G x, G = J M^-1 J^T for the rows
 //! J_A = (rho_i, -1, 1, 0), J_B = (-rho_e, -1, 0, 1) of the slip rates. G is positive definite (M is, and the rows are
-//! independent through the races; the test measures it), so with fixed limits mu N the problem is that of
+//! independent by alpha and phi alone, whatever moves the races; the test measures it), so with fixed limits mu N the problem is that of
 //! minimising a strictly convex quadratic over a box: one solution, no Painleve paradox. N_bi is fixed by alpha. N_be
 //! is not: N_be cos gamma = press + T_bi sin(beta+gamma) - T_be sin gamma, so the box moves with x. Stick-stick
 //! (det G > 0), slip at A (G_BB > 0) and slip at both stay solvable; with A in stick and B in slip T_be follows
@@ -145,7 +145,7 @@ fn slip_accelerations(p: &WedgePoint, alpha_rate: f64, f: &Forces) -> ((f64, f64
 mod tests {
     use super::*;
     use crate::design::Design;
-    use crate::dynamics::{Loads, State, alpha_max_rad};
+    use crate::dynamics::{FlangeDrive, Loads, Ramp, State, alpha_max_rad};
     use crate::friction::Stribeck;
     use crate::wedge::WedgeCurve;
     use nalgebra::Matrix2;
@@ -176,6 +176,12 @@ mod tests {
         let mut model = Model::new(&clutch, curve.clone(), loads, alpha_max_rad(&clutch, curve), 0.0);
         let mu = between(seed, 0.02, 0.5);
         model.friction = Stribeck { static_: mu, kinetic: mu, decay_s_per_m: 0.0 };
+        // Of eight flanges three are no torque but move their race.
+        let moved = (8.0 * random(seed)) as usize;
+        model.drive.flanges = Some([0, 1].map(|race| match moved == race || moved == 2 {
+            true => FlangeDrive::Acceleration(2e3 * (random(seed) - 0.5)),
+            false => FlangeDrive::Torque(Ramp::default()),
+        }));
         let alpha = curve.end().1 * random(seed);
         let mut y = [0.0; 10];
         (y[0], y[2], y[3]) = (alpha, 1e-3 * (random(seed) - 0.5), 1e-3 * (random(seed) - 0.5));

@@ -4,6 +4,13 @@
 //! change: momenta of all coordinates but alpha are kept, and so is kinetic energy, hence
 //! alpha'+ = alpha'- sqrt(m-/m+) with the effective mass m = M_aa - M_ar M_rr^-1 M_ra of the rolling system.
 //! Without rolling contacts nothing jumps.
+//!
+//! A race that its flange moves at a given speed u keeps that, whatever impulse it takes. Where it rolls it ties phi to alpha
+//! (phi' = u + rho_i alpha' at A, u - rho_e alpha' at B), so that the kinetic energy becomes m alpha'^2/2 + g u alpha' + c u^2/2.
+//! The middle term is a total derivative and c is no function of alpha: Jacobi's integral keeps m alpha'^2/2, again
+//! alpha'+ = alpha'- sqrt(m-/m+). With s phi's slope by alpha, rho_i or -rho_e, and r = rho_i + rho_e,
+//! m = n_s (I_g (1 + s)^2 + m_g OC_g^2 s^2), and r^2 times the inertia of the other race where that rolls along. Where
+//! both races are moved and roll nothing is left to alpha: alpha' = (u_e - u_i)/r.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -23,6 +30,10 @@ pub(super) fn cross(
     if !inner && !outer {
         return rates;
     }
+    let [held_i, held_e] = model.held_rad_s2().map(|held| held.is_some());
+    if (held_i && inner) || (held_e && outer) {
+        return tied(model, before, after, rates, [inner, outer], [held_i, held_e]);
+    }
     let (m_before, _, _) = reduced(model, before, inner, outer);
     let (m_after, coupling_after, rest) = reduced(model, after, inner, outer);
     let Some(rest_inverse) = rest.try_inverse() else { return rates };
@@ -37,6 +48,43 @@ pub(super) fn cross(
         w[0],
         if inner { w[0] - after.rho_i * alpha_rate } else { w[1] },
         if outer { w[0] + after.rho_e * alpha_rate } else { w[2] },
+    ]
+}
+
+/// The same where a race that is moved at a given speed rolls; `rolls` and `held`: inner, outer.
+fn tied(
+    model: &Model,
+    before: &WedgePoint,
+    after: &WedgePoint,
+    [da, _, di, de]: [f64; 4],
+    rolls: [bool; 2],
+    held: [bool; 2],
+) -> [f64; 4] {
+    let by_inner = rolls[0] && held[0];
+    let both = rolls[0] && rolls[1];
+    let da = if both && held[0] && held[1] {
+        (de - di) / (after.rho_i + after.rho_e)
+    } else {
+        let other = match (both, by_inner) {
+            (false, _) => 0.0,
+            (true, true) => model.outer_inertia_kg_m2,
+            (true, false) => model.inner_inertia_kg_m2,
+        };
+        let mass = |p: &WedgePoint| {
+            let slope = if by_inner { p.rho_i } else { -p.rho_e };
+            let orbit = model.mass_kg * p.oc_g * p.oc_g;
+            model.count * (model.inertia_kg_m2 * (1.0 + slope).powi(2) + orbit * slope * slope)
+                + other * (p.rho_i + p.rho_e).powi(2)
+        };
+        scaled(da, mass(before), mass(after))
+    };
+    let dp = if by_inner { di + after.rho_i * da } else { de - after.rho_e * da };
+    let roll = |here: bool, rate: f64, rolled: f64| if here { rolled } else { rate };
+    [
+        da,
+        dp,
+        roll(rolls[0] && !held[0], di, dp - after.rho_i * da),
+        roll(rolls[1] && !held[1], de, dp + after.rho_e * da),
     ]
 }
 
@@ -68,4 +116,64 @@ fn reduced(model: &Model, p: &WedgePoint, inner: bool, outer: bool) -> (f64, Vec
     }
     rest[(0, 0)] = pp;
     (aa - ap * ap / pp, Vector3::new(ap, 0.0, 0.0), rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use crate::dynamics::{FlangeDrive, Loads, Ramp, alpha_max_rad};
+    use crate::wedge::WedgeCurve;
+
+    /// A race that is moved is the limit of one whose inertia is large beside the sprags', whose cancellation is then still small.
+    #[test]
+    fn a_moved_race_crosses_a_junction_as_a_heavy_one() {
+        let design = Design::parse(include_str!("../../designs/huang2017-multi-arc.toml"), "design").unwrap();
+        let profile = design.clutch.profile().unwrap();
+        let curve = WedgeCurve::build(&design.clutch, &profile, 0.0).unwrap();
+        let none = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
+        let alpha_max = alpha_max_rad(&design.clutch, &curve);
+        let junction = curve.arc_end_rad(0);
+        let free = Model::new(&design.clutch, curve, none, alpha_max, 0.0);
+        let before = free.point(Place::Arc(0), junction);
+        // The paper's junction jumps by less than 1e-3; here enough to be seen.
+        let after = free.point(Place::Arc(1), junction);
+        let after = WedgePoint { rho_i: 1.05 * after.rho_i, rho_e: 0.97 * after.rho_e, ..after };
+        for moved in [[true, false], [false, true], [true, true]] {
+            let (mut heavy, mut held) = (free.clone(), free.clone());
+            for (race, inertia) in
+                [&mut heavy.inner_inertia_kg_m2, &mut heavy.outer_inertia_kg_m2].into_iter().enumerate()
+            {
+                *inertia = if moved[race] { 10.0 } else { *inertia };
+            }
+            held.drive.flanges = Some(moved.map(|moved| match moved {
+                true => FlangeDrive::Acceleration(0.0),
+                false => FlangeDrive::Torque(Ramp::default()),
+            }));
+            for rolls in [[true, true], [true, false], [false, true]] {
+                let grip = |rolls: bool| if rolls { Grip::Stick } else { Grip::Slip(1.0) };
+                let mode = Mode { place: Place::Arc(1), inner: grip(rolls[0]), outer: grip(rolls[1]) };
+                let mut y = [0.0; 10];
+                y[4..8].copy_from_slice(&[7.0, -2.0, 3.0, 5.0]);
+                let rates = free.rates(&mode, &before, &y);
+                let limit = cross(&heavy, &mode, &before, &after, rates);
+                let found = cross(&held, &mode, &before, &after, rates);
+                for (a, b) in found.iter().zip(limit) {
+                    assert!(
+                        (a - b).abs() < 1e-5 * rates[0].abs(),
+                        "{moved:?} {rolls:?}: {found:?} {limit:?}"
+                    );
+                }
+                for race in (0..2).filter(|race| moved[*race]) {
+                    // Where it does not roll it is solved for with the others, to rounding.
+                    assert!((found[2 + race] - rates[2 + race]).abs() < 1e-14, "{moved:?} {rolls:?}");
+                }
+                // And it rolls on.
+                y[4..8].copy_from_slice(&found);
+                for (a, b) in found.iter().zip(free.rates(&mode, &after, &y)) {
+                    assert!((a - b).abs() < 1e-12 * 10.0, "{moved:?} {rolls:?}");
+                }
+            }
+        }
+    }
 }

@@ -1,9 +1,10 @@
 //! What acts on the races from outside.
 
-use super::model::{Model, N_STATE};
+use super::model::{Forces, Model, N_STATE};
 use super::run::Run;
 use super::train::Train;
 use crate::numeric::course::Course;
+use crate::wedge::WedgePoint;
 
 /// Torques from outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +28,15 @@ pub struct Ramp {
     pub rate_nm_per_s: f64,
 }
 
+/// What a flange does to its race.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FlangeDrive {
+    /// It passes on this torque.
+    Torque(Ramp),
+    /// It moves the race at this acceleration, rad/s^2, whatever torque that takes ([`Model::flange_torques_nm`]).
+    Acceleration(f64),
+}
+
 /// What acts over time beside [`Loads`]; nothing by default.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Drive {
@@ -34,8 +44,8 @@ pub struct Drive {
     pub torque_nm: Option<Course>,
     /// Mean speed Omega(t), rad/s, in place of the curve's; angles are measured from its integral.
     pub speed_rad_s: Option<Course>,
-    /// Torques that the flanges pass on to the inner and to the outer race, added to C_bi and C_be.
-    pub flanges: Option<[Ramp; 2]>,
+    /// What the flanges do to the inner and to the outer race; torques are added to C_bi and C_be.
+    pub flanges: Option<[FlangeDrive; 2]>,
     /// What turns on either side of the clutch. Only a run that begins by [`super::run()`] moves it.
     pub train: Option<Train>,
 }
@@ -59,7 +69,7 @@ impl Drive {
     /// The same with time counted from `t` (s).
     pub fn from(&self, t: f64) -> Self {
         let later = |c: &Option<Course>| c.as_ref().map(|c| c.from(t));
-        let flanges = self.flanges.map(|both| both.map(|r| Ramp { start_nm: r.at(t), ..r }));
+        let flanges = self.flanges.map(|both| both.map(|given| given.from(t)));
         let train = self.train.as_ref().map(|train| train.from(t));
         Self { torque_nm: later(&self.torque_nm), speed_rad_s: later(&self.speed_rad_s), flanges, train }
     }
@@ -78,6 +88,24 @@ impl Drive {
     }
 }
 
+impl FlangeDrive {
+    fn from(self, t: f64) -> Self {
+        match self {
+            Self::Torque(ramp) => Self::Torque(Ramp { start_nm: ramp.at(t), ..ramp }),
+            given @ Self::Acceleration(_) => given,
+        }
+    }
+
+    /// Torque at `t` (s), N m, where that is given.
+    #[inline(always)]
+    fn torque_at(&self, t: f64) -> f64 {
+        match self {
+            Self::Torque(ramp) => ramp.at(t),
+            Self::Acceleration(_) => 0.0,
+        }
+    }
+}
+
 impl Ramp {
     /// At `t` (s), N m.
     #[inline]
@@ -93,9 +121,44 @@ impl Model {
         let inner = self.loads.inner_nm - self.drive.torque_at(t);
         let outer = self.loads.amplitude_nm * (self.loads.omega_rad_s * t).sin();
         match &self.drive.flanges {
-            Some([more_inner, more_outer]) => [inner + more_inner.at(t), outer + more_outer.at(t)],
+            Some([more_inner, more_outer]) => {
+                [inner + more_inner.torque_at(t), outer + more_outer.torque_at(t)]
+            }
             None => [inner, outer],
         }
+    }
+
+    /// Acceleration at which the inner and the outer race are moved whatever torque that takes, rad/s^2.
+    #[inline(always)]
+    pub(super) fn held_rad_s2(&self) -> [Option<f64>; 2] {
+        let held = |given: &FlangeDrive| match given {
+            FlangeDrive::Acceleration(a) => Some(*a),
+            FlangeDrive::Torque(_) => None,
+        };
+        self.drive.flanges.as_ref().map_or([None; 2], |both| [held(&both[0]), held(&both[1])])
+    }
+
+    /// Torques of the inner and the outer flange at `t` (s), N m: those given, and where a race is moved at a given
+    /// acceleration what (15) leaves for the flange, with the contact forces `f` in the state `y` whose rates are `rates`.
+    pub fn flange_torques_nm<const N: usize>(
+        &self,
+        t: f64,
+        y: &[f64; N],
+        p: &WedgePoint,
+        rates: &[f64; 4],
+        f: &Forces,
+    ) -> [f64; 2] {
+        let given = self.drive.flanges.as_ref().map_or([0.0; 2], |both| [0, 1].map(|i| both[i].torque_at(t)));
+        let drag = self.damping_nm_s_per_rad * (rates[2] - rates[3]);
+        let spin = self.mean_speed(t).1;
+        let [inner, outer] = self.torques_on_nm(t, y);
+        let held = self.held_rad_s2();
+        let all_inner =
+            self.inner_inertia_kg_m2 * (f.acceleration[2] + spin) - self.count * f.t_bi * p.oa + drag;
+        let all_outer = self.outer_inertia_kg_m2 * (f.acceleration[3] + spin) + self.count * f.t_be * p.ob
+            - drag
+            + self.loads.abutment_nm_per_rad * y[3];
+        [held[0].map_or(given[0], |_| all_inner - inner), held[1].map_or(given[1], |_| all_outer - outer)]
     }
 
     /// The same with what the drivetrain brings, where `y` holds its state too.

@@ -17,6 +17,7 @@ use super::model::{Grip, Model, N_STATE, Place};
 use crate::numeric::quadrature;
 use crate::ode::adaptive::Size;
 use crate::ode::step::{Counters, Step};
+use crate::wedge::WedgePoint;
 use nalgebra::Const;
 
 /// Works over a run, J, positive where they bring energy in; friction and damping take it out.
@@ -78,7 +79,12 @@ impl Model {
         let (speed, spin) = self.mean_speed(t);
         let in_curve = self.curve.speed_rad_s();
         let open = mode.place == Place::Open;
-        let [torque_inner, torque_outer] = self.torques_nm(t);
+        let mut acting = self.torques_nm(t);
+        let brought = self.flange_torques_nm(t, y, &p, &rates, &f);
+        for (race, held) in self.held_rad_s2().iter().enumerate() {
+            acting[race] += held.map_or(0.0, |_| brought[race]);
+        }
+        let [torque_inner, torque_outer] = acting;
         let slips = |grip: Grip| f64::from(u8::from(matches!(grip, Grip::Slip(_))));
         let frame = if open {
             self.mass_kg * p.oc_g * p.oc_g_slope * (speed * speed - in_curve * in_curve)
@@ -173,6 +179,23 @@ where
     pub(super) fn audit(&mut self) {
         let start = self.energies();
         self.audit = Some(Audit { works: [0.0; WORKS], through_j: start[0], start });
+    }
+
+    /// Count what flanges that move their race bring when the rates jump from one point of the curve to another: kinetic
+    /// energy is kept but for that.
+    pub(super) fn audit_jump(
+        &mut self,
+        y: &[f64; N],
+        before: (&WedgePoint, &[f64; 4]),
+        after: (&WedgePoint, &[f64; 4]),
+    ) {
+        let model = self.model;
+        let Some(audit) = &mut self.audit else { return };
+        if let Some(race) = model.held_rad_s2().iter().position(Option::is_some) {
+            // Where both are moved it is told of the inner one alone.
+            let [before, after] = [before, after].map(|(p, rates)| model.energy_without_wedge(p, rates, y));
+            audit.works[4 + race] += after - before;
+        }
     }
 
     /// Count the works of an accepted step, by quadrature over its dense output, whose evaluations are none of the run's.

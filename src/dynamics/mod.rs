@@ -32,7 +32,7 @@ mod train;
 mod watch;
 mod zeno;
 
-pub use drive::{Drive, Loads, Ramp};
+pub use drive::{Drive, FlangeDrive, Loads, Ramp};
 pub use energy::EnergyBalance;
 pub use memory::{Memory, go_on};
 pub use model::{Forces, Grip, Mode, Model, N_STATE, Place, State};

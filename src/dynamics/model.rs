@@ -214,6 +214,9 @@ impl Model {
     /// Where the mean speed is a course in time, angles are measured from its integral, each inertia is slowed by
     /// its own d Omega/dt, and U' holds the centrifugal force of the momentary speed; the growth of the race stays
     /// that of the curve's speed.
+    ///
+    /// A race that its flange moves at a given acceleration has that in place of (15): no force of a contact changes it.
+    /// The rows of the constraints stay independent, by alpha and phi alone.
     #[doc(alias = "Eq. (13)")]
     #[doc(alias = "Eq. (15)")]
     pub fn forces<const N: usize>(&self, mode: &Mode, t: f64, y: &[f64; N]) -> Forces {
@@ -271,12 +274,19 @@ impl Model {
         let f_e = torque_e + drag - self.loads.abutment_nm_per_rad * y[3] - self.outer_inertia_kg_m2 * spin;
         let inverse = self.sprag_inverse(p.oc_g);
         let free = inverse * Vector2::new(f_alpha, f_phi);
-        let (free_i, free_e) = (f_i / self.inner_inertia_kg_m2, f_e / self.outer_inertia_kg_m2);
+        let (mut free_i, mut free_e) = (f_i / self.inner_inertia_kg_m2, f_e / self.outer_inertia_kg_m2);
         // Columns: what one newton of T_bi (T_be) on each sprag does to (alpha'', phi'').
         let column_i = inverse * Vector2::new(n * p.rho_i * p.oa, -n * p.oa);
         let column_e = inverse * Vector2::new(n * p.rho_e * p.ob, n * p.ob);
-        let race_i = n * p.oa / self.inner_inertia_kg_m2;
-        let race_e = -n * p.ob / self.outer_inertia_kg_m2;
+        let mut race_i = n * p.oa / self.inner_inertia_kg_m2;
+        let mut race_e = -n * p.ob / self.outer_inertia_kg_m2;
+        let [held_i, held_e] = self.held_rad_s2();
+        if let Some(given) = held_i {
+            (free_i, race_i) = (given, 0.0);
+        }
+        if let Some(given) = held_e {
+            (free_e, race_e) = (given, 0.0);
+        }
         // Rows of the constraints: theta_bi'' - phi'' + rho_i alpha'' + rho_i' alpha'^2 = 0 at A,
         // theta_be'' - phi'' - rho_e alpha'' - rho_e' alpha'^2 = 0 at B.
         let row_i = |v: &Vector2<f64>, race: f64| race - v[1] + p.rho_i * v[0];

@@ -1,6 +1,7 @@
-//! A clutch as an element between two flanges: torques in, motion out, step by step, for programs that integrate the rest.
+//! A clutch as an element between two flanges: torques in, motion out, or the other way round, step by step, for programs that
+//! integrate the rest.
 //!
-//! In: a clutch, how it begins, torques of both flanges over each step. Out: [`Element`], which can be saved and restored.
+//! In: a clutch, how it begins, torque or speed of each flange over each step. Out: [`Element`], which can be saved and restored.
 //! Absent: what lies beyond the flanges; an integrator of its own (a step is a run of `dynamics` that goes on where the last
 //! has ended). Equations: none, (13) and (15) are those of `dynamics`.
 //!
@@ -15,7 +16,7 @@ mod motion;
 pub use motion::{Contact, Flange, Motion};
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
-use crate::dynamics::{Drive, Memory, Model, Ramp, Run, RunSettings, SlipRecord, Stop, go_on};
+use crate::dynamics::{Drive, FlangeDrive, Memory, Model, Ramp, Run, RunSettings, SlipRecord, Stop, go_on};
 use crate::follow::Follow;
 use crate::scenario::{NoScenario, prepare};
 use serde::{Deserialize, Serialize};
@@ -98,6 +99,24 @@ impl Torque {
     }
 }
 
+/// What a flange does to its race over one advance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Port {
+    /// It passes on this torque; the motion of the race comes of it.
+    Torque(Torque),
+    /// It brings the race from the speed that this has to this one, rad/s, evenly over the advance; the torque comes of it
+    /// ([`Flange::torque_nm`]). The angle follows, the race does not jump.
+    Speed(f64),
+    /// The same by its acceleration, rad/s^2.
+    Acceleration(f64),
+}
+
+impl From<Torque> for Port {
+    fn from(torque: Torque) -> Self {
+        Self::Torque(torque)
+    }
+}
+
 /// What was asked makes no sense.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Malformed {
@@ -141,12 +160,20 @@ pub struct Saved {
     elapsed_s: f64,
     /// What the races have turned beside the mean speed and what `memory` says, rad.
     turned_rad: [f64; 2],
-    /// Torques at the end of the last advance, N m.
+    /// Torques at the end of the last advance, N m; of a race that was moved 0.
     torques_nm: [f64; 2],
+    /// Accelerations at which the races were moved then, rad/s^2.
+    #[serde(default, skip_serializing_if = "nobody")]
+    held_rad_s2: [Option<f64>; 2],
     /// Since the beginning: time in slip (s), path and net slip (m), at A and B.
     slips: [[f64; 3]; 2],
     ended: Option<Stop>,
     memory: Memory,
+}
+
+/// States of elements between torques alone are as short as ever.
+fn nobody(held: &[Option<f64>; 2]) -> bool {
+    held.iter().all(Option::is_none)
 }
 
 /// A clutch between two flanges.
@@ -176,6 +203,22 @@ fn check(name: &str, value: f64, [least, most]: [f64; 2]) -> Result<(), Malforme
 
 /// Largest torque of a flange either way, N m.
 const MOST_NM: f64 = 1e9;
+
+/// Largest speed of a flange either way, rad/s.
+const MOST_RAD_S: f64 = 1e6;
+/// Largest acceleration that a flange is moved at, rad/s^2: what brings a race to a machine's speed in a microsecond.
+const MOST_RAD_S2: f64 = 1e12;
+
+fn check_speed(race: usize, speed_rad_s: f64) -> Result<(), Malformed> {
+    let name = ["speed of the inner flange (rad/s)", "speed of the outer flange (rad/s)"][race];
+    check(name, speed_rad_s, [-MOST_RAD_S, MOST_RAD_S])
+}
+
+fn check_acceleration(race: usize, acceleration_rad_s2: f64) -> Result<(), Malformed> {
+    let name =
+        ["acceleration of the inner flange (rad/s^2)", "acceleration of the outer flange (rad/s^2)"][race];
+    check(name, acceleration_rad_s2, [-MOST_RAD_S2, MOST_RAD_S2])
+}
 
 fn check_torque(race: usize, torque_nm: f64) -> Result<(), Malformed> {
     let name = ["torque of the inner flange (Nm)", "torque of the outer flange (Nm)"][race];
@@ -230,12 +273,13 @@ impl Element {
             elapsed_s: 0.0,
             turned_rad: [b.angle_rad; 2],
             torques_nm: [-torque_nm, outer_nm],
+            held_rad_s2: [None; 2],
             slips: [[0.0; 3]; 2],
             ended: None,
             memory: Memory::new(prepared.state, prepared.mode),
         };
         let mut element = Self { model, settings: *settings, at };
-        element.under(at.torques_nm);
+        element.under(at.torques_nm, [None; 2]);
         if element.motion().is_finite() {
             Ok(element)
         } else {
@@ -251,34 +295,56 @@ impl Element {
     /// [`Malformed`]: a torque that is no number, or beyond any machine's.
     pub fn apply(&mut self, torques_nm: [f64; 2]) -> Result<(), Malformed> {
         [0, 1].into_iter().try_for_each(|race| check_torque(race, torques_nm[race]))?;
-        self.under(torques_nm);
+        self.under(torques_nm, [None; 2]);
         Ok(())
     }
 
-    fn under(&mut self, torques_nm: [f64; 2]) {
-        self.at.torques_nm = torques_nm;
-        let constant = |start_nm| Ramp { start_nm, rate_nm_per_s: 0.0 };
-        self.model.drive.flanges = Some(torques_nm.map(constant));
+    /// From now on a race is moved at what is `held`, else under its torque.
+    fn under(&mut self, torques_nm: [f64; 2], held: [Option<f64>; 2]) {
+        (self.at.torques_nm, self.at.held_rad_s2) = (torques_nm, held);
+        let given = |race: usize| match held[race] {
+            Some(acceleration) => FlangeDrive::Acceleration(acceleration),
+            None => FlangeDrive::Torque(Ramp { start_nm: torques_nm[race], rate_nm_per_s: 0.0 }),
+        };
+        self.model.drive.flanges = Some([given(0), given(1)]);
     }
 
-    /// Move on by `dt_s` (s) under the torques of inner and outer flange. The run says what happened on the way, its time
-    /// counted from here; where it has not [finished](Stop::Finished) the element stands where that ended.
+    /// `port` over the next `dt_s` (s), as the equations of motion have it.
+    fn given(&self, race: usize, port: Port, dt_s: f64) -> Result<FlangeDrive, Malformed> {
+        let acceleration = match port {
+            Port::Torque(t) => {
+                check_torque(race, t.start_nm).and_then(|()| check_torque(race, t.end_nm))?;
+                return Ok(FlangeDrive::Torque(Ramp {
+                    start_nm: t.start_nm,
+                    rate_nm_per_s: (t.end_nm - t.start_nm) / dt_s,
+                }));
+            }
+            Port::Speed(end_rad_s) => {
+                check_speed(race, end_rad_s)?;
+                let now_rad_s = self.model.curve.speed_rad_s() + self.at.memory.state()[6 + race];
+                (end_rad_s - now_rad_s) / dt_s
+            }
+            Port::Acceleration(acceleration) => acceleration,
+        };
+        check_acceleration(race, acceleration)?;
+        Ok(FlangeDrive::Acceleration(acceleration))
+    }
+
+    /// Move on by `dt_s` (s) under what inner and outer flange do: [`Torque`]s, or a [`Port`] each. The run says what happened
+    /// on the way, its time counted from here; where it has not [finished](Stop::Finished) the element stands where that ended.
     ///
     /// # Errors
-    /// [`Malformed`]: a step that is not above 0, a torque that is no number or beyond any machine's, an element that has come
-    /// to its end.
-    pub fn advance(&mut self, dt_s: f64, torques: [Torque; 2]) -> Result<Run, Malformed> {
+    /// [`Malformed`]: a step that is not above 0, a torque, speed or acceleration that is no number or beyond any machine's, an
+    /// element that has come to its end.
+    pub fn advance(&mut self, dt_s: f64, flanges: [impl Into<Port>; 2]) -> Result<Run, Malformed> {
         check("step (s)", dt_s, STEPS_S)?;
-        for (race, torque) in torques.iter().enumerate() {
-            check_torque(race, torque.start_nm).and_then(|()| check_torque(race, torque.end_nm))?;
-        }
+        let ports: [Port; 2] = flanges.map(Into::into);
+        let given = [self.given(0, ports[0], dt_s)?, self.given(1, ports[1], dt_s)?];
         if let Some(stop) = self.at.ended {
             let what = format!("the element has come to its end ({}): restore it or begin anew", stop.name());
             return Err(Malformed { what });
         }
-        self.model.drive.flanges = Some(
-            torques.map(|t| Ramp { start_nm: t.start_nm, rate_nm_per_s: (t.end_nm - t.start_nm) / dt_s }),
-        );
+        self.model.drive.flanges = Some(given);
         let before = self.at;
         let (mut run, memory) = go_on(&self.model, &self.at.memory, &self.run_settings(dt_s));
         let finished = run.stop == Stop::Finished;
@@ -300,12 +366,20 @@ impl Element {
             at.memory = memory.turned_back(inner, outer);
             at.turned_rad = [at.turned_rad[0] + inner, at.turned_rad[1] + outer];
         }
-        self.under(torques.map(|t| t.start_nm + (t.end_nm - t.start_nm) * (reached_s / dt_s)));
+        let reached = |port: Port| match port {
+            Port::Torque(t) => t.start_nm + (t.end_nm - t.start_nm) * (reached_s / dt_s),
+            Port::Speed(_) | Port::Acceleration(_) => 0.0,
+        };
+        let held = given.map(|given| match given {
+            FlangeDrive::Acceleration(acceleration) => Some(acceleration),
+            FlangeDrive::Torque(_) => None,
+        });
+        self.under(ports.map(reached), held);
         if !self.motion().is_finite() {
             // Nobody can go on from there: it ends where it stood.
             run.stop = Stop::NotFinite;
             self.at = Saved { ended: Some(run.stop), ..before };
-            self.under(before.torques_nm);
+            self.under(before.torques_nm, before.held_rad_s2);
         }
         Ok(run)
     }
@@ -338,7 +412,7 @@ impl Element {
         };
         let mut other = Self::new(clutch, &beginning, &self.settings)?;
         other.at = Saved { memory: self.at.memory.moved_to(&other.model), ..self.at };
-        other.under(self.at.torques_nm);
+        other.under(self.at.torques_nm, self.at.held_rad_s2);
         if other.motion().is_finite() {
             Ok(other)
         } else {
@@ -359,20 +433,23 @@ impl Element {
     pub fn restore(&mut self, saved: &Saved) -> Result<(), Malformed> {
         let numbers =
             [saved.t_s, saved.elapsed_s].into_iter().chain(saved.turned_rad).chain(saved.torques_nm);
+        let held = saved.held_rad_s2;
         let mut numbers = numbers.chain(saved.slips.into_iter().flatten());
         let refused = || {
             let what = "the state to be restored: found one that no element of this clutch has".to_owned();
             Malformed { what }
         };
         let torques = [0, 1].into_iter().all(|race| check_torque(race, saved.torques_nm[race]).is_ok());
-        if !saved.memory.fits(&self.model) || !torques || !numbers.all(f64::is_finite) {
+        let moved =
+            [0, 1].into_iter().all(|race| held[race].is_none_or(|a| check_acceleration(race, a).is_ok()));
+        if !saved.memory.fits(&self.model) || !torques || !moved || !numbers.all(f64::is_finite) {
             return Err(refused());
         }
         let before = std::mem::replace(&mut self.at, *saved);
-        self.under(saved.torques_nm);
+        self.under(saved.torques_nm, held);
         if !self.motion().is_finite() {
             self.at = before;
-            self.under(before.torques_nm);
+            self.under(before.torques_nm, before.held_rad_s2);
             return Err(refused());
         }
         Ok(())

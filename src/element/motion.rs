@@ -12,6 +12,8 @@ pub struct Flange {
     pub speed_rad_s: f64,
     /// Acceleration, rad/s^2.
     pub acceleration_rad_s2: f64,
+    /// Torque of the flange on the race, N m: as it was given, or what the given speed takes.
+    pub torque_nm: f64,
 }
 
 /// One contact of a sprag.
@@ -50,26 +52,31 @@ pub struct Motion {
 impl Motion {
     /// Whether every number is one.
     pub(super) fn is_finite(&self) -> bool {
-        let flanges = self.flanges.iter().flat_map(|f| [f.angle_rad, f.speed_rad_s, f.acceleration_rad_s2]);
+        let flanges = self
+            .flanges
+            .iter()
+            .flat_map(|f| [f.angle_rad, f.speed_rad_s, f.acceleration_rad_s2, f.torque_nm]);
         let contacts = self.contacts.iter().flat_map(|c| [c.normal_n, c.tangential_n]);
         flanges.chain(contacts).all(f64::is_finite)
     }
 }
 
 impl Element {
-    /// Motion and forces now, under the torques at the end of the last advance, those of the balance at the beginning, or
-    /// those [applied](Element::apply) since.
+    /// Motion and forces now, under the torques or accelerations at the end of the last advance, the torques of the balance
+    /// at the beginning, or those [applied](Element::apply) since.
     pub fn motion(&self) -> Motion {
         let model = &self.model;
         let (y, mode) = (self.at.memory.state(), self.at.memory.mode());
         let p = model.point(mode.place, y[0]);
         let rates = model.rates(&mode, &p, y);
         let f = model.forces(&mode, 0.0, y);
+        let torques_nm = model.flange_torques_nm(0.0, y, &p, &rates, &f);
         let speed_rad_s = model.curve.speed_rad_s();
         let flange = |i: usize| Flange {
             angle_rad: self.at.turned_rad[i] + speed_rad_s * self.at.elapsed_s + y[2 + i],
             speed_rad_s: speed_rad_s + rates[2 + i],
             acceleration_rad_s2: f.acceleration[2 + i],
+            torque_nm: torques_nm[i],
         };
         let open = mode.place == Place::Open;
         let slips = |grip: Grip, apart: bool| match grip {

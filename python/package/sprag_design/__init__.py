@@ -16,31 +16,44 @@ import os
 
 from . import _core
 from ._answers import (
+    Blow,
     Capacity,
     Check,
     Curve,
     Deciding,
     End,
     Evaluation,
+    FilmOverrun,
+    FilmOverrunLine,
     Found,
+    Front,
+    FrontPoint,
     Junction,
     LeftOut,
+    Life,
+    LifeLoad,
+    LifePlace,
     Margin,
     Optimum,
-    OverrunPoint,
     Overrun,
+    OverrunPoint,
+    Plane,
+    Reengagement,
     Simulation,
     Slip,
     Slips,
+    SlipWear,
     Stiffness,
+    SweepMap,
     Variable,
 )
-from ._design import Design, Problem
+from ._design import Design, Problem, map_tables
 from ._errors import DesignError, DesignProblem, NoClutch
 
 __version__: str = _core.__version__
 
 __all__ = [
+    "Blow",
     "Capacity",
     "Check",
     "Curve",
@@ -50,21 +63,33 @@ __all__ = [
     "DesignProblem",
     "End",
     "Evaluation",
+    "FilmOverrun",
+    "FilmOverrunLine",
     "Found",
+    "Front",
+    "FrontPoint",
     "Junction",
     "LeftOut",
+    "Life",
+    "LifeLoad",
+    "LifePlace",
     "Margin",
     "NoClutch",
     "Optimum",
     "Overrun",
     "OverrunPoint",
+    "Plane",
     "Problem",
+    "Reengagement",
     "Simulation",
     "Slip",
+    "SlipWear",
     "Slips",
     "Stiffness",
+    "SweepMap",
     "Variable",
     "contact_laws",
+    "map_tables",
 ]
 
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_KEYS = {"passed": "pass"}
+_KEYS = {"passed": "pass", "film_over_roughness": "lambda"}
 """Attributes whose key in JSON is a word of Python."""
 
 
@@ -716,6 +716,8 @@ class Optimum(_Common):
 
     design: Design
     """The design found; where nothing holds every limit the nearest one."""
+    robust_design: Design | None
+    """The design that holds at every corner of the tolerances, or comes as near as was found, where that was asked for."""
     status: str
     """How the best climb ended: ``converged``, ``infeasible``, ``evaluation-limit``, ``stalled``."""
     aim: str
@@ -787,7 +789,7 @@ class Optimum(_Common):
         return pd.DataFrame({"given": self.in_file, "best": self.best.variables})
 
 
-def optimum_of(common: str, body: str, design: Design) -> Optimum:
+def optimum_of(common: str, body: str, design: Design, robust: Design | None) -> Optimum:
     shared, data = _common(common, body)
     # JSON has them by the alphabet, vectors in the order of the file.
     names = [v.name for v in design.problem().variables]
@@ -797,4 +799,368 @@ def optimum_of(common: str, body: str, design: Design) -> Optimum:
         return known | values
 
     inside = {k: data[k] | {"variables": ordered(data[k]["variables"])} for k in ("best", "start")}
-    return _object(Optimum, data | inside | {"in_file": ordered(data["in_file"])}, design=design, **shared)
+    return _object(
+        Optimum, data | inside | {"in_file": ordered(data["in_file"])}, design=design, robust_design=robust, **shared
+    )
+
+
+@dataclass(frozen=True)
+class FrontPoint:
+    """A design of a front."""
+
+    variables: dict[str, float]
+    """Values in the units of their names."""
+    objectives: dict[str, float]
+    """Each objective in its own unit."""
+
+
+@dataclass(frozen=True)
+class Front:
+    """Designs between objectives, of which none is better in all of them."""
+
+    objectives: tuple[str, ...]
+    """The objectives, as they were asked for."""
+    points: tuple[FrontPoint, ...]
+    """The designs; none where no design holds every limit."""
+    optimum: Optimum
+    """The search beside it."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object of ``optimize --pareto ... --json``."""
+        return self.optimum.to_dict()
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each design, objectives first. Needs pandas."""
+        import pandas as pd
+
+        return pd.DataFrame([p.objectives | p.variables for p in self.points])
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """The second objective over the first. Needs matplotlib."""
+        ax = _axes(ax)
+        x, y = self.objectives[:2]
+        ax.plot([p.objectives[x] for p in self.points], [p.objectives[y] for p in self.points], "o")
+        ax.set_xlabel(x)
+        ax.set_ylabel(y)
+        return ax
+
+
+def front_of(optimum: Optimum, aims: typing.Sequence[str]) -> Front:
+    # Without a front the optimum stands there alone, with the objective of the file.
+    points = tuple(_object(FrontPoint, p) for p in optimum.pareto if "objectives" in p)
+    return Front(tuple(aims), points, optimum)
+
+
+# ---- life, overrun, reengage
+
+
+def plain_of(kind: type[T], found: tuple[str, str]) -> T:
+    """An answer whose JSON has its attributes and no more."""
+    shared, data = _common(*found)
+    return _object(kind, data, **shared)
+
+
+@dataclass(frozen=True)
+class LifePlace:
+    """A place that a life uses up."""
+
+    code: str
+    """Code."""
+    cycles: float
+    """Cycles that it sees in this life."""
+    used: float | None
+    """Share of its life that is used up (Miner); ``None``: no strength is given."""
+    lives: float | None
+    """How often this life fits in."""
+    mostly_at_nm: float
+    """Torque at which most of that is used up."""
+
+
+@dataclass(frozen=True)
+class LifeLoad:
+    """A load of a life."""
+
+    torque_nm: float
+    """Torque."""
+    engagements: float
+    """Engagements at it."""
+    carried: bool
+    """Whether the clutch carries it."""
+    hertz_inner_mpa: float | None
+    hertz_outer_mpa: float | None
+    hoop_inner_mpa: float | None
+    """With the bending between the sprags."""
+    hoop_outer_mpa: float | None
+    walk_inner_mm: float
+    """What the contact rolls on sprag and race."""
+    walk_outer_mm: float
+    passes_inner: float
+    """Contacts that one place of the track sees in an engagement."""
+    passes_outer: float
+    slip_probability: float | None
+    """Chance of a slip in an engagement."""
+
+
+@dataclass(frozen=True)
+class Life(_Common):
+    """What a life of loads does to a clutch."""
+
+    verdict: str
+    """The answer in one line."""
+    held: bool
+    """Whether nothing is used up before its end and every torque is carried."""
+    engagements: float
+    """Engagements in all."""
+    largest_torque_nm: float
+    """The largest torque."""
+    expected_slips: float | None
+    """Slips to be expected by chance."""
+    indentation_inner: float
+    """Load until the inner contact is indented (ISO 76), over the largest one."""
+    indentation_outer: float
+    """The same of the outer contact."""
+    places: tuple[LifePlace, ...]
+    """Each place with what is used up."""
+    loads: tuple[LifeLoad, ...]
+    """Each load with what one engagement does."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The loads as a table. Needs pandas."""
+        return _columns(self.loads)
+
+
+@dataclass(frozen=True)
+class FilmOverrunLine:
+    """Overrun at one speed and one temperature of the oil; what needs a film is ``None`` where none bears."""
+
+    oil_c: float
+    speed_rpm: float
+    normal_inner_n: float
+    lifted_off: bool
+    film_um: float | None
+    """Thickness of the film."""
+    film_over_roughness: float | None
+    """Lambda; ``lambda`` in JSON."""
+    regime: str | None
+    moes_load: float | None
+    moes_lubricant: float | None
+    asperity_share: float | None
+    """Share of the load that asperities bear."""
+    nahme: float | None
+    friction: float
+    friction_dry: float
+    """By the friction law alone."""
+    drag_torque_nm: float
+    drag_torque_dry_nm: float
+    heat_w: float | None
+    film_c: float | None
+    contact_c: float | None
+    inner_race_c: float | None
+    sprags_c: float | None
+    outer_race_c: float | None
+    heat_balance_error: float | None
+    growth_rate_per_s: float | None
+    """Growth of a small swing of the sprags; positive: the equilibrium does not stay."""
+    growth_by_friction_per_s: float | None
+    growth_dry_per_s: float | None
+    swing_frequency_hz: float | None
+    sprag_wear_first_hour_um: float | None
+    race_wear_um_per_hour: float | None
+
+
+@dataclass(frozen=True)
+class SlipWear:
+    """What the slip does that ``[lubrication]`` asks for."""
+
+    torque_nm: float
+    speed_m_s: float
+    path_mm: float
+    normal_n: float
+    friction: float
+    flash_k: float
+    peclet: float
+    sprag_wear_um: float | None
+    race_wear_um: float | None
+
+
+@dataclass(frozen=True)
+class FilmOverrun(_Common):
+    """Overrun on a film."""
+
+    oil: str
+    """The oil."""
+    race: str
+    """Race that runs, ``inner`` or ``outer``."""
+    composite_roughness_um: float
+    """Rq of both bodies together."""
+    lift_off_rpm: float | None
+    """Speed of the outer race at which the sprags lift off."""
+    lines: tuple[FilmOverrunLine, ...]
+    """Temperatures one after another, speeds in each."""
+    slip: SlipWear | None
+    """The slip that the file asks for."""
+    warnings: tuple[str, ...]
+    """What a reader must know beside the figures."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each line. Needs pandas."""
+        return _columns(self.lines)
+
+    def plot(self, column: str = "drag_torque_nm", ax: Axes | None = None) -> Axes:
+        """A figure over the speed, a curve for each temperature. Needs matplotlib."""
+        ax = _axes(ax)
+        for oil_c in dict.fromkeys(line.oil_c for line in self.lines):
+            rows = [line for line in self.lines if line.oil_c == oil_c]
+            ax.plot([r.speed_rpm for r in rows], [getattr(r, column) for r in rows], marker=".", label=f"{oil_c:g} °C")
+        ax.set_xlabel("Speed, rpm")
+        ax.set_ylabel(column)
+        ax.legend()
+        return ax
+
+
+@dataclass(frozen=True)
+class Blow:
+    """A path of slip and the blow after it."""
+
+    path_mm: float
+    """Path until the friction is back."""
+    slip_ms: float
+    peak_ms: float
+    path_in_all_mm: float
+    """Until the races stand still against one another."""
+    speed_rpm: float
+    """Largest speed of the races against one another."""
+    peak_torque_nm: float | None
+    """The blow; ``None`` where the clutch does not grip."""
+    peak_by_energy_nm: float | None
+    """The same where nothing is lost."""
+    hertz_inner_mpa: float | None
+    held: bool
+    """Whether every limit at peak torque bears it."""
+    ended: str | None
+    """Why it was not followed to its end."""
+
+
+@dataclass(frozen=True)
+class Reengagement(_Common):
+    """Slip under load and the blow when the clutch grips again."""
+
+    verdict: str
+    """The answer in one line."""
+    held: bool
+    """Whether the clutch bears every blow."""
+    torque_nm: float
+    """Carried when the slip begins."""
+    friction: float
+    """While it slips."""
+    speed_rpm: float
+    inertia_inner_kg_m2: float
+    inertia_outer_kg_m2: float
+    bears_nm: float | None
+    """Peak torque that every limit bears."""
+    bears_by: str | None
+    """The limit that sets it."""
+    blows: tuple[Blow, ...]
+    """Each path of slip with its blow."""
+    needs_friction: float | None
+    """Where it does not slip: the friction that the torque needs."""
+    slip_ended: str | None
+    """Why the slip was not followed to its end."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each path of slip. Needs pandas."""
+        return _columns(self.blows)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Blow over path of slip. Needs matplotlib."""
+        ax = _axes(ax)
+        rows = [b for b in self.blows if b.peak_torque_nm is not None]
+        ax.semilogx([b.path_mm for b in rows], [typing.cast(float, b.peak_torque_nm) for b in rows], marker=".")
+        ax.set_xlabel("Slip until the friction is back, mm")
+        ax.set_ylabel("Blow, Nm")
+        return ax
+
+
+# ---- map
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """A plane over two variables: rows are tiles along ``y``, columns along ``x``."""
+
+    x: str
+    """Variable to the right."""
+    y: str
+    """Variable upwards."""
+    x_edges: Numbers
+    """Edges of the tiles along it, one more than tiles."""
+    y_edges: Numbers
+    """The same upwards."""
+    points: npt.NDArray[np.int64]
+    """Points in each tile."""
+    held: npt.NDArray[np.int64]
+    """Those that hold every limit."""
+    best: Numbers
+    """Largest value, of the points held where there are any; NaN without points."""
+    decides: npt.NDArray[Any]
+    """What decides there, or nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class SweepMap:
+    """What tables of margins show."""
+
+    verdict: str
+    """The answer in one line."""
+    by: str
+    """The column that is mapped."""
+    points: int
+    """Points in all."""
+    without_clutch: int
+    """Points without a clutch."""
+    held: int
+    """Points that hold every limit."""
+    variables: tuple[dict[str, Any], ...]
+    """Name, range, range of what is held."""
+    deciding: tuple[dict[str, Any], ...]
+    """What decides, and at how many points."""
+    best: dict[str, Any] | None
+    """The best point."""
+    planes: tuple[Plane, ...]
+    """Planes over two variables."""
+    _data: dict[str, Any] = field(repr=False)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object of ``map --json``."""
+        return typing.cast("dict[str, Any]", json.loads(json.dumps(self._data)))
+
+    def plot(self, plane: int = 0, ax: Axes | None = None) -> Axes:
+        """The best value over a plane. Needs matplotlib."""
+        ax = _axes(ax)
+        shown = self.planes[plane]
+        mesh = ax.pcolormesh(shown.x_edges, shown.y_edges, shown.best)
+        ax.figure.colorbar(mesh, ax=ax, label=self.by)
+        ax.set_xlabel(shown.x)
+        ax.set_ylabel(shown.y)
+        return ax
+
+
+def map_of(found: tuple[str, str]) -> SweepMap:
+    import numpy as np
+
+    def plane(p: dict[str, Any]) -> Plane:
+        shape = (len(p["y_edges"]) - 1, len(p["x_edges"]) - 1)
+        return Plane(
+            x=p["x"],
+            y=p["y"],
+            x_edges=np.array(p["x_edges"], dtype=np.float64),
+            y_edges=np.array(p["y_edges"], dtype=np.float64),
+            points=np.array(p["points"], dtype=np.int64).reshape(shape),
+            held=np.array(p["held"], dtype=np.int64).reshape(shape),
+            best=np.array(p["best"], dtype=np.float64).reshape(shape),
+            decides=np.array([d or "" for d in p["decides"]], dtype=np.str_).reshape(shape),
+        )
+
+    data = json.loads(found[0])
+    planes = tuple(plane(p) for p in json.loads(found[1]))
+    return _object(SweepMap, data, planes=planes, _data=data)

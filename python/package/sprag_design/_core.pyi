@@ -5,7 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import final
 
-__all__ = ["Design", "Problem", "Simulated", "__version__", "contact_laws", "forked", "run_command"]
+__all__ = ["Design", "Problem", "Simulated", "__version__", "contact_laws", "forked", "map_tables", "run_command"]
 __version__: str
 
 @final
@@ -52,7 +52,23 @@ class Design:
         full: bool,
         step_mm: float | None,
         reserve: float | None,
-    ) -> tuple[str, str, Design]: ...
+        front: Sequence[str],
+        front_steps: int,
+        robust: bool,
+        draws: int,
+    ) -> tuple[str, str, Design, Design | None]: ...
+    def life(self) -> tuple[str, str]: ...
+    def overrun(
+        self, outer: bool, speeds_rpm: Sequence[float], temperatures_c: Sequence[float]
+    ) -> tuple[str, str]: ...
+    def reengage(
+        self,
+        torque_nm: float | None,
+        inertia_kg_m2: Sequence[float | None],
+        friction: float | None,
+        speed_rpm: float,
+        paths_mm: Sequence[float] | None,
+    ) -> tuple[str, str]: ...
     def problem(self, full: bool) -> Problem: ...
     def drawings(self) -> tuple[str, str, str]: ...
 
@@ -81,3 +97,6 @@ class Simulated:
 def run_command(args: Sequence[str]) -> int: ...
 def contact_laws() -> list[str]: ...
 def forked() -> None: ...
+def map_tables(
+    tables: Sequence[str | PathLike[str]], by: str, over: Sequence[tuple[str, str]]
+) -> tuple[str, str]: ...

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import json
+import math
 import numbers
 import os
 from collections.abc import Iterable, Sequence
@@ -14,13 +15,21 @@ from . import _core
 from ._answers import (
     Check,
     Evaluation,
+    FilmOverrun,
+    Front,
+    Life,
     Optimum,
+    Reengagement,
     Simulation,
     Stiffness,
+    SweepMap,
     Variable,
     _object,
     check_of,
+    front_of,
+    map_of,
     optimum_of,
+    plain_of,
     simulation_of,
     stiffness_of,
 )
@@ -44,6 +53,15 @@ def _toml(value: Any) -> str:
     if isinstance(value, Iterable):
         return "[" + ", ".join(_toml(item) for item in value) + "]"
     raise TypeError(f"{value!r} is no value of a design file: a number, a text, true, false or a list of these is")
+
+
+def _positive(name: str, values: Iterable[float]) -> list[float]:
+    """Numbers above 0, or an exception that says which is none."""
+    listed = [float(value) for value in values]
+    for value in listed:
+        if not 0.0 < value < math.inf:
+            raise ValueError(f"{name} {value}: allowed: a finite number above 0")
+    return listed
 
 
 class Design:
@@ -114,9 +132,14 @@ class Design:
         return Design(self._core.with_settings([(path, _toml(value))]))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the design file. A file that is there is not replaced."""
+        """Write the design file. A file that is there is not replaced; where the disk is full nothing is left."""
         with open(path, "x", encoding="utf-8", newline="") as file:
-            file.write(self.text)
+            try:
+                file.write(self.text)
+                file.flush()
+            except OSError:
+                os.unlink(path)
+                raise
 
     def check(self) -> Check:
         """Hold the design against each of its limits.
@@ -190,25 +213,133 @@ class Design:
         full: bool = False,
         step_mm: float | None = None,
         reserve: float | None = None,
+        robust: bool = False,
+        draws: int = 200,
     ) -> Optimum:
         """Search for a better design as the table ``[optimize]`` of the file says; nothing is written. ``evaluations``: most
         of each climb; ``starts``: number of climbs, left open 8 to 32; ``swarm``: evaluations of a particle swarm first;
         ``step_mm``: step in which lengths can be made, mm, 0 for none, left open that of the file; ``reserve``: what every limit
-        keeps of its margin, left open that of the file.
+        keeps of its margin, left open that of the file; ``robust``: margins within ``[tolerances]`` at every corner and in
+        ``draws`` seeded draws, and a design that holds them at every corner.
 
         Raises ``ValueError`` where the design has no such table.
         """
+        found = self._search((), 8, evaluations, starts, swarm, tolerance, full, step_mm, reserve, robust, draws)
+        return optimum_of(*found)
+
+    def pareto(
+        self,
+        objectives: Sequence[str],
+        *,
+        points: int = 8,
+        evaluations: int = 500,
+        starts: int | None = None,
+        swarm: int | None = None,
+        tolerance: float = 1e-6,
+        full: bool = False,
+        step_mm: float | None = None,
+        reserve: float | None = None,
+    ) -> Front:
+        """The front between two or three objectives, such as ``["slip-margin", "torque-capacity"]``: designs of which none is
+        better in all of them. ``points``: steps between any two of its ends; the other options are those of :meth:`optimize`,
+        whose answer comes along.
+
+        Raises ``ValueError`` for other objectives than those of ``[optimize]``, and where the design has no such table.
+        """
+        aims = [objectives] if isinstance(objectives, str) else list(objectives)
+        if not 2 <= len(set(aims)) == len(aims) <= 3:
+            raise ValueError(f"objectives {aims}: allowed: two or three different ones")
+        if not 2 <= points <= 64:
+            raise ValueError(f"points {points}: allowed: 2 to 64")
+        found = self._search(aims, points, evaluations, starts, swarm, tolerance, full, step_mm, reserve, False, 200)
+        return front_of(optimum_of(*found), aims)
+
+    def _search(
+        self,
+        aims: Sequence[str],
+        points: int,
+        evaluations: int,
+        starts: int | None,
+        swarm: int | None,
+        tolerance: float,
+        full: bool,
+        step_mm: float | None,
+        reserve: float | None,
+        robust: bool,
+        draws: int,
+    ) -> tuple[str, str, Design, Design | None]:
         if evaluations < 1 or (starts is not None and starts < 1):
             raise ValueError("evaluations and starts: allowed: 1 or more")
         if swarm is not None and swarm < 80:
             raise ValueError(f"swarm {swarm}: allowed: 80 or more")
         if not 1e-13 <= tolerance <= 1e-3:
             raise ValueError(f"tolerance {tolerance}: allowed: 1e-13 to 1e-3; 1e-6 serves well")
+        if draws < 10:
+            raise ValueError(f"draws {draws}: allowed: 10 or more")
         for name, value in ("step_mm", step_mm), ("reserve", reserve):
             if value is not None and not 0 <= value <= 1:
                 raise ValueError(f"{name} {value}: allowed: 0 to 1")
-        common, body, design = self._core.optimize(evaluations, starts, swarm, tolerance, full, step_mm, reserve)
-        return optimum_of(common, body, Design(design))
+        common, body, design, other = self._core.optimize(
+            evaluations, starts, swarm, tolerance, full, step_mm, reserve, aims, points, robust, draws
+        )
+        return common, body, Design(design), None if other is None else Design(other)
+
+    def life(self) -> Life:
+        """What the life of loads in the table ``[life]`` of the file does to the clutch.
+
+        Raises ``ValueError`` where the design has no such table, :class:`NoClutch`.
+        """
+        return plain_of(Life, self._core.life())
+
+    def overrun(
+        self, speeds_rpm: Iterable[float] = (), temperatures_c: Iterable[float] = (), *, race: str = "inner"
+    ) -> FilmOverrun:
+        """Overrun on the film that ``[lubrication]`` names, at each speed of the race that runs (rpm; left out: 50, 100, 200,
+        500 ... up to lift-off and 50 m/s) and each temperature of the oil (C; left out: that of the file). ``race``: the one
+        that runs, ``inner`` or ``outer``.
+
+        Raises ``ValueError`` where the design has no such table and for what is no speed or temperature, :class:`NoClutch`.
+        """
+        if race not in ("inner", "outer"):
+            raise ValueError(f"race {race!r}: allowed: inner, outer")
+        temperatures = [float(t) for t in temperatures_c]
+        for celsius in temperatures:
+            if not -60.0 <= celsius <= 250.0:
+                raise ValueError(f"temperatures_c {celsius}: allowed: -60 to 250")
+        speeds = _positive("speeds_rpm", speeds_rpm)
+        return plain_of(FilmOverrun, self._core.overrun(race == "outer", speeds, temperatures))
+
+    def reengage(
+        self,
+        paths_mm: Iterable[float] | None = None,
+        *,
+        torque_nm: float | None = None,
+        inertia_inner_kg_m2: float | None = None,
+        inertia_outer_kg_m2: float | None = None,
+        friction: float | None = None,
+        speed_rpm: float = 0.0,
+    ) -> Reengagement:
+        """Slip under load and the blow when the clutch grips again, for each path of slip at the inner track (mm, rising; left
+        out: 0.1 to 30). ``torque_nm``: carried when the slip begins, left out the nominal torque of ``[limits]``; inertias:
+        what turns with each race, the race included, left out the race alone; ``friction`` while it slips, left out 0.95 of
+        what the torque needs; ``speed_rpm``: of both races.
+
+        Raises ``ValueError`` for what makes no sense, :class:`NoClutch` where the clutch cannot carry the torque.
+        """
+        given = {
+            "torque_nm": torque_nm,
+            "inertia_inner_kg_m2": inertia_inner_kg_m2,
+            "inertia_outer_kg_m2": inertia_outer_kg_m2,
+            "friction": friction,
+        }
+        for name, value in given.items():
+            if value is not None:
+                _positive(name, [value])
+        if not math.isfinite(speed_rpm):
+            raise ValueError(f"speed_rpm {speed_rpm}: allowed: a finite number")
+        paths = None if paths_mm is None else _positive("paths_mm", paths_mm)
+        inertias = (inertia_inner_kg_m2, inertia_outer_kg_m2)
+        return plain_of(Reengagement, self._core.reengage(torque_nm, inertias, friction, speed_rpm, paths))
 
     def problem(self, *, full: bool = False) -> Problem:
         """The variables of ``[optimize]`` and the margins at their values, for optimisers of others. ``full`` leaves nothing
@@ -333,3 +464,20 @@ class Problem:
 
 def _problem(design: Design, full: bool) -> Problem:
     return Problem(design, full=full)
+
+
+def map_tables(
+    tables: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+    *,
+    over: Sequence[tuple[str, str]] = (),
+    by: str = "margin",
+) -> SweepMap:
+    """What tables of margins show, parts of one sweep as the command ``evaluate`` writes them: how much of the box is held,
+    what decides, planes over two variables each (``over``; left out the first six pairs that vary). Read in flat memory.
+
+    Raises ``ValueError`` for what is no such table, and for an unknown column or variable.
+    """
+    paths = [tables] if isinstance(tables, (str, os.PathLike)) else list(tables)
+    if not paths:
+        raise ValueError("tables: allowed: one or more")
+    return map_of(_core.map_tables(paths, by, [(x, y) for x, y in over]))

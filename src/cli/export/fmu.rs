@@ -7,7 +7,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::origin::FileKind;
 use crate::cli::output::{TOOL, VERSION};
 use crate::cli::{Context, parts};
-use crate::design::Design;
+use crate::design::{Design, inputs};
 use crate::element::{Beginning, Element, NoElement, Settings};
 use crate::export::fmu::{Fmi, MARK, MODEL, description, variables};
 use crate::margin::NoMargins;
@@ -31,6 +31,15 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     let Some(path) = &args.output else {
         return Err(Failure::malformed("-o is needed: a co-simulation unit is no text (-o clutch.fmu)"));
     };
+    let train = inertias_beyond(design);
+    if !train.is_empty() && !args.clutch_alone {
+        return Err(Failure::malformed(format!(
+            "{}: [[drivetrain]] ({}): a unit holds the clutch between its two flanges and no shafts; --clutch-alone leaves them out, for \
+             the other program to have them (rigid entries too: add their inertia to [races] or there); with them here, `simulate`",
+            args.file.display(),
+            train.join(", ")
+        )));
+    }
     let started = Instant::now();
     // What cannot begin at rest without load is no element anywhere.
     match Element::new(&design.clutch, &Beginning::default(), &Settings::default()) {
@@ -67,7 +76,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     let answer = Envelope {
         design,
         run_time_s: started.elapsed().as_secs_f64(),
-        left_out: left_out(),
+        left_out: left_out(&train),
         error_estimate: None,
         body: json!({
             "format": "fmu",
@@ -144,10 +153,30 @@ fn packed(files: &[(String, Vec<u8>, bool)]) -> Result<Vec<u8>, Box<dyn std::err
     Ok(archive.finish()?)
 }
 
-fn left_out() -> Vec<LeftOut> {
-    vec![LeftOut::new(
+/// Names of the design's `[[drivetrain]]`.
+fn inertias_beyond(design: &Design) -> Vec<String> {
+    let all = inputs(&design.source).into_iter();
+    let named = all.filter_map(|input| {
+        let entry = input.path.strip_prefix("drivetrain[")?;
+        Some(entry.split_once(']')?.0.to_owned())
+    });
+    let mut names: Vec<String> = named.collect();
+    names.dedup();
+    names
+}
+
+fn left_out(train: &[String]) -> Vec<LeftOut> {
+    let mut all = vec![LeftOut::new(
         "growth of the races with their speed",
         "it stays that of start.speed; the centrifugal force on the sprags follows the motion",
         "2 um at the outer track from rest to 20 000 rpm (clutch of Table 1)",
-    )]
+    )];
+    if !train.is_empty() {
+        all.push(LeftOut::new(
+            "drivetrain",
+            &format!("left out as asked: {}", train.join(", ")),
+            "everything that they do, until the other program has them at the flanges",
+        ));
+    }
+    all
 }
