@@ -8,6 +8,7 @@ mod demand;
 mod equilibrium;
 mod error;
 mod figures;
+mod periodic;
 mod prepare;
 mod simulate;
 mod sliding;
@@ -18,6 +19,7 @@ pub use demand::{RollingDemand, demand, demand_quickly};
 pub use equilibrium::overrun_swing;
 pub use error::Scales;
 pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures_of};
+pub use periodic::{MotionKind, Steady, closely, steady_motion};
 pub use prepare::{
     AtRest, FreeRun, NoScenario, Prepared, Reduction, prepare, prepare_reduced, sliding_friction,
 };
