@@ -3,7 +3,7 @@
 //! The run ends a step at every whole period. There it compares: the state that returns with that of a period before (alpha,
 //! theta_be on its abutment, rates, twists of shafts), and what a period adds (angles that run on, slip, open time, works)
 //! with what the one before added, each by its natural size. Let g be the larger of the two, what is added counted n times,
-//! n the periods that are left, and r the largest of the last ratios of g. What is still to come of a decay moves any figure
+//! n the periods left, and r the largest of the last ratios of g. What is still to come of a decay moves any figure
 //! by less than g r/(1 - r), and by less than n g in any case where g grows no more. Once the smaller of both stays below
 //! the tolerance for [`STEADY`] periods in a row, each with as many changes of mode, one more period is run, the template
 //! of all samples to come, and n of it are added.
@@ -17,8 +17,6 @@ use nalgebra::Const;
 
 /// Periods in a row that must be alike: a choice.
 const STEADY: usize = 4;
-/// What of the step's tolerance the error of a jump may be, by natural size.
-const SHARE: f64 = 0.1;
 /// Least ratio of one difference to the one before that is believed.
 const LEAST_RATIO: f64 = 0.5;
 
@@ -145,7 +143,7 @@ where
         let decay = if worst < 1.0 { worst.max(LEAST_RATIO) } else { 1.0 };
         let error = difference * (decay / (1.0 - decay)).min(periods);
         let alike = now.mode == last.mode && before.2 == gained.2 && !grows;
-        let within = error <= SHARE * self.settings.tolerance && difference.is_finite();
+        let within = error <= self.settings.tolerance && difference.is_finite();
         repeat.alike = if alike && within { repeat.alike + 1 } else { 0 };
         if repeat.alike < STEADY || periods < 1.0 {
             return;

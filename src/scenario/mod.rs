@@ -10,6 +10,7 @@ mod error;
 mod figures;
 mod periodic;
 mod prepare;
+mod resonance;
 mod simulate;
 mod sliding;
 mod train;
@@ -23,5 +24,6 @@ pub use periodic::{MotionKind, Steady, closely, steady_motion};
 pub use prepare::{
     AtRest, FreeRun, NoScenario, Prepared, Reduction, prepare, prepare_reduced, sliding_friction,
 };
+pub use resonance::{ResonanceCell, resonance};
 pub use simulate::{Settings, published_steps, simulate, simulate_prepared, simulate_published};
 pub use sliding::{Lubricated, Sliding, sliding};
