@@ -136,6 +136,7 @@ fn periods_that_repeat_are_added_and_not_run() {
     let started = std::time::Instant::now();
     let long = simulate(&lasting("low-10-mu082", 60.0, 100.0), &Settings::default()).unwrap();
     println!("60 s: {:?}, {:?}, {:?}", started.elapsed(), long.jump, long.error);
+    assert!(long.jump.unwrap().from_s < 3.0, "most of its periods are added");
     assert!(long.tolerance_reached && long.inner.net_m < -0.06 && long.events > 20_000);
     // A scene that is no longer than all before runs every period.
     assert!(simulate(&lasting("high-6", 4.0, 100.0), &Settings::default()).unwrap().jump.is_none());

@@ -3,7 +3,9 @@
 use sprag_design::clutch::{Scenario, ScenarioKind};
 use sprag_design::design::Design;
 use sprag_design::dynamics::{NoOrbit, RunSettings, run};
-use sprag_design::scenario::{MotionKind, Prepared, Settings, Steady, closely, prepare, steady_motion};
+use sprag_design::scenario::{
+    MotionKind, Prepared, ResonanceCell, Settings, Steady, closely, prepare, resonance, steady_motion,
+};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -197,4 +199,45 @@ fn what_has_no_periodic_state_says_so() {
     let held = still.scenario("rated-45").unwrap();
     let none = steady_motion(&prepare(held).unwrap(), &Settings::default(), None);
     assert_eq!(none.is_none(), held.kind.frequency_hz().is_none());
+}
+
+/// One row that slips and lifts off, one that rolls; nothing of it depends on the threads.
+#[test]
+fn a_map_is_the_same_on_one_thread_and_on_two() {
+    let low = scene(MULTI, "low-10-mu082", 10.0, 100.0, 5000.0);
+    let frequencies: Vec<f64> = (0..9).map(|i| 60.0 + 15.0 * f64::from(i)).collect();
+    let map = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let settings = Settings::default();
+        pool.install(|| resonance(&low, &frequencies, &[2.0, 12.0, 20.0], &settings, &|| ()))
+            .unwrap()
+            .unwrap()
+    };
+    let (one, two) = (map(1), map(2));
+    let figures = |map: &[Vec<ResonanceCell>]| -> Vec<String> {
+        let cells = map.iter().flatten();
+        cells.map(|c| format!("{:?} {:?}", c.state, c.other.as_ref().map(|o| o.kind))).collect()
+    };
+    for c in one.iter().flatten() {
+        let s = &c.state;
+        println!(
+            "{} Hz {} Nm: {:?} {:?} {:?} {:?} {} other {:?}",
+            c.frequency_hz,
+            c.amplitude_nm,
+            s.kind,
+            s.required_friction,
+            s.is_stable(),
+            s.motion.as_ref().map(|o| (o.run.inner.distance_m, o.largest_multiplier())),
+            s.periods,
+            c.other.as_ref().map(|o| o.kind)
+        );
+    }
+    assert_eq!(figures(&one), figures(&two));
+    assert!(one[0].iter().all(|c| c.state.kind == MotionKind::Rolls), "2 Nm rolls");
+    assert!(one[1].iter().any(|c| c.state.kind == MotionKind::Slips), "12 Nm slips near the resonance");
+    // Nothing is computed after a stop, and nothing is made up.
+    let follow = sprag_design::Follow::new();
+    follow.stop();
+    let stopped = resonance(&low, &frequencies, &[2.0], &Settings { follow, ..Settings::default() }, &|| ());
+    assert!(stopped.unwrap().is_none());
 }

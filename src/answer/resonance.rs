@@ -5,6 +5,7 @@ use super::page::{begun, half};
 use super::{Envelope, Provenance};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
+use crate::dynamics::Run;
 use crate::report::heat::SHADES;
 use crate::report::{Cell, Column, HeatMap, Page, Plot, Screen, Shade, Table, Tone, Unit, significant};
 use crate::scenario::{MotionKind, NoScenario, ResonanceCell, Settings, Steady, closely, resonance};
@@ -29,6 +30,8 @@ pub struct ResonanceAnswer<'a> {
     scenario: &'a Scenario,
     friction: f64,
     tolerance: f64,
+    /// A single state once more, at a tenth of the tolerance.
+    finer: Option<Steady>,
     /// Rows by amplitude, each by frequency.
     pub rows: Vec<Vec<ResonanceCell>>,
 }
@@ -79,11 +82,16 @@ impl Design {
         let amplitudes = or_own(&question.amplitudes_nm, amplitude_nm);
         let one = frequencies.len() * amplitudes.len() == 1;
         let settings = if one { closely(settings) } else { settings.clone() };
-        let rows =
-            resonance(scenario, &frequencies, &amplitudes, &settings, done).map_err(NoResonance::NoStart)?;
-        let rows = rows.ok_or(NoResonance::Stopped)?;
+        let run = |settings: &Settings, done: &(dyn Fn() + Sync)| {
+            let rows = resonance(scenario, &frequencies, &amplitudes, settings, done);
+            rows.map_err(NoResonance::NoStart)?.ok_or(NoResonance::Stopped)
+        };
+        let rows = run(&settings, done)?;
+        let finer = Settings { tolerance: 0.1 * settings.tolerance, ..settings.clone() };
+        let finer = if one { Some(run(&finer, &|| ())?) } else { None };
+        let finer = finer.and_then(|rows| Some(rows.into_iter().flatten().next()?.state));
         let friction = scenario.clutch.friction.static_;
-        Ok(ResonanceAnswer { design: self, scenario, friction, tolerance: settings.tolerance, rows })
+        Ok(ResonanceAnswer { design: self, scenario, friction, tolerance: settings.tolerance, finer, rows })
     }
 }
 
@@ -220,8 +228,24 @@ impl<'a> ResonanceAnswer<'a> {
             "a row is walked upwards and downwards in frequency, from the state at rest",
             "not estimated",
         ));
-        let error = Some(json!(self.tolerance));
+        let error = Some(self.error_estimate());
         Envelope { design: self.design, run_time_s, left_out: list, error_estimate: error, body }
+    }
+
+    /// Of a single state: what each figure differs by from that at a tenth of the tolerance. Of a map the tolerance asked for.
+    fn error_estimate(&self) -> Value {
+        let Some((state, finer)) = self.cells().next().map(|c| &c.state).zip(self.finer.as_ref()) else {
+            return json!({ "tolerance": self.tolerance });
+        };
+        let off = |of: &dyn Fn(&Steady) -> Option<f64>| Some((of(state)? - of(finer)?).abs());
+        let run = |s: &Steady, of: fn(&Run) -> f64| Some(of(&s.motion.as_ref().ok()?.run));
+        json!({
+            "required_static_friction": off(&|s| s.required_friction), "contact_margin": off(&|s| s.contact_margin),
+            "normal_min_n": off(&|s| run(s, |r| r.peaks.normal_min_n)),
+            "normal_max_n": off(&|s| run(s, |r| r.peaks.normal_max_n)),
+            "slip_inner_mm": off(&|s| run(s, |r| 1e3 * r.inner.distance_m)),
+            "open_s": off(&|s| run(s, |r| r.open_s)),
+        })
     }
 
     /// The answer on a terminal.

@@ -2,11 +2,16 @@
 //!
 //! The run ends a step at every whole period. There it compares: the state that returns with that of a period before (alpha,
 //! theta_be on its abutment, rates, twists of shafts), and what a period adds (angles that run on, slip, open time, works)
-//! with what the one before added, each by its natural size. Let g be the larger of the two, what is added counted n times,
-//! n the periods left, and r the largest of the last ratios of g. What is still to come of a decay moves any figure
-//! by less than g r/(1 - r), and by less than n g in any case where g grows no more. Once the smaller of both stays below
-//! the tolerance for [`STEADY`] periods in a row, each with as many changes of mode, one more period is run, the template
-//! of all samples to come, and n of it are added.
+//! with what the one before added, each by its natural size. Let g be the largest of all, what is added counted n times, n the
+//! periods left. What is still to come moves any figure by less than
+//!
+//! * g r/(1 - r) of a decay, r the ratio by which g has fallen from period to period of late;
+//! * [`HIDDEN`] times g taken over [`STEADY`] periods instead of one, where that is no larger than over one: what is left
+//!   scatters by the steps of integration, and no trend of a seventh of it a period is in it.
+//!
+//! Once the smaller stays below the tolerance of the steps for [`STEADY`] periods in a row, each with as many changes of mode, one
+//! more period is run, the template of all samples to come, and n of it are added. Runs at several tolerances jump each for
+//! itself, so their difference holds what the jump did too.
 
 use super::driver::Driver;
 use super::model::{Mode, N_STATE};
@@ -16,8 +21,10 @@ use crate::ode::adaptive::Size;
 use nalgebra::Const;
 
 /// Periods in a row that must be alike: a choice.
-const STEADY: usize = 4;
-/// Least ratio of one difference to the one before that is believed.
+const STEADY: usize = 8;
+/// What a decay too slow to show in the scatter may add, by the scatter: a choice.
+const HIDDEN: f64 = 10.0;
+/// Least ratio of a difference to the one before that is believed.
 const LEAST_RATIO: f64 = 0.5;
 
 /// Periods that a run has not integrated.
@@ -53,9 +60,8 @@ pub(super) struct Repeat<const N: usize> {
     period_s: f64,
     /// Whole periods run.
     count: u64,
-    last: Option<Section<N>>,
-    /// What the last period added: angles that run on and slip, as the state has them, and the rest.
-    gained: Option<([f64; N], [f64; ADDED], u64)>,
+    /// Its last ends, the newest last.
+    sections: Vec<Section<N>>,
     /// The last differences, the newest first.
     differences: [f64; STEADY],
     alike: usize,
@@ -72,8 +78,7 @@ impl<const N: usize> Repeat<N> {
         Self {
             period_s,
             count: 0,
-            last: None,
-            gained: None,
+            sections: Vec::with_capacity(STEADY + 2),
             differences: [f64::INFINITY; STEADY],
             alike: 0,
             template: None,
@@ -128,23 +133,34 @@ where
 
     fn compare(&mut self, repeat: &mut Repeat<N>) {
         let now = self.section();
-        let Some(last) = repeat.last.replace(now) else { return };
-        let gained = gain(&last, &now);
-        let Some(before) = repeat.gained.replace(gained) else { return };
+        repeat.sections.push(now);
+        let last = repeat.sections.len() - 1;
+        if last < 2 {
+            return;
+        }
         let left = ((self.settings.duration_s - self.run.t_s) / repeat.period_s * (1.0 + 1e-12)).floor();
         // One is run as a template.
         let periods = left - 1.0;
-        let difference = self.difference(&last, &now, &before, &gained, periods);
-        let ratio = difference / repeat.differences[0];
-        let worst = repeat.differences.windows(2).map(|d| d[0] / d[1]).fold(ratio, f64::max);
-        let grows = repeat.differences.iter().all(|&d| difference > d);
+        let s = &repeat.sections;
+        let gained = |k: usize| gain(&s[k - 1], &s[k]);
+        let off =
+            |lag: usize| self.difference(&s[last - lag], &now, &gained(last - lag), &gained(last), periods);
         repeat.differences.rotate_right(1);
-        repeat.differences[0] = difference;
-        let decay = if worst < 1.0 { worst.max(LEAST_RATIO) } else { 1.0 };
-        let error = difference * (decay / (1.0 - decay)).min(periods);
-        let alike = now.mode == last.mode && before.2 == gained.2 && !grows;
-        let within = error <= self.settings.tolerance && difference.is_finite();
-        repeat.alike = if alike && within { repeat.alike + 1 } else { 0 };
+        repeat.differences[0] = off(1);
+        let largest = |d: &[f64]| d.iter().fold(0.0, |a: f64, b| a.max(*b));
+        let (recent, earlier) = repeat.differences.split_at(STEADY / 2);
+        let (recent, earlier) = (largest(recent), largest(earlier));
+        let decay = (recent / earlier).powf(2.0 / STEADY as f64).max(LEAST_RATIO);
+        let decays = if decay < 1.0 { recent * decay / (1.0 - decay) } else { f64::INFINITY };
+        let whole = last == STEADY + 1;
+        let apart = if whole { off(STEADY) } else { f64::INFINITY };
+        let scatters = if apart <= 2.0 * recent.max(earlier) { HIDDEN * apart } else { f64::INFINITY };
+        let error = decays.min(scatters);
+        let alike = now.mode == s[last - 1].mode && gained(last - 1).2 == gained(last).2;
+        repeat.alike = if alike && error <= self.settings.tolerance { repeat.alike + 1 } else { 0 };
+        if whole {
+            repeat.sections.remove(0);
+        }
         if repeat.alike < STEADY || periods < 1.0 {
             return;
         }
