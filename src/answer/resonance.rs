@@ -290,9 +290,8 @@ impl<'a> ResonanceAnswer<'a> {
                 let largest = |c: &ResonanceCell| Some(c.state.motion.as_ref().ok()?.run.peaks.normal_max_n);
                 load = load.curve(&name, points(&largest));
             }
-            needed = needed.level(self.friction, "there is");
             page.figures(&[
-                (half(needed), "Rolling states that keep contact."),
+                (half(needed), &format!("Rolling states that keep contact; there is {}.", significant(self.friction, 3))),
                 (half(load), "Of the state with the friction that there is."),
             ]);
         } else {
@@ -322,28 +321,33 @@ impl<'a> ResonanceAnswer<'a> {
 
     /// What rolling needs.
     fn needed(&self) -> HeatMap {
-        let margins = || self.cells().filter_map(|c| c.state.required_friction.map(|_| c.state.slip_margin));
-        let [low, high] = margins().fold([0.0_f64; 2], |[l, h], m| [l.min(m), h.max(m)]);
-        let share = |part: f64| (part * f64::from(SHADES)).clamp(0.0, f64::from(SHADES - 1)) as u8;
-        let tile = |c: &ResonanceCell| match c.state.required_friction {
-            None => (Shade::Void, Some(false)),
-            Some(_) if c.state.slip_margin >= 0.0 => {
-                (Shade::Held(share(c.state.slip_margin / high)), Some(true))
-            }
-            Some(_) => (Shade::Broken(share(c.state.slip_margin / low)), Some(false)),
+        let range = |held: bool| {
+            let known = self.cells().filter(|c| c.state.required_friction.is_some()).map(|c| c.state.slip_margin);
+            let side = known.filter(|m| (*m >= 0.0) == held);
+            side.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], m| [low.min(m), high.max(m)])
+        };
+        let (held, broken) = (range(true), range(false));
+        let shade = |value: f64, from: f64, to: f64| {
+            let share = if to == from { 1.0 } else { (value - from) / (to - from) };
+            (share * f64::from(SHADES)).clamp(0.0, f64::from(SHADES - 1)) as u8
+        };
+        let tile = |c: &ResonanceCell| match (c.state.required_friction, c.state.slip_margin) {
+            (None, _) => (Shade::Void, Some(false)),
+            (Some(_), m) if m >= 0.0 => (Shade::Held(shade(m, held[0], held[1])), Some(true)),
+            (Some(_), m) => (Shade::Broken(shade(m, broken[1], broken[0])), Some(false)),
         };
         let tiles: Vec<(Shade, Option<bool>)> = self.cells().map(tile).collect();
-        let needs = |margin: f64| significant(self.friction / (1.0 + margin), 3);
-        let has = |kind: fn(&Shade) -> bool| tiles.iter().any(|(shade, _)| kind(shade));
+        let needs = |margin: f64| significant(self.friction / (1.0 + margin), 4);
         let mut legend = Vec::new();
-        if has(|s| matches!(s, Shade::Held(_))) {
-            legend.push((Shade::Held(SHADES - 1), format!("needs {}", needs(high))));
-            legend.push((Shade::Held(0), format!("needs {}", significant(self.friction, 3))));
+        if held[0] <= held[1] {
+            legend.push((Shade::Held(SHADES - 1), format!("needs {}", needs(held[1]))));
+            legend.push((Shade::Held(0), format!("needs {}", needs(held[0]))));
         }
-        if has(|s| matches!(s, Shade::Broken(_))) {
-            legend.push((Shade::Broken(SHADES - 1), format!("needs {}", needs(low))));
+        if broken[0] <= broken[1] {
+            legend.push((Shade::Broken(0), format!("needs {}", needs(broken[1]))));
+            legend.push((Shade::Broken(SHADES - 1), format!("needs {}", needs(broken[0]))));
         }
-        if has(|s| *s == Shade::Void) {
+        if tiles.iter().any(|(shade, _)| *shade == Shade::Void) {
             legend.push((Shade::Void, "would open".to_owned()));
         }
         HeatMap { tiles, legend, ..self.plane("Static friction needed to roll") }
@@ -353,20 +357,21 @@ impl<'a> ResonanceAnswer<'a> {
     fn kinds(&self) -> HeatMap {
         let kind = |c: &ResonanceCell| match c.state.kind {
             _ if c.other.is_some() => 5,
-            MotionKind::Rolls if c.state.is_stable() == Some(false) => 4,
+            _ if c.state.is_stable() == Some(false) => 6,
             MotionKind::Rolls => 0,
             MotionKind::Slips => 1,
             MotionKind::LiftsOff => 2,
             MotionKind::Ends => 3,
             MotionKind::NotFound => 4,
         };
-        const NAMES: [&str; 6] = [
+        const NAMES: [&str; 7] = [
             "rolls",
             "slips each period",
             "lifts off",
             "goes beyond the curve",
             "does not repeat",
             "two states",
+            "unstable",
         ];
         let tiles: Vec<(Shade, Option<bool>)> =
             self.cells().map(|c| (Shade::Kind(kind(c)), Some(c.state.kind == MotionKind::Rolls))).collect();
