@@ -1,8 +1,12 @@
 //! Periodic states by shooting: against scipy, a long transient, the linear forced response, their own works.
 
+#[path = "common/program.rs"]
+mod program;
+
+use program::*;
 use sprag_design::clutch::{Scenario, ScenarioKind};
 use sprag_design::design::Design;
-use sprag_design::dynamics::{NoOrbit, RunSettings, run};
+use sprag_design::dynamics::{self, NoOrbit, RunSettings};
 use sprag_design::scenario::{
     MotionKind, Prepared, ResonanceCell, Settings, Steady, closely, prepare, resonance, steady_motion,
 };
@@ -85,9 +89,9 @@ fn a_long_transient_comes_to_it() {
             history: Default::default(),
             follow: Default::default(),
         };
-        let long = run(&prepared.model, prepared.state, prepared.mode, &settings);
+        let long = dynamics::run(&prepared.model, prepared.state, prepared.mode, &settings);
         let next = RunSettings { duration_s: 3.01, ..settings };
-        let longer = run(&prepared.model, prepared.state, prepared.mode, &next);
+        let longer = dynamics::run(&prepared.model, prepared.state, prepared.mode, &next);
         println!("{name}: {:?} {:?} {} periods", orbit.multipliers, found.required_friction, found.periods);
         println!("   {:?}\n   {:?}", orbit.state, long.state);
         for (i, size) in [(0, 0.05), (3, 1e-3), (6, 5.0), (7, 5.0)] {
@@ -240,4 +244,37 @@ fn a_map_is_the_same_on_one_thread_and_on_two() {
     follow.stop();
     let stopped = resonance(&low, &frequencies, &[2.0], &Settings { follow, ..Settings::default() }, &|| ());
     assert!(stopped.unwrap().is_none());
+}
+
+#[test]
+fn the_command_in_every_form() {
+    let folder = Folder::new();
+    let (csv, page) = (folder.path("map.csv"), folder.path("map.html"));
+    let args = ["resonance", MULTI, "--scenario", "high-6"];
+    let one = json(&run(&[&args[..], &["--json", "--quiet"]].concat()));
+    let state = &one["states"][0];
+    assert_eq!((state["state"].as_str(), one["rolls"].as_bool()), (Some("rolls"), Some(true)));
+    let (_, found) = steady(&scene(MULTI, "high-6", 6.0, 100.0, 5000.0));
+    let needs = state["required_static_friction"].as_f64().unwrap();
+    assert_eq!(needs.to_bits(), found.required_friction.unwrap().to_bits());
+    assert!(one["error_estimate"]["required_static_friction"].as_f64().unwrap() < 1e-6);
+    assert!((state["work_in_j"].as_f64().unwrap() / state["lost_j"].as_f64().unwrap() - 1.0).abs() < 1e-5);
+    let ranges = ["--frequency", "60:120", "--amplitude", "2:9", "--points", "3x2"];
+    let map = run(&[&args[..], &ranges, &["--csv", &csv, "--report", &page, "--quiet"]].concat());
+    assert_eq!(map.status.code(), Some(0), "{map:?}");
+    assert!(stdout(&map).contains("of 6 states roll"), "{}", stdout(&map));
+    assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 7);
+    assert!(is_self_contained(page).contains("What the clutch does"));
+    for (wrong, word) in [
+        (["--frequency", "9:3"], "rises"),
+        (["--amplitude", "0"], "above zero"),
+        (["--points", "0x3"], "NxM"),
+        (["--tolerance", "1"], "1e-9"),
+        (["--scenario", "rated"], "did you mean"),
+    ] {
+        let asked = if wrong[0] == "--scenario" { &args[..2] } else { &args[..] };
+        let refused = run(&[asked, &wrong].concat());
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&refused.stderr).contains(word), "{refused:?}");
+    }
 }

@@ -291,7 +291,10 @@ impl<'a> ResonanceAnswer<'a> {
                 load = load.curve(&name, points(&largest));
             }
             page.figures(&[
-                (half(needed), &format!("Rolling states that keep contact; there is {}.", significant(self.friction, 3))),
+                (
+                    half(needed),
+                    &format!("Rolling states that keep contact; there is {}.", significant(self.friction, 3)),
+                ),
                 (half(load), "Of the state with the friction that there is."),
             ]);
         } else {
@@ -322,7 +325,8 @@ impl<'a> ResonanceAnswer<'a> {
     /// What rolling needs.
     fn needed(&self) -> HeatMap {
         let range = |held: bool| {
-            let known = self.cells().filter(|c| c.state.required_friction.is_some()).map(|c| c.state.slip_margin);
+            let known =
+                self.cells().filter(|c| c.state.required_friction.is_some()).map(|c| c.state.slip_margin);
             let side = known.filter(|m| (*m >= 0.0) == held);
             side.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], m| [low.min(m), high.max(m)])
         };
@@ -373,11 +377,12 @@ impl<'a> ResonanceAnswer<'a> {
             "two states",
             "unstable",
         ];
-        let tiles: Vec<(Shade, Option<bool>)> =
-            self.cells().map(|c| (Shade::Kind(kind(c)), Some(c.state.kind == MotionKind::Rolls))).collect();
-        let known =
-            NAMES.iter().enumerate().filter(|(k, _)| tiles.iter().any(|(s, _)| *s == Shade::Kind(*k)));
-        let legend = known.map(|(k, name)| (Shade::Kind(k), (*name).to_owned())).collect();
+        // Colours go to those that are there: there are fewer than kinds.
+        let there: Vec<usize> = (0..NAMES.len()).filter(|k| self.cells().any(|c| kind(c) == *k)).collect();
+        let shade = |of: usize| Shade::Kind(there.iter().position(|k| *k == of).unwrap_or(0));
+        let tile = |c: &ResonanceCell| (shade(kind(c)), Some(c.state.kind == MotionKind::Rolls));
+        let tiles = self.cells().map(tile).collect();
+        let legend = there.iter().map(|&k| (shade(k), NAMES[k].to_owned())).collect();
         HeatMap { tiles, legend, ..self.plane("What the clutch does") }
     }
 }

@@ -166,7 +166,9 @@ where
         }
         let periods = periods as u64;
         repeat.template = Some((now, periods, error));
-        let (from, until) = (repeat.end_s(), repeat.end_s() + periods as f64 * repeat.period_s);
+        let from = repeat.end_s();
+        // A sample at the very end is one of them, whatever rounding says.
+        let until = (repeat.count + 1 + periods) as f64 * repeat.period_s * (1.0 + 1e-12);
         let (start_s, period_s) = (self.run.t_s, repeat.period_s);
         repeat.wanted = (self.next_sample..self.settings.samples)
             .map(|i| (i, self.sample_time(i)))
