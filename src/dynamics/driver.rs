@@ -132,7 +132,7 @@ where
             if self.most_slip_m.is_some_and(|path| self.run.has_slipped(self.model.loaded_n, path)) {
                 return self.stop(Stop::Slipped);
             }
-            let period = self.to_period_end_s();
+            let period = self.left_of_period_s();
             if self.run.t_s >= self.settings.duration_s {
                 return;
             }

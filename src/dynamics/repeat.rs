@@ -98,7 +98,7 @@ where
     Const<N>: Size,
 {
     /// Time to the end of the period, s; at its end what is there is compared, and periods are jumped where it repeats.
-    pub(super) fn to_period_end_s(&mut self) -> f64 {
+    pub(super) fn left_of_period_s(&mut self) -> f64 {
         let Some(mut repeat) = self.repeat.take() else { return f64::INFINITY };
         if self.run.t_s >= repeat.end_s() * (1.0 - 1e-14) {
             repeat.count += 1;
@@ -196,7 +196,7 @@ where
         let through = now.added[ADDED - 1].max(f64::MIN_POSITIVE);
         let state = (0..N).map(|i| {
             if self.runs_on(i) {
-                let size = if i >= 8 && i < N_STATE { radius_m } else { 1.0 };
+                let size = if (8..N_STATE).contains(&i) { radius_m } else { 1.0 };
                 periods * (gained.0[i] - before.0[i]).abs() / size
             } else {
                 let is_rate = (4..8).contains(&i) || i >= N_STATE && i % 2 == 1;
