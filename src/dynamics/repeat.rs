@@ -176,7 +176,8 @@ where
             .take_while(|&(_, t)| t <= until)
             .map(|(i, t)| {
                 let later = ((t - start_s) / period_s).floor();
-                (i, later, t - later * period_s)
+                // Not beyond the template's last step, whatever rounding says.
+                (i, later, (t - later * period_s).min(from * (1.0 - 1e-13)))
             })
             .collect();
         repeat.wanted.sort_by(|a, b| b.2.total_cmp(&a.2));
