@@ -50,6 +50,7 @@ fn beside_the_published_scheme() {
         most_events: 1_000,
         most_steps: 100_000,
         samples: 0,
+        jump_period_s: None,
         rolling: false,
         energy: false,
         history: Default::default(),

@@ -86,6 +86,7 @@ fn below_the_friction_that_was_bisected_the_scene_does_not_stick() {
                     most_events: 100_000,
                     most_steps: 1_000_000,
                     samples: 0,
+                    jump_period_s: None,
                     rolling: false,
                     energy: false,
                     history: Default::default(),

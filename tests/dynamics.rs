@@ -31,6 +31,7 @@ fn settings(tolerance: f64, duration_s: f64, samples: usize) -> RunSettings {
         most_events: 100_000,
         most_steps: 10_000_000,
         samples,
+        jump_period_s: None,
         rolling: false,
         energy: false,
         history: Default::default(),

@@ -42,6 +42,7 @@ fn changed(
         most_events: 100_000,
         most_steps: 1_000_000,
         samples: 0,
+        jump_period_s: None,
         rolling: false,
         energy: true,
         history: Default::default(),

@@ -20,6 +20,7 @@ fn runs(scene: &Scenario, tolerances: &[f64]) -> Vec<Run> {
             most_events: 10_000,
             most_steps: 1_000_000,
             samples: 0,
+            jump_period_s: None,
             rolling: false,
             energy: false,
             history: Default::default(),

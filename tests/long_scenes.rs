@@ -99,3 +99,45 @@ fn what_is_left_out_is_seen_by_the_steps_and_not_by_the_samples() {
     assert!((0.999..1.05).contains(&(found.outer_rate_rad_s / rate)));
     assert!(found.normal_outer_n > 0.0);
 }
+
+/// Sixty seconds with slip in each of six thousand periods: those that repeat are added, to the tolerance of what a run of
+/// all of them says.
+#[test]
+fn periods_that_repeat_are_added_and_not_run() {
+    for (name, seconds) in [("low-10-mu082", 4.5), ("high-6", 4.5), ("high-10", 4.503)] {
+        let scene = lasting(name, seconds, 100.0);
+        let settings = Settings { energy: true, samples: 41, ..Settings::default() };
+        let started = std::time::Instant::now();
+        let jumped = simulate(&scene, &settings).unwrap();
+        let took = started.elapsed();
+        let whole = simulate(&scene, &Settings { every_period: true, ..settings }).unwrap();
+        let jump = jumped.jump.expect("it repeats");
+        println!(
+            "{name}: {jump:?}, {took:?} and {:?}; off {:?}",
+            started.elapsed() - took,
+            jumped.off(&whole)
+        );
+        println!("   {:?}", jumped.energy);
+        println!("   {:?}", whole.energy);
+        assert!(whole.jump.is_none() && jumped.verdict == whole.verdict);
+        assert!(jumped.tolerance_reached, "{:?}", jumped.error);
+        let worst = jumped.scales.worst_figure(&jumped.off(&whole));
+        assert!(worst.1 < settings.tolerance, "{name}: {worst:?}");
+        assert_eq!(jumped.events, whole.events);
+        assert_eq!(jumped.samples.len(), whole.samples.len());
+        for (a, b) in jumped.samples.iter().zip(&whole.samples) {
+            assert!((a.t - b.t).abs() < 1e-9, "{} {}", a.t, b.t);
+            let off = a.state.iter().zip(&b.state).take(4).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-6, "{name} at {}: {off}", a.t);
+        }
+        let [a, b] = [&jumped, &whole].map(|s| s.energy.unwrap());
+        assert!(a.relative().abs() < 1e-6 && (a.through_j / b.through_j - 1.0).abs() < 1e-4);
+    }
+    let started = std::time::Instant::now();
+    let long = simulate(&lasting("low-10-mu082", 60.0, 100.0), &Settings::default()).unwrap();
+    println!("60 s: {:?}, {:?}, {:?}", started.elapsed(), long.jump, long.error);
+    assert!(long.jump.unwrap().from_s < 3.0, "most of its periods are added");
+    assert!(long.tolerance_reached && long.inner.net_m < -0.06 && long.events > 20_000);
+    // A scene that is no longer than all before runs every period.
+    assert!(simulate(&lasting("high-6", 4.0, 100.0), &Settings::default()).unwrap().jump.is_none());
+}

@@ -56,6 +56,7 @@ fn another_integrator_comes_to_the_same_angle_through_the_public_modes() {
             most_events: 100_000,
             most_steps: 10_000_000,
             samples: 0,
+            jump_period_s: None,
             rolling: false,
             energy: false,
             history: Default::default(),

@@ -53,6 +53,7 @@ fn measured(model: &Model, steady: &Overrun, ahead_rad_s: f64, expected: &Swing)
         most_events: 10,
         most_steps: 1_000_000,
         samples: periods as usize * 200 + 1,
+        jump_period_s: None,
         rolling: false,
         energy: false,
         history: Default::default(),

@@ -99,6 +99,7 @@ fn two_equations_roll_as_four_do() {
             most_events: 100_000,
             most_steps: 100_000,
             samples: 0,
+            jump_period_s: None,
             rolling: true,
             energy: false,
             history: Default::default(),

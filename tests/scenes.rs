@@ -24,6 +24,7 @@ fn run_at(p: &Prepared, tolerance: f64, samples: usize) -> Run {
         most_events: 100_000,
         most_steps: 10_000_000,
         samples,
+        jump_period_s: None,
         rolling: false,
         energy: false,
         history: Default::default(),

@@ -241,6 +241,7 @@ fn inner_above_outer(page: &mut Page, multi: &Design) -> Anyhow<()> {
             most_events: 100_000,
             most_steps: 200_000,
             samples: SAMPLES,
+            jump_period_s: None,
             rolling: true,
             history: Default::default(),
             follow: Default::default(),

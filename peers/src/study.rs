@@ -123,6 +123,7 @@ fn ours(p: &Prepared, tolerance: f64, per_period: f64) -> Result<Answer, String>
         most_events: 100_000,
         most_steps: 5_000_000,
         samples: 0,
+        jump_period_s: None,
         rolling: false,
         energy: false,
         interrupt: None,

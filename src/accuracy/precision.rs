@@ -205,6 +205,7 @@ impl Bench<'_> {
             most_events: MOST,
             most_steps: MOST,
             samples: 0,
+            jump_period_s: None,
             rolling: false,
             history: Default::default(),
             follow: self.settings.follow.unseen(),

@@ -21,6 +21,7 @@ pub mod oils;
 pub mod overrun;
 pub mod page;
 pub mod reengagement;
+pub mod resonance;
 pub mod search;
 pub mod simulation;
 pub mod sizing;

@@ -33,6 +33,7 @@ pub mod overrun;
 pub mod parts;
 pub mod progress;
 pub mod reengage;
+pub mod resonance;
 pub mod sample;
 pub mod schema;
 pub mod sheet;
@@ -114,6 +115,8 @@ enum Command {
     Life(life::LifeArgs),
     /// Slip under load, and the blow when the clutch grips again
     Reengage(reengage::ReengageArgs),
+    /// Periodic states of a torsional excitation: one, or a map over frequency and amplitude
+    Resonance(resonance::ResonanceArgs),
     /// Overrun on a film of oil: film, drag, heat, temperatures, stability, wear, flash of a slip
     Overrun(overrun::OverrunArgs),
     /// Search for a better design within the limits
@@ -331,6 +334,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Life(args) => life::run(&args, &context),
         Command::Reengage(args) => reengage::run(&args, &context),
+        Command::Resonance(args) => resonance::run(&args, &context),
         Command::Overrun(args) => overrun::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
         Command::Evaluate(args) => evaluate::run(&args, &context),
@@ -385,6 +389,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Simulate(_) => "simulate",
         Command::Life(_) => "life",
         Command::Reengage(_) => "reengage",
+        Command::Resonance(_) => "resonance",
         Command::Overrun(_) => "overrun",
         Command::Optimize(_) => "optimize",
         Command::Evaluate(_) => "evaluate",

@@ -6,6 +6,7 @@ use super::{Context, parts, positive};
 use crate::answer::simulation::{
     self as scene, Ran, RefusedSetting, Setting, SimulationAnswer, SimulationSettings,
 };
+use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::report::plain;
@@ -103,19 +104,7 @@ fn one(
     context: &Context,
 ) -> Result<Exit, Failure> {
     let design = parts::read_design(file, context)?;
-    let scenario = match (&args.scenario, design.scenarios.as_slice()) {
-        (Some(name), _) => design.scenario(name).ok_or_else(|| unknown(name, &design, file))?,
-        (None, [only]) => only,
-        (None, all) => {
-            let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
-            return Err(Failure::malformed(match names.as_slice() {
-                [] => {
-                    format!("{}: the design has no scenarios; add a [[scenarios]] table", file.display())
-                }
-                names => format!("needed: --scenario NAME; the design has: {}", names.join(", ")),
-            }));
-        }
-    };
+    let scenario = chosen(args.scenario.as_deref(), &design, file)?;
     settings.validate_for(scenario).map_err(|why| refusal(why, args.window))?;
     refuse_unknown_to_published(args)?;
     let duration_s = scenario.kind.duration_s();
@@ -229,6 +218,30 @@ fn window(text: &str) -> Result<[f64; 2], String> {
 
 fn refused(flag: &str, found: f64, allowed: &str) -> Failure {
     Failure::malformed(format!("{flag} {}: allowed: {allowed}", plain(found, DIGITS)))
+}
+
+/// The scenario `name`, or the only one.
+///
+/// # Errors
+/// [`Failure::Malformed`].
+pub(super) fn chosen<'d>(
+    name: Option<&str>,
+    design: &'d Design,
+    file: &Path,
+) -> Result<&'d Scenario, Failure> {
+    match (name, design.scenarios.as_slice()) {
+        (Some(name), _) => design.scenario(name).ok_or_else(|| unknown(name, design, file)),
+        (None, [only]) => Ok(only),
+        (None, all) => {
+            let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
+            Err(Failure::malformed(match names.as_slice() {
+                [] => {
+                    format!("{}: the design has no scenarios; add a [[scenarios]] table", file.display())
+                }
+                names => format!("needed: --scenario NAME; the design has: {}", names.join(", ")),
+            }))
+        }
+    }
 }
 
 /// The refusal of a scenario that the design does not have.

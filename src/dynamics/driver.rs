@@ -6,6 +6,7 @@ use super::energy::Audit;
 use super::events::{EVENTS, INNER, LOWER, Look, OUTER, UPPER, event, look};
 use super::looks::{Looks, NeverPositive, Observed, Trail};
 use super::model::{Grip, Mode, Model, N_STATE, Place};
+use super::repeat::Repeat;
 use super::run::{FastMotion, Run, RunSettings, Stop};
 use super::watch::highest;
 use super::zeno::Zeno;
@@ -41,6 +42,8 @@ where
     /// Works so far, where they are counted.
     pub(super) audit: Option<Audit>,
     pub(super) zeno: Zeno,
+    /// Ends of periods, where whole ones may be jumped.
+    pub(super) repeat: Option<Repeat<N>>,
     /// When the mode has changed last, s, and at which event.
     pub(super) landed: (f64, usize),
     pub(super) stepper: Adaptive<N>,
@@ -86,6 +89,7 @@ where
             next_sample: 0,
             audit: None,
             zeno: Zeno::new(),
+            repeat: settings.jump_period_s.map(Repeat::new),
             landed: (f64::NAN, EVENTS),
             stepper: Adaptive::new(settings.tolerance_in(&mode), settings.longest_step_s * 0.1, SMALL),
             slope: None,
@@ -128,6 +132,10 @@ where
             if self.most_slip_m.is_some_and(|path| self.run.has_slipped(self.model.loaded_n, path)) {
                 return self.stop(Stop::Slipped);
             }
+            let period = self.left_of_period_s();
+            if self.run.t_s >= self.settings.duration_s {
+                return;
+            }
             let past = self.model.drive.past_break_s(self.run.t_s);
             if past >= self.settings.duration_s {
                 self.run.t_s = self.settings.duration_s;
@@ -156,7 +164,7 @@ where
             };
             let longest = self.settings.longest_step_s;
             let rest = self.settings.duration_s.min(self.model.drive.next_break_s(t)) - t;
-            let rest = rest.min(self.towards_the_cusp_s());
+            let rest = rest.min(self.towards_the_cusp_s()).min(period);
             let counters = &mut self.run.counters;
             let cusp = cusp(self.run.mode.place);
             let useful = |h: f64| trail.useful(h, cusp);

@@ -158,6 +158,19 @@ pub(super) struct Audit {
     start: [f64; 3],
 }
 
+impl Audit {
+    /// Works, and what went through, J.
+    pub(super) fn sums(&self) -> [f64; WORKS + 1] {
+        std::array::from_fn(|i| self.works.get(i).copied().unwrap_or(self.through_j))
+    }
+
+    /// `n` times `more`, in that order, is added.
+    pub(super) fn add(&mut self, n: f64, more: &[f64]) {
+        let sums = self.works.iter_mut().chain([&mut self.through_j]);
+        sums.zip(more).for_each(|(sum, more)| *sum += n * more);
+    }
+}
+
 impl<const N: usize> Driver<'_, N>
 where
     Const<N>: Size,

@@ -20,8 +20,10 @@ mod looks;
 mod memory;
 mod model;
 mod outside;
+mod periodic;
 #[cfg(feature = "validation")]
 mod published;
+mod repeat;
 mod rolling;
 mod run;
 mod start;
@@ -37,8 +39,10 @@ pub use energy::EnergyBalance;
 pub use memory::{Memory, go_on};
 pub use model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 pub use outside::{events, next_mode};
+pub use periodic::{NoOrbit, Orbit, Shooting, orbit};
 #[cfg(feature = "validation")]
 pub use published::{PublishedSettings, published};
+pub use repeat::Jump;
 pub use rolling::{Rolling, rolling, rolling_quickly};
 pub use run::{
     Engaged, FastMotion, Held, History, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,

@@ -29,6 +29,7 @@ pub fn next_mode(model: &Model, mode: &Mode, which: usize, t: f64, y: &State) ->
         most_events: 1,
         most_steps: 1,
         samples: 0,
+        jump_period_s: None,
         rolling: false,
         energy: false,
         history: Default::default(),

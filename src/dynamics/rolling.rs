@@ -52,7 +52,15 @@ fn both_roll(place: Place) -> Mode {
 }
 
 impl Rolling {
-    fn of(model: &Model, run: Run) -> Self {
+    /// N_min over the static load, or over the largest where there is none; 0 where nothing ever presses or pulls.
+    pub fn contact_margin(&self, static_n: f64) -> f64 {
+        let scale = if static_n > 0.0 { static_n } else { self.run.peaks.normal_max_n };
+        let margin = self.normal_min_n / scale;
+        if margin.is_finite() { margin } else { 0.0 }
+    }
+
+    /// What a pure-rolling `run` of `model` demands.
+    pub fn of(model: &Model, run: Run) -> Self {
         let p = run.peaks;
         let outer_asks = !model.outer_holds && p.tan_outer > p.tan_inner;
         let asked = if outer_asks { p.tan_outer } else { p.tan_inner };

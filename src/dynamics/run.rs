@@ -3,6 +3,7 @@
 use super::energy::EnergyBalance;
 use super::events::{FIGURES, N_BI};
 use super::model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
+use super::repeat::Jump;
 use super::train::{self, TrainRun};
 use crate::follow::Follow;
 use crate::ode::step::{Counters, Tolerance};
@@ -23,6 +24,8 @@ pub struct RunSettings {
     pub most_steps: u64,
     /// Number of equidistant samples to keep (0: none).
     pub samples: usize,
+    /// Period of all that acts, s, where whole periods are jumped once the motion repeats ([`super::Jump`]); `None`: none are.
+    pub jump_period_s: Option<f64>,
     /// Pure rolling: no friction limit, contact held by tension below first contact.
     pub rolling: bool,
     /// Whether works are counted for the energy balance; costs some fifteen evaluations a step.
@@ -284,6 +287,8 @@ pub struct Run<const N: usize = N_STATE> {
     pub(super) stick: Option<Held>,
     /// Every mode with the time at which it began, s; empty where no samples were asked for.
     pub modes: Vec<(f64, Mode)>,
+    /// Periods that were jumped.
+    pub jump: Option<Jump>,
     /// What the drivetrain did, where there is one.
     pub train: Option<TrainRun>,
 }
@@ -349,6 +354,7 @@ impl<const N: usize> Run<N> {
             held: None,
             stick: None,
             modes: Vec::new(),
+            jump: None,
             train: None,
         }
     }

@@ -86,6 +86,10 @@ where
             }
         }
         self.run.peaks = peaks;
+        if samples > 0 && self.wants_template(t_end) {
+            let d = step.dense(rhs, &mut self.run.counters)?;
+            self.sample_template(t_end, |driver, t| driver.sample(t, d.at(t)));
+        }
         Ok(())
     }
 
@@ -99,7 +103,7 @@ where
         [mu, outer, 0.0, f64::INFINITY, f64::INFINITY]
     }
 
-    fn sample_time(&self, i: usize) -> f64 {
+    pub(super) fn sample_time(&self, i: usize) -> f64 {
         let [from, until] = self.settings.history.window_s.unwrap_or([0.0, self.settings.duration_s]);
         from + (until - from) * i as f64 / (self.settings.samples.max(2) - 1) as f64
     }

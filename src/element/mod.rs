@@ -392,6 +392,7 @@ impl Element {
             most_events: self.settings.most_steps / 2,
             most_steps: self.settings.most_steps,
             samples: 0,
+            jump_period_s: None,
             rolling: false,
             energy: self.settings.energy,
             history: Default::default(),

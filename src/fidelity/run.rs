@@ -2,7 +2,7 @@
 
 use super::plan::{Plan, Term, plan};
 use crate::clutch::Scenario;
-use crate::dynamics::Stop;
+use crate::dynamics::{Jump, Stop};
 use crate::scenario::{NoScenario, Prepared, Settings, Simulation, prepare, simulate_prepared};
 use crate::wedge::asks_for_slices;
 
@@ -27,10 +27,11 @@ pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<
     let whole = |settings: &Settings| {
         let prepared = prepare(scenario)?;
         let simulation = simulate_prepared(&prepared, settings, false);
-        Ok(Planned { prepared, simulation, left_out: Vec::new(), kept: Vec::new() })
+        let left_out = simulation.jump.iter().map(repeated).collect();
+        Ok(Planned { prepared, simulation, left_out, kept: Vec::new() })
     };
     if full {
-        return whole(settings);
+        return whole(&Settings { every_period: true, ..settings.clone() });
     }
     // What a shortened curve does not carry, the whole one may.
     let Ok((Plan { reduction, mut left_out, mut kept }, prepared)) = plan(scenario, None) else {
@@ -40,6 +41,7 @@ pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<
     if simulation.rolled {
         left_out.push(friction_law(&simulation, &prepared));
     }
+    left_out.extend(simulation.jump.iter().map(repeated));
     if reduction.reach_nm.is_some() && reached_the_end(&simulation) {
         // The shortened curve was too short after all.
         let all = Planned { kept, ..whole(settings)? };
@@ -59,6 +61,17 @@ pub fn simulate(scenario: &Scenario, settings: &Settings, full: bool) -> Result<
 /// again on the whole curve.
 fn reached_the_end(s: &Simulation) -> bool {
     s.stop == Stop::CurveEnd || s.demand.is_some_and(|d| d.overloaded)
+}
+
+/// Periods that were not integrated.
+fn repeated(jump: &Jump) -> Term {
+    let ends_s = jump.from_s + jump.periods as f64 * jump.period_s;
+    let why = format!(
+        "the motion repeats: {} periods, from {:.6} s to {ends_s:.6} s, are each the one before, and are added",
+        jump.periods, jump.from_s
+    );
+    let cost = format!("at most {:.1e} of the natural size of any figure", jump.error);
+    Term { term: "whole periods that repeat", why, cost_rad: Some(jump.error), cost }
 }
 
 fn friction_law(s: &Simulation, prepared: &Prepared) -> Term {

@@ -53,6 +53,8 @@ impl Fidelity {
             energy,
             history,
             follow: _,
+            // No search sets it.
+            every_period: _,
         } = settings;
         format!(
             "Fidelity {{ settings: Settings {{ tolerance: {tolerance:?}, longest_step_s: {longest_step_s:?}, \

@@ -4,8 +4,8 @@ use super::demand::RollingDemand;
 use super::error::Scales;
 use super::figures::ErrorEstimate;
 use crate::dynamics::{
-    EnergyBalance, Engaged, FastMotion, Held, Mode, Neglected, Overrun, Peaks, Sample, SlipRecord, Stop,
-    TrainRun,
+    EnergyBalance, Engaged, FastMotion, Held, Jump, Mode, Neglected, Overrun, Peaks, Sample, SlipRecord,
+    Stop, TrainRun,
 };
 
 /// What the clutch did.
@@ -127,6 +127,8 @@ pub struct Simulation {
     pub held: Option<Held>,
     /// Modes with the times at which they began, s; empty without samples.
     pub modes: Vec<(f64, Mode)>,
+    /// Whole periods that were not integrated, being like the one before.
+    pub jump: Option<Jump>,
     /// The drivetrain, where there is one: at the samples, and at the end.
     pub train: Option<TrainRun>,
     /// Steady overrun: the whole of that scenario, the start of an engagement.

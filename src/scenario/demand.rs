@@ -39,7 +39,7 @@ pub struct RollingDemand {
 /// Steps per period at least: six looks in each see every half wave. Tolerances below 1e-4 take shorter ones anyway.
 pub(super) const STEPS_PER_PERIOD: f64 = 4.0;
 /// The same where peaks of a single run must be good to a hundredth of the tolerance.
-const STEPS_PER_PERIOD_OF_DEMAND: f64 = 14.0;
+pub(super) const STEPS_PER_PERIOD_OF_DEMAND: f64 = 14.0;
 
 /// How fine a run is.
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +76,7 @@ pub(super) fn run_settings(
         most_events,
         most_steps,
         samples,
+        jump_period_s: settings.jump_period_s(prepared),
         rolling: false,
         energy: settings.energy,
         history: settings.history,
@@ -185,7 +186,7 @@ pub(super) fn roll(
         required_friction: required,
         by_bisection,
         slip_margin: required.map_or(-1.0, |q| prepared.model.friction.static_ / q - 1.0),
-        contact_margin: contact_margin(prepared.static_normal_n, &r),
+        contact_margin: r.contact_margin(prepared.static_normal_n),
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished,
         overloaded: r.stop == Stop::CurveEnd,
@@ -194,13 +195,6 @@ pub(super) fn roll(
         rhs_evaluations: before + r.run.counters.rhs_evaluations,
     };
     (r.run, demand)
-}
-
-/// N_min over the static load, or over the largest where there is none; 0 where nothing ever presses or pulls.
-fn contact_margin(static_n: f64, rolling: &Rolling) -> f64 {
-    let scale = if static_n > 0.0 { static_n } else { rolling.run.peaks.normal_max_n };
-    let margin = rolling.normal_min_n / scale;
-    if margin.is_finite() { margin } else { 0.0 }
 }
 
 /// What [`bisected`] found.

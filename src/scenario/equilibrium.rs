@@ -64,6 +64,7 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         engaged: None,
         held: None,
         modes: Vec::new(),
+        jump: None,
         train: None,
         overrun: prepared.overrun,
     }

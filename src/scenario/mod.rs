@@ -8,9 +8,11 @@ mod demand;
 mod equilibrium;
 mod error;
 mod figures;
+mod periodic;
 mod prepare;
 #[cfg(feature = "validation")]
 mod published;
+mod resonance;
 mod simulate;
 mod sliding;
 mod train;
@@ -20,10 +22,12 @@ pub use demand::{RollingDemand, demand, demand_quickly};
 pub use equilibrium::overrun_swing;
 pub use error::Scales;
 pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures_of};
+pub use periodic::{MotionKind, Steady, closely, steady_motion};
 pub use prepare::{
     AtRest, FreeRun, NoScenario, Prepared, Reduction, prepare, prepare_reduced, sliding_friction,
 };
 #[cfg(feature = "validation")]
 pub use published::{published_steps, simulate_published};
+pub use resonance::{ResonanceCell, resonance};
 pub use simulate::{Settings, simulate, simulate_prepared};
 pub use sliding::{Lubricated, Sliding, sliding};

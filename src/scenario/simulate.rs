@@ -7,7 +7,7 @@ use super::error::Scales;
 use super::figures::ErrorEstimate;
 use super::prepare::{NoScenario, Prepared, prepare};
 use crate::clutch::Scenario;
-use crate::dynamics::{Grip, History, Place, Run, SlipRecord, Stop, run};
+use crate::dynamics::{Grip, History, Place, Run, SlipRecord, Stop, Train, run};
 use crate::follow::Follow;
 
 /// Settings of a simulation.
@@ -28,6 +28,9 @@ pub struct Settings {
     /// Steps, rejected ones included, before a run ends with a name; `None`: 200 000 (some 3 s of work), more where the
     /// scene is longer than 4 s or has more than 400 periods ([`Settings::limits`]).
     pub most_steps: Option<u64>,
+    /// Whether every period of a long scene is integrated. Default no: a scene of more than [`LONG`] periods of its excitation
+    /// jumps whole periods once they repeat.
+    pub every_period: bool,
     /// Whether the energy balance of the run is made up. Default no.
     pub energy: bool,
     /// What the samples are of. Default: equidistant ones from start to end.
@@ -37,6 +40,8 @@ pub struct Settings {
     pub follow: Follow,
 }
 
+/// Periods up to which every one of a scene is integrated: a choice; some tenth of a second of work.
+const LONG: f64 = 400.0;
 /// Steps that a run may take at least.
 const LEAST_STEPS: f64 = 200_000.0;
 /// Steps that it may take for a second of the scene: twice what a sprag takes that trembles in overrun all the time.
@@ -54,6 +59,7 @@ impl Default for Settings {
             samples: 0,
             most_events: None,
             most_steps: None,
+            every_period: false,
             energy: false,
             history: History::default(),
             follow: Follow::nobody(),
@@ -62,6 +68,15 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Period whose repetition a run of `prepared` may jump, s.
+    pub(super) fn jump_period_s(&self, prepared: &Prepared) -> Option<f64> {
+        let drive = &prepared.model.drive;
+        let alone =
+            drive.train.as_ref().is_none_or(Train::acts_alike) && drive.next_break_s(0.0) == f64::INFINITY;
+        let long = |period_s: &f64| prepared.duration_s > LONG * period_s;
+        prepared.period_s.filter(long).filter(|_| alone && !self.every_period)
+    }
+
     /// How many steps and how many mode changes a run of `prepared` may take.
     pub fn limits(&self, prepared: &Prepared) -> [u64; 2] {
         let duration_s = prepared.duration_s;
@@ -343,6 +358,7 @@ fn answer(prepared: &Prepared, settings: &Settings, of: &Try) -> Simulation {
         engaged: run.engaged,
         held: run.first_hold(),
         modes: run.modes.clone(),
+        jump: run.jump,
         train: run.train.clone(),
         overrun: prepared.overrun,
     }

@@ -102,6 +102,7 @@ fn eq_13_a_lossless_run_keeps_its_energy() {
         most_events: 1000,
         most_steps: 100_000,
         samples: 501,
+        jump_period_s: None,
         rolling: true,
         energy: false,
         history: Default::default(),

@@ -165,6 +165,7 @@ impl SimulationSettings {
             history,
             most_steps: self.most_steps,
             most_events: self.most_events,
+            every_period: self.full,
             energy: true,
             follow: self.follow.clone(),
         }

@@ -221,6 +221,13 @@ impl Train {
         self.acts.iter().filter_map(|a| a.torque.course()).chain(of_bodies)
     }
 
+    /// Whether what acts on it does not depend on time or on the angles of its inertias.
+    pub fn acts_alike(&self) -> bool {
+        self.frame.is_none()
+            && self.acts.iter().all(|act| matches!(act.torque, Torque::Constant(_)))
+            && (2..2 + self.bodies.len()).all(|body| !self.is_given(body))
+    }
+
     /// The same with time counted from `t` (s) on; it begins at the start of the scene unless [`Self::begin_at`] says otherwise.
     pub(super) fn from(&self, t: f64) -> Self {
         let mut later = self.clone();

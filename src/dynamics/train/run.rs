@@ -118,6 +118,7 @@ fn shortened<const N: usize>(run: Run<N>, train: Train) -> Run {
         held: run.held,
         stick: run.stick,
         modes: run.modes,
+        jump: run.jump,
         train: Some(train),
     }
 }

@@ -1,0 +1,441 @@
+//! Periodic states of a torsional excitation, one or a map over frequency and amplitude, as text, table, JSON and page.
+
+use super::left_out::{LeftOut, left_out};
+use super::page::{begun, half};
+use super::{Envelope, Provenance};
+use crate::clutch::{Scenario, ScenarioKind};
+use crate::design::Design;
+use crate::dynamics::Run;
+use crate::report::heat::SHADES;
+use crate::report::{Cell, Column, HeatMap, Page, Plot, Screen, Shade, Table, Tone, Unit, significant};
+use crate::scenario::{MotionKind, NoScenario, ResonanceCell, Settings, Steady, closely, resonance};
+use serde_json::{Value, json};
+
+/// Rows that the plot of mu_req shows.
+const CURVES: usize = 6;
+
+/// What is asked: frequencies (Hz, rising) and amplitudes (N m, rising).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResonanceQuestion {
+    /// Hz.
+    pub frequencies_hz: Vec<f64>,
+    /// N m.
+    pub amplitudes_nm: Vec<f64>,
+}
+
+/// The states found.
+#[derive(Debug, Clone)]
+pub struct ResonanceAnswer<'a> {
+    design: &'a Design,
+    scenario: &'a Scenario,
+    friction: f64,
+    tolerance: f64,
+    /// A single state once more, at a tenth of the tolerance.
+    finer: Option<Steady>,
+    /// Rows by amplitude, each by frequency.
+    pub rows: Vec<Vec<ResonanceCell>>,
+}
+
+/// Why there are none.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoResonance {
+    /// The scenario has no start.
+    NoStart(NoScenario),
+    /// It is no torsional excitation.
+    NoExcitation,
+    /// Stopped from outside.
+    Stopped,
+}
+
+impl std::fmt::Display for NoResonance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::NoStart(why) => why.fmt(f),
+            Self::NoExcitation => {
+                f.write_str("the scenario has no torsional excitation, so nothing that repeats")
+            }
+            Self::Stopped => f.write_str("stopped"),
+        }
+    }
+}
+
+impl std::error::Error for NoResonance {}
+
+impl Design {
+    /// Periodic states of `scenario`, one of this design's; where `question` is none, the one at its own frequency and amplitude.
+    /// `done` is told of each state.
+    ///
+    /// # Errors
+    /// [`NoResonance`].
+    pub fn resonance<'a>(
+        &'a self,
+        scenario: &'a Scenario,
+        question: &ResonanceQuestion,
+        settings: &Settings,
+        done: &(dyn Fn() + Sync),
+    ) -> Result<ResonanceAnswer<'a>, NoResonance> {
+        let ScenarioKind::TorsionalExcitation { amplitude_nm, frequency_hz, .. } = scenario.kind else {
+            return Err(NoResonance::NoExcitation);
+        };
+        let or_own = |asked: &[f64], own: f64| if asked.is_empty() { vec![own] } else { asked.to_vec() };
+        let frequencies = or_own(&question.frequencies_hz, frequency_hz);
+        let amplitudes = or_own(&question.amplitudes_nm, amplitude_nm);
+        let one = frequencies.len() * amplitudes.len() == 1;
+        let settings = if one { closely(settings) } else { settings.clone() };
+        let run = |settings: &Settings, done: &(dyn Fn() + Sync)| {
+            let rows = resonance(scenario, &frequencies, &amplitudes, settings, done);
+            rows.map_err(NoResonance::NoStart)?.ok_or(NoResonance::Stopped)
+        };
+        let rows = run(&settings, done)?;
+        let finer = Settings { tolerance: 0.1 * settings.tolerance, ..settings.clone() };
+        let finer = if one { Some(run(&finer, &|| ())?) } else { None };
+        let finer = finer.and_then(|rows| Some(rows.into_iter().flatten().next()?.state));
+        let friction = scenario.clutch.friction.static_;
+        Ok(ResonanceAnswer { design: self, scenario, friction, tolerance: settings.tolerance, finer, rows })
+    }
+}
+
+impl<'a> ResonanceAnswer<'a> {
+    fn cells(&self) -> impl Iterator<Item = &ResonanceCell> {
+        self.rows.iter().flatten()
+    }
+
+    fn count(&self, kind: MotionKind) -> usize {
+        self.cells().filter(|c| c.state.kind == kind).count()
+    }
+
+    /// Whether both contacts roll everywhere.
+    pub fn rolls(&self) -> bool {
+        self.cells().all(|c| c.state.kind == MotionKind::Rolls)
+    }
+
+    /// In a sentence.
+    pub fn verdict(&self) -> String {
+        let mut cells = self.cells();
+        if let (Some(only), None) = (cells.next(), cells.next()) {
+            return one_verdict(only);
+        }
+        let all = self.cells().count();
+        let mut parts = vec![format!("{} of {all} states roll", self.count(MotionKind::Rolls))];
+        for (kind, words) in [
+            (MotionKind::Slips, "slip in each period"),
+            (MotionKind::LiftsOff, "lift off"),
+            (MotionKind::Ends, "go beyond the end of the curve or of reach"),
+            (MotionKind::NotFound, "do not repeat, or were not found"),
+        ] {
+            match self.count(kind) {
+                0 => {}
+                n => parts.push(format!("{n} {words}")),
+            }
+        }
+        let two = self.cells().filter(|c| c.other.is_some()).count();
+        let unstable = self.cells().filter(|c| c.state.is_stable() == Some(false)).count();
+        if two > 0 {
+            parts.push(format!("at {two} two states were found"));
+        }
+        if unstable > 0 {
+            parts.push(format!("{unstable} are unstable"));
+        }
+        parts.join("; ")
+    }
+
+    /// What a reader must know.
+    fn remarks(&self) -> Vec<String> {
+        let most = self.cells().filter_map(|c| Some((c, c.state.required_friction?)));
+        let most = most.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(c, mu)| {
+            format!(
+                "Largest static friction that rolling needs where it keeps contact: {} at {} and {}; there is {}",
+                significant(mu, 4),
+                Unit::Hertz.show(c.frequency_hz, 4),
+                Unit::NewtonMetre.show(c.amplitude_nm, 4),
+                significant(self.friction, 3),
+            )
+        });
+        let list = [
+            most,
+            Some(
+                "Each state is a motion that repeats with the period of the excitation, its start forgotten; a start may slip where \
+                 the state rolls: simulate tells of that"
+                    .to_owned(),
+            ),
+        ];
+        list.into_iter().flatten().collect()
+    }
+
+    /// Each state in a line.
+    pub fn table(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::number("frequency_hz", "Frequency", Unit::Hertz, 5),
+            Column::number("amplitude_nm", "Amplitude", Unit::NewtonMetre, 5),
+            Column::text("state", "State"),
+            Column::text("stable", "Stable"),
+            Column::number("required_static_friction", "μ needed", Unit::One, 5),
+            Column::number("slip_margin_percent", "Slip margin", Unit::Percent, 4),
+            Column::number("contact_margin_percent", "Contact margin", Unit::Percent, 4),
+            Column::number("normal_min_n", "N smallest", Unit::Newton, 4),
+            Column::number("normal_max_n", "N largest", Unit::Newton, 4),
+            Column::number("slip_um", "Slip a period", Unit::Micrometre, 4),
+            Column::number("open_ms", "Open a period", Unit::Millisecond, 4),
+            Column::number("drift_mrad", "Drift a period", Unit::Milliradian, 4),
+            Column::number("multiplier", "Multiplier", Unit::One, 4),
+            Column::text("other_state", "Other state"),
+        ]);
+        for c in self.cells() {
+            let s = &c.state;
+            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
+            let motion = s.motion.as_ref().ok();
+            table.row(vec![
+                c.frequency_hz.into(),
+                c.amplitude_nm.into(),
+                Cell::Verdict(s.kind == MotionKind::Rolls, s.kind.name().to_owned()),
+                s.is_stable().map_or(Cell::Empty, |stable| if stable { "yes" } else { "NO" }.into()),
+                of(s.required_friction),
+                of(s.required_friction.map(|_| s.slip_margin)),
+                of(s.contact_margin),
+                of(motion.map(|o| o.run.peaks.normal_min_n)),
+                of(motion.map(|o| o.run.peaks.normal_max_n)),
+                of(motion.map(|o| o.run.inner.distance_m)),
+                of(motion.map(|o| o.run.open_s)),
+                of(motion.map(|o| o.drift_rad()[0] - o.drift_rad()[1])),
+                of(motion.map(|o| o.largest_multiplier())),
+                c.other.as_ref().map_or(Cell::Empty, |other| other.kind.name().into()),
+            ]);
+        }
+        table
+    }
+
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
+    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
+        let states = self.cells().map(|c| {
+            let mut state = object(&c.state);
+            state["frequency_hz"] = json!(c.frequency_hz);
+            state["amplitude_nm"] = json!(c.amplitude_nm);
+            state["other"] = c.other.as_ref().map_or(Value::Null, object);
+            state
+        });
+        let body = json!({
+            "scenario": self.scenario.name, "verdict": self.verdict(), "static_friction": self.friction,
+            "rolls": self.rolls(), "states": states.collect::<Vec<_>>(),
+        });
+        let mut list = left_out(&self.design.clutch);
+        list.push(LeftOut::new(
+            "motions with two or more periods of the excitation",
+            "the state is looked for among motions that repeat with its period",
+            "a multiplier beyond -1 or a state that is not found tells of one",
+        ));
+        list.push(LeftOut::new(
+            "states that no neighbour leads to",
+            "a row is walked upwards and downwards in frequency, from the state at rest",
+            "not estimated",
+        ));
+        let error = Some(self.error_estimate());
+        Envelope { design: self.design, run_time_s, left_out: list, error_estimate: error, body }
+    }
+
+    /// Of a single state: what each figure differs by from that at a tenth of the tolerance. Of a map the tolerance asked for.
+    fn error_estimate(&self) -> Value {
+        let Some((state, finer)) = self.cells().next().map(|c| &c.state).zip(self.finer.as_ref()) else {
+            return json!({ "tolerance": self.tolerance });
+        };
+        let off = |of: &dyn Fn(&Steady) -> Option<f64>| Some((of(state)? - of(finer)?).abs());
+        let run = |s: &Steady, of: fn(&Run) -> f64| Some(of(&s.motion.as_ref().ok()?.run));
+        json!({
+            "required_static_friction": off(&|s| s.required_friction), "contact_margin": off(&|s| s.contact_margin),
+            "normal_min_n": off(&|s| run(s, |r| r.peaks.normal_min_n)),
+            "normal_max_n": off(&|s| run(s, |r| r.peaks.normal_max_n)),
+            "slip_inner_mm": off(&|s| run(s, |r| 1e3 * r.inner.distance_m)),
+            "open_s": off(&|s| run(s, |r| r.open_s)),
+        })
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        let hash = self.design.short_hash();
+        let few = self.cells().nth(40).is_none();
+        let table = if few { format!("{}\n", self.table().to_text(screen)) } else { String::new() };
+        format!(
+            "{}, {}  {hash}\n\n{table}{}\n{}\n",
+            self.design.name,
+            self.scenario.name,
+            self.remarks().join("\n"),
+            self.verdict()
+        )
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, provenance: &Provenance) -> Page {
+        let mut page = begun("Resonance", self.design, &provenance.command);
+        let tone = if self.rolls() { Tone::Plain } else { Tone::Bad };
+        page.verdict_in(tone, &format!("{}: {}", self.scenario.name, self.verdict()));
+        page.list(self.remarks());
+        let wide = self.rows.iter().all(|row| row.len() > 1);
+        if wide && self.rows.len() > 1 {
+            page.heading("Map");
+            page.paragraph(
+                "Left: static friction that rolling needs, the deeper green the larger the slip margin, red where there is less; \
+                 grey: rolling would open the contact. Right: what the clutch does with the friction that it has. The line is the \
+                 border of what rolls.",
+            );
+            page.figures(&[(self.needed().to_svg(), ""), (self.kinds().to_svg(), "")]);
+        }
+        if wide {
+            let mut needed = Plot::new("Frequency, Hz", "Static friction that rolling needs");
+            let mut load = Plot::new("Frequency, Hz", "Largest normal force, N");
+            for row in self.some_rows() {
+                let name = row.first().map_or(String::new(), |c| Unit::NewtonMetre.show(c.amplitude_nm, 3));
+                let points = |of: &dyn Fn(&ResonanceCell) -> Option<f64>| {
+                    row.iter().filter_map(|c| Some([c.frequency_hz, of(c)?])).collect::<Vec<_>>()
+                };
+                needed = needed.curve(&name, points(&|c| c.state.required_friction));
+                let largest = |c: &ResonanceCell| Some(c.state.motion.as_ref().ok()?.run.peaks.normal_max_n);
+                load = load.curve(&name, points(&largest));
+            }
+            page.figures(&[
+                (
+                    half(needed),
+                    &format!("Rolling states that keep contact; there is {}.", significant(self.friction, 3)),
+                ),
+                (half(load), "Of the state with the friction that there is."),
+            ]);
+        } else {
+            page.table("The states.", &self.table());
+        }
+        self.envelope(provenance.run_time_s).close(&mut page);
+        page
+    }
+
+    fn some_rows(&self) -> impl Iterator<Item = &Vec<ResonanceCell>> {
+        let (last, shown) = (self.rows.len() - 1, self.rows.len().min(CURVES));
+        (0..shown).map(move |k| &self.rows[if shown > 1 { k * last / (shown - 1) } else { 0 }])
+    }
+
+    fn plane(&self, title: &str) -> HeatMap {
+        let of = |cells: Vec<f64>| edges(&cells);
+        HeatMap {
+            title: title.to_owned(),
+            x_title: "Frequency, Hz".to_owned(),
+            y_title: "Amplitude, Nm".to_owned(),
+            x_edges: of(self.rows.iter().take(1).flatten().map(|c| c.frequency_hz).collect()),
+            y_edges: of(self.rows.iter().filter_map(|row| Some(row.first()?.amplitude_nm)).collect()),
+            tiles: Vec::new(),
+            legend: Vec::new(),
+        }
+    }
+
+    /// What rolling needs.
+    fn needed(&self) -> HeatMap {
+        let range = |held: bool| {
+            let known =
+                self.cells().filter(|c| c.state.required_friction.is_some()).map(|c| c.state.slip_margin);
+            let side = known.filter(|m| (*m >= 0.0) == held);
+            side.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], m| [low.min(m), high.max(m)])
+        };
+        let (held, broken) = (range(true), range(false));
+        let shade = |value: f64, from: f64, to: f64| {
+            let share = if to == from { 1.0 } else { (value - from) / (to - from) };
+            (share * f64::from(SHADES)).clamp(0.0, f64::from(SHADES - 1)) as u8
+        };
+        let tile = |c: &ResonanceCell| match (c.state.required_friction, c.state.slip_margin) {
+            (None, _) => (Shade::Void, Some(false)),
+            (Some(_), m) if m >= 0.0 => (Shade::Held(shade(m, held[0], held[1])), Some(true)),
+            (Some(_), m) => (Shade::Broken(shade(m, broken[1], broken[0])), Some(false)),
+        };
+        let tiles: Vec<(Shade, Option<bool>)> = self.cells().map(tile).collect();
+        let needs = |margin: f64| significant(self.friction / (1.0 + margin), 4);
+        let mut legend = Vec::new();
+        if held[0] <= held[1] {
+            legend.push((Shade::Held(SHADES - 1), format!("needs {}", needs(held[1]))));
+            legend.push((Shade::Held(0), format!("needs {}", needs(held[0]))));
+        }
+        if broken[0] <= broken[1] {
+            legend.push((Shade::Broken(0), format!("needs {}", needs(broken[1]))));
+            legend.push((Shade::Broken(SHADES - 1), format!("needs {}", needs(broken[0]))));
+        }
+        if tiles.iter().any(|(shade, _)| *shade == Shade::Void) {
+            legend.push((Shade::Void, "would open".to_owned()));
+        }
+        HeatMap { tiles, legend, ..self.plane("Static friction needed to roll") }
+    }
+
+    /// What the clutch does.
+    fn kinds(&self) -> HeatMap {
+        let kind = |c: &ResonanceCell| match c.state.kind {
+            _ if c.other.is_some() => 5,
+            _ if c.state.is_stable() == Some(false) => 6,
+            MotionKind::Rolls => 0,
+            MotionKind::Slips => 1,
+            MotionKind::LiftsOff => 2,
+            MotionKind::Ends => 3,
+            MotionKind::NotFound => 4,
+        };
+        const NAMES: [&str; 7] = [
+            "rolls",
+            "slips each period",
+            "lifts off",
+            "goes beyond the curve",
+            "does not repeat",
+            "two states",
+            "unstable",
+        ];
+        // Colours go to those that are there: there are fewer than kinds.
+        let there: Vec<usize> = (0..NAMES.len()).filter(|k| self.cells().any(|c| kind(c) == *k)).collect();
+        let shade = |of: usize| Shade::Kind(there.iter().position(|k| *k == of).unwrap_or(0));
+        let tile = |c: &ResonanceCell| (shade(kind(c)), Some(c.state.kind == MotionKind::Rolls));
+        let tiles = self.cells().map(tile).collect();
+        let legend = there.iter().map(|&k| (shade(k), NAMES[k].to_owned())).collect();
+        HeatMap { tiles, legend, ..self.plane("What the clutch does") }
+    }
+}
+
+/// The state of a single frequency and amplitude.
+fn one_verdict(c: &ResonanceCell) -> String {
+    let s = &c.state;
+    let motion = s.motion.as_ref().ok();
+    let slip = motion.map_or(0.0, |o| o.run.inner.distance_m);
+    let needs = s.required_friction.map_or("rolling would open the contact".to_owned(), |mu| {
+        format!("rolling needs a friction of {}", significant(mu, 4))
+    });
+    let what = match s.kind {
+        MotionKind::Rolls => "rolls in each period".to_owned(),
+        MotionKind::Slips => format!("slips {} in each period", Unit::Micrometre.show(slip, 4)),
+        MotionKind::LiftsOff => format!(
+            "lifts off for {} in each period",
+            Unit::Millisecond.show(motion.map_or(0.0, |o| o.run.open_s), 3)
+        ),
+        MotionKind::Ends => "the motion goes beyond the end of the curve, or of reach".to_owned(),
+        MotionKind::NotFound => "no motion that repeats was found; simulate runs the transient".to_owned(),
+    };
+    let stable = match s.is_stable() {
+        Some(false) => "; unstable: it leaves that state by itself",
+        _ => "",
+    };
+    let other = c.other.as_ref().map_or(String::new(), |o| format!("; another state: {}", o.kind.name()));
+    format!("{what}{stable}; {needs}{other}")
+}
+
+fn object(s: &Steady) -> Value {
+    let motion = s.motion.as_ref().ok();
+    let energy = motion.and_then(|o| o.run.energy);
+    json!({
+        "state": s.kind.name(), "stable": s.is_stable(), "required_static_friction": s.required_friction,
+        "slip_margin": s.slip_margin, "contact_margin": s.contact_margin,
+        "multipliers": motion.map(|o| o.multipliers.clone()),
+        "normal_min_n": motion.map(|o| o.run.peaks.normal_min_n), "normal_max_n": motion.map(|o| o.run.peaks.normal_max_n),
+        "tan_inner": motion.map(|o| o.run.peaks.tan_inner), "tan_outer": motion.map(|o| o.run.peaks.tan_outer),
+        "slip_inner_mm": motion.map(|o| 1e3 * o.run.inner.distance_m), "slip_outer_mm": motion.map(|o| 1e3 * o.run.outer.distance_m),
+        "net_slip_inner_mm": motion.map(|o| 1e3 * o.run.inner.net_m), "open_s": motion.map(|o| o.run.open_s),
+        "drift_inner_rad": motion.map(|o| o.drift_rad()[0]), "drift_outer_rad": motion.map(|o| o.drift_rad()[1]),
+        "newton_error": motion.map(|o| o.error), "periods": s.periods,
+        "work_in_j": energy.map(|e| e.torque_inner_j + e.torque_outer_j),
+        "lost_j": energy.map(|e| -(e.friction_inner_j + e.friction_outer_j + e.race_damping_j + e.contact_damping_j)),
+    })
+}
+
+/// Edges between values that rise, half way.
+fn edges(values: &[f64]) -> Vec<f64> {
+    let [Some(first), Some(last)] = [values.first(), values.last()] else { return Vec::new() };
+    let between = values.windows(2).map(|w| 0.5 * (w[0] + w[1]));
+    let half = |a: usize| values.get(a + 1).map_or(0.5, |next| 0.5 * (next - values[a]));
+    let ends = [first - half(0), last + half(values.len().saturating_sub(2))];
+    std::iter::once(ends[0]).chain(between).chain([ends[1]]).collect()
+}

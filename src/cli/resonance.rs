@@ -1,0 +1,123 @@
+//! `resonance`: periodic states of a torsional excitation, one or a map over frequency and amplitude.
+
+use super::exit::{Exit, Failure};
+use super::output::path_text;
+use super::simulate::chosen;
+use super::{Context, parts, positive};
+use crate::answer::resonance::{NoResonance, ResonanceQuestion};
+use crate::scenario::Settings;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  sprag-design resonance designs/huang2017-multi-arc.toml --scenario high-6
+  sprag-design resonance designs/huang2017-multi-arc.toml --scenario high-6 --frequency 20:400 --amplitude 1:20 --report map.html
+  sprag-design resonance designs/huang2017-multi-arc.toml --scenario low-10-mu082 --frequency 50:150 --points 21 --csv row.csv
+
+The motion that repeats with the excitation, its start forgotten: found by shooting, with its stability. Without ranges that of
+the scenario; with them a map of the friction that rolling needs and of what the clutch does.";
+
+/// Arguments of `resonance`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct ResonanceArgs {
+    /// Design files (TOML)
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// Name of one of the design's scenarios, a torsional excitation [default: the only one]
+    #[arg(long, value_name = "NAME")]
+    pub scenario: Option<String>,
+    /// Frequencies, Hz: from and to, or one [default: the scenario's]
+    #[arg(long, value_name = "FROM:TO", value_parser = span)]
+    pub frequency: Option<[f64; 2]>,
+    /// Amplitudes, Nm: from and to, or one [default: the scenario's]
+    #[arg(long, value_name = "FROM:TO", value_parser = span)]
+    pub amplitude: Option<[f64; 2]>,
+    /// Frequencies and amplitudes of the map, or of frequencies alone, ends included
+    #[arg(long, value_name = "NxM", default_value = "50x50", value_parser = points)]
+    pub points: [usize; 2],
+    /// Error allowed of every figure relative to its natural size, 1e-9 to 1e-3
+    #[arg(long, value_name = "X", default_value_t = 1e-6, value_parser = tolerance)]
+    pub tolerance: f64,
+}
+
+/// FROM:TO, or one number for both.
+fn span(text: &str) -> Result<[f64; 2], String> {
+    let (from, to) = text.split_once(':').unwrap_or((text, text));
+    let both = [positive(from)?, positive(to)?];
+    if both[0] <= both[1] { Ok(both) } else { Err("FROM:TO rises, such as 20:400".to_owned()) }
+}
+
+/// NxM, or N for both.
+fn points(text: &str) -> Result<[usize; 2], String> {
+    const MOST: usize = 1000;
+    let (x, y) = text.split_once('x').unwrap_or((text, text));
+    let count = |n: &str| n.trim().parse().ok().filter(|n| (1..=MOST).contains(n));
+    count(x)
+        .zip(count(y))
+        .map(|(x, y)| [x, y])
+        .ok_or_else(|| format!("NxM is needed, such as 50x50, 1 to {MOST} each"))
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let value = positive(text)?;
+    if (1e-9..=1e-3).contains(&value) { Ok(value) } else { Err("1e-9 to 1e-3".to_owned()) }
+}
+
+/// `n` values over the range, ends included; one where it has no width.
+fn values(range: Option<[f64; 2]>, n: usize) -> Vec<f64> {
+    match range {
+        None => Vec::new(),
+        Some([from, to]) if n == 1 || from == to => vec![from],
+        Some([from, to]) => (0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect(),
+    }
+}
+
+/// Run the command.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(args: &ResonanceArgs, context: &Context) -> Result<Exit, Failure> {
+    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
+    context.outputs.check(&inputs, &[])?;
+    let question = ResonanceQuestion {
+        frequencies_hz: values(args.frequency, args.points[0]),
+        amplitudes_nm: values(args.amplitude, args.points[1]),
+    };
+    parts::each(&args.files, context, |file| one(args, file, &question, context))
+}
+
+fn one(
+    args: &ResonanceArgs,
+    file: &Path,
+    question: &ResonanceQuestion,
+    context: &Context,
+) -> Result<Exit, Failure> {
+    let design = parts::read_design(file, context)?;
+    let scenario = chosen(args.scenario.as_deref(), &design, file)?;
+    // Each is found on the way up and on the way down.
+    let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);
+    let line = context.progress("resonance", "states", Some(total as u64));
+    let settings =
+        Settings { tolerance: args.tolerance, follow: context.follow.unseen(), ..Settings::default() };
+    let started = Instant::now();
+    let found =
+        design.resonance(scenario, question, &settings, &|| line.advance(1)).map_err(|why| match why {
+            NoResonance::Stopped => Failure::Interrupted,
+            NoResonance::NoExcitation => {
+                Failure::malformed(format!("{}: {}: {why}", path_text(file), scenario.name))
+            }
+            NoResonance::NoStart(_) => {
+                Failure::NoClutch(format!("{}: {}: {why}", path_text(file), scenario.name))
+            }
+        })?;
+    let run_time_s = started.elapsed().as_secs_f64();
+    drop(line);
+    context.outputs.write_csv(&found.table());
+    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
+    context.answer(&found.text(context.screen))?;
+    context.print(&found.envelope(run_time_s))?;
+    Ok(Exit::Held)
+}
