@@ -107,6 +107,7 @@ impl Unlike<'_> {
                 None => break,
             }
         }
+        if std::env::var("DBG").is_ok() { println!("{:?}\n{:?}", trial.miss, x); }
         match trial.miss.amax() < NEARLY {
             true => self.finished(trial, STEPS),
             false => Err(self.why_not(&trial)),
@@ -169,7 +170,8 @@ impl Unlike<'_> {
             Asked::Torque(wanted) => wanted,
             Asked::Touch(_) => torque(windup_rad).max(1e-9),
         };
-        let windup_rad = (windup_rad - first).max(1e-9);
+        // Rounding of angles is 1e-16.
+        let windup_rad = (windup_rad - first).max(1e-3);
         let normal_n = normal_n.max(1e-6);
         // A shift by that is about as much to a sprag as all the windup: OA tan omega.
         Ok((x, Scales { windup_rad, torque_nm, normal_n, shift_m: windup_rad * torque_nm / normal_n }))
