@@ -38,6 +38,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "margin",
         &[
+            "sharing",
             "numeric",
             "contact",
             "race",
@@ -88,6 +89,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "fidelity",
             "accuracy",
             "margin",
+            "sharing",
             "life",
             "element",
             "reengage",

@@ -22,6 +22,7 @@ pub mod overrun;
 pub mod page;
 pub mod reengagement;
 pub mod search;
+pub mod sharing;
 pub mod simulation;
 pub mod sizing;
 pub mod steels;

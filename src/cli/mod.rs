@@ -35,6 +35,7 @@ pub mod progress;
 pub mod reengage;
 pub mod sample;
 pub mod schema;
+pub mod sharing;
 pub mod sheet;
 pub mod simulate;
 pub mod size;
@@ -112,6 +113,8 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     /// Life under repeated loads: pitting, fatigue of the races, indentation, slip by chance
     Life(life::LifeArgs),
+    /// Sprags one by one: what each carries where they are unlike, races bend, run out and give way
+    Sharing(sharing::SharingArgs),
     /// Slip under load, and the blow when the clutch grips again
     Reengage(reengage::ReengageArgs),
     /// Overrun on a film of oil: film, drag, heat, temperatures, stability, wear, flash of a slip
@@ -330,6 +333,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Life(args) => life::run(&args, &context),
+        Command::Sharing(args) => sharing::run(&args, &context),
         Command::Reengage(args) => reengage::run(&args, &context),
         Command::Overrun(args) => overrun::run(&args, &context),
         Command::Optimize(args) => optimize::run(&args, &context),
@@ -384,6 +388,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Stiffness(_) => "stiffness",
         Command::Simulate(_) => "simulate",
         Command::Life(_) => "life",
+        Command::Sharing(_) => "sharing",
         Command::Reengage(_) => "reengage",
         Command::Overrun(_) => "overrun",
         Command::Optimize(_) => "optimize",

@@ -25,12 +25,15 @@
 //! Newton in (y, W, shift): dN/dy falls to 0 where a sprag comes off, so the set of sprags in contact follows from the signs of y.
 
 mod draw;
+mod engage;
 mod failing;
 mod newton;
+mod turn;
 
 pub use draw::{OneSprag, drawn};
 pub use failing::Loss;
 pub use newton::{Asked, NotShared};
+pub use turn::Turn;
 
 use crate::clutch::{Carrier, Clutch, Sharing, Standing};
 use crate::race::Influence;
@@ -236,10 +239,23 @@ impl<'a> Unlike<'a> {
             turned_rad: vec![0.0; n],
             bending,
         };
-        for i in 0..n {
-            clutch.stand(i, sharing.start);
-        }
+        clutch.stand_all(sharing.start);
         clutch
+    }
+
+    /// The same engaged while the widest gap stands `phase_rad` ahead of sprag 0.
+    pub fn engaged_at(&self, start: Standing, phase_rad: f64) -> Self {
+        let mut other = Self { phase_rad, ..self.clone() };
+        other.stand_all(start);
+        other
+    }
+
+    fn stand_all(&mut self, start: Standing) {
+        for i in 0..self.sprags.len() {
+            self.idle[i] = None;
+            self.lag_rad[i] = None;
+            self.stand(i, start);
+        }
     }
 
     /// Put sprag `i` where it stands when torque begins.

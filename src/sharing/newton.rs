@@ -95,9 +95,11 @@ impl Unlike<'_> {
             let mut share = 1.0;
             let next = loop {
                 let there = &x - self.bounded(&x, &change) * share;
-                match self.trial(&mut statics, &there, asked, turned_rad, scales) {
+                // A trial in which nothing carries any more says not where to go.
+                let carries = |found: &Trial| found.shared.torque_nm > 0.0 || matches!(asked, Asked::Touch(_));
+                match self.trial(&mut statics, &there, asked, turned_rad, scales).ok().filter(carries) {
                     // Sprags that come and go bend the rows: a step is taken that gains little, too.
-                    Ok(found) if found.miss.amax() < off || share > 0.9 && step % 8 == 5 => break Some((there, found)),
+                    Some(found) if found.miss.amax() < off || share > 0.9 && step % 8 == 5 => break Some((there, found)),
                     _ if share < 1e-4 => break None,
                     _ => share *= 0.5,
                 }
@@ -107,7 +109,6 @@ impl Unlike<'_> {
                 None => break,
             }
         }
-        if std::env::var("DBG").is_ok() { println!("{:?}\n{:?}", trial.miss, x); }
         match trial.miss.amax() < NEARLY {
             true => self.finished(trial, STEPS),
             false => Err(self.why_not(&trial)),
