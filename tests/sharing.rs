@@ -3,9 +3,9 @@
 use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, Sharing, Standing};
 use sprag_design::race::Race;
 use sprag_design::wedge::Apart;
-use std::f64::consts::{PI, TAU};
+
 use sprag_design::sharing::{Asked, Shared, Unlike};
-use sprag_design::{Clutch, Design, WedgeCurve};
+use sprag_design::{Clutch, Design, Material, WedgeCurve};
 
 fn clutch(file: &str) -> Clutch {
     let path = format!("{}/designs/{file}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -29,11 +29,6 @@ fn alike() -> Sharing {
         stiffness_n_per_m: None,
         given: Vec::new(),
     }
-}
-
-fn larger(um: f64) -> Sharing {
-    let one = GivenSprag { index: 3, size_m: Some(1e-6 * um), ..GivenSprag::default() };
-    Sharing { start: Standing::Caged, given: vec![one], ..alike() }
 }
 
 fn at(clutch: &Clutch, sharing: &Sharing, curve: &WedgeCurve, torque_nm: f64) -> Shared {
@@ -71,7 +66,7 @@ fn two_sprags_by_hand() {
     let mut clutch = clutch("huang2017-single-arc");
     clutch.sprags.count = 2;
     for m in [&mut clutch.materials.inner_race, &mut clutch.materials.outer_race] {
-        m.youngs_modulus_pa *= 1e6;
+        m.youngs_modulus_pa *= 1e9;
     }
     let curve = curve(&clutch);
     let late = GivenSprag { index: 1, gap_m: Some(20e-6), ..GivenSprag::default() };
@@ -166,7 +161,14 @@ fn far_from_alike_is_answered() {
                 stiffness_n_per_m: stiffness,
             });
             for start in [Standing::Sprung, Standing::Caged] {
-                let sharing = Sharing { start, seed, size_within_m: 1e-6 * um, gap_up_to_m: 1e-6 * um, ..alike() };
+                let sharing = Sharing {
+                    start,
+                    seed,
+                    size_within_m: 1e-6 * um,
+                    gap_up_to_m: 1e-6 * um,
+                    stiffness_n_per_m: Some(stiffness),
+                    ..alike()
+                };
                 let unlike = Unlike::new(&clutch, &sharing, &curve, 0.3);
                 for share in [1e-4, 0.01, 0.1, 0.3, 0.7] {
                     let torque = share * curve.end_torque_nm();
@@ -189,8 +191,7 @@ fn far_from_alike_is_answered() {
     }
 }
 
-/// A very thin outer ring stays on two sprags of three alike: with one missing, the force balance of a floating race leaves only
-/// what two forces and their tangents allow.
+/// One missing; then every other one: what is left of twelve has to be the clutch of six, whose law knows nothing of this one's.
 #[test]
 fn a_missing_sprag_is_carried_by_the_others() {
     let clutch = clutch("huang2017-elastic");
@@ -208,5 +209,94 @@ fn a_missing_sprag_is_carried_by_the_others() {
     let exact = WedgeCurve::build(&six, &six.profile().unwrap(), 0.0).unwrap().at_torque(30.0).unwrap();
     println!("windup {} {}, N {} {}", half.windup_rad, exact.windup_rad, half.loads[1].normal_inner_n, exact.normal_inner_n);
     assert!((half.windup_rad / exact.windup_rad - 1.0).abs() < 2e-3);
-    let _ = (PI, TAU, Race::outer(1.0, 2.0, 1.0, clutch.materials.sprag));
+}
+
+/// Ring under point forces against finite elements (tests/reference/ring_influence.py), thick and thin, inner and outer.
+#[test]
+fn rings_under_point_forces_agree_with_finite_elements() {
+    let steel = Material { youngs_modulus_pa: 206e9, poisson_ratio: 0.3, density_kg_m3: 7850.0 };
+    let text = std::fs::read_to_string(format!("{}/tests/reference/ring_influence.csv", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let mut worst = [0.0_f64; 4];
+    for line in text.lines().skip(1) {
+        let f: Vec<&str> = line.split(',').collect();
+        let number = |k: usize| f[k].parse::<f64>().unwrap();
+        let (track, other) = (1e-3 * number(1), 1e-3 * number(2));
+        let race = match f[0] {
+            "outer" => Race::outer(track, other, 6e-3, steel),
+            _ => Race::inner(other, track, 6e-3, steel),
+        };
+        let influence = race.unwrap().influence();
+        let forces: &[(f64, [f64; 2])] = match f[3] {
+            "normal" => &[(0.0, [1e3, 0.0]), (180.0, [1e3, 0.0])],
+            _ => &[(0.0, [0.0, 1e3]), (180.0, [0.0, 1e3]), (90.0, [0.0, -1e3]), (270.0, [0.0, -1e3])],
+        };
+        let mut moved = [0.0; 2];
+        for (at, force) in forces {
+            let g = influence.at((number(4) - at).to_radians());
+            for row in [0, 1] {
+                moved[row] += 1e6 * (g[row][0] * force[0] + g[row][1] * force[1]);
+            }
+        }
+        // Of the largest displacement of that ring under that load.
+        let scale = match (f[0], (number(2) - number(1)).abs() > 2.0, f[3]) {
+            ("outer", true, "normal") => 25.0,
+            ("outer", true, _) => 39.0,
+            ("outer", false, "normal") => 4800.0,
+            ("outer", false, _) => 5800.0,
+            (_, true, "normal") => 9.3,
+            (_, true, _) => 4.6,
+            (_, false, "normal") => 730.0,
+            (_, false, _) => 710.0,
+        };
+        let off = (moved[0] - number(5)).abs().max((moved[1] - number(6)).abs()) / scale;
+        let which = usize::from(f[0] == "inner") * 2 + usize::from(scale > 100.0);
+        worst[which] = worst[which].max(off);
+    }
+    println!("outer thick, thin, inner thick, thin: {worst:?}");
+    assert!(worst.iter().all(|w| *w < 0.02), "{worst:?}");
+}
+
+/// What the command answers: figures that agree with one another, an exit code, refusals that name the key.
+#[test]
+fn the_answer_holds_together() {
+    let path = format!("{}/designs/unlike-sprags.toml", env!("CARGO_MANIFEST_DIR"));
+    let design = Design::read(path.as_ref()).unwrap();
+    let answer = design.sharing(None).unwrap();
+    let turned = answer.turned.as_ref().unwrap();
+    assert_eq!(turned.len(), 12);
+    for s in turned {
+        let shares = s.shares();
+        assert!((shares.iter().sum::<f64>() / shares.len() as f64 - 1.0).abs() < 1e-12);
+        assert!((s.torque_nm / answer.torque_nm - 1.0).abs() < 1e-9);
+    }
+    // The row of the check is the worst of the turn.
+    let worst = turned.iter().map(|s| s.worst(|l| l.hertz_pa()).1).fold(0.0, f64::max);
+    let (_, rows, _) = sprag_design::margin::static_margins(&design, true).unwrap();
+    let row = rows.iter().find(|r| r.code() == "sprag-hertz-nominal").unwrap();
+    assert_eq!(row.demand.value(), Some(worst));
+    let at = row.torque_capacity_nm.unwrap();
+    let clutch = sprag_design::sharing::Turn::new(&design.clutch, design.sharing.as_ref().unwrap(), &sprag_design::margin::load_state(&design).unwrap().curve)
+        .at(at)
+        .unwrap()
+        .iter()
+        .map(|s| s.worst(|l| l.hertz_pa()).1)
+        .fold(0.0, f64::max);
+    assert!((clutch / row.allowable - 1.0).abs() < 1e-4);
+    // Without the table nothing of it is there.
+    let mut plain = design.clone();
+    plain.sharing = None;
+    assert!(sprag_design::margin::static_margins(&plain, true).unwrap().1.iter().all(|r| !r.code().starts_with("sprag-")));
+    let text = std::fs::read_to_string(&path).unwrap();
+    for (wrong, key) in [
+        ("sprags = [ { number = 13, size_um = 5.0 } ]", "sharing.sprags[0].number"),
+        ("sprags = [ { number = 2, size_um = 5.0 }, { number = 2, gap_um = 5.0 } ]", "sharing.sprags[1].number"),
+        ("sprags = [ { number = 2, ahead_deg = 15.0 } ]", "sharing.sprags[0].ahead_deg"),
+        ("sprags = []\nazimuth_within_deg = 15.0", "sharing.azimuth_within_deg"),
+    ] {
+        let from = text.find("sprags = [\n").unwrap();
+        let until = text[from..].find("\n]").unwrap() + from + 2;
+        let changed = format!("{}{wrong}{}", &text[..from], &text[until..]);
+        let error = Design::parse(&changed, "unlike").unwrap_err();
+        assert!(error.problems().iter().any(|p| p.key == key), "{error}");
+    }
 }

@@ -72,6 +72,15 @@ struct Scales {
     shift_m: f64,
 }
 
+/// What is solved.
+#[derive(Clone, Copy)]
+struct Case {
+    asked: Asked,
+    turned_rad: f64,
+    scales: Scales,
+    stiffness_n_per_m: f64,
+}
+
 impl Unlike<'_> {
     /// The sprags at what is asked, the widest gap turned on by `turned_rad` since they engaged.
     ///
@@ -83,43 +92,64 @@ impl Unlike<'_> {
         if first.is_infinite() {
             return Err(NotShared::NoneCarries);
         }
-        let (mut x, scales) = self.guess(asked, first)?;
+        let (x, scales) = self.guess(asked, first)?;
+        let case = Case { asked, turned_rad, scales, stiffness_n_per_m: self.stiffness_n_per_m };
+        let direct = self.solved(&x, case);
+        if direct.is_ok() || self.stiffness_n_per_m.is_infinite() {
+            return direct.and_then(|(_, found)| self.finished(found));
+        }
+        // A race that floats comes to rest far from where it was held: it is let go by and by.
+        let mut x = x;
+        let stiff = scales.normal_n / scales.shift_m;
+        for part in (-2..=8).map(|k| 0.1_f64.powi(k) * stiff).filter(|k| *k > self.stiffness_n_per_m) {
+            x = self.solved(&x, Case { stiffness_n_per_m: part, ..case }).or(direct.clone())?.0;
+        }
+        self.solved(&x, case).or(direct).and_then(|(_, found)| self.finished(found))
+    }
+
+    /// Newton's method from `x`.
+    fn solved(&self, x: &DVector<f64>, case: Case) -> Result<(DVector<f64>, Shared), NotShared> {
+        let mut x = x.clone();
         let mut statics: Vec<Statics> = vec![self.statics().clone(); self.sprags.len()];
-        let mut trial = self.trial(&mut statics, &x, asked, turned_rad, scales)?;
+        let mut trial = self.trial(&mut statics, &x, case)?;
         for step in 0..STEPS {
+            trial.shared.steps = step;
             let off = trial.miss.amax();
-            if off < BALANCED {
-                return self.finished(trial, step);
-            }
-            let Some(change) = self.jacobian(&trial, asked, scales).lu().solve(&trial.miss) else { break };
+            let Some(change) = self.jacobian(&trial, case).lu().solve(&trial.miss) else { break };
+            // The last step is for the digits, and is taken where it helps.
+            let least = if off < BALANCED { 1.0 } else { 1e-4 };
+            let bounded = self.bounded(&x, &change);
             let mut share = 1.0;
             let next = loop {
-                let there = &x - self.bounded(&x, &change) * share;
+                let there = &x - &bounded * share;
                 // A trial in which nothing carries any more says not where to go.
-                let carries = |found: &Trial| found.shared.torque_nm > 0.0 || matches!(asked, Asked::Touch(_));
-                match self.trial(&mut statics, &there, asked, turned_rad, scales).ok().filter(carries) {
-                    // Sprags that come and go bend the rows: a step is taken that gains little, too.
-                    Some(found) if found.miss.amax() < off || share > 0.9 && step % 8 == 5 => break Some((there, found)),
-                    _ if share < 1e-4 => break None,
+                let carries = |found: &Trial| found.shared.torque_nm > 0.0 || matches!(case.asked, Asked::Touch(_));
+                match self.trial(&mut statics, &there, case).ok().filter(carries) {
+                    // Sprags that come and go bend the rows: now and then a step is taken that gains nothing.
+                    Some(found) if found.miss.amax() < off || off > BALANCED && share > 0.9 && step % 8 == 5 => {
+                        break Some((there, found));
+                    }
+                    _ if share <= least => break None,
                     _ => share *= 0.5,
                 }
             };
-            match next {
-                Some((there, found)) => (x, trial) = (there, found),
-                None => break,
+            let Some((there, found)) = next else { break };
+            (x, trial) = (there, found);
+            if off < BALANCED {
+                break;
             }
         }
         match trial.miss.amax() < NEARLY {
-            true => self.finished(trial, STEPS),
+            true => Ok((x, trial.shared)),
             false => Err(self.why_not(&trial)),
         }
     }
 
-    fn finished(&self, trial: Trial, steps: usize) -> Result<Shared, NotShared> {
+    fn finished(&self, found: Shared) -> Result<Shared, NotShared> {
         let on = |l: &Bears| l.own_rad <= 0.0 || self.statics().on_profile(l.turn_rad);
-        match trial.shared.loads.iter().position(|l| !on(l)) {
+        match found.loads.iter().position(|l| !on(l)) {
             Some(i) => Err(NotShared::End(i, EndReason::OffProfile)),
-            None => Ok(Shared { steps, ..trial.shared }),
+            None => Ok(found),
         }
     }
 
@@ -182,10 +212,9 @@ impl Unlike<'_> {
         &self,
         statics: &mut [Statics],
         x: &DVector<f64>,
-        asked: Asked,
-        turned_rad: f64,
-        scales: Scales,
+        case: Case,
     ) -> Result<Trial, NotShared> {
+        let Case { asked, turned_rad, scales, stiffness_n_per_m } = case;
         let n = self.sprags.len();
         let windup_rad = x[n];
         let shift_m = if x.len() > n + 1 { [x[n + 1] * scales.shift_m, x[n + 2] * scales.shift_m] } else { [0.0; 2] };
@@ -270,7 +299,7 @@ impl Unlike<'_> {
             Asked::Touch(i) => x[i] / scales.windup_rad,
         };
         for k in 0..x.len() - n - 1 {
-            t.miss[n + 1 + k] = (t.shared.radial_n[k] - self.stiffness_n_per_m * shift_m[k]) / scales.normal_n;
+            t.miss[n + 1 + k] = (t.shared.radial_n[k] - stiffness_n_per_m * shift_m[k]) / scales.normal_n;
         }
         match t.miss.iter().all(|m| m.is_finite()) {
             true => Ok(t),
@@ -311,7 +340,8 @@ impl Unlike<'_> {
     }
 
     /// Slopes of the misses by y, W and the shift, each in its unit.
-    fn jacobian(&self, t: &Trial, asked: Asked, scales: Scales) -> DMatrix<f64> {
+    fn jacobian(&self, t: &Trial, case: Case) -> DMatrix<f64> {
+        let Case { asked, scales, stiffness_n_per_m, .. } = case;
         let n = self.sprags.len();
         let (r_i, r_e) = self.tracks_m();
         let size = t.miss.len();
@@ -343,7 +373,7 @@ impl Unlike<'_> {
             slopes[(n, i)] = 1.0 / scales.windup_rad;
         }
         for k in n + 1..size {
-            slopes[(k, k)] = -self.stiffness_n_per_m * scales.shift_m / scales.normal_n;
+            slopes[(k, k)] = -stiffness_n_per_m * scales.shift_m / scales.normal_n;
         }
         slopes
     }
