@@ -71,7 +71,9 @@ impl fmt::Display for NoSharing {
                 "the design has no [sharing] table; add one with what sets its sprags apart, such as\n\n{EXAMPLE}\n\n\
                  `sprag-design explain sharing` lists its keys"
             ),
-            Self::NoTorque => f.write_str("allowed: a torque above 0: --torque, or nominal_torque_nm in [limits]"),
+            Self::NoTorque => {
+                f.write_str("allowed: a torque above 0: --torque, or nominal_torque_nm in [limits]")
+            }
             Self::NoClutch(why) => why.fmt(f),
         }
     }
@@ -80,7 +82,8 @@ impl fmt::Display for NoSharing {
 impl std::error::Error for NoSharing {}
 
 /// A table to begin with.
-pub const EXAMPLE: &str = "[sharing]\nseed = 1\nsize_within_um = 2.0\nsprags = [ { number = 4, gap_um = 10.0 } ]   # a weak spring";
+pub const EXAMPLE: &str =
+    "[sharing]\nseed = 1\nsize_within_um = 2.0\nsprags = [ { number = 4, gap_um = 10.0 } ]   # a weak spring";
 
 impl Design {
     /// What each sprag carries at `torque_nm`, N m; `None`: at the nominal torque of `[limits]`, else at its peak torque.
@@ -138,7 +141,9 @@ impl Design {
 impl<'a> SharingAnswer<'a> {
     /// Whether every sprag that carries is within its limits, over the turn.
     pub fn held(&self) -> bool {
-        self.turned.is_ok() && self.most_pressed().is_none_or(|(_, pa)| self.allowed.is_none_or(|(most, _)| pa <= most)) && self.slipping().is_none()
+        self.turned.is_ok()
+            && self.most_pressed().is_none_or(|(_, pa)| self.allowed.is_none_or(|(most, _)| pa <= most))
+            && self.slipping().is_none()
     }
 
     /// The most pressed sprag of the turn and its pressure, Pa.
@@ -152,7 +157,9 @@ impl<'a> SharingAnswer<'a> {
         let turned = self.turned.as_ref().ok()?;
         let needs = |i: usize| turned.iter().map(|s| s.loads[i].required_friction()).fold(0.0, f64::max);
         let over = (0..self.sprags.len()).map(|i| (i, needs(i) / self.sprags[i].sprag.friction, needs(i)));
-        over.filter(|(_, over, _)| *over > 1.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _, needs)| (i, needs))
+        over.filter(|(_, over, _)| *over > 1.0)
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(i, _, needs)| (i, needs))
     }
 
     /// How many sprags, the most pressed first, may be lost until a limit is passed; `None`: not known, no limit is given.
@@ -196,7 +203,8 @@ impl<'a> SharingAnswer<'a> {
             Ok(s) => json!({ "lost": l.lost + 1, "hertz_mpa": mpa(s.worst(Bears::hertz_pa).1), "largest_share": largest(&s.shares()), "ended": null }),
             Err(why) => json!({ "lost": l.lost + 1, "ended": why.words() }),
         });
-        let round = self.out_of_round_m.each_ref().map(|race| race.iter().map(|m| um(*m)).collect::<Vec<_>>());
+        let round =
+            self.out_of_round_m.each_ref().map(|race| race.iter().map(|m| um(*m)).collect::<Vec<_>>());
         let seed = self.design.sharing.as_ref().map(|s| s.seed);
         let body = json!({
             "held": self.held(), "verdict": self.verdict(), "torque_nm": self.torque_nm, "seed": seed,
@@ -215,7 +223,8 @@ impl<'a> SharingAnswer<'a> {
         let tracks = [clutch.races.inner_radius_m, clutch.races.outer_radius_m];
         let slope = self.out_of_round_m.iter().zip(tracks).map(|(race, radius)| {
             // Harmonics below that of the sprags; entry 1 is harmonic 2.
-            let below = race.iter().enumerate().skip(1).take(clutch.sprags.count.saturating_sub(2).max(1) / 2);
+            let below =
+                race.iter().enumerate().skip(1).take(clutch.sprags.count.saturating_sub(2).max(1) / 2);
             below.map(|(k, a)| (k + 1) as f64 * a / radius).fold(0.0, f64::max)
         });
         let slope = slope.fold(0.0, f64::max);
@@ -223,7 +232,11 @@ impl<'a> SharingAnswer<'a> {
             LeftOut::new(
                 "slope of a bent track in the wedge angle",
                 "a track that bends is taken to recede and to give along itself, not to lean",
-                &if tan > 0.0 { format!("up to {} of tan ω of a sprag", Unit::Percent.show(slope / tan, 2)) } else { "not estimated".to_owned() },
+                &if tan > 0.0 {
+                    format!("up to {} of tan ω of a sprag", Unit::Percent.show(slope / tan, 2))
+                } else {
+                    "not estimated".to_owned()
+                },
             ),
             LeftOut::new(
                 "what holds the races",
@@ -236,7 +249,11 @@ impl<'a> SharingAnswer<'a> {
                 "the deviation over the radius, some 1e-4 of the windup",
             ),
             LeftOut::new("tilted tracks", "tracks have parallel axes", "not estimated"),
-            LeftOut::new("inertia of the sprags that catch", "the torque rises slowly", "not estimated: races do not wait for a late sprag"),
+            LeftOut::new(
+                "inertia of the sprags that catch",
+                "the torque rises slowly",
+                "not estimated: races do not wait for a late sprag",
+            ),
         ];
         one_by_one(left_out(clutch), &instead)
     }
@@ -247,14 +264,20 @@ impl<'a> SharingAnswer<'a> {
         let turned = match &self.turned {
             Ok(turned) => turned,
             Err(why) => {
-                let until = self.end.map_or(String::new(), |(nm, _)| format!("; {} is carried", Unit::NewtonMetre.show(nm, 4)));
+                let until = self.end.map_or(String::new(), |(nm, _)| {
+                    format!("; {} is carried", Unit::NewtonMetre.show(nm, 4))
+                });
                 return format!("NOT HELD: {torque} is not carried, {}{until}", why.words());
             }
         };
         let word = if self.held() { "HELD" } else { "NOT HELD" };
         let share = turned.iter().map(|s| largest(&s.shares())).fold(0.0, f64::max);
         let least = turned.iter().map(Shared::carrying).min().unwrap_or(0);
-        let mut said = format!("{word}: at {torque} {least} of {} sprags carry, the largest share is {} of the mean", self.sprags.len(), significant(share, 4));
+        let mut said = format!(
+            "{word}: at {torque} {least} of {} sprags carry, the largest share is {} of the mean",
+            self.sprags.len(),
+            significant(share, 4)
+        );
         if let Some((i, pa)) = self.most_pressed() {
             said += &format!(", sprag {} at {}", i + 1, Unit::Megapascal.show(pa, 4));
             if let Some((most, _)) = self.allowed {
@@ -262,7 +285,12 @@ impl<'a> SharingAnswer<'a> {
             }
         }
         if let Some((i, needs)) = self.slipping() {
-            said += &format!("; sprag {} needs a friction of {} and has {}", i + 1, significant(needs, 3), significant(self.sprags[i].sprag.friction, 3));
+            said += &format!(
+                "; sprag {} needs a friction of {} and has {}",
+                i + 1,
+                significant(needs, 3),
+                significant(self.sprags[i].sprag.friction, 3)
+            );
         } else if let Some(count) = self.may_be_lost().filter(|_| self.held()) {
             said += &format!("; the {count} most pressed may fail, one after another");
         }
@@ -291,10 +319,16 @@ impl<'a> SharingAnswer<'a> {
             let state = match (r.idle, on) {
                 (Some(idle), _) => idle.into(),
                 (None, false) => "no load".into(),
-                (None, true) if r.bears.required_friction() > r.sprag.friction => Cell::Verdict(false, "slips".to_owned()),
+                (None, true) if r.bears.required_friction() > r.sprag.friction => {
+                    Cell::Verdict(false, "slips".to_owned())
+                }
                 (None, true) => "carries".into(),
             };
-            let needs = if on { Cell::Si(r.bears.required_friction()) } else { Some(r.first_friction).filter(|f| *f > 0.0).into() };
+            let needs = if on {
+                Cell::Si(r.bears.required_friction())
+            } else {
+                Some(r.first_friction).filter(|f| *f > 0.0).into()
+            };
             table.row(vec![
                 (i + 1).into(),
                 r.sprag.azimuth_rad.into(),
@@ -358,10 +392,25 @@ impl<'a> SharingAnswer<'a> {
             table.row(match found {
                 Ok(s) => {
                     let (most, pa) = s.worst(Bears::hertz_pa);
-                    vec![(*torque).into(), s.windup_rad.into(), s.carrying().into(), largest(&s.shares()).into(), (most + 1).into(), pa.into()]
+                    vec![
+                        (*torque).into(),
+                        s.windup_rad.into(),
+                        s.carrying().into(),
+                        largest(&s.shares()).into(),
+                        (most + 1).into(),
+                        pa.into(),
+                    ]
                 }
                 Err(why) => {
-                    vec![(*torque).into(), Cell::Empty, Cell::Empty, Cell::Empty, Cell::Empty, Cell::Empty, why.words().into()]
+                    vec![
+                        (*torque).into(),
+                        Cell::Empty,
+                        Cell::Empty,
+                        Cell::Empty,
+                        Cell::Empty,
+                        Cell::Empty,
+                        why.words().into(),
+                    ]
                 }
             });
         }
@@ -383,7 +432,11 @@ impl<'a> SharingAnswer<'a> {
                 Ok(s) => {
                     let pa = s.worst(Bears::hertz_pa).1;
                     let held = self.allowed.is_none_or(|(most, _)| pa <= most);
-                    row.extend([largest(&s.shares()).into(), pa.into(), Cell::Verdict(held, if held { "held" } else { "NOT HELD" }.to_owned())]);
+                    row.extend([
+                        largest(&s.shares()).into(),
+                        pa.into(),
+                        Cell::Verdict(held, if held { "held" } else { "NOT HELD" }.to_owned()),
+                    ]);
                 }
                 Err(why) => row.extend([Cell::Empty, Cell::Empty, Cell::Verdict(false, why.words())]),
             }
@@ -428,8 +481,12 @@ impl<'a> SharingAnswer<'a> {
             Unit::Degree.show(sharing.azimuth_within_rad, 3),
             significant(sharing.friction_within, 3)
         )];
-        let idle: Vec<String> =
-            self.sprags.iter().enumerate().filter_map(|(i, r)| r.idle.map(|why| format!("{} {why}", i + 1))).collect();
+        let idle: Vec<String> = self
+            .sprags
+            .iter()
+            .enumerate()
+            .filter_map(|(i, r)| r.idle.map(|why| format!("{} {why}", i + 1)))
+            .collect();
         if !idle.is_empty() {
             all.push(format!("Sprags that never carry: {}", idle.join(", ")));
         }
@@ -444,14 +501,19 @@ impl<'a> SharingAnswer<'a> {
         let sprags = self.by_sprag();
         let more = sprags.rows.len().saturating_sub(MOST_ROWS);
         let shown = Table { rows: sprags.rows.iter().take(MOST_ROWS).cloned().collect(), ..sprags };
-        let more = if more > 0 { format!("{more} more sprags: --csv, --json or --report\n") } else { String::new() };
-        let mut text = format!("{}  {}\n\n{}{more}", self.design.name, self.design.short_hash(), shown.to_text(screen));
+        let more =
+            if more > 0 { format!("{more} more sprags: --csv, --json or --report\n") } else { String::new() };
+        let mut text =
+            format!("{}  {}\n\n{}{more}", self.design.name, self.design.short_hash(), shown.to_text(screen));
         let mut part = |title: &str, table: Table| {
             if !table.rows.is_empty() {
                 text += &format!("\n{title}\n{}", table.to_text(screen));
             }
         };
-        part("Over a turn of the races", if self.gaps_rad.len() > 1 { self.places() } else { Table::default() });
+        part(
+            "Over a turn of the races",
+            if self.gaps_rad.len() > 1 { self.places() } else { Table::default() },
+        );
         part("Through an engagement", self.course());
         part("One lost after another, the most pressed first", self.lost());
         part("Tracks out of round: amplitude of the radius", self.out_of_round());
@@ -464,16 +526,21 @@ impl<'a> SharingAnswer<'a> {
         page.verdict(self.held(), &self.verdict());
         page.list(self.remarks());
         page.figures(&[
-            (super::page::half(self.round()), "Normal force of each sprag over the mean, round the clutch, at parts of the torque."),
+            (
+                super::page::half(self.round()),
+                "Normal force of each sprag over the mean, round the clutch, at parts of the torque.",
+            ),
             (super::page::half(self.rising()), "The largest and the smallest share as the torque rises."),
         ]);
-        page.heading("Sprags").table("At the place of the turn where the most pressed one is pressed most.", &self.by_sprag());
+        page.heading("Sprags")
+            .table("At the place of the turn where the most pressed one is pressed most.", &self.by_sprag());
         if self.gaps_rad.len() > 1 {
             page.heading("Over a turn of the races").table("Azimuths from sprag 1.", &self.places());
         }
         page.heading("Through an engagement").table("", &self.course());
         if !self.losses.is_empty() {
-            page.heading("One lost after another").table("The most pressed sprag fails, the others take its share.", &self.lost());
+            page.heading("One lost after another")
+                .table("The most pressed sprag fails, the others take its share.", &self.lost());
         }
         page.heading("Tracks out of round").table(
             "Amplitude of the radius in each harmonic; the mean opens the gap. The ovality, largest less smallest diameter, is four times \
@@ -487,11 +554,23 @@ impl<'a> SharingAnswer<'a> {
     /// Shares round the clutch.
     fn round(&self) -> Plot {
         let mut plot = Plot::new("Azimuth, °", "Share of the mean");
-        let found: Vec<(f64, &Shared)> = self.engagement.iter().filter_map(|(t, s)| Some((*t, s.as_ref().ok()?))).collect();
+        let found: Vec<(f64, &Shared)> =
+            self.engagement.iter().filter_map(|(t, s)| Some((*t, s.as_ref().ok()?))).collect();
         for part in [0.1, 0.3, 1.0] {
-            let Some((torque, shared)) = found.iter().find(|(t, _)| *t >= part * self.torque_nm * (1.0 - 1e-9)) else { continue };
-            let points = self.sprags.iter().zip(shared.shares()).map(|(r, share)| [Unit::Degree.from_si(r.sprag.azimuth_rad), share]);
-            plot.curves.push(Curve { dots: true, ..Curve::new(&Unit::NewtonMetre.show_plain(*torque, 4), points.collect()) });
+            let Some((torque, shared)) =
+                found.iter().find(|(t, _)| *t >= part * self.torque_nm * (1.0 - 1e-9))
+            else {
+                continue;
+            };
+            let points = self
+                .sprags
+                .iter()
+                .zip(shared.shares())
+                .map(|(r, share)| [Unit::Degree.from_si(r.sprag.azimuth_rad), share]);
+            plot.curves.push(Curve {
+                dots: true,
+                ..Curve::new(&Unit::NewtonMetre.show_plain(*torque, 4), points.collect())
+            });
         }
         plot
     }

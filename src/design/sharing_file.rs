@@ -91,9 +91,17 @@ pub(super) fn si(file: &DesignFile, sharing: &SharingFile, out: &mut Findings) -
     for (i, sprag) in sharing.sprags.iter().enumerate() {
         let key = format!("sharing.sprags[{i}].number");
         if !(1..=count).contains(&sprag.number) {
-            out.refuse(&[&key], format!("1 to {count}, the number of sprags"), "sprags are counted from 1".to_owned());
+            out.refuse(
+                &[&key],
+                format!("1 to {count}, the number of sprags"),
+                "sprags are counted from 1".to_owned(),
+            );
         } else if sharing.sprags[..i].iter().any(|before| before.number == sprag.number) {
-            out.refuse(&[&key], "each sprag once".to_owned(), "put what is known of it into one entry".to_owned());
+            out.refuse(
+                &[&key],
+                "each sprag once".to_owned(),
+                "put what is known of it into one entry".to_owned(),
+            );
         }
         if sprag.ahead_deg.is_some_and(|ahead| ahead.abs() >= 0.5 * pitch_deg) {
             let key = format!("sharing.sprags[{i}].ahead_deg");
@@ -103,7 +111,11 @@ pub(super) fn si(file: &DesignFile, sharing: &SharingFile, out: &mut Findings) -
     }
     if sharing.azimuth_within_deg >= 0.5 * pitch_deg {
         let help = "sprags keep their order round the clutch".to_owned();
-        out.refuse(&["sharing.azimuth_within_deg"], format!("less than half a pitch, {:.4} deg", 0.5 * pitch_deg), help);
+        out.refuse(
+            &["sharing.azimuth_within_deg"],
+            format!("less than half a pitch, {:.4} deg", 0.5 * pitch_deg),
+            help,
+        );
     }
     let floats = sharing.bearing_stiffness_n_per_um == Some(0.0);
     if floats && file.races.eccentricity.as_ref().is_some_and(|e| e.turning) {

@@ -27,8 +27,8 @@ pub use overrun::{
 pub use row::{Demand, Margin, RESOLUTION, Rule};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
-pub use unlike::unlike_margins;
 pub use table::{CONTACT, END_OF_PROFILE, FILM, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
+pub use unlike::unlike_margins;
 
 use crate::clutch::Scenario;
 use crate::design::{Design, Limits};

@@ -49,7 +49,10 @@ pub fn unlike_margins(design: &Design, limits: &Limits, state: &LoadState, capac
             },
         };
         let over = |torque: f64| {
-            turn.at(torque).ok().and_then(|turned| worst(limit.of, &turned)).map_or(f64::NAN, |(value, _)| value - allowed)
+            turn.at(torque)
+                .ok()
+                .and_then(|turned| worst(limit.of, &turned))
+                .map_or(f64::NAN, |(value, _)| value - allowed)
         };
         let who = found.map_or("none carries".to_owned(), |(_, i)| format!("sprag {}", i + 1));
         rows.push(Margin {

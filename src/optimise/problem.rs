@@ -11,7 +11,8 @@ use crate::design::{
 };
 use crate::fidelity::{self, Effort};
 use crate::margin::{
-    Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows, unlike_margins,
+    Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
+    unlike_margins,
 };
 use crate::scenario::{AtRest, Settings, demand, demand_quickly};
 use std::sync::OnceLock;

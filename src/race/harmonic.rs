@@ -127,12 +127,18 @@ pub(super) fn response(m: f64, other: f64, poisson: f64) -> Option<[[f64; 2]; 2]
     // Traction on an outside is the stress, on a bore its reverse.
     let (pressed, sheared) = if other == 0.0 {
         let of = Matrix2::new(radial_free(m, m), radial_free(m + 2.0, m), m * (m - 1.0), m * (m + 1.0)).lu();
-        (of.solve(&Vector2::new(-1.0, 0.0))?.as_slice().to_vec(), of.solve(&Vector2::new(0.0, 1.0))?.as_slice().to_vec())
+        (
+            of.solve(&Vector2::new(-1.0, 0.0))?.as_slice().to_vec(),
+            of.solve(&Vector2::new(0.0, 1.0))?.as_slice().to_vec(),
+        )
     } else {
         let rows = tractions(m, other);
         let of = Matrix4::from_fn(|i, j| rows[i][j]).lu();
         let shear = Vector4::new(0.0, -sense, 0.0, 0.0);
-        (of.solve(&Vector4::new(-1.0, 0.0, 0.0, 0.0))?.as_slice().to_vec(), of.solve(&shear)?.as_slice().to_vec())
+        (
+            of.solve(&Vector4::new(-1.0, 0.0, 0.0, 0.0))?.as_slice().to_vec(),
+            of.solve(&shear)?.as_slice().to_vec(),
+        )
     };
     let ([up, vp], [ut, vt]) = (of(&pressed), of(&sheared));
     Some([[up, ut], [vp, vt]])

@@ -112,8 +112,8 @@ impl Unlike<'_> {
         let mut x = x.clone();
         let mut statics: Vec<Statics> = vec![self.statics().clone(); self.sprags.len()];
         let mut trial = self.trial(&mut statics, &x, case)?;
+        let mut steps = 0;
         for step in 0..STEPS {
-            trial.shared.steps = step;
             let off = trial.miss.amax();
             let Some(change) = self.jacobian(&trial, case).lu().solve(&trial.miss) else { break };
             // The last step is for the digits, and is taken where it helps.
@@ -123,10 +123,13 @@ impl Unlike<'_> {
             let next = loop {
                 let there = &x - &bounded * share;
                 // A trial in which nothing carries any more says not where to go.
-                let carries = |found: &Trial| found.shared.torque_nm > 0.0 || matches!(case.asked, Asked::Touch(_));
+                let carries =
+                    |found: &Trial| found.shared.torque_nm > 0.0 || matches!(case.asked, Asked::Touch(_));
                 match self.trial(&mut statics, &there, case).ok().filter(carries) {
                     // Sprags that come and go bend the rows: now and then a step is taken that gains nothing.
-                    Some(found) if found.miss.amax() < off || off > BALANCED && share > 0.9 && step % 8 == 5 => {
+                    Some(found)
+                        if found.miss.amax() < off || off > BALANCED && share > 0.9 && step % 8 == 5 =>
+                    {
                         break Some((there, found));
                     }
                     _ if share <= least => break None,
@@ -134,13 +137,13 @@ impl Unlike<'_> {
                 }
             };
             let Some((there, found)) = next else { break };
-            (x, trial) = (there, found);
+            (x, trial, steps) = (there, found, step + 1);
             if off < BALANCED {
                 break;
             }
         }
         match trial.miss.amax() < NEARLY {
-            true => Ok((x, trial.shared)),
+            true => Ok((x, Shared { steps, ..trial.shared })),
             false => Err(self.why_not(&trial)),
         }
     }
@@ -157,16 +160,20 @@ impl Unlike<'_> {
     fn why_not(&self, trial: &Trial) -> NotShared {
         let end = self.curve.end_windup_rad();
         let (worst, own) = trial.shared.worst(|l| l.own_rad);
-        match own > 0.9 * end {
-            true => NotShared::End(worst, self.curve.end().0),
-            false => NotShared::NoBalance,
+        let off =
+            trial.shared.loads.iter().position(|l| l.own_rad > 0.0 && !self.statics().on_profile(l.turn_rad));
+        match off {
+            Some(i) => NotShared::End(i, EndReason::OffProfile),
+            None if own > 0.9 * end => NotShared::End(worst, self.curve.end().0),
+            None => NotShared::NoBalance,
         }
     }
 
     /// A step that takes no sprag beyond 0.9 of its way to the end of the curve.
     fn bounded(&self, x: &DVector<f64>, change: &DVector<f64>) -> DVector<f64> {
         let end = self.curve.end_windup_rad();
-        let room = (0..self.sprags.len()).filter(|&i| change[i] < 0.0).map(|i| 0.9 * (end - x[i]) / -change[i]);
+        let room =
+            (0..self.sprags.len()).filter(|&i| change[i] < 0.0).map(|i| 0.9 * (end - x[i]) / -change[i]);
         change * room.fold(1.0, f64::min).max(0.0)
     }
 
@@ -208,21 +215,25 @@ impl Unlike<'_> {
         Ok((x, Scales { windup_rad, torque_nm, normal_n, shift_m: windup_rad * torque_nm / normal_n }))
     }
 
-    fn trial(
-        &self,
-        statics: &mut [Statics],
-        x: &DVector<f64>,
-        case: Case,
-    ) -> Result<Trial, NotShared> {
+    fn trial(&self, statics: &mut [Statics], x: &DVector<f64>, case: Case) -> Result<Trial, NotShared> {
         let Case { asked, turned_rad, scales, stiffness_n_per_m } = case;
         let n = self.sprags.len();
         let windup_rad = x[n];
-        let shift_m = if x.len() > n + 1 { [x[n + 1] * scales.shift_m, x[n + 2] * scales.shift_m] } else { [0.0; 2] };
+        let shift_m =
+            if x.len() > n + 1 { [x[n + 1] * scales.shift_m, x[n + 2] * scales.shift_m] } else { [0.0; 2] };
         let axis = self.axis_m(turned_rad);
         let axis_m = [axis[0] + shift_m[0], axis[1] + shift_m[1]];
         let none = vec![[0.0; 2]; n];
         let mut t = Trial {
-            shared: Shared { torque_nm: 0.0, windup_rad, turned_rad, shift_m, radial_n: [0.0; 2], loads: vec![Bears::default(); n], steps: 0 },
+            shared: Shared {
+                torque_nm: 0.0,
+                windup_rad,
+                turned_rad,
+                shift_m,
+                radial_n: [0.0; 2],
+                loads: vec![Bears::default(); n],
+                steps: 0,
+            },
             miss: DVector::zeros(x.len()),
             stiffness: vec![0.0; n],
             follow: vec![[0.0; 3]; n],
@@ -259,7 +270,9 @@ impl Unlike<'_> {
             let load = &mut t.shared.loads[i];
             let b = statics[i].borne(load.normal_inner_n).ok_or(NotShared::NoBalance)?;
             let (c, Some(alike)) = (b.closure, &alike[i]) else { continue };
-            t.miss[i] = (load.own_rad + b.rolled.v - alike.rolled.v - windup_rad - self.start_rad[i] - along_rad) / scales.windup_rad;
+            t.miss[i] =
+                (load.own_rad + b.rolled.v - alike.rolled.v - windup_rad - self.start_rad[i] - along_rad)
+                    / scales.windup_rad;
             // The strut keeps its length: what parts the tracks along it is made up by windup (`wedge::off_centre`).
             let omega = (c.t_bi.v / c.n_bi).atan();
             let nu = omega - c.beta.v;
@@ -355,13 +368,18 @@ impl Unlike<'_> {
                 let (inner, outer) = (&self.bending[0].matrix[i][j], &self.bending[1].matrix[i][j]);
                 let [n_e, t_i, t_e] = t.follow[j];
                 let recede = [inner[0][0] + inner[0][1] * t_i, outer[0][0] * n_e - outer[0][1] * t_e];
-                let along = (outer[1][0] * n_e - outer[1][1] * t_e) / r_e - (inner[1][0] + inner[1][1] * t_i) / r_i;
+                let along =
+                    (outer[1][0] * n_e - outer[1][1] * t_e) / r_e - (inner[1][0] + inner[1][1] * t_i) / r_i;
                 let by_force = t.opens[i][0] * recede[0] + t.opens[i][1] * recede[1] - along;
                 slopes[(i, j)] = by_force * t.stiffness[j] / scales.windup_rad;
             }
             slopes[(i, i)] += (1.0 + t.stray[i] * t.stiffness[i]) / scales.windup_rad;
             slopes[(i, n)] = -1.0 / scales.windup_rad;
-            let rows = [t.rises[i][0] / scales.torque_nm, t.rises[i][1] / scales.normal_n, t.rises[i][2] / scales.normal_n];
+            let rows = [
+                t.rises[i][0] / scales.torque_nm,
+                t.rises[i][1] / scales.normal_n,
+                t.rises[i][2] / scales.normal_n,
+            ];
             slopes[(n, i)] = rows[0] * t.stiffness[i];
             for k in 0..size - n - 1 {
                 slopes[(i, n + 1 + k)] = t.shifts[i][k] * scales.shift_m / scales.windup_rad;

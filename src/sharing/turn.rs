@@ -26,7 +26,11 @@ impl<'a> Turn<'a> {
         let turns_on = clutch.races.eccentricity.is_some_and(|e| e.turning);
         let place = |k: usize| {
             let phase = TAU * k as f64 / count as f64;
-            if turns_on || k == 0 { (first.clone(), phase) } else { (first.engaged_at(sharing.start, phase), 0.0) }
+            if turns_on || k == 0 {
+                (first.clone(), phase)
+            } else {
+                (first.engaged_at(sharing.start, phase), 0.0)
+            }
         };
         Self { places: (0..count).map(place).collect() }
     }
@@ -41,7 +45,10 @@ impl<'a> Turn<'a> {
     /// # Errors
     /// The [`NotShared`] of the first place that does not carry it.
     pub fn at(&self, torque_nm: f64) -> Result<Vec<Shared>, NotShared> {
-        self.places.iter().map(|(clutch, turned)| clutch.carrying(Asked::Torque(torque_nm), *turned)).collect()
+        self.places
+            .iter()
+            .map(|(clutch, turned)| clutch.carrying(Asked::Torque(torque_nm), *turned))
+            .collect()
     }
 
     /// Torque, N m, up to `beyond_nm` that is carried at every place, to 1e-7 of that, and what ends it; `None`: all of it.
