@@ -2,7 +2,7 @@
 
 use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, Sharing, Standing};
 use sprag_design::race::Race;
-use sprag_design::wedge::Apart;
+use sprag_design::wedge::SpragDeviation;
 
 use sprag_design::sharing::{Asked, Shared, Unlike};
 use sprag_design::{Clutch, Design, Material, WedgeCurve};
@@ -111,7 +111,7 @@ fn a_sprag_apart_winds_up_as_its_own_curve_says() {
         for offset_m in [[10e-6, 0.0], [-20e-6, 15e-6], [0.0, 40e-6]] {
             let own = WedgeCurve::build_off_centre(&clutch, &profile, offset_m, carrier).unwrap();
             let mut statics = alike.statics().clone();
-            statics.set_apart(Apart { offset_m, carrier, ..Apart::default() });
+            statics.set_apart(SpragDeviation { offset_m, carrier, ..SpragDeviation::default() });
             let g = |n: f64| statics.borne(n).unwrap().rolled.v - alike.statics().borne(n).unwrap().rolled.v;
             for n in [10.0, 500.0, 3000.0] {
                 let exact = own.at_normal(n).unwrap().windup_rad;

@@ -19,7 +19,7 @@ const HARMONICS: usize = 600;
 
 /// What forces on the track of one race do to it elsewhere; plane stress in the constants of its material.
 #[derive(Debug, Clone)]
-pub struct Influence {
+pub struct RingInfluence {
     /// Growth of the mean radius, away from the contacts, m/N.
     mean_m_per_n: f64,
     /// 1/(pi w E), m/N.
@@ -31,9 +31,9 @@ pub struct Influence {
 
 impl Race {
     /// Its influence.
-    pub fn influence(&self) -> Influence {
+    pub fn influence(&self) -> RingInfluence {
         let (other, nu) = (self.other_rim_m() / self.track_m(), self.material().poisson_ratio);
-        Influence {
+        RingInfluence {
             mean_m_per_n: self.compliance_m_per_n(1),
             per_n: 1.0 / (PI * self.width_m() * self.material().youngs_modulus_pa),
             poisson: nu,
@@ -42,7 +42,7 @@ impl Race {
     }
 }
 
-impl Influence {
+impl RingInfluence {
     /// Displacement of the track ahead by `angle_rad` (no multiple of 2 pi) of a force on it, m/N. Rows: radially away from the
     /// contacts, along the track in the positive sense; columns: of a normal force, of a force along the track.
     pub fn at(&self, angle_rad: f64) -> [[f64; 2]; 2] {

@@ -13,6 +13,6 @@ mod ring;
 mod shooting;
 
 pub use body::body_compliance_m_per_n;
-pub use influence::Influence;
+pub use influence::RingInfluence;
 pub use press_fit::PressFit;
 pub use ring::{Race, RaceError};

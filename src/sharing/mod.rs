@@ -20,7 +20,7 @@
 //!   u_i = sum_{j != i} G(theta_i - theta_j) N_j - N_i sum_{j != 0} G(j 2 pi/n)
 //!
 //! has no G(0) any more: what a sprag does to itself stays with the law, what it has from its neighbours is theirs. Forces along
-//! the tracks go the same way. G is [`crate::race::Influence`], which leaves motion of the race as a whole (its axis) to the shift.
+//! the tracks go the same way. G is [`crate::race::RingInfluence`], which leaves motion of the race as a whole (its axis) to the shift.
 //!
 //! Newton in (y, W, shift): dN/dy falls to 0 where a sprag comes off, so the set of sprags in contact follows from the signs of y.
 
@@ -36,8 +36,8 @@ pub use newton::{Asked, NotShared};
 pub use turn::Turn;
 
 use crate::clutch::{Carrier, Clutch, Sharing, Standing};
-use crate::race::Influence;
-use crate::wedge::{Apart, FIRST_CONTACT_N, Statics, WedgeCurve};
+use crate::race::RingInfluence;
+use crate::wedge::{SpragDeviation, FIRST_CONTACT_N, Statics, WedgeCurve};
 use std::f64::consts::TAU;
 
 /// A clutch of unlike sprags.
@@ -91,16 +91,16 @@ impl Idle {
     }
 }
 
-/// Influence of each sprag on each place of one race, less what the law of even sprags has; m/N.
+/// RingInfluence of each sprag on each place of one race, less what the law of even sprags has; m/N.
 #[derive(Debug, Clone)]
 struct Bending {
-    influence: Influence,
-    /// By place and sprag: rows and columns of [`Influence::at`].
+    influence: RingInfluence,
+    /// By place and sprag: rows and columns of [`RingInfluence::at`].
     matrix: Vec<Vec<[[f64; 2]; 2]>>,
 }
 
 impl Bending {
-    fn new(influence: Influence, azimuths: &[f64]) -> Self {
+    fn new(influence: RingInfluence, azimuths: &[f64]) -> Self {
         let n = azimuths.len();
         let mut law = [[0.0; 2]; 2];
         for k in 1..n {
@@ -273,7 +273,7 @@ impl<'a> Unlike<'a> {
         }
         let mut touch = |size_m: f64, off: bool| {
             let offset_m = if off { self.offset_at(i, axis_m) } else { [0.0; 2] };
-            statics.set_apart(Apart { size_m, offset_m, carrier: self.carrier, ..Apart::default() });
+            statics.set_apart(SpragDeviation { size_m, offset_m, carrier: self.carrier, ..SpragDeviation::default() });
             statics.borne(FIRST_CONTACT_N)
         };
         let own = touch(sprag.size_m, true);

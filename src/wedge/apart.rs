@@ -13,7 +13,7 @@ use crate::numeric::dual::Dual;
 
 /// What sets one sprag apart; all 0: nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Apart {
+pub struct SpragDeviation {
     /// How much more the sprag measures across its contacts, m: half of it at each.
     pub size_m: f64,
     /// How much the inner track recedes from the gap at its place, beside what the law of even sprags has, m.
@@ -46,7 +46,7 @@ pub struct Borne {
 
 impl Statics {
     /// Set what sets the sprag apart.
-    pub fn set_apart(&mut self, apart: Apart) {
+    pub fn set_apart(&mut self, apart: SpragDeviation) {
         (self.offset_m, self.carrier) = (apart.offset_m, apart.carrier);
         self.opened_m = [apart.inner_m, apart.outer_m, -apart.size_m];
     }
