@@ -292,7 +292,11 @@ impl<'a> SharingAnswer<'a> {
                 significant(self.sprags[i].sprag.friction, 3)
             );
         } else if let Some(count) = self.may_be_lost().filter(|_| self.held()) {
-            said += &format!("; the {count} most pressed may fail, one after another");
+            said += &match count {
+                0 => "; none may fail".to_owned(),
+                1 => "; the most pressed one may fail".to_owned(),
+                _ => format!("; the {count} most pressed may fail, one after another"),
+            };
         }
         said
     }

@@ -37,7 +37,7 @@ pub use turn::Turn;
 
 use crate::clutch::{Carrier, Clutch, Sharing, Standing};
 use crate::race::RingInfluence;
-use crate::wedge::{SpragDeviation, FIRST_CONTACT_N, Statics, WedgeCurve};
+use crate::wedge::{FIRST_CONTACT_N, SpragDeviation, Statics, WedgeCurve};
 use std::f64::consts::TAU;
 
 /// A clutch of unlike sprags.
@@ -273,7 +273,12 @@ impl<'a> Unlike<'a> {
         }
         let mut touch = |size_m: f64, off: bool| {
             let offset_m = if off { self.offset_at(i, axis_m) } else { [0.0; 2] };
-            statics.set_apart(SpragDeviation { size_m, offset_m, carrier: self.carrier, ..SpragDeviation::default() });
+            statics.set_apart(SpragDeviation {
+                size_m,
+                offset_m,
+                carrier: self.carrier,
+                ..SpragDeviation::default()
+            });
             statics.borne(FIRST_CONTACT_N)
         };
         let own = touch(sprag.size_m, true);

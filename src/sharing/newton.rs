@@ -3,7 +3,7 @@
 use super::{Bears, Shared, Unlike, rotated};
 use crate::clutch::Carrier;
 use crate::numeric::root;
-use crate::wedge::{SpragDeviation, EndReason, Statics};
+use crate::wedge::{EndReason, SpragDeviation, Statics};
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of Newton's method: it needs 4 to 12, more where many sprags come off.
@@ -266,7 +266,13 @@ impl Unlike<'_> {
             let ([inner_m, outer_m], along_rad) = given[i];
             let offset_m = self.offset_at(i, axis_m);
             let size_m = self.sprags[i].size_m;
-            statics[i].set_apart(SpragDeviation { size_m, inner_m, outer_m, offset_m, carrier: self.carrier });
+            statics[i].set_apart(SpragDeviation {
+                size_m,
+                inner_m,
+                outer_m,
+                offset_m,
+                carrier: self.carrier,
+            });
             let load = &mut t.shared.loads[i];
             let b = statics[i].borne(load.normal_inner_n).ok_or(NotShared::NoBalance)?;
             let (c, Some(alike)) = (b.closure, &alike[i]) else { continue };

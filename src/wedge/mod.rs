@@ -22,7 +22,7 @@ mod stiffness;
 mod table;
 
 pub use crate::contact::{Edge, Peak};
-pub use apart::{SpragDeviation, Borne};
+pub use apart::{Borne, SpragDeviation};
 pub use axial::{Along, Lengthwise, Side, along, asks_for_slices, even_load_error};
 pub use build::Effort;
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
