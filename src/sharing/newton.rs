@@ -317,8 +317,8 @@ impl Unlike<'_> {
             Asked::Torque(wanted) => (t.shared.torque_nm - wanted) / scales.torque_nm,
             Asked::Touch(i) => x[i] / scales.windup_rad,
         };
-        for k in 0..x.len() - n - 1 {
-            t.miss[n + 1 + k] = (t.shared.radial_n[k] - stiffness_n_per_m * shift_m[k]) / scales.normal_n;
+        for (k, shift_m) in shift_m.iter().enumerate().take(x.len() - n - 1) {
+            t.miss[n + 1 + k] = (t.shared.radial_n[k] - stiffness_n_per_m * shift_m) / scales.normal_n;
         }
         match t.miss.iter().all(|m| m.is_finite()) {
             true => Ok(t),
