@@ -25,6 +25,7 @@
 //! | 2 | [`friction`] | coefficient over speed, dry and on a film |
 //! | 3 | [`wedge`] | the only static iteration: the curve N(alpha) of one design at one speed |
 //! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |
+//! | 4 | [`sharing`] | sprags one by one: what each carries where they are unlike, races bend, run out and give way |
 //! | 4 | [`scenario`] | a named scene in, history and verdict out |
 //! | 4 | [`element`] | a clutch between two flanges, step by step under torques or at speeds from outside |
 //! | 4 | [`fidelity`] | what a scene can leave out, and what that costs |
@@ -132,6 +133,7 @@ pub mod reengage;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod scenario;
+pub mod sharing;
 pub mod size;
 #[cfg(feature = "report")]
 pub mod studio;

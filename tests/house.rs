@@ -26,6 +26,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("friction", &["numeric", "lubrication", "clutch"]),
     ("wedge", &["numeric", "material", "profile", "clutch", "kinematics", "contact", "race"]),
     ("dynamics", &["follow", "numeric", "ode", "clutch", "kinematics", "friction", "wedge"]),
+    // Unlike sprags between the races of one clutch, on its curve.
+    ("sharing", &["numeric", "race", "clutch", "wedge"]),
     // A scenario may be given another friction law, so it names that law.
     // What slides on a film is at the temperature of its heat balance.
     ("scenario", &["follow", "numeric", "lubrication", "clutch", "profile", "friction", "wedge", "dynamics"]),
@@ -36,6 +38,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "margin",
         &[
+            "sharing",
             "numeric",
             "contact",
             "race",
@@ -86,6 +89,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "fidelity",
             "accuracy",
             "margin",
+            "sharing",
             "life",
             "element",
             "reengage",

@@ -28,7 +28,7 @@ impl LeftOut {
 pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
     let mut list = vec![
         LeftOut::new(
-            "sprags that wedge one after another",
+            TOGETHER,
             "all sprags are taken to wedge simultaneously (assumption of the paper)",
             "not estimated",
         ),
@@ -91,6 +91,12 @@ pub fn off_centre(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
     kept.chain(instead.iter().cloned()).collect()
 }
 
+/// The same where every sprag was looked at by itself: `instead` of all three assumptions of the paper.
+pub fn one_by_one(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
+    off_centre(list.into_iter().filter(|e| e.term != TOGETHER).collect(), instead)
+}
+
+const TOGETHER: &str = "sprags that wedge one after another";
 const UNEQUAL: &str = "unequal sharing of the load between the sprags";
 const ECCENTRIC: &str = "eccentric and tilted races";
 

@@ -23,6 +23,7 @@ pub mod page;
 pub mod reengagement;
 pub mod resonance;
 pub mod search;
+pub mod sharing;
 pub mod simulation;
 pub mod sizing;
 pub mod steels;

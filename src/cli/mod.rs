@@ -36,6 +36,7 @@ pub mod reengage;
 pub mod resonance;
 pub mod sample;
 pub mod schema;
+pub mod sharing;
 pub mod sheet;
 pub mod simulate;
 pub mod size;
@@ -113,6 +114,8 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     /// Life under repeated loads: pitting, fatigue of the races, indentation, slip by chance
     Life(life::LifeArgs),
+    /// Sprags one by one: what each carries where they are unlike, races bend, run out and give way
+    Sharing(sharing::SharingArgs),
     /// Slip under load, and the blow when the clutch grips again
     Reengage(reengage::ReengageArgs),
     /// Periodic states of a torsional excitation: one, or a map over frequency and amplitude
@@ -333,6 +336,7 @@ fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
         Command::Stiffness(args) => stiffness::run(&args, &context),
         Command::Simulate(args) => simulate::run(&args, &context),
         Command::Life(args) => life::run(&args, &context),
+        Command::Sharing(args) => sharing::run(&args, &context),
         Command::Reengage(args) => reengage::run(&args, &context),
         Command::Resonance(args) => resonance::run(&args, &context),
         Command::Overrun(args) => overrun::run(&args, &context),
@@ -388,6 +392,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Stiffness(_) => "stiffness",
         Command::Simulate(_) => "simulate",
         Command::Life(_) => "life",
+        Command::Sharing(_) => "sharing",
         Command::Reengage(_) => "reengage",
         Command::Resonance(_) => "resonance",
         Command::Overrun(_) => "overrun",

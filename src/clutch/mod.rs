@@ -10,6 +10,7 @@ mod lubrication;
 mod question;
 mod running;
 mod service;
+mod sharing;
 mod tolerances;
 
 pub use drivetrain::{DriveInertia, DriveTorque, GasTorque, MOST_SHAFTS, Shaft, Towards};
@@ -19,6 +20,7 @@ pub use lubrication::{Lubrication, SlipCase};
 pub use question::{Phrase, Scenario, ScenarioKind, Start};
 pub use running::{Fits, Joint, NotRunning, Running, TrackRun};
 pub use service::{PittingStrength, RepeatedHistory, RepeatedLoad, RingStrength, Service};
+pub use sharing::{GivenSprag, Sharing, Standing};
 pub use tolerances::Tolerances;
 
 use crate::material::Material;

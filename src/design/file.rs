@@ -10,6 +10,7 @@ use super::life_file::LifeFile;
 use super::limits::LimitsFile;
 use super::lubrication_file::LubricationFile;
 use super::scenario_file::ScenarioFile;
+use super::sharing_file::SharingFile;
 use super::task_file::{CheckFile, OptimizeFile};
 use super::tolerances_file::TolerancesFile;
 use schemars::JsonSchema;
@@ -51,6 +52,8 @@ pub(super) struct DesignFile {
     pub check: CheckFile,
     /// What the clutch goes through in its life, and what its bodies bear; absent: `life` has nothing to do.
     pub life: Option<LifeFile>,
+    /// Sprags one by one, their deviations drawn or given; absent: all alike.
+    pub sharing: Option<SharingFile>,
     /// Scenarios, each with a unique name.
     #[serde(default)]
     pub scenarios: Vec<ScenarioFile>,

@@ -31,6 +31,7 @@ mod scenario_file;
 mod scenarios;
 mod set;
 mod shape;
+mod sharing_file;
 mod steels;
 mod task;
 mod task_file;
@@ -54,7 +55,7 @@ pub use shape::{allowed, keys_of, nearest, schema, shape_of};
 pub use steels::beside_the_name;
 pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
 
-use crate::clutch::{Clutch, Scenario, Service, Tolerances};
+use crate::clutch::{Clutch, Scenario, Service, Sharing, Tolerances};
 
 /// A checked clutch design. Built only by reading a file; never changed afterwards.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +76,8 @@ pub struct Design {
     pub tolerances: Option<Tolerances>,
     /// What it goes through in its life, if the file says.
     pub service: Option<Service>,
+    /// What sets its sprags apart, if the file says; all alike otherwise.
+    pub sharing: Option<Sharing>,
     /// SHA-256 (hex) of the file's text and of the histories that it names.
     pub hash: String,
     /// The file's text, kept for reports and for `optimize` to edit.

@@ -17,7 +17,7 @@ use super::history;
 use super::open;
 use super::set::with_setting;
 use super::tolerances_file::TolerancesFile;
-use super::{Design, Limits, check, life_file, scenarios, shape, task};
+use super::{Design, Limits, check, life_file, scenarios, shape, sharing_file, task};
 
 const WHAT: &str = "a text file (UTF-8, TOML) that holds a clutch design";
 
@@ -145,6 +145,7 @@ impl Design {
         };
         let scenarios = scenarios::scenarios(&file, &document, clutch.as_ref(), &mut load, &mut out);
         let service = file.life.as_ref().map(|life| life_file::service(life, &mut load, &mut out));
+        let sharing = file.sharing.as_ref().map(|sharing| sharing_file::si(&file, sharing, &mut out));
         let check_scenarios = task::check_scenarios(&file, &mut out);
         let optimize = file.optimize.as_ref().map(|t| task::optimize(&file, t, limits, &mut out));
         if let (true, Some(error)) = (out.problems.is_empty(), refused) {
@@ -160,6 +161,7 @@ impl Design {
                 optimize,
                 tolerances: file.tolerances.as_ref().map(TolerancesFile::si),
                 service: service.flatten(),
+                sharing,
                 hash: hash(source, texts.values()),
                 source: source.to_owned(),
                 folder: folder.to_owned(),

@@ -31,13 +31,15 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
 
 /// Tables besides whose numbers have their unit here; those of `[limits]` have it in [`LIMIT_KEYS`](super::LIMIT_KEYS).
 #[cfg(test)]
-const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal", "lubrication"];
+const OTHER_TABLES: &[&str] = &["drivetrain", "scenarios", "thermal", "lubrication", "sharing"];
 
 /// Unit of every number in these tables by the last step of its path, as printed; a pure number has none.
 const UNITS: &[(&str, &str)] = &[
     ("abutment_stiffness_nm_per_rad", "Nm/rad"),
+    ("ahead_deg", "deg"),
     ("amplitude_nm", "Nm"),
     ("axial_offset_mm", "mm"),
+    ("azimuth_within_deg", "deg"),
     ("bearing_stiffness_n_per_um", "N/um"),
     ("bench_inertia_kg_m2", "kg m^2"),
     ("bore_mm", "mm"),
@@ -59,8 +61,12 @@ const UNITS: &[(&str, &str)] = &[
     ("expansion_um_per_m_k", "um/(m K)"),
     ("free_run_rpm", "rpm"),
     ("frequency_hz", "Hz"),
+    ("friction", ""),
+    ("friction_within", ""),
     ("front_mm", "mm"),
     ("front_tilt_rad", "rad"),
+    ("gap_um", "um"),
+    ("gap_up_to_um", "um"),
     ("housing_outside_radius_mm", "mm"),
     ("hunt_crossley_s_per_m", "s/m"),
     ("inertia_kg_m2", "kg m^2"),
@@ -78,6 +84,7 @@ const UNITS: &[(&str, &str)] = &[
     ("mean_pressure_mpa", "MPa"),
     ("nu100_mm2_s", "mm^2/s"),
     ("nu40_mm2_s", "mm^2/s"),
+    ("number", ""),
     ("offset_mm", "mm"),
     ("order", ""),
     ("outer_inertia_kg_m2", "kg m^2"),
@@ -102,7 +109,10 @@ const UNITS: &[(&str, &str)] = &[
     ("reversing_torque_nm", "Nm"),
     ("rod_ratio", ""),
     ("roller_coefficient", ""),
+    ("seed", ""),
     ("shaft_bore_radius_mm", "mm"),
+    ("size_um", "um"),
+    ("size_within_um", "um"),
     ("slices", ""),
     ("speed_m_s", "m/s"),
     ("speed_rpm", "rpm"),

@@ -74,6 +74,9 @@ pub(super) enum Of {
     // run_out/rows.rs
     RunOutEnd,
     RunOutShare,
+    // unlike.rs
+    UnlikePressure,
+    UnlikeFriction,
     // rooms of the flanks (`optimise`)
     Room,
 }

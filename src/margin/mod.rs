@@ -15,6 +15,7 @@ mod scenes;
 mod sprag;
 mod subsurface;
 mod table;
+mod unlike;
 
 pub use capacity::{DemandCourse, courses, nominal_capacity};
 pub use hoop::{ring_places_pa, rings_pa};
@@ -27,6 +28,7 @@ pub use row::{Demand, Margin, RESOLUTION, Rule};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
 pub use table::{CONTACT, END_OF_PROFILE, FILM, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
+pub use unlike::unlike_margins;
 
 use crate::clutch::Scenario;
 use crate::design::{Design, Limits};
@@ -85,6 +87,7 @@ pub fn static_margins(
     if let Some(ring) = &ring {
         rows.extend(run_out_margins(design, &design.limits, ring, capacities));
     }
+    rows.extend(unlike_margins(design, &design.limits, &state, capacities));
     Ok((state, rows, ring))
 }
 

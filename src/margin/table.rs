@@ -25,6 +25,10 @@ const PRESSURE: Limit = Limit {
     of: Of::Room,
 };
 
+const UNLIKE_PRESSURE: &str = "Largest pressure p_0 in a contact of any sprag where the table sharing sets them apart: sizes, gaps and places drawn or \
+                               given, races that bend, run out and give way, over a turn of the races. Closer tolerances, more or softer \
+                               sprags, stiffer races lower it.";
+
 const HOOP: Limit = Limit {
     when: When::Peak,
     explanation: "Hoop stress of the race as a ring under the sprags' mean pressure (Lame), at its bore and track; a fit adds \
@@ -418,6 +422,35 @@ pub static LIMITS: &[&Limit] = &[
                       pressure would meet the Hertz limit (p_0^2 ~ N). Less eccentricity lowers it. Shown only.",
         of: Of::RunOutShare,
         ..GRIP
+    },
+    &Limit {
+        code: "sprag-hertz-nominal",
+        name: |_| "largest Hertz pressure of unlike sprags, nominal torque",
+        explanation: UNLIKE_PRESSURE,
+        of: Of::UnlikePressure,
+        ..PRESSURE
+    },
+    &Limit {
+        code: "sprag-hertz-peak",
+        key: Some("hertz_peak_mpa"),
+        name: |_| "largest Hertz pressure of unlike sprags, peak torque",
+        when: When::Peak,
+        explanation: UNLIKE_PRESSURE,
+        of: Of::UnlikePressure,
+        ..PRESSURE
+    },
+    &Limit {
+        code: "sprag-grip",
+        key: None,
+        name: |_| "largest share of its static friction that one of unlike sprags needs, peak torque",
+        unit: "1",
+        per_si: 1.0,
+        when: When::Peak,
+        explanation: "Friction that a sprag needs, tangential over normal force at its worse contact, over the static friction that it \
+                      has, the largest of all sprags of the table sharing; one that does not hold even at its touch carries nothing and \
+                      is not counted. A smaller wedge angle, or less spread of friction and size, lowers it.",
+        of: Of::UnlikeFriction,
+        ..PRESSURE
     },
     &Limit { code: "flank-rear-inside", ..ROOM },
     &Limit { code: "flank-rear-outside", ..ROOM },

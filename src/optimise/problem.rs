@@ -12,6 +12,7 @@ use crate::design::{
 use crate::fidelity::{self, Effort};
 use crate::margin::{
     Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
+    unlike_margins,
 };
 use crate::scenario::{AtRest, Settings, demand, demand_quickly};
 use std::sync::OnceLock;
@@ -342,7 +343,8 @@ impl ClutchProblem {
             let off_centre = RunOut::new(design, &state)
                 .map(|ring| run_out_margins(design, &self.limits, &ring, false))
                 .unwrap_or_default();
-            rows.extend(off_centre.into_iter().filter(|m| m.required));
+            let unlike = unlike_margins(design, &self.limits, &state, false);
+            rows.extend(off_centre.into_iter().chain(unlike).filter(|m| m.required));
         }
         Ok(Assessment { rows, measures: measures_of_goals })
     }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 
 use super::ring::Race;
 use crate::material::PlaneState;
@@ -44,23 +44,15 @@ enum OtherRim {
 }
 
 fn harmonic_with(m: f64, other: f64, poisson: f64, plane: PlaneState, rim: OtherRim) -> Option<Harmonic> {
-    let exponents = [m, m + 2.0, -m, 2.0 - m];
-    // Each term is scaled to 1 at the rim where it is largest, so that large m stays regular.
-    let scale = |k: f64, s: f64, power: f64| {
-        let rim = if k > 0.0 { other.max(1.0) } else { other.min(1.0) };
-        // s^power / rim^k
-        (power * s.ln() - k * rim.ln()).exp()
-    };
+    let exponents = exponents(m);
     let kappa = plane.kolosov(poisson);
-    let radial = |k: f64, s: f64| (k - m * m) * scale(k, s, k - 2.0);
-    let shear = |k: f64, s: f64| m * (k - 1.0) * scale(k, s, k - 2.0);
-    let hoop = |k: f64, s: f64| k * (k - 1.0) * scale(k, s, k - 2.0);
+    let hoop = |k: f64, s: f64| k * (k - 1.0) * scale(other, k, s, k - 2.0);
     // 2 mu u_r of each term.
-    let lift = [-m, kappa - m - 1.0, m, kappa + m - 1.0];
+    let lift = lifts(m, kappa);
     let half_plane = plane.half_plane_ratio(poisson) / m;
     let report = |x: &[f64], terms: &[usize]| {
         let sum = |f: &dyn Fn(usize) -> f64| terms.iter().zip(x).map(|(&i, x)| x * f(i)).sum::<f64>();
-        let outward = sum(&|i| lift[i] * scale(exponents[i], 1.0, exponents[i] - 1.0));
+        let outward = sum(&|i| lift[i] * scale(other, exponents[i], 1.0, exponents[i] - 1.0));
         Harmonic {
             // Pressure pushes the rim away from the gap: outward for a bore, inward for an outside.
             displacement_ratio: if other > 1.0 { outward } else { -outward } / half_plane,
@@ -78,22 +70,78 @@ fn harmonic_with(m: f64, other: f64, poisson: f64, plane: PlaneState, rim: Other
         let hoop_loaded = x[0] * m * (m - 1.0) + x[1] * (m + 2.0) * (m + 1.0);
         return Some(Harmonic { displacement_ratio: -outward / half_plane, hoop_loaded, hoop_other: 0.0 });
     }
-    let row = |f: &dyn Fn(f64) -> f64| exponents.map(f);
-    let rows = [
-        row(&|k| radial(k, 1.0)),
-        row(&|k| shear(k, 1.0)),
-        match rim {
-            OtherRim::Free => row(&|k| radial(k, other)),
-            #[cfg(test)]
-            OtherRim::Circular => {
-                [0, 1, 2, 3].map(|i| lift[i] * scale(exponents[i], other, exponents[i] - 1.0))
-            }
-        },
-        row(&|k| shear(k, other)),
-    ];
+    #[cfg_attr(not(test), expect(unused_mut, reason = "the other rim is held in tests alone"))]
+    let mut rows = tractions(m, other);
+    match rim {
+        OtherRim::Free => {}
+        #[cfg(test)]
+        OtherRim::Circular => {
+            rows[2] = [0, 1, 2, 3].map(|i| lift[i] * scale(other, exponents[i], other, exponents[i] - 1.0));
+        }
+    }
     let matrix = Matrix4::from_fn(|i, j| rows[i][j]);
     let x = matrix.lu().solve(&Vector4::new(-1.0, 0.0, 0.0, 0.0))?;
     Some(report(x.as_slice(), &[0, 1, 2, 3]))
+}
+
+fn exponents(m: f64) -> [f64; 4] {
+    [m, m + 2.0, -m, 2.0 - m]
+}
+
+/// s^power/rim^k: each term is scaled to 1 at the rim where it is largest, so that large m stays regular.
+fn scale(other: f64, k: f64, s: f64, power: f64) -> f64 {
+    let rim = if k > 0.0 { other.max(1.0) } else { other.min(1.0) };
+    (power * s.ln() - k * rim.ln()).exp()
+}
+
+/// 2 mu u_r of each term over cos(m theta).
+fn lifts(m: f64, kappa: f64) -> [f64; 4] {
+    [-m, kappa - m - 1.0, m, kappa + m - 1.0]
+}
+
+/// 2 mu u_theta of each term over sin(m theta).
+fn drifts(m: f64, kappa: f64) -> [f64; 4] {
+    [m, kappa + m + 1.0, m, m - kappa - 1.0]
+}
+
+/// Radial stress over cos(m theta) and shear over sin(m theta) of each term: at the track, at the other rim.
+fn tractions(m: f64, other: f64) -> [[f64; 4]; 4] {
+    let radial = |s: f64| exponents(m).map(|k| (k - m * m) * scale(other, k, s, k - 2.0));
+    let shear = |s: f64| exponents(m).map(|k| m * (k - 1.0) * scale(other, k, s, k - 2.0));
+    [radial(1.0), shear(1.0), radial(other), shear(other)]
+}
+
+/// Displacements of the track under pressure cos(m theta) and under shear sin(m theta) on it in the positive sense, other rim
+/// free; unit radius, unit modulus, plane stress. Rows: away from the load over cos(m theta), along the track over sin(m theta).
+pub(super) fn response(m: f64, other: f64, poisson: f64) -> Option<[[f64; 2]; 2]> {
+    let plane = PlaneState::Stress;
+    let kappa = plane.kolosov(poisson);
+    // u = (1 + nu)/E times 2 mu u; a bore is seen from within.
+    let (per_e, sense) = (1.0 + poisson, if other > 1.0 { 1.0 } else { -1.0 });
+    let at_track = |i: usize| scale(other, exponents(m)[i], 1.0, exponents(m)[i] - 1.0);
+    let (lift, drift) = (lifts(m, kappa), drifts(m, kappa));
+    let of = |x: &[f64]| {
+        let sum = |by: &[f64; 4]| x.iter().enumerate().map(|(i, x)| x * by[i] * at_track(i)).sum::<f64>();
+        [per_e * sense * sum(&lift), per_e * sum(&drift)]
+    };
+    // Traction on an outside is the stress, on a bore its reverse.
+    let (pressed, sheared) = if other == 0.0 {
+        let of = Matrix2::new(radial_free(m, m), radial_free(m + 2.0, m), m * (m - 1.0), m * (m + 1.0)).lu();
+        (
+            of.solve(&Vector2::new(-1.0, 0.0))?.as_slice().to_vec(),
+            of.solve(&Vector2::new(0.0, 1.0))?.as_slice().to_vec(),
+        )
+    } else {
+        let rows = tractions(m, other);
+        let of = Matrix4::from_fn(|i, j| rows[i][j]).lu();
+        let shear = Vector4::new(0.0, -sense, 0.0, 0.0);
+        (
+            of.solve(&Vector4::new(-1.0, 0.0, 0.0, 0.0))?.as_slice().to_vec(),
+            of.solve(&shear)?.as_slice().to_vec(),
+        )
+    };
+    let ([up, vp], [ut, vt]) = (of(&pressed), of(&sheared));
+    Some([[up, ut], [vp, vt]])
 }
 
 fn radial_free(k: f64, m: f64) -> f64 {

@@ -6,11 +6,13 @@
 
 mod body;
 mod harmonic;
+mod influence;
 mod press_fit;
 mod ring;
 #[cfg(test)]
 mod shooting;
 
 pub use body::body_compliance_m_per_n;
+pub use influence::RingInfluence;
 pub use press_fit::PressFit;
 pub use ring::{Race, RaceError};

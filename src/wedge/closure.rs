@@ -138,6 +138,8 @@ pub struct Statics {
     pub(super) offset_m: [f64; 2],
     /// The race that this stays with.
     pub(super) carrier: Carrier,
+    /// What opens the gap at this sprag beside the law: inner track, outer track, and what it lacks in size, m.
+    pub(super) opened_m: [f64; 3],
     pub(super) radii: Radii,
     centroid_m: [f64; 2],
     mass_kg: f64,
@@ -161,6 +163,7 @@ impl Statics {
             effort: Effort::Full,
             offset_m: [0.0; 2],
             carrier: Carrier::default(),
+            opened_m: [0.0; 3],
             elastic: Elastic::new(clutch)?,
             radii: Radii {
                 inner_race_m: r.inner_radius_m,
@@ -188,6 +191,17 @@ impl Statics {
     /// Centroid of the body frame, m.
     pub fn centroid_m(&self) -> [f64; 2] {
         self.centroid_m
+    }
+
+    /// With what opens the gap at this sprag alone.
+    fn opened(&self, d: Deformations) -> Deformations {
+        let [inner, outer, body] = self.opened_m;
+        Deformations {
+            race_inner: d.race_inner + inner,
+            race_outer: d.race_outer + outer,
+            body: d.body + body,
+            ..d
+        }
     }
 
     /// Equilibrium on arc `arc` at inner normal force `n_bi` > 0 (N) and mean speed `speed_rad_s`.
@@ -227,7 +241,7 @@ impl Statics {
         let mut slope_residual = f64::INFINITY;
         let mut unsettled = f64::INFINITY;
         for round in 0..60 {
-            let d = self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s);
+            let d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
             let l = kinematics::lengths(&radii, &d);
             let (sin_b, cos_b) =
                 kinematics::beta_off_centre(&l, distance, apart).ok_or(NoClosure::RolledOver)?;

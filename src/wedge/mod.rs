@@ -6,6 +6,7 @@
 //! Laws that know the radius are given the profile's curvature averaged over the patch at A ([`InnerCurvature`]), which
 //! makes alpha, N and windup continuous at a junction by themselves; the paper's pointwise radius needs Figure 5's shift.
 
+mod apart;
 mod axial;
 mod build;
 mod closure;
@@ -21,6 +22,7 @@ mod stiffness;
 mod table;
 
 pub use crate::contact::{Edge, Peak};
+pub use apart::{Borne, SpragDeviation};
 pub use axial::{Along, Lengthwise, Side, along, asks_for_slices, even_load_error};
 pub use build::Effort;
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};

@@ -27,12 +27,12 @@ impl Statics {
     }
 
     /// Turn of the outer race against the line OC_e since first contact at rest, rigid bodies rolling: R_e dtheta_be = r_e dOmega.
-    fn outer_turn(&self, rotation: Dual) -> Dual {
+    pub(super) fn outer_turn(&self, rotation: Dual) -> Dual {
         rotation * (self.profile.outer_radius_m / self.radii.outer_race_m)
     }
 
     /// The same of the inner race: R_i dtheta_bi = R_i dbeta - ds.
-    fn inner_turn(&self, arc: usize, rotation: Dual, turn: Dual) -> Dual {
+    pub(super) fn inner_turn(&self, arc: usize, rotation: Dual, turn: Dual) -> Dual {
         rotation - turn + self.rolled_m(arc, turn) * (-1.0 / self.radii.inner_race_m)
     }
 

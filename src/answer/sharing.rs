@@ -1,0 +1,596 @@
+//! Sprags one by one: what each carries, over a turn, through an engagement, after losses; races out of round.
+
+use super::left_out::{LeftOut, left_out, one_by_one};
+use super::page::begun;
+use super::{Envelope, Provenance};
+use crate::clutch::Standing;
+use crate::design::Design;
+use crate::margin::{LoadState, NoMargins, load_state};
+use crate::report::plot::Curve;
+use crate::report::{Cell, Column, Page, Plot, Screen, Table, Unit, significant};
+use crate::sharing::{Bears, Loss, NotShared, Shared, Turn};
+use serde_json::{Value, json};
+use std::fmt;
+
+/// Harmonics of the tracks that are shown beside that of the sprags themselves.
+const HARMONICS: usize = 8;
+/// Rows of a table of sprags that the text shows.
+const MOST_ROWS: usize = 24;
+
+/// What each sprag of a design carries.
+#[derive(Debug, Clone)]
+pub struct SharingAnswer<'a> {
+    design: &'a Design,
+    /// Torque, N m.
+    pub torque_nm: f64,
+    /// Hertz pressure allowed at it, Pa, and its key.
+    pub allowed: Option<(f64, &'static str)>,
+    /// Place after place of a turn; why the first that does not carry the torque does not.
+    pub turned: Result<Vec<Shared>, NotShared>,
+    /// Azimuth of the widest gap from sprag 1 at each place, rad.
+    pub gaps_rad: Vec<f64>,
+    /// Torque that is carried at every place, N m, where that is less, and what ends it.
+    pub end: Option<(f64, NotShared)>,
+    /// As the torque rises, at the worst place.
+    pub engagement: Vec<(f64, Result<Shared, NotShared>)>,
+    /// One sprag lost after another, at the worst place.
+    pub losses: Vec<Loss>,
+    /// Mean growth and harmonics of inner and outer track there, m.
+    pub out_of_round_m: [Vec<f64>; 2],
+    sprags: Vec<OneRow>,
+}
+
+/// One sprag of the table.
+#[derive(Debug, Clone)]
+struct OneRow {
+    sprag: crate::sharing::OneSprag,
+    idle: Option<&'static str>,
+    lag_rad: Option<f64>,
+    catches_nm: Option<f64>,
+    first_friction: f64,
+    bears: Bears,
+    share: f64,
+}
+
+/// Why there is no answer.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoSharing {
+    /// The design has no `[sharing]` table.
+    NoTable,
+    /// No torque above 0 is asked for.
+    NoTorque,
+    /// There is no clutch to speak of.
+    NoClutch(NoMargins),
+}
+
+impl fmt::Display for NoSharing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoTable => write!(
+                f,
+                "the design has no [sharing] table; add one with what sets its sprags apart, such as\n\n{EXAMPLE}\n\n\
+                 `sprag-design explain sharing` lists its keys"
+            ),
+            Self::NoTorque => {
+                f.write_str("allowed: a torque above 0: --torque, or nominal_torque_nm in [limits]")
+            }
+            Self::NoClutch(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoSharing {}
+
+/// A table to begin with.
+pub const EXAMPLE: &str =
+    "[sharing]\nseed = 1\nsize_within_um = 2.0\nsprags = [ { number = 4, gap_um = 10.0 } ]   # a weak spring";
+
+impl Design {
+    /// What each sprag carries at `torque_nm`, N m; `None`: at the nominal torque of `[limits]`, else at its peak torque.
+    ///
+    /// # Errors
+    /// [`NoSharing`].
+    pub fn sharing(&self, torque_nm: Option<f64>) -> Result<SharingAnswer<'_>, NoSharing> {
+        let sharing = self.sharing.as_ref().ok_or(NoSharing::NoTable)?;
+        let limits = &self.limits;
+        let torque_nm = torque_nm.or(limits.nominal_torque_nm).or(limits.peak_torque_nm);
+        let torque_nm = torque_nm.filter(|t| t.is_finite() && *t > 0.0).ok_or(NoSharing::NoTorque)?;
+        let at_nominal = limits.nominal_torque_nm.is_some_and(|nominal| torque_nm <= nominal * (1.0 + 1e-12));
+        let nominal = limits.hertz_nominal_pa.filter(|_| at_nominal).map(|pa| (pa, "hertz_nominal_mpa"));
+        let allowed = nominal.or(limits.hertz_peak_pa.map(|pa| (pa, "hertz_peak_mpa")));
+        let LoadState { curve, .. } = load_state(self).map_err(NoSharing::NoClutch)?;
+        let turn = Turn::new(&self.clutch, sharing, &curve);
+        let turned = turn.at(torque_nm);
+        let end = if turned.is_err() { turn.end(torque_nm) } else { None };
+        // The worst place, at the torque or where it ends.
+        let there = turned.clone().ok().or_else(|| turn.at(end.as_ref()?.0).ok()).unwrap_or_default();
+        let pressed: Vec<f64> = there.iter().map(|s| s.worst(Bears::hertz_pa).1).collect();
+        let worst = (0..pressed.len()).max_by(|a, b| pressed[*a].total_cmp(&pressed[*b])).unwrap_or(0);
+        let (clutch, turned_rad) = &turn.places[worst];
+        let shared = there.get(worst);
+        let shares = shared.map(Shared::shares).unwrap_or_default();
+        let catches = clutch.catches_nm(*turned_rad);
+        let row = |i: usize| OneRow {
+            sprag: clutch.sprags[i],
+            idle: clutch.idle[i].map(|idle| idle.words()),
+            lag_rad: clutch.lag_rad[i],
+            catches_nm: catches[i],
+            first_friction: clutch.first_friction[i],
+            bears: shared.map_or_else(Bears::default, |s| s.loads[i]),
+            share: shares.get(i).copied().unwrap_or(0.0),
+        };
+        let most = HARMONICS.max(self.clutch.sprags.count);
+        Ok(SharingAnswer {
+            design: self,
+            torque_nm,
+            allowed,
+            gaps_rad: turn.places.iter().map(|(clutch, turned)| clutch.phase_rad + turned).collect(),
+            end,
+            engagement: clutch.engagement(torque_nm, *turned_rad),
+            losses: match (&turned, allowed, shared) {
+                (Ok(_), Some((allowed_pa, _)), Some(shared)) => clutch.losses(shared, allowed_pa),
+                _ => Vec::new(),
+            },
+            out_of_round_m: shared.map_or_else(Default::default, |s| clutch.out_of_round_m(s, most)),
+            sprags: (0..self.clutch.sprags.count).map(row).collect(),
+            turned,
+        })
+    }
+}
+
+impl<'a> SharingAnswer<'a> {
+    /// Whether every sprag that carries is within its limits, over the turn.
+    pub fn held(&self) -> bool {
+        self.turned.is_ok()
+            && self.most_pressed().is_none_or(|(_, pa)| self.allowed.is_none_or(|(most, _)| pa <= most))
+            && self.slipping().is_none()
+    }
+
+    /// The most pressed sprag of the turn and its pressure, Pa.
+    fn most_pressed(&self) -> Option<(usize, f64)> {
+        let turned = self.turned.as_ref().ok()?;
+        turned.iter().map(|s| s.worst(Bears::hertz_pa)).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// A sprag that needs more friction than it has, and what it needs.
+    fn slipping(&self) -> Option<(usize, f64)> {
+        let turned = self.turned.as_ref().ok()?;
+        let needs = |i: usize| turned.iter().map(|s| s.loads[i].required_friction()).fold(0.0, f64::max);
+        let over = (0..self.sprags.len()).map(|i| (i, needs(i) / self.sprags[i].sprag.friction, needs(i)));
+        over.filter(|(_, over, _)| *over > 1.0)
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(i, _, needs)| (i, needs))
+    }
+
+    /// How many sprags, the most pressed first, may be lost until a limit is passed; `None`: not known, no limit is given.
+    pub fn may_be_lost(&self) -> Option<usize> {
+        (self.allowed.is_some() && self.turned.is_ok()).then(|| self.losses.len().saturating_sub(1))
+    }
+
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
+    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
+        let mpa = |pa: f64| Unit::Megapascal.from_si(pa);
+        let um = |m: f64| Unit::Micrometre.from_si(m);
+        let deg = |rad: f64| Unit::Degree.from_si(rad);
+        let sprags = self.sprags.iter().enumerate().map(|(i, r)| {
+            json!({
+                "number": i + 1, "azimuth_deg": deg(r.sprag.azimuth_rad), "size_um": um(r.sprag.size_m), "gap_um": um(r.sprag.gap_m),
+                "friction": r.sprag.friction, "idle": r.idle, "lag_deg": r.lag_rad.map(deg), "catches_nm": r.catches_nm,
+                "first_friction": r.first_friction,
+                "normal_inner_n": r.bears.normal_inner_n, "normal_outer_n": r.bears.normal_outer_n, "share": r.share,
+                "hertz_inner_mpa": mpa(r.bears.hertz_inner_pa), "hertz_outer_mpa": mpa(r.bears.hertz_outer_pa),
+                "required_friction": r.bears.required_friction(),
+                "bent_inner_um": um(r.bears.bent_m[0]), "bent_outer_um": um(r.bears.bent_m[1]),
+            })
+        });
+        let places = self.turned.as_deref().unwrap_or_default().iter().zip(&self.gaps_rad).map(|(s, gap)| {
+            let (most, pa) = s.worst(Bears::hertz_pa);
+            json!({
+                "widest_gap_deg": deg(*gap), "windup_deg": deg(s.windup_rad), "carrying": s.carrying(), "largest_share": largest(&s.shares()),
+                "most_pressed": most + 1, "hertz_mpa": mpa(pa), "required_friction": s.worst(Bears::required_friction).1,
+                "radial_force_n": s.radial_n[0].hypot(s.radial_n[1]), "shift_um": um(s.shift_m[0].hypot(s.shift_m[1])), "steps": s.steps,
+                "shares": s.shares(),
+            })
+        });
+        let engagement = self.engagement.iter().map(|(torque, found)| match found {
+            Ok(s) => json!({
+                "torque_nm": torque, "windup_deg": deg(s.windup_rad), "carrying": s.carrying(), "largest_share": largest(&s.shares()),
+                "hertz_mpa": mpa(s.worst(Bears::hertz_pa).1), "shares": s.shares(), "ended": null,
+            }),
+            Err(why) => json!({ "torque_nm": torque, "ended": why.words() }),
+        });
+        let losses = self.losses.iter().map(|l| match &l.left {
+            Ok(s) => json!({ "lost": l.lost + 1, "hertz_mpa": mpa(s.worst(Bears::hertz_pa).1), "largest_share": largest(&s.shares()), "ended": null }),
+            Err(why) => json!({ "lost": l.lost + 1, "ended": why.words() }),
+        });
+        let round =
+            self.out_of_round_m.each_ref().map(|race| race.iter().map(|m| um(*m)).collect::<Vec<_>>());
+        let seed = self.design.sharing.as_ref().map(|s| s.seed);
+        let body = json!({
+            "held": self.held(), "verdict": self.verdict(), "torque_nm": self.torque_nm, "seed": seed,
+            "allowed_mpa": self.allowed.map(|(pa, _)| mpa(pa)), "may_be_lost": self.may_be_lost(),
+            "end_torque_nm": self.end.map(|(nm, _)| nm), "end_reason": self.end.map(|(_, why)| why.words()),
+            "sprags": sprags.collect::<Vec<_>>(), "turn": places.collect::<Vec<_>>(),
+            "engagement": engagement.collect::<Vec<_>>(), "losses": losses.collect::<Vec<_>>(),
+            "harmonics_inner_um": round[0], "harmonics_outer_um": round[1],
+        });
+        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
+    }
+
+    fn left_out(&self) -> Vec<LeftOut> {
+        let clutch = &self.design.clutch;
+        let tan = self.sprags.iter().map(|r| r.bears.tan_omega).fold(0.0, f64::max);
+        let tracks = [clutch.races.inner_radius_m, clutch.races.outer_radius_m];
+        let slope = self.out_of_round_m.iter().zip(tracks).map(|(race, radius)| {
+            // Harmonics below that of the sprags; entry 1 is harmonic 2.
+            let below =
+                race.iter().enumerate().skip(1).take(clutch.sprags.count.saturating_sub(2).max(1) / 2);
+            below.map(|(k, a)| (k + 1) as f64 * a / radius).fold(0.0, f64::max)
+        });
+        let slope = slope.fold(0.0, f64::max);
+        let instead = [
+            LeftOut::new(
+                "slope of a bent track in the wedge angle",
+                "a track that bends is taken to recede and to give along itself, not to lean",
+                &if tan > 0.0 {
+                    format!("up to {} of tan ω of a sprag", Unit::Percent.show(slope / tan, 2))
+                } else {
+                    "not estimated".to_owned()
+                },
+            ),
+            LeftOut::new(
+                "what holds the races",
+                "rings are free but for the shift of their axes: no housing, hub or flange stiffens them, and their first harmonic is the shift",
+                "not estimated; a housing round a thin race keeps it round: give its wall to the race",
+            ),
+            LeftOut::new(
+                "rolling on between unlike tracks",
+                "of the windup that a sprag's own deviation costs, what bodies yield meanwhile is that of sprags alike",
+                "the deviation over the radius, some 1e-4 of the windup",
+            ),
+            LeftOut::new("tilted tracks", "tracks have parallel axes", "not estimated"),
+            LeftOut::new(
+                "inertia of the sprags that catch",
+                "the torque rises slowly",
+                "not estimated: races do not wait for a late sprag",
+            ),
+        ];
+        one_by_one(left_out(clutch), &instead)
+    }
+
+    /// In a sentence.
+    pub fn verdict(&self) -> String {
+        let torque = Unit::NewtonMetre.show(self.torque_nm, 4);
+        let turned = match &self.turned {
+            Ok(turned) => turned,
+            Err(why) => {
+                let until = self.end.map_or(String::new(), |(nm, _)| {
+                    format!("; {} is carried", Unit::NewtonMetre.show(nm, 4))
+                });
+                return format!("NOT HELD: {torque} is not carried, {}{until}", why.words());
+            }
+        };
+        let word = if self.held() { "HELD" } else { "NOT HELD" };
+        let share = turned.iter().map(|s| largest(&s.shares())).fold(0.0, f64::max);
+        let least = turned.iter().map(Shared::carrying).min().unwrap_or(0);
+        let mut said = format!(
+            "{word}: at {torque} {least} of {} sprags carry, the largest share is {} of the mean",
+            self.sprags.len(),
+            significant(share, 4)
+        );
+        if let Some((i, pa)) = self.most_pressed() {
+            said += &format!(", sprag {} at {}", i + 1, Unit::Megapascal.show(pa, 4));
+            if let Some((most, _)) = self.allowed {
+                said += &format!(" of {} allowed", Unit::Megapascal.show(most, 4));
+            }
+        }
+        if let Some((i, needs)) = self.slipping() {
+            said += &format!(
+                "; sprag {} needs a friction of {} and has {}",
+                i + 1,
+                significant(needs, 3),
+                significant(self.sprags[i].sprag.friction, 3)
+            );
+        } else if let Some(count) = self.may_be_lost().filter(|_| self.held()) {
+            said += &match count {
+                0 => "; none may fail".to_owned(),
+                1 => "; the most pressed one may fail".to_owned(),
+                _ => format!("; the {count} most pressed may fail, one after another"),
+            };
+        }
+        said
+    }
+
+    /// Every sprag at the worst place of the turn.
+    pub fn by_sprag(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::number("number", "Sprag", Unit::One, 3),
+            Column::number("azimuth_deg", "At", Unit::Degree, 4),
+            Column::number("size_um", "Larger by", Unit::Micrometre, 3),
+            Column::number("gap_um", "Gap", Unit::Micrometre, 3),
+            Column::number("friction", "μs", Unit::One, 3),
+            Column::number("catches_nm", "Catches at", Unit::NewtonMetre, 3),
+            Column::number("normal_inner_n", "N inner", Unit::Newton, 4),
+            Column::number("share", "Share", Unit::One, 4),
+            Column::number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4),
+            Column::number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4),
+            Column::number("required_friction", "Needs μ", Unit::One, 3),
+            Column::text("state", "State"),
+        ]);
+        for (i, r) in self.sprags.iter().enumerate() {
+            let on = r.bears.normal_inner_n > 0.0;
+            let carried = |value: f64| if on { Cell::Si(value) } else { Cell::Empty };
+            let state = match (r.idle, on) {
+                (Some(idle), _) => idle.into(),
+                (None, false) => "no load".into(),
+                (None, true) if r.bears.required_friction() > r.sprag.friction => {
+                    Cell::Verdict(false, "slips".to_owned())
+                }
+                (None, true) => "carries".into(),
+            };
+            let needs = if on {
+                Cell::Si(r.bears.required_friction())
+            } else {
+                Some(r.first_friction).filter(|f| *f > 0.0).into()
+            };
+            table.row(vec![
+                (i + 1).into(),
+                r.sprag.azimuth_rad.into(),
+                r.sprag.size_m.into(),
+                r.sprag.gap_m.into(),
+                r.sprag.friction.into(),
+                r.catches_nm.into(),
+                carried(r.bears.normal_inner_n),
+                r.share.into(),
+                carried(r.bears.hertz_inner_pa),
+                carried(r.bears.hertz_outer_pa),
+                needs,
+                state,
+            ]);
+        }
+        table
+    }
+
+    /// Every place of a turn.
+    fn places(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::number("widest_gap_deg", "Widest gap at", Unit::Degree, 4),
+            Column::number("windup_deg", "Windup", Unit::Degree, 4),
+            Column::number("carrying", "Carry", Unit::One, 3),
+            Column::number("largest_share", "Largest share", Unit::One, 4),
+            Column::number("most_pressed", "Sprag", Unit::One, 3),
+            Column::number("hertz_mpa", "p₀", Unit::Megapascal, 4),
+            Column::number("required_friction", "Needs μ", Unit::One, 3),
+            Column::number("radial_force_n", "Bearings hold", Unit::Newton, 3),
+            Column::number("shift_um", "Shift", Unit::Micrometre, 3),
+        ]);
+        for (s, gap) in self.turned.as_deref().unwrap_or_default().iter().zip(&self.gaps_rad) {
+            let (most, pa) = s.worst(Bears::hertz_pa);
+            table.row(vec![
+                (*gap).into(),
+                s.windup_rad.into(),
+                s.carrying().into(),
+                largest(&s.shares()).into(),
+                (most + 1).into(),
+                pa.into(),
+                s.worst(Bears::required_friction).1.into(),
+                s.radial_n[0].hypot(s.radial_n[1]).into(),
+                s.shift_m[0].hypot(s.shift_m[1]).into(),
+            ]);
+        }
+        table
+    }
+
+    /// As the torque rises, at the worst place.
+    fn course(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
+            Column::number("windup_deg", "Windup", Unit::Degree, 4),
+            Column::number("carrying", "Carry", Unit::One, 3),
+            Column::number("largest_share", "Largest share", Unit::One, 4),
+            Column::number("most_pressed", "Sprag", Unit::One, 3),
+            Column::number("hertz_mpa", "p₀", Unit::Megapascal, 4),
+            Column::text("ended", "Not carried"),
+        ]);
+        for (torque, found) in &self.engagement {
+            table.row(match found {
+                Ok(s) => {
+                    let (most, pa) = s.worst(Bears::hertz_pa);
+                    vec![
+                        (*torque).into(),
+                        s.windup_rad.into(),
+                        s.carrying().into(),
+                        largest(&s.shares()).into(),
+                        (most + 1).into(),
+                        pa.into(),
+                    ]
+                }
+                Err(why) => {
+                    vec![
+                        (*torque).into(),
+                        Cell::Empty,
+                        Cell::Empty,
+                        Cell::Empty,
+                        Cell::Empty,
+                        Cell::Empty,
+                        why.words().into(),
+                    ]
+                }
+            });
+        }
+        table
+    }
+
+    /// One loss after another.
+    fn lost(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::number("losses", "Lost", Unit::One, 3),
+            Column::number("lost", "The last: sprag", Unit::One, 3),
+            Column::number("largest_share", "Largest share", Unit::One, 4),
+            Column::number("hertz_mpa", "p₀", Unit::Megapascal, 4),
+            Column::text("verdict", "Verdict"),
+        ]);
+        for (k, loss) in self.losses.iter().enumerate() {
+            let mut row: Vec<Cell> = vec![(k + 1).into(), (loss.lost + 1).into()];
+            match &loss.left {
+                Ok(s) => {
+                    let pa = s.worst(Bears::hertz_pa).1;
+                    let held = self.allowed.is_none_or(|(most, _)| pa <= most);
+                    row.extend([
+                        largest(&s.shares()).into(),
+                        pa.into(),
+                        Cell::Verdict(held, if held { "held" } else { "NOT HELD" }.to_owned()),
+                    ]);
+                }
+                Err(why) => row.extend([Cell::Empty, Cell::Empty, Cell::Verdict(false, why.words())]),
+            }
+            table.row(row);
+        }
+        table
+    }
+
+    /// Growth and harmonics of both tracks.
+    fn out_of_round(&self) -> Table {
+        let mut table = Table::new(vec![
+            Column::text("harmonic", "Harmonic"),
+            Column::number("inner_um", "Inner race", Unit::Micrometre, 3),
+            Column::number("outer_um", "Outer race", Unit::Micrometre, 3),
+        ]);
+        let [inner, outer] = &self.out_of_round_m;
+        let count = self.design.clutch.sprags.count;
+        for k in (0..inner.len().min(HARMONICS)).chain((count > HARMONICS).then_some(count - 1)) {
+            let (Some(a), Some(b)) = (inner.get(k), outer.get(k)) else { continue };
+            let name = match k {
+                0 => "mean, gap opens".to_owned(),
+                1 => "2, a quarter of the ovality".to_owned(),
+                _ if k + 1 == count => format!("{count}, the sprags"),
+                _ => (k + 1).to_string(),
+            };
+            table.row(vec![name.into(), (*a).into(), (*b).into()]);
+        }
+        table
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let Some(sharing) = &self.design.sharing else { return Vec::new() };
+        let start = match sharing.start {
+            Standing::Sprung => "each sprag's spring has turned it until it touches both races",
+            Standing::Caged => "a cage holds all sprags at one angle, larger ones take load earlier",
+        };
+        let mut all = vec![format!(
+            "Drawn from seed {}: sizes within ± {}, gaps up to {}, azimuths within ± {}, friction within ± {}; at the start {start}",
+            sharing.seed,
+            Unit::Micrometre.show(sharing.size_within_m, 3),
+            Unit::Micrometre.show(sharing.gap_up_to_m, 3),
+            Unit::Degree.show(sharing.azimuth_within_rad, 3),
+            significant(sharing.friction_within, 3)
+        )];
+        let idle: Vec<String> = self
+            .sprags
+            .iter()
+            .enumerate()
+            .filter_map(|(i, r)| r.idle.map(|why| format!("{} {why}", i + 1)))
+            .collect();
+        if !idle.is_empty() {
+            all.push(format!("Sprags that never carry: {}", idle.join(", ")));
+        }
+        if self.allowed.is_none() {
+            all.push("No Hertz pressure is limited: hertz_nominal_mpa or hertz_peak_mpa in [limits] would say how many sprags may fail".to_owned());
+        }
+        all
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        let sprags = self.by_sprag();
+        let more = sprags.rows.len().saturating_sub(MOST_ROWS);
+        let shown = Table { rows: sprags.rows.iter().take(MOST_ROWS).cloned().collect(), ..sprags };
+        let more =
+            if more > 0 { format!("{more} more sprags: --csv, --json or --report\n") } else { String::new() };
+        let mut text =
+            format!("{}  {}\n\n{}{more}", self.design.name, self.design.short_hash(), shown.to_text(screen));
+        let mut part = |title: &str, table: Table| {
+            if !table.rows.is_empty() {
+                text += &format!("\n{title}\n{}", table.to_text(screen));
+            }
+        };
+        part(
+            "Over a turn of the races",
+            if self.gaps_rad.len() > 1 { self.places() } else { Table::default() },
+        );
+        part("Through an engagement", self.course());
+        part("One lost after another, the most pressed first", self.lost());
+        part("Tracks out of round: amplitude of the radius", self.out_of_round());
+        format!("{text}\n{}\n{}\n", self.remarks().join("\n"), self.verdict())
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, provenance: &Provenance) -> Page {
+        let mut page = begun("Sharing", self.design, &provenance.command);
+        page.verdict(self.held(), &self.verdict());
+        page.list(self.remarks());
+        page.figures(&[
+            (
+                super::page::half(self.round()),
+                "Normal force of each sprag over the mean, round the clutch, at parts of the torque.",
+            ),
+            (super::page::half(self.rising()), "The largest and the smallest share as the torque rises."),
+        ]);
+        page.heading("Sprags")
+            .table("At the place of the turn where the most pressed one is pressed most.", &self.by_sprag());
+        if self.gaps_rad.len() > 1 {
+            page.heading("Over a turn of the races").table("Azimuths from sprag 1.", &self.places());
+        }
+        page.heading("Through an engagement").table("", &self.course());
+        if !self.losses.is_empty() {
+            page.heading("One lost after another")
+                .table("The most pressed sprag fails, the others take its share.", &self.lost());
+        }
+        page.heading("Tracks out of round").table(
+            "Amplitude of the radius in each harmonic; the mean opens the gap. The ovality, largest less smallest diameter, is four times \
+             the second.",
+            &self.out_of_round(),
+        );
+        self.envelope(provenance.run_time_s).close(&mut page);
+        page
+    }
+
+    /// Shares round the clutch.
+    fn round(&self) -> Plot {
+        let mut plot = Plot::new("Azimuth, °", "Share of the mean");
+        let found: Vec<(f64, &Shared)> =
+            self.engagement.iter().filter_map(|(t, s)| Some((*t, s.as_ref().ok()?))).collect();
+        for part in [0.1, 0.3, 1.0] {
+            let Some((torque, shared)) =
+                found.iter().find(|(t, _)| *t >= part * self.torque_nm * (1.0 - 1e-9))
+            else {
+                continue;
+            };
+            let points = self
+                .sprags
+                .iter()
+                .zip(shared.shares())
+                .map(|(r, share)| [Unit::Degree.from_si(r.sprag.azimuth_rad), share]);
+            plot.curves.push(Curve {
+                dots: true,
+                ..Curve::new(&Unit::NewtonMetre.show_plain(*torque, 4), points.collect())
+            });
+        }
+        plot
+    }
+
+    /// Largest and smallest share over torque.
+    fn rising(&self) -> Plot {
+        let found = self.engagement.iter().filter_map(|(t, s)| Some((*t, s.as_ref().ok()?.shares())));
+        let (mut most, mut least) = (Vec::new(), Vec::new());
+        for (torque, shares) in found {
+            most.push([torque, largest(&shares)]);
+            least.push([torque, shares.iter().copied().fold(f64::INFINITY, f64::min)]);
+        }
+        Plot::new("Torque, Nm", "Share of the mean").curve("largest", most).curve("smallest", least)
+    }
+}
+
+fn largest(shares: &[f64]) -> f64 {
+    shares.iter().copied().fold(0.0, f64::max)
+}

@@ -1,0 +1,52 @@
+//! What sets the sprags of a clutch apart from one another.
+//!
+//! In: nothing. Out: [`Sharing`], SI. Absent: what they carry then (`sharing`). Equations: none.
+
+/// Deviations of the sprags: drawn within bounds from a seed, and given by number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sharing {
+    /// How the sprags stand when torque begins.
+    pub start: Standing,
+    /// Seed of what is drawn.
+    pub seed: u64,
+    /// Bound of the drawn deviation in size, evenly on both sides, m.
+    pub size_within_m: f64,
+    /// The same of the azimuth, rad.
+    pub azimuth_within_rad: f64,
+    /// The same of the static friction.
+    pub friction_within: f64,
+    /// Largest drawn gap, evenly from 0, m.
+    pub gap_up_to_m: f64,
+    /// Radial stiffness of what holds the axes, N/m, 0: free to centre itself, infinite: held; `None`: that of the eccentricity,
+    /// else held.
+    pub stiffness_n_per_m: Option<f64>,
+    /// Sprags by number, in place of what is drawn.
+    pub given: Vec<GivenSprag>,
+}
+
+/// How sprags stand when torque begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Standing {
+    /// Its own spring has turned each one until it touches both races: all take load from one windup on.
+    #[default]
+    Sprung,
+    /// A cage holds all at the same angle, that at which a sprag as drawn touches concentric races: a larger one takes load earlier.
+    Caged,
+}
+
+/// What the file says of one sprag; `None`: as drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GivenSprag {
+    /// Its number, from 0, in the positive sense from the widest gap.
+    pub index: usize,
+    /// How much more it measures across its contacts, m.
+    pub size_m: Option<f64>,
+    /// What it lacks to touch both races when torque begins, m of size.
+    pub gap_m: Option<f64>,
+    /// Its static friction.
+    pub friction: Option<f64>,
+    /// How far it stands ahead of its even place, rad.
+    pub azimuth_rad: Option<f64>,
+    /// Whether it is not there, or broken.
+    pub missing: bool,
+}

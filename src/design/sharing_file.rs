@@ -1,0 +1,151 @@
+//! `[sharing]` as written, and the same in SI.
+//!
+//! In: TOML text. Out: [`Sharing`]. Absent: what the sprags carry (`sharing`). Equations: none. The doc comments are the
+//! schema's descriptions.
+
+use super::check::m;
+use super::file::DesignFile;
+use super::findings::Findings;
+use crate::clutch::{GivenSprag, Sharing, Standing};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Sprags one by one, drawn within bounds from a seed or given by number: read by `sharing`, and by `check` and `optimize`, which then
+/// hold the worst sprag.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SharingFile {
+    /// sprung: its own spring turns each sprag until it touches both races; caged: a cage holds all at one angle, where larger ones
+    /// take load earlier.
+    #[serde(default)]
+    pub start: StandingFile,
+    /// Seed of all that is drawn.
+    #[serde(default = "first")]
+    pub seed: u64,
+    /// Bound of the deviation of a sprag's size across its contacts, evenly on both sides, um.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1000))]
+    pub size_within_um: f64,
+    /// Bound of the deviation of a sprag's azimuth from its even place, deg.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 60))]
+    pub azimuth_within_deg: f64,
+    /// Bound of the deviation of a sprag's static friction from friction.static.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub friction_within: f64,
+    /// Largest gap that a sprag lacks to touch both races when torque begins (a weak or broken spring), evenly from 0, um.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1000))]
+    pub gap_up_to_um: f64,
+    /// Radial stiffness of what holds the axes of the races, N/um, 0: free to centre themselves; absent: that of races.eccentricity,
+    /// else held.
+    #[schemars(extend("minimum" = 0))]
+    pub bearing_stiffness_n_per_um: Option<f64>,
+    /// Sprags of which something is known.
+    #[serde(default)]
+    pub sprags: Vec<GivenSpragFile>,
+}
+
+fn first() -> u64 {
+    1
+}
+
+/// How sprags stand when torque begins.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum StandingFile {
+    #[default]
+    Sprung,
+    Caged,
+}
+
+/// One sprag; what is absent is as drawn.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GivenSpragFile {
+    /// Its number, from 1, in the positive sense; number 1 stands in the widest gap.
+    #[schemars(extend("minimum" = 1))]
+    pub number: usize,
+    /// How much more it measures across its contacts than the drawing, um.
+    #[schemars(extend("minimum" = -1000, "maximum" = 1000))]
+    pub size_um: Option<f64>,
+    /// What it lacks to touch both races when torque begins, um.
+    #[schemars(extend("minimum" = 0, "maximum" = 1000))]
+    pub gap_um: Option<f64>,
+    /// Its static friction.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub friction: Option<f64>,
+    /// How far it stands ahead of its even place, deg.
+    #[schemars(extend("minimum" = -60, "maximum" = 60))]
+    pub ahead_deg: Option<f64>,
+    /// Whether it is not there, or broken.
+    #[serde(default)]
+    pub missing: bool,
+}
+
+/// `[sharing]` in SI; problems go to `out`.
+pub(super) fn si(file: &DesignFile, sharing: &SharingFile, out: &mut Findings) -> Sharing {
+    let count = file.sprags.count;
+    let pitch_deg = 360.0 / count as f64;
+    for (i, sprag) in sharing.sprags.iter().enumerate() {
+        let key = format!("sharing.sprags[{i}].number");
+        if !(1..=count).contains(&sprag.number) {
+            out.refuse(
+                &[&key],
+                format!("1 to {count}, the number of sprags"),
+                "sprags are counted from 1".to_owned(),
+            );
+        } else if sharing.sprags[..i].iter().any(|before| before.number == sprag.number) {
+            out.refuse(
+                &[&key],
+                "each sprag once".to_owned(),
+                "put what is known of it into one entry".to_owned(),
+            );
+        }
+        if sprag.ahead_deg.is_some_and(|ahead| ahead.abs() >= 0.5 * pitch_deg) {
+            let key = format!("sharing.sprags[{i}].ahead_deg");
+            let help = "sprags keep their order round the clutch".to_owned();
+            out.refuse(&[&key], format!("less than half a pitch, {:.4} deg", 0.5 * pitch_deg), help);
+        }
+    }
+    if sharing.azimuth_within_deg >= 0.5 * pitch_deg {
+        let help = "sprags keep their order round the clutch".to_owned();
+        out.refuse(
+            &["sharing.azimuth_within_deg"],
+            format!("less than half a pitch, {:.4} deg", 0.5 * pitch_deg),
+            help,
+        );
+    }
+    let floats = sharing.bearing_stiffness_n_per_um == Some(0.0);
+    if floats && file.races.eccentricity.as_ref().is_some_and(|e| e.turning) {
+        out.refuse(
+            &["sharing.bearing_stiffness_n_per_um"],
+            "above 0 where races.eccentricity.turning is true".to_owned(),
+            "nothing turns a race that floats against the sprags".to_owned(),
+        );
+    }
+    let um = |um: f64| m(1e-3 * um);
+    let one = |s: &GivenSpragFile| GivenSprag {
+        index: s.number.saturating_sub(1),
+        size_m: s.size_um.map(um),
+        gap_m: s.gap_um.map(um),
+        friction: s.friction,
+        azimuth_rad: s.ahead_deg.map(f64::to_radians),
+        missing: s.missing,
+    };
+    Sharing {
+        start: match sharing.start {
+            StandingFile::Sprung => Standing::Sprung,
+            StandingFile::Caged => Standing::Caged,
+        },
+        seed: sharing.seed,
+        size_within_m: um(sharing.size_within_um),
+        azimuth_within_rad: sharing.azimuth_within_deg.to_radians(),
+        friction_within: sharing.friction_within,
+        gap_up_to_m: um(sharing.gap_up_to_um),
+        // N/um to N/m.
+        stiffness_n_per_m: sharing.bearing_stiffness_n_per_um.map(|k| 1e6 * k),
+        given: sharing.sprags.iter().map(one).collect(),
+    }
+}

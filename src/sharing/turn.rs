@@ -1,0 +1,67 @@
+//! A turn of the races: tracks that run out stand otherwise against unlike sprags every time.
+
+use super::{Asked, NotShared, Shared, Unlike};
+use crate::clutch::{Clutch, Sharing};
+use crate::wedge::WedgeCurve;
+use std::f64::consts::TAU;
+
+/// Places of the widest gap that are looked at in a turn, every 30 deg: a choice.
+const PLACES: usize = 12;
+/// Halvings that locate an end of the torque.
+const HALVINGS: usize = 24;
+
+/// An unlike clutch with its widest gap at every place of a turn; one place where the axes meet.
+#[derive(Debug, Clone)]
+pub struct Turn<'a> {
+    /// The clutch as it engaged, and how far the widest gap has turned on since, rad. A clutch that turns against the offset
+    /// engages at the first place and is turned on under load; otherwise it engages at each.
+    pub places: Vec<(Unlike<'a>, f64)>,
+}
+
+impl<'a> Turn<'a> {
+    /// The clutch whose curve at rest is `curve`.
+    pub fn new(clutch: &Clutch, sharing: &Sharing, curve: &'a WedgeCurve) -> Self {
+        let first = Unlike::new(clutch, sharing, curve, 0.0);
+        let count = if first.offset_m > 0.0 { PLACES } else { 1 };
+        let turns_on = clutch.races.eccentricity.is_some_and(|e| e.turning);
+        let place = |k: usize| {
+            let phase = TAU * k as f64 / count as f64;
+            if turns_on || k == 0 {
+                (first.clone(), phase)
+            } else {
+                (first.engaged_at(sharing.start, phase), 0.0)
+            }
+        };
+        Self { places: (0..count).map(place).collect() }
+    }
+
+    /// The clutch at its first place.
+    pub fn first(&self) -> &Unlike<'a> {
+        &self.places[0].0
+    }
+
+    /// At `torque_nm`, place after place.
+    ///
+    /// # Errors
+    /// The [`NotShared`] of the first place that does not carry it.
+    pub fn at(&self, torque_nm: f64) -> Result<Vec<Shared>, NotShared> {
+        self.places
+            .iter()
+            .map(|(clutch, turned)| clutch.carrying(Asked::Torque(torque_nm), *turned))
+            .collect()
+    }
+
+    /// Torque, N m, up to `beyond_nm` that is carried at every place, to 1e-7 of that, and what ends it; `None`: all of it.
+    pub fn end(&self, beyond_nm: f64) -> Option<(f64, NotShared)> {
+        let mut why = self.at(beyond_nm).err()?;
+        let (mut held, mut beyond) = (0.0, beyond_nm);
+        for _ in 0..HALVINGS {
+            let torque = 0.5 * (held + beyond);
+            match self.at(torque) {
+                Ok(_) => held = torque,
+                Err(found) => (beyond, why) = (torque, found),
+            }
+        }
+        Some((held, why))
+    }
+}
