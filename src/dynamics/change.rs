@@ -3,7 +3,7 @@
 use super::choose::{Known, choose};
 use super::crossing::cross;
 use super::driver::Driver;
-use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER, seen};
+use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER, probe_of};
 use super::model::{Forces, Grip, Mode, Place};
 use super::run::Stop;
 use crate::ode::adaptive::Size;
@@ -13,13 +13,13 @@ use nalgebra::Const;
 /// A mode to enter, and the point of the curve and the forces in it where they are known at the present time and state.
 pub(super) struct Next {
     mode: Mode,
-    seen: Option<(WedgePoint, Forces)>,
+    forces: Option<(WedgePoint, Forces)>,
 }
 
 impl Next {
     /// Nothing known but the mode.
-    pub(super) fn unseen(mode: Mode) -> Self {
-        Self { mode, seen: None }
+    pub(super) fn of_mode(mode: Mode) -> Self {
+        Self { mode, forces: None }
     }
 }
 
@@ -104,7 +104,7 @@ where
         self.audit_jump(y, (p, &rates), (&q, &after));
         y[4..8].copy_from_slice(&after);
         if self.settings.rolling {
-            return Next::unseen(Mode { place, ..*mode });
+            return Next::of_mode(Mode { place, ..*mode });
         }
         let (v_a, v_b) = model.slip_velocities(&q, &after);
         let inner = match inner {
@@ -128,7 +128,7 @@ where
     ) -> Next {
         let choice = choose(self.model, t, y, &p, place, inner, outer);
         self.run.inconsistent_choices += u64::from(!choice.consistent);
-        Next { mode: choice.mode, seen: choice.forces.map(|f| (p, f)) }
+        Next { mode: choice.mode, forces: choice.forces.map(|f| (p, f)) }
     }
 
     /// An event function is negative right after a change although the choice was consistent to rounding:
@@ -174,7 +174,7 @@ where
                 Grip::Slip(s) if s * v < 0.0 => Grip::Slip(-s),
                 _ => grip,
             };
-            next = Next::unseen(Mode { inner: with(mode.inner, v_a), outer: with(mode.outer, v_b), ..mode });
+            next = Next::of_mode(Mode { inner: with(mode.inner, v_a), outer: with(mode.outer, v_b), ..mode });
         }
         self.enter(next);
         true
@@ -184,7 +184,7 @@ where
     pub(super) fn enter(&mut self, next: Next) {
         let mode = next.mode;
         let (t, y) = (self.run.t_s, &mut self.run.state);
-        let p = next.seen.map_or_else(|| self.model.point(mode.place, y[0]), |(p, _)| p);
+        let p = next.forces.map_or_else(|| self.model.point(mode.place, y[0]), |(p, _)| p);
         let rates = self.model.rates(&mode, &p, y);
         y[4..8].copy_from_slice(&rates);
         let both = mode.inner == Grip::Stick && mode.outer == Grip::Stick;
@@ -201,10 +201,10 @@ where
         }
         self.note_slip(&mode, p.n_bi);
         self.renew(mode);
-        if let Some((p, f)) = next.seen {
-            let look = seen(self.model, &mode, &self.run.state, &p, &f, !self.settings.rolling);
-            (self.slope, self.seen) =
-                (self.model.slope_of(&mode, t, &self.run.state, &rates, &f), Some(look));
+        if let Some((p, f)) = next.forces {
+            let probe = probe_of(self.model, &mode, &self.run.state, &p, &f, !self.settings.rolling);
+            (self.slope, self.probed) =
+                (self.model.slope_of(&mode, t, &self.run.state, &rates, &f), Some(probe));
         }
         self.run.mode = mode;
         self.run.note_engagement();

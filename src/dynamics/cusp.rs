@@ -1,9 +1,9 @@
 //! First contact, the cusp of every curve: N ~ x^(10/9) and rho - rho_0 ~ x^(1/9), x its distance in alpha.
 
 use super::driver::{Driver, Found};
-use super::events::{LOWER, UPPER, look};
-use super::looks::Looks;
+use super::events::{LOWER, UPPER, probe};
 use super::model::{Grip, Place};
+use super::probes::Probes;
 use crate::ode::adaptive::Size;
 use crate::ode::step::{Dense, Step};
 use crate::wedge::RHO_STEEPEST_RAD;
@@ -45,16 +45,16 @@ where
     pub(super) fn before_the_cusp(
         &self,
         step: &Step<N>,
-        looks: &Looks,
+        probes: &Probes,
         theta: f64,
         dense: &Dense<N>,
     ) -> Option<(f64, usize)> {
         let (mode, grips) = (self.run.mode, !self.settings.rolling);
         let near = theta - RHO_STEEPEST_RAD / (dense.after(theta * step.h())[4] * step.h()).abs();
-        let left = looks.last_before(near)?;
+        let left = probes.last_before(near)?;
         let elapsed = near * step.h();
-        let there = look(self.model, &mode, step.t() + elapsed, &dense.after(elapsed), grips).events;
-        match self.first_event(dense, step, looks, left, near, &there) {
+        let there = probe(self.model, &mode, step.t() + elapsed, &dense.after(elapsed), grips).events;
+        match self.first_event(dense, step, probes, left, near, &there) {
             Found::At(theta, which) => Some((theta, which)),
             Found::Nothing | Found::TooCoarse => None,
         }

@@ -3,9 +3,9 @@
 use super::change::Next;
 use super::cusp::cusp;
 use super::energy::Audit;
-use super::events::{EVENTS, INNER, LOWER, Look, OUTER, UPPER, event, look};
-use super::looks::{Looks, NeverPositive, Observed, Trail};
+use super::events::{EVENTS, INNER, LOWER, OUTER, Probe, UPPER, event, probe};
 use super::model::{Grip, Mode, Model, N_STATE, Place};
+use super::probes::{NeverPositive, Observed, Probes, Trail};
 use super::repeat::Repeat;
 use super::run::{FastMotion, Run, RunSettings, Stop};
 use super::watch::highest;
@@ -47,9 +47,9 @@ where
     /// When the mode has changed last, s, and at which event.
     pub(super) landed: (f64, usize),
     pub(super) stepper: Adaptive<N>,
-    /// Slope and look at the present state where the last step has left them.
+    /// Slope and probe at the present state where the last step has left them.
     pub(super) slope: Option<[f64; N]>,
-    pub(super) seen: Option<Look>,
+    pub(super) probed: Option<Probe>,
     /// Path of slip at A that ends the run, as slip under load does, m.
     pub(super) most_slip_m: Option<f64>,
     /// Last step length by kind of mode: in slip the sprag is a hundred times faster than the races.
@@ -93,12 +93,12 @@ where
             landed: (f64::NAN, EVENTS),
             stepper: Adaptive::new(settings.tolerance_in(&mode), settings.longest_step_s * 0.1, SMALL),
             slope: None,
-            seen: None,
+            probed: None,
             most_slip_m: None,
             lengths: [f64::INFINITY; KINDS],
         };
-        driver.enter(Next::unseen(mode));
-        driver.look(state, 0.0);
+        driver.enter(Next::of_mode(mode));
+        driver.probe(state, 0.0);
         if settings.energy {
             driver.audit();
         }
@@ -115,7 +115,7 @@ where
 
     /// A contact that cannot hold where the run begins lets go at once.
     pub(super) fn begin(&mut self) {
-        let mut now = look(self.model, &self.run.mode, 0.0, &self.run.state, !self.settings.rolling).events;
+        let mut now = probe(self.model, &self.run.mode, 0.0, &self.run.state, !self.settings.rolling).events;
         (now[LOWER], now[UPPER]) = (1.0, 1.0);
         if now[INNER] < 0.0 || now[OUTER] < 0.0 {
             self.give_way(&now);
@@ -123,7 +123,7 @@ where
     }
 
     pub(super) fn integrate(&mut self) {
-        let (trail, mut room, mut looks) = (Trail::new(), Room::new(), Looks::new());
+        let (trail, mut room, mut probes) = (Trail::new(), Room::new(), Probes::new());
         while self.run.t_s < self.settings.duration_s {
             if self.settings.follow.stopped() {
                 return self.stop(Stop::Interrupted);
@@ -143,20 +143,20 @@ where
             }
             if past != self.run.t_s {
                 // Beyond a knot other forces act: nothing of the last step serves the next.
-                (self.slope, self.seen) = (None, None);
+                (self.slope, self.probed) = (None, None);
                 self.run.t_s = past;
             }
             let work = self.run.counters.steps + self.run.counters.rejections;
             let (t, y) = (self.run.t_s, self.run.state);
             let mut rhs = trail.slope_in(self.model, self.run.mode, !self.settings.rolling);
-            let slope = match self.slope.take().zip(self.seen.take()) {
+            let slope = match self.slope.take().zip(self.probed.take()) {
                 Some((slope, seen)) => {
                     trail.begin(seen);
                     slope
                 }
                 None => {
                     self.run.counters.rhs_evaluations += 1;
-                    match rhs.slope_at_look(0, t, &y) {
+                    match rhs.slope_at_probe(0, t, &y) {
                         Ok(slope) => slope,
                         Err(()) => return self.stop(Stop::NotFinite),
                     }
@@ -174,8 +174,8 @@ where
             match step.filter(|_| work < self.settings.most_steps) {
                 Some(step) => {
                     let mode = self.run.mode;
-                    looks.take(self.model, &mode, !self.settings.rolling, &step, &trail);
-                    if !self.advance(&step, &slope, &looks, &mut rhs) {
+                    probes.take(self.model, &mode, !self.settings.rolling, &step, &trail);
+                    if !self.advance(&step, &slope, &probes, &mut rhs) {
                         return;
                     }
                 }
@@ -185,10 +185,10 @@ where
     }
 
     /// Take the step up to its first event, if any. False: the run has ended.
-    fn advance(&mut self, step: &Step<N>, slope: &[f64; N], looks: &Looks, rhs: &mut Observed) -> bool {
+    fn advance(&mut self, step: &Step<N>, slope: &[f64; N], probes: &Probes, rhs: &mut Observed) -> bool {
         let mut dense: Option<Dense<N>> = None;
-        for i in 1..looks.count() {
-            if looks.seen(i).events.iter().any(|&e| e < 0.0) {
+        for i in 1..probes.count() {
+            if probes.get(i).events.iter().any(|&e| e < 0.0) {
                 let d = match &dense {
                     Some(d) => d,
                     None => match step.dense(rhs, &mut self.run.counters) {
@@ -199,30 +199,30 @@ where
                         }
                     },
                 };
-                let theta = looks.at(i);
-                match self.first_event(d, step, looks, i - 1, theta, &looks.seen(i).events) {
+                let theta = probes.at(i);
+                match self.first_event(d, step, probes, i - 1, theta, &probes.get(i).events) {
                     Found::Nothing => {}
                     Found::At(theta, which) if !self.stays(step, theta, which) => {
-                        return self.land(step, looks, theta, which, d, rhs);
+                        return self.land(step, probes, theta, which, d, rhs);
                     }
                     Found::At(..) | Found::TooCoarse => {
-                        // The event function is negative from the start: look closer, then give way.
+                        // The event function is negative from the start: probe closer, then give way.
                         let h = step.h() * 0.125 * theta;
                         if h > 1e-13 {
                             self.stepper.h = h;
-                            (self.slope, self.seen) = (Some(*slope), Some(*looks.seen(0)));
+                            (self.slope, self.probed) = (Some(*slope), Some(*probes.get(0)));
                             return true;
                         }
-                        return self.give_way(&looks.seen(i).events);
+                        return self.give_way(&probes.get(i).events);
                     }
                 }
             }
         }
-        match self.crest(step, looks, dense, None, rhs) {
-            Ok(Some((theta, which, d))) => return self.land(step, looks, theta, which, &d, rhs),
-            Ok(None) if self.watch(step, looks, rhs).is_ok() => {
+        match self.crest(step, probes, dense, None, rhs) {
+            Ok(Some((theta, which, d))) => return self.land(step, probes, theta, which, &d, rhs),
+            Ok(None) if self.watch(step, probes, rhs).is_ok() => {
                 self.audit_step(step, rhs);
-                self.accept(step, looks.end());
+                self.accept(step, probes.end());
             }
             _ => {
                 self.stop(Stop::NotFinite);
@@ -232,7 +232,7 @@ where
         // The end of an explicit step is the first stage of the next; the correction of the windup in between is
         // of the size of the step's error.
         if let Step::Explicit(s) = step {
-            (self.slope, self.seen) = (Some(*s.slope1()), Some(*looks.end()));
+            (self.slope, self.probed) = (Some(*s.slope1()), Some(*probes.end()));
         }
         true
     }
@@ -244,27 +244,27 @@ where
         t + theta * step.h() == t && self.landed == (t, which)
     }
 
-    /// The first event of a function that dips below zero and rises again between two looks: where its lowest look
-    /// is nearer to zero than it can fall between looks. A step may have been cut where event `landed` is.
+    /// The first event of a function that dips below zero and rises again between two probes: where its lowest probe
+    /// is nearer to zero than it can fall between probes. A step may have been cut where event `landed` is.
     fn crest(
         &mut self,
         step: &Step<N>,
-        looks: &Looks,
+        probes: &Probes,
         mut dense: Option<Dense<N>>,
         landed: Option<usize>,
         rhs: &mut Observed,
     ) -> Result<Option<(f64, usize, Dense<N>)>, ()> {
         let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
         for i in 0..EVENTS {
-            let e = |j: usize| looks.seen(j).events[i];
+            let e = |j: usize| probes.get(j).events[i];
             // A contact just released starts at zero and rises: that is no dip.
-            for j in 1..looks.count() {
-                if landed == Some(i) && j + 1 == looks.count() {
+            for j in 1..probes.count() {
+                if landed == Some(i) && j + 1 == probes.count() {
                     continue;
                 }
-                let (left, right) = looks.beside(j);
+                let (left, right) = probes.beside(j);
                 let bottom = e(j) <= e(left) && e(j) <= e(right);
-                if !bottom || e(j) >= looks.overshoot(j, |j| -e(j)) {
+                if !bottom || e(j) >= probes.overshoot(j, |j| -e(j)) {
                     continue;
                 }
                 let d = match dense.take() {
@@ -276,12 +276,12 @@ where
                     let elapsed = theta * length;
                     -event(model, &mode, start + elapsed, &d.after(elapsed), grips, i)
                 };
-                let (from, until) = (looks.at(left), looks.at(right));
-                let (theta, depth) = highest(from, looks.extreme(j, e), until, 0.0, 0.0, value);
+                let (from, until) = (probes.at(left), probes.at(right));
+                let (theta, depth) = highest(from, probes.extreme(j, e), until, 0.0, 0.0, value);
                 if depth > 0.0 {
                     let elapsed = theta * length;
-                    let there = look(model, &mode, start + elapsed, &d.after(elapsed), grips).events;
-                    if let Found::At(theta, which) = self.first_event(&d, step, looks, left, theta, &there)
+                    let there = probe(model, &mode, start + elapsed, &d.after(elapsed), grips).events;
+                    if let Found::At(theta, which) = self.first_event(&d, step, probes, left, theta, &there)
                         && (landed.is_none() || theta < TOGETHER)
                     {
                         return Ok(Some((theta, which, d)));
@@ -293,12 +293,12 @@ where
         Ok(None)
     }
 
-    /// Earliest zero between look `left` and the fraction `to` of the step, where `after` is seen.
+    /// Earliest zero between probe `left` and the fraction `to` of the step, where `after` is seen.
     pub(super) fn first_event(
         &self,
         dense: &Dense<N>,
         step: &Step<N>,
-        looks: &Looks,
+        probes: &Probes,
         left: usize,
         to: f64,
         after: &[f64; EVENTS],
@@ -312,7 +312,8 @@ where
                 event(self.model, &mode, step.t() + elapsed, &dense.after(elapsed), grips, i)
             };
             let width = if i == INNER || i == OUTER { WIDTH * self.settings.tolerance } else { 0.0 };
-            match looks.crossing(left, to, after[i], |look| look.events[i], width.max(FINEST_WIDTH), value) {
+            match probes.crossing(left, to, after[i], |probe| probe.events[i], width.max(FINEST_WIDTH), value)
+            {
                 Ok(Some(theta)) if theta < earliest => {
                     earliest = theta;
                     first = Found::At(theta, i);
@@ -328,7 +329,7 @@ where
     fn land(
         &mut self,
         step: &Step<N>,
-        looks: &Looks,
+        probes: &Probes,
         theta: f64,
         which: usize,
         dense: &Dense<N>,
@@ -337,24 +338,24 @@ where
         let (model, mode, grips) = (self.model, self.run.mode, !self.settings.rolling);
         let sight = |theta: f64| {
             let elapsed = theta * step.h();
-            look(model, &mode, step.t() + elapsed, &dense.after(elapsed), grips)
+            probe(model, &mode, step.t() + elapsed, &dense.after(elapsed), grips)
         };
         let mut there = sight(theta);
-        let theta = looks.beyond_a_jump(theta, which, &mut there, sight);
+        let theta = probes.beyond_a_jump(theta, which, &mut there, sight);
         let h = theta * step.h();
         if h > 0.0 {
             if cusp(mode.place) == Some(which)
-                && let Some((theta, which)) = self.before_the_cusp(step, looks, theta, dense)
+                && let Some((theta, which)) = self.before_the_cusp(step, probes, theta, dense)
             {
-                return self.land(step, looks, theta, which, dense, rhs);
+                return self.land(step, probes, theta, which, dense, rhs);
             }
-            let looks = looks.until(theta, sight, there);
+            let probes = probes.until(theta, sight, there);
             let part = step.until(h, dense);
             // Another function may have dipped below zero on the way, or still be there.
-            match self.crest(&part, &looks, None, Some(which), rhs) {
+            match self.crest(&part, &probes, None, Some(which), rhs) {
                 Ok(None) => {}
                 Ok(Some((theta, which, dense))) => {
-                    return self.land(&part, &looks, theta, which, &dense, rhs);
+                    return self.land(&part, &probes, theta, which, &dense, rhs);
                 }
                 Err(()) => {
                     self.stop(Stop::NotFinite);
@@ -363,12 +364,12 @@ where
             }
             // A step that was short because the event was expected says little of how long the next in this mode may be.
             self.stepper.h = step.h().max(self.lengths[kind(&mode)].min(self.stepper.h));
-            if self.watch(&part, &looks, rhs).is_err() {
+            if self.watch(&part, &probes, rhs).is_err() {
                 self.stop(Stop::NotFinite);
                 return false;
             }
             self.audit_step(&part, rhs);
-            self.accept(&part, looks.end());
+            self.accept(&part, probes.end());
         }
         let (t, y) = (step.t() + h, self.run.state);
         self.landed = (t, which);
@@ -407,11 +408,11 @@ where
         }
         self.stepper.forget();
         self.stepper.tolerance = self.settings.tolerance_in(&mode);
-        (self.slope, self.seen) = (None, None);
+        (self.slope, self.probed) = (None, None);
     }
 
     /// Take over an accepted step, at whose end `end` is seen: constraint, slip records.
-    fn accept(&mut self, step: &Step<N>, end: &Look) {
+    fn accept(&mut self, step: &Step<N>, end: &Probe) {
         let mode = self.run.mode;
         let (t, mut y) = (step.t() + step.h(), *step.y1());
         self.run.counters.steps += 1;

@@ -12,8 +12,8 @@
 //! the projections at them have done wrong.
 
 use super::driver::Driver;
-use super::looks::Observed;
 use super::model::{Grip, Model, N_STATE, Place};
+use super::probes::Observed;
 use crate::numeric::quadrature;
 use crate::ode::adaptive::Size;
 use crate::ode::step::{Counters, Step};

@@ -14,7 +14,7 @@ pub(super) const INNER: usize = 2;
 /// Index: contact B changes its grip.
 pub(super) const OUTER: usize = 3;
 
-/// Number of figures of a [`Look`].
+/// Number of figures of a [`Probe`].
 pub(super) const FIGURES: usize = 5;
 /// Index of N_bi among them.
 pub(super) const N_BI: usize = 3;
@@ -30,7 +30,7 @@ pub(super) const OPEN_REACH_RAD: f64 = 0.5;
 
 /// What one evaluation of the forces tells.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Look {
+pub(super) struct Probe {
     /// Positive inside the mode.
     pub(super) events: [f64; EVENTS],
     /// What a run keeps the largest of: |T_bi|/N_bi, |T_be|/N_be (0 without contact; [`carried`] where B holds whatever that
@@ -46,7 +46,7 @@ pub(super) struct Look {
     pub(super) outer_rate_rad_s: f64,
 }
 
-impl Look {
+impl Probe {
     /// Before anything is seen.
     pub(super) const NOTHING: Self = Self {
         events: [f64::NAN; EVENTS],
@@ -72,7 +72,7 @@ fn within(model: &Model, place: Place, alpha: f64) -> (f64, f64) {
     }
 }
 
-/// Figures of a [`Look`]. `closed`: whether there is contact; `share`: how much of what B is asked for counts.
+/// Figures of a [`Probe`]. `closed`: whether there is contact; `share`: how much of what B is asked for counts.
 #[inline(always)]
 pub(super) fn figures(closed: bool, f: &Forces, share: f64) -> [f64; FIGURES] {
     let ratio = |t: f64, n: f64| if closed && n > 0.0 { t.abs() / n } else { 0.0 };
@@ -88,14 +88,14 @@ fn carried(n: f64, loaded: f64) -> f64 {
 /// What is seen where the forces are `f`. `grips`: whether the friction limits count (the pure-rolling run ignores
 /// them). Always inlined: written where it is kept, not copied there, which would wait for the writes.
 #[inline(always)]
-pub(super) fn seen<const N: usize>(
+pub(super) fn probe_of<const N: usize>(
     model: &Model,
     mode: &Mode,
     y: &[f64; N],
     p: &WedgePoint,
     f: &Forces,
     grips: bool,
-) -> Look {
+) -> Probe {
     let (lower, upper) = within(model, mode.place, y[0]);
     let mu = model.friction.static_;
     let inner = match mode.inner {
@@ -111,7 +111,7 @@ pub(super) fn seen<const N: usize>(
     };
     // A contact that holds whatever that takes is asked for more without bound as it unloads.
     let share = if model.outer_holds { carried(f.n_bi.min(f.n_be), model.loaded_n) } else { 1.0 };
-    Look {
+    Probe {
         events: [lower, upper, inner, outer],
         figures: figures(matches!(mode.place, Place::Arc(_)), f, share),
         rho: p.rho_i + p.rho_e,
@@ -129,13 +129,13 @@ pub(super) fn radial_m_s2(mode: &Mode, p: &WedgePoint, f: &Forces) -> f64 {
 }
 
 /// What is seen at (t, y) in `mode`.
-pub(super) fn look<const N: usize>(model: &Model, mode: &Mode, t: f64, y: &[f64; N], grips: bool) -> Look {
+pub(super) fn probe<const N: usize>(model: &Model, mode: &Mode, t: f64, y: &[f64; N], grips: bool) -> Probe {
     let p = model.point(mode.place, y[0]);
     let f = model.forces_at(mode, t, y, &p, &model.rates(mode, &p, y));
-    seen(model, mode, y, &p, &f, grips)
+    probe_of(model, mode, y, &p, &f, grips)
 }
 
-/// Event function `i` of [`Look::events`] alone: the ends of a place need no forces, a slip velocity no friction.
+/// Event function `i` of [`Probe::events`] alone: the ends of a place need no forces, a slip velocity no friction.
 pub(super) fn event<const N: usize>(
     model: &Model,
     mode: &Mode,
@@ -154,6 +154,6 @@ pub(super) fn event<const N: usize>(
         (UPPER, ..) => within(model, mode.place, y[0]).1,
         (INNER, Some(s), _) if grips && mode.place != Place::Open => s * velocities().0,
         (OUTER, _, Some(s)) if grips => s * velocities().1,
-        _ => look(model, mode, t, y, grips).events[i],
+        _ => probe(model, mode, t, y, grips).events[i],
     }
 }

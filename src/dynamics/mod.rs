@@ -16,11 +16,11 @@ mod drive;
 mod driver;
 mod energy;
 mod events;
-mod looks;
 mod memory;
 mod model;
 mod outside;
 mod periodic;
+mod probes;
 #[cfg(feature = "validation")]
 mod published;
 mod repeat;
@@ -45,7 +45,7 @@ pub use published::{PublishedSettings, published};
 pub use repeat::Jump;
 pub use rolling::{Rolling, rolling, rolling_quickly};
 pub use run::{
-    Engaged, FastMotion, Held, History, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,
+    Engaged, FastMotion, History, Hold, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,
     run_while_it_sticks,
 };
 pub use start::{

@@ -4,7 +4,7 @@
 //! [`super::run()`].
 
 use super::driver::Driver;
-use super::events::{EVENTS, look};
+use super::events::{EVENTS, probe};
 use super::model::{Mode, Model, State};
 use super::run::{RunSettings, Stop};
 
@@ -12,7 +12,7 @@ use super::run::{RunSettings, Stop};
 /// (m/s in slip, N in stick). Positive inside the mode; right after a change one may be zero, or below it by rounding,
 /// and rise.
 pub fn events(model: &Model, mode: &Mode, t: f64, y: &State) -> [f64; EVENTS] {
-    look(model, mode, t, y, true).events
+    probe(model, mode, t, y, true).events
 }
 
 /// The mode after the event function `which` (0 to 3, in the order of [`events`]) of `mode` has fallen to zero at `t` (s)

@@ -259,7 +259,7 @@ where
         self.phase =
             self.phase.map(|phase| phase + n * (drift[2] - if self.runs_on(3) { drift[3] } else { 0.0 }));
         self.run.t_s = (repeat.count + periods) as f64 * repeat.period_s;
-        (self.slope, self.seen) = (None, None);
+        (self.slope, self.probed) = (None, None);
         (self.zeno, self.landed) = (Zeno::new(), (f64::NAN, super::events::EVENTS));
         self.run.jump = Some(Jump { from_s, periods, period_s: repeat.period_s, error, events });
         f64::INFINITY

@@ -45,7 +45,7 @@ pub struct History {
     pub marks: bool,
 }
 
-/// What the equations leave out, at its largest over a run, from every look at every step. 0 where no samples were asked for.
+/// What the equations leave out, at its largest over a run, from every probe at every step. 0 where no samples were asked for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Neglected {
     /// |OC_g' alpha''| while A carries load, m/s^2: the radial acceleration of G.
@@ -57,7 +57,7 @@ pub struct Neglected {
 }
 
 impl Neglected {
-    /// One look: |OC_g' alpha''| (m/s^2), N_be (N) and |theta_be'| (rad/s) there.
+    /// One probe: |OC_g' alpha''| (m/s^2), N_be (N) and |theta_be'| (rad/s) there.
     pub(super) fn note(&mut self, radial_m_s2: f64, normal_outer_n: f64, outer_rate_rad_s: f64) {
         if radial_m_s2 > self.radial_m_s2 {
             (self.radial_m_s2, self.normal_outer_n) = (radial_m_s2, normal_outer_n);
@@ -152,12 +152,12 @@ impl Peaks {
         normal_at_tan_n: [0.0; 2],
     };
 
-    /// The largest so far of each figure of a look.
+    /// The largest so far of each figure of a probe.
     pub(super) fn figures(&self) -> [f64; FIGURES] {
         [self.tan_inner, self.tan_outer, -self.normal_min_n, self.normal_max_n, self.normal_outer_max_n]
     }
 
-    /// Figure `i` of a look at `t` (s) with a normal force of `n_bi` (N) is a record.
+    /// Figure `i` of a probe at `t` (s) with a normal force of `n_bi` (N) is a record.
     pub(super) fn keep(&mut self, i: usize, t: f64, value: f64, n_bi: f64) {
         self.at_s[i] = t;
         match i {
@@ -202,7 +202,7 @@ pub struct Engaged<const N: usize = N_STATE> {
 /// A stick of A under which the load comes to a peak: N_bi reaches its largest value so far and falls again, or the run
 /// ends. From a stick that is none A slips on while the load builds up.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Held {
+pub struct Hold {
     /// When it began, s.
     pub t_s: f64,
     /// Slip at A up to it.
@@ -282,9 +282,9 @@ pub struct Run<const N: usize = N_STATE> {
     /// When the clutch began to be one; `None`: it overran or was open to the end.
     pub engaged: Option<Engaged<N>>,
     /// The first hold of the load since then that has ended.
-    pub(super) held: Option<Held>,
+    pub(super) held: Option<Hold>,
     /// The stick of A that lasts.
-    pub(super) stick: Option<Held>,
+    pub(super) stick: Option<Hold>,
     /// Every mode with the time at which it began, s; empty where no samples were asked for.
     pub modes: Vec<(f64, Mode)>,
     /// Periods that were jumped.
@@ -385,7 +385,7 @@ impl<const N: usize> Run<N> {
         let sticks = matches!(self.mode.place, Place::Arc(_)) && self.mode.inner == Grip::Stick;
         match self.stick {
             None if sticks && self.engaged.is_some() => {
-                self.stick = Some(Held { t_s: self.t_s, inner: self.inner });
+                self.stick = Some(Hold { t_s: self.t_s, inner: self.inner });
             }
             Some(stick) if !sticks => {
                 let peak_s = self.peaks.at_s[N_BI];
@@ -397,7 +397,7 @@ impl<const N: usize> Run<N> {
     }
 
     /// The first hold of the load since the clutch engaged; a stick that lasts to the end is one.
-    pub fn first_hold(&self) -> Option<Held> {
+    pub fn first_hold(&self) -> Option<Hold> {
         self.held.or(self.stick)
     }
 }

@@ -23,13 +23,13 @@
 
 use super::crossing::scaled;
 use super::events::FIGURES;
-use super::looks::Grid;
 use super::model::{Model, Place, State};
+use super::probes::Grid;
 use super::run::{Peaks, RunSettings};
 use super::stick_table::{Contacts, Motion, Table};
 use super::watch::highest;
 use crate::numeric::root;
-use crate::ode::dop853::{Dense, LOOKS, Step};
+use crate::ode::dop853::{Dense, PROBES, Step};
 use crate::ode::rhs::RightHandSide;
 use crate::ode::step::{Counters, Tolerance};
 
@@ -63,7 +63,7 @@ struct Sight {
 struct Rolls<'a> {
     model: &'a Model,
     table: Table<'a>,
-    seen: [Sight; LOOKS.len()],
+    probed: [Sight; PROBES.len()],
     beat: Beat,
 }
 
@@ -134,7 +134,7 @@ impl Rolls<'_> {
         [(q_w * m_ee - q_e * m_we) * inverse, (m_ww * q_e - m_we * q_w) * inverse]
     }
 
-    /// Figures as in [`super::events::Look`] where the accelerations are `a`.
+    /// Figures as in [`super::events::Probe`] where the accelerations are `a`.
     #[inline(always)]
     fn figures(model: &Model, c: &Contacts, y: &Pair, a: [f64; 2], outside: [f64; 2]) -> [f64; FIGURES] {
         let ([_, e, u, v], [u_rate, v_rate], [c_bi, c_be]) = (*y, a, outside);
@@ -189,9 +189,9 @@ impl RightHandSide<4> for Rolls<'_> {
     }
 
     #[inline(always)]
-    fn slope_at_look(&mut self, look: usize, t: f64, y: &Pair) -> Result<Pair, ()> {
-        self.seen[look] = self.sight(t, y);
-        Self::slope_of(y, self.seen[look].rates)
+    fn slope_at_probe(&mut self, probe: usize, t: f64, y: &Pair) -> Result<Pair, ()> {
+        self.probed[probe] = self.sight(t, y);
+        Self::slope_of(y, self.probed[probe].rates)
     }
 }
 
@@ -219,7 +219,7 @@ pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSe
     let y: Pair = [windup, state[3], state[7] - state[6], state[7]];
     let nothing = Sight { t: 0.0, y, rates: [f64::NAN; 2], figures: [f64::NAN; FIGURES] };
     let beat = Beat::new(model.loads.omega_rad_s, model.loads.amplitude_nm, 0.0);
-    let mut rolls = Rolls { model, table: Table::new(model, arc), seen: [nothing; LOOKS.len()], beat };
+    let mut rolls = Rolls { model, table: Table::new(model, arc), probed: [nothing; PROBES.len()], beat };
     let mut run =
         Stuck { peaks: Peaks::NONE, counters: Counters::default(), passed: 0, interrupted: false, t_s: 0.0 };
     integrate(&mut rolls, y, settings, &mut run).then_some(run)
@@ -246,7 +246,7 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
         let rest = settings.duration_s - t;
         let ahead = rolls.table.junction_ahead_s(&y, now.rates[0]);
         let trial = h.min(longest).min(rest).min(BEYOND[0] * ahead + BEYOND[1] * longest);
-        rolls.seen[0] = now;
+        rolls.probed[0] = now;
         rolls.beat = Beat::new(rolls.beat.omega, rolls.model.loads.amplitude_nm, t);
         let slope = [y[2], y[3], now.rates[0], now.rates[1]];
         let taken = step.take(rolls, t, &y, &slope, trial, &tolerance, MOST, &mut run.counters);
@@ -280,7 +280,7 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
             _ => {
                 t = if trial == rest { settings.duration_s } else { t + trial };
                 y = step.y1;
-                now = rolls.seen[LOOKS.len() - 1];
+                now = rolls.probed[PROBES.len() - 1];
             }
         }
         run.t_s = t;
@@ -305,10 +305,10 @@ fn first_passage(
     let [from, until] = rolls.table.ends();
     // How far beyond an end, positive outside.
     let beyond = |w: f64| (from - w).max(w - until);
-    for j in 1..LOOKS.len() {
-        let [a, b] = [rolls.seen[j - 1].y, rolls.seen[j].y];
-        let gap = (LOOKS[j] - LOOKS[j - 1]) * step.h;
-        // Between two looks w may turn: of the parabola by its rates, half the gap times the product over the difference.
+    for j in 1..PROBES.len() {
+        let [a, b] = [rolls.probed[j - 1].y, rolls.probed[j].y];
+        let gap = (PROBES[j] - PROBES[j - 1]) * step.h;
+        // Between two probes w may turn: of the parabola by its rates, half the gap times the product over the difference.
         let turns = a[2] * b[2] < 0.0;
         let rise = if turns { gap * (a[2] * b[2] / (a[2] - b[2])).abs() } else { 0.0 };
         if beyond(a[0]).max(beyond(b[0])) + rise <= 0.0 {
@@ -319,7 +319,7 @@ fn first_passage(
         }
         let d = dense.as_ref()?;
         let at = |theta: f64| d.after(theta * step.h);
-        let (low, mut high) = (LOOKS[j - 1], LOOKS[j]);
+        let (low, mut high) = (PROBES[j - 1], PROBES[j]);
         if turns {
             let top = root::bracketed(low, high, a[2], at(high)[2], 1e-9, |theta| at(theta)[2]);
             high = top.filter(|&top| beyond(at(top)[0]) > 0.0).unwrap_or(high);
@@ -346,12 +346,12 @@ fn watch(
     settings: &RunSettings,
     run: &mut Stuck,
 ) -> bool {
-    // A figure is smooth over the step: between looks, of which the fastest swing that such steps follow has a dozen in a
+    // A figure is smooth over the step: between probes, of which the fastest swing that such steps follow has a dozen in a
     // period, it rises above them by far less than they differ.
     let best = run.peaks.figures();
-    let may_hold_a_record = |looks: &[Sight]| {
+    let may_hold_a_record = |probes: &[Sight]| {
         let (mut low, mut high) = ([f64::INFINITY; FIGURES], [f64::NEG_INFINITY; FIGURES]);
-        for Sight { figures, .. } in looks {
+        for Sight { figures, .. } in probes {
             for i in 0..FIGURES {
                 low[i] = if figures[i] < low[i] { figures[i] } else { low[i] };
                 high[i] = if figures[i] > high[i] { figures[i] } else { high[i] };
@@ -359,14 +359,14 @@ fn watch(
         }
         std::array::from_fn::<bool, FIGURES, _>(|i| high[i] + (high[i] - low[i]) >= best[i])
     };
-    if end.is_none() && !may_hold_a_record(&rolls.seen).contains(&true) {
+    if end.is_none() && !may_hold_a_record(&rolls.probed).contains(&true) {
         return true;
     }
-    let mut at = LOOKS;
-    let mut seen = rolls.seen;
-    let mut count = LOOKS.len();
+    let mut at = PROBES;
+    let mut seen = rolls.probed;
+    let mut count = PROBES.len();
     if let (Some(theta), Some(d)) = (end, dense.as_ref()) {
-        count = LOOKS.iter().filter(|&&l| l < theta).count().min(LOOKS.len() - 2).max(1);
+        count = PROBES.iter().filter(|&&l| l < theta).count().min(PROBES.len() - 2).max(1);
         let mut places = vec![theta];
         if count == 1 {
             places.insert(0, 0.5 * theta);

@@ -1,8 +1,8 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
 use super::driver::Driver;
-use super::events::{FIGURES, N_BE, N_BI, look};
-use super::looks::{Looks, Observed, parabola};
+use super::events::{FIGURES, N_BE, N_BI, probe};
+use super::probes::{Observed, Probes, parabola};
 use super::run::{RunSettings, Sample};
 use crate::ode::adaptive::Size;
 use crate::ode::step::Step;
@@ -13,7 +13,7 @@ where
     Const<N>: Size,
 {
     /// Extremes and samples inside the step.
-    pub(super) fn watch(&mut self, step: &Step<N>, looks: &Looks, rhs: &mut Observed) -> Result<(), ()> {
+    pub(super) fn watch(&mut self, step: &Step<N>, probes: &Probes, rhs: &mut Observed) -> Result<(), ()> {
         let (mode, model) = (self.run.mode, self.model);
         let (start, length) = (step.t(), step.h());
         let t_end = start + length;
@@ -24,33 +24,33 @@ where
         let mut dense = None;
         let fine = 1e-3 * self.settings.tolerance;
         for (i, (&bound, mut best)) in self.bounds().iter().zip(peaks.figures()).enumerate() {
-            let value = |j: usize| looks.seen(j).figures[i].min(bound);
-            for (j, t) in [(0, start), (looks.count() - 1, t_end)] {
+            let value = |j: usize| probes.get(j).figures[i].min(bound);
+            for (j, t) in [(0, start), (probes.count() - 1, t_end)] {
                 if value(j) > best {
                     best = value(j);
-                    peaks.keep(i, t, best, looks.seen(j).figures[N_BI]);
+                    peaks.keep(i, t, best, probes.get(j).figures[N_BI]);
                     let state = if j == 0 { self.run.state } else { *step.y1() };
                     self.keep_extreme(i, t, state);
                 }
             }
-            for j in 0..looks.count() {
+            for j in 0..probes.count() {
                 let enough = best + fine * best.abs();
                 if enough >= bound {
                     break;
                 }
-                let (left, right) = looks.beside(j);
+                let (left, right) = probes.beside(j);
                 let top = value(j) >= value(left) && value(j) >= value(right);
-                if top && value(j) + looks.overshoot(j, value) > enough {
+                if top && value(j) + probes.overshoot(j, value) > enough {
                     let d = match &dense {
                         Some(d) => d,
                         None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
                     };
                     let figures = |theta: f64| {
                         let elapsed = theta * length;
-                        look(model, &mode, start + elapsed, &d.after(elapsed), false).figures
+                        probe(model, &mode, start + elapsed, &d.after(elapsed), false).figures
                     };
                     let inside = |theta: f64| figures(theta)[i];
-                    let (from, guess, until) = (looks.at(left), looks.extreme(j, value), looks.at(right));
+                    let (from, guess, until) = (probes.at(left), probes.extreme(j, value), probes.at(right));
                     let (theta, found) = highest(from, guess, until, enough, fine * value(j).abs(), inside);
                     if found > best {
                         best = found.min(bound);
@@ -62,13 +62,13 @@ where
             }
         }
         if samples > 0 {
-            for j in 0..looks.count() {
-                let seen = looks.seen(j);
-                // No more than a parabola can rise between the looks.
-                let radial = |j: usize| looks.seen(j).radial_m_s2.abs();
-                let rate = |j: usize| looks.seen(j).outer_rate_rad_s.abs();
+            for j in 0..probes.count() {
+                let seen = probes.get(j);
+                // No more than a parabola can rise between the probes.
+                let radial = |j: usize| probes.get(j).radial_m_s2.abs();
+                let rate = |j: usize| probes.get(j).outer_rate_rad_s.abs();
                 let [radial, rate] =
-                    [radial(j) + looks.overshoot(j, radial), rate(j) + looks.overshoot(j, rate)];
+                    [radial(j) + probes.overshoot(j, radial), rate(j) + probes.overshoot(j, rate)];
                 self.run.neglected.note(radial, seen.figures[N_BE], rate);
             }
         }
@@ -143,7 +143,7 @@ where
     }
 
     /// Extremes of N_bi at one instant.
-    pub(super) fn look(&mut self, y: [f64; N], t: f64) {
+    pub(super) fn probe(&mut self, y: [f64; N], t: f64) {
         let f = self.model.forces(&self.run.mode, t, &y);
         let p = &mut self.run.peaks;
         p.normal_min_n = p.normal_min_n.min(f.n_bi);

@@ -28,7 +28,7 @@ const MOST_PATIENCE: u32 = 5_000;
 /// as a radian or two of the fastest swing the estimates of neighbours scatter tenfold, and a step refused costs more than
 /// one that is a little too long spoils; where one has failed the right-hand side may be rough and the estimate too small.
 const AT_ONCE: f64 = 1.5;
-/// Weighted error below which a step may look over a rough place. Of a slope as |s - s_0|^(10/9) somewhere inside a step
+/// Weighted error below which a step may step over a rough place. Of a slope as |s - s_0|^(10/9) somewhere inside a step
 /// the error is up to 94 times the estimate, at its ends 0.8 to 3.6 times.
 const SMOOTH: f64 = 0.1;
 /// Steps shorter than this part of the longest count as short.

@@ -31,9 +31,9 @@ impl<const N: usize> Default for Step<N> {
 
 /// Where, as fractions of a step, its start, end and the stages between lie at which it is looked at. From the sixth stage
 /// on states are good to order 5, sum_j a_ij c_j^(q-1) = c_i^q/q for q up to 5; the fourth, near the start, to order 3.
-pub const LOOKS: [f64; 7] = [0.0, C[3], C[6], C[5], C[9], C[10], 1.0];
+pub const PROBES: [f64; 7] = [0.0, C[3], C[6], C[5], C[9], C[10], 1.0];
 
-/// Which of [`LOOKS`] a stage is; 0 where it is none.
+/// Which of [`PROBES`] a stage is; 0 where it is none.
 const LOOK_OF: [usize; 12] = [0, 0, 0, 1, 0, 3, 2, 0, 0, 4, 5, 0];
 
 /// State at stage `STAGE`: y + h sum_j a_j k_j, unrolled, without the a_j that are zero.
@@ -105,7 +105,7 @@ impl<const N: usize> Step<N> {
             let at = t + C[stage] * h;
             k[stage] = match LOOK_OF[stage] {
                 0 => rhs.slope(at, &z)?,
-                look => rhs.slope_at_look(look, at, &z)?,
+                probe => rhs.slope_at_probe(probe, at, &z)?,
             };
         }
         let mut y1 = *y;
@@ -129,7 +129,7 @@ impl<const N: usize> Step<N> {
         let error = if blend > 0.0 { h.abs() * err5 / (blend * N as f64).sqrt() } else { 0.0 };
         counters.rhs_evaluations += 11;
         if error <= most {
-            self.slope1 = rhs.slope_at_look(LOOKS.len() - 1, t + h, &y1)?;
+            self.slope1 = rhs.slope_at_probe(PROBES.len() - 1, t + h, &y1)?;
             counters.rhs_evaluations += 1;
         }
         (self.t, self.h, self.y0, self.y1, self.error) = (t, h, *y, y1, error);
@@ -153,7 +153,7 @@ impl<const N: usize> Step<N> {
         self.h * factor
     }
 
-    /// Cubic Hermite value at t + theta h: no extra evaluations, for a first look only.
+    /// Cubic Hermite value at t + theta h: no extra evaluations, for a first probe only.
     pub fn glance(&self, theta: f64) -> [f64; N] {
         let (a, b) = (theta, 1.0 - theta);
         std::array::from_fn(|i| {

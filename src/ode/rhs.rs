@@ -11,14 +11,14 @@ pub trait RightHandSide<const N: usize> {
     /// Where f is not defined or not finite.
     fn slope(&mut self, t: f64, y: &[f64; N]) -> Result<[f64; N], Self::Failure>;
 
-    /// The same at number `look` of [`super::dop853::LOOKS`] in the step that is being tried, for who keeps what comes by the
+    /// The same at number `probe` of [`super::dop853::PROBES`] in the step that is being tried, for who keeps what comes by the
     /// way there; the highest comes last.
     ///
     /// # Errors
     /// Those of [`Self::slope`].
     #[inline(always)]
-    fn slope_at_look(&mut self, look: usize, t: f64, y: &[f64; N]) -> Result<[f64; N], Self::Failure> {
-        let _ = look;
+    fn slope_at_probe(&mut self, probe: usize, t: f64, y: &[f64; N]) -> Result<[f64; N], Self::Failure> {
+        let _ = probe;
         self.slope(t, y)
     }
 }

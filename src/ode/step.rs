@@ -131,12 +131,12 @@ impl<const N: usize> Step<'_, N> {
         matches!(self, Self::Explicit(_))
     }
 
-    /// Where to look at it, as fractions of its length: an explicit step's right-hand side has been there.
-    pub fn looks(&self) -> &'static [f64] {
-        if self.is_explicit() { &dop853::LOOKS } else { &[0.0, 0.25, 0.5, 0.75, 1.0] }
+    /// Where to probe it, as fractions of its length: an explicit step's right-hand side has been there.
+    pub fn probes(&self) -> &'static [f64] {
+        if self.is_explicit() { &dop853::PROBES } else { &[0.0, 0.25, 0.5, 0.75, 1.0] }
     }
 
-    /// State at t + theta h without extra evaluations, for a first look only.
+    /// State at t + theta h without extra evaluations, for a first probe only.
     pub fn glance(&self, theta: f64) -> [f64; N] {
         match self {
             Self::Explicit(s) => s.glance(theta),

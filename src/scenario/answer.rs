@@ -4,7 +4,7 @@ use super::demand::RollingDemand;
 use super::error::Scales;
 use super::figures::ErrorEstimate;
 use crate::dynamics::{
-    EnergyBalance, Engaged, FastMotion, Held, Jump, Mode, Neglected, Overrun, Peaks, Sample, SlipRecord,
+    EnergyBalance, Engaged, FastMotion, Hold, Jump, Mode, Neglected, Overrun, Peaks, Sample, SlipRecord,
     Stop, TrainRun,
 };
 
@@ -124,7 +124,7 @@ pub struct Simulation {
     /// When A first carried load without overrunning; `None`: never, or an equilibrium.
     pub engaged: Option<Engaged>,
     /// The first stick of A since then under which the load comes to a peak.
-    pub held: Option<Held>,
+    pub held: Option<Hold>,
     /// Modes with the times at which they began, s; empty without samples.
     pub modes: Vec<(f64, Mode)>,
     /// Whole periods that were not integrated, being like the one before.
@@ -137,7 +137,7 @@ pub struct Simulation {
 
 impl Simulation {
     /// Initial slip: how long A slips under load after an overrun has been reversed, s. From the instant at which v_A has
-    /// fallen to 0 under load to the first stick under which the load comes to a peak ([`Held`]); time without contact in
+    /// fallen to 0 under load to the first stick under which the load comes to a peak ([`Hold`]); time without contact in
     /// between is not counted, so it is a part of the time of slip of [`Self::inner`]. The paper: about 0.5 ms. `None` without an
     /// overrun or such a stick.
     pub fn initial_slip_s(&self) -> Option<f64> {

@@ -1,7 +1,7 @@
 //! Where a step is looked at, mostly for nothing: the states at which an explicit step evaluates its right-hand side
-//! from its sixth stage on are good to order 5, and an evaluation of the forces is all that a look takes.
+//! from its sixth stage on are good to order 5, and an evaluation of the forces is all that a probe takes.
 
-use super::events::{EVENTS, Look, look, seen};
+use super::events::{EVENTS, Probe, probe, probe_of};
 use super::model::{Mode, Model};
 use crate::numeric::root;
 use crate::ode::dop853;
@@ -9,44 +9,44 @@ use crate::ode::rhs::RightHandSide;
 use crate::ode::step::Step;
 use std::cell::RefCell;
 
-/// Most looks at a step.
-const MOST: usize = dop853::LOOKS.len();
+/// Most probes at a step.
+const MOST: usize = dop853::PROBES.len();
 /// Up to here, as a part of a step, an event counts as at its start.
 const AT_START: f64 = 1e-3;
 /// A function that is still this part of what it is elsewhere in the step where it has been located jumps there.
 const JUMP: f64 = 1e-3;
-/// Up to here, as a part of the way between two looks, their own values do not decide where a function is zero.
+/// Up to here, as a part of the way between two probes, their own values do not decide where a function is zero.
 const BESIDE_A_LOOK: f64 = 1e-2;
 /// How far beyond an event that is expected a step goes, in parts of the way there.
 const BEYOND: f64 = 1.25;
 /// The same where stages beyond it would be of no use.
 const BEYOND_A_CUSP: f64 = 1.002;
 
-/// What has been seen of the present step and the last trial of it: at its start and at [`dop853::LOOKS`] as far as that
+/// What has been seen of the present step and the last trial of it: at its start and at [`dop853::PROBES`] as far as that
 /// has gone.
 pub(super) struct Trail {
-    seen: RefCell<([Look; MOST], usize)>,
+    probed: RefCell<([Probe; MOST], usize)>,
 }
 
 impl Trail {
     pub(super) fn new() -> Self {
-        Self { seen: RefCell::new(([Look::NOTHING; MOST], 0)) }
+        Self { probed: RefCell::new(([Probe::NOTHING; MOST], 0)) }
     }
 
     /// A step begins where `first` is seen.
-    pub(super) fn begin(&self, first: Look) {
-        let (looks, count) = &mut *self.seen.borrow_mut();
-        (looks[0], *count) = (first, 1);
+    pub(super) fn begin(&self, first: Probe) {
+        let (probes, count) = &mut *self.probed.borrow_mut();
+        (probes[0], *count) = (first, 1);
     }
 
     /// Where the last explicit trial shows the first event that `counts`, as a fraction of the step, and which; one at the
     /// very start is none.
     fn event(&self, counts: impl Fn(usize) -> bool) -> Option<(f64, usize)> {
-        let (looks, count) = &*self.seen.borrow();
+        let (probes, count) = &*self.probed.borrow();
         for to in 1..*count {
-            let [from, until] = [to - 1, to].map(|j| dop853::LOOKS[j]);
+            let [from, until] = [to - 1, to].map(|j| dop853::PROBES[j]);
             let crossing = |i: usize| {
-                let (a, b) = (looks[to - 1].events[i], looks[to].events[i]);
+                let (a, b) = (probes[to - 1].events[i], probes[to].events[i]);
                 (counts(i) && a > 0.0 && b < 0.0).then(|| (from + a / (a - b) * (until - from), i))
             };
             let earliest = (0..EVENTS).filter_map(crossing).min_by(|a, b| a.0.total_cmp(&b.0));
@@ -94,14 +94,14 @@ impl<const N: usize> RightHandSide<N> for Observed<'_> {
     }
 
     #[inline(always)]
-    fn slope_at_look(&mut self, look: usize, t: f64, y: &[f64; N]) -> Result<[f64; N], ()> {
+    fn slope_at_probe(&mut self, probe: usize, t: f64, y: &[f64; N]) -> Result<[f64; N], ()> {
         let (model, mode) = (self.model, &self.mode);
-        let (looks, count) = &mut *self.trail.seen.borrow_mut();
+        let (probes, count) = &mut *self.trail.probed.borrow_mut();
         let p = model.point(mode.place, y[0]);
         let rates = model.rates(mode, &p, y);
         let f = model.forces_with::<true, N>(mode, t, y, &p, &rates);
-        looks[look] = seen(model, mode, y, &p, &f, self.grips);
-        *count = look + 1;
+        probes[probe] = probe_of(model, mode, y, &p, &f, self.grips);
+        *count = probe + 1;
         model.slope_of(mode, t, y, &rates, &f).ok_or(())
     }
 }
@@ -111,17 +111,17 @@ pub(super) struct NeverPositive;
 
 /// A step looked at, from its start to its end.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Looks {
+pub(super) struct Probes {
     /// Where, as fractions of the step's length.
     at: [f64; MOST],
-    seen: [Look; MOST],
+    probed: [Probe; MOST],
     count: usize,
 }
 
-impl Looks {
+impl Probes {
     /// At nothing yet.
     pub(super) fn new() -> Self {
-        Self { at: [0.0; MOST], seen: [Look::NOTHING; MOST], count: 0 }
+        Self { at: [0.0; MOST], probed: [Probe::NOTHING; MOST], count: 0 }
     }
 
     /// At an accepted step in `mode` which has left `trail`.
@@ -133,23 +133,23 @@ impl Looks {
         step: &Step<N>,
         trail: &Trail,
     ) {
-        let (seen, _) = &*trail.seen.borrow();
+        let (seen, _) = &*trail.probed.borrow();
         self.count = 0;
-        for (j, &theta) in step.looks().iter().enumerate() {
+        for (j, &theta) in step.probes().iter().enumerate() {
             let known = j == 0 || step.is_explicit();
             let seen = if known {
                 seen[j]
             } else {
                 let y = if theta == 1.0 { *step.y1() } else { step.glance(theta) };
-                look(model, mode, step.t() + theta * step.h(), &y, grips)
+                probe(model, mode, step.t() + theta * step.h(), &y, grips)
             };
             self.push(theta, seen);
         }
     }
 
-    /// At the first `theta` of the step, at whose end `last` is seen; `inside` is what is seen half way where no look
+    /// At the first `theta` of the step, at whose end `last` is seen; `inside` is what is seen half way where no probe
     /// lies before.
-    pub(super) fn until(&self, theta: f64, inside: impl FnOnce(f64) -> Look, last: Look) -> Self {
+    pub(super) fn until(&self, theta: f64, inside: impl FnOnce(f64) -> Probe, last: Probe) -> Self {
         let before = self.at[..self.count].iter().filter(|&&a| a < theta).count().min(MOST - 1);
         let mut part = *self;
         part.count = before;
@@ -169,11 +169,11 @@ impl Looks {
         &self,
         theta: f64,
         which: usize,
-        there: &mut Look,
-        sight: impl Fn(f64) -> Look,
+        there: &mut Probe,
+        sight: impl Fn(f64) -> Probe,
     ) -> f64 {
-        let size = self.seen[..self.count].iter().map(|l| l.events[which].abs()).fold(0.0, f64::max);
-        let jumps = |look: &Look| look.events[which] > JUMP * size;
+        let size = self.probed[..self.count].iter().map(|l| l.events[which].abs()).fold(0.0, f64::max);
+        let jumps = |probe: &Probe| probe.events[which] > JUMP * size;
         if !jumps(there) {
             return theta;
         }
@@ -189,37 +189,37 @@ impl Looks {
         theta
     }
 
-    /// The last look before the fraction `theta`.
+    /// The last probe before the fraction `theta`.
     pub(super) fn last_before(&self, theta: f64) -> Option<usize> {
         self.at[..self.count].iter().rposition(|&at| at < theta)
     }
 
-    fn push(&mut self, at: f64, seen: Look) {
-        (self.at[self.count], self.seen[self.count]) = (at, seen);
+    fn push(&mut self, at: f64, seen: Probe) {
+        (self.at[self.count], self.probed[self.count]) = (at, seen);
         self.count += 1;
     }
 
-    /// Number of looks, three at least.
+    /// Number of probes, three at least.
     pub(super) fn count(&self) -> usize {
         self.count
     }
 
-    /// Where look `j` is, as a fraction of the step.
+    /// Where probe `j` is, as a fraction of the step.
     pub(super) fn at(&self, j: usize) -> f64 {
         self.at[j]
     }
 
-    /// What look `j` sees.
-    pub(super) fn seen(&self, j: usize) -> &Look {
-        &self.seen[j]
+    /// What probe `j` sees.
+    pub(super) fn get(&self, j: usize) -> &Probe {
+        &self.probed[j]
     }
 
     /// The last one.
-    pub(super) fn end(&self) -> &Look {
-        &self.seen[self.count - 1]
+    pub(super) fn end(&self) -> &Probe {
+        &self.probed[self.count - 1]
     }
 
-    /// Where the looks are.
+    /// Where the probes are.
     fn grid(&self) -> Grid<'_> {
         Grid { at: &self.at[..self.count] }
     }
@@ -234,24 +234,24 @@ impl Looks {
         self.grid().overshoot(j, value)
     }
 
-    /// Where, as a fraction of the step, a function that is `after` < 0 at `to` falls through zero beyond look `left`, to
-    /// `width`. `of` reads it off a look, `value` knows it anywhere inside the step; `None` where by that it is not negative
+    /// Where, as a fraction of the step, a function that is `after` < 0 at `to` falls through zero beyond probe `left`, to
+    /// `width`. `of` reads it off a probe, `value` knows it anywhere inside the step; `None` where by that it is not negative
     /// at `to`.
     pub(super) fn crossing(
         &self,
         left: usize,
         to: f64,
         after: f64,
-        of: impl Fn(&Look) -> f64,
+        of: impl Fn(&Probe) -> f64,
         width: f64,
         value: impl Fn(f64) -> f64,
     ) -> Result<Option<f64>, NeverPositive> {
-        let (from, before) = (self.at[left], of(&self.seen[left]));
-        let guess = self.zero(left, |j| of(&self.seen[j]));
+        let (from, before) = (self.at[left], of(&self.probed[left]));
+        let guess = self.zero(left, |j| of(&self.probed[j]));
         let root = |from: f64, to: f64, at_from: f64, at_to: f64| {
             root::bracketed_near(from, to, at_from, at_to, guess, width, &value)
         };
-        // Looks inside a step are a little off `value`, which matters near them alone.
+        // Probes inside a step are a little off `value`, which matters near them alone.
         let near = BESIDE_A_LOOK * (to - from);
         let inside = |theta: &f64| *theta > from + near && *theta < to - near;
         if before > 0.0
@@ -273,7 +273,7 @@ impl Looks {
         Ok(root(start.0, to, start.1, end))
     }
 
-    /// Where a function is zero between look `left` and the next, by the parabola of the fraction over its values at those
+    /// Where a function is zero between probe `left` and the next, by the parabola of the fraction over its values at those
     /// and at a third beside them: a guess, no number where it has none.
     fn zero(&self, left: usize, value: impl Fn(usize) -> f64) -> f64 {
         let (a, b) = (left, (left + 1).min(self.count - 1));
@@ -297,13 +297,13 @@ pub(super) struct Grid<'a> {
 }
 
 impl Grid<'_> {
-    /// The looks beside `j`, itself at an end.
+    /// The probes beside `j`, itself at an end.
     #[inline]
     pub(super) fn beside(&self, j: usize) -> (usize, usize) {
         (j.saturating_sub(1), (j + 1).min(self.at.len() - 1))
     }
 
-    /// The parabola through the looks about `j`: its second divided difference, the wider gap, where its top lies.
+    /// The parabola through the probes about `j`: its second divided difference, the wider gap, where its top lies.
     #[inline]
     fn parabola(&self, j: usize, value: impl Fn(usize) -> f64) -> (f64, f64, f64) {
         let m = j.clamp(1, self.at.len() - 2);
@@ -312,7 +312,7 @@ impl Grid<'_> {
         (bend, (x[1] - x[0]).max(x[2] - x[1]), top)
     }
 
-    /// How far a function may rise between the looks beside `j` above all looks: the top of the parabola lies above the
+    /// How far a function may rise between the probes beside `j` above all probes: the top of the parabola lies above the
     /// nearest of three points by at most g^2/4 |second divided difference|, g the wider gap; twice that is allowed for.
     /// 0 at an end that the parabola passes a quarter of a gap before its top, or where it has none: a function that bends
     /// upwards is largest at the end itself.
@@ -323,7 +323,7 @@ impl Grid<'_> {
         if beyond { 0.0 } else { 0.5 * (-bend).max(0.0) * gap * gap }
     }
 
-    /// Where the extreme beside look `j` is to be looked for first.
+    /// Where the extreme beside probe `j` is to be looked for first.
     pub(super) fn extreme(&self, j: usize, value: impl Fn(usize) -> f64) -> f64 {
         let (left, right) = self.beside(j);
         let (.., top) = self.parabola(j, value);
