@@ -14,7 +14,8 @@
 
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{Run, RunSettings, Stop, run};
-use nalgebra::{DMatrix, DVector, Schur};
+use crate::numeric::eigen::eigenvalues;
+use nalgebra::{DMatrix, DVector};
 
 /// Numbers of the state that a period map may act on, at most.
 const MOST: usize = 6;
@@ -308,10 +309,7 @@ fn ranges(run: &Run) -> State {
 
 /// Eigenvalues, the largest first; `None` where they are not found.
 fn multipliers(jacobian: DMatrix<f64>) -> Option<Vec<[f64; 2]>> {
-    const MOST_SWEEPS: usize = 1000;
-    let finite = jacobian.iter().all(|x| x.is_finite());
-    let schur = finite.then(|| Schur::try_new(jacobian, f64::EPSILON, MOST_SWEEPS)).flatten()?;
-    let mut all: Vec<[f64; 2]> = schur.complex_eigenvalues().iter().map(|z| [z.re, z.im]).collect();
+    let mut all: Vec<[f64; 2]> = eigenvalues(jacobian)?.iter().map(|z| [z.re, z.im]).collect();
     all.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])).then(b[1].total_cmp(&a[1])));
     Some(all)
 }

@@ -1,12 +1,13 @@
 //! Whether a steady overrun stays: growth and frequency of the sprag's swing about it.
 
-use nalgebra::{Matrix2, Matrix3};
+use nalgebra::{DMatrix, Matrix2};
 
 use super::drive::Loads;
 use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::start::Overrun;
 use crate::clutch::Clutch;
 use crate::friction::FilmFriction;
+use crate::numeric::eigen::eigenvalues;
 use crate::numeric::root;
 use crate::wedge::{WedgeCurve, WedgePoint};
 
@@ -81,7 +82,7 @@ pub fn swing_with_friction(
     Some(Beside::of(clutch, curve, alpha_max_rad, steady, overrun_rad_s, film)?.swing())
 }
 
-/// The same with A on `film`; without one as [`swing()`].
+/// The same with A on `film`; without one as [`swing()`]. `None` too where the eigenvalues are not found.
 ///
 /// The film is a spring and a damper in line with the bodies. With its change of thickness delta, A's bodies feel
 /// alpha + delta/X', X' = tan omega OA (rho_i + rho_e) being what a turn presses the wedge together by, so that
@@ -112,12 +113,12 @@ pub fn swing_on_film(
     let rate = [-by_turn, stiffness * by_speed * turn, -by_turn - stiffness * pressed]
         .map(|of| of / (squeeze * pressed));
     #[rustfmt::skip]
-    let matrix = Matrix3::new(
+    let matrix = [
         0.0,             1.0,            0.0,
         beside.by_alpha, beside.by_rate, beside.by_alpha,
         rate[0],         rate[1],        rate[2],
-    );
-    let eigenvalues = matrix.complex_eigenvalues();
+    ];
+    let eigenvalues = eigenvalues(DMatrix::from_row_slice(3, 3, &matrix))?;
     Some(Swing {
         growth_rate_per_s: eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max),
         frequency_hz: eigenvalues.iter().map(|l| l.im).fold(0.0, f64::max) / std::f64::consts::TAU,

@@ -1,5 +1,5 @@
 //! Numerical tools that never heard of a machine part: duals, bracketed roots, quadrature, Chebyshev curves,
-//! Toeplitz systems, courses over time, quantiles, decimals, points that fill a box evenly.
+//! Toeplitz systems, eigenvalues, courses over time, quantiles, decimals, points that fill a box evenly.
 //!
 //! In: functions of one variable, rows of matrices. Out: roots, integrals, approximations with a stated error.
 //! Absent: physics, units. Equations: none of the paper's.
@@ -7,6 +7,7 @@
 pub mod chebyshev;
 pub mod course;
 pub mod dual;
+pub mod eigen;
 pub mod panels;
 pub mod pieces;
 pub mod quadrature;

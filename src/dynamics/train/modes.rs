@@ -10,6 +10,7 @@
 
 use super::{BODIES, Motion, Train};
 use crate::dynamics::{Model, Place, settled_point};
+use crate::numeric::eigen::eigenvalues;
 use nalgebra::{Complex, DMatrix, DVector, Matrix2};
 
 /// A small free motion of the engaged train.
@@ -144,7 +145,7 @@ fn eigen(
     first_order.view_mut((n, 0), (n, n)).copy_from(&(-&k / fastest));
     first_order.view_mut((n, n), (n, n)).copy_from(&(-d / scale));
     let mut damped: Vec<Complex<f64>> =
-        first_order.complex_eigenvalues().iter().filter(|l| l.im >= 0.0).copied().collect();
+        eigenvalues(first_order)?.into_iter().filter(|l| l.im >= 0.0).collect();
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| own.eigenvalues[a].total_cmp(&own.eigenvalues[b]));
     order.drain(..usize::from(turns));
