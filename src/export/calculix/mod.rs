@@ -25,7 +25,7 @@ mod spacing;
 mod write;
 
 pub use facts::Facts;
-pub use read::{NoRows, ResultRow, at_torque, read};
+pub use read::{NoRows, Reading, ResultRow, at_torque, read};
 
 use crate::clutch::{Clutch, InnerArc};
 use crate::profile::{Outline, Profile};
