@@ -3,8 +3,10 @@
 use super::left_out::LeftOut;
 use super::page::begun;
 use super::{Envelope, Provenance};
+use crate::clutch::Clutch;
 use crate::design::Design;
 use crate::export::calculix::{Facts, ResultRow};
+use crate::race::twist_rad_per_nm;
 use crate::report::{Cell, Column, Page, Table, Unit};
 use crate::wedge::{StaticPoint, WedgeCurve};
 use serde::Serialize;
@@ -72,7 +74,7 @@ impl<'a> FiniteElements<'a> {
         let curve =
             design.clutch.profile().ok().and_then(|p| WedgeCurve::build(&design.clutch, &p, 0.0).ok());
         let law = rows.iter().map(|r| curve.as_ref().and_then(|c| c.at_torque(r.torque_nm))).collect();
-        let twist_rad_per_nm = facts.twist_rad_per_nm(&design.clutch).iter().sum();
+        let twist_rad_per_nm = races_twist_rad_per_nm(facts, &design.clutch);
         Self { design, facts, rows, law, twist_rad_per_nm, turned }
     }
 
@@ -141,6 +143,18 @@ impl<'a> FiniteElements<'a> {
             points,
         }
     }
+}
+
+/// Turn of the driven circles of a deck against the tracks by the torsion of both races, rad per N m of the whole clutch. A
+/// plane deck has races as long as the sprag.
+fn races_twist_rad_per_nm(facts: &Facts, clutch: &Clutch) -> f64 {
+    let width_m = if facts.variant == "solid" { clutch.races.width_m } else { 1e-3 * facts.length_mm };
+    let materials = [&clutch.materials.inner_race, &clutch.materials.outer_race];
+    let radii = facts.driven_mm.iter().zip(facts.track_mm);
+    let turn = |(material, (driven, track)): (_, (&f64, f64))| {
+        twist_rad_per_nm(1e-3 * driven, 1e-3 * track, width_m, material)
+    };
+    materials.into_iter().zip(radii).map(turn).sum()
 }
 
 fn table(rows: &[ResultRow], law: &[Option<StaticPoint>], twist_rad_per_nm: f64) -> Table {

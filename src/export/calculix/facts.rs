@@ -1,8 +1,5 @@
 //! What a deck says of itself in its head, and what the reader of its result needs to know.
 
-use crate::clutch::Clutch;
-use crate::race::twist_rad_per_nm;
-
 /// Facts of one deck, written as comment lines and read back from them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Facts {
@@ -49,19 +46,6 @@ impl Facts {
         .iter()
         .map(|(key, value)| format!("{MARK}{key} = {value}\n"))
         .collect()
-    }
-
-    /// Turn of the driven circles against the tracks by the torsion of the inner and of the outer race, rad per N m of the
-    /// whole clutch. A plane deck has races as long as the sprag.
-    pub fn twist_rad_per_nm(&self, clutch: &Clutch) -> [f64; 2] {
-        let width_m = match self.variant.as_str() {
-            "solid" => clutch.races.width_m,
-            _ => 1e-3 * self.length_mm,
-        };
-        let m = &clutch.materials;
-        [(0, &m.inner_race), (1, &m.outer_race)].map(|(side, material)| {
-            twist_rad_per_nm(1e-3 * self.driven_mm[side], 1e-3 * self.track_mm[side], width_m, material)
-        })
     }
 
     /// Read them back from a deck; `Err` names the key that is missing or no number.

@@ -75,7 +75,8 @@ pub struct Options {
     /// Friction of the deck: high enough to stick; the design's own is not used.
     pub friction: f64,
     /// Contact pressure per overlap, in Young's moduli per mesh width: a contact much stiffer than its elements makes
-    /// the patch's edge alternate between two states for ever (50 on a soft shaft), one much softer adds its own give.
+    /// the patch's edge alternate between two states for ever (50 on a soft shaft, 25 in a thin ring), one much softer
+    /// adds its own give.
     pub penalty_per_width: f64,
     /// Increments of the turning step, 4 to 1000; none: 12, or as many as keep the contacts' way per increment
     /// within 1.2 mesh widths (2 widths do not always converge).
@@ -83,7 +84,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Friction 0.3, penalty 25 E per mesh width (0.1 % of windup, above a first GPa), a layer meshed at 25 um; torque 0:
+    /// Friction 0.3, penalty 10 E per mesh width (0.15 % of windup at 50 um from 1 GPa on, in proportion to the mesh), a layer meshed at 25 um; torque 0:
     /// give one.
     fn default() -> Self {
         Self {
@@ -91,7 +92,7 @@ impl Default for Options {
             mesh_m: 25e-6,
             torque_nm: 0.0,
             friction: 0.3,
-            penalty_per_width: 25.0,
+            penalty_per_width: 10.0,
             increments: None,
         }
     }

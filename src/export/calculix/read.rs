@@ -3,7 +3,7 @@
 //! Eq. (statics of one sector): torque from the moment of the contact forces about the axis at the inner
 //! contact, C = n_s M; T_bi = M/OA with OA the radius of the patch's centre, N_bi = sqrt(F^2 - T_bi^2) from the
 //! whole contact force F. Windup is the turn of the rim against the bore, so it holds the torsion of the two
-//! rings ([`Facts::twist_rad_per_nm`]) and the tangential give of the contacts, which the library's rigid races do not.
+//! rings and the tangential give of the contacts, which the library's rigid races do not.
 
 use super::Facts;
 
