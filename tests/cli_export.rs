@@ -153,7 +153,10 @@ fn a_result_is_read_beside_its_deck_and_no_other() {
         run(&["export", SINGLE, "--format", "calculix", "--read", dat_arg, "--torques", "16.8,50", "--json"]);
     assert_eq!(read.status.code(), Some(0));
     let said = String::from_utf8(read.stderr).unwrap();
-    assert!(said.contains("50 Nm lies outside") && said.contains("the last increments are missing"), "{said}");
+    assert!(
+        said.contains("50 Nm lies outside") && said.contains("the last increments are missing"),
+        "{said}"
+    );
     let json: serde_json::Value = serde_json::from_slice(&read.stdout).unwrap();
     let points = json["points"].as_array().unwrap();
     assert_eq!(points.len(), 1);

@@ -57,6 +57,6 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
     context.outputs.write_csv(&answer.table());
     context.outputs.write_report(|| answer.page(&context.provenance(run_time_s)));
     context.print(&answer.envelope(run_time_s))?;
-    context.answer(&format!("{}\n{}", answer.table().to_text(context.screen), answer.compared()))?;
+    context.answer(&format!("{}\n{}\n", answer.table().to_text(context.screen), answer.compared()))?;
     Ok(Exit::Held)
 }
