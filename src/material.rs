@@ -20,6 +20,11 @@ impl Material {
     pub fn plane_strain_compliance(&self) -> f64 {
         (1.0 - self.poisson_ratio * self.poisson_ratio) / self.youngs_modulus_pa
     }
+
+    /// Shear modulus G = E/(2(1 + nu)), Pa.
+    pub fn shear_modulus_pa(&self) -> f64 {
+        0.5 * self.youngs_modulus_pa / (1.0 + self.poisson_ratio)
+    }
 }
 
 /// A named steel: elastic constants, thermal expansion and the stresses that a maker of clutches allows it.

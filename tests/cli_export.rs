@@ -152,12 +152,22 @@ fn a_result_is_read_beside_its_deck_and_no_other() {
     let read =
         run(&["export", SINGLE, "--format", "calculix", "--read", dat_arg, "--torques", "16.8,50", "--json"]);
     assert_eq!(read.status.code(), Some(0));
-    assert!(String::from_utf8(read.stderr).unwrap().contains("50 Nm lies outside"));
+    let said = String::from_utf8(read.stderr).unwrap();
+    assert!(
+        said.contains("50 Nm lies outside") && said.contains("the last increments are missing"),
+        "{said}"
+    );
     let json: serde_json::Value = serde_json::from_slice(&read.stdout).unwrap();
     let points = json["points"].as_array().unwrap();
     assert_eq!(points.len(), 1);
     assert!((points[0]["windup_deg"].as_f64().unwrap() / 1.6407 - 1.0).abs() < 3e-3, "{json}");
     assert_eq!(json["variant"], "plane-strain");
+    assert!((json["turned"].as_f64().unwrap() - 0.5625).abs() < 1e-6, "{json}");
+    // Torsion of both races as long as the sprag, G = 206/2.6 GPa: 16.8/(4 pi G l) of (1/7.21^2 - 1/11.11^2) and
+    // (1/19.44^2 - 1/26.23^2) per mm^2.
+    let twist_deg = points[0]["races_twist_deg"].as_f64().unwrap();
+    let by_hand = 16.8e3 / (4.0 * std::f64::consts::PI * 206e3 / 2.6 * 6.0) * (1.1135e-2 + 1.1926e-3);
+    assert!((twist_deg.to_radians() / by_hand - 1.0).abs() < 1e-3, "{twist_deg}");
 
     let (code, text) =
         code(&["export", "designs/huang2017-multi-arc.toml", "--format", "calculix", "--read", dat_arg]);

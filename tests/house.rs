@@ -83,6 +83,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "clutch",
             "design",
             "contact",
+            "race",
             "wedge",
             "dynamics",
             "scenario",

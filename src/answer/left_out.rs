@@ -1,5 +1,6 @@
 //! What the model leaves out, why, and what that costs: every answer says it.
 
+use super::under_load::left_out_under_load;
 use crate::clutch::{Clutch, ContactLaw};
 use crate::report::Unit;
 use crate::wedge::{even_load_error, straddling_error};
@@ -81,6 +82,7 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
             "windup 12-13 % too large (finite elements, clutch of Table 1); forces agree to 0.5-1.5 %",
         ));
     }
+    list.extend(left_out_under_load(clutch));
     list
 }
 

@@ -29,6 +29,7 @@ pub mod sizing;
 pub mod steels;
 pub mod stiffness;
 pub mod sweep;
+mod under_load;
 
 pub use envelope::{Envelope, Provenance, TOOL, VERSION, WRITTEN_BY};
 pub use left_out::LeftOut;

@@ -18,6 +18,7 @@ mod shaped;
 mod slice;
 mod slice_ratio;
 mod subsurface;
+mod traction;
 
 pub use approach::{
     Approach, CurvedApproach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, LayerBody, RollerLaw, SliceLaw,
@@ -33,3 +34,4 @@ pub use shaped::ShapedLaw;
 pub use slice::{SliceCompliance, SliceContact, SliceSolution, SliceStatus};
 pub use slice_ratio::SliceRatio;
 pub use subsurface::{depth_of_largest_shear_m, largest_shear_below, shear_at_depth_pa};
+pub use traction::{EdgeTension, edge_tension};

@@ -1,8 +1,8 @@
 //! Deformation and mean hoop stress of the races and of the bodies pressed between them.
 //!
 //! In: radii, width, material, normal forces, speed. Out: radial growth, compression, hoop stress, mean and with
-//! the bending between the contacts. Absent: local contact. Equations: (5), (6), (7); Michell's ring; Lame's
-//! press fit.
+//! the bending between the contacts, torsion between track and rim. Absent: local contact. Equations: (5), (6), (7);
+//! Michell's ring; Lame's press fit.
 
 mod body;
 mod harmonic;
@@ -11,8 +11,10 @@ mod press_fit;
 mod ring;
 #[cfg(test)]
 mod shooting;
+mod torsion;
 
 pub use body::body_compliance_m_per_n;
 pub use influence::RingInfluence;
 pub use press_fit::PressFit;
 pub use ring::{Race, RaceError};
+pub use torsion::twist_rad_per_nm;

@@ -10,6 +10,8 @@ use serde::Serialize;
 pub struct Fem {
     /// The rows.
     pub rows: Vec<FemRow>,
+    /// Whether the table says how far its races twist between rim and track, which is taken off its windup.
+    pub untwisted: bool,
 }
 
 /// One row of finite elements.
@@ -17,14 +19,15 @@ pub struct Fem {
 pub struct FemRow {
     /// Torque, N m.
     pub torque_nm: f64,
-    /// Windup, rad.
+    /// Windup, track against track where the table allows it, rad.
     pub windup_rad: f64,
     /// N_bi, N, where the table has it.
     pub normal_n: Option<f64>,
 }
 
 impl Fem {
-    /// Rows of a CSV with the columns `torque_nm`, `windup_deg` and `normal_inner_n` or `normal_n` if there; `model`: texts
+    /// Rows of a CSV with the columns `torque_nm`, `windup_deg` and `normal_inner_n` or `normal_n` if there; with a column
+    /// `races_twist_deg` windup is that of the rims and the column is taken off; `model`: texts
     /// separated by |, one of which the column `model` must hold; `name`: what errors call the table.
     ///
     /// # Errors
@@ -40,6 +43,7 @@ impl Fem {
         };
         let torque = column(&["torque_nm"]).ok_or_else(|| missing("torque_nm"))?;
         let windup = column(&["windup_deg"]).ok_or_else(|| missing("windup_deg"))?;
+        let twist = column(&["races_twist_deg"]);
         let normal = column(&["normal_inner_n", "normal_n"]);
         let model_at = match model {
             Some(_) => Some(column(&["model"]).ok_or_else(|| missing("model, which --fem-model reads"))?),
@@ -59,9 +63,14 @@ impl Fem {
                 Ok(v) if v > 0.0 && v.is_finite() => Ok(v),
                 _ => Err(fault(line, &format!("{what}: found \"{}\"; allowed: a number above 0", text(at)))),
             };
+            let twist_deg = twist.map_or(Ok(0.0), |at| number(at, "races_twist_deg"))?;
+            let between_tracks_deg = number(windup, "windup_deg")? - twist_deg;
+            if between_tracks_deg <= 0.0 {
+                return Err(fault(line, "races_twist_deg is not less than windup_deg"));
+            }
             rows.push(FemRow {
                 torque_nm: number(torque, "torque_nm")?,
-                windup_rad: number(windup, "windup_deg")?.to_radians(),
+                windup_rad: between_tracks_deg.to_radians(),
                 normal_n: normal.map(|at| number(at, "normal_n")).transpose()?,
             });
         }
@@ -70,7 +79,7 @@ impl Fem {
             return Err(format!("{name}: no rows{of}"));
         }
         rows.sort_by(|a, b| a.torque_nm.total_cmp(&b.torque_nm));
-        Ok(Self { rows })
+        Ok(Self { rows, untwisted: twist.is_some() })
     }
 }
 
@@ -154,7 +163,11 @@ fn worst(law: &LawCurve, fem: &Fem, of: impl Fn(&Distance) -> Option<f64>) -> Op
 /// structural nearer than local alone.
 pub(super) fn findings(study: &StiffnessStudy, fem: &Fem) -> Vec<String> {
     let percent = |x: f64| format!("{} %", crate::report::significant(100.0 * x, 3));
-    let mut out = Vec::new();
+    let mut out = vec![match fem.untwisted {
+        true => "compared track with track: the torsion of the races, column races_twist_deg, is taken off",
+        false => "compared as if track with track: the table does not say how far its races twist (races_twist_deg)",
+    }
+    .to_owned()];
     for law in study.laws() {
         let (whole, local) = (worst(law, fem, |d| d.windup), worst(law, fem, |d| d.windup_local_only));
         if let (Some(whole), Some(local)) = (whole, local) {

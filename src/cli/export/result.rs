@@ -28,7 +28,18 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
             design.hash
         )));
     }
-    let all = read(&facts, &dat_text).map_err(|e| Failure::malformed(format!("{}: {e}", dat.display())))?;
+    let reading =
+        read(&facts, &dat_text).map_err(|e| Failure::malformed(format!("{}: {e}", dat.display())))?;
+    let whole = reading.is_whole();
+    let (turned, all) = (reading.turned, reading.rows);
+    if !whole {
+        context.message(&format!(
+            "the last increments are missing: the result goes up to {:.4} Nm, {:.0} % of the turn that its deck asks for; ccx \
+             stopped (its output says why; a coarser mesh or more increments may help) or still runs",
+            all.last().map_or(0.0, |r| r.torque_nm),
+            100.0 * turned
+        ));
+    }
     let rows: Vec<ResultRow> = if torques.is_empty() {
         all.clone()
     } else {
@@ -41,11 +52,11 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
     if rows.is_empty() {
         return Err(Failure::malformed("the result holds none of the torques asked for"));
     }
-    let answer = FiniteElements::of(design, &facts, &rows);
+    let answer = FiniteElements::of(design, &facts, &rows, turned);
     let run_time_s = started.elapsed().as_secs_f64();
     context.outputs.write_csv(&answer.table());
     context.outputs.write_report(|| answer.page(&context.provenance(run_time_s)));
     context.print(&answer.envelope(run_time_s))?;
-    context.answer(&answer.table().to_text(context.screen))?;
+    context.answer(&format!("{}\n{}\n", answer.table().to_text(context.screen), answer.compared()))?;
     Ok(Exit::Held)
 }

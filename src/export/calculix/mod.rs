@@ -14,7 +14,9 @@
 //!   W_0 = 2 delta/(tan(omega_0) R_i), the energy balance of two overlaps delta. Step 1 is one increment:
 //!   within step 1 CalculiX takes penetration for initial overlap and ramps it out.
 //! - Increments are fixed. Left to itself CalculiX (2.20) repeats an increment that diverged with the contact state
-//!   of the failed attempt, converges, and is wrong without a word (tangential force 10 % off); fixed, it stops.
+//!   of the failed attempt, converges, and is wrong without a word (tangential force 10 % off); fixed, it stops. They
+//!   are fixed by equal smallest and largest sizes and no second attempt, not by `DIRECT`, under which CalculiX knows
+//!   no limit of iterations for face-to-face contact.
 //! - Chords follow their arcs in the mean, so the overlap is not changed by the mesh.
 //! - Where the material is confined along the axis is the variant: [`Variant`].
 
@@ -25,7 +27,7 @@ mod spacing;
 mod write;
 
 pub use facts::Facts;
-pub use read::{NoRows, ResultRow, at_torque, read};
+pub use read::{NoRows, Reading, ResultRow, at_torque, read};
 
 use crate::clutch::{Clutch, InnerArc};
 use crate::profile::{Outline, Profile};
@@ -72,22 +74,25 @@ pub struct Options {
     pub torque_nm: f64,
     /// Friction of the deck: high enough to stick; the design's own is not used.
     pub friction: f64,
-    /// Contact pressure per overlap over Young's modulus, 1/m.
-    pub penalty_per_m: f64,
+    /// Contact pressure per overlap, in Young's moduli per mesh width: a contact much stiffer than its elements makes
+    /// the patch's edge alternate between two states for ever (50 on a soft shaft, 25 in a thin ring), one much softer
+    /// adds its own give.
+    pub penalty_per_width: f64,
     /// Increments of the turning step, 4 to 1000; none: 12, or as many as keep the contacts' way per increment
     /// within 1.2 mesh widths (2 widths do not always converge).
     pub increments: Option<usize>,
 }
 
 impl Default for Options {
-    /// Friction 0.3, penalty 1000 E per mm, a layer meshed at 25 um; torque 0: give one.
+    /// Friction 0.3, penalty 10 E per mesh width (0.15 % of windup at 50 um from 1 GPa on, in proportion to the mesh), a layer meshed at 25 um; torque 0:
+    /// give one.
     fn default() -> Self {
         Self {
             variant: Variant::Layer,
             mesh_m: 25e-6,
             torque_nm: 0.0,
             friction: 0.3,
-            penalty_per_m: 1e6,
+            penalty_per_width: 10.0,
             increments: None,
         }
     }
@@ -195,7 +200,7 @@ fn check(options: &Options) -> Result<(), NoDeck> {
         ("mesh", options.mesh_m),
         ("torque", options.torque_nm),
         ("friction", options.friction),
-        ("penalty", options.penalty_per_m),
+        ("penalty", options.penalty_per_width),
     ] {
         if !(value > 0.0 && value.is_finite()) {
             return Err(NoDeck::Option { name, allowed: "a finite number above zero is needed" });

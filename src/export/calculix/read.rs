@@ -2,8 +2,8 @@
 //!
 //! Eq. (statics of one sector): torque from the moment of the contact forces about the axis at the inner
 //! contact, C = n_s M; T_bi = M/OA with OA the radius of the patch's centre, N_bi = sqrt(F^2 - T_bi^2) from the
-//! whole contact force F. Windup is the turn of the rim against the bore, so it holds the shear of the two
-//! rings (0.1 % for Table 1) and the tangential give of the contacts, which the library's rigid races do not.
+//! whole contact force F. Windup is the turn of the rim against the bore, so it holds the torsion of the two
+//! rings and the tangential give of the contacts, which the library's rigid races do not.
 
 use super::Facts;
 
@@ -26,6 +26,25 @@ pub struct ResultRow {
     /// mesh width deep (1 % below p_0 at four elements per half width); none where the result holds no stresses.
     pub pressure_inner_pa: Option<f64>,
 }
+
+/// What a result holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Its rows, in order of time; the starting overlap, before anything turned, is none.
+    pub rows: Vec<ResultRow>,
+    /// How much of the turn that the deck asks for the last row has made, 0 to 1: less than 1 where `ccx` stopped.
+    pub turned: f64,
+}
+
+impl Reading {
+    /// Whether `ccx` came to the end of the deck; times in a result have seven digits.
+    pub fn is_whole(&self) -> bool {
+        self.turned > 1.0 - 1e-5
+    }
+}
+
+/// Time at the end of step 1, in which the overlap takes hold; step 2 turns during another unit.
+const START_TIME: f64 = 1.0;
 
 /// Why a result has no rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -76,13 +95,18 @@ struct Increment {
     stresses: Vec<[f64; 3]>,
 }
 
-/// Rows of a result, in order of time; `facts` are those of its deck.
+/// A result whose deck says `facts`.
 ///
 /// # Errors
 /// [`NoRows`].
-pub fn read(facts: &Facts, dat: &str) -> Result<Vec<ResultRow>, NoRows> {
-    let rows: Vec<ResultRow> = increments(dat)?.iter().filter_map(|i| row(facts, i)).collect();
-    if rows.is_empty() { Err(NoRows::Empty) } else { Ok(rows) }
+pub fn read(facts: &Facts, dat: &str) -> Result<Reading, NoRows> {
+    let found: Vec<(f64, ResultRow)> = increments(dat)?
+        .iter()
+        .filter(|i| i.time > START_TIME)
+        .filter_map(|i| Some((i.time - START_TIME, row(facts, i)?)))
+        .collect();
+    let turned = found.last().ok_or(NoRows::Empty)?.0;
+    Ok(Reading { rows: found.into_iter().map(|(_, row)| row).collect(), turned })
 }
 
 fn row(facts: &Facts, i: &Increment) -> Option<ResultRow> {
@@ -265,7 +289,10 @@ mod tests {
 
     #[test]
     fn a_result_of_ccx_agrees_with_the_independent_model() {
-        let rows = read(&facts(), EXCERPT).unwrap();
+        let reading = read(&facts(), EXCERPT).unwrap();
+        // Cut out of the middle of a run: 1.5625 - 1 of its turn.
+        assert!((reading.turned - 0.5625).abs() < 1e-6 && !reading.is_whole());
+        let rows = reading.rows;
         assert_eq!(rows.len(), 3);
         let row = at_torque(&rows, 16.8).unwrap();
         // fem_single_arc.csv, plane strain, 16.8 Nm.
@@ -300,12 +327,12 @@ mod tests {
 
     #[test]
     fn a_result_cut_anywhere_gives_whole_increments_or_a_reason() {
-        let whole = read(&facts(), EXCERPT).unwrap();
+        let whole = read(&facts(), EXCERPT).unwrap().rows;
         for end in (0..EXCERPT.len()).step_by(37) {
             match read(&facts(), &EXCERPT[..end]) {
                 // What is there is what the whole result has, but for a pressure of which the end is missing.
-                Ok(rows) => {
-                    for (row, full) in rows.iter().zip(&whole) {
+                Ok(reading) => {
+                    for (row, full) in reading.rows.iter().zip(&whole) {
                         let pressure_inner_pa = row.pressure_inner_pa.and(full.pressure_inner_pa);
                         assert_eq!(*row, ResultRow { pressure_inner_pa, ..*full }, "{end}");
                     }
@@ -316,5 +343,12 @@ mod tests {
         let damaged = EXCERPT.replacen("moment about the origin (mx,my,mz)", "time ?", 1);
         assert!(matches!(read(&facts(), &damaged), Err(NoRows::Line { .. })));
         assert_eq!(read(&facts(), "nothing"), Err(NoRows::Empty));
+    }
+
+    #[test]
+    fn the_starting_overlap_is_no_row() {
+        let started = EXCERPT.replace("0.1395833E+01", "0.1000000E+01");
+        let (whole, rest) = (read(&facts(), EXCERPT).unwrap(), read(&facts(), &started).unwrap());
+        assert_eq!(rest.rows, whole.rows[1..]);
     }
 }

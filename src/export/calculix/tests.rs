@@ -129,3 +129,26 @@ fn senseless_options_are_refused_by_name() {
     assert!(matches!(refused(Options { mesh_m: 1e-9, ..good }), NoDeck::TooFine { .. }));
     assert!(matches!(refused(Options { mesh_m: 0.01, ..good }), NoDeck::NoRoom { .. }));
 }
+
+/// Without a limit of its own `ccx` iterates for ever on a contact that alternates.
+#[test]
+fn a_deck_has_fixed_increments_an_end_to_its_iterations_and_a_penalty_by_its_mesh() {
+    let (d, p, o) = design(SINGLE);
+    let slope = |mesh_m: f64| {
+        let options = Options { mesh_m, ..coarse(Variant::Layer, 16.8) };
+        let text = deck(&d.clutch, &p, &o, &options, &d.hash).unwrap();
+        assert!(!text.contains("DIRECT"));
+        for step in text.split("*STEP").skip(1) {
+            let sizes: Vec<&str> = step.lines().nth(2).unwrap().split(',').collect();
+            assert!(sizes[0] == sizes[2] && sizes[2] == sizes[3] && sizes[1] == "1.", "{sizes:?}");
+            // Eighth number: attempts beyond the first.
+            assert!(step.contains("PARAMETERS=TIME INCREMENTATION\n4,8,9,16,10,4,,0\n*CONTROLS"), "{step}");
+            assert!(step.contains("PARAMETERS=CONTACT\n0.001,0.1,100,40\n"), "{step}");
+        }
+        let behaviour = text.split("PRESSURE-OVERCLOSURE=LINEAR\n").nth(1).unwrap();
+        behaviour.lines().next().unwrap().parse::<f64>().unwrap()
+    };
+    // MPa/mm: 10 E over the mesh width.
+    assert!((slope(50e-6) / (10.0 * 206e3 / 0.05) - 1.0).abs() < 1e-12);
+    assert!((slope(25e-6) / slope(50e-6) - 2.0).abs() < 1e-12);
+}

@@ -11,6 +11,9 @@ const SPARE_COLUMNS: usize = 4;
 /// Weak springs that hold the sprag before it touches, N/mm each over the whole length: below 1 N in all.
 const SOFT_N_PER_MM: f64 = 0.1;
 
+/// Iterations of an increment after which `ccx` ends with a message; those that converge need a dozen.
+const MOST_ITERATIONS: usize = 40;
+
 /// Which face of an element carries a contact.
 #[derive(Clone, Copy)]
 enum Face {
@@ -89,7 +92,7 @@ fn write_deck(out: &mut String, m: &Model, clutch: &Clutch, options: &Options) -
         .map(|a| a.youngs_modulus_pa)
         .fold(0.0, f64::max);
     // Pa/m -> MPa/mm: 1e-6 * 1e-3.
-    let slope = hardest * options.penalty_per_m * 1e-9;
+    let slope = 1e-9 * hardest * options.penalty_per_width / options.mesh_m;
     writeln!(out, "*SURFACE INTERACTION, NAME=TOUCH")?;
     writeln!(out, "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{slope:e}")?;
     writeln!(out, "*FRICTION\n{},{:e}", options.friction, 0.1 * slope)?;
@@ -139,7 +142,11 @@ fn write_deck(out: &mut String, m: &Model, clutch: &Clutch, options: &Options) -
 fn step(out: &mut String, increments: usize, control: usize, shift: [f64; 2]) -> std::fmt::Result {
     let first = 1.0 / increments as f64;
     writeln!(out, "*STEP, NLGEOM, INC=2000")?;
-    writeln!(out, "*STATIC, DIRECT\n{first:.15e},1.")?;
+    // Fixed increments, as by DIRECT, which would let face-to-face contact iterate for ever: no increment is smaller or
+    // larger, none is attempted again.
+    writeln!(out, "*STATIC\n{first:.15e},1.,{first:.15e},{first:.15e}")?;
+    writeln!(out, "*CONTROLS, PARAMETERS=TIME INCREMENTATION\n4,8,9,16,10,4,,0")?;
+    writeln!(out, "*CONTROLS, PARAMETERS=CONTACT\n0.001,0.1,100,{MOST_ITERATIONS}")?;
     writeln!(out, "*BOUNDARY\n{control},1,1,{:.12e}\n{},1,1,{:.12e}", shift[0], control + 1, shift[1])?;
     writeln!(out, "*NODE PRINT, NSET=NCONTROL\nU,RF")?;
     writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGIN, MASTER=SINNER\nCF")?;

@@ -1,0 +1,142 @@
+//! Terms left out whose cost grows with the load, at the pressure at which other costs are named too: torsion of the
+//! races, tension behind the patches, a coefficient that is steel's.
+
+use super::left_out::LeftOut;
+use crate::clutch::Clutch;
+use crate::contact::edge_tension;
+use crate::material::{Material, PlaneState};
+use crate::report::Unit;
+use crate::wedge::{StaticPoint, WedgeCurve};
+
+/// Pressure at A at which the costs are named, Pa.
+const PRESSURE_PA: f64 = 2e9;
+/// The steel of the roller law's coefficient (Lundberg and Palmgren 1947; section 6 of the model).
+const ROLLER_STEEL: Material =
+    Material { youngs_modulus_pa: 206e9, poisson_ratio: 0.3, density_kg_m3: 7850.0 };
+/// Difference of E* from which it is named; a choice, the scatter of E among steels.
+const SAME_STEEL: f64 = 0.02;
+
+/// What every answer about `clutch` leaves out of a loaded clutch; fewer terms where it has no curve.
+pub(super) fn left_out_under_load(clutch: &Clutch) -> Vec<LeftOut> {
+    let mut list: Vec<LeftOut> = other_bodies(clutch).into_iter().collect();
+    let curve = clutch.profile().ok().and_then(|p| WedgeCurve::build(clutch, &p, 0.0).ok());
+    if let Some((curve, point)) = curve.as_ref().and_then(|c| Some((c, at_pressure(c)?))) {
+        list.extend([torsion(curve, &point), tension(clutch, &point)]);
+    }
+    list
+}
+
+/// The static state at [`PRESSURE_PA`], or at the end of a curve that ends below it.
+fn at_pressure(curve: &WedgeCurve) -> Option<StaticPoint> {
+    let contact = &curve.statics().elastic.inner_contact[curve.first_arc()];
+    // p_0 goes with the root of N.
+    let normal_n = (PRESSURE_PA / contact.peak_pressure_pa(1.0)).powi(2);
+    curve.at_normal(normal_n).or_else(|| curve.at_torque(curve.end_torque_nm()))
+}
+
+fn at(point: &StaticPoint) -> String {
+    format!(
+        "at {} ({} at the inner contact)",
+        Unit::NewtonMetre.show(point.torque_nm, 3),
+        Unit::Megapascal.show(point.hertz_inner_pa, 3)
+    )
+}
+
+fn torsion(curve: &WedgeCurve, point: &StaticPoint) -> LeftOut {
+    let elastic = &curve.statics().elastic;
+    let turns = [&elastic.inner_race, &elastic.outer_race].map(|race| race.twist_rad_per_nm());
+    let whole_rad = point.torque_nm * turns.iter().flatten().sum::<f64>();
+    let each = turns.map(|turn| {
+        turn.map_or("the shaft's own, along its axis".to_owned(), |per_nm| {
+            Unit::Degree.show(point.torque_nm * per_nm, 2)
+        })
+    });
+    LeftOut::new(
+        "torsion of the races between track and rim",
+        "windup is the turn of track against track; bore and outside, where the torque leaves evenly, turn further by \
+         T/(4 pi G w) |1/r1^2 - 1/r2^2| each",
+        &format!(
+            "{} of windup {}: inner race {}, outer race {}",
+            Unit::Percent.show(whole_rad / point.windup_rad, 2),
+            at(point),
+            each[0],
+            each[1]
+        ),
+    )
+}
+
+fn tension(clutch: &Clutch, point: &StaticPoint) -> LeftOut {
+    let mu = clutch.friction.static_;
+    let places =
+        [("inner", point.hertz_inner_pa, point.tan_omega), ("outer", point.hertz_outer_pa, point.tan_nu)];
+    let words = places.map(|(track, peak_pa, tan)| {
+        let tension = edge_tension(peak_pa, tan, mu);
+        format!(
+            "{track} track +{} where the force came without rolling, +{} where the contact rolls steadily",
+            Unit::Megapascal.show(tension.standing_pa, 3),
+            Unit::Megapascal.show(tension.rolling_pa, 3)
+        )
+    });
+    LeftOut::new(
+        "tension of the traction behind the patches",
+        "hoop stress is the ring's own; the tangential force adds tension to the surface at the trailing edge of a patch, \
+         which dies out over half a width",
+        &format!("{}: {}; static friction {mu}, part of the patch slips", at(point), words.join("; ")),
+    )
+}
+
+/// A coefficient of the roller law on bodies that are not of its steel.
+fn other_bodies(clutch: &Clutch) -> Option<LeftOut> {
+    let law = clutch.contact.facts();
+    let m = &clutch.materials;
+    let steel = PlaneState::Strain.contact_modulus_pa(&ROLLER_STEEL, &ROLLER_STEEL);
+    let softer = [m.inner_race, m.outer_race]
+        .map(|race| steel / PlaneState::Strain.contact_modulus_pa(&m.sprag, &race));
+    if !law.overlaps_body || softer.iter().all(|ratio| (ratio - 1.0).abs() < SAME_STEEL) {
+        return None;
+    }
+    // delta goes with E*^-0.9.
+    let share = softer.map(|ratio| Unit::Percent.show(ratio.powf(0.9) - 1.0, 2));
+    Some(LeftOut::new(
+        "elastic constants in the approach",
+        "the coefficient of the roller and slice laws is that of steel on steel, whatever the bodies; Lundberg and \
+         Palmgren's approach goes with E*^-0.9",
+        &format!("approach at the inner contact to be raised by {}, at the outer by {}", share[0], share[1]),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clutch::ContactLaw;
+    use crate::design::Design;
+
+    #[test]
+    fn a_solid_shaft_of_another_steel_is_named_with_its_figures() {
+        let text = include_str!("../../tests/reference/soft_shaft.toml");
+        let mut clutch = Design::parse(text, "soft").unwrap().clutch;
+        let list = left_out_under_load(&clutch);
+        let cost = |word: &str, list: &[LeftOut]| {
+            list.iter().find(|t| t.term.contains(word)).map(|t| t.cost.clone())
+        };
+        assert!(cost("torsion", &list).unwrap().contains("the shaft's own"));
+        assert!(cost("tension", &list).unwrap().contains("static friction"));
+        // The law elastic has no coefficient.
+        assert_eq!(cost("elastic constants", &list), None);
+        clutch.contact = ContactLaw::Roller { coefficient: 3.84e-5 };
+        assert!(cost("elastic constants", &left_out_under_load(&clutch)).is_some());
+    }
+
+    #[test]
+    fn torsion_of_table_1_is_the_tenth_of_a_percent_of_finite_elements() {
+        let text = include_str!("../../designs/huang2017-single-arc.toml");
+        let clutch = Design::parse(text, "single").unwrap().clutch;
+        let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
+        let point = curve.at_torque(16.8).unwrap();
+        let elastic = &curve.statics().elastic;
+        let turn: f64 =
+            [&elastic.inner_race, &elastic.outer_race].iter().filter_map(|r| r.twist_rad_per_nm()).sum();
+        let share = 16.8 * turn / point.windup_rad;
+        assert!((0.0005..0.002).contains(&share), "{share}");
+    }
+}
