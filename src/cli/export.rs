@@ -150,7 +150,7 @@ pub struct ExportArgs {
     /// fmu: the library that fmu/build.sh has built [default: looked for beside this program]
     #[arg(long, value_name = "PATH")]
     pub library: Option<PathBuf>,
-    /// fmu: leave [[drivetrain]] out, where the design has one; the other program has what lies beyond the flanges
+    /// fmu: leave `[[drivetrain]]` out, where the design has one; the other program has what lies beyond the flanges
     #[arg(long)]
     pub clutch_alone: bool,
     /// calculix: where the material is held along the axis [default: layer]

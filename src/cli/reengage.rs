@@ -29,10 +29,10 @@ pub struct ReengageArgs {
     /// Torque carried when the slip begins, Nm [default: limits.nominal_torque_nm]
     #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = positive)]
     pub torque: Option<f64>,
-    /// What turns with the inner race, kg m², the race included [default: the race alone]
+    /// What turns with the inner race, kg m², the race included [default: races.inner_inertia_kg_m2 of the file, else the race alone]
     #[arg(long, value_name = "KG_M2", allow_hyphen_values = true, value_parser = positive)]
     pub inner_inertia: Option<f64>,
-    /// What turns with the outer race, kg m², the race included [default: the race alone]
+    /// What turns with the outer race, kg m², the race included; very large: it is held [default: races.outer_inertia_kg_m2 of the file, else the race alone]
     #[arg(long, value_name = "KG_M2", allow_hyphen_values = true, value_parser = positive)]
     pub outer_inertia: Option<f64>,
     /// Friction of the contacts while they slip [default: 0.95 of what the torque needs]

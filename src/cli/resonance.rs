@@ -35,9 +35,9 @@ pub struct ResonanceArgs {
     /// Amplitudes, Nm: from and to, or one [default: the scenario's]
     #[arg(long, value_name = "FROM:TO", value_parser = span)]
     pub amplitude: Option<[f64; 2]>,
-    /// Frequencies and amplitudes of the map, or of frequencies alone, ends included
-    #[arg(long, value_name = "NxM", default_value = "50x50", value_parser = points)]
-    pub points: [usize; 2],
+    /// Frequencies and amplitudes of the map, ends included, 2 to 1000 each; one number for both [default: 50x50]
+    #[arg(long, value_name = "NxM", value_parser = points)]
+    pub points: Option<[usize; 2]>,
     /// Error allowed of every figure relative to its natural size, 1e-9 to 1e-3
     #[arg(long, value_name = "X", default_value_t = 1e-6, value_parser = tolerance)]
     pub tolerance: f64,
@@ -54,11 +54,11 @@ fn span(text: &str) -> Result<[f64; 2], String> {
 fn points(text: &str) -> Result<[usize; 2], String> {
     const MOST: usize = 1000;
     let (x, y) = text.split_once('x').unwrap_or((text, text));
-    let count = |n: &str| n.trim().parse().ok().filter(|n| (1..=MOST).contains(n));
+    let count = |n: &str| n.trim().parse().ok().filter(|n| (2..=MOST).contains(n));
     count(x)
         .zip(count(y))
         .map(|(x, y)| [x, y])
-        .ok_or_else(|| format!("NxM is needed, such as 50x50, 1 to {MOST} each"))
+        .ok_or_else(|| format!("NxM is needed, such as 50x50, 2 to {MOST} each"))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -70,7 +70,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 fn values(range: Option<[f64; 2]>, n: usize) -> Vec<f64> {
     match range {
         None => Vec::new(),
-        Some([from, to]) if n == 1 || from == to => vec![from],
+        Some([from, to]) if from == to => vec![from],
         Some([from, to]) => (0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect(),
     }
 }
@@ -82,9 +82,13 @@ fn values(range: Option<[f64; 2]>, n: usize) -> Vec<f64> {
 pub fn run(args: &ResonanceArgs, context: &Context) -> Result<Exit, Failure> {
     let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
     context.outputs.check(&inputs, &[])?;
+    if args.points.is_some() && args.frequency.is_none() && args.amplitude.is_none() {
+        return Err(Failure::malformed("--points: needs --frequency FROM:TO, --amplitude FROM:TO or both"));
+    }
+    let [frequencies, amplitudes] = args.points.unwrap_or([50, 50]);
     let question = ResonanceQuestion {
-        frequencies_hz: values(args.frequency, args.points[0]),
-        amplitudes_nm: values(args.amplitude, args.points[1]),
+        frequencies_hz: values(args.frequency, frequencies),
+        amplitudes_nm: values(args.amplitude, amplitudes),
     };
     parts::each(&args.files, context, |file| one(args, file, &question, context))
 }

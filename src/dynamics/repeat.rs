@@ -6,8 +6,8 @@
 //! periods left. What is still to come moves any figure by less than
 //!
 //! * g r/(1 - r) of a decay, r the ratio by which g has fallen from period to period of late;
-//! * [`HIDDEN`] times g taken over [`STEADY`] periods instead of one, where that is no larger than over one: what is left
-//!   scatters by the steps of integration, and no trend of a seventh of it a period is in it.
+//! * [`HIDDEN`] times the largest g over one to [`STEADY`] periods, where that is no larger than over one: what is left scatters by
+//!   the steps of integration, and no trend of a seventh of it a period is in it.
 //!
 //! Once the smaller stays below the tolerance of the steps for [`STEADY`] periods in a row, each with as many changes of mode, one
 //! more period is run, the template of all samples to come, and n of it are added. Runs at several tolerances jump each for
@@ -153,7 +153,8 @@ where
         let decay = (recent / earlier).powf(2.0 / STEADY as f64).max(LEAST_RATIO);
         let decays = if decay < 1.0 { recent * decay / (1.0 - decay) } else { f64::INFINITY };
         let whole = last == STEADY + 1;
-        let apart = if whole { off(STEADY) } else { f64::INFINITY };
+        // All lags, so that a motion that repeats with every second period only is none.
+        let apart = if whole { (1..=STEADY).map(off).fold(0.0, f64::max) } else { f64::INFINITY };
         let scatters = if apart <= 2.0 * recent.max(earlier) { HIDDEN * apart } else { f64::INFINITY };
         let error = decays.min(scatters);
         let alike = now.mode == s[last - 1].mode && gained(last - 1).2 == gained(last).2;

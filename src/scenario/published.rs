@@ -12,7 +12,7 @@ use crate::dynamics::{PublishedSettings, published};
 /// first is the answer, the difference its error estimate, which is large because the scheme does not converge.
 ///
 /// # Errors
-/// As [`simulate`].
+/// As [`super::simulate()`].
 pub fn simulate_published(
     scenario: &Scenario,
     settings: &Settings,
