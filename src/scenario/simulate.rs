@@ -28,7 +28,7 @@ pub struct Settings {
     /// Steps, rejected ones included, before a run ends with a name; `None`: 200 000 (some 3 s of work), more where the
     /// scene is longer than 4 s or has more than 400 periods ([`Settings::limits`]).
     pub most_steps: Option<u64>,
-    /// Whether every period of a long scene is integrated. Default no: a scene of more than [`LONG`] periods of its excitation
+    /// Whether every period of a long scene is integrated. Default no: a scene of more than 400 periods of its excitation
     /// jumps whole periods once they repeat.
     pub every_period: bool,
     /// Whether the energy balance of the run is made up. Default no.
