@@ -101,7 +101,7 @@ fn ctrl_c_stops_a_long_scene_and_writes_what_is_known() {
     let long = folder.changed(MULTI, &[("duration_s = 0.3", "duration_s = 20000.0")]);
     let csv = folder.path("history.csv");
     let child = Command::new(env!("CARGO_BIN_EXE_sprag-design"))
-        .args(["simulate", &long, "--scenario", "high-10", "--json", "--csv", &csv])
+        .args(["simulate", &long, "--scenario", "high-10", "--full", "--json", "--csv", &csv])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
