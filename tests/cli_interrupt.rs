@@ -209,9 +209,9 @@ fn no_robust_design_is_exit_code_1() {
 #[test]
 fn a_check_of_a_long_scene_is_stopped_within_the_scene() {
     let folder = Folder::new();
-    // Five minutes of a drivetrain in which nothing repeats, which nobody waits for here.
-    let drive = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/two-speed-rotor.toml");
-    let long = folder.changed(drive, &[("duration_s = 0.1\n", "duration_s = 300.0\n")]);
+    // Five minutes of a starter in which nothing repeats, which nobody waits for here.
+    let drive = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/starter-engine.toml");
+    let long = folder.changed(drive, &[("duration_s = 0.12\n", "duration_s = 300.0\n")]);
     let child = started(&["check", &long]);
     std::thread::sleep(Duration::from_secs(2));
     ctrl_c(&child);

@@ -2,7 +2,9 @@
 //! row forgets fails here.
 
 use sprag_design::design::{LIMIT_KEYS, LimitKey, with_limits};
-use sprag_design::margin::{LIMITS, Margin, RunOut, When, limit_of, load_state, margins, run_out_margins};
+use sprag_design::margin::{
+    LIMITS, Margin, RunOut, When, limit_of, load_state, margins, run_out_margins, unlike_margins,
+};
 use sprag_design::optimise::{ClutchProblem, Fidelity};
 use sprag_design::{Design, Settings};
 use toml::{Table, Value};
@@ -59,12 +61,14 @@ fn with(limits: Table, sharper: Table) -> Design {
     Design::parse(&toml::to_string(&file).unwrap(), "limits.toml").unwrap_or_else(|e| panic!("{e:?}"))
 }
 
-/// All rows, those off centre included.
+/// All rows, those off centre and those of the worst sprag included.
 fn rows(design: &Design) -> Vec<Margin> {
     let scenes = &design.check_scenarios;
     let mut rows = margins(design, scenes, &Settings::default()).unwrap();
-    let ring = RunOut::new(design, &load_state(design).unwrap()).unwrap();
+    let state = load_state(design).unwrap();
+    let ring = RunOut::new(design, &state).unwrap();
     rows.extend(run_out_margins(design, &design.limits, &ring, false));
+    rows.extend(unlike_margins(design, &design.limits, &state, false));
     rows
 }
 
