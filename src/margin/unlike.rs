@@ -70,7 +70,7 @@ fn capacity(state: &LoadState, torque_nm: f64, end_nm: f64, over: &dyn Fn(f64) -
     if at_a >= 0.0 {
         return Some(0.0);
     }
-    // Steps of a tenth of the torque, up to the end of the curve.
+    // Steps of a quarter of the torque, up to the end of the curve.
     let most = if end_nm < torque_nm { end_nm } else { state.curve.end_torque_nm() };
     let mut b = a;
     while b < most {

@@ -61,25 +61,24 @@ impl Evaluate for Model<'_> {
     }
 }
 
-/// The model at `x`; `None` where some corner has no clutch there or rows of its own.
+/// The model at `x`, where the corners of `set` are `here`; `None` where some corner has no clutch there or rows of its own.
 fn model<'a>(
     drawn: &'a ClutchProblem,
     set: &[Corner],
+    here: Vec<Result<Evaluation, NoEvaluation>>,
     x: &'a [f64],
     (lo, hi): (&[f64], &[f64]),
     desk: &Desk,
 ) -> Option<Model<'a>> {
-    let at = |x: &[f64]| -> Option<Vec<Vec<f64>>> {
-        let found: Vec<Vec<f64>> = at_each(drawn, x, set, desk)
-            .into_iter()
-            .map(|e| e.ok().map(|e| e.outputs()))
-            .collect::<Option<_>>()?;
+    let added = |found: Vec<Result<Evaluation, NoEvaluation>>| -> Option<Vec<Vec<f64>>> {
+        let found: Vec<Vec<f64>> =
+            found.into_iter().map(|e| e.ok().map(|e| e.outputs())).collect::<Option<_>>()?;
         let (width, nominal) = (found[0].len(), found[0].clone());
         let alike = found.iter().all(|row| row.len() == width);
         alike
             .then(|| found.iter().map(|row| row.iter().zip(&nominal).map(|(a, b)| a - b).collect()).collect())
     };
-    let here = at(x)?;
+    let here = added(here)?;
     let mut blocks: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
         here.into_iter().map(|added| (added, Vec::new())).collect();
     let steps: Vec<f64> = (0..x.len())
@@ -94,7 +93,7 @@ fn model<'a>(
         .map(|(i, step)| {
             let mut there = x.to_vec();
             there[i] += step;
-            at(&there)
+            added(at_each(drawn, &there, set, desk))
         })
         .collect::<Option<_>>()?;
     for (rows, step) in beside.iter().zip(&steps) {
@@ -125,13 +124,13 @@ pub(super) fn climb_on_slopes(
     let set = vec![Corner::NOMINAL];
     let mut near = NearCorners { x: x0.to_vec(), set, status: Status::Interrupted, evaluations: 0 };
     for _ in 0..ROUNDS {
-        let fresh = worst_corners(&drawn, of, &mut near, desk);
-        let none_fresh = fresh.is_empty();
-        near.set.extend(fresh);
+        let known = near.set.len();
+        let here = worst_corners(&drawn, of, &mut near, desk);
+        let none_fresh = near.set.len() == known;
         desk.begins(&format!("robust search on slopes, {} corners", near.set.len()));
         let from = near.x.clone();
-        near.evaluations += (1 + from.len()) * near.set.len();
-        let Some(model) = model(&drawn, &near.set, &from, (lo, hi), desk) else { break };
+        near.evaluations += from.len() * near.set.len();
+        let Some(model) = model(&drawn, &near.set, here, &from, (lo, hi), desk) else { break };
         let run = SearchRun { follow: desk.follow(), ..SearchRun::default() };
         let outcome = maximise_least_margin(&model, &from, lo, hi, &settings, run)?;
         near.evaluations += outcome.evaluations;
@@ -147,18 +146,28 @@ pub(super) fn climb_on_slopes(
     Ok(near)
 }
 
-/// Corners at which a margin is worse than at all those of the set; where there are many, among those to which the slopes over
-/// the quantities point.
-fn worst_corners(drawn: &ClutchProblem, of: &Tolerances, near: &mut NearCorners, desk: &Desk) -> Vec<Corner> {
+/// The set's corners evaluated, after those have joined it at which a margin is worse than at all others of it; where there are
+/// many, of those to which the slopes over the quantities point.
+fn worst_corners(
+    drawn: &ClutchProblem,
+    of: &Tolerances,
+    near: &mut NearCorners,
+    desk: &Desk,
+) -> Vec<Result<Evaluation, NoEvaluation>> {
     let mut ends = corners(of);
     if ends.len() > FEW {
         let alone = alone(of);
         near.evaluations += alone.len();
         ends = steepest(&alone, &at_each(drawn, &near.x, &alone, desk));
     }
-    near.evaluations += ends.len();
+    near.evaluations += ends.len() + near.set.len();
     let at_ends = at_each(drawn, &near.x, &ends, desk);
-    worse_than_set(&near.set, &ends, &at_ends, &at_each(drawn, &near.x, &near.set, desk))
+    let mut at_set = at_each(drawn, &near.x, &near.set, desk);
+    for corner in worse_than_set(&near.set, &ends, &at_ends, &at_set) {
+        at_set.extend(ends.iter().position(|end| *end == corner).map(|i| at_ends[i].clone()));
+        near.set.push(corner);
+    }
+    at_set
 }
 
 /// Each quantity with a tolerance at either end, the others as drawn: lower end, upper end, quantity by quantity.
