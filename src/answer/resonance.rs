@@ -276,7 +276,7 @@ impl<'a> ResonanceAnswer<'a> {
                  grey: rolling would open the contact. Right: what the clutch does with the friction that it has. The line is the \
                  border of what rolls.",
             );
-            page.figures(&[(self.needed().to_svg(), ""), (self.kinds().to_svg(), "")]);
+            page.figures(&[(self.needed().to_figure(), ""), (self.kinds().to_figure(), "")]);
         }
         if wide {
             let mut needed = Plot::new("Frequency, Hz", "Static friction that rolling needs");

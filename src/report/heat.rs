@@ -1,7 +1,10 @@
 //! A plane of tiles over two variables: shades of what is held and of what is not, or colours of kinds, with the border between both.
 
 use super::plot::{Axis, LEFT_PX, PITCH_X_PX, RIGHT_PX, draw_below, draw_left};
-use super::svg::{Anchor, BAD, GOOD, INK, RULE, SERIES, SOFT, Svg, polyline, rectangle, text_width};
+use super::svg::{
+    Anchor, BAD, GOOD, INK, PHONE_PX, RULE, SERIES, SOFT, Svg, begin_within, for_both, polyline, rectangle,
+    text_width,
+};
 use std::collections::BTreeMap;
 
 /// How a tile is filled.
@@ -64,10 +67,18 @@ const ROW_PX: f64 = 17.0;
 const SWATCH_PX: f64 = 14.0;
 
 impl HeatMap {
+    /// The figure of a page.
+    pub fn to_figure(&self) -> String {
+        for_both(&self.to_svg(), &self.drawn([PHONE_PX, 340.0]))
+    }
+
     /// The SVG.
     pub fn to_svg(&self) -> String {
-        let [width, height] = SIZE_PX;
-        let legend = self.placed_legend();
+        self.drawn(SIZE_PX)
+    }
+
+    fn drawn(&self, [width, height]: [f64; 2]) -> String {
+        let legend = self.placed_legend(width);
         let rows = legend.last().map_or(0.0, |(_, _, row)| row + 1.0);
         let top = 26.0 + ROW_PX * rows;
         let range = |edges: &[f64]| match edges {
@@ -78,7 +89,7 @@ impl HeatMap {
         let y = Axis { log: false, range: range(&self.y_edges), px: [height - BOTTOM_PX, top] };
         let mut svg =
             Svg::new(width, height, &format!("{}: {} over {}", self.title, self.y_title, self.x_title));
-        svg.title_text([LEFT_PX, 15.0], &self.title);
+        svg.title_text([begin_within(LEFT_PX, &self.title, width), 15.0], &self.title);
         for (shade, at, row) in legend {
             let line = 26.0 + ROW_PX * row;
             let name = &self.legend[at.1].1;
@@ -97,12 +108,12 @@ impl HeatMap {
     }
 
     /// Each entry of the legend with its place: (px, number of the entry), row.
-    fn placed_legend(&self) -> Vec<(Shade, (f64, usize), f64)> {
+    fn placed_legend(&self, width: f64) -> Vec<(Shade, (f64, usize), f64)> {
         let (mut at, mut row) = (LEFT_PX, 0.0);
         let mut placed = Vec::new();
         for (number, (shade, name)) in self.legend.iter().enumerate() {
             let wide = SWATCH_PX + 5.0 + text_width(name, 12.0) + 12.0;
-            if at > LEFT_PX && at + wide > SIZE_PX[0] {
+            if at > LEFT_PX && at + wide > width {
                 (at, row) = (LEFT_PX, row + 1.0);
             }
             placed.push((*shade, (at, number), row));

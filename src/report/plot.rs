@@ -5,7 +5,7 @@ mod axis;
 mod scale;
 mod style;
 
-use super::svg::{Anchor, INK, RULE, SOFT, Svg, polyline, text_width};
+use super::svg::{Anchor, INK, PHONE_PX, RULE, SOFT, Svg, begin_within, for_both, polyline, text_width};
 use scale::{Extent, thinned};
 use style::{Style, styles};
 
@@ -162,7 +162,7 @@ impl Plot {
         let mut svg = Svg::new(width, height, &format!("{} over {}", self.y_title, self.x_title));
         self.draw_axes(&mut svg, &x, &y);
         self.draw_curves(&mut svg, &x, &y, &styles);
-        svg.title_text([LEFT_PX, 15.0], &title);
+        svg.title_text([begin_within(LEFT_PX, &title, width), 15.0], &title);
         self.draw_legend(&mut svg, &legend, &styles, title_px);
         self.draw_markers(&mut svg, &x, &markers, top_px);
         self.draw_levels(&mut svg, &y, top_px);
@@ -170,6 +170,21 @@ impl Plot {
             svg.text([width / 2.0, height / 2.0], Anchor::Middle, SOFT, "no data");
         }
         svg.finish()
+    }
+
+    /// The figure of a page.
+    pub fn to_figure(&self) -> String {
+        let [_, height] = self.size_px;
+        let mut phone = self.clone().sized(PHONE_PX, height.min(300.0));
+        // What more the legend takes is not taken from the frame.
+        let more = phone.legend_rows().len().saturating_sub(self.legend_rows().len());
+        phone.size_px[1] += ROW_PX * more as f64;
+        for_both(&self.to_svg(), &phone.to_svg())
+    }
+
+    /// Where the legend begins.
+    fn legend_px(&self) -> f64 {
+        if self.size_px[0] > PHONE_PX { LEFT_PX } else { 2.0 }
     }
 
     /// What is drawn against what, without units; nothing where an axis has no name.
@@ -251,7 +266,7 @@ impl Plot {
             let width = 34.0 + text_width(&self.legend_name(index), TEXT_PX) + 14.0;
             if x + width > self.size_px[0] - RIGHT_PX || rows.is_empty() {
                 rows.push(Vec::new());
-                x = LEFT_PX;
+                x = self.legend_px();
             }
             if let Some(row) = rows.last_mut() {
                 row.push((index, x));

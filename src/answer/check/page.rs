@@ -29,7 +29,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
     let end_nm = check.state.curve.end_torque_nm();
     page.heading("Limits against torque");
     page.figure(
-        &charts::limits(design, check).to_svg(),
+        &charts::limits(design, check).to_figure(),
         "Demand over allowable of every limit that depends on torque; a limit is reached at 1. Full lines: the limits that \
          set the torque capacities, named at their torque; dashed: the next required limits; dotted: shown only; grey: \
          farther away. Cut off above 1.5.",
@@ -43,13 +43,13 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
     page.list(remarks.into_iter().chain(overrunning(design)));
     page.apart("Margins and torque capacities as bars", |page| {
         page.figure(
-            &margin_bars(&check.rows).to_svg(),
+            &margin_bars(&check.rows).to_figure(),
             "Margins; a bar that ends in an arrow goes on beyond the chart, grey ones are shown only.",
         );
         let capacities = capacity_bars(design, &check.rows, end_nm);
         if !capacities.bars.is_empty() {
             page.figure(
-                &capacities.to_svg(),
+                &capacities.to_figure(),
                 "Torque at which each limit would be reached; “>”: not before the curve ends.",
             );
         }

@@ -90,7 +90,7 @@ fn profiles(page: &mut Page, compared: &Comparison<'_>) {
         return;
     }
     page.figure(
-        &plot.sized(720.0, 280.0).to_svg(),
+        &plot.sized(720.0, 280.0).to_figure(),
         &format!("The difference of the inner profiles, magnified: {}.", apart.join("; ")),
     );
 }

@@ -177,9 +177,9 @@ impl SweepMap {
              other variables are whatever the points have them. The line is the border of what is held.",
         );
         for pair in &self.pairs {
-            let mut figures = vec![(self.shaded(pair).to_svg(), "")];
+            let mut figures = vec![(self.shaded(pair).to_figure(), "")];
             if !self.deciding.is_empty() {
-                figures.push((self.kinds(pair).to_svg(), ""));
+                figures.push((self.kinds(pair).to_figure(), ""));
             }
             page.figures(&figures);
         }
