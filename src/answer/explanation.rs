@@ -50,6 +50,8 @@ fn limit(code: &str) -> Option<Explanation> {
     let mut lines = vec![
         ("holds", limit.name().replace("{scene}", scene)),
         ("is", limit.explanation.split_whitespace().collect::<Vec<_>>().join(" ")),
+        ("formula", limit.formula.to_owned()),
+        ("source", limit.source.to_owned()),
         ("margin", limit.rule.words().to_owned()),
     ];
     if !limit.unit.is_empty() && limit.unit != "1" {

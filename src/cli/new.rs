@@ -38,7 +38,7 @@ pub struct NewArgs {
     /// What it shall do.
     #[command(flatten)]
     pub wish: WishArgs,
-    /// Engagements in its life: kept as a comment: the command life tells whether it lives as long
+    /// Engagements in its life, at nominal torque: written into [life], for the command life
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number)]
     pub engagements: Option<f64>,
     /// Where to write the design file
@@ -206,7 +206,7 @@ const NUMBERS: [Number; 11] = [
         needed: false,
     },
     Number {
-        question: "Engagements in its life (none: not said; kept as a comment: the command life tells whether it lives as long)",
+        question: "Engagements in its life, at nominal torque (none: not said; written into [life], for the command life)",
         what: "engagements",
         at: |a| &mut a.engagements,
         without: |_| None,
