@@ -10,7 +10,7 @@ use crate::follow::Follow;
 use crate::margin::{When, load_margins, load_state};
 use crate::reengage::{Blow, Blows, SlipUnderLoad, blows};
 use crate::report::plot::Curve;
-use crate::report::{Cell, Column, Page, Plot, Screen, Table, Unit, significant};
+use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -237,42 +237,27 @@ impl<'a> ReengagementAnswer<'a> {
 
     /// Each path of slip with its blow.
     pub fn blows(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("path_mm", "Slip", Unit::Millimetre, 3),
-            Column::number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4),
-            Column::text("verdict", "Verdict"),
-            Column::number("times", "Times", Unit::One, 3),
-            Column::number("peak_by_energy_nm", "By energy", Unit::NewtonMetre, 4),
-            Column::number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4),
-            Column::number("speed_rpm", "Speed gained", Unit::Rpm, 3),
-            Column::number("slip_ms", "Lasts", Unit::Millisecond, 3),
-            Column::number("peak_ms", "Blow at", Unit::Millisecond, 3),
-            Column::number("path_in_all_mm", "In all", Unit::Millimetre, 3),
-        ]);
-        for b in &self.found.list {
-            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
-            let held = self.bears_it(b);
-            let word = match (held, b.ended) {
-                (true, _) => "held",
-                (false, None) => "NOT HELD",
-                (false, Some(Stop::FellAway)) => "THROWN OUT",
-                (false, Some(Stop::CurveEnd)) => "OVERLOADED",
-                (false, Some(_)) => "NO GRIP",
-            };
-            table.row(vec![
-                b.path_m.into(),
-                of(b.peak.map(|p| p.torque_nm)),
-                Cell::Verdict(held, word.to_owned()),
-                of(b.peak.map(|p| p.torque_nm / self.case.torque_nm)),
-                of(b.by_energy_nm),
-                of(b.peak.map(|p| p.hertz_inner_pa)),
-                b.speed_rad_s.into(),
-                b.slip_s.into(),
-                b.peak_s.into(),
-                b.path_in_all_m.into(),
-            ]);
-        }
-        table
+        let word = |b: &Blow| match (self.bears_it(b), b.ended) {
+            (true, _) => "held",
+            (false, None) => "NOT HELD",
+            (false, Some(Stop::FellAway)) => "THROWN OUT",
+            (false, Some(Stop::CurveEnd)) => "OVERLOADED",
+            (false, Some(_)) => "NO GRIP",
+        };
+        Rows::of(&self.found.list)
+            .number("path_mm", "Slip", Unit::Millimetre, 3, |b| b.path_m)
+            .number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4, |b| b.peak.map(|p| p.torque_nm))
+            .text("verdict", "Verdict", |b| Cell::Verdict(self.bears_it(b), word(b).to_owned()))
+            .number("times", "Times", Unit::One, 3, |b| b.peak.map(|p| p.torque_nm / self.case.torque_nm))
+            .number("peak_by_energy_nm", "By energy", Unit::NewtonMetre, 4, |b| b.by_energy_nm)
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |b| {
+                b.peak.map(|p| p.hertz_inner_pa)
+            })
+            .number("speed_rpm", "Speed gained", Unit::Rpm, 3, |b| b.speed_rad_s)
+            .number("slip_ms", "Lasts", Unit::Millisecond, 3, |b| b.slip_s)
+            .number("peak_ms", "Blow at", Unit::Millisecond, 3, |b| b.peak_s)
+            .number("path_in_all_mm", "In all", Unit::Millimetre, 3, |b| b.path_in_all_m)
+            .table()
     }
 
     /// What was taken, in sentences.

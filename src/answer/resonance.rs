@@ -7,7 +7,7 @@ use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::dynamics::Run;
 use crate::report::heat::SHADES;
-use crate::report::{Cell, Column, HeatMap, Page, Plot, Screen, Shade, Table, Tone, Unit, significant};
+use crate::report::{Cell, HeatMap, Page, Plot, Rows, Screen, Shade, Table, Tone, Unit, significant};
 use crate::scenario::{MotionKind, NoScenario, ResonanceCell, Settings, Steady, closely, resonance};
 use serde_json::{Value, json};
 
@@ -164,44 +164,44 @@ impl<'a> ResonanceAnswer<'a> {
 
     /// Each state in a line.
     pub fn table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("frequency_hz", "Frequency", Unit::Hertz, 5),
-            Column::number("amplitude_nm", "Amplitude", Unit::NewtonMetre, 5),
-            Column::text("state", "State"),
-            Column::text("stable", "Stable"),
-            Column::number("required_static_friction", "μ needed", Unit::One, 5),
-            Column::number("slip_margin_percent", "Slip margin", Unit::Percent, 4),
-            Column::number("contact_margin_percent", "Contact margin", Unit::Percent, 4),
-            Column::number("normal_min_n", "N smallest", Unit::Newton, 4),
-            Column::number("normal_max_n", "N largest", Unit::Newton, 4),
-            Column::number("slip_um", "Slip a period", Unit::Micrometre, 4),
-            Column::number("open_ms", "Open a period", Unit::Millisecond, 4),
-            Column::number("drift_mrad", "Drift a period", Unit::Milliradian, 4),
-            Column::number("multiplier", "Multiplier", Unit::One, 4),
-            Column::text("other_state", "Other state"),
-        ]);
-        for c in self.cells() {
-            let s = &c.state;
-            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
-            let motion = s.motion.as_ref().ok();
-            table.row(vec![
-                c.frequency_hz.into(),
-                c.amplitude_nm.into(),
-                Cell::Verdict(s.kind == MotionKind::Rolls, s.kind.name().to_owned()),
-                s.is_stable().map_or(Cell::Empty, |stable| if stable { "yes" } else { "NO" }.into()),
-                of(s.required_friction),
-                of(s.required_friction.map(|_| s.slip_margin)),
-                of(s.contact_margin),
-                of(motion.map(|o| o.run.peaks.normal_min_n)),
-                of(motion.map(|o| o.run.peaks.normal_max_n)),
-                of(motion.map(|o| o.run.inner.distance_m)),
-                of(motion.map(|o| o.run.open_s)),
-                of(motion.map(|o| o.drift_rad()[0] - o.drift_rad()[1])),
-                of(motion.map(|o| o.largest_multiplier())),
-                c.other.as_ref().map_or(Cell::Empty, |other| other.kind.name().into()),
-            ]);
-        }
-        table
+        Rows::of(self.cells().map(|c| (c, &c.state, c.state.motion.as_ref().ok())))
+            .number("frequency_hz", "Frequency", Unit::Hertz, 5, |(c, _, _)| c.frequency_hz)
+            .number("amplitude_nm", "Amplitude", Unit::NewtonMetre, 5, |(c, _, _)| c.amplitude_nm)
+            .text("state", "State", |(_, s, _)| {
+                Cell::Verdict(s.kind == MotionKind::Rolls, s.kind.name().to_owned())
+            })
+            .text("stable", "Stable", |(_, s, _)| {
+                s.is_stable().map_or(Cell::Empty, |stable| if stable { "yes" } else { "NO" }.into())
+            })
+            .number("required_static_friction", "μ needed", Unit::One, 5, |(_, s, _)| s.required_friction)
+            .number("slip_margin_percent", "Slip margin", Unit::Percent, 4, |(_, s, _)| {
+                s.required_friction.map(|_| s.slip_margin)
+            })
+            .number("contact_margin_percent", "Contact margin", Unit::Percent, 4, |(_, s, _)| {
+                s.contact_margin
+            })
+            .number("normal_min_n", "N smallest", Unit::Newton, 4, |(_, _, motion)| {
+                motion.map(|o| o.run.peaks.normal_min_n)
+            })
+            .number("normal_max_n", "N largest", Unit::Newton, 4, |(_, _, motion)| {
+                motion.map(|o| o.run.peaks.normal_max_n)
+            })
+            .number("slip_um", "Slip a period", Unit::Micrometre, 4, |(_, _, motion)| {
+                motion.map(|o| o.run.inner.distance_m)
+            })
+            .number("open_ms", "Open a period", Unit::Millisecond, 4, |(_, _, motion)| {
+                motion.map(|o| o.run.open_s)
+            })
+            .number("drift_mrad", "Drift a period", Unit::Milliradian, 4, |(_, _, motion)| {
+                motion.map(|o| o.drift_rad()[0] - o.drift_rad()[1])
+            })
+            .number("multiplier", "Multiplier", Unit::One, 4, |(_, _, motion)| {
+                motion.map(|o| o.largest_multiplier())
+            })
+            .text("other_state", "Other state", |(c, _, _)| {
+                c.other.as_ref().map_or(Cell::Empty, |other| other.kind.name().into())
+            })
+            .table()
     }
 
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s.

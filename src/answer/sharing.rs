@@ -7,7 +7,7 @@ use crate::clutch::Standing;
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
 use crate::report::plot::Curve;
-use crate::report::{Cell, Column, Page, Plot, Screen, Table, Unit, significant};
+use crate::report::{Cell, Column, Page, Plot, Rows, Screen, Table, Unit, significant};
 use crate::sharing::{Bears, Loss, NotShared, Shared, Turn};
 use serde_json::{Value, json};
 use std::fmt;
@@ -353,32 +353,28 @@ impl<'a> SharingAnswer<'a> {
 
     /// Every place of a turn.
     fn places(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("widest_gap_deg", "Widest gap at", Unit::Degree, 4),
-            Column::number("windup_deg", "Windup", Unit::Degree, 4),
-            Column::number("carrying", "Carry", Unit::One, 3),
-            Column::number("largest_share", "Largest share", Unit::One, 4),
-            Column::number("most_pressed", "Sprag", Unit::One, 3),
-            Column::number("hertz_mpa", "p₀", Unit::Megapascal, 4),
-            Column::number("required_friction", "Needs μ", Unit::One, 3),
-            Column::number("radial_force_n", "Bearings hold", Unit::Newton, 3),
-            Column::number("shift_um", "Shift", Unit::Micrometre, 3),
-        ]);
-        for (s, gap) in self.turned.as_deref().unwrap_or_default().iter().zip(&self.gaps_rad) {
-            let (most, pa) = s.worst(Bears::hertz_pa);
-            table.row(vec![
-                (*gap).into(),
-                s.windup_rad.into(),
-                s.carrying().into(),
-                largest(&s.shares()).into(),
-                (most + 1).into(),
-                pa.into(),
-                s.worst(Bears::required_friction).1.into(),
-                s.radial_n[0].hypot(s.radial_n[1]).into(),
-                s.shift_m[0].hypot(s.shift_m[1]).into(),
-            ]);
-        }
-        table
+        Rows::of(
+            self.turned
+                .as_deref()
+                .unwrap_or_default()
+                .iter()
+                .zip(&self.gaps_rad)
+                .map(|(s, gap)| (s, gap, s.worst(Bears::hertz_pa))),
+        )
+        .number("widest_gap_deg", "Widest gap at", Unit::Degree, 4, |(_, gap, _)| **gap)
+        .number("windup_deg", "Windup", Unit::Degree, 4, |(s, _, _)| s.windup_rad)
+        .number("carrying", "Carry", Unit::One, 3, |(s, _, _)| s.carrying())
+        .number("largest_share", "Largest share", Unit::One, 4, |(s, _, _)| largest(&s.shares()))
+        .number("most_pressed", "Sprag", Unit::One, 3, |(_, _, (most, _))| most + 1)
+        .number("hertz_mpa", "p₀", Unit::Megapascal, 4, |(_, _, (_, pa))| *pa)
+        .number("required_friction", "Needs μ", Unit::One, 3, |(s, _, _)| {
+            s.worst(Bears::required_friction).1
+        })
+        .number("radial_force_n", "Bearings hold", Unit::Newton, 3, |(s, _, _)| {
+            s.radial_n[0].hypot(s.radial_n[1])
+        })
+        .number("shift_um", "Shift", Unit::Micrometre, 3, |(s, _, _)| s.shift_m[0].hypot(s.shift_m[1]))
+        .table()
     }
 
     /// As the torque rises, at the worst place.

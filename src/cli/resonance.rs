@@ -1,14 +1,14 @@
 //! `resonance`: periodic states of a torsional excitation, one or a map over frequency and amplitude.
 
+use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::output::path_text;
 use super::simulate::chosen;
-use super::{Context, parts, positive};
+use super::{Context, Run, positive};
 use crate::answer::resonance::{NoResonance, ResonanceQuestion};
 use crate::scenario::Settings;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -75,53 +75,37 @@ fn values(range: Option<[f64; 2]>, n: usize) -> Vec<f64> {
     }
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &ResonanceArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&inputs, &[])?;
-    if args.points.is_some() && args.frequency.is_none() && args.amplitude.is_none() {
-        return Err(Failure::malformed("--points: needs --frequency FROM:TO, --amplitude FROM:TO or both"));
+impl Run for ResonanceArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        context.reads(&self.files)?;
+        if self.points.is_some() && self.frequency.is_none() && self.amplitude.is_none() {
+            return Err(Failure::malformed(
+                "--points: needs --frequency FROM:TO, --amplitude FROM:TO or both",
+            ));
+        }
+        let [frequencies, amplitudes] = self.points.unwrap_or([50, 50]);
+        let question = ResonanceQuestion {
+            frequencies_hz: values(self.frequency, frequencies),
+            amplitudes_nm: values(self.amplitude, amplitudes),
+        };
+        let settings =
+            Settings { tolerance: self.tolerance, follow: context.follow.unseen(), ..Settings::default() };
+        context.each(&self.files, |file, design| {
+            let scenario = chosen(self.scenario.as_deref(), design, file)?;
+            // Each is found on the way up and on the way down.
+            let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);
+            let line = context.progress("resonance", "states", Some(total as u64));
+            let (found, run_time_s) =
+                timed(|| design.resonance(scenario, &question, &settings, &|| line.advance(1)));
+            drop(line);
+            let named = |why: &NoResonance| format!("{}: {}: {why}", path_text(file), scenario.name);
+            let found = found.map_err(|why| match why {
+                NoResonance::Stopped => Failure::Interrupted,
+                NoResonance::NoExcitation => Failure::malformed(named(&why)),
+                NoResonance::NoStart(_) => Failure::NoClutch(named(&why)),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(Exit::Held)
+        })
     }
-    let [frequencies, amplitudes] = args.points.unwrap_or([50, 50]);
-    let question = ResonanceQuestion {
-        frequencies_hz: values(args.frequency, frequencies),
-        amplitudes_nm: values(args.amplitude, amplitudes),
-    };
-    parts::each(&args.files, context, |file| one(args, file, &question, context))
-}
-
-fn one(
-    args: &ResonanceArgs,
-    file: &Path,
-    question: &ResonanceQuestion,
-    context: &Context,
-) -> Result<Exit, Failure> {
-    let design = parts::read_design(file, context)?;
-    let scenario = chosen(args.scenario.as_deref(), &design, file)?;
-    // Each is found on the way up and on the way down.
-    let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);
-    let line = context.progress("resonance", "states", Some(total as u64));
-    let settings =
-        Settings { tolerance: args.tolerance, follow: context.follow.unseen(), ..Settings::default() };
-    let started = Instant::now();
-    let found =
-        design.resonance(scenario, question, &settings, &|| line.advance(1)).map_err(|why| match why {
-            NoResonance::Stopped => Failure::Interrupted,
-            NoResonance::NoExcitation => {
-                Failure::malformed(format!("{}: {}: {why}", path_text(file), scenario.name))
-            }
-            NoResonance::NoStart(_) => {
-                Failure::NoClutch(format!("{}: {}: {why}", path_text(file), scenario.name))
-            }
-        })?;
-    let run_time_s = started.elapsed().as_secs_f64();
-    drop(line);
-    context.outputs.write_csv(&found.table());
-    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
-    context.answer(&found.text(context.screen))?;
-    context.print(&found.envelope(run_time_s))?;
-    Ok(Exit::Held)
 }

@@ -2,7 +2,7 @@
 
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
-use super::{Context, made, number};
+use super::{Context, Run, Without, made, number};
 use crate::design::nearest;
 use crate::material::{STEELS, Steel, steel};
 use crate::size::Wish;
@@ -143,18 +143,18 @@ pub struct SizeArgs {
     pub output: PathBuf,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
-    may_write(&args.output, context)?;
-    let missing = args.wish.missing();
-    if !missing.is_empty() {
-        return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
+impl Run for SizeArgs {
+    const WITHOUT: Without = ("it makes a design, it reads none", &["set"]);
+
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        may_write(&self.output, context)?;
+        let missing = self.wish.missing();
+        if !missing.is_empty() {
+            return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
+        }
+        self.wish.check_safety()?;
+        made::answer(&self.wish.wish().requirements(), &self.output, "First design", context)
     }
-    args.wish.check_safety()?;
-    made::answer(&args.wish.wish().requirements(), &args.output, "First design", context)
 }
 
 /// Refuse an output that cannot be written, or that would cost somebody's work.

@@ -131,6 +131,46 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
 }
 
+/// A table of things, column by column: each says where its cells come from.
+#[derive(Debug, Clone)]
+pub struct Rows<T> {
+    items: Vec<T>,
+    table: Table,
+}
+
+impl<T> Rows<T> {
+    /// One row for each of `items`, no column yet.
+    pub fn of(items: impl IntoIterator<Item = T>) -> Self {
+        let items: Vec<T> = items.into_iter().collect();
+        let table = Table { columns: Vec::new(), rows: vec![Vec::new(); items.len()] };
+        Self { items, table }
+    }
+
+    /// A further column of numbers.
+    pub fn number<C: Into<Cell>>(
+        mut self,
+        key: &str,
+        heading: &str,
+        unit: Unit,
+        digits: usize,
+        cell: impl Fn(&T) -> C,
+    ) -> Self {
+        self.table.columns.push(Column::number(key, heading, unit, digits));
+        self.table.rows.iter_mut().zip(&self.items).for_each(|(row, item)| row.push(cell(item).into()));
+        self
+    }
+
+    /// A further column of words.
+    pub fn text<C: Into<Cell>>(self, key: &str, heading: &str, cell: impl Fn(&T) -> C) -> Self {
+        self.number(key, heading, Unit::One, 1, cell)
+    }
+
+    /// The table.
+    pub fn table(self) -> Table {
+        self.table
+    }
+}
+
 impl Table {
     /// An empty table.
     pub fn new(columns: Vec<Column>) -> Self {

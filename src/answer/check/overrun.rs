@@ -3,7 +3,7 @@
 use crate::clutch::ScenarioKind;
 use crate::design::{Design, Limits};
 use crate::margin::{LoadState, OverrunCurve, OverrunPoint, overrun_at, overrun_curve};
-use crate::report::{Column, Table, Unit};
+use crate::report::{Rows, Table, Unit};
 use crate::wedge::NoCurve;
 use serde::Serialize;
 
@@ -193,32 +193,21 @@ impl OverrunSection {
 
     /// All speeds, for `--overrun-csv` and the page.
     pub fn table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("race", "Race that runs"),
-            Column::number("speed_rpm", "Speed, rpm", Unit::One, 5),
-            Column::number("drag_torque_nm", "Drag torque", Unit::NewtonMetre, 4),
-            Column::number("normal_inner_n", "Normal force at A", Unit::Newton, 4),
-            Column::number("normal_outer_n", "Normal force at B", Unit::Newton, 4),
-            Column::number("friction", "Friction at A", Unit::One, 4),
-            Column::number("growth_rate_per_s", "Growth of the swing, 1/s", Unit::One, 4),
-            Column::number("swing_frequency_hz", "Swing, Hz", Unit::One, 4),
-            Column::number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4),
-            Column::number("rotation_hoop_outer_mpa", "Hoop by rotation, outer race, MPa", Unit::One, 4),
-        ]);
-        for p in &self.points {
-            table.row(vec![
-                p.race.into(),
-                p.speed_rpm.into(),
-                p.drag_torque_nm.into(),
-                p.normal_inner_n.into(),
-                p.normal_outer_n.into(),
-                p.friction.into(),
-                p.growth_rate_per_s.into(),
-                p.swing_frequency_hz.into(),
-                p.outer_race_growth_um.into(),
-                p.rotation_hoop_outer_mpa.into(),
-            ]);
-        }
-        table
+        Rows::of(&self.points)
+            .text("race", "Race that runs", |p| p.race)
+            .number("speed_rpm", "Speed, rpm", Unit::One, 5, |p| p.speed_rpm)
+            .number("drag_torque_nm", "Drag torque", Unit::NewtonMetre, 4, |p| p.drag_torque_nm)
+            .number("normal_inner_n", "Normal force at A", Unit::Newton, 4, |p| p.normal_inner_n)
+            .number("normal_outer_n", "Normal force at B", Unit::Newton, 4, |p| p.normal_outer_n)
+            .number("friction", "Friction at A", Unit::One, 4, |p| p.friction)
+            .number("growth_rate_per_s", "Growth of the swing, 1/s", Unit::One, 4, |p| p.growth_rate_per_s)
+            .number("swing_frequency_hz", "Swing, Hz", Unit::One, 4, |p| p.swing_frequency_hz)
+            .number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4, |p| {
+                p.outer_race_growth_um
+            })
+            .number("rotation_hoop_outer_mpa", "Hoop by rotation, outer race, MPa", Unit::One, 4, |p| {
+                p.rotation_hoop_outer_mpa
+            })
+            .table()
     }
 }
