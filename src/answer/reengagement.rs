@@ -248,7 +248,6 @@ impl<'a> ReengagementAnswer<'a> {
 
     /// Why the clutch does not grip, where it does not.
     fn lost(&self, end: &SlipEnd) -> String {
-        let (needs, given) = (significant(self.found.needs, 3), significant(self.case.friction, 3));
         let when = format!("{} after the slip begins", Unit::Millisecond.show(end.at_s, 3));
         match end.stop {
             Stop::FellAway => {
@@ -270,16 +269,6 @@ impl<'a> ReengagementAnswer<'a> {
                         ),
                         None => "; if a cage made them grip there, their energy would go beyond the end of the curve".to_owned(),
                     };
-                }
-                said += &format!(
-                    ". The torque needs a friction of {needs}, {given} is there: nearer to it they are thrown less"
-                );
-                if let Some(speed) = self.lift_off_rad_s.filter(|speed| *speed <= end.outer_rad_s.abs()) {
-                    said += &format!(
-                        ". The outer race runs at {}; in steady overrun its sprags lift off from {} on, slower they come back sooner",
-                        Unit::Rpm.show(end.outer_rad_s.abs(), 4),
-                        Unit::Rpm.show(speed, 4)
-                    );
                 }
                 said
             }
@@ -357,6 +346,18 @@ impl<'a> ReengagementAnswer<'a> {
                  sprags gripped there",
                 Unit::Millimetre.show(end.path_m, 3)
             ));
+            all.push(format!(
+                "The torque needs a friction of {}, {} is there: nearer to it the sprags are thrown less",
+                significant(self.found.needs, 3),
+                significant(case.friction, 3)
+            ));
+            if let Some(speed) = self.lift_off_rad_s.filter(|speed| *speed <= end.outer_rad_s.abs()) {
+                all.push(format!(
+                    "The outer race runs at {}; in steady overrun its sprags lift off from {} on, slower they come back sooner",
+                    Unit::Rpm.show(end.outer_rad_s.abs(), 4),
+                    Unit::Rpm.show(speed, 4)
+                ));
+            }
         }
         all
     }
@@ -381,7 +382,10 @@ impl<'a> ReengagementAnswer<'a> {
         };
         let mut plot = Plot::new("Slip until the friction is back, mm", "Torque, Nm");
         plot.log_x = true;
-        plot.curves.push(Curve::new("blow", points(&|b| Some(b.peak?.torque_nm))));
+        let blow = points(&|b| Some(b.peak?.torque_nm));
+        if !blow.is_empty() {
+            plot.curves.push(Curve::new("blow", blow));
+        }
         plot.curves.push(Curve::new("by energy, nothing lost", points(&|b| b.by_energy_nm)));
         if let Some((most_nm, code)) = &self.bears {
             plot.curves.push(Curve::new(&format!("allowed by {code}"), points(&|_| Some(*most_nm))));

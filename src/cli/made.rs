@@ -11,6 +11,14 @@ use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
 
+/// Refuse what no clutch can be asked for.
+///
+/// # Errors
+/// [`Failure::Malformed`] naming the option.
+pub fn refuse(wanted: &Requirements) -> Result<(), Failure> {
+    wanted.check().map_err(|why| Failure::malformed(format!("--{why}")))
+}
+
 /// Compute, write, print; `title`: that of the page.
 ///
 /// # Errors
@@ -25,7 +33,7 @@ pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Conte
     }
     let sized = match sized {
         Ok(sized) => sized,
-        Err(NoSize::Requirements(why)) => return Err(Failure::malformed(format!("--{why}"))),
+        Err(NoSize::Requirements(_)) => return refuse(wanted).map(|()| Exit::Failed),
         Err(why @ NoSize::None { .. }) => {
             let NoSize::None { tried } = &why else { return Ok(Exit::NotHeld) };
             if context.json {
