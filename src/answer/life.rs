@@ -84,7 +84,8 @@ impl<'a> LifeAnswer<'a> {
         });
         let body = json!({
             "held": life.held(), "verdict": self.verdict(), "engagements": life.engagements,
-            "largest_torque_nm": life.largest_nm, "expected_slips": life.slips,
+            "largest_torque_nm": life.largest_nm, "expected_slips": life.slips, "slips_allowed": life.slips_allowed,
+            "indents": life.indents(), "not_known": life.not_known().map(|place| place.names().0).collect::<Vec<_>>(),
             "indentation_inner": life.indentation[0], "indentation_outer": life.indentation[1],
             "places": places.collect::<Vec<_>>(), "loads": loads.collect::<Vec<_>>(),
         });
@@ -134,23 +135,61 @@ impl<'a> LifeAnswer<'a> {
                 significant(life.friction, 4)
             );
         }
-        match life.decides() {
-            None => "no strength is given, so no life: add pitting = { pressure_mpa = ..., cycles = ... } to [life]".to_owned(),
-            Some(used) => {
-                let sum = used.sum.unwrap_or(0.0);
-                let word = if life.held() { "HELD" } else { "NOT HELD" };
-                let indents = match life.indentation.iter().any(|factor| *factor < 1.0) {
-                    true => format!("; {} indents a contact", Unit::NewtonMetre.show(life.largest_nm, 4)),
-                    false => String::new(),
-                };
-                format!(
-                    "{word}: {} decides, {} of its life used up, most of it at {}{indents}",
-                    used.place.names().1,
-                    Unit::Percent.show(sum, 3),
-                    Unit::NewtonMetre.show(used.mostly_nm, 4)
-                )
-            }
+        let mut said = Vec::new();
+        if life.indents() {
+            said.push(format!("{} indents a contact", Unit::NewtonMetre.show(life.largest_nm, 4)));
         }
+        if let Some((expected, allowed)) =
+            life.slips.zip(life.slips_allowed).filter(|_| life.slips_too_often())
+        {
+            let (expected, allowed) = (significant(expected, 2), significant(allowed, 2));
+            said.push(format!("{expected} slips by chance are expected in the life, {allowed} are allowed"));
+        }
+        if let Some(used) = life.decides() {
+            let decides = format!(
+                "{} decides, {} of its life used up, most of it at {}",
+                used.place.names().1,
+                Unit::Percent.show(used.sum.unwrap_or(0.0), 3),
+                Unit::NewtonMetre.show(used.mostly_nm, 4)
+            );
+            // What fails comes first.
+            let at = if used.sum.is_some_and(|sum| sum > 1.0) { 0 } else { said.len() };
+            said.insert(at, decides);
+        }
+        let unknown = self.not_known();
+        let word = match (life.held(), life.decides(), unknown.is_empty()) {
+            (false, ..) => "NOT HELD: ",
+            (true, Some(_), true) => "HELD: ",
+            (true, Some(_), false) => "HELD as far as is known: ",
+            (true, None, _) => "NOT KNOWN: no strength is given, so no life",
+        };
+        let mut all = format!("{word}{}", said.join("; "));
+        if !unknown.is_empty() {
+            all += &format!("; not known: {}", unknown.join(", "));
+        }
+        all
+    }
+
+    /// What no strength is given for, and the key that would give it.
+    fn not_known(&self) -> Vec<String> {
+        let any = |ring: bool| self.life.not_known().any(|place| place.race().is_some() == ring);
+        let mut all = Vec::new();
+        if any(false) {
+            all.push(
+                "pitting of sprags and races (add pitting = { pressure_mpa = ..., cycles = ... } to [life])"
+                    .to_owned(),
+            );
+        }
+        if any(true) {
+            let strength =
+                "rings = { amplitude_mpa = ..., cycles = ..., exponent = ..., ultimate_mpa = ... }";
+            all.push(format!("fatigue of the races as rings (add {strength} to [life])"));
+        }
+        if let Some(expected) = self.life.slips.filter(|_| self.life.slips_allowed.is_none()) {
+            let expected = significant(expected, 2);
+            all.push(format!("how many of the {expected} slips expected by chance may be (add slips_allowed = ... to [life])"));
+        }
+        all
     }
 
     /// Each place: what is used up.
@@ -213,9 +252,10 @@ impl<'a> LifeAnswer<'a> {
         }
         if let Some(slips) = life.slips {
             all.push(format!(
-                "Slip by chance: {} slips are expected in {} engagements (μs {} ± {}, torques ± {}; lognormal, independent)",
+                "Slip by chance: {} slips are expected in {} engagements{} (μs {} ± {}, torques ± {}; lognormal, independent)",
                 significant(slips, 2),
                 significant(life.engagements, 4),
+                life.slips_allowed.map_or(String::new(), |most| format!(", {} are allowed", significant(most, 2))),
                 significant(self.design.clutch.friction.static_, 4),
                 Unit::Percent.show(self.service.friction_scatter, 3),
                 Unit::Percent.show(self.service.torque_scatter, 3)
@@ -270,15 +310,18 @@ impl<'a> LifeAnswer<'a> {
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
         let mut page = begun("Life", self.design, &provenance.command);
-        match self.life.decides() {
-            None if self.life.held() => page.verdict_in(Tone::Plain, &self.verdict()),
-            _ => page.verdict(self.life.held(), &self.verdict()),
+        let tone = match (self.life.held(), self.life.decides(), self.not_known().is_empty()) {
+            (false, ..) => Tone::Bad,
+            (true, None, _) => Tone::Plain,
+            (true, Some(_), false) => Tone::Soft,
+            (true, Some(_), true) => Tone::Good,
         };
+        page.verdict_in(tone, &self.verdict());
         page.list(self.remarks());
         let known = self.life.used.iter().any(|u| u.sum.is_some());
         if known {
             page.figure(
-                &self.curves().to_svg(),
+                &self.curves().to_figure(),
                 "Engagements at one torque alone until a place is used up. Dots: the loads of this life.",
             );
         }

@@ -200,5 +200,5 @@ fn scene_table(inputs: &[&Input]) -> Table {
 
 /// A plot at the size it has beside another on a page, so that its letters keep theirs.
 pub fn half(plot: Plot) -> String {
-    plot.sized(500.0, 320.0).to_svg()
+    plot.sized(500.0, 320.0).to_figure()
 }

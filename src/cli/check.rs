@@ -25,6 +25,13 @@ pub struct CheckArgs {
     /// Write drag torque, contact forces and growth of the outer race against speed as CSV
     #[arg(long, value_name = "PATH")]
     pub overrun_csv: Option<PathBuf>,
+    /// Refused with what is meant.
+    #[arg(long = "overrun-rpm", value_name = "RPM", hide = true, value_parser = speed_of_the_file)]
+    pub overrun_rpm: Option<f64>,
+}
+
+fn speed_of_the_file(_: &str) -> Result<f64, String> {
+    Err("speeds are the file's: --set limits.keep_contact_to_rpm=3000, or a scene of kind overrun; `overrun --speeds` with an oil".to_owned())
 }
 
 impl Run for CheckArgs {

@@ -24,6 +24,16 @@ pub struct ExplainArgs {
     pub name: Option<String>,
 }
 
+/// Tables of the file, and the command that shows what they come to, where it has another name.
+const SHOWN_BY: [(&str, &str); 6] = [
+    ("lubrication", "overrun FILE"),
+    ("scenarios", "simulate FILE --scenario NAME"),
+    ("drivetrain", "simulate FILE --scenario NAME"),
+    ("limits", "check FILE"),
+    ("thermal", "check FILE"),
+    ("tolerances", "optimize FILE -o NEW.toml"),
+];
+
 impl Run for ExplainArgs {
     const WITHOUT: Without =
         ("its answer is a few words", &["csv", "report", "set", "force", "threads", "quiet"]);
@@ -43,6 +53,9 @@ impl Run for ExplainArgs {
             (None, Some(_)) => Explanation { kind: "a command", lines: Vec::new() },
             (None, None) => return Err(Failure::malformed(unknown(name))),
         };
+        if let (None, Some((_, example))) = (&command, SHOWN_BY.iter().find(|(table, _)| table == name)) {
+            found.lines.push(("shown by", format!("sprag-design {example}")));
+        }
         found.lines.extend(command);
         let mut text = format!("{name}: {}\n", found.kind);
         for (heading, line) in &found.lines {

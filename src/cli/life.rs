@@ -14,8 +14,8 @@ Examples:
   sprag-design life designs/indexing-life.toml --set life.friction_scatter=0.15 --json
 
 The loads and what the bodies bear stand in the table [life] of the design: `sprag-design explain life`. Pitting of sprags and
-races and fatigue of the races as rings are summed over all loads (Miner); exit code 1 where a life is used up before its end
-or a torque is not carried.";
+races and fatigue of the races as rings are summed over all loads (Miner); exit code 1 where a life is used up before its end,
+a load indents a contact, a torque slips or is not carried, or more slips by chance are expected than slips_allowed.";
 
 /// Arguments of `life`.
 #[derive(Debug, Clone, Args)]

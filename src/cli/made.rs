@@ -9,6 +9,14 @@ use crate::size::{NoSize, Requirements, size};
 use serde_json::json;
 use std::path::Path;
 
+/// Refuse what no clutch can be asked for.
+///
+/// # Errors
+/// [`Failure::Malformed`] naming the option.
+pub fn refuse(wanted: &Requirements) -> Result<(), Failure> {
+    wanted.check().map_err(|why| Failure::malformed(format!("--{why}")))
+}
+
 /// Compute, write, print; `title`: that of the page.
 ///
 /// # Errors
@@ -21,7 +29,7 @@ pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Conte
     }
     let sized = match sized {
         Ok(sized) => sized,
-        Err(NoSize::Requirements(why)) => return Err(Failure::malformed(format!("--{why}"))),
+        Err(NoSize::Requirements(_)) => return refuse(wanted).map(|()| Exit::Failed),
         Err(ref why @ NoSize::None { ref tried }) => {
             let object =
                 || json!({ "sized": false, "why": why.to_string(), "tried": tried_json(tried, None) });

@@ -64,9 +64,11 @@ impl Run for NewArgs {
         }
         args.wish.check_safety()?;
         let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
+        let wanted = args.requirements();
+        made::refuse(&wanted)?;
         may_write(&output, context)?;
-        let exit = made::answer(&args.requirements(), &output, "New clutch", context)?;
-        let taken = args.requirements().taken();
+        let exit = made::answer(&wanted, &output, "New clutch", context)?;
+        let taken = wanted.taken();
         if !taken.is_empty() {
             let lines: String = taken
                 .iter()

@@ -13,6 +13,7 @@ const EXAMPLES: &str = "\
 Examples:
   sprag-design reengage designs/starter.toml --torque 50 --inner-inertia 0.05 --outer-inertia 0.05 --friction 0.06
   sprag-design reengage designs/starter.toml --torque 50 --friction 0.06 --paths 0.1,1,10 --report blow.html
+  sprag-design reengage designs/indexing.toml --torque 100 --friction 0.06 --inner-inertia 0.02 --outer-held
 
 The clutch carries a torque; its friction falls, it slips, and after a path of slip the friction is back: how large is the blow? The
 inertias are those of the races with all that turns rigidly with them. Exit code 1 where a blow is beyond what the limits at
@@ -31,9 +32,12 @@ pub struct ReengageArgs {
     /// What turns with the inner race, kg m², the race included [default: races.inner_inertia_kg_m2 of the file, else the race alone]
     #[arg(long, value_name = "KG_M2", allow_hyphen_values = true, value_parser = positive)]
     pub inner_inertia: Option<f64>,
-    /// What turns with the outer race, kg m², the race included; very large: it is held [default: races.outer_inertia_kg_m2 of the file, else the race alone]
+    /// What turns with the outer race, kg m², the race included [default: races.outer_inertia_kg_m2 of the file, else the race alone]
     #[arg(long, value_name = "KG_M2", allow_hyphen_values = true, value_parser = positive)]
     pub outer_inertia: Option<f64>,
+    /// The outer race keeps its speed whatever acts on it: in a housing, say
+    #[arg(long, conflicts_with = "outer_inertia")]
+    pub outer_held: bool,
     /// Friction of the contacts while they slip [default: 0.95 of what the torque needs]
     #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = positive)]
     pub friction: Option<f64>,
@@ -52,6 +56,7 @@ impl Run for ReengageArgs {
         let settings = ReengagementSettings {
             torque_nm: self.torque,
             inertia_kg_m2: [self.inner_inertia, self.outer_inertia],
+            outer_held: self.outer_held,
             friction: self.friction,
             speed_rad_s: self.speed * PI / 30.0,
             paths_m: paths_m.unwrap_or(usual.paths_m),
@@ -65,7 +70,7 @@ impl Run for ReengageArgs {
             })?;
             context.deliver(&found, run_time_s)?;
             let all = &found.found;
-            let ends = all.list.iter().filter_map(|blow| blow.ended).chain(all.ended.map(|(stop, _)| stop));
+            let ends = all.list.iter().filter_map(|blow| blow.ended).chain(all.ended.map(|end| end.stop));
             Ok(match ends.last() {
                 Some(Stop::Interrupted) => Exit::Interrupted,
                 Some(stop) if stop.gave_up() => Exit::Failed,

@@ -5,10 +5,12 @@ use super::exit::{Exit, Failure};
 use super::output::path_text;
 use super::simulate::chosen;
 use super::{Context, Run, positive};
-use crate::answer::resonance::{NoResonance, ResonanceQuestion};
+use crate::answer::resonance::{EXAMPLE, NoResonance, ResonanceQuestion};
+use crate::clutch::Scenario;
+use crate::design::Design;
 use crate::scenario::Settings;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -17,7 +19,8 @@ Examples:
   sprag-design resonance designs/huang2017-multi-arc.toml --scenario low-10-mu082 --frequency 50:150 --points 21 --csv row.csv
 
 The motion that repeats with the excitation, its start forgotten: found by shooting, with its stability. Without ranges that of
-the scenario; with them a map of the friction that rolling needs and of what the clutch does.";
+the scenario; with them a map of the friction that rolling needs and of what the clutch does. Ctrl-C: the amplitudes that are done
+are written.";
 
 /// Arguments of `resonance`.
 #[derive(Debug, Clone, Args)]
@@ -26,7 +29,7 @@ pub struct ResonanceArgs {
     /// Design files (TOML)
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
-    /// Name of one of the design's scenarios, a torsional excitation [default: the only one]
+    /// Name of one of the design's scenarios, a torsional excitation [default: the only one of these]
     #[arg(long, value_name = "NAME")]
     pub scenario: Option<String>,
     /// Frequencies, Hz: from and to, or one [default: the scenario's]
@@ -91,7 +94,7 @@ impl Run for ResonanceArgs {
         let settings =
             Settings { tolerance: self.tolerance, follow: context.follow.unseen(), ..Settings::default() };
         context.each(&self.files, |file, design| {
-            let scenario = chosen(self.scenario.as_deref(), design, file)?;
+            let scenario = excited(self.scenario.as_deref(), design, file)?;
             // Each is found on the way up and on the way down.
             let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);
             let line = context.progress("resonance", "states", Some(total as u64));
@@ -105,7 +108,29 @@ impl Run for ResonanceArgs {
                 NoResonance::NoStart(_) => Failure::NoClutch(named(&why)),
             })?;
             context.deliver(&found, run_time_s)?;
-            Ok(Exit::Held)
+            Ok(if found.amplitudes_left() > 0 { Exit::Interrupted } else { Exit::Held })
         })
+    }
+}
+
+/// The scenario of that name, else the only torsional excitation that the design has.
+fn excited<'d>(name: Option<&str>, design: &'d Design, file: &Path) -> Result<&'d Scenario, Failure> {
+    if name.is_some() {
+        return chosen(name, design, file);
+    }
+    let swings = design.scenarios.iter().filter(|s| s.kind.frequency_hz().is_some());
+    match swings.collect::<Vec<_>>().as_slice() {
+        [only] => Ok(only),
+        [] => Err(Failure::malformed(format!(
+            "{}: the design has no torsional excitation; add one, such as\n\n{EXAMPLE}\n\n`sprag-design explain scenarios` lists its keys",
+            path_text(file)
+        ))),
+        several => {
+            let names: Vec<&str> = several.iter().map(|s| s.name.as_str()).collect();
+            Err(Failure::malformed(format!(
+                "needed: --scenario NAME; torsional excitations of the design: {}",
+                names.join(", ")
+            )))
+        }
     }
 }

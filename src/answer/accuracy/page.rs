@@ -130,19 +130,19 @@ fn stability(page: &mut Page, study: &AccuracyStudy) {
     page.table("The box: each value at either end or evenly in its logarithm between; every fourth case is a corner of the \
                 whole box. Ten periods, at most 0.1 s.", &axes());
     page.figure(
-        &map::bars(study).to_svg(),
+        &map::bars(study).to_figure(),
         "Cases by outcome; not carried: the preload exceeds what the clutch holds.",
     );
     page.table("", &map::counts(study));
     page.figure(
-        &map::scatter(study, 5, 4, ["Frequency, Hz", "Amplitude, Nm"]).to_svg(),
+        &map::scatter(study, 5, 4, ["Frequency, Hz", "Amplitude, Nm"]).to_figure(),
         "Outcome over frequency and amplitude; an amplitude of zero stands at 0.1 Nm.",
     );
     page.figure(
-        &map::scatter(study, 0, 3, ["Static friction", "Preload, Nm"]).to_svg(),
+        &map::scatter(study, 0, 3, ["Static friction", "Preload, Nm"]).to_figure(),
         "Outcome over static friction and preload; a preload of zero stands at 0.1 Nm.",
     );
-    page.figure(&map::work(study).to_svg(), "Work over changes of mode.");
+    page.figure(&map::work(study).to_figure(), "Work over changes of mode.");
     let lines = map::remarkable(study);
     if lines.is_empty() {
         page.paragraph("No case met a limit, changed its verdict or gave a number that is not finite.");

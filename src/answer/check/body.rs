@@ -267,11 +267,7 @@ impl CheckBody {
         });
         let running = self.running.iter().flat_map(running::RunningSection::remarks);
         let run_out = self.run_out.iter().flat_map(run_out::RunOutSection::remarks);
-        let searched = format!("{:.0}", self.lift_off_searched_to_rpm);
-        let lift_off = match self.lift_off_rpm {
-            Some(rpm) => format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm"),
-            None => format!("Sprags keep contact in overrun up to {searched} rpm at least"),
-        };
+        let lift_off = self.overrun.lift_off_remark(self.lift_off_rpm, self.lift_off_searched_to_rpm);
         let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
         let materials = self.materials.iter().cloned();
         capacity.chain(early).chain(overrun).chain(running).chain(run_out).chain(materials).collect()

@@ -78,7 +78,8 @@ pub(super) fn figures(compared: &Comparison<'_>) -> Table {
 pub(super) fn margins(compared: &Comparison<'_>) -> Table {
     let mut table = Table::new(columns(compared, "Limit", (Unit::Percent, 3), None));
     if compared.subjects.len() == 2 {
-        table.columns.push(Column::number("change", "B − A", Unit::Percent, 3));
+        // A difference of per cents is not per cent of anything.
+        table.columns.push(Column::number("change", "B − A, points", Unit::One, 3));
     }
     table.columns.push(Column::text("verdict", "Verdict"));
     for row in &compared.margins {
@@ -90,7 +91,7 @@ pub(super) fn margins(compared: &Comparison<'_>) -> Table {
                 (Some(a), Some(b)) if [a, b].into_iter().any(|m| in_place_of_margin(m).is_some()) => {
                     Cell::Empty
                 }
-                (Some(a), Some(b)) => (shown(b) - shown(a)).into(),
+                (Some(a), Some(b)) => Unit::Percent.from_si(shown(b) - shown(a)).into(),
                 _ => Cell::Empty,
             });
         }

@@ -196,7 +196,7 @@ fn front_part(front: &Front) -> StoryPart {
             let mut points: Vec<[f64; 2]> = front.points.iter().map(|p| [p.values[i], p.values[j]]).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let plot = Plot::new(&label(&front.aims[i]), &label(&front.aims[j])).curve("front", points);
-            plots.push((plot.to_svg(), if front.aims.len() == 2 { TWO } else { THREE }));
+            plots.push((plot.to_figure(), if front.aims.len() == 2 { TWO } else { THREE }));
         }
     }
     let lines = vec![format!(
