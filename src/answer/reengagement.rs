@@ -7,7 +7,9 @@ use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
 use crate::follow::Follow;
-use crate::margin::{LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state};
+use crate::margin::{
+    LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state, lowest_capacity,
+};
 use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows};
 use crate::report::plot::Curve;
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
@@ -130,9 +132,7 @@ impl Design {
         let lift_off_rad_s = state.as_ref().and_then(lift_off);
         let bears = state.and_then(|state| {
             let rows = load_margins(self, &self.limits, true, &state);
-            let at_peak = rows.iter().filter(|r| r.required && r.limit.when != When::Nominal);
-            let all = at_peak.filter_map(|r| Some((r.torque_capacity_nm?, r.code())));
-            all.min_by(|a, b| a.0.total_cmp(&b.0))
+            lowest_capacity(&rows, |r| r.limit.when != When::Nominal).map(|(r, nm)| (nm, r.code()))
         });
         Ok(ReengagementAnswer { design: self, case, found, bears, lift_off_rad_s })
     }

@@ -3,7 +3,7 @@
 use super::overrun::OverrunSection;
 use super::{run_out, running};
 use crate::answer::stiffness::CurveEnd;
-use crate::margin::{Demand, Margin, When};
+use crate::margin::{Demand, Margin, When, lowest_capacity};
 use crate::report::{Cell, Rows, Table, Unit, greek, significant};
 use crate::wedge::EndReason;
 use serde::Serialize;
@@ -136,17 +136,13 @@ impl CheckBody {
         let rpm = |rad_s| Unit::Rpm.from_si(rad_s);
         let required = || rows.iter().filter(|r| r.required);
         let lowest = |counts: &dyn Fn(&Margin) -> bool| {
-            required()
-                .filter(|r| counts(r))
-                .filter_map(|r| Some((r, r.torque_capacity_nm?)))
-                // A limit that the curve never reaches sets nothing; the end of the curve does.
-                .filter(|(r, c)| !is_beyond(r, *c, source.end_torque_nm))
-                .min_by(|a, b| a.1.total_cmp(&b.1))
-                .map(|(r, torque_capacity_nm)| Capacity {
-                    code: r.code(),
-                    name: r.name.clone(),
-                    torque_capacity_nm,
-                })
+            // A limit that the curve never reaches sets nothing; the end of the curve does.
+            let counts = |r: &Margin| counts(r) && !ends_first(r, source.end_torque_nm);
+            lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Capacity {
+                code: r.code(),
+                name: r.name.clone(),
+                torque_capacity_nm,
+            })
         };
         let nominal = |r: &Margin| r.limit.when == When::Nominal;
         Self {
