@@ -1,5 +1,6 @@
 //! Extreme but legal designs: every row of `check`, the overrun curve and a scenario give numbers or named outcomes.
 
+use sprag_design::Follow;
 use sprag_design::design::Design;
 use sprag_design::margin::{lift_off_rad_s, load_margins, load_state, overrun_curve, scene_margins};
 use sprag_design::scenario::{Settings, simulate};
@@ -68,8 +69,8 @@ fn answered(name: &str, text: &str) -> Design {
         assert!(row.torque_capacity_nm.is_none_or(|t| t.is_finite() && t >= 0.0), "{name}: {row:?}");
     }
     let off = lift_off_rad_s(&design, &state, 6000.0);
-    let curve =
-        overrun_curve(&design, &state, off.unwrap_or(1000.0)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let curve = overrun_curve(&design, &state, off.unwrap_or(1000.0), &Follow::nobody())
+        .unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(curve.inner_race.len(), 25, "{name}");
     for p in curve.inner_race.iter().chain(&curve.outer_race) {
         let all = [p.state.drag_torque_nm, p.state.normal_inner_n, p.state.normal_outer_n, p.growth_m];

@@ -100,6 +100,43 @@ fn a_load_that_slips_in_the_mean_is_not_held() {
     assert!(of(&breaks.life().unwrap().life, LifePlace::OuterRing) >= 2e3);
 }
 
+/// The verdict is that of everything that is known, and names what is not.
+#[test]
+fn the_verdict_tells_of_indentation_of_slips_and_of_what_is_not_known() {
+    let said = |changes: &[(&str, &str)]| {
+        let design = design(changes);
+        let answer = design.life().unwrap();
+        (answer.life.held(), answer.verdict(), answer.envelope(0.0).body)
+    };
+    let (held, verdict, body) = said(&[]);
+    assert!(held && verdict.starts_with("HELD: pitting") && !verdict.contains("not known"), "{verdict}");
+    assert_eq!(body["not_known"], serde_json::json!([]));
+    // Strong enough for one of 1100 Nm, which presses the inner contact with more than 4000 MPa.
+    let one = [
+        ("{ torque_nm = 600.0, engagements = 2e3 }", "{ torque_nm = 1100.0, engagements = 1 }"),
+        ("static = 0.11 ", "static = 0.20 "),
+    ];
+    let (held, verdict, body) = said(&one);
+    assert!(!held && verdict.starts_with("NOT HELD: 1100 Nm indents a contact; pitting of"), "{verdict}");
+    assert_eq!(body["indents"], true);
+    let (held, verdict, _) = said(&[("slips_allowed = 600", "slips_allowed = 100")]);
+    assert!(
+        !held && verdict.starts_with("NOT HELD: 139 slips by chance are expected in the life, 100 are"),
+        "{verdict}"
+    );
+    let text = std::fs::read_to_string(FILE).unwrap();
+    let line = |key: &str| text.lines().find(|line| line.starts_with(key)).unwrap().to_owned();
+    let (held, verdict, body) = said(&[(&line("rings"), ""), (&line("slips_allowed"), "")]);
+    assert!(held && verdict.starts_with("HELD as far as is known: pitting of the sprags"), "{verdict}");
+    assert!(
+        verdict.contains("not known: fatigue of the races as rings") && verdict.contains("139 slips"),
+        "{verdict}"
+    );
+    assert_eq!(body["not_known"], serde_json::json!(["fatigue-inner-ring", "fatigue-outer-ring"]));
+    let (_, verdict, _) = said(&[(&line("rings"), ""), (&line("pitting"), "")]);
+    assert!(verdict.starts_with("NOT KNOWN: no strength is given"), "{verdict}");
+}
+
 #[test]
 fn the_contacts_walk_as_far_as_races_and_sprags_roll() {
     // A leads B by beta; what both contacts walk on their races is the windup and what beta grows by.

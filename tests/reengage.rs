@@ -11,7 +11,14 @@ use sprag_design::{Design, Follow, WedgeCurve};
 const FILE: &str = "designs/starter.toml";
 
 fn case(friction: f64, inertia_kg_m2: [f64; 2], paths_m: &[f64]) -> SlipUnderLoad {
-    SlipUnderLoad { torque_nm: 50.0, speed_rad_s: 0.0, inertia_kg_m2, friction, paths_m: paths_m.to_vec() }
+    SlipUnderLoad {
+        torque_nm: 50.0,
+        speed_rad_s: 0.0,
+        inertia_kg_m2,
+        outer_held: false,
+        friction,
+        paths_m: paths_m.to_vec(),
+    }
 }
 
 fn found(case: &SlipUnderLoad) -> Blows {
@@ -52,7 +59,7 @@ fn a_blow_is_what_the_energy_of_the_races_allows() {
     for blow in &one.list {
         let lost = 1.0 - peak(blow) / blow.by_energy_nm.unwrap();
         assert!(lost.abs() < 0.005, "{lost} {blow:?}");
-        assert!(blow.peak_s > blow.slip_s && blow.path_in_all_m > blow.path_m);
+        assert!(blow.peak_s.unwrap() > blow.slip_s && blow.path_in_all_m.unwrap() > blow.path_m);
     }
     // A short slip lasts as long as the sprags fly: half the path makes no difference.
     let shorter = found(&case(0.06, [0.05, 0.05], &[5e-5]));
@@ -61,7 +68,7 @@ fn a_blow_is_what_the_energy_of_the_races_allows() {
     let long = &one.list[2];
     let radius_m = Design::read(FILE.as_ref()).unwrap().clutch.races.inner_radius_m;
     let free = |path_m: f64| (2.0 * 50.0 * path_m / (0.025 * radius_m)).sqrt();
-    let (least, most) = (0.95 * free(long.path_m), free(long.path_in_all_m));
+    let (least, most) = (0.95 * free(long.path_m), free(long.path_in_all_m.unwrap()));
     assert!((least..most).contains(&long.speed_rad_s), "{} {least} {most}", long.speed_rad_s);
 }
 
@@ -72,12 +79,50 @@ fn inertias_change_places() {
     assert!((peak(&a.list[0]) / peak(&b.list[0]) - 1.0).abs() < 0.02, "{a:?} {b:?}");
 }
 
+/// What cannot move is what nothing can move: a race held is one of an inertia beyond all others.
+#[test]
+fn an_outer_race_that_is_held_is_one_of_endless_inertia() {
+    let paths = [1e-4, 1e-3, 1e-2];
+    let held = found(&SlipUnderLoad { outer_held: true, ..case(0.06, [0.05, 0.05], &paths) });
+    let heavy = found(&case(0.06, [0.05, 1e7], &paths));
+    for (held, heavy) in held.list.iter().zip(&heavy.list) {
+        assert!((peak(held) / peak(heavy) - 1.0).abs() < 1e-5, "{held:?} {heavy:?}");
+        let lost = 1.0 - peak(held) / held.by_energy_nm.unwrap();
+        assert!(lost.abs() < 0.005, "{lost}");
+    }
+    assert_eq!(held.list.len(), 3);
+}
+
+/// Sprags that do not come back are told of with numbers: where they left, and what the torque does to the races from there on.
+#[test]
+fn sprags_that_are_thrown_out_leave_the_races_to_the_torque() {
+    let paths = [1e-4, 1e-3, 1e-2];
+    let at_speed = SlipUnderLoad {
+        speed_rad_s: 5000.0 * std::f64::consts::PI / 30.0,
+        ..case(0.06, [0.05, 0.05], &paths)
+    };
+    let thrown = found(&at_speed);
+    let end = thrown.ended.unwrap();
+    assert_eq!((end.stop, thrown.list.len()), (Stop::FellAway, 3));
+    assert!(end.path_m < 1e-3 && end.outer_rad_s > 500.0, "{end:?}");
+    let radius_m = Design::read(FILE.as_ref()).unwrap().clutch.races.inner_radius_m;
+    for blow in thrown.list.iter().filter(|b| b.path_m > end.path_m) {
+        // Work of the torque on the way, as energy of the motion of the races against one another.
+        let work_j = 50.0 * (blow.path_m - end.path_m) / radius_m;
+        let gained_j = 0.5 * 0.025 * (blow.speed_rad_s.powi(2) - end.speed_rad_s.powi(2));
+        assert!((gained_j / work_j - 1.0).abs() < 1e-9, "{gained_j} {work_j}");
+        assert!(
+            blow.peak.is_none() && blow.by_energy_nm.unwrap() > 50.0 && blow.ended == Some(Stop::FellAway)
+        );
+    }
+}
+
 #[test]
 fn what_holds_and_what_is_thrown_out_are_answers() {
     let holds = found(&case(0.09, [0.05, 0.05], &[1e-3]));
     assert!(holds.list.is_empty() && (0.06..0.075).contains(&holds.holds.unwrap()), "{holds:?}");
     let thrown = found(&case(0.03, [5.55e-4, 4.31e-3], &[1e-3, 1e-2]));
-    assert_eq!(thrown.ended.unwrap().0, Stop::FellAway, "{thrown:?}");
+    assert_eq!(thrown.ended.unwrap().stop, Stop::FellAway, "{thrown:?}");
 }
 
 #[test]
@@ -100,8 +145,21 @@ fn the_command_in_every_form() {
     let thrown = run(&["reengage", FILE, "--torque", "50", "--friction", "0.03", "--quiet"]);
     assert_eq!(thrown.status.code(), Some(1));
     assert!(stdout(&thrown).contains("thrown farther than their spring reaches"), "{}", stdout(&thrown));
-    for (wrong, word) in [("--paths=3,1", "each longer"), ("--torque=-1", "above zero")] {
-        let refused = run(&["reengage", FILE, wrong, "--friction", "0.06"]);
+    let held = run(&[
+        "reengage",
+        FILE,
+        "--torque=50",
+        "--friction=0.06",
+        "--inner-inertia=0.05",
+        "--outer-held",
+        "--json",
+        "--quiet",
+    ]);
+    assert!(json(&held)["outer_held"] == true && json(&held)["inertia_outer_kg_m2"].is_null(), "{held:?}");
+    for (wrong, word) in
+        [("--paths=3,1", "each longer"), ("--torque=-1", "above zero"), ("--outer-inertia=1", "--outer-held")]
+    {
+        let refused = run(&["reengage", FILE, wrong, "--outer-held", "--friction", "0.06"]);
         assert_eq!(refused.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&refused.stderr).contains(word), "{refused:?}");
     }

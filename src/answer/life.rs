@@ -8,7 +8,7 @@ use crate::design::Design;
 use crate::life::{INDENTING_PA, Life, LifePlace, Used, life, part_at};
 use crate::margin::{NoMargins, load_state};
 use crate::report::plot::Curve;
-use crate::report::{Cell, Column, Page, Plot, Screen, Table, Tone, Unit, significant};
+use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Tone, Unit, significant};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -84,7 +84,8 @@ impl<'a> LifeAnswer<'a> {
         });
         let body = json!({
             "held": life.held(), "verdict": self.verdict(), "engagements": life.engagements,
-            "largest_torque_nm": life.largest_nm, "expected_slips": life.slips,
+            "largest_torque_nm": life.largest_nm, "expected_slips": life.slips, "slips_allowed": life.slips_allowed,
+            "indents": life.indents(), "not_known": life.not_known().map(|place| place.names().0).collect::<Vec<_>>(),
             "indentation_inner": life.indentation[0], "indentation_outer": life.indentation[1],
             "places": places.collect::<Vec<_>>(), "loads": loads.collect::<Vec<_>>(),
         });
@@ -134,84 +135,99 @@ impl<'a> LifeAnswer<'a> {
                 significant(life.friction, 4)
             );
         }
-        match life.decides() {
-            None => "no strength is given, so no life: add pitting = { pressure_mpa = ..., cycles = ... } to [life]".to_owned(),
-            Some(used) => {
-                let sum = used.sum.unwrap_or(0.0);
-                let word = if life.held() { "HELD" } else { "NOT HELD" };
-                let indents = match life.indentation.iter().any(|factor| *factor < 1.0) {
-                    true => format!("; {} indents a contact", Unit::NewtonMetre.show(life.largest_nm, 4)),
-                    false => String::new(),
-                };
-                format!(
-                    "{word}: {} decides, {} of its life used up, most of it at {}{indents}",
-                    used.place.names().1,
-                    Unit::Percent.show(sum, 3),
-                    Unit::NewtonMetre.show(used.mostly_nm, 4)
-                )
-            }
+        let mut said = Vec::new();
+        if life.indents() {
+            said.push(format!("{} indents a contact", Unit::NewtonMetre.show(life.largest_nm, 4)));
         }
+        if let Some((expected, allowed)) =
+            life.slips.zip(life.slips_allowed).filter(|_| life.slips_too_often())
+        {
+            let (expected, allowed) = (significant(expected, 2), significant(allowed, 2));
+            said.push(format!("{expected} slips by chance are expected in the life, {allowed} are allowed"));
+        }
+        if let Some(used) = life.decides() {
+            let decides = format!(
+                "{} decides, {} of its life used up, most of it at {}",
+                used.place.names().1,
+                Unit::Percent.show(used.sum.unwrap_or(0.0), 3),
+                Unit::NewtonMetre.show(used.mostly_nm, 4)
+            );
+            // What fails comes first.
+            let at = if used.sum.is_some_and(|sum| sum > 1.0) { 0 } else { said.len() };
+            said.insert(at, decides);
+        }
+        let unknown = self.not_known();
+        let word = match (life.held(), life.decides(), unknown.is_empty()) {
+            (false, ..) => "NOT HELD: ",
+            (true, Some(_), true) => "HELD: ",
+            (true, Some(_), false) => "HELD as far as is known: ",
+            (true, None, _) => "NOT KNOWN: no strength is given, so no life",
+        };
+        let mut all = format!("{word}{}", said.join("; "));
+        if !unknown.is_empty() {
+            all += &format!("; not known: {}", unknown.join(", "));
+        }
+        all
+    }
+
+    /// What no strength is given for, and the key that would give it.
+    fn not_known(&self) -> Vec<String> {
+        let any = |ring: bool| self.life.not_known().any(|place| place.race().is_some() == ring);
+        let mut all = Vec::new();
+        if any(false) {
+            all.push(
+                "pitting of sprags and races (add pitting = { pressure_mpa = ..., cycles = ... } to [life])"
+                    .to_owned(),
+            );
+        }
+        if any(true) {
+            let strength =
+                "rings = { amplitude_mpa = ..., cycles = ..., exponent = ..., ultimate_mpa = ... }";
+            all.push(format!("fatigue of the races as rings (add {strength} to [life])"));
+        }
+        if let Some(expected) = self.life.slips.filter(|_| self.life.slips_allowed.is_none()) {
+            let expected = significant(expected, 2);
+            all.push(format!("how many of the {expected} slips expected by chance may be (add slips_allowed = ... to [life])"));
+        }
+        all
     }
 
     /// Each place: what is used up.
     pub fn places(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("place", "Place"),
-            Column::number("cycles", "Cycles", Unit::One, 4),
-            Column::number("used_percent", "Used up", Unit::Percent, 3),
-            Column::number("lives", "Lives", Unit::One, 3),
-            Column::number("mostly_at_nm", "Mostly at", Unit::NewtonMetre, 4),
-            Column::text("verdict", "Verdict"),
-        ]);
-        for used in &self.life.used {
-            let Used { sum, .. } = *used;
-            let verdict = match sum {
-                Some(sum) => {
-                    Cell::Verdict(sum <= 1.0, if sum <= 1.0 { "held" } else { "NOT HELD" }.to_owned())
-                }
-                None if self.life.loads.iter().any(|l| l.state.is_none()) => "torque not carried".into(),
-                None => "strength not given".into(),
-            };
-            table.row(vec![
-                used.place.names().1.into(),
-                used.cycles.into(),
-                sum.map_or(Cell::Empty, Cell::Si),
-                used.lives().filter(|l| l.is_finite()).map_or(Cell::Empty, Cell::Si),
-                if sum.is_some() { used.mostly_nm.into() } else { Cell::Empty },
-                verdict,
-            ]);
-        }
-        table
+        let verdict = |used: &Used| match used.sum {
+            Some(sum) => Cell::Verdict(sum <= 1.0, if sum <= 1.0 { "held" } else { "NOT HELD" }.to_owned()),
+            None if self.life.loads.iter().any(|l| l.state.is_none()) => "torque not carried".into(),
+            None => "strength not given".into(),
+        };
+        Rows::of(&self.life.used)
+            .text("place", "Place", |used| used.place.names().1)
+            .number("cycles", "Cycles", Unit::One, 4, |used| used.cycles)
+            .number("used_percent", "Used up", Unit::Percent, 3, |used| used.sum)
+            .number("lives", "Lives", Unit::One, 3, |used| used.lives().filter(|l| l.is_finite()))
+            .number("mostly_at_nm", "Mostly at", Unit::NewtonMetre, 4, |used| {
+                used.sum.map(|_| used.mostly_nm)
+            })
+            .text("verdict", "Verdict", |used| verdict(used))
+            .table()
     }
 
     /// Each load: what one engagement at it does.
     pub fn loads(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
-            Column::number("engagements", "Engagements", Unit::One, 4),
-            Column::number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4),
-            Column::number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4),
-            Column::number("hoop_inner_mpa", "Hoop inner", Unit::Megapascal, 4),
-            Column::number("hoop_outer_mpa", "Hoop outer", Unit::Megapascal, 4),
-            Column::number("walk_inner_mm", "Walk inner", Unit::Millimetre, 3),
-            Column::number("walk_outer_mm", "Walk outer", Unit::Millimetre, 3),
-            Column::number("slip_probability", "Slips, of one", Unit::One, 2),
-        ]);
-        for l in &self.life.loads {
-            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
-            table.row(vec![
-                l.torque_nm.into(),
-                l.engagements.into(),
-                of(l.state.map(|p| p.hertz_inner_pa)),
-                of(l.state.map(|p| p.hertz_outer_pa)),
-                of(l.state.map(|_| l.hoop_pa[0])),
-                of(l.state.map(|_| l.hoop_pa[1])),
-                of(l.state.map(|_| l.walk_m[0])),
-                of(l.state.map(|_| l.walk_m[1])),
-                of(l.slip),
-            ]);
-        }
-        table
+        Rows::of(&self.life.loads)
+            .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |l| l.torque_nm)
+            .number("engagements", "Engagements", Unit::One, 4, |l| l.engagements)
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |l| {
+                l.state.map(|p| p.hertz_inner_pa)
+            })
+            .number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4, |l| {
+                l.state.map(|p| p.hertz_outer_pa)
+            })
+            .number("hoop_inner_mpa", "Hoop inner", Unit::Megapascal, 4, |l| l.state.map(|_| l.hoop_pa[0]))
+            .number("hoop_outer_mpa", "Hoop outer", Unit::Megapascal, 4, |l| l.state.map(|_| l.hoop_pa[1]))
+            .number("walk_inner_mm", "Walk inner", Unit::Millimetre, 3, |l| l.state.map(|_| l.walk_m[0]))
+            .number("walk_outer_mm", "Walk outer", Unit::Millimetre, 3, |l| l.state.map(|_| l.walk_m[1]))
+            .number("slip_probability", "Slips, of one", Unit::One, 2, |l| l.slip)
+            .table()
     }
 
     /// What the tables do not say.
@@ -236,9 +252,10 @@ impl<'a> LifeAnswer<'a> {
         }
         if let Some(slips) = life.slips {
             all.push(format!(
-                "Slip by chance: {} slips are expected in {} engagements (μs {} ± {}, torques ± {}; lognormal, independent)",
+                "Slip by chance: {} slips are expected in {} engagements{} (μs {} ± {}, torques ± {}; lognormal, independent)",
                 significant(slips, 2),
                 significant(life.engagements, 4),
+                life.slips_allowed.map_or(String::new(), |most| format!(", {} are allowed", significant(most, 2))),
                 significant(self.design.clutch.friction.static_, 4),
                 Unit::Percent.show(self.service.friction_scatter, 3),
                 Unit::Percent.show(self.service.torque_scatter, 3)
@@ -293,15 +310,18 @@ impl<'a> LifeAnswer<'a> {
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
         let mut page = begun("Life", self.design, &provenance.command);
-        match self.life.decides() {
-            None if self.life.held() => page.verdict_in(Tone::Plain, &self.verdict()),
-            _ => page.verdict(self.life.held(), &self.verdict()),
+        let tone = match (self.life.held(), self.life.decides(), self.not_known().is_empty()) {
+            (false, ..) => Tone::Bad,
+            (true, None, _) => Tone::Plain,
+            (true, Some(_), false) => Tone::Soft,
+            (true, Some(_), true) => Tone::Good,
         };
+        page.verdict_in(tone, &self.verdict());
         page.list(self.remarks());
         let known = self.life.used.iter().any(|u| u.sum.is_some());
         if known {
             page.figure(
-                &self.curves().to_svg(),
+                &self.curves().to_figure(),
                 "Engagements at one torque alone until a place is used up. Dots: the loads of this life.",
             );
         }

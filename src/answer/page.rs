@@ -3,7 +3,7 @@
 use super::{TOOL, VERSION};
 use crate::design::{Design, Input, inputs, unit_of_key};
 use crate::profile::Profile;
-use crate::report::{Cell, Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Unit};
+use crate::report::{Cell, Column, Drawing, Page, PageHead, Plot, Rows, SpragPose, Table, Unit};
 use crate::wedge::{Closure, WedgeCurve};
 
 /// A page with its head; `title` names the kind of answer, e.g. `"Margin check"`, `command` who asked for it.
@@ -101,11 +101,11 @@ pub fn draw_inputs(page: &mut Page, design: &Design) {
 /// A short table for each row of the scenes' table: what it says of that scene.
 fn each_scene(scenes: &Table) -> Vec<(String, Table)> {
     let one = |row: &Vec<Cell>| {
-        let mut table = Table::new(vec![Column::text("key", "Key"), Column::text("value", "Value")]);
-        for (column, cell) in scenes.columns.iter().zip(row).skip(1).filter(|(_, cell)| **cell != Cell::Empty)
-        {
-            table.row(vec![column.heading.as_str().into(), cell.clone()]);
-        }
+        let table =
+            Rows::of(scenes.columns.iter().zip(row).skip(1).filter(|(_, cell)| **cell != Cell::Empty))
+                .text("key", "Key", |(column, _)| column.heading.as_str())
+                .text("value", "Value", |(_, cell)| Cell::clone(cell))
+                .table();
         let name = match row.first() {
             Some(Cell::Text(name)) => format!("scenario {name}"),
             _ => "scenario".to_owned(),
@@ -200,5 +200,5 @@ fn scene_table(inputs: &[&Input]) -> Table {
 
 /// A plot at the size it has beside another on a page, so that its letters keep theirs.
 pub fn half(plot: Plot) -> String {
-    plot.sized(500.0, 320.0).to_svg()
+    plot.sized(500.0, 320.0).to_figure()
 }

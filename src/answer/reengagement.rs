@@ -7,10 +7,12 @@ use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
 use crate::follow::Follow;
-use crate::margin::{When, load_margins, load_state};
-use crate::reengage::{Blow, Blows, SlipUnderLoad, blows};
+use crate::margin::{
+    LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state, lowest_capacity,
+};
+use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows};
 use crate::report::plot::Curve;
-use crate::report::{Cell, Column, Page, Plot, Screen, Table, Unit, significant};
+use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -21,6 +23,8 @@ pub struct ReengagementSettings {
     pub torque_nm: Option<f64>,
     /// What turns with the inner and the outer race, these included, kg m^2; `None`: the races alone.
     pub inertia_kg_m2: [Option<f64>; 2],
+    /// Whether the outer race keeps its speed whatever acts on it.
+    pub outer_held: bool,
     /// Friction while it slips; `None`: [`SHORT`] of what the torque needs.
     pub friction: Option<f64>,
     /// Speed of both races, rad/s.
@@ -36,6 +40,7 @@ impl Default for ReengagementSettings {
         Self {
             torque_nm: None,
             inertia_kg_m2: [None; 2],
+            outer_held: false,
             friction: None,
             speed_rad_s: 0.0,
             paths_m: vec![1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2],
@@ -57,6 +62,8 @@ pub struct ReengagementAnswer<'a> {
     pub found: Blows,
     /// Peak torque that every limit bears, N m, and the limit that sets it.
     pub bears: Option<(f64, String)>,
+    /// Speed of the outer race, rad/s, at which the sprags lift off in overrun; `None`: they do not.
+    pub lift_off_rad_s: Option<f64>,
 }
 
 /// Why there is none.
@@ -95,6 +102,7 @@ impl Design {
             torque_nm: settings.torque_nm.or(self.limits.nominal_torque_nm).unwrap_or(0.0),
             speed_rad_s: settings.speed_rad_s,
             inertia_kg_m2: [0, 1].map(|race| settings.inertia_kg_m2[race].unwrap_or(own[race])),
+            outer_held: settings.outer_held,
             friction: settings.friction.unwrap_or(0.0),
             paths_m: settings.paths_m.clone(),
         };
@@ -105,6 +113,10 @@ impl Design {
             ));
         } else if !case.inertia_kg_m2.into_iter().all(positive) {
             return Err(NoReengagement::Refused("inertias above 0"));
+        } else if case.outer_held && settings.inertia_kg_m2[1].is_some() {
+            return Err(NoReengagement::Refused(
+                "an outer race that is held, or an inertia of it: one of both",
+            ));
         } else if !(case.friction.is_finite() && case.friction >= 0.0) {
             return Err(NoReengagement::Refused("a friction of 0 or more"));
         } else if case.paths_m.is_empty() || !rising || !case.paths_m.iter().copied().all(positive) {
@@ -116,13 +128,13 @@ impl Design {
             case.friction = at_torque.map_or(0.0, |p| SHORT * p.required_friction());
         }
         let found = blows(&self.clutch, &case, &settings.follow).map_err(NoReengagement::NoStart)?;
+        let lift_off = |state: &LoadState| lift_off_rad_s(self, state, LIFT_OFF_TO_RAD_S);
+        let lift_off_rad_s = state.as_ref().and_then(lift_off);
         let bears = state.and_then(|state| {
             let rows = load_margins(self, &self.limits, true, &state);
-            let at_peak = rows.iter().filter(|r| r.required && r.limit.when != When::Nominal);
-            let all = at_peak.filter_map(|r| Some((r.torque_capacity_nm?, r.code())));
-            all.min_by(|a, b| a.0.total_cmp(&b.0))
+            lowest_capacity(&rows, |r| r.limit.when != When::Nominal).map(|(r, nm)| (nm, r.code()))
         });
-        Ok(ReengagementAnswer { design: self, case, found, bears })
+        Ok(ReengagementAnswer { design: self, case, found, bears, lift_off_rad_s })
     }
 }
 
@@ -142,7 +154,8 @@ impl<'a> ReengagementAnswer<'a> {
         let case = &self.case;
         let list = self.found.list.iter().map(|b| {
             json!({
-                "path_mm": 1e3 * b.path_m, "slip_ms": 1e3 * b.slip_s, "peak_ms": 1e3 * b.peak_s, "path_in_all_mm": 1e3 * b.path_in_all_m,
+                "path_mm": 1e3 * b.path_m, "slip_ms": 1e3 * b.slip_s, "peak_ms": b.peak_s.map(|s| 1e3 * s),
+                "path_in_all_mm": b.path_in_all_m.map(|m| 1e3 * m),
                 "speed_rpm": Unit::Rpm.from_si(b.speed_rad_s), "peak_torque_nm": b.peak.map(|p| p.torque_nm),
                 "peak_by_energy_nm": b.by_energy_nm,
                 "hertz_inner_mpa": b.peak.map(|p| Unit::Megapascal.from_si(p.hertz_inner_pa)),
@@ -152,18 +165,33 @@ impl<'a> ReengagementAnswer<'a> {
         let body = json!({
             "held": self.held(), "verdict": self.verdict(), "torque_nm": case.torque_nm, "friction": case.friction,
             "speed_rpm": Unit::Rpm.from_si(case.speed_rad_s), "inertia_inner_kg_m2": case.inertia_kg_m2[0],
-            "inertia_outer_kg_m2": case.inertia_kg_m2[1], "bears_nm": self.bears.as_ref().map(|b| b.0),
+            "inertia_outer_kg_m2": (!case.outer_held).then_some(case.inertia_kg_m2[1]), "outer_held": case.outer_held,
+            "bears_nm": self.bears.as_ref().map(|b| b.0),
             "bears_by": self.bears.as_ref().map(|b| b.1.as_str()), "blows": list.collect::<Vec<_>>(),
-            "needs_friction": self.found.holds, "slip_ended": self.found.ended.map(|(stop, _)| stop.name()),
+            "needs_friction": self.found.holds, "slip_ended": self.found.ended.map(|end| end.stop.name()),
+            "lift_off_rpm": self.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)),
+            "thrown": self.thrown().map(|end| json!({
+                "at_ms": 1e3 * end.at_s, "path_mm": 1e3 * end.path_m, "speed_rpm": Unit::Rpm.from_si(end.speed_rad_s),
+                "outer_rpm": Unit::Rpm.from_si(end.outer_rad_s),
+            })),
         });
         Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
+    }
+
+    /// Where the slip itself throws the sprags out of reach.
+    fn thrown(&self) -> Option<SlipEnd> {
+        self.found.ended.filter(|end| end.stop == Stop::FellAway)
     }
 
     fn left_out(&self) -> Vec<LeftOut> {
         let mut all = vec![
             LeftOut::new(
                 "shafts",
-                "both inertias are rigid with their races",
+                if self.case.outer_held {
+                    "the inertia is rigid with the inner race, what holds the outer race does not give"
+                } else {
+                    "both inertias are rigid with their races"
+                },
                 "a soft shaft lowers the blow: put the drive into [[drivetrain]] and simulate a transient",
             ),
             LeftOut::new(
@@ -191,8 +219,8 @@ impl<'a> ReengagementAnswer<'a> {
                 significant(self.case.friction, 3)
             );
         }
-        if let Some((stop, at_s)) = self.found.ended {
-            return self.lost(stop, &format!("{} after the slip begins", Unit::Millisecond.show(at_s, 3)));
+        if let Some(end) = self.found.ended {
+            return self.lost(&end);
         }
         let limit = self.bears.as_ref().map_or(String::new(), |(torque_nm, code)| {
             format!(", of {} that {code} allows", Unit::NewtonMetre.show(*torque_nm, 4))
@@ -219,13 +247,31 @@ impl<'a> ReengagementAnswer<'a> {
     }
 
     /// Why the clutch does not grip, where it does not.
-    fn lost(&self, stop: Stop, when: &str) -> String {
-        let (needs, given) = (significant(self.found.needs, 3), significant(self.case.friction, 3));
-        match stop {
-            Stop::FellAway => format!(
-                "NOT HELD: {when} the sprags are thrown farther than their spring reaches; what a cage would stop is beyond the model. The \
-                 torque needs a friction of {needs}, {given} is there: nearer to it they are thrown less"
-            ),
+    fn lost(&self, end: &SlipEnd) -> String {
+        let when = format!("{} after the slip begins", Unit::Millisecond.show(end.at_s, 3));
+        match end.stop {
+            Stop::FellAway => {
+                let mut said = format!(
+                    "NOT HELD: {when} the sprags are thrown farther than their spring reaches, and nothing brings them back: from then on the \
+                     torque drives the races apart unhindered"
+                );
+                let last = self.found.list.last().filter(|b| b.peak.is_none());
+                if let Some(b) = last {
+                    said += &format!(
+                        ", after {} at {} against one another",
+                        Unit::Millimetre.show(b.path_m, 3),
+                        Unit::Rpm.show(b.speed_rad_s, 3)
+                    );
+                    said += &match b.by_energy_nm {
+                        Some(torque_nm) => format!(
+                            "; if a cage made them grip there, their energy would come to {}",
+                            Unit::NewtonMetre.show(torque_nm, 4)
+                        ),
+                        None => "; if a cage made them grip there, their energy would go beyond the end of the curve".to_owned(),
+                    };
+                }
+                said
+            }
             Stop::CurveEnd => format!("NOT HELD: {when} the blow goes beyond the end of the curve"),
             Stop::Interrupted => format!("stopped {when}"),
             other => format!(
@@ -237,51 +283,40 @@ impl<'a> ReengagementAnswer<'a> {
 
     /// Each path of slip with its blow.
     pub fn blows(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("path_mm", "Slip", Unit::Millimetre, 3),
-            Column::number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4),
-            Column::text("verdict", "Verdict"),
-            Column::number("times", "Times", Unit::One, 3),
-            Column::number("peak_by_energy_nm", "By energy", Unit::NewtonMetre, 4),
-            Column::number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4),
-            Column::number("speed_rpm", "Speed gained", Unit::Rpm, 3),
-            Column::number("slip_ms", "Lasts", Unit::Millisecond, 3),
-            Column::number("peak_ms", "Blow at", Unit::Millisecond, 3),
-            Column::number("path_in_all_mm", "In all", Unit::Millimetre, 3),
-        ]);
-        for b in &self.found.list {
-            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
-            let held = self.bears_it(b);
-            let word = match (held, b.ended) {
-                (true, _) => "held",
-                (false, None) => "NOT HELD",
-                (false, Some(Stop::FellAway)) => "THROWN OUT",
-                (false, Some(Stop::CurveEnd)) => "OVERLOADED",
-                (false, Some(_)) => "NO GRIP",
-            };
-            table.row(vec![
-                b.path_m.into(),
-                of(b.peak.map(|p| p.torque_nm)),
-                Cell::Verdict(held, word.to_owned()),
-                of(b.peak.map(|p| p.torque_nm / self.case.torque_nm)),
-                of(b.by_energy_nm),
-                of(b.peak.map(|p| p.hertz_inner_pa)),
-                b.speed_rad_s.into(),
-                b.slip_s.into(),
-                b.peak_s.into(),
-                b.path_in_all_m.into(),
-            ]);
-        }
-        table
+        let word = |b: &Blow| match (self.bears_it(b), b.ended) {
+            (true, _) => "held",
+            (false, None) => "NOT HELD",
+            (false, Some(Stop::FellAway)) => "THROWN OUT",
+            (false, Some(Stop::CurveEnd)) => "OVERLOADED",
+            (false, Some(_)) => "NO GRIP",
+        };
+        Rows::of(&self.found.list)
+            .number("path_mm", "Slip", Unit::Millimetre, 3, |b| b.path_m)
+            .number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4, |b| b.peak.map(|p| p.torque_nm))
+            .text("verdict", "Verdict", |b| Cell::Verdict(self.bears_it(b), word(b).to_owned()))
+            .number("times", "Times", Unit::One, 3, |b| b.peak.map(|p| p.torque_nm / self.case.torque_nm))
+            .number("peak_by_energy_nm", "By energy", Unit::NewtonMetre, 4, |b| b.by_energy_nm)
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |b| {
+                b.peak.map(|p| p.hertz_inner_pa)
+            })
+            .number("speed_rpm", "Speed gained", Unit::Rpm, 3, |b| b.speed_rad_s)
+            .number("slip_ms", "Lasts", Unit::Millisecond, 3, |b| b.slip_s)
+            .number("peak_ms", "Blow at", Unit::Millisecond, 3, |b| b.peak_s)
+            .number("path_in_all_mm", "In all", Unit::Millimetre, 3, |b| b.path_in_all_m)
+            .table()
     }
 
     /// What was taken, in sentences.
     fn remarks(&self) -> Vec<String> {
         let case = &self.case;
         let [inner, outer] = case.inertia_kg_m2.map(|i| significant(i, 4));
-        vec![
+        let outer = match case.outer_held {
+            true => "rigidly, the outer race is held".to_owned(),
+            false => format!("{outer} kg m² with the outer one, both rigidly"),
+        };
+        let mut all = vec![
             format!(
-                "{} carried when the friction falls to {}; {inner} kg m² turn with the inner race, {outer} kg m² with the outer one, both rigidly",
+                "{} carried when the friction falls to {}; {inner} kg m² turn with the inner race, {outer}",
                 Unit::NewtonMetre.show(case.torque_nm, 4),
                 significant(case.friction, 3),
             ),
@@ -289,7 +324,27 @@ impl<'a> ReengagementAnswer<'a> {
              nothing lost; speed gained: largest speed of the races against one another; in all: path until these stand still against one another"
                 .to_owned(),
             "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however short the slip".to_owned(),
-        ]
+        ];
+        if let Some(end) = self.thrown() {
+            all.push(format!(
+                "THROWN OUT from {} of slip on: rows beyond are of races with nothing between them; by energy: what the speed would come to if the \
+                 sprags gripped there",
+                Unit::Millimetre.show(end.path_m, 3)
+            ));
+            all.push(format!(
+                "The torque needs a friction of {}, {} is there: nearer to it the sprags are thrown less",
+                significant(self.found.needs, 3),
+                significant(case.friction, 3)
+            ));
+            if let Some(speed) = self.lift_off_rad_s.filter(|speed| *speed <= end.outer_rad_s.abs()) {
+                all.push(format!(
+                    "The outer race runs at {}; in steady overrun its sprags lift off from {} on, slower they come back sooner",
+                    Unit::Rpm.show(end.outer_rad_s.abs(), 4),
+                    Unit::Rpm.show(speed, 4)
+                ));
+            }
+        }
+        all
     }
 
     /// The answer on a terminal.
@@ -312,13 +367,16 @@ impl<'a> ReengagementAnswer<'a> {
         };
         let mut plot = Plot::new("Slip until the friction is back, mm", "Torque, Nm");
         plot.log_x = true;
-        plot.curves.push(Curve::new("blow", points(&|b| Some(b.peak?.torque_nm))));
+        let blow = points(&|b| Some(b.peak?.torque_nm));
+        if !blow.is_empty() {
+            plot.curves.push(Curve::new("blow", blow));
+        }
         plot.curves.push(Curve::new("by energy, nothing lost", points(&|b| b.by_energy_nm)));
         if let Some((most_nm, code)) = &self.bears {
             plot.curves.push(Curve::new(&format!("allowed by {code}"), points(&|_| Some(*most_nm))));
         }
         if !self.found.list.is_empty() {
-            page.figure(&plot.to_svg(), "Largest torque when the clutch grips again.");
+            page.figure(&plot.to_figure(), "Largest torque when the clutch grips again.");
             page.table("Each path of slip.", &self.blows());
         }
         self.envelope(provenance.run_time_s).close(&mut page);

@@ -19,6 +19,8 @@ pub struct Service {
     pub friction_scatter: f64,
     /// The same of each torque.
     pub torque_scatter: f64,
+    /// Slips by chance that may be expected in the life; `None`: nobody has said.
+    pub slips_allowed: Option<f64>,
 }
 
 /// A torque that is carried again and again, from nothing to it and back.

@@ -97,7 +97,7 @@ impl Draft {
             (mm(self.outer_radius_m), mm(self.inner_radius_m), mm(self.centre_distance_m), mm(self.length_m));
         let body = match self.flanks_m {
             Some((rear, front)) => format!(
-                "flanks = {{ rear_mm = {}, front_mm = {} }}   # the narrowest that works; mass and centroid follow from it",
+                "flanks = {{ rear_mm = {}, front_mm = {} }}   # sides of the body, from the strut outwards: the narrowest that work; mass and centroid follow",
                 mm(rear),
                 mm(front)
             ),

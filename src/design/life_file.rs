@@ -36,6 +36,9 @@ pub(super) struct LifeFile {
     #[serde(default)]
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub torque_scatter: f64,
+    /// How many slips by chance may be expected in the whole life; absent: they are counted, without a say in the verdict.
+    #[schemars(extend("minimum" = 0))]
+    pub slips_allowed: Option<f64>,
 }
 
 /// A torque that is carried again and again, from nothing to it and back.
@@ -159,5 +162,6 @@ pub(super) fn service(file: &LifeFile, load: Load<'_>, out: &mut Findings) -> Op
         same_places: file.same_places,
         friction_scatter: file.friction_scatter,
         torque_scatter: file.torque_scatter,
+        slips_allowed: file.slips_allowed,
     })
 }

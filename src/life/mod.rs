@@ -61,7 +61,7 @@ impl LifePlace {
     ];
 
     /// The race of a ring: 0 inner, 1 outer; `None` of a contact.
-    fn race(self) -> Option<usize> {
+    pub fn race(self) -> Option<usize> {
         match self {
             Self::InnerRing => Some(0),
             Self::OuterRing => Some(1),
@@ -149,6 +149,8 @@ pub struct Life {
     pub indentation: [f64; 2],
     /// Slips that are expected in the life.
     pub slips: Option<f64>,
+    /// How many of them are allowed; `None`: nobody has said.
+    pub slips_allowed: Option<f64>,
     /// Engagements in the life.
     pub engagements: f64,
     /// Mean static friction.
@@ -156,11 +158,29 @@ pub struct Life {
 }
 
 impl Life {
-    /// Whether the clutch carries every load without slip, friction and torque at their means, and every known life is long enough.
+    /// Whether the clutch carries every load without slip, friction and torque at their means, no load indents a contact, every
+    /// known life is long enough, and no more slips are expected than are allowed.
     pub fn held(&self) -> bool {
         self.loads.iter().all(|l| l.state.is_some())
             && self.slipping().is_none()
+            && !self.indents()
+            && !self.slips_too_often()
             && self.used.iter().all(|u| u.sum.is_none_or(|sum| sum <= 1.0))
+    }
+
+    /// Whether the largest load indents a contact.
+    pub fn indents(&self) -> bool {
+        self.indentation.iter().any(|factor| *factor < 1.0)
+    }
+
+    /// Whether more slips are expected than are allowed.
+    pub fn slips_too_often(&self) -> bool {
+        self.slips.zip(self.slips_allowed).is_some_and(|(expected, allowed)| expected > allowed)
+    }
+
+    /// Places whose life is not known, because no strength of theirs is given or a load is not carried.
+    pub fn not_known(&self) -> impl Iterator<Item = LifePlace> {
+        self.used.iter().filter(|u| u.sum.is_none()).map(|u| u.place)
     }
 
     /// The largest load that slips with friction and torque at their means.
@@ -198,6 +218,7 @@ pub fn life(design: &Design, service: &Service) -> Result<Life, NoMargins> {
         ],
         slips: loads.iter().map(|l| Some(l.slip? * l.engagements)).sum(),
         engagements: loads.iter().map(|l| l.engagements).sum(),
+        slips_allowed: service.slips_allowed,
         friction: design.clutch.friction.static_,
         loads,
     })

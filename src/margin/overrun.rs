@@ -8,6 +8,7 @@
 use super::load::LoadState;
 use crate::design::Design;
 use crate::dynamics::{Overrun, Swing};
+use crate::follow::Follow;
 use crate::kinematics::levers;
 use crate::numeric::root;
 use crate::scenario::{Lubricated, sliding};
@@ -48,16 +49,22 @@ pub struct OverrunCurve {
 /// Speeds of a curve.
 const SPEEDS: usize = 25;
 
-/// Steady overrun from rest to `up_to_rad_s`.
+/// Steady overrun from rest to `up_to_rad_s`; where `follow` is stopped, as far as it has come.
 ///
 /// # Errors
 /// [`NoCurve`] where the curve at rest cannot be built; a speed at which there is no first contact ends the curve.
-pub fn overrun_curve(design: &Design, state: &LoadState, up_to_rad_s: f64) -> Result<OverrunCurve, NoCurve> {
+pub fn overrun_curve(
+    design: &Design,
+    state: &LoadState,
+    up_to_rad_s: f64,
+    follow: &Follow,
+) -> Result<OverrunCurve, NoCurve> {
     // The first arc is all that overrun feels.
     let build = |speed: f64| WedgeCurve::build_reaching(&design.clutch, &state.profile, speed, Some(0.0));
     let point = |curve: &WedgeCurve, speed: f64| point(design, state, curve, speed);
     let rest = build(0.0)?;
     let speeds = (0..SPEEDS).map(|i| up_to_rad_s * i as f64 / (SPEEDS - 1) as f64);
+    let speeds = speeds.take_while(|_| !follow.stopped());
     let inner_race = speeds.clone().map(|speed| point(&rest, speed)).collect();
     let outer_race = speeds.map_while(|speed| build(speed).ok().map(|curve| point(&curve, speed))).collect();
     Ok(OverrunCurve { outer_race, inner_race, gamma_rad: state.curve.statics().gamma0_rad() })

@@ -7,7 +7,8 @@
 //! The clutch carries C in equilibrium; from one instant on its contacts have the friction of the slip. The wedge throws the sprags
 //! out, they fly until the spring has brought them back, and the torque drives the races apart. After a path of slip the friction is that
 //! of the design again, and the clutch grips as soon as the sprags are back. The races are fastest against one another when
-//! the clutch carries C once more; from there on that speed w goes into its windup. With J = J_i J_e/(J_i + J_e) and no loss
+//! the clutch carries C once more; from there on that speed w goes into its windup. With J = J_i J_e/(J_i + J_e), J_i where the
+//! outer race is held, and no loss
 //!
 //!   J w^2/2 = integral from W(C) to W_max of (C(W) - C) dW,
 //!
@@ -15,7 +16,7 @@
 
 use crate::clutch::{Clutch, Friction};
 use crate::dynamics::{Run, Stop};
-use crate::element::{Beginning, Element, NoElement, Settings, Torque};
+use crate::element::{Beginning, Element, NoElement, Port, Settings, Torque};
 use crate::follow::Follow;
 use crate::wedge::{StaticPoint, WedgeCurve};
 use std::f64::consts::TAU;
@@ -29,10 +30,20 @@ pub struct SlipUnderLoad {
     pub speed_rad_s: f64,
     /// What turns with the inner and the outer race, these included, kg m^2.
     pub inertia_kg_m2: [f64; 2],
+    /// Whether the outer race keeps its speed whatever acts on it, as in a housing: its inertia means nothing then.
+    pub outer_held: bool,
     /// Friction coefficient of both contacts while they slip.
     pub friction: f64,
     /// Paths of slip between the tracks at the inner track, m, each above 0, rising.
     pub paths_m: Vec<f64>,
+}
+
+impl SlipUnderLoad {
+    /// Inertia of the races against one another, kg m^2.
+    pub fn reduced_kg_m2(&self) -> f64 {
+        let [inner, outer] = self.inertia_kg_m2;
+        if self.outer_held { inner } else { inner * outer / (inner + outer) }
+    }
 }
 
 /// What follows after one path of slip.
@@ -42,15 +53,17 @@ pub struct Blow {
     pub path_m: f64,
     /// When that was, s after the slip began.
     pub slip_s: f64,
-    /// When the load was largest, s after the slip began.
-    pub peak_s: f64,
-    /// Path of the races against one another until they stood still against one another for the first time, m at the inner track.
-    pub path_in_all_m: f64,
+    /// When the load was largest, s after the slip began; `None`: the clutch did not grip again.
+    pub peak_s: Option<f64>,
+    /// Path of the races against one another until they stood still against one another for the first time, m at the inner track;
+    /// `None`: they never did.
+    pub path_in_all_m: Option<f64>,
     /// Largest speed of the races against one another, rad/s.
     pub speed_rad_s: f64,
     /// Largest load thereafter; `None`: beyond the end of the curve, the sprags roll over or an arc ends.
     pub peak: Option<StaticPoint>,
-    /// Largest torque by the balance of energy, nothing lost, N m; `None`: beyond the end of the curve.
+    /// Largest torque by the balance of energy, nothing lost, N m, as if something gripped at that speed; `None`: beyond the end of
+    /// the curve.
     pub by_energy_nm: Option<f64>,
     /// Why the run ended where it has not come to its end.
     pub ended: Option<Stop>,
@@ -59,14 +72,29 @@ pub struct Blow {
 /// What a slip comes to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blows {
-    /// One for each path, as far as it slips.
+    /// One for each path; once the sprags are thrown out of reach, of races that the torque drives apart with nothing between them.
     pub list: Vec<Blow>,
     /// Where it does not slip: |T|/N at the inner contact, which the friction is enough for.
     pub holds: Option<f64>,
     /// Friction that holds the torque: the larger of tan omega and tan nu.
     pub needs: f64,
-    /// Why it did not slip as far as the next path, and when, s after the slip began.
-    pub ended: Option<(Stop, f64)>,
+    /// Why the sprags went no farther with the slip, and where.
+    pub ended: Option<SlipEnd>,
+}
+
+/// Where a slip came to an end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlipEnd {
+    /// Why.
+    pub stop: Stop,
+    /// When, s after the slip began.
+    pub at_s: f64,
+    /// Path until then, m at the inner track.
+    pub path_m: f64,
+    /// Speed of the races against one another, rad/s.
+    pub speed_rad_s: f64,
+    /// Speed of the outer race, with which the sprags turn, rad/s.
+    pub outer_rad_s: f64,
 }
 
 /// Halvings of an advance until the path is met.
@@ -77,11 +105,6 @@ const ADVANCES: f64 = 64.0;
 const PERIODS: f64 = 3.0;
 /// Advances at most until the clutch has gripped.
 const MOST: usize = 200_000;
-
-/// Inertia of two races against one another, kg m^2.
-fn reduced([inner, outer]: [f64; 2]) -> f64 {
-    inner * outer / (inner + outer)
-}
 
 /// Torque up to which `energy_j` winds the clutch up from `torque_nm` on, that torque doing its part; `None`: not on the curve.
 pub fn by_energy_nm(curve: &WedgeCurve, torque_nm: f64, energy_j: f64) -> Option<f64> {
@@ -131,8 +154,9 @@ impl Drive<'_> {
 
     fn advance(&self, element: &mut Element, dt_s: f64) -> Result<Run, NoElement> {
         let torque_nm = self.case.torque_nm;
-        let torques = [Torque::constant(-torque_nm), Torque::constant(torque_nm)];
-        element.advance(dt_s, torques).map_err(NoElement::Malformed)
+        let torque = |nm: f64| Port::Torque(Torque::constant(nm));
+        let outer = if self.case.outer_held { Port::Acceleration(0.0) } else { torque(torque_nm) };
+        element.advance(dt_s, [torque(-torque_nm), outer]).map_err(NoElement::Malformed)
     }
 
     /// Let it slip on until it has come to `path_m`.
@@ -164,9 +188,9 @@ impl Drive<'_> {
         Ok(Slipped::Ended(Stop::StepLimit))
     }
 
-    /// Grip again with the friction of `held` from where `slips` stands.
-    fn grip(&self, slips: &Element, held: &Clutch, path_m: f64) -> Result<Blow, NoElement> {
-        let mut grips = slips.exchanged(held)?;
+    /// Grip again as `held` does, from where `slips` stands.
+    fn grip(&self, slips: &Element, held: &Element, path_m: f64) -> Result<Blow, NoElement> {
+        let mut grips = slips.moved_to(held.clone())?;
         let slip_s = grips.t_s();
         let (mut most_n, mut peak_s, mut speed_rad_s, mut ended) = (0.0, slip_s, 0.0_f64, None);
         let mut wound = false;
@@ -196,18 +220,40 @@ impl Drive<'_> {
             ended = Some(Stop::StepLimit);
         }
         let curve = &grips.model().curve;
-        let energy_j = 0.5 * reduced(self.case.inertia_kg_m2) * speed_rad_s * speed_rad_s;
+        let known = matches!(ended, None | Some(Stop::CurveEnd | Stop::FellAway));
         Ok(Blow {
             path_m,
             slip_s,
-            peak_s,
-            path_in_all_m: self.apart(&grips).0,
+            peak_s: Some(peak_s),
+            path_in_all_m: Some(self.apart(&grips).0),
             speed_rad_s,
             peak: curve.at_normal(most_n).filter(|_| ended.is_none()),
-            by_energy_nm: by_energy_nm(curve, self.case.torque_nm, energy_j)
-                .filter(|_| matches!(ended, None | Some(Stop::CurveEnd))),
+            by_energy_nm: self.by_energy_nm(curve, speed_rad_s).filter(|_| known),
             ended,
         })
+    }
+
+    /// Largest torque that the energy of this speed of the races against one another comes to.
+    fn by_energy_nm(&self, curve: &WedgeCurve, speed_rad_s: f64) -> Option<f64> {
+        let energy_j = 0.5 * self.case.reduced_kg_m2() * speed_rad_s * speed_rad_s;
+        by_energy_nm(curve, self.case.torque_nm, energy_j)
+    }
+
+    /// `path_m` with nothing between the races from `end` on: the torque alone drives them apart.
+    fn free(&self, curve: &WedgeCurve, end: &SlipEnd, path_m: f64) -> Blow {
+        let acceleration = self.case.torque_nm / self.case.reduced_kg_m2();
+        let path_rad = (path_m - end.path_m).max(0.0) / self.radius_m;
+        let speed_rad_s = (end.speed_rad_s.powi(2) + 2.0 * acceleration * path_rad).sqrt();
+        Blow {
+            path_m,
+            slip_s: end.at_s + (speed_rad_s - end.speed_rad_s) / acceleration,
+            peak_s: None,
+            path_in_all_m: None,
+            speed_rad_s,
+            peak: None,
+            by_energy_nm: self.by_energy_nm(curve, speed_rad_s),
+            ended: Some(end.stop),
+        }
     }
 }
 
@@ -229,16 +275,31 @@ pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<B
     let at_torque = rests.model().curve.at_torque(torque_nm);
     let stiffness = at_torque.map_or(1.0, |p| p.k_tangent_nm_per_rad);
     let needs = at_torque.map_or(f64::INFINITY, |p| p.required_friction());
-    let dt_s = TAU * (reduced(case.inertia_kg_m2) / stiffness).sqrt() / ADVANCES;
+    let dt_s = TAU * (case.reduced_kg_m2() / stiffness).sqrt() / ADVANCES;
     let mut drive = Drive { case, radius_m: clutch.races.inner_radius_m, begun_rad: 0.0, dt_s, follow };
     drive.begun_rad = drive.apart(&rests).0 / drive.radius_m;
     let mut slips = rests.exchanged(&slippery)?;
+    // Made once: each path goes on from where the slip stands then.
+    let grips = slips.exchanged(&held)?;
     let mut found = Blows { list: Vec::with_capacity(case.paths_m.len()), holds: None, needs, ended: None };
     for &path_m in &case.paths_m {
+        if let Some(end) = found.ended {
+            found.list.push(drive.free(&rests.model().curve, &end, path_m));
+            continue;
+        }
         match drive.slip_to(&mut slips, path_m)? {
-            Slipped::There => found.list.push(drive.grip(&slips, &held, path_m)?),
+            Slipped::There => found.list.push(drive.grip(&slips, &grips, path_m)?),
             Slipped::Holds(needed) => return Ok(Blows { holds: Some(needed), ..found }),
-            Slipped::Ended(stop) => return Ok(Blows { ended: Some((stop, slips.t_s())), ..found }),
+            Slipped::Ended(stop) => {
+                let (fled_m, speed_rad_s) = drive.apart(&slips);
+                let outer_rad_s = slips.motion().flanges[1].speed_rad_s;
+                let end = SlipEnd { stop, at_s: slips.t_s(), path_m: fled_m, speed_rad_s, outer_rad_s };
+                found.ended = Some(end);
+                if stop != Stop::FellAway {
+                    return Ok(found);
+                }
+                found.list.push(drive.free(&rests.model().curve, &end, path_m));
+            }
         }
     }
     Ok(found)

@@ -1,6 +1,6 @@
 //! Horizontal bars with their names on the left: margins against zero, torque capacities against a torque.
 
-use super::svg::{Anchor, BAD, GOOD, INK, SERIES, SOFT, Svg, polyline, text_width};
+use super::svg::{Anchor, BAD, GOOD, INK, PHONE_PX, SERIES, SOFT, Svg, for_both, polyline, text_width};
 
 /// What a bar's colour says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,15 +49,24 @@ const TOP: f64 = 56.0;
 const LABEL_PITCH: f64 = 15.0;
 
 impl Bars {
+    /// The figure of a page.
+    pub fn to_figure(&self) -> String {
+        for_both(&self.to_svg(), &self.drawn(PHONE_PX))
+    }
+
     /// The SVG.
     pub fn to_svg(&self) -> String {
+        self.drawn(WIDTH)
+    }
+
+    fn drawn(&self, width: f64) -> String {
         let height = TOP + PITCH * self.bars.len() as f64 + 8.0;
-        let mut svg = Svg::new(WIDTH, height, &self.title);
+        let mut svg = Svg::new(width, height, &self.title);
         svg.title_text([8.0, 15.0], &self.title);
         let widest =
             |texts: &mut dyn Iterator<Item = &String>| texts.map(|t| text_width(t, 12.0)).fold(0.0, f64::max);
         let left = 8.0 + widest(&mut self.bars.iter().map(|b| &b.label));
-        let right = WIDTH - 8.0 - widest(&mut self.bars.iter().map(|b| &b.text));
+        let right = width - 8.0 - widest(&mut self.bars.iter().map(|b| &b.text));
         let (low, high) = (self.range.0.min(0.0), self.range.1.max(0.0));
         let span = if high - low > 0.0 { high - low } else { 1.0 };
         let x = |value: f64| {

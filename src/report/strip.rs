@@ -1,7 +1,7 @@
 //! Coloured bands over time, one row per thing observed: which state held when.
 
 use super::plot::{Axis, LEFT_PX, PITCH_X_PX, RIGHT_PX, draw_below};
-use super::svg::{Anchor, INK, RULE, SERIES, SOFT, Svg, rectangle, text_width};
+use super::svg::{Anchor, INK, PHONE_PX, RULE, SERIES, SOFT, Svg, for_both, rectangle, text_width};
 
 /// A stretch in one state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +32,8 @@ const WIDTH_PX: f64 = 720.0;
 const TOP_PX: f64 = 26.0;
 const ROW_PX: f64 = 24.0;
 const BAND_PX: f64 = 16.0;
+/// A further row of the legend.
+const LEGEND_PX: f64 = 17.0;
 const BOTTOM_PX: f64 = 46.0;
 /// However short, a span that is not the ordinary state stays visible.
 const LEAST_PX: f64 = 0.8;
@@ -45,22 +47,31 @@ impl Strip {
     /// The SVG. Shorter spans lie over longer ones of the same row, and neighbours that would fall on the same
     /// pixel are drawn once.
     pub fn to_svg(&self) -> String {
-        let height = TOP_PX + ROW_PX * self.rows.len() as f64 + BOTTOM_PX;
-        let mut svg = Svg::new(WIDTH_PX, height, &format!("States over {}", self.title));
+        self.drawn(WIDTH_PX)
+    }
+
+    /// The figure of a page.
+    pub fn to_figure(&self) -> String {
+        for_both(&self.to_svg(), &self.drawn(PHONE_PX))
+    }
+
+    fn drawn(&self, width_px: f64) -> String {
+        let legend = self.placed_legend(width_px);
+        let top_px = TOP_PX + LEGEND_PX * legend.last().map_or(0.0, |(_, row)| *row);
+        let height = top_px + ROW_PX * self.rows.len() as f64 + BOTTOM_PX;
+        let mut svg = Svg::new(width_px, height, &format!("States over {}", self.title));
         let [low, high] = self.sound_range();
-        let axis = Axis { log: false, range: [low, high], px: [LEFT_PX, WIDTH_PX - RIGHT_PX] };
+        let axis = Axis { log: false, range: [low, high], px: [LEFT_PX, width_px - RIGHT_PX] };
         // As the plots above and below.
         let axis = axis.begun(PITCH_X_PX);
         let x = |at: f64| axis.at(at.clamp(low, high));
-        let mut at = LEFT_PX;
-        for (state, name) in self.states.iter().enumerate() {
-            let style = format!("fill=\"{}\"", colour(state));
-            svg.path(&rectangle([at, 4.0], [14.0, 12.0]), &style);
-            svg.bare_text([at + 19.0, 14.0], Anchor::Start, INK, name);
-            at += 19.0 + text_width(name, 12.0) + 16.0;
+        for ((state, name), (at, row)) in self.states.iter().enumerate().zip(legend) {
+            let y = LEGEND_PX * row;
+            svg.path(&rectangle([at, y + 4.0], [14.0, 12.0]), &format!("fill=\"{}\"", colour(state)));
+            svg.bare_text([at + 19.0, y + 14.0], Anchor::Start, INK, name);
         }
         for (number, (name, spans)) in self.rows.iter().enumerate() {
-            let y = TOP_PX + ROW_PX * number as f64;
+            let y = top_px + ROW_PX * number as f64;
             svg.bare_text([LEFT_PX - 8.0, y + 12.5], Anchor::End, INK, name);
             for state in 0..self.states.len() {
                 // What would fall on one pixel becomes one rectangle.
@@ -82,9 +93,23 @@ impl Strip {
             }
         }
         let y = height - BOTTOM_PX + 2.0;
-        svg.line([LEFT_PX, y], [WIDTH_PX - RIGHT_PX, y], &format!("stroke=\"{SOFT}\" fill=\"none\""));
-        draw_below(&mut svg, &axis, &axis.ticks(PITCH_X_PX), y, &self.title, WIDTH_PX);
+        svg.line([LEFT_PX, y], [width_px - RIGHT_PX, y], &format!("stroke=\"{SOFT}\" fill=\"none\""));
+        draw_below(&mut svg, &axis, &axis.ticks(PITCH_X_PX), y, &self.title, width_px);
         svg.finish()
+    }
+
+    /// Place (px) and row of each state's name.
+    fn placed_legend(&self, width_px: f64) -> Vec<(f64, f64)> {
+        let (mut at, mut row) = (LEFT_PX, 0.0);
+        let place = |name: &String| {
+            let wide = 19.0 + text_width(name, 12.0) + 16.0;
+            if at > LEFT_PX && at + wide > width_px {
+                (at, row) = (LEFT_PX, row + 1.0);
+            }
+            at += wide;
+            (at - wide, row)
+        };
+        self.states.iter().map(place).collect()
     }
 
     /// The range, or one that can be drawn.

@@ -183,6 +183,21 @@ pub fn text_width(text: &str, size: f64) -> f64 {
     0.58 * size * text.chars().count() as f64
 }
 
+/// Width of a figure on a phone, px: what a window of 390 px leaves it.
+pub const PHONE_PX: f64 = 360.0;
+
+/// A figure as a page has it: drawn for a window, and once more for a phone, where its texts would be too small if it shrank. The
+/// page's style shows one of them.
+pub fn for_both(window: &str, phone: &str) -> String {
+    let classed = |svg: &str, class: &str| svg.replacen("<svg ", &format!("<svg class=\"{class}\" "), 1);
+    format!("{}\n{}", classed(window, "window"), classed(phone, "phone"))
+}
+
+/// Where a text begins that should begin at `at` and is to end within a figure `width_px` wide.
+pub fn begin_within(at: f64, text: &str, width_px: f64) -> f64 {
+    at.min(width_px - text_width(text, 12.0) - 2.0).max(2.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

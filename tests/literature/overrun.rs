@@ -1,6 +1,7 @@
 //! Spring against centrifugal force, with the levers drawn from the triangle O C_1 C_e at rest.
 
 use super::{close, design, row, rows};
+use sprag_design::Follow;
 use sprag_design::margin::{lift_off_rad_s, overrun_curve};
 use std::f64::consts::PI;
 
@@ -72,7 +73,13 @@ fn sliding_sprags_lose_their_load_at_the_lift_off_speed() {
     let (state, _) = rows(&d);
     let lift_off = lift_off_rad_s(&d, &state, 2000.0).unwrap();
     let force_n = |speed: f64| {
-        overrun_curve(&d, &state, speed).unwrap().outer_race.last().unwrap().state.normal_inner_n
+        overrun_curve(&d, &state, speed, &Follow::nobody())
+            .unwrap()
+            .outer_race
+            .last()
+            .unwrap()
+            .state
+            .normal_inner_n
     };
     assert_eq!(force_n(lift_off * (1.0 + 1e-7)), 0.0);
     let [near, nearer] = [1e-4, 1e-5].map(|below| force_n(lift_off * (1.0 - below)));
@@ -123,7 +130,7 @@ fn drag_against_speed_of_an_engaging_and_a_disengaging_clutch() {
         ]);
         let (state, _) = rows(&d);
         let h = by_hand(x_m);
-        let curve = overrun_curve(&d, &state, up_to).unwrap();
+        let curve = overrun_curve(&d, &state, up_to, &Follow::nobody()).unwrap();
         // The spring is set from the measured drag, so that is what comes back.
         close(curve.outer_race[0].state.drag_torque_nm, 0.0166, 2e-3);
         for p in &curve.inner_race {
@@ -158,7 +165,7 @@ fn the_outer_race_grows_as_a_rotating_disc() {
     let d = design(&[]);
     let (state, _) = rows(&d);
     let speed = 20_000.0 * PI / 30.0;
-    let curve = overrun_curve(&d, &state, speed).unwrap();
+    let curve = overrun_curve(&d, &state, speed, &Follow::nobody()).unwrap();
     let p = curve.outer_race.last().unwrap();
     let sigma = 7850.0 * speed * speed / 4.0 * (3.3 * 26.23e-3_f64.powi(2) + 0.7 * R_E * R_E);
     close(p.rotation_hoop_pa, sigma, 1e-12);

@@ -7,7 +7,7 @@ use crate::answer::Provenance;
 use crate::answer::page::{begun, half};
 use crate::design::Design;
 use crate::report::plot::Dash;
-use crate::report::{Column, Curve, Page, Plot, Table, Unit, significant};
+use crate::report::{Curve, Page, Plot, Rows, Table, Unit, significant};
 
 /// Smaller errors are drawn here: rounding.
 const FLOOR_RAD: f64 = 1e-15;
@@ -130,19 +130,19 @@ fn stability(page: &mut Page, study: &AccuracyStudy) {
     page.table("The box: each value at either end or evenly in its logarithm between; every fourth case is a corner of the \
                 whole box. Ten periods, at most 0.1 s.", &axes());
     page.figure(
-        &map::bars(study).to_svg(),
+        &map::bars(study).to_figure(),
         "Cases by outcome; not carried: the preload exceeds what the clutch holds.",
     );
     page.table("", &map::counts(study));
     page.figure(
-        &map::scatter(study, 5, 4, ["Frequency, Hz", "Amplitude, Nm"]).to_svg(),
+        &map::scatter(study, 5, 4, ["Frequency, Hz", "Amplitude, Nm"]).to_figure(),
         "Outcome over frequency and amplitude; an amplitude of zero stands at 0.1 Nm.",
     );
     page.figure(
-        &map::scatter(study, 0, 3, ["Static friction", "Preload, Nm"]).to_svg(),
+        &map::scatter(study, 0, 3, ["Static friction", "Preload, Nm"]).to_figure(),
         "Outcome over static friction and preload; a preload of zero stands at 0.1 Nm.",
     );
-    page.figure(&map::work(study).to_svg(), "Work over changes of mode.");
+    page.figure(&map::work(study).to_figure(), "Work over changes of mode.");
     let lines = map::remarkable(study);
     if lines.is_empty() {
         page.paragraph("No case met a limit, changed its verdict or gave a number that is not finite.");
@@ -156,14 +156,10 @@ fn stability(page: &mut Page, study: &AccuracyStudy) {
 }
 
 fn axes() -> Table {
-    let mut table = Table::new(vec![
-        Column::text("parameter", "Parameter, SI"),
-        Column::number("from", "From", Unit::One, 4),
-        Column::number("to", "To", Unit::One, 4),
-        Column::text("zero", "Zero too"),
-    ]);
-    for p in &PARAMETERS {
-        table.row(vec![p.key.into(), p.low.into(), p.high.into(), if p.zero { "yes" } else { "no" }.into()]);
-    }
-    table
+    Rows::of(&PARAMETERS)
+        .text("parameter", "Parameter, SI", |p| p.key)
+        .number("from", "From", Unit::One, 4, |p| p.low)
+        .number("to", "To", Unit::One, 4, |p| p.high)
+        .text("zero", "Zero too", |p| if p.zero { "yes" } else { "no" })
+        .table()
 }

@@ -29,7 +29,7 @@ use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows,
     static_margins,
 };
-use crate::report::{Page, Screen};
+use crate::report::{Page, Screen, Table};
 use crate::scenario::Settings;
 use crate::wedge::straddling_error;
 use body::Source;
@@ -85,6 +85,11 @@ impl CheckAnswer {
             error_estimate: Some(json!(self.errors)),
             body: &self.body,
         }
+    }
+
+    /// The table for programs: every number in full, nothing but numbers in number columns.
+    pub fn csv_table(&self) -> Table {
+        body::csv_table(&self.rows, self.state.curve.end_torque_nm())
     }
 
     /// The answer on a terminal.
@@ -163,8 +168,12 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
     let lift_off_rad_s = lift_off_rad_s(design, &state, LIFT_OFF_TO_RAD_S);
     let track_m = design.clutch.races.outer_radius_m;
     let up_to = overrun::up_to_rad_s(limits, lift_off_rad_s, track_m);
-    let course = overrun::curve(design, &state, up_to, lift_off_rad_s)
+    let course = overrun::curve(design, &state, up_to, lift_off_rad_s, follow)
         .map_err(|why| NoCheck::NoClutch(NoMargins::Curve(why)))?;
+    let named = overrun::named(design, &state);
+    if follow.stopped() {
+        return Err(NoCheck::Stopped);
+    }
     let source = Source {
         end: state.curve.end().0,
         end_torque_nm: state.curve.end_torque_nm(),
@@ -172,7 +181,7 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
         lift_off_rad_s,
         materials: beside_the_name(&design.source),
         searched_to_rad_s: LIFT_OFF_TO_RAD_S,
-        overrun: overrun::OverrunSection::new(&course, limits),
+        overrun: overrun::OverrunSection::new(&course, named, design),
         running: running::RunningSection::new(design, &state),
         run_out: ring.as_ref().map(|ring| run_out::RunOutSection::new(design, &state, ring)),
     };

@@ -2,8 +2,9 @@
 
 use crate::clutch::ScenarioKind;
 use crate::design::{Design, Limits};
+use crate::follow::Follow;
 use crate::margin::{LoadState, OverrunCurve, OverrunPoint, overrun_at, overrun_curve};
-use crate::report::{Column, Table, Unit};
+use crate::report::{Rows, Table, Unit};
 use crate::wedge::NoCurve;
 use serde::Serialize;
 
@@ -27,10 +28,11 @@ pub(super) fn curve(
     state: &LoadState,
     up_to_rad_s: f64,
     lift_off_rad_s: Option<f64>,
+    follow: &Follow,
 ) -> Result<OverrunCurve, NoCurve> {
-    let mut curve = overrun_curve(design, state, up_to_rad_s)?;
+    let mut curve = overrun_curve(design, state, up_to_rad_s, follow)?;
     if let Some(speed) = lift_off_rad_s.filter(|&speed| speed > 0.0 && speed < up_to_rad_s) {
-        let there = overrun_curve(design, state, speed)?;
+        let there = overrun_curve(design, state, speed, follow)?;
         let pairs = [(&mut curve.outer_race, there.outer_race), (&mut curve.inner_race, there.inner_race)];
         for (points, there) in pairs {
             // A curve that ends early does not reach lift-off.
@@ -48,6 +50,48 @@ pub(super) fn curve(
         }
     }
     Ok(curve)
+}
+
+/// Whether the design names a speed of the outer race: in a limit or in a scene.
+fn outer_turns(design: &Design) -> bool {
+    let limits = &design.limits;
+    let asked = [limits.keep_contact_to_rad_s, limits.lift_off_by_rad_s].into_iter().flatten();
+    // An infinite mean speed stands for a history.
+    asked.chain(design.scenarios.iter().map(|s| s.mean_speed_rad_s())).any(|speed| speed != 0.0)
+}
+
+/// The overruns that the design names, in limits and scenes: drag at each. None of a speed at which there is no first contact.
+pub(super) fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
+    let limits = &design.limits;
+    let by_limit = [
+        ("keep_contact_to_rpm", limits.keep_contact_to_rad_s),
+        ("lift_off_by_rpm", limits.lift_off_by_rad_s),
+    ];
+    let by_limit = by_limit.into_iter().filter_map(|(key, speed)| {
+        let speed = speed.filter(|speed| *speed > 0.0)?;
+        Some((key.to_owned(), [-speed, speed]))
+    });
+    let by_scene = design.scenarios.iter().filter_map(|s| match s.kind {
+        ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
+            Some((s.name.clone(), [overrun_rad_s, speed_rad_s]))
+        }
+        ScenarioKind::Engagement { free_run_rad_s, .. } => Some((s.name.clone(), [free_run_rad_s, 0.0])),
+        ScenarioKind::Transient { speed_rad_s, overrun_rad_s, .. } if overrun_rad_s > 0.0 => {
+            Some((s.name.clone(), [overrun_rad_s, speed_rad_s]))
+        }
+        _ => None,
+    });
+    let one = |(by, [ahead, outer]): (String, [f64; 2])| {
+        let point = overrun_at(design, state, outer, ahead.abs()).ok()?;
+        Some(NamedOverrun {
+            by,
+            outer_rpm: Unit::Rpm.from_si(outer),
+            inner_rpm: Unit::Rpm.from_si(outer + ahead),
+            drag_torque_nm: point.state.drag_torque_nm,
+            lifted_off: point.state.normal_inner_n <= 0.0,
+        })
+    };
+    by_limit.chain(by_scene).filter_map(one).collect()
 }
 
 /// A point among others, speeds ascending; none twice.
@@ -87,6 +131,39 @@ pub struct OverrunRow {
     pub rotation_hoop_outer_mpa: f64,
 }
 
+/// An overrun that the design names.
+#[derive(Debug, Clone, Serialize)]
+pub struct NamedOverrun {
+    /// Key of the limit, or name of the scene.
+    pub by: String,
+    /// Speed of the outer race, rev/min.
+    pub outer_rpm: f64,
+    /// Speed of the inner race, rev/min.
+    pub inner_rpm: f64,
+    /// Drag of the whole clutch, N m.
+    pub drag_torque_nm: f64,
+    /// Whether the sprags are off the inner race.
+    pub lifted_off: bool,
+}
+
+impl NamedOverrun {
+    fn words(&self) -> String {
+        let drag = match self.lifted_off {
+            true => "none (the sprags are off)".to_owned(),
+            false => Unit::NewtonMetre.show(self.drag_torque_nm, 3),
+        };
+        let speeds = match (self.outer_rpm, self.inner_rpm) {
+            (outer, 0.0) => format!("{outer:.0} rpm of the outer race"),
+            (0.0, inner) => format!("{inner:.0} rpm of the inner race"),
+            (outer, inner) => format!("{outer:.0} rpm of the outer and {inner:.0} rpm of the inner race"),
+        };
+        format!("{drag} at {speeds} ({})", self.by)
+    }
+}
+
+/// Overruns that a line has room for.
+const NAMED: usize = 4;
+
 /// `overrun` of the JSON.
 #[derive(Debug, Clone, Serialize)]
 pub struct OverrunSection {
@@ -96,6 +173,10 @@ pub struct OverrunSection {
     pub gamma_deg: f64,
     /// Drag torque with either race at rest.
     pub drag_torque_slow_nm: f64,
+    /// Whether the design names a speed of the outer race, in a limit or a scene.
+    pub outer_race_turns: bool,
+    /// The overruns that the design names.
+    pub named: Vec<NamedOverrun>,
     /// All speeds looked at: outer race runs, then inner race.
     pub points: Vec<OverrunRow>,
     /// Whether the sliding contact is on a film of oil.
@@ -125,7 +206,8 @@ fn warning(points: &[OverrunRow], wanted_rpm: Option<f64>) -> Option<String> {
 }
 
 impl OverrunSection {
-    pub(super) fn new(curve: &OverrunCurve, limits: &Limits) -> Self {
+    pub(super) fn new(curve: &OverrunCurve, named: Vec<NamedOverrun>, design: &Design) -> Self {
+        let limits = &design.limits;
         let row = |race: &'static str, p: &OverrunPoint| OverrunRow {
             race,
             speed_rpm: Unit::Rpm.from_si(p.speed_rad_s),
@@ -153,6 +235,8 @@ impl OverrunSection {
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
             on_film: curve.inner_race.iter().any(|p| p.lubricated.is_some()),
             warning: warning(&points, wanted_rpm),
+            outer_race_turns: outer_turns(design),
+            named,
             points,
         }
     }
@@ -162,25 +246,22 @@ impl OverrunSection {
         std::iter::once(self.remark()).chain(self.warning.clone())
     }
 
-    /// Drag in one line; lift-off has its own, and the last speed looked at is not it.
+    /// Drag in one line, at the speeds that the design names; lift-off has its own.
     pub fn remark(&self) -> String {
-        let last = |race: &str| self.points.iter().rev().find(|p| p.race == race);
         let slow = Unit::NewtonMetre.show(self.drag_torque_slow_nm, 3);
-        let at = |race: &str| {
-            last(race).map_or(String::new(), |p| {
-                let drag = match p.lifted_off {
-                    true => "none (the sprags are off by then)".to_owned(),
-                    false => Unit::NewtonMetre.show(p.drag_torque_nm, 3),
-                };
-                format!("at {:.0} rpm of the {race} race {drag}", p.speed_rpm)
-            })
-        };
+        let mut named: Vec<String> =
+            self.named.iter().take(NAMED).map(|at| format!("; {}", at.words())).collect();
+        if self.named.len() > NAMED {
+            named.push(format!("; {} more: --json", self.named.len() - NAMED));
+        }
         format!(
-            "Overrun{}: drag {slow} when slow; {}; {}; the centrifugal force is {} (gamma {:.3} deg: the centroid lies {} the \
-             sprag's outer centre)",
+            "Overrun{}: drag {slow} when slow{}; {} {} (gamma {:.3} deg: the centroid lies {} the sprag's outer centre)",
             if self.on_film { " on a film of oil (`overrun` says more)" } else { "" },
-            at("outer"),
-            at("inner"),
+            named.concat(),
+            match self.outer_race_turns {
+                true => "the centrifugal force is",
+                false => "if the outer race turned, the centrifugal force would be",
+            },
             self.centrifugal,
             self.gamma_deg,
             match self.gamma_deg {
@@ -191,34 +272,40 @@ impl OverrunSection {
         )
     }
 
+    /// Where the sprags lift off, if they do up to `searched_to_rpm`.
+    pub(super) fn lift_off_remark(&self, lift_off_rpm: Option<f64>, searched_to_rpm: f64) -> String {
+        match (self.outer_race_turns, lift_off_rpm) {
+            (true, Some(rpm)) => {
+                format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm")
+            }
+            (true, None) => format!("Sprags keep contact in overrun up to {searched_to_rpm:.0} rpm at least"),
+            (false, Some(rpm)) => format!(
+                "No speed of the outer race is named; if it turned in overrun, sprags would lift off the inner race at {rpm:.0} rpm of it"
+            ),
+            (false, None) => format!(
+                "No speed of the outer race is named; if it turned in overrun, sprags would keep contact up to {searched_to_rpm:.0} rpm of it \
+                 at least"
+            ),
+        }
+    }
+
     /// All speeds, for `--overrun-csv` and the page.
     pub fn table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("race", "Race that runs"),
-            Column::number("speed_rpm", "Speed, rpm", Unit::One, 5),
-            Column::number("drag_torque_nm", "Drag torque", Unit::NewtonMetre, 4),
-            Column::number("normal_inner_n", "Normal force at A", Unit::Newton, 4),
-            Column::number("normal_outer_n", "Normal force at B", Unit::Newton, 4),
-            Column::number("friction", "Friction at A", Unit::One, 4),
-            Column::number("growth_rate_per_s", "Growth of the swing, 1/s", Unit::One, 4),
-            Column::number("swing_frequency_hz", "Swing, Hz", Unit::One, 4),
-            Column::number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4),
-            Column::number("rotation_hoop_outer_mpa", "Hoop by rotation, outer race, MPa", Unit::One, 4),
-        ]);
-        for p in &self.points {
-            table.row(vec![
-                p.race.into(),
-                p.speed_rpm.into(),
-                p.drag_torque_nm.into(),
-                p.normal_inner_n.into(),
-                p.normal_outer_n.into(),
-                p.friction.into(),
-                p.growth_rate_per_s.into(),
-                p.swing_frequency_hz.into(),
-                p.outer_race_growth_um.into(),
-                p.rotation_hoop_outer_mpa.into(),
-            ]);
-        }
-        table
+        Rows::of(&self.points)
+            .text("race", "Race that runs", |p| p.race)
+            .number("speed_rpm", "Speed, rpm", Unit::One, 5, |p| p.speed_rpm)
+            .number("drag_torque_nm", "Drag torque", Unit::NewtonMetre, 4, |p| p.drag_torque_nm)
+            .number("normal_inner_n", "Normal force at A", Unit::Newton, 4, |p| p.normal_inner_n)
+            .number("normal_outer_n", "Normal force at B", Unit::Newton, 4, |p| p.normal_outer_n)
+            .number("friction", "Friction at A", Unit::One, 4, |p| p.friction)
+            .number("growth_rate_per_s", "Growth of the swing, 1/s", Unit::One, 4, |p| p.growth_rate_per_s)
+            .number("swing_frequency_hz", "Swing, Hz", Unit::One, 4, |p| p.swing_frequency_hz)
+            .number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4, |p| {
+                p.outer_race_growth_um
+            })
+            .number("rotation_hoop_outer_mpa", "Hoop by rotation, outer race, MPa", Unit::One, 4, |p| {
+                p.rotation_hoop_outer_mpa
+            })
+            .table()
     }
 }

@@ -1,6 +1,6 @@
 //! The margin check as a page.
 
-use super::text::overrunning;
+use super::text::{overrunning, two_pressures};
 use super::{CheckAnswer, charts, is_beyond, margin_text, people_table, sections};
 use crate::answer::Provenance;
 use crate::answer::page::{begun, draw_sheet, drawing, half, pose_at_rest};
@@ -17,9 +17,20 @@ pub(super) fn opened(
 ) -> (Page, Vec<String>) {
     let mut page = begun(title, design, command);
     page.verdict(check.body.pass, &check.body.verdict());
-    page.list(check.body.capacity_lines());
+    page.list(rated(design).into_iter().chain(check.body.capacity_lines()));
     draw_sheet(&mut page, design, &check.state.profile);
     (page, check.body.other_remarks())
+}
+
+/// The torques that the clutch is held to, in a line; none where no limit names one.
+fn rated(design: &Design) -> Option<String> {
+    let limits = &design.limits;
+    let named = [(limits.nominal_torque_nm, "nominal"), (limits.peak_torque_nm, "peak")];
+    let said: Vec<String> = named
+        .into_iter()
+        .filter_map(|(torque_nm, name)| Some(format!("{} {name}", Unit::NewtonMetre.show(torque_nm?, 4))))
+        .collect();
+    (!said.is_empty()).then(|| format!("Rated torque: {}", said.join(", ")))
 }
 
 /// The page.
@@ -29,7 +40,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
     let end_nm = check.state.curve.end_torque_nm();
     page.heading("Limits against torque");
     page.figure(
-        &charts::limits(design, check).to_svg(),
+        &charts::limits(design, check).to_figure(),
         "Demand over allowable of every limit that depends on torque; a limit is reached at 1. Full lines: the limits that \
          set the torque capacities, named at their torque; dashed: the next required limits; dotted: shown only; grey: \
          farther away. Cut off above 1.5.",
@@ -40,16 +51,16 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
          the torque at which the limit would be reached (>: not before the curve ends).",
         &people_table(&check.rows, end_nm),
     );
-    page.list(remarks.into_iter().chain(overrunning(design)));
+    page.list(remarks.into_iter().chain(two_pressures(&check.rows)).chain(overrunning(design)));
     page.apart("Margins and torque capacities as bars", |page| {
         page.figure(
-            &margin_bars(&check.rows).to_svg(),
+            &margin_bars(&check.rows).to_figure(),
             "Margins; a bar that ends in an arrow goes on beyond the chart, grey ones are shown only.",
         );
         let capacities = capacity_bars(design, &check.rows, end_nm);
         if !capacities.bars.is_empty() {
             page.figure(
-                &capacities.to_svg(),
+                &capacities.to_figure(),
                 "Torque at which each limit would be reached; “>”: not before the curve ends.",
             );
         }

@@ -23,9 +23,11 @@ pub(super) fn overrun(
         }
         half(plot)
     };
-    let drag = Plot::new("Speed of the race that runs, rpm", "Drag torque, Nm")
-        .curve("outer race runs", of("outer", |p| p.drag_torque_nm))
-        .curve("inner race runs", of("inner", |p| p.drag_torque_nm));
+    let mut drag = Plot::new("Speed of the race that runs, rpm", "Drag torque, Nm");
+    if section.outer_race_turns {
+        drag = drag.curve("outer race runs", of("outer", |p| p.drag_torque_nm));
+    }
+    let drag = drag.curve("inner race runs", of("inner", |p| p.drag_torque_nm));
     let forces = Plot::new("Speed of the outer race, rpm", "Normal force of one sprag, N")
         .curve("at A", of("outer", |p| p.normal_inner_n))
         .curve("at B", of("outer", |p| p.normal_outer_n));
@@ -38,8 +40,16 @@ pub(super) fn overrun(
          friction falls with speed a small swing of the sprags about the equilibrium grows, unless something damps it; \
          the races are taken to keep their speeds.",
     );
+    let drag_words = "Drag torque of the whole clutch: friction at the inner contacts.";
+    if !section.outer_race_turns {
+        page.figures(&[(half(drag), drag_words)]);
+        page.apart("Overrun over speed as a table", |page| {
+            page.table("", &section.table());
+        });
+        return;
+    }
     page.figures(&[
-        (marked(drag), "Drag torque of the whole clutch: friction at the inner contacts."),
+        (marked(drag), drag_words),
         (marked(forces), "Contact forces of one sprag; 0 at A: lifted off, carried by the outer race."),
     ]);
     let growth = half(growth);
@@ -68,7 +78,7 @@ pub(super) fn run_out(section: &run_out::RunOutSection, page: &mut Page) {
     }
     if !section.at.is_empty() {
         page.figure(
-            &plot.to_svg(),
+            &plot.to_figure(),
             "Load of each sprag over the mean, by where it stands; of a clutch that turns against the offset, in the \
              position with the largest share.",
         );

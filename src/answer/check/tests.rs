@@ -2,7 +2,7 @@
 
 use super::body::*;
 use super::overrun::OverrunSection;
-use crate::design::Limits;
+use crate::design::Design;
 use crate::margin::{Demand, Margin, OverrunCurve, limit_of};
 use crate::report::Screen;
 use crate::wedge::EndReason;
@@ -20,6 +20,8 @@ fn margin(code: &str, margin: f64, capacity: Option<f64>) -> Margin {
 }
 
 fn source(lift_off_rad_s: Option<f64>) -> Source {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/series-833-small.toml");
+    let design = Design::read(file.as_ref()).unwrap();
     let curve = OverrunCurve { outer_race: vec![], inner_race: vec![], gamma_rad: 0.0 };
     Source {
         materials: Vec::new(),
@@ -28,7 +30,7 @@ fn source(lift_off_rad_s: Option<f64>) -> Source {
         asked_nm: 110.0,
         lift_off_rad_s,
         searched_to_rad_s: 100.0,
-        overrun: OverrunSection::new(&curve, &Limits::default()),
+        overrun: OverrunSection::new(&curve, Vec::new(), &design),
         running: None,
         run_out: None,
     }

@@ -35,5 +35,5 @@ fn deviations(found: &Identified) -> String {
             plot.curves.push(Curve { dots: true, dash: Dash::Dotted, ..Curve::new(name, points) });
         }
     }
-    plot.level(0.0, "0").to_svg()
+    plot.level(0.0, "0").to_figure()
 }

@@ -127,7 +127,7 @@ impl SearchReport<'_> {
         let plot = Plot::new("Evaluations of the clutch", "Margin")
             .curve("least scaled objective", path(|it| it.least_margin))
             .curve("worst violation of a limit", path(|it| it.violation));
-        page.figure(&plot.to_svg(), "Path of the search; a violated limit is paid first.");
+        page.figure(&plot.to_figure(), "Path of the search; a violated limit is paid first.");
         page.table(
             "Influence at the start: change of each margin over the whole range of each variable",
             &story.influence_table(),
@@ -161,6 +161,6 @@ impl SearchReport<'_> {
         plot.curves.extend(before.map(|curve| Curve { dash: Dash::Dashed, ..curve }));
         plot.curves.extend(depth(&after, &q).map(|points| Curve::new("after", points).coloured(0)));
         let plot = plot.level(self.design.clutch.friction.static_, "\u{3bc}s");
-        page.figure(&plot.to_svg(), "Static friction demand at the inner contact.");
+        page.figure(&plot.to_figure(), "Static friction demand at the inner contact.");
     }
 }

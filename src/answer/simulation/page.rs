@@ -120,7 +120,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
     let mut torque = plot("Torque, Nm").curve("in the clutch", curve(&|r| r.torque_nm));
     torque.curves.push(Curve { dash: Dash::Dashed, ..cause });
     page.figure(
-        &torque.to_svg(),
+        &torque.to_figure(),
         "Torque from outside, on both races together, and what the clutch carries, positive in the sense in which it does; the rest \
          speeds the races up.",
     );
@@ -132,7 +132,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
         .curve("inner race", curve(&|r| r.sample.state[2] * per_rad))
         .curve("outer race", curve(&|r| r.sample.state[3] * per_rad));
     let caption = format!("Angles of the races{turning}; rolling would keep their distance at the windup.");
-    page.figure(&angles.to_svg(), &caption);
+    page.figure(&angles.to_figure(), &caption);
     // Under a torsional excitation the speeds only repeat what the angles show.
     if scene.scenario.kind.frequency_hz().is_none() {
         let rpm = |rad_s: f64| Unit::Rpm.from_si(rad_s);
@@ -141,7 +141,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
             .curve("outer race", curve(&|r| rpm(r.rates[3])));
         let caption =
             format!("Angular speeds of the races{turning}; + is the sense in which the inner race overruns.");
-        page.figure(&speeds.to_svg(), &caption);
+        page.figure(&speeds.to_figure(), &caption);
     }
     // At rest both forces differ by parts in a thousand: the second is dashed so that the first is seen.
     let mut normal = plot("Normal force per sprag, N")
@@ -149,9 +149,12 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
         .marker(least_at, "smallest");
     let outer = Curve::new("outer contact", curve(&|r| r.sample.forces.n_be));
     normal.curves.push(Curve { dash: Dash::Dashed, ..outer });
-    page.figure(&normal.to_svg(), &format!("Normal forces; the smallest {}.", phase(scene, s.peaks.at_s[2])));
+    page.figure(
+        &normal.to_figure(),
+        &format!("Normal forces; the smallest {}.", phase(scene, s.peaks.at_s[2])),
+    );
     friction(page, scene, prepared, s, &rows);
-    page.figure(&strip(s).to_svg(), "What each contact does; each change is located in time.");
+    page.figure(&strip(s).to_figure(), "What each contact does; each change is located in time.");
     slip(page, s, &rows);
     pressures(page, scene, prepared, s, &rows);
 }
@@ -239,7 +242,7 @@ fn friction(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, r
          contact is open; a contact that slips is at {slipping}. |T|/N at the inner contact is largest {}.{cut}",
         phase(scene, s.peaks.at_s[0])
     );
-    page.figure(&plot.to_svg(), &caption);
+    page.figure(&plot.to_figure(), &caption);
 }
 
 /// Slip since the clutch engaged: the overrun before would hide it.
@@ -265,7 +268,7 @@ fn slip(page: &mut Page, s: &Simulation, rows: &[HistoryRow]) {
         .curve("outer contact", over_time(rows, &|r| slipped(r)[1] * per_m));
     let caption =
         format!("Signed slip distance since {from}; at the inner contact + is towards overrunning.");
-    page.figure(&plot.to_svg(), &caption);
+    page.figure(&plot.to_figure(), &caption);
 }
 
 /// Contact pressure over time (the paper's Figures 9 and 10) and, with slices, along the length.
@@ -289,7 +292,7 @@ fn pressures(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, 
         None => String::new(),
     };
     page.figure(
-        &plot.to_svg(),
+        &plot.to_figure(),
         &format!("Hertz pressure p₀ at both contacts beside that of the static load.{rated}"),
     );
     let curve = &prepared.model.curve;
@@ -319,7 +322,7 @@ fn pressures(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, 
     }
     let caption =
         format!("Pressure along the sprag by {slices} slices; at a square end it grows with their number.");
-    page.figure(&plot.to_svg(), &caption);
+    page.figure(&plot.to_figure(), &caption);
 }
 
 /// When, and where in the excitation's period.

@@ -84,6 +84,6 @@ pub(super) fn figures(page: &mut Page, scene: &Ran) {
             let points = time.iter().zip(values).map(|(t, v)| [t * 1e3, *v]).collect();
             drawn = drawn.curve(name, envelope(points));
         }
-        page.figure(&drawn.to_svg(), caption);
+        page.figure(&drawn.to_figure(), caption);
     }
 }

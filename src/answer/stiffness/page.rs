@@ -46,22 +46,25 @@ fn section(page: &mut Page, study: &StiffnessStudy) {
         let fem = Curve::new("finite elements", points).coloured(laws.len());
         windup.curves.push(Curve { dots: true, ..fem });
     }
-    page.figure(&windup.to_svg(), "Torque over windup. Vertical lines: junctions of the first law's curve.");
+    page.figure(
+        &windup.to_figure(),
+        "Torque over windup. Vertical lines: junctions of the first law's curve.",
+    );
     if let Some(fem) = &study.fem {
         page.figure(
-            &curves.against(fem).to_svg(),
+            &curves.against(fem).to_figure(),
             "Windup of each law against finite elements, at their torques. Dashed: local deformation alone.",
         );
         page.list(findings(study, fem));
         page.table("Distance to finite elements; local only: without (5) and (6).", &fem::table(study, fem));
     } else if laws.len() > 1 {
         page.figure(
-            &curves.difference().to_svg(),
+            &curves.difference().to_figure(),
             "Windup of the other laws against that of the first, at the same torque.",
         );
     }
     page.figure(
-        &curves.structure().to_svg(),
+        &curves.structure().to_figure(),
         "Local deformation alone (dashed) and with the growth of the rings (5) and the body (6): the paper's Figure 11.",
     );
     page.heading("Stiffness");
@@ -69,7 +72,7 @@ fn section(page: &mut Page, study: &StiffnessStudy) {
         "Secant: torque over windup. Tangent: its slope, which jumps where the radius of curvature does.";
     match laws {
         [_] => {
-            page.figure(&curves.stiffness().to_svg(), caption);
+            page.figure(&curves.stiffness().to_figure(), caption);
         }
         _ => {
             let stiff = Curves { laws, points: curves.loaded() };

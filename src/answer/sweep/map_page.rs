@@ -177,9 +177,9 @@ impl SweepMap {
              other variables are whatever the points have them. The line is the border of what is held.",
         );
         for pair in &self.pairs {
-            let mut figures = vec![(self.shaded(pair).to_svg(), "")];
+            let mut figures = vec![(self.shaded(pair).to_figure(), "")];
             if !self.deciding.is_empty() {
-                figures.push((self.kinds(pair).to_svg(), ""));
+                figures.push((self.kinds(pair).to_figure(), ""));
             }
             page.figures(&figures);
         }
@@ -301,7 +301,8 @@ fn void_entry(tiles: &[(Shade, Option<bool>)]) -> Option<(Shade, String)> {
 /// A variable's name with its unit apart: `r_i2, mm`.
 fn axis_title(name: &str) -> String {
     let unit = variable_unit(name).filter(|unit| !unit.is_empty());
-    let bare = unit.and_then(|unit| name.strip_suffix(&unit.to_lowercase())?.strip_suffix('_'));
+    let bare =
+        unit.and_then(|unit| name.strip_suffix(&unit.to_lowercase().replace('µ', "u"))?.strip_suffix('_'));
     match (bare, unit) {
         (Some(bare), Some(unit)) => format!("{bare}, {unit}"),
         _ => name.to_owned(),
