@@ -90,11 +90,11 @@ class _Common:
     """What all answers share."""
 
     run_time_s: float
-    """Time of the computation, s."""
+    """Wall time of the computation alone, s."""
     left_out: tuple[LeftOut, ...]
-    """What the model leaves out, each with its cost."""
+    """Terms left out, each with its reason and cost."""
     error_estimate: Any
-    """How far off the answer is: a number, or numbers by name."""
+    """Error estimate where something was integrated or iterated: a number, or an object of numbers."""
     _data: dict[str, Any] = field(repr=False, compare=False)
 
     def to_dict(self) -> dict[str, Any]:
@@ -125,21 +125,21 @@ class Margin:
     """A limit: what is demanded, what is allowed, the margin between them."""
 
     code: str
-    """Code, such as ``hoop-inner`` or ``slip:high-6``."""
+    """Code for scripts, such as ``hoop-inner``, ``slip:high-6``."""
     name: str
     """Name for people."""
     demand: float | None
-    """Demand in ``unit``; ``None`` where no friction suffices, or the curve ends below the row's torque."""
+    """``None`` where no friction suffices, the scene is overloaded or the curve ends below the row's torque."""
     allowable: float
-    """Allowable in ``unit``; of slip the wanted slip margin."""
+    """Allowable, in ``unit``; of slip the wanted slip margin."""
     unit: str
     """Unit of demand and allowable; ``1`` of a pure number."""
     margin: float
     """Margin as a number; 0 or more is held."""
     torque_capacity_nm: float | None
-    """Torque at which the limit would be reached, N m."""
+    """Torque at which the limit would be reached, N m, where it depends on torque."""
     capacity_beyond_end: bool
-    """Whether the curve ends before: the capacity is then at least that much."""
+    """Whether the limit is not reached before the curve ends: the capacity is then at least that much."""
     required: bool
     """Whether it counts for the verdict; the others are shown only."""
     computed: bool
@@ -149,7 +149,7 @@ class Margin:
     held: bool
     """Whether the limit is held."""
     slip_margin: float | None
-    """Of slip rows static over required friction, less 1."""
+    """Of slip rows mu_s over the friction required, less 1; ``None`` elsewhere."""
 
 
 @dataclass(frozen=True)
@@ -157,8 +157,11 @@ class Deciding:
     """The required limit with the least margin."""
 
     code: str
+    """Its code."""
     name: str
+    """Its name."""
     margin: float
+    """Its margin."""
 
 
 @dataclass(frozen=True)
@@ -166,8 +169,11 @@ class Capacity:
     """A torque capacity and the limit that sets it."""
 
     code: str
+    """Code of the limit that sets it."""
     name: str
+    """Name of that limit."""
     torque_capacity_nm: float
+    """The torque, N m."""
 
 
 @dataclass(frozen=True)
@@ -175,7 +181,9 @@ class End:
     """Where the static curve ends."""
 
     reason: str
+    """Why."""
     torque_nm: float
+    """Torque there, N m."""
 
 
 @dataclass(frozen=True)
@@ -183,18 +191,27 @@ class OverrunPoint:
     """Steady overrun at one speed."""
 
     race: str
-    """Race that runs, ``outer`` or ``inner``; the other stands."""
+    """Race that runs: ``outer`` or ``inner``; the other stands."""
     speed_rpm: float
+    """Its speed, rev/min."""
     drag_torque_nm: float
+    """Drag of the whole clutch, N m."""
     normal_inner_n: float
+    """Normal force at A of one sprag, N."""
     normal_outer_n: float
+    """The same at B, N."""
     friction: float
+    """Coefficient of friction at A at that speed."""
     growth_rate_per_s: float | None
-    """Growth of a small swing of the sprags; positive: the equilibrium does not stay."""
+    """Of a small swing of the sprags about the equilibrium, + grows; ``None`` where they are off or nothing slides."""
     swing_frequency_hz: float | None
+    """Frequency of that swing, Hz."""
     lifted_off: bool
+    """Whether the sprags are off the inner race."""
     outer_race_growth_um: float
+    """Growth of the outer track by rotation, um."""
     rotation_hoop_outer_mpa: float
+    """Hoop stress of the outer race by rotation, MPa."""
 
 
 @dataclass(frozen=True)
@@ -202,11 +219,15 @@ class Overrun:
     """Overrun against speed."""
 
     centrifugal: str
-    """What the centrifugal force does to the sprags: ``engaging``, ``disengaging`` or ``neutral``."""
+    """engaging, disengaging or neutral: what the centrifugal force does to the sprags."""
     gamma_deg: float
+    """Azimuth of C_e ahead of the centroid at first contact at rest."""
     drag_torque_slow_nm: float
+    """Drag torque with either race at rest."""
     points: tuple[OverrunPoint, ...]
+    """All speeds looked at: outer race runs, then inner race."""
     warning: str | None
+    """That the equilibrium does not stay; ``None`` where it does."""
 
 
 @dataclass(frozen=True)
@@ -216,9 +237,9 @@ class Check(_Common):
     verdict: str
     """The answer in one line."""
     margins: tuple[Margin, ...]
-    """A row for each limit."""
+    """One row for each limit."""
     passed: bool
-    """Whether every required limit is held; ``pass`` in JSON."""
+    """Whether every required limit is held."""
     deciding: Deciding | None
     """The required limit with the least margin."""
     lowest_torque_capacity: Capacity | None
@@ -228,16 +249,17 @@ class Check(_Common):
     peak_torque_capacity: Capacity | None
     """The lowest among the limits that are held at peak torque."""
     end: End
-    """Where the static curve ends."""
+    """Where the static curve ends, which may be below the torques of the limits."""
     lift_off_rpm: float | None
-    """Speed at which the sprags lift off the inner race; ``None``: contact is kept up to ``lift_off_searched_to_rpm``."""
+    """``None``: contact is kept up to ``lift_off_searched_to_rpm``."""
     lift_off_searched_to_rpm: float
+    """How far a lift-off was looked for, rev/min."""
     overrun: Overrun
     """Overrun against speed."""
     running: dict[str, Any] | None
-    """Radii as made and as run; ``None``: the races run as made."""
+    """``None``: the races run as made."""
     run_out: dict[str, Any] | None
-    """Load round the circumference; ``None``: the design names no eccentricity."""
+    """``None``: the design names no eccentricity."""
 
     def margin(self, code: str) -> Margin:
         """The row of that code.
@@ -288,9 +310,11 @@ class Junction:
     """Where one inner arc hands over to the next."""
 
     torque_nm: float
+    """Torque, N m."""
     alpha_rad: float
+    """alpha, rad."""
     arc: int
-    """Arc that ends here, from 1."""
+    """Number of the arc that ends here, from 1."""
 
 
 _POINT = (
@@ -317,37 +341,38 @@ class Curve:
     contact: str
     """The contact law."""
     torque_nm: Numbers
-    """Torque of the clutch."""
+    """Torque asked for, N m."""
     normal_inner_n: Numbers
-    """Normal force of one sprag at the inner contact."""
+    """N_bi, N."""
     normal_outer_n: Numbers
-    """The same at the outer contact."""
+    """N_be, N."""
     tan_omega: Numbers
-    """Tangential over normal force at the inner contact."""
+    """|T|/N at A."""
     tan_nu: Numbers
-    """The same at the outer contact."""
+    """|T|/N at B."""
     alpha_rad: Numbers
-    """Rotation of the sprag."""
+    """Rotation of the sprag, rad."""
     windup_deg: Numbers
-    """Windup of the races against each other."""
+    """Windup W, deg."""
     k_secant_nm_per_rad: Numbers
-    """Secant stiffness."""
+    """Secant stiffness, N m/rad."""
     k_tangent_nm_per_rad: Numbers
-    """Tangent stiffness."""
+    """Tangent stiffness, N m/rad."""
     hertz_inner_mpa: Numbers
-    """Peak Hertz pressure at the inner contact."""
+    """Peak Hertz pressure at A, MPa."""
     hertz_inner_error_mpa: Numbers
-    """How far that is off at most."""
+    """How far that is off at most: the curve's interpolation, and the pressure's shape while a junction lies under the
+    contact."""
     hertz_inner_pointwise_mpa: Numbers
-    """The same with the radius at the contact point alone, as the paper takes it."""
+    """With the radius at the contact point alone, as the paper takes it."""
     hertz_outer_mpa: Numbers
-    """Peak Hertz pressure at the outer contact."""
+    """The same at B, MPa."""
     arc: npt.NDArray[np.int64]
-    """Inner arc in contact, from 1."""
+    """From 1."""
     straddles_junction: npt.NDArray[np.bool_]
-    """Whether the contact lies on two arcs."""
+    """Whether the patch at A lies on two arcs."""
     beyond_end_nm: tuple[float, ...]
-    """Torques asked for that the curve does not reach."""
+    """Torques asked for that the curve does not reach, N m."""
     junctions: tuple[Junction, ...]
     """Where one arc hands over to the next."""
     end: End
@@ -438,11 +463,11 @@ class Slip:
     """Slip at one contact."""
 
     time_s: float | None
-    """Time of slip."""
+    """Time of slip, s."""
     distance_mm: float | None
-    """Path of slip."""
+    """Path of slip, mm."""
     net_mm: float | None
-    """Net slip; positive towards overrunning."""
+    """Net slip, mm; + towards overrunning."""
 
 
 @dataclass(frozen=True)
@@ -450,7 +475,9 @@ class Slips:
     """Slip at both contacts."""
 
     inner: Slip
+    """At A."""
     outer: Slip
+    """At B."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -463,78 +490,91 @@ class Simulation(_Common):
     kind: str
     """Its kind."""
     method: str
-    """``event``, ``published``, or ``equilibrium`` where nothing is integrated."""
+    """``event``, ``published``, or ``equilibrium``."""
     verdict: str | None
-    """``sticks``, ``slips-overrunning``, ``slips-engaging``, ``disengages``, ``overloaded``, ``at-threshold``."""
+    """Verdict by its name."""
     stop: str
     """Why the run ended; ``no-start`` where the clutch has no such start."""
     reason: str | None
-    """Why the scenario has no start, or why a run did not come to its end."""
+    """Why the scenario has no start, or why a run did not come to its end and what would let it."""
     t_end_s: float | None
-    """Time reached."""
+    """Time reached, s."""
     theta_inner_end_rad: float | None
-    """Rotation of the inner race at the end."""
+    """theta_bi at the end, rad."""
     theta_outer_end_rad: float | None
-    """Rotation of the outer race at the end."""
+    """theta_be at the end, rad."""
     offset_rad: float | None
-    """Offset; positive towards overrunning."""
+    """Offset, rad; + towards overrunning."""
     slip: Slips
     """Slip at both contacts."""
     contact_lost_s: float | None
-    """Time without contact."""
+    """Time without contact, s."""
     peak_tan_demand: float | None
-    """Largest tangential over normal force, either contact."""
+    """Largest |T|/N, either contact."""
     required_static_friction: float | None
     """Friction that rolling would need."""
     required_static_friction_by: str | None
-    """How that was found: ``rolling`` or ``bisection``."""
+    """``rolling``: the peak of |T|/N in pure rolling; ``bisection``: by runs with slip, where rolling unloads the contact."""
     slip_margin: float | None
-    """Static over required friction, less 1."""
+    """Slip margin."""
     contact_margin: float | None
+    """Contact margin."""
     normal_min_n: float | None
-    """Smallest normal force at the inner contact."""
+    """Smallest N_bi, N."""
     normal_max_n: float | None
-    """Largest normal force at the inner contact."""
+    """Largest N_bi, N."""
     extremes: dict[str, Any] | None
-    """Extremes with their times."""
+    """Extremes of the run."""
     equilibrium: dict[str, Any] | None
-    """The state of a static scenario or of a steady overrun."""
+    """Where nothing is integrated."""
     hertz_peak_mpa: float | None
-    """Largest Hertz pressure."""
+    """Largest Hertz pressure, MPa."""
     hertz_static_mpa: float | None
-    """Hertz pressure of the static load."""
+    """Hertz pressure of the static load, MPa."""
     hertz_least_mpa: float | None
-    """Hertz pressure at the smallest normal force."""
+    """Hertz pressure at A at the smallest N_bi, MPa."""
     hertz_rated_mpa: float | None
-    """Hertz pressure at nominal torque."""
+    """Hertz pressure at A at nominal torque, MPa."""
     events: int | None
-    """Changes of mode."""
+    """Mode changes."""
     zeno_closures: int | None
+    """Sequences of mode changes closed at their limit."""
     inconsistent_choices: int | None
+    """Mode changes at which no candidate was consistent."""
     fast_motion: dict[str, Any] | None
     """What was fastest where the run gave up."""
     steps: int | None
+    """Steps of all runs."""
     rejections: int | None
+    """Steps refused and tried again, of all runs."""
     rhs_evaluations: int | None
+    """Right-hand sides of all runs."""
     error_estimates: dict[str, Any] | None
-    """Errors of the figures by name."""
+    """Errors of the figures."""
     energy_balance: dict[str, Any] | None
-    """Where the energy went, J."""
+    """Where the energy went."""
     assumptions: tuple[str, ...] | None
-    """Inputs of an engagement that the paper does not publish."""
+    """Inputs of an engagement that the paper does not publish for its Figure 8."""
     tolerance_reached: bool | None
     """Whether every error is below the tolerance."""
     worst_figure: tuple[Any, ...] | None
-    """The figure with the largest error, where the tolerance is not reached, and that."""
+    """The figure whose error is largest by its natural size, where the tolerance is not reached, and that."""
     finer_gave_up: str | None
+    """Why a run with finer steps than those that answer did not come to its end."""
     spread_rad: tuple[float, ...] | None
+    """Smallest and largest theta_inner_end over the runs made, where the tolerance is not reached."""
     initial_slip_s: float | None
+    """How long A slips after a reversal, s."""
     drag_torque_nm: float | None
-    """Drag torque of a steady overrun."""
+    """Drag torque of a steady overrun, N m."""
     lift_off_rpm: float | None
+    """Speed of the outer race at which the sprags lift off, rev/min; absent where they stay on up to 60 000."""
     growth_rate_per_s: float | None
+    """Of a small swing of the sprags about a steady overrun, races at held speeds; + grows. Absent where they are off."""
     swing_frequency_hz: float | None
+    """Frequency of that swing, Hz."""
     swing_normal_inner_n: float | None
+    """N_bi about which they swing: that of the equations of motion."""
     kept: tuple[LeftOut, ...]
     """Terms that the planner looked at and kept."""
     notes: tuple[str, ...]
@@ -655,12 +695,19 @@ class FoundMargin:
     """A margin of a design of the search."""
 
     code: str
+    """Code for scripts."""
     name: str
+    """Name for people."""
     unit: str
+    """Unit of demand and allowable."""
     allowable: float
+    """Allowable, in ``unit``; of slip the wanted slip margin."""
     margin: float
+    """Margin as a number; 0 or more is held."""
     slip_margin: float | None
+    """Of slip rows mu_s over the friction required, less 1."""
     demand: float | None
+    """Demand, in ``unit``, where it is a number."""
 
 
 @dataclass(frozen=True)
@@ -668,10 +715,11 @@ class Found:
     """A design of the search."""
 
     variables: dict[str, float]
-    """Values in the units of their names, in the order of the vector."""
+    """Values of the variables, in the units of their names."""
     objective: float
     """The objective, in its own unit."""
     margins: tuple[FoundMargin, ...]
+    """Its margins."""
 
 
 @dataclass(frozen=True)
@@ -691,7 +739,9 @@ class CodeMargin:
     """A margin in short."""
 
     code: str
+    """Code for scripts."""
     margin: float
+    """Margin as a number; 0 or more is held."""
 
 
 @dataclass(frozen=True)
@@ -703,7 +753,7 @@ class Steps:
     variables: tuple[str, ...]
     """Variables that have it."""
     found: bool
-    """Whether a point near the optimum holds every limit, so that it is the answer."""
+    """Whether a point of the grid near the optimum holds every limit, so that it is the answer."""
     not_held: tuple[CodeMargin, ...]
     """Else what the nearest point does not hold; margins less the reserve."""
     evaluations: int
@@ -719,24 +769,25 @@ class Optimum(_Common):
     robust_design: Design | None
     """The design that holds at every corner of the tolerances, or comes as near as was found, where that was asked for."""
     status: str
-    """How the best climb ended: ``converged``, ``infeasible``, ``evaluation-limit``, ``stalled``."""
+    """How the best climb ended: ``converged``, ``infeasible``, ``evaluation-limit``, ``interrupted``, ``stalled``."""
     aim: str
     """What was made better."""
     feasible: bool
     """Whether every margin of the design found is held."""
     not_held: tuple[str, ...]
-    """Codes of the margins that are not."""
+    """Codes of those that are not."""
     best: Found
     """The design found."""
     in_file: dict[str, float]
-    """Values of the variables in the given design."""
+    """Values in the design file."""
     start: Found
     """Where the search began."""
     objective_error: float
-    """How far the objective is off."""
+    """Change of the objective when the optimum is looked at in full at a tenth of the tolerance."""
     evaluations: int
-    """Evaluations of the clutch."""
+    """Evaluations of the clutch in all."""
     failed_evaluations: int
+    """Of the best climb those without an answer."""
     fighting_limits: tuple[str, ...]
     """Limits that no design near holds together."""
     dropped_variables: tuple[str, ...]
@@ -744,9 +795,9 @@ class Optimum(_Common):
     makeable: bool
     """Whether it can be made: a search that is stopped may have a free centroid, for which there are no flanks yet."""
     free_centroid: Bound | None
-    """What the search came to with its centroid free and its mass given."""
+    """What the search came to with its centroid free and its mass given: a bound, no flanks were asked for."""
     unrounded: Bound | None
-    """The answer before its lengths were put in steps."""
+    """The answer before its lengths were put in steps: a bound."""
     steps: Steps | None
     """Its lengths in steps."""
     reserve: float
@@ -756,13 +807,13 @@ class Optimum(_Common):
     prices: tuple[dict[str, Any], ...]
     """What each active limit and bound costs."""
     influence: dict[str, Any]
-    """Change of each margin over the whole range of each variable, at the start."""
+    """Influence at the start."""
     sensitivities: dict[str, Any] | None
-    """The same at the optimum."""
+    """Influence at the optimum."""
     starts: tuple[dict[str, Any], ...]
     """Climbs."""
     optima: dict[str, Any]
-    """Optima that they met, and how many are to be expected."""
+    """Optima that they met."""
     whole_numbers: tuple[dict[str, Any], ...]
     """Whole numbers that were tried."""
     change_in_full: tuple[dict[str, Any], ...]
@@ -776,7 +827,7 @@ class Optimum(_Common):
     tolerances: dict[str, Any] | None
     """The optimum as it may be made."""
     robust: dict[str, Any] | None
-    """The design that holds at every corner of the tolerances."""
+    """The design that holds at every corner."""
     seed: int
     """Seed of everything random."""
     not_done: tuple[str, ...]
