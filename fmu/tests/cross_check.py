@@ -7,6 +7,7 @@ NAME_in.csv and NAME_ref.opt and is held against NAME_ref.csv. The first figure 
 """
 
 import csv
+import ctypes
 import math
 import os
 import re
@@ -15,7 +16,8 @@ import subprocess
 import sys
 
 import numpy as np
-from fmpy import read_model_description, simulate_fmu, supported_platforms
+from fmpy import extract, read_model_description, simulate_fmu, supported_platforms
+from fmpy.fmi2 import FMU2Slave
 from fmpy.util import read_csv, read_ref_opt_file
 from fmpy.validation import validate_fmu
 
@@ -30,7 +32,7 @@ COLUMNS = {
     "outer_contact.normal_force": "normal_outer_n",
 }
 INPUTS = ["inner.torque", "outer.torque"]
-STEP_S, ROWS, REL_TOL = 1e-5, 201, 1e-3
+STEP_S, ROWS, REL_TOL = 5e-6, 201, 2e-3
 MOST_BYTES = 1_000_000
 
 
@@ -126,9 +128,49 @@ def apart(found, wanted):
     return most
 
 
-def by_fmpy(unit, opt, signals, slopes):
+def by_fmpy(unit, opt, signals):
+    """FMPy's own loop: it holds the inputs over each step."""
     return simulate_fmu(unit, start_time=opt["StartTime"], stop_time=opt["StopTime"], output_interval=opt["StepSize"], input=signals,
-                        output=list(COLUMNS), set_input_derivatives=slopes, fmi_type="CoSimulation")
+                        output=list(COLUMNS), fmi_type="CoSimulation")
+
+
+def steps(opt):
+    """Start and end of each step."""
+    grid = [opt["StartTime"] + i * opt["StepSize"] for i in range(round((opt["StopTime"] - opt["StartTime"]) / opt["StepSize"]) + 1)]
+    return zip(grid, grid[1:])
+
+
+def torques_at(t, signals):
+    return [float(np.interp(t, signals["time"], signals[name])) for name in INPUTS]
+
+
+def table(rows):
+    return np.array(rows, dtype=[("time", float), *((name, float) for name in COLUMNS)])
+
+
+def with_slopes(unit, opt, signals):
+    """By FMPy's calls, the slope of each input given too; FMPy's own loop does that for nine inputs only."""
+    about = read_model_description(unit)
+    of = {v.name: v.valueReference for v in about.modelVariables}
+    folder = extract(unit)
+    clutch = FMU2Slave(guid=about.guid, unzipDirectory=folder, modelIdentifier=about.coSimulation.modelIdentifier)
+    clutch.instantiate()
+    clutch.setupExperiment(startTime=opt["StartTime"])
+    clutch.enterInitializationMode()
+    clutch.exitInitializationMode()
+    refs, rows = [of[name] for name in INPUTS], []
+    vrs, orders = (ctypes.c_uint * len(refs))(*refs), (ctypes.c_int * len(refs))(*[1] * len(refs))
+    for t, until in steps(opt):
+        now, then = torques_at(t, signals), torques_at(until, signals)
+        clutch.setReal(refs, now)
+        slopes = (ctypes.c_double * len(refs))(*((b - a) / (until - t) for a, b in zip(now, then)))
+        clutch.fmi2SetRealInputDerivatives(clutch.component, vrs, len(refs), orders, slopes)
+        clutch.doStep(currentCommunicationPoint=t, communicationStepSize=until - t)
+        rows.append((until, *clutch.getReal([of[name] for name in COLUMNS])))
+    clutch.terminate()
+    clutch.freeInstance()
+    shutil.rmtree(folder)
+    return table(rows)
 
 
 def by_libcosim(unit, opt, signals):
@@ -140,7 +182,9 @@ def by_libcosim(unit, opt, signals):
     from libcosimpy.CosimObserver import CosimObserver
     from libcosimpy.CosimSlave import CosimLocalSlave
 
-    log_output_level(CosimLogLevel.WARNING)
+    # Its FMI Library misses a start value of `time`, which the standard forbids it to have (modelon-community/fmi-library, issue 21):
+    # two lines of error without a consequence. What goes wrong is in the answers of its functions.
+    log_output_level(CosimLogLevel.FATAL)
     of = {v.name: v.valueReference for v in read_model_description(unit).modelVariables}
     master = CosimExecution.from_step_size(round(opt["StepSize"] * 1e9))
     slave = master.add_local_slave(CosimLocalSlave(fmu_path=unit, instance_name="clutch"))
@@ -150,13 +194,11 @@ def by_libcosim(unit, opt, signals):
     refs = [of[name] for name in INPUTS]
     for name in INPUTS:
         assert master.real_initial_value(slave, of[name], float(signals[name][0]))
-    rows, count = [], round((opt["StopTime"] - opt["StartTime"]) / opt["StepSize"])
-    for i in range(count):
-        t = opt["StartTime"] + i * opt["StepSize"]
-        assert hands.slave_real_values(slave, refs, [float(np.interp(t, signals["time"], signals[name])) for name in INPUTS])
-        assert master.step()
-        rows.append((opt["StartTime"] + (i + 1) * opt["StepSize"], *eyes.last_real_values(slave, [of[name] for name in COLUMNS])))
-    return np.array(rows, dtype=[("time", float), *((name, float) for name in COLUMNS)])
+    rows = []
+    for t, until in steps(opt):
+        assert hands.slave_real_values(slave, refs, torques_at(t, signals)) and master.step()
+        rows.append((until, *eyes.last_real_values(slave, [of[name] for name in COLUMNS])))
+    return table(rows)
 
 
 def main():
@@ -204,18 +246,18 @@ def main():
         assert sorted(os.listdir(folder)) == sorted(expected), os.listdir(folder)
         # From here on as an importer: from the files alone.
         opt, signals, wanted = read_ref_opt_file(opts), read_csv(given), read_csv(ref)
-        importers = {"FMPy": lambda: by_fmpy(unit, opt, signals, False), "FMPy with slopes": lambda: by_fmpy(unit, opt, signals, True)}
+        importers = [("FMPy", by_fmpy, opt["RelTol"]), ("FMPy's calls, with slopes", with_slopes, 1e-5)]
         if libcosimpy:
-            importers["libcosim"] = lambda: by_libcosim(unit, opt, signals)
-        for importer, run in importers.items():
-            off = apart(run(), wanted)
-            print(f"   {importer}: {off:.1e} of what each variable spans, {opt['RelTol']:g} allowed", flush=True)
-            assert off <= opt["RelTol"]
+            importers.append(("libcosim", by_libcosim, opt["RelTol"]))
+        for importer, run, most in importers:
+            off = apart(run(unit, opt, signals), wanted)
+            print(f"   {importer}: {off:.1e} of what each variable spans, {most:g} allowed", flush=True)
+            assert off <= most
         # The comparison sees a clutch that is another: a torque that is 2 % more.
         more = signals.copy()
         for torque in INPUTS:
             more[torque] *= 1.02
-        assert apart(by_fmpy(unit, opt, more, True), wanted) > opt["RelTol"]
+        assert apart(by_fmpy(unit, opt, more), wanted) > opt["RelTol"]
     print("all as it should be")
 
 
