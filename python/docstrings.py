@@ -99,9 +99,12 @@ def documented(source: str) -> str:
         for field, after in zip(kind.body, following, strict=True):
             if not isinstance(field, ast.AnnAssign) or not isinstance(field.target, ast.Name):
                 continue
-            text = known.get(KEYS.get(field.target.id, field.target.id))
+            name = field.target.id
+            text = known.get(KEYS.get(name, name))
             if not text:
                 continue
+            if name in KEYS:
+                text = f"{text.removesuffix('.')}; ``{KEYS[name]}`` in JSON."
             begin = end = field.end_lineno or 0
             if isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant):
                 end = after.end_lineno or 0
