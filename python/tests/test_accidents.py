@@ -57,7 +57,7 @@ def test_a_value_of_another_shape_is_none(design: sd.Design, value: object) -> N
     with pytest.raises((sd.DesignError, TypeError)):
         design.with_(r_i2_mm=value)  # type: ignore[arg-type]
     # An array without an axis is a number.
-    assert design.with_(r_i2_mm=np.array(4.1)) == design.with_(r_i2_mm=4.1)
+    assert design.with_(r_i2_mm=np.array(4.1)) == design.with_(r_i2_mm=4.1)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("options", [{"count": -1}, {"count": 2, "seed": -1}, {"count": 2, "first": -1}])
