@@ -35,11 +35,11 @@ pub struct Provenance {
 pub struct Envelope<'a, B: Serialize> {
     /// The design.
     pub design: &'a Design,
-    /// Wall time of the computation alone, s.
+    /// Time of the computation alone, s.
     pub run_time_s: f64,
-    /// Terms left out, each with its reason and cost.
+    /// What the model leaves out, each with its reason and its cost.
     pub left_out: Vec<LeftOut>,
-    /// Error estimate where something was integrated or iterated: a number, or an object of numbers.
+    /// How far off the answer is, where something was integrated or iterated: a number, or numbers by name.
     pub error_estimate: Option<Value>,
     /// The answer's own keys: a struct or map.
     pub body: B,

@@ -26,7 +26,8 @@ pub struct CheckRow {
     pub code: String,
     /// Name for people.
     pub name: String,
-    /// `None` where no friction suffices, the scene is overloaded or the curve ends below the row's torque.
+    /// Demand, in `unit`; `None` where no friction suffices, the scene is overloaded or the curve ends below the row's
+    /// torque.
     pub demand: Option<f64>,
     /// Allowable, in `unit`; of slip the wanted slip margin.
     pub allowable: f64,
@@ -46,18 +47,18 @@ pub struct CheckRow {
     pub overloaded: bool,
     /// Whether the limit is held.
     pub held: bool,
-    /// Of slip rows mu_s over the friction required, less 1; null elsewhere.
+    /// Of slip rows static over required friction, less 1; null elsewhere.
     pub slip_margin: Option<f64>,
 }
 
 /// The required limit with the least margin.
 #[derive(Debug, Clone, Serialize)]
 pub struct Deciding {
-    /// Its code.
+    /// Code of that limit.
     pub code: String,
-    /// Its name.
+    /// Name of that limit.
     pub name: String,
-    /// Its margin.
+    /// Its margin as a number.
     pub margin: f64,
     /// The margin in words.
     #[serde(skip)]
@@ -71,7 +72,7 @@ pub struct Capacity {
     pub code: String,
     /// Name of that limit.
     pub name: String,
-    /// The torque, N m.
+    /// That torque, N m.
     pub torque_capacity_nm: f64,
 }
 
@@ -119,15 +120,15 @@ pub struct CheckBody {
     asked_nm: f64,
     #[serde(skip)]
     materials: Vec<String>,
-    /// Null: contact is kept up to `lift_off_searched_to_rpm`.
+    /// Speed at which the sprags lift off the inner race, rev/min; null: contact is kept up to `lift_off_searched_to_rpm`.
     pub lift_off_rpm: Option<f64>,
     /// How far a lift-off was looked for, rev/min.
     pub lift_off_searched_to_rpm: f64,
     /// Overrun against speed.
     pub overrun: OverrunSection,
-    /// Null: the races run as made.
+    /// Radii as made and as run; null: the races run as made.
     pub running: Option<running::RunningSection>,
-    /// Null: the design names no eccentricity.
+    /// Load round the circumference; null: the design names no eccentricity.
     pub run_out: Option<run_out::RunOutSection>,
 }
 

@@ -107,17 +107,18 @@ fn insert(points: &mut Vec<OverrunPoint>, point: OverrunPoint) {
 pub struct OverrunRow {
     /// Race that runs: `outer` or `inner`; the other stands.
     pub race: &'static str,
-    /// Its speed, rev/min.
+    /// Speed of that race, rev/min.
     pub speed_rpm: f64,
-    /// Drag of the whole clutch, N m.
+    /// Drag torque of the whole clutch, N m.
     pub drag_torque_nm: f64,
-    /// Normal force at A of one sprag, N.
+    /// Normal force of one sprag at the inner contact, N.
     pub normal_inner_n: f64,
-    /// The same at B, N.
+    /// The same at the outer contact, N.
     pub normal_outer_n: f64,
-    /// Coefficient of friction at A at that speed.
+    /// Coefficient of friction of the inner contact at that speed.
     pub friction: f64,
-    /// Of a small swing of the sprags about the equilibrium, + grows; null where they are off or nothing slides.
+    /// Growth of a small swing of the sprags about the equilibrium, 1/s; positive: the equilibrium does not stay; null where
+    /// they are off or nothing slides.
     pub growth_rate_per_s: Option<f64>,
     /// Frequency of that swing, Hz.
     pub swing_frequency_hz: Option<f64>,
@@ -167,22 +168,23 @@ const NAMED: usize = 4;
 /// `overrun` of the JSON.
 #[derive(Debug, Clone, Serialize)]
 pub struct OverrunSection {
-    /// engaging, disengaging or neutral: what the centrifugal force does to the sprags.
+    /// What the centrifugal force does to the sprags: `engaging`, `disengaging` or `neutral`.
     pub centrifugal: &'static str,
-    /// Azimuth of C_e ahead of the centroid at first contact at rest.
+    /// Azimuth of the outer contact arc's centre ahead of the centroid at first contact at rest, deg; positive: engaging at
+    /// speed.
     pub gamma_deg: f64,
-    /// Drag torque with either race at rest.
+    /// Drag torque of the slowest overrun, without centrifugal force, N m.
     pub drag_torque_slow_nm: f64,
     /// Whether the design names a speed of the outer race, in a limit or a scene.
     pub outer_race_turns: bool,
     /// The overruns that the design names.
     pub named: Vec<NamedOverrun>,
-    /// All speeds looked at: outer race runs, then inner race.
+    /// All speeds looked at: first the outer race runs, then the inner one.
     pub points: Vec<OverrunRow>,
     /// Whether the sliding contact is on a film of oil.
     #[serde(skip)]
     pub on_film: bool,
-    /// That the equilibrium does not stay; null where it does.
+    /// A warning where the equilibrium does not stay; null where it does.
     pub warning: Option<String>,
 }
 
