@@ -1,38 +1,52 @@
 #!/usr/bin/env bash
-# Build the wheel, install it into an environment of its own, check the types, run the tests.
+# Build the wheel, install it into an environment of its own and into one without cargo, check the types, run the tests, measure.
 # python/test.sh [more arguments of pytest]
 # PYTHON: the interpreter, 3.10 or later. WORK: folder of the environment and of the wheel, kept for the next time.
 # PROFILE=dev builds in a fraction of the time what runs at half the speed.
-# EXTRAS=1 installs Optuna and OpenMDAO too; without them their examples are left out.
+# EXTRAS=1 installs Optuna, OpenMDAO and what runs the notebook too; without them their examples are left out.
 set -euo pipefail
 cd "$(dirname "$0")"
 stage() { printf '\n-- python: %s (at %d s)\n' "$1" "$SECONDS"; }
 
 python=${PYTHON:-python3}
-# Beside the tool's own build, so that what both need is built once.
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$(cd .. && pwd)/target}
-work=${WORK:-$CARGO_TARGET_DIR/python}
-mkdir -p "$work"
+export WORK=${WORK:-$CARGO_TARGET_DIR/python}
 
 cargo fmt --check
 
-stage "environment"
-[ -x "$work/venv/bin/python" ] || "$python" -m venv "$work/venv"
-pip() { "$work/venv/bin/python" -m pip --quiet --disable-pip-version-check "$@"; }
-pip install "maturin>=1.16,<2" numpy pandas pandas-stubs matplotlib scipy mypy pytest
-[ -z "${EXTRAS:-}" ] || pip install optuna openmdao
-
 stage "wheel"
-rm -rf "$work/wheel"
-"$work/venv/bin/maturin" build --profile "${PROFILE:-release}" --locked --quiet --out "$work/wheel" --interpreter "$work/venv/bin/python"
-ls -sh "$work/wheel"
-pip install --force-reinstall --no-deps "$work"/wheel/*.whl
+./wheel.sh
+ls -sh "$WORK/wheel"
+
+stage "a fresh environment without cargo"
+fresh=$WORK/fresh
+rm -rf "$fresh"
+"$python" -m venv "$fresh"
+"$fresh/bin/python" -m pip --quiet --disable-pip-version-check install --only-binary :all: "$WORK"/wheel/*.whl
+design=$(cd .. && pwd)/designs/huang2017-multi-arc.toml
+(
+    cd /
+    run() { env -i PATH="$fresh/bin:/usr/bin:/bin" "$@"; }
+    run sh -c 'command -v cargo rustc' && echo "cargo is one of the system's programs: what follows says less"
+    run python -c 'import sys, sprag_design as sd; print(sd.__file__, sd.Design.load(sys.argv[1]).check().verdict, sep="\n")' "$design"
+    run sprag-design --version
+    run sprag-design check "$design" --quiet | tail -n 1
+)
+
+stage "environment"
+pip() { "$WORK/venv/bin/python" -m pip --quiet --disable-pip-version-check "$@"; }
+pip install numpy pandas pandas-stubs matplotlib scipy mypy pytest
+[ -z "${EXTRAS:-}" ] || pip install optuna openmdao nbclient nbformat ipykernel
+pip install --force-reinstall --no-deps "$WORK"/wheel/*.whl
 
 stage "types"
 # The stubs of the compiled part are held against it, then everything against the stubs.
-"$work/venv/bin/python" -m mypy.stubtest sprag_design._core
-"$work/venv/bin/python" -m mypy
+"$WORK/venv/bin/python" -m mypy.stubtest sprag_design._core
+"$WORK/venv/bin/python" -m mypy
 
 stage "tests"
-"$work/venv/bin/python" -m pytest -q "$@"
+"$WORK/venv/bin/python" -m pytest -q "$@"
+
+stage "what a call costs, and what a second thread brings"
+"$WORK/venv/bin/python" measure.py
 stage "done"

@@ -119,6 +119,11 @@ fn each_limit_is_demanded_and_worded() {
     let rows = rows(&with(all(), Table::new()));
     for limit in LIMITS {
         assert!(limit.name().len() > 5 && limit.explanation.len() > 60, "{}", limit.code);
+        assert!(limit.formula.len() > 15 && limit.source.len() > 15, "{}", limit.code);
+        // What is explained in other words is computed in another way.
+        for other in LIMITS.iter().filter(|other| other.formula == limit.formula) {
+            assert_eq!(other.explanation, limit.explanation, "{} and {}", limit.code, other.code);
+        }
         assert_eq!(limit_of(limit.code), Some(*limit), "{} stands twice", limit.code);
         let demanded = rows.iter().any(|row| row.limit == *limit && row.code().starts_with(limit.code));
         // Flanks are asked of the optimiser alone.

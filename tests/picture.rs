@@ -58,6 +58,80 @@ fn values(designs: &[toml::Value], path: &str) -> Option<[f64; 2]> {
     })
 }
 
+/// What is typical of numbers that no design of the repository names: the end of their dotted keys, and values met in practice.
+const TYPICAL: &[(&str, &str)] = &[
+    ("contact.axial_offset_mm", "0 … 0.5"),
+    ("contact.hunt_crossley_s_per_m", "0.1 … 0.5, hardened steel"),
+    ("contact.slices", "60"),
+    ("contact.tilt_mrad", "0 … 1"),
+    ("end_profile.crowned_ratio", "0.5 … 1"),
+    ("end_profile.design_load_n", "the normal force at nominal torque"),
+    ("end_profile.end_drop_um", "5 … 20"),
+    ("end_profile.length_mm", "0.5 … 2"),
+    ("end_profile.load_factor", "1 … 2"),
+    ("end_profile.radius_mm", "500 … 5000"),
+    ("points[].drop_um", "0 … 20"),
+    ("points[].y_mm", "up to half the length"),
+    ("gas.intake_pressure_mpa", "0.1; boosted 0.15 … 0.3"),
+    ("gas.polytropic_exponent", "1.25 … 1.35"),
+    ("gas.rod_ratio", "0.2 … 0.35"),
+    ("orders[].phase_rad", "0 … 6.28"),
+    ("pitting.exponent", "6.67"),
+    ("limits.axial_load_n", "0 … some 100"),
+    ("limits.case_depth_mm", "0.3 … 1.2"),
+    ("limits.case_shear_mpa", "900 … 1300, 60 HRC"),
+    ("limits.core_shear_mpa", "350 … 600"),
+    ("limits.equivalent_inner_mpa", "500 … 900"),
+    ("limits.equivalent_outer_mpa", "500 … 900"),
+    ("limits.film_at_rpm", "the slowest long overrun"),
+    ("limits.film_lambda", "1 … 3"),
+    ("limits.gap_nominal_mm", "1.015 of the gap at rest"),
+    ("limits.gap_peak_mm", "1.03 of the gap at rest"),
+    ("limits.hoop_inner_bending_mpa", "400 … 800"),
+    ("limits.hoop_outer_bending_mpa", "400 … 800"),
+    ("limits.windup_nominal_deg", "2 … 8"),
+    ("race_to_oil_w_per_k", "1 … 10"),
+    ("lubrication.nu100_mm2_s", "4 … 20"),
+    ("lubrication.nu40_mm2_s", "15 … 460"),
+    ("lubrication.sprags_to_oil_w_per_k", "0.5 … 5"),
+    ("expansion_um_per_m_k", "11 … 12.5, steel"),
+    ("density_kg_m3", "7700 … 7850, steel; 3200, silicon nitride"),
+    ("poisson_ratio", "0.26 … 0.3"),
+    ("youngs_modulus_gpa", "200 … 212, steel; 310, silicon nitride"),
+    ("optimize.reserve", "0 … 0.1"),
+    ("optimize.step_mm", "0.005"),
+    ("press_fit.inner_interference_um", "10 … 60"),
+    ("press_fit.shaft_bore_radius_mm", "0, solid"),
+    ("scenarios[].torque_nm", "the nominal torque"),
+    ("sharing.azimuth_within_deg", "0 … 2"),
+    ("sharing.bearing_stiffness_n_per_um", "100 … 1000; 0, none"),
+    ("sharing.gap_up_to_um", "0 … 10"),
+    ("sharing.sprags[].ahead_deg", "-2 … 2"),
+    ("sharing.sprags[].friction", "0.05 … 0.12"),
+    ("flanks.front_tilt_rad", "-0.1 … 0.1"),
+    ("flanks.rear_tilt_rad", "-0.1 … 0.1"),
+    ("thermal.reference_c", "20"),
+    ("tolerances.expansion_per_k", "1.15e-5"),
+    ("tolerances.friction", "0.005 … 0.02"),
+    ("tolerances.inner_race_radius_mm", "0.002 … 0.01"),
+    ("tolerances.outer_race_radius_mm", "0.002 … 0.01"),
+    ("tolerances.run_out_mm", "0.005 … 0.05"),
+    ("tolerances.sprag_inner_radius_mm", "0.002 … 0.005"),
+    ("tolerances.sprag_outer_radius_mm", "0.002 … 0.005"),
+    ("tolerances.temperature_k", "10 … 60"),
+];
+
+/// Values of a key: those of the designs of the repository, or what is typical. Every number has some.
+fn seen(designs: &[toml::Value], full: &str, key: &serde_json::Value) -> String {
+    if let Some([low, high]) = values(designs, full) {
+        return if low == high { format!("{low}") } else { format!("{low} … {high}") };
+    }
+    let typical = TYPICAL.iter().find(|(end, _)| full.ends_with(end));
+    let is_number = matches!(key["type"].as_str(), Some("number" | "integer"));
+    assert!(typical.is_some() || !is_number, "{full}: what is typical of it?");
+    typical.map_or(String::new(), |(_, words)| format!("*{words}*"))
+}
+
 /// One table of the file and those within it, as sections of the page.
 fn section(path: &str, table: &serde_json::Value, designs: &[toml::Value], page: &mut String) {
     let text = |v: &serde_json::Value| {
@@ -83,10 +157,7 @@ fn section(path: &str, table: &serde_json::Value, designs: &[toml::Value], page:
             entry["description"] = key["description"].clone();
             within.push((full + "[]", entry));
         } else {
-            let seen = values(designs, &full).map_or(String::new(), |[low, high]| match low == high {
-                true => format!("{low}"),
-                false => format!("{low} … {high}"),
-            });
+            let seen = seen(designs, &full, key);
             let must = if needed(name) { "yes" } else { "" };
             let allowed = allowed(key).replace('|', "\\|");
             rows += &format!("| `{name}` | {} | {allowed} | {must} | {seen} |\n", text(key));
@@ -94,7 +165,7 @@ fn section(path: &str, table: &serde_json::Value, designs: &[toml::Value], page:
     }
     if !rows.is_empty() {
         *page += &format!(
-            "\n| key | what it is, unit | allowed | needed | in `designs/` |\n|---|---|---|---|---|\n{rows}"
+            "\n| key | what it is, unit | allowed | needed | values |\n|---|---|---|---|---|\n{rows}"
         );
     }
     for (path, table) in within {
@@ -112,7 +183,7 @@ fn the_page_of_keys_is_the_schema_of_the_file() {
     let designs: Vec<_> = files.iter().map(|f| toml::Value::Table(read(f))).collect();
     let mut now = String::from(
         "# Every key of the design file\n\nMade from the types that read the file (`sprag-design schema` prints them as JSON Schema); the last column has the \
-         values of the designs in `designs/`. `sprag-design explain KEY` prints a row.\n",
+         values of the designs in `designs/`, or in italics what is typical. `sprag-design explain KEY` prints a row.\n",
     );
     section("", &schema(), &designs, &mut now);
     if std::env::var_os("REMAKE").is_some() {
@@ -120,4 +191,26 @@ fn the_page_of_keys_is_the_schema_of_the_file() {
     }
     let kept = std::fs::read_to_string(root.join(KEYS)).unwrap();
     assert!(kept == now, "{KEYS} is out of date: REMAKE=1 cargo test -r the_page_of_keys");
+}
+
+const EQUATIONS: &str = "docs/src/equations.md";
+
+#[test]
+fn the_guide_has_the_register_of_equations() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let register = std::fs::read_to_string(root.join("src/equations.md")).unwrap();
+    // Links lead into the documents of the code; a page of the guide keeps their words.
+    let mut plain = String::new();
+    let mut rest = register.as_str();
+    while let Some(at) = rest.find("](crate::") {
+        let open = rest[..at].rfind('[').unwrap();
+        plain += &format!("{}{}", &rest[..open], &rest[open + 1..at]);
+        rest = &rest[at + rest[at..].find(')').unwrap() + 1..];
+    }
+    let now = format!("# Every equation of the paper, and its misprints\n\n{plain}{rest}").replace("\n# ", "\n## ");
+    if std::env::var_os("REMAKE").is_some() {
+        std::fs::write(root.join(EQUATIONS), &now).unwrap();
+    }
+    let kept = std::fs::read_to_string(root.join(EQUATIONS)).unwrap();
+    assert!(kept == now, "{EQUATIONS} is out of date: REMAKE=1 cargo test -r the_guide_has");
 }

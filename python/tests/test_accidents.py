@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 import sysconfig
+import threading
 import time
 from pathlib import Path
 
@@ -20,7 +21,7 @@ needs_fork = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no 
 
 
 @pytest.mark.parametrize(
-    "x", [np.zeros((2, 4)), np.zeros((1, 4)), np.array(4.0), np.zeros(3), np.full(4, np.nan), np.full(4, np.inf), "4.08", [None] * 4]
+    "x", [np.zeros((2, 4)), np.zeros((1, 4)), np.full((4, 1), 4.0), np.array(4.0), np.zeros(3), np.full(4, np.nan), np.full(4, np.inf), "4.08", [None] * 4]
 )
 def test_an_array_of_another_shape_is_no_vector(design: sd.Design, x: object) -> None:
     with pytest.raises((ValueError, TypeError)):
@@ -34,10 +35,41 @@ def test_an_array_of_another_shape_is_no_list_of_points(design: sd.Design, point
     assert design.problem().evaluate_all(np.zeros((0, 4))) == []
 
 
-@pytest.mark.parametrize("torques", [np.zeros((2, 2)), [np.nan], np.array([-1.0]), ["x"]])
+@pytest.mark.parametrize("torques", [np.zeros((2, 2)), np.ones((2, 1)), [np.nan], np.array([-1.0]), ["x"]])
 def test_torques_of_another_shape_are_none(design: sd.Design, torques: object) -> None:
     with pytest.raises((ValueError, TypeError)):
         design.stiffness(torques)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("values", [np.ones((2, 2)), np.ones((2, 1)), [np.nan], [np.inf], "fast", [None]])
+def test_speeds_and_paths_of_another_shape_are_none(values: object) -> None:
+    lubricated, starter = (sd.Design.load(DESIGNS / f"{name}.toml") for name in ("lubricated", "starter"))
+    with pytest.raises((ValueError, TypeError)):
+        lubricated.overrun(values)  # type: ignore[arg-type]
+    with pytest.raises((ValueError, TypeError)):
+        lubricated.overrun([300], values)  # type: ignore[arg-type]
+    with pytest.raises((ValueError, TypeError)):
+        starter.reengage(values, torque_nm=50, friction=0.06)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("value", [np.array([4.1]), np.array([[4.1]]), float("nan"), np.float64("inf"), None])
+def test_a_value_of_another_shape_is_none(design: sd.Design, value: object) -> None:
+    with pytest.raises((sd.DesignError, TypeError)):
+        design.with_(r_i2_mm=value)  # type: ignore[arg-type]
+    # An array without an axis is a number.
+    assert design.with_(r_i2_mm=np.array(4.1)) == design.with_(r_i2_mm=4.1)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("options", [{"count": -1}, {"count": 2, "seed": -1}, {"count": 2, "first": -1}])
+def test_points_that_are_less_than_none_are_refused(design: sd.Design, options: dict[str, int]) -> None:
+    with pytest.raises(ValueError, match="allowed: 0 or more"):
+        design.problem().sample(**options)
+
+
+@pytest.mark.parametrize("option", ["tolerance", "step_mm", "reserve"])
+def test_a_search_by_nan_is_none(design: sd.Design, option: str) -> None:
+    with pytest.raises(ValueError, match=f"{option} nan"):
+        design.optimize(starts=1, **{option: float("nan")})  # type: ignore[arg-type]
 
 
 def test_an_answer_does_not_need_the_histories_either(tmp_path: Path) -> None:
@@ -66,6 +98,25 @@ def test_a_file_deleted_while_the_command_runs_is_not_missed(tmp_path: Path) -> 
         path.unlink()
     assert running.returncode == 0
     assert len((tmp_path / "out.csv").read_text().splitlines()) == 302
+
+
+def test_a_history_deleted_while_it_runs_is_not_missed(tmp_path: Path) -> None:
+    """What a thread computes needs no file any more; what is asked of a new design says which file is gone."""
+    for path in DESIGNS.glob("*"):
+        if path.suffix == ".csv" or path.name == "indexing-drive.toml":
+            (tmp_path / path.name).write_bytes(path.read_bytes())
+    design = sd.Design.load(tmp_path / "indexing-drive.toml")
+    scene = design.scenarios[0]
+    found: list[sd.Simulation] = []
+    thread = threading.Thread(target=lambda: found.append(design.simulate(scene)))
+    thread.start()
+    for path in tmp_path.iterdir():
+        path.unlink()
+    thread.join()
+    known = sd.Design.load(DESIGNS / "indexing-drive.toml").simulate(scene)
+    assert found[0].theta_inner_end_rad == known.theta_inner_end_rad
+    with pytest.raises(sd.DesignError, match="no such file"):
+        sd.Design.load(tmp_path / "indexing-drive.toml")
 
 
 @needs_fork

@@ -13,7 +13,7 @@ import pytest
 
 import sprag_design as sd
 
-from .conftest import DESIGNS, MULTI_ARC, NAMES, Command, figures
+from .conftest import DESIGNS, MULTI_ARC, NAMES, ROOT, Command, figures
 
 # One with slices, one off centre or with press fits, the paper's two.
 CHECKED = ["huang2017-multi-arc", "huang2017-single-arc", "series-833-small", "starter"]
@@ -205,7 +205,9 @@ def test_every_key_of_json_is_an_attribute(design: sd.Design) -> None:
     for answer, key in rows:
         known = {f.name for f in dataclasses.fields(getattr(answer, key)[0])} | {"lambda"}
         assert set(answer.to_dict()[key][0]) <= known, key
-    for answer in (design.check(), simulation, design.optimize(starts=1, evaluations=5), life, overrun, blow):
+    train = sd.Design.load(ROOT / "tests" / "reference" / "drivetrain.toml").simulate("all")
+    assert train.eigenfrequencies and "frequency_hz" in train.eigenfrequencies[0] and simulation.eigenfrequencies is None
+    for answer in (design.check(), simulation, train, design.optimize(starts=1, evaluations=5), life, overrun, blow):
         fields = {f.name for f in dataclasses.fields(answer)}
         for key in answer.to_dict():
             name = {"pass": "passed"}.get(key, key)

@@ -41,3 +41,26 @@ def test_the_module_is_the_command(capfd: pytest.CaptureFixture[str], monkeypatc
     with pytest.raises(SystemExit) as ended:
         runpy.run_module("sprag_design", run_name="__main__")
     assert ended.value.code == 0 and capfd.readouterr().out
+
+
+def test_the_notebook_runs_and_holds_no_outputs() -> None:
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    pytest.importorskip("matplotlib")
+    pytest.importorskip("pandas")
+    folder = PYTHON / "examples"
+    notebook = nbformat.read(folder / "first_steps.ipynb", as_version=4)
+    nbformat.validate(notebook)
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert all(cell.outputs == [] and cell.execution_count is None for cell in cells)
+    # The kernel is this very Python: a kernel of another name would be another installation.
+    kernel = nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": folder}})
+    kernel.execute()
+    shown = [set().union(*(output.get("data", {}) for output in cell.outputs)) for cell in cells]
+    assert not any(output.output_type == "error" for cell in cells for output in cell.outputs)
+    # Design, check, table, drawing, plot, design, tables, plot: each cell shows what it is there for.
+    wanted = ["text/html", "text/html", "text/html", "image/svg+xml", "image/png", "text/html", "text/html", "image/png", "text/plain"]
+    assert [kind in kinds for kind, kinds in zip(wanted, shown, strict=True)] == [True] * len(wanted), shown
+    said = "".join(output.get("text", "") for cell in cells for output in cell.outputs)
+    assert "held" in said and "smallest normal force" in said

@@ -1,9 +1,15 @@
 //! What every answer says of itself beside its own figures: who computed it, from what, how long that took, what was left out.
 
+use super::finite_elements::{FiniteElementBody, FiniteElements};
 use super::left_out::LeftOut;
+use super::life::LifeAnswer;
+use super::overrun::OverrunAnswer;
 use super::page::draw_inputs;
+use super::reengagement::ReengagementAnswer;
+use super::resonance::ResonanceAnswer;
+use super::sharing::SharingAnswer;
 use crate::design::Design;
-use crate::report::{Column, Page, Table};
+use crate::report::{Page, Rows, Screen, Table};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -29,11 +35,11 @@ pub struct Provenance {
 pub struct Envelope<'a, B: Serialize> {
     /// The design.
     pub design: &'a Design,
-    /// Wall time of the computation alone, s.
+    /// Time of the computation alone, s.
     pub run_time_s: f64,
-    /// Terms left out, each with its reason and cost.
+    /// What the model leaves out, each with its reason and its cost.
     pub left_out: Vec<LeftOut>,
-    /// Error estimate where something was integrated or iterated: a number, or an object of numbers.
+    /// How far off the answer is, where something was integrated or iterated: a number, or numbers by name.
     pub error_estimate: Option<Value>,
     /// The answer's own keys: a struct or map.
     pub body: B,
@@ -80,18 +86,11 @@ impl<B: Serialize> Envelope<'_, B> {
 
     /// End of a page that has its inputs: what was left out, the results for programs, the design file.
     pub fn end(&self, page: &mut Page) {
-        let mut table = Table::new(vec![
-            Column::text("term", "Left out"),
-            Column::text("why", "Why"),
-            Column::text("cost", "What it costs"),
-        ]);
-        for entry in &self.left_out {
-            table.row(vec![
-                entry.term.as_str().into(),
-                entry.why.as_str().into(),
-                entry.cost.as_str().into(),
-            ]);
-        }
+        let table = Rows::of(&self.left_out)
+            .text("term", "Left out", |entry| entry.term.as_str())
+            .text("why", "Why", |entry| entry.why.as_str())
+            .text("cost", "What it costs", |entry| entry.cost.as_str())
+            .table();
         page.folded("What the model leaves out", |page| {
             page.table("", &table);
         });
@@ -99,6 +98,54 @@ impl<B: Serialize> Envelope<'_, B> {
         page.results("results", &serde_json::to_value(self.object(Vec::new())).unwrap_or_default());
         page.source("Design file", &self.design.source);
     }
+}
+
+/// An answer and its faces.
+pub trait Answer {
+    /// Its own keys.
+    type Body: Serialize;
+    /// The table for programs.
+    fn table(&self) -> Table;
+    /// The answer on a terminal.
+    fn text(&self, screen: Screen) -> String;
+    /// The answer as a page.
+    fn page(&self, provenance: &Provenance) -> Page;
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Self::Body>;
+}
+
+/// Answers with all faces: type, its own keys, which of its tables is the one for programs.
+macro_rules! answers {
+    ($($answer:ty, $body:ty, $table:ident;)+) => {
+        $(impl Answer for $answer {
+            type Body = $body;
+
+            fn table(&self) -> Table {
+                self.$table()
+            }
+
+            fn text(&self, screen: Screen) -> String {
+                self.text(screen)
+            }
+
+            fn page(&self, provenance: &Provenance) -> Page {
+                self.page(provenance)
+            }
+
+            fn envelope(&self, run_time_s: f64) -> Envelope<'_, $body> {
+                self.envelope(run_time_s)
+            }
+        })+
+    };
+}
+
+answers! {
+    FiniteElements<'_>, FiniteElementBody, table;
+    LifeAnswer<'_>, Value, loads;
+    OverrunAnswer<'_>, Value, all;
+    ReengagementAnswer<'_>, Value, blows;
+    ResonanceAnswer<'_>, Value, table;
+    SharingAnswer<'_>, Value, by_sprag;
 }
 
 #[cfg(test)]

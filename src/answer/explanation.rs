@@ -1,7 +1,9 @@
 //! What a limit, a key, a variable or another name means.
 
 use crate::clutch::LAWS;
-use crate::design::{Objective, VARIABLES, allowed, keys_of, nearest, shape_of, unit_of_key, variable_path};
+use crate::design::{
+    Objective, VARIABLES, allowed, keys_of, nearest, paths_of, shape_of, unit_of_key, variable_path,
+};
 use crate::margin::{LIMITS, limit_of};
 
 /// What is known of a name: its kind, and lines of a heading and a text.
@@ -40,7 +42,7 @@ pub fn all() -> String {
 
 /// What `name` is, if anything.
 pub fn explain(name: &str) -> Option<Explanation> {
-    limit(name).or_else(|| objective(name)).or_else(|| law(name)).or_else(|| key(name))
+    limit(name).or_else(|| objective(name)).or_else(|| law(name)).or_else(|| key(name)).or_else(|| bare(name))
 }
 
 fn limit(code: &str) -> Option<Explanation> {
@@ -50,6 +52,8 @@ fn limit(code: &str) -> Option<Explanation> {
     let mut lines = vec![
         ("holds", limit.name().replace("{scene}", scene)),
         ("is", limit.explanation.split_whitespace().collect::<Vec<_>>().join(" ")),
+        ("formula", limit.formula.to_owned()),
+        ("source", limit.source.to_owned()),
         ("margin", limit.rule.words().to_owned()),
     ];
     if !limit.unit.is_empty() && limit.unit != "1" {
@@ -81,6 +85,30 @@ fn law(name: &str) -> Option<Explanation> {
     Some(Explanation { kind: "a contact law, contact.law", lines: vec![("is", law.title.to_owned())] })
 }
 
+/// A key without the tables that it stands in.
+fn bare(name: &str) -> Option<Explanation> {
+    match paths_of(name).as_slice() {
+        [] => None,
+        [only] => {
+            let mut found = key(only)?;
+            found.lines.insert(0, ("key", only.clone()));
+            Some(found)
+        }
+        several => {
+            let one = |path: &String| {
+                let is = key(path).and_then(|found| found.lines.into_iter().find(|line| line.0 == "is"));
+                ("key", format!("{path}: {}", is.map_or(String::new(), |line| line.1)))
+            };
+            Some(Explanation { kind: "a key of several tables", lines: several.iter().map(one).collect() })
+        }
+    }
+}
+
+/// Units in a description as people read them.
+fn in_micrometres(text: &str) -> String {
+    text.replace(", um", ", µm").replace("N/um", "N/µm")
+}
+
 fn key(name: &str) -> Option<Explanation> {
     /// As many arcs as names may count.
     const ARCS: usize = 100;
@@ -91,7 +119,7 @@ fn key(name: &str) -> Option<Explanation> {
         lines.push(("key", path.clone()));
     }
     let text = |key: &str| schema.get(key).and_then(|v| v.as_str()).unwrap_or("").to_owned();
-    lines.push(("is", text("description")));
+    lines.push(("is", in_micrometres(&text("description"))));
     lines.extend(of_arc(name).map(|words| ("here", words)));
     let key = path.rsplit('.').next()?;
     if let Some(unit) = unit_of_key(key).filter(|unit| !unit.is_empty()) {
@@ -150,6 +178,14 @@ mod tests {
         assert!(keys("scenarios").contains("preload_nm") && keys("races").contains("width_mm"));
         assert!(of_arc("r_i2_mm").unwrap().starts_with("radius of inner arc 2;"));
         assert!(of_arc("junction_1_rad").unwrap().contains("arc 1 gives way to arc 2;"));
+        // A key without its table: the one that there is, or each.
+        let only = explain("size_within_um").unwrap();
+        assert_eq!(only.lines[0], ("key", "sharing.size_within_um".to_owned()));
+        assert!(only.lines.contains(&("unit", "µm".to_owned())) && only.lines[1].1.ends_with(", µm."));
+        let start = explain("start").unwrap();
+        let paths: Vec<&str> = start.lines.iter().filter_map(|l| l.1.split(':').next()).collect();
+        assert_eq!(paths, ["scenarios[0].start", "sharing.start"]);
+        assert_eq!(explain("flanks").unwrap().lines[0].1, "sprags.flanks");
         assert!(explain("limits.hertz_peak_mpa").is_some() && explain("nothing").is_none());
         assert!(unknown("hoop-iner").contains("did you mean hoop-inner?"));
     }

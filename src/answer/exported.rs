@@ -6,7 +6,7 @@ use crate::clutch::EndProfile;
 use crate::design::Design;
 use crate::export::rows::{SurfacePoint, SurfaceRow, arcs};
 use crate::export::{DrawnClutch, Part};
-use crate::report::{Cell, Column, Table, Unit};
+use crate::report::{Cell, Column, Rows, Table, Unit};
 use serde_json::{Value, json};
 
 /// From here the drawn sprag is said to weigh otherwise than the one computed.
@@ -111,21 +111,12 @@ pub fn arcs_table(rows: &[SurfaceRow]) -> Table {
 
 /// Points on them, for CSV.
 pub fn points_table(points: &[SurfacePoint]) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("body", "Body"),
-        Column::text("surface", "Surface"),
-        Column::number("x_mm", "x", Unit::Millimetre, 6),
-        Column::number("y_mm", "y", Unit::Millimetre, 6),
-    ]);
-    for p in points {
-        table.row(vec![
-            p.body.as_str().into(),
-            p.surface.as_str().into(),
-            p.at_m[0].into(),
-            p.at_m[1].into(),
-        ]);
-    }
-    table
+    Rows::of(points)
+        .text("body", "Body", |p| p.body.as_str())
+        .text("surface", "Surface", |p| p.surface.as_str())
+        .number("x_mm", "x", Unit::Millimetre, 6, |p| p.at_m[0])
+        .number("y_mm", "y", Unit::Millimetre, 6, |p| p.at_m[1])
+        .table()
 }
 
 fn row_json(r: &SurfaceRow) -> Value {

@@ -7,7 +7,7 @@ use crate::clutch::Clutch;
 use crate::design::Design;
 use crate::export::calculix::{Facts, ResultRow};
 use crate::race::twist_rad_per_nm;
-use crate::report::{Cell, Column, Page, Table, Tone, Unit};
+use crate::report::{Cell, Page, Rows, Screen, Table, Tone, Unit};
 use crate::wedge::{StaticPoint, WedgeCurve};
 use serde::Serialize;
 
@@ -115,6 +115,11 @@ impl<'a> FiniteElements<'a> {
         page
     }
 
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        format!("{}\n{}\n", self.table().to_text(screen), self.compared())
+    }
+
     fn body(&self) -> FiniteElementBody {
         let points = self
             .rows
@@ -158,34 +163,23 @@ fn races_twist_rad_per_nm(facts: &Facts, clutch: &Clutch) -> f64 {
 }
 
 fn table(rows: &[ResultRow], law: &[Option<StaticPoint>], twist_rad_per_nm: f64) -> Table {
-    let mut table = Table::new(vec![
-        Column::number("torque_nm", "Torque", Unit::NewtonMetre, 5),
-        Column::number("normal_inner_n", "N inner", Unit::Newton, 5),
-        Column::number("windup_deg", "Windup", Unit::Degree, 5),
-        Column::number("hertz_inner_mpa", "Pressure inner", Unit::Megapascal, 4),
-        Column::number("tan_omega", "tan ω", Unit::One, 4),
-        Column::number("k_secant_nm_per_rad", "Secant", Unit::NewtonMetrePerRadian, 4),
-        Column::number("law_normal_inner_n", "N, law", Unit::Newton, 5),
-        Column::number("law_windup_deg", "Windup, law", Unit::Degree, 5),
-        Column::number("races_twist_deg", "Twist of races", Unit::Degree, 3),
-        Column::number("law_over_fe_percent", "Law over FE", Unit::Percent, 3),
-    ]);
-    for (r, l) in rows.iter().zip(law) {
-        let twist_rad = twist_rad_per_nm * r.torque_nm;
-        table.row(vec![
-            r.torque_nm.into(),
-            r.normal_inner_n.into(),
-            r.windup_rad.into(),
-            r.pressure_inner_pa.into(),
-            r.tan_omega.into(),
-            (r.torque_nm / r.windup_rad).into(),
-            l.map(|l| l.normal_inner_n).into(),
-            l.map(|l| l.windup_rad).into(),
-            twist_rad.into(),
-            l.map_or(Cell::Empty, |l| ((l.windup_rad + twist_rad) / r.windup_rad - 1.0).into()),
-        ]);
-    }
-    table
+    let twist_rad = |r: &ResultRow| twist_rad_per_nm * r.torque_nm;
+    Rows::of(rows.iter().zip(law))
+        .number("torque_nm", "Torque", Unit::NewtonMetre, 5, |(r, _)| r.torque_nm)
+        .number("normal_inner_n", "N inner", Unit::Newton, 5, |(r, _)| r.normal_inner_n)
+        .number("windup_deg", "Windup", Unit::Degree, 5, |(r, _)| r.windup_rad)
+        .number("hertz_inner_mpa", "Pressure inner", Unit::Megapascal, 4, |(r, _)| r.pressure_inner_pa)
+        .number("tan_omega", "tan ω", Unit::One, 4, |(r, _)| r.tan_omega)
+        .number("k_secant_nm_per_rad", "Secant", Unit::NewtonMetrePerRadian, 4, |(r, _)| {
+            r.torque_nm / r.windup_rad
+        })
+        .number("law_normal_inner_n", "N, law", Unit::Newton, 5, |(_, l)| l.map(|l| l.normal_inner_n))
+        .number("law_windup_deg", "Windup, law", Unit::Degree, 5, |(_, l)| l.map(|l| l.windup_rad))
+        .number("races_twist_deg", "Twist of races", Unit::Degree, 3, |(r, _)| twist_rad(r))
+        .number("law_over_fe_percent", "Law over FE", Unit::Percent, 3, |(r, l)| {
+            l.map_or(Cell::Empty, |l| ((l.windup_rad + twist_rad(r)) / r.windup_rad - 1.0).into())
+        })
+        .table()
 }
 
 fn left_out(facts: &Facts) -> Vec<LeftOut> {

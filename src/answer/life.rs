@@ -8,7 +8,7 @@ use crate::design::Design;
 use crate::life::{INDENTING_PA, Life, LifePlace, Used, life, part_at};
 use crate::margin::{NoMargins, load_state};
 use crate::report::plot::Curve;
-use crate::report::{Cell, Column, Page, Plot, Screen, Table, Tone, Unit, significant};
+use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Tone, Unit, significant};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -194,63 +194,40 @@ impl<'a> LifeAnswer<'a> {
 
     /// Each place: what is used up.
     pub fn places(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("place", "Place"),
-            Column::number("cycles", "Cycles", Unit::One, 4),
-            Column::number("used_percent", "Used up", Unit::Percent, 3),
-            Column::number("lives", "Lives", Unit::One, 3),
-            Column::number("mostly_at_nm", "Mostly at", Unit::NewtonMetre, 4),
-            Column::text("verdict", "Verdict"),
-        ]);
-        for used in &self.life.used {
-            let Used { sum, .. } = *used;
-            let verdict = match sum {
-                Some(sum) => {
-                    Cell::Verdict(sum <= 1.0, if sum <= 1.0 { "held" } else { "NOT HELD" }.to_owned())
-                }
-                None if self.life.loads.iter().any(|l| l.state.is_none()) => "torque not carried".into(),
-                None => "strength not given".into(),
-            };
-            table.row(vec![
-                used.place.names().1.into(),
-                used.cycles.into(),
-                sum.map_or(Cell::Empty, Cell::Si),
-                used.lives().filter(|l| l.is_finite()).map_or(Cell::Empty, Cell::Si),
-                if sum.is_some() { used.mostly_nm.into() } else { Cell::Empty },
-                verdict,
-            ]);
-        }
-        table
+        let verdict = |used: &Used| match used.sum {
+            Some(sum) => Cell::Verdict(sum <= 1.0, if sum <= 1.0 { "held" } else { "NOT HELD" }.to_owned()),
+            None if self.life.loads.iter().any(|l| l.state.is_none()) => "torque not carried".into(),
+            None => "strength not given".into(),
+        };
+        Rows::of(&self.life.used)
+            .text("place", "Place", |used| used.place.names().1)
+            .number("cycles", "Cycles", Unit::One, 4, |used| used.cycles)
+            .number("used_percent", "Used up", Unit::Percent, 3, |used| used.sum)
+            .number("lives", "Lives", Unit::One, 3, |used| used.lives().filter(|l| l.is_finite()))
+            .number("mostly_at_nm", "Mostly at", Unit::NewtonMetre, 4, |used| {
+                used.sum.map(|_| used.mostly_nm)
+            })
+            .text("verdict", "Verdict", |used| verdict(used))
+            .table()
     }
 
     /// Each load: what one engagement at it does.
     pub fn loads(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
-            Column::number("engagements", "Engagements", Unit::One, 4),
-            Column::number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4),
-            Column::number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4),
-            Column::number("hoop_inner_mpa", "Hoop inner", Unit::Megapascal, 4),
-            Column::number("hoop_outer_mpa", "Hoop outer", Unit::Megapascal, 4),
-            Column::number("walk_inner_mm", "Walk inner", Unit::Millimetre, 3),
-            Column::number("walk_outer_mm", "Walk outer", Unit::Millimetre, 3),
-            Column::number("slip_probability", "Slips, of one", Unit::One, 2),
-        ]);
-        for l in &self.life.loads {
-            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
-            table.row(vec![
-                l.torque_nm.into(),
-                l.engagements.into(),
-                of(l.state.map(|p| p.hertz_inner_pa)),
-                of(l.state.map(|p| p.hertz_outer_pa)),
-                of(l.state.map(|_| l.hoop_pa[0])),
-                of(l.state.map(|_| l.hoop_pa[1])),
-                of(l.state.map(|_| l.walk_m[0])),
-                of(l.state.map(|_| l.walk_m[1])),
-                of(l.slip),
-            ]);
-        }
-        table
+        Rows::of(&self.life.loads)
+            .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |l| l.torque_nm)
+            .number("engagements", "Engagements", Unit::One, 4, |l| l.engagements)
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |l| {
+                l.state.map(|p| p.hertz_inner_pa)
+            })
+            .number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4, |l| {
+                l.state.map(|p| p.hertz_outer_pa)
+            })
+            .number("hoop_inner_mpa", "Hoop inner", Unit::Megapascal, 4, |l| l.state.map(|_| l.hoop_pa[0]))
+            .number("hoop_outer_mpa", "Hoop outer", Unit::Megapascal, 4, |l| l.state.map(|_| l.hoop_pa[1]))
+            .number("walk_inner_mm", "Walk inner", Unit::Millimetre, 3, |l| l.state.map(|_| l.walk_m[0]))
+            .number("walk_outer_mm", "Walk outer", Unit::Millimetre, 3, |l| l.state.map(|_| l.walk_m[1]))
+            .number("slip_probability", "Slips, of one", Unit::One, 2, |l| l.slip)
+            .table()
     }
 
     /// What the tables do not say.

@@ -31,5 +31,5 @@ pub mod stiffness;
 pub mod sweep;
 mod under_load;
 
-pub use envelope::{Envelope, Provenance, TOOL, VERSION, WRITTEN_BY};
+pub use envelope::{Answer, Envelope, Provenance, TOOL, VERSION, WRITTEN_BY};
 pub use left_out::LeftOut;

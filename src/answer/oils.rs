@@ -1,32 +1,24 @@
 //! The oils and greases that a design may name, as a table, as JSON and in words.
 
 use crate::lubrication::OILS;
-use crate::report::{Column, Screen, Table, Unit};
+use crate::report::{Rows, Screen, Table, Unit};
 use serde_json::{Value, json};
 
 /// The oils with what they are reckoned with.
 pub fn table() -> Table {
-    let mut table = Table::new(vec![
-        Column::text("name", "Name"),
-        Column::text("base", "Base oil"),
-        Column::number("nu40_mm2_s", "40 C, mm²/s", Unit::One, 4),
-        Column::number("nu100_mm2_s", "100 C, mm²/s", Unit::One, 3),
-        Column::number("density_kg_m3", "Density 15 C, kg/m³", Unit::One, 4),
-        Column::number("alpha40_per_gpa", "α 40 C, 1/GPa", Unit::One, 3),
-        Column::number("alpha100_per_gpa", "α 100 C, 1/GPa", Unit::One, 3),
-    ]);
-    for o in &OILS {
-        table.row(vec![
-            o.name.into(),
-            o.base.name().into(),
-            (1e6 * o.nu40_m2_s).into(),
-            (1e6 * o.nu100_m2_s).into(),
-            o.density_kg_m3.into(),
-            (1e9 * o.pressure_coefficient_per_pa(40.0)).into(),
-            (1e9 * o.pressure_coefficient_per_pa(100.0)).into(),
-        ]);
-    }
-    table
+    Rows::of(&OILS)
+        .text("name", "Name", |o| o.name)
+        .text("base", "Base oil", |o| o.base.name())
+        .number("nu40_mm2_s", "40 C, mm²/s", Unit::One, 4, |o| 1e6 * o.nu40_m2_s)
+        .number("nu100_mm2_s", "100 C, mm²/s", Unit::One, 3, |o| 1e6 * o.nu100_m2_s)
+        .number("density_kg_m3", "Density 15 C, kg/m³", Unit::One, 4, |o| o.density_kg_m3)
+        .number("alpha40_per_gpa", "α 40 C, 1/GPa", Unit::One, 3, |o| {
+            1e9 * o.pressure_coefficient_per_pa(40.0)
+        })
+        .number("alpha100_per_gpa", "α 100 C, 1/GPa", Unit::One, 3, |o| {
+            1e9 * o.pressure_coefficient_per_pa(100.0)
+        })
+        .table()
 }
 
 /// The same as JSON, with the source of each.

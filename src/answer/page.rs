@@ -3,7 +3,7 @@
 use super::{TOOL, VERSION};
 use crate::design::{Design, Input, inputs, unit_of_key};
 use crate::profile::Profile;
-use crate::report::{Cell, Column, Drawing, Page, PageHead, Plot, SpragPose, Table, Unit};
+use crate::report::{Cell, Column, Drawing, Page, PageHead, Plot, Rows, SpragPose, Table, Unit};
 use crate::wedge::{Closure, WedgeCurve};
 
 /// A page with its head; `title` names the kind of answer, e.g. `"Margin check"`, `command` who asked for it.
@@ -113,11 +113,11 @@ pub fn draw_inputs(page: &mut Page, design: &Design) {
 /// A short table for each row of the scenes' table: what it says of that scene.
 fn each_scene(scenes: &Table) -> Vec<(String, Table)> {
     let one = |row: &Vec<Cell>| {
-        let mut table = Table::new(vec![Column::text("key", "Key"), Column::text("value", "Value")]);
-        for (column, cell) in scenes.columns.iter().zip(row).skip(1).filter(|(_, cell)| **cell != Cell::Empty)
-        {
-            table.row(vec![column.heading.as_str().into(), cell.clone()]);
-        }
+        let table =
+            Rows::of(scenes.columns.iter().zip(row).skip(1).filter(|(_, cell)| **cell != Cell::Empty))
+                .text("key", "Key", |(column, _)| column.heading.as_str())
+                .text("value", "Value", |(_, cell)| Cell::clone(cell))
+                .table();
         let name = match row.first() {
             Some(Cell::Text(name)) => format!("scenario {name}"),
             _ => "scenario".to_owned(),

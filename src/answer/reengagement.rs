@@ -7,10 +7,12 @@ use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
 use crate::follow::Follow;
-use crate::margin::{LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state};
+use crate::margin::{
+    LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state, lowest_capacity,
+};
 use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows};
 use crate::report::plot::Curve;
-use crate::report::{Cell, Column, Page, Plot, Screen, Table, Unit, significant};
+use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -130,9 +132,7 @@ impl Design {
         let lift_off_rad_s = state.as_ref().and_then(lift_off);
         let bears = state.and_then(|state| {
             let rows = load_margins(self, &self.limits, true, &state);
-            let at_peak = rows.iter().filter(|r| r.required && r.limit.when != When::Nominal);
-            let all = at_peak.filter_map(|r| Some((r.torque_capacity_nm?, r.code())));
-            all.min_by(|a, b| a.0.total_cmp(&b.0))
+            lowest_capacity(&rows, |r| r.limit.when != When::Nominal).map(|(r, nm)| (nm, r.code()))
         });
         Ok(ReengagementAnswer { design: self, case, found, bears, lift_off_rad_s })
     }
@@ -248,7 +248,6 @@ impl<'a> ReengagementAnswer<'a> {
 
     /// Why the clutch does not grip, where it does not.
     fn lost(&self, end: &SlipEnd) -> String {
-        let (needs, given) = (significant(self.found.needs, 3), significant(self.case.friction, 3));
         let when = format!("{} after the slip begins", Unit::Millisecond.show(end.at_s, 3));
         match end.stop {
             Stop::FellAway => {
@@ -271,16 +270,6 @@ impl<'a> ReengagementAnswer<'a> {
                         None => "; if a cage made them grip there, their energy would go beyond the end of the curve".to_owned(),
                     };
                 }
-                said += &format!(
-                    ". The torque needs a friction of {needs}, {given} is there: nearer to it they are thrown less"
-                );
-                if let Some(speed) = self.lift_off_rad_s.filter(|speed| *speed <= end.outer_rad_s.abs()) {
-                    said += &format!(
-                        ". The outer race runs at {}; in steady overrun its sprags lift off from {} on, slower they come back sooner",
-                        Unit::Rpm.show(end.outer_rad_s.abs(), 4),
-                        Unit::Rpm.show(speed, 4)
-                    );
-                }
                 said
             }
             Stop::CurveEnd => format!("NOT HELD: {when} the blow goes beyond the end of the curve"),
@@ -294,42 +283,27 @@ impl<'a> ReengagementAnswer<'a> {
 
     /// Each path of slip with its blow.
     pub fn blows(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("path_mm", "Slip", Unit::Millimetre, 3),
-            Column::number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4),
-            Column::text("verdict", "Verdict"),
-            Column::number("times", "Times", Unit::One, 3),
-            Column::number("peak_by_energy_nm", "By energy", Unit::NewtonMetre, 4),
-            Column::number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4),
-            Column::number("speed_rpm", "Speed gained", Unit::Rpm, 3),
-            Column::number("slip_ms", "Lasts", Unit::Millisecond, 3),
-            Column::number("peak_ms", "Blow at", Unit::Millisecond, 3),
-            Column::number("path_in_all_mm", "In all", Unit::Millimetre, 3),
-        ]);
-        for b in &self.found.list {
-            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
-            let held = self.bears_it(b);
-            let word = match (held, b.ended) {
-                (true, _) => "held",
-                (false, None) => "NOT HELD",
-                (false, Some(Stop::FellAway)) => "THROWN OUT",
-                (false, Some(Stop::CurveEnd)) => "OVERLOADED",
-                (false, Some(_)) => "NO GRIP",
-            };
-            table.row(vec![
-                b.path_m.into(),
-                of(b.peak.map(|p| p.torque_nm)),
-                Cell::Verdict(held, word.to_owned()),
-                of(b.peak.map(|p| p.torque_nm / self.case.torque_nm)),
-                of(b.by_energy_nm),
-                of(b.peak.map(|p| p.hertz_inner_pa)),
-                b.speed_rad_s.into(),
-                b.slip_s.into(),
-                of(b.peak_s),
-                of(b.path_in_all_m),
-            ]);
-        }
-        table
+        let word = |b: &Blow| match (self.bears_it(b), b.ended) {
+            (true, _) => "held",
+            (false, None) => "NOT HELD",
+            (false, Some(Stop::FellAway)) => "THROWN OUT",
+            (false, Some(Stop::CurveEnd)) => "OVERLOADED",
+            (false, Some(_)) => "NO GRIP",
+        };
+        Rows::of(&self.found.list)
+            .number("path_mm", "Slip", Unit::Millimetre, 3, |b| b.path_m)
+            .number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4, |b| b.peak.map(|p| p.torque_nm))
+            .text("verdict", "Verdict", |b| Cell::Verdict(self.bears_it(b), word(b).to_owned()))
+            .number("times", "Times", Unit::One, 3, |b| b.peak.map(|p| p.torque_nm / self.case.torque_nm))
+            .number("peak_by_energy_nm", "By energy", Unit::NewtonMetre, 4, |b| b.by_energy_nm)
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |b| {
+                b.peak.map(|p| p.hertz_inner_pa)
+            })
+            .number("speed_rpm", "Speed gained", Unit::Rpm, 3, |b| b.speed_rad_s)
+            .number("slip_ms", "Lasts", Unit::Millisecond, 3, |b| b.slip_s)
+            .number("peak_ms", "Blow at", Unit::Millisecond, 3, |b| b.peak_s)
+            .number("path_in_all_mm", "In all", Unit::Millimetre, 3, |b| b.path_in_all_m)
+            .table()
     }
 
     /// What was taken, in sentences.
@@ -357,6 +331,18 @@ impl<'a> ReengagementAnswer<'a> {
                  sprags gripped there",
                 Unit::Millimetre.show(end.path_m, 3)
             ));
+            all.push(format!(
+                "The torque needs a friction of {}, {} is there: nearer to it the sprags are thrown less",
+                significant(self.found.needs, 3),
+                significant(case.friction, 3)
+            ));
+            if let Some(speed) = self.lift_off_rad_s.filter(|speed| *speed <= end.outer_rad_s.abs()) {
+                all.push(format!(
+                    "The outer race runs at {}; in steady overrun its sprags lift off from {} on, slower they come back sooner",
+                    Unit::Rpm.show(end.outer_rad_s.abs(), 4),
+                    Unit::Rpm.show(speed, 4)
+                ));
+            }
         }
         all
     }
@@ -382,7 +368,10 @@ impl<'a> ReengagementAnswer<'a> {
         };
         let mut plot = Plot::new("Slip until the friction is back, mm", "Torque, Nm");
         plot.log_x = true;
-        plot.curves.push(Curve::new("blow", points(&|b| Some(b.peak?.torque_nm))));
+        let blow = points(&|b| Some(b.peak?.torque_nm));
+        if !blow.is_empty() {
+            plot.curves.push(Curve::new("blow", blow));
+        }
         plot.curves.push(Curve::new("by energy, nothing lost", points(&|b| b.by_energy_nm)));
         if let Some((most_nm, code)) = &self.bears {
             plot.curves.push(Curve::new(&format!("allowed by {code}"), points(&|_| Some(*most_nm))));

@@ -7,7 +7,7 @@ use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::dynamics::Run;
 use crate::report::heat::SHADES;
-use crate::report::{Cell, Column, HeatMap, Page, Plot, Screen, Shade, Table, Tone, Unit, significant};
+use crate::report::{Cell, HeatMap, Page, Plot, Rows, Screen, Shade, Table, Tone, Unit, significant};
 use crate::scenario::{MotionKind, NoScenario, ResonanceCell, Settings, Steady, closely, resonance};
 use serde_json::{Value, json};
 
@@ -32,6 +32,8 @@ pub struct ResonanceAnswer<'a> {
     tolerance: f64,
     /// A single state once more, at a tenth of the tolerance.
     finer: Option<Steady>,
+    /// Amplitudes asked for.
+    asked: usize,
     /// Rows by amplitude, each by frequency.
     pub rows: Vec<Vec<ResonanceCell>>,
 }
@@ -61,9 +63,14 @@ impl std::fmt::Display for NoResonance {
 
 impl std::error::Error for NoResonance {}
 
+/// A scene to begin with.
+pub const EXAMPLE: &str = "[[scenarios]]\nname = \"swing\"\nkind = \"torsional-excitation\"\npreload_nm = 100.0      # carried in the mean\n\
+                           amplitude_nm = 50.0     # swings by that\nfrequency_hz = 50.0\n\
+                           abutment_stiffness_nm_per_rad = 5000.0   # what holds the outer race\nduration_s = 0.1";
+
 impl Design {
     /// Periodic states of `scenario`, one of this design's; where `question` is none, the one at its own frequency and amplitude.
-    /// `done` is told of each state.
+    /// `done` is told of each state. Of a map that is stopped the amplitudes that were done.
     ///
     /// # Errors
     /// [`NoResonance`].
@@ -82,6 +89,7 @@ impl Design {
         let amplitudes = or_own(&question.amplitudes_nm, amplitude_nm);
         let one = frequencies.len() * amplitudes.len() == 1;
         let settings = if one { closely(settings) } else { settings.clone() };
+        let asked = amplitudes.len();
         let run = |settings: &Settings, done: &(dyn Fn() + Sync)| {
             let rows = resonance(scenario, &frequencies, &amplitudes, settings, done);
             rows.map_err(NoResonance::NoStart)?.ok_or(NoResonance::Stopped)
@@ -91,7 +99,15 @@ impl Design {
         let finer = if one { Some(run(&finer, &|| ())?) } else { None };
         let finer = finer.and_then(|rows| Some(rows.into_iter().flatten().next()?.state));
         let friction = scenario.clutch.friction.static_;
-        Ok(ResonanceAnswer { design: self, scenario, friction, tolerance: settings.tolerance, finer, rows })
+        Ok(ResonanceAnswer {
+            design: self,
+            scenario,
+            friction,
+            tolerance: settings.tolerance,
+            finer,
+            asked,
+            rows,
+        })
     }
 }
 
@@ -102,6 +118,11 @@ impl<'a> ResonanceAnswer<'a> {
 
     fn count(&self, kind: MotionKind) -> usize {
         self.cells().filter(|c| c.state.kind == kind).count()
+    }
+
+    /// Amplitudes that a stop has left out.
+    pub fn amplitudes_left(&self) -> usize {
+        self.asked - self.rows.len()
     }
 
     /// Whether both contacts roll everywhere.
@@ -116,16 +137,25 @@ impl<'a> ResonanceAnswer<'a> {
             return one_verdict(only);
         }
         let all = self.cells().count();
-        let mut parts = vec![format!("{} of {all} states roll", self.count(MotionKind::Rolls))];
-        for (kind, words) in [
-            (MotionKind::Slips, "slip in each period"),
-            (MotionKind::LiftsOff, "lift off"),
-            (MotionKind::Ends, "go beyond the end of the curve or of reach"),
-            (MotionKind::NotFound, "do not repeat, or were not found"),
+        let mut parts = Vec::new();
+        if self.amplitudes_left() > 0 {
+            parts.push(format!("stopped after {} of {} amplitudes", self.rows.len(), self.asked));
+        }
+        parts.push(format!("{} of {all} states roll", self.count(MotionKind::Rolls)));
+        for (kind, one, several) in [
+            (MotionKind::Slips, "slips in each period", "slip in each period"),
+            (MotionKind::LiftsOff, "lifts off", "lift off"),
+            (
+                MotionKind::Ends,
+                "goes beyond the end of the curve or of reach",
+                "go beyond the end of the curve or of reach",
+            ),
+            (MotionKind::NotFound, "does not repeat, or was not found", "do not repeat, or were not found"),
         ] {
             match self.count(kind) {
                 0 => {}
-                n => parts.push(format!("{n} {words}")),
+                1 => parts.push(format!("1 {one}")),
+                n => parts.push(format!("{n} {several}")),
             }
         }
         let two = self.cells().filter(|c| c.other.is_some()).count();
@@ -134,7 +164,7 @@ impl<'a> ResonanceAnswer<'a> {
             parts.push(format!("at {two} two states were found"));
         }
         if unstable > 0 {
-            parts.push(format!("{unstable} are unstable"));
+            parts.push(format!("{unstable} {} unstable", if unstable == 1 { "is" } else { "are" }));
         }
         parts.join("; ")
     }
@@ -164,44 +194,48 @@ impl<'a> ResonanceAnswer<'a> {
 
     /// Each state in a line.
     pub fn table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("frequency_hz", "Frequency", Unit::Hertz, 5),
-            Column::number("amplitude_nm", "Amplitude", Unit::NewtonMetre, 5),
-            Column::text("state", "State"),
-            Column::text("stable", "Stable"),
-            Column::number("required_static_friction", "μ needed", Unit::One, 5),
-            Column::number("slip_margin_percent", "Slip margin", Unit::Percent, 4),
-            Column::number("contact_margin_percent", "Contact margin", Unit::Percent, 4),
-            Column::number("normal_min_n", "N smallest", Unit::Newton, 4),
-            Column::number("normal_max_n", "N largest", Unit::Newton, 4),
-            Column::number("slip_um", "Slip a period", Unit::Micrometre, 4),
-            Column::number("open_ms", "Open a period", Unit::Millisecond, 4),
-            Column::number("drift_mrad", "Drift a period", Unit::Milliradian, 4),
-            Column::number("multiplier", "Multiplier", Unit::One, 4),
-            Column::text("other_state", "Other state"),
-        ]);
-        for c in self.cells() {
-            let s = &c.state;
-            let of = |value: Option<f64>| value.map_or(Cell::Empty, Cell::Si);
-            let motion = s.motion.as_ref().ok();
-            table.row(vec![
-                c.frequency_hz.into(),
-                c.amplitude_nm.into(),
-                Cell::Verdict(s.kind == MotionKind::Rolls, s.kind.name().to_owned()),
-                s.is_stable().map_or(Cell::Empty, |stable| if stable { "yes" } else { "NO" }.into()),
-                of(s.required_friction),
-                of(s.required_friction.map(|_| s.slip_margin)),
-                of(s.contact_margin),
-                of(motion.map(|o| o.run.peaks.normal_min_n)),
-                of(motion.map(|o| o.run.peaks.normal_max_n)),
-                of(motion.map(|o| o.run.inner.distance_m)),
-                of(motion.map(|o| o.run.open_s)),
-                of(motion.map(|o| o.drift_rad()[0] - o.drift_rad()[1])),
-                of(motion.map(|o| o.largest_multiplier())),
-                c.other.as_ref().map_or(Cell::Empty, |other| other.kind.name().into()),
-            ]);
-        }
-        table
+        let table = Rows::of(self.cells().map(|c| (c, &c.state, c.state.motion.as_ref().ok())))
+            .number("frequency_hz", "Frequency", Unit::Hertz, 5, |(c, _, _)| c.frequency_hz)
+            .number("amplitude_nm", "Amplitude", Unit::NewtonMetre, 5, |(c, _, _)| c.amplitude_nm)
+            .text("state", "State", |(_, s, _)| {
+                Cell::Verdict(s.kind == MotionKind::Rolls, s.kind.name().to_owned())
+            })
+            .text("stable", "Stable", |(_, s, _)| {
+                s.is_stable().map_or(Cell::Empty, |stable| if stable { "yes" } else { "NO" }.into())
+            })
+            .number("required_static_friction", "μ needed", Unit::One, 5, |(_, s, _)| s.required_friction)
+            .number("slip_margin_percent", "Slip margin", Unit::Percent, 4, |(_, s, _)| {
+                s.required_friction.map(|_| s.slip_margin)
+            })
+            .number("contact_margin_percent", "Contact margin", Unit::Percent, 4, |(_, s, _)| {
+                s.contact_margin
+            })
+            .number("normal_min_n", "N smallest", Unit::Newton, 4, |(_, _, motion)| {
+                motion.map(|o| o.run.peaks.normal_min_n)
+            })
+            .number("normal_max_n", "N largest", Unit::Newton, 4, |(_, _, motion)| {
+                motion.map(|o| o.run.peaks.normal_max_n)
+            })
+            .number("slip_um", "Slip a period", Unit::Micrometre, 4, |(_, _, motion)| {
+                motion.map(|o| o.run.inner.distance_m)
+            })
+            .number("open_ms", "Open a period", Unit::Millisecond, 4, |(_, _, motion)| {
+                motion.map(|o| o.run.open_s)
+            })
+            // What rolls comes back: what is left of it is rounding.
+            .number("drift_mrad", "Drift a period", Unit::Milliradian, 4, |(_, s, motion)| {
+                motion.map(|o| {
+                    if s.kind == MotionKind::Rolls { 0.0 } else { o.drift_rad()[0] - o.drift_rad()[1] }
+                })
+            })
+            .number("multiplier", "Multiplier", Unit::One, 4, |(_, _, motion)| {
+                motion.map(|o| o.largest_multiplier())
+            })
+            .text("other_state", "Other state", |(c, _, _)| {
+                c.other.as_ref().map_or(Cell::Empty, |other| other.kind.name().into())
+            })
+            .table();
+        Table { lead: 2, ..table }
     }
 
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
@@ -214,7 +248,7 @@ impl<'a> ResonanceAnswer<'a> {
             state
         });
         let body = json!({
-            "scenario": self.scenario.name, "verdict": self.verdict(), "static_friction": self.friction,
+            "scenario": self.scenario.name, "amplitudes_left": self.amplitudes_left(), "verdict": self.verdict(), "static_friction": self.friction,
             "rolls": self.rolls(), "states": states.collect::<Vec<_>>(),
         });
         let mut list = left_out(&self.design.clutch);
@@ -264,7 +298,12 @@ impl<'a> ResonanceAnswer<'a> {
 
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
-        let tone = if self.rolls() { Tone::Plain } else { Tone::Bad };
+        // A map is to show where it slips: that it does somewhere is no verdict.
+        let tone = match (self.cells().count(), self.rolls()) {
+            (_, true) => Tone::Plain,
+            (1, false) => Tone::Bad,
+            _ => Tone::Soft,
+        };
         let mut page = opened("Resonance", self.design, &provenance.command, |page| {
             page.verdict_in(tone, &format!("{}: {}", self.scenario.name, self.verdict()));
         });
@@ -273,8 +312,8 @@ impl<'a> ResonanceAnswer<'a> {
         if wide && self.rows.len() > 1 {
             page.heading("Map");
             page.paragraph(
-                "Left: static friction that rolling needs, the deeper green the larger the slip margin, red where there is less; \
-                 grey: rolling would open the contact. Right: what the clutch does with the friction that it has. The line is the \
+                "First map: static friction that rolling needs, the deeper green the larger the slip margin, red where there is less; \
+                 grey: rolling would open the contact; crossed: no rolling motion that repeats was found. Second map: what the clutch does with the friction that it has. The line is the \
                  border of what rolls.",
             );
             page.figures(&[(self.needed().to_figure(), ""), (self.kinds().to_figure(), "")]);
@@ -337,6 +376,7 @@ impl<'a> ResonanceAnswer<'a> {
             (share * f64::from(SHADES)).clamp(0.0, f64::from(SHADES - 1)) as u8
         };
         let tile = |c: &ResonanceCell| match (c.state.required_friction, c.state.slip_margin) {
+            (None, _) if c.state.rolling.is_err() => (Shade::Missing, None),
             (None, _) => (Shade::Void, Some(false)),
             (Some(_), m) if m >= 0.0 => (Shade::Held(shade(m, held[0], held[1])), Some(true)),
             (Some(_), m) => (Shade::Broken(shade(m, broken[1], broken[0])), Some(false)),
@@ -354,6 +394,9 @@ impl<'a> ResonanceAnswer<'a> {
         }
         if tiles.iter().any(|(shade, _)| *shade == Shade::Void) {
             legend.push((Shade::Void, "would open".to_owned()));
+        }
+        if tiles.iter().any(|(shade, _)| *shade == Shade::Missing) {
+            legend.push((Shade::Missing, "not found".to_owned()));
         }
         HeatMap { tiles, legend, ..self.plane("Static friction needed to roll") }
     }

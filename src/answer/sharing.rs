@@ -7,7 +7,7 @@ use crate::clutch::Standing;
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
 use crate::report::plot::Curve;
-use crate::report::{Cell, Column, Page, Plot, Screen, Table, Unit, significant};
+use crate::report::{Cell, Column, Page, Plot, Rows, Screen, Table, Unit, significant};
 use crate::sharing::{Bears, Loss, NotShared, Shared, Turn};
 use serde_json::{Value, json};
 use std::fmt;
@@ -264,10 +264,10 @@ impl<'a> SharingAnswer<'a> {
         let turned = match &self.turned {
             Ok(turned) => turned,
             Err(why) => {
-                let until = self.end.map_or(String::new(), |(nm, _)| {
+                let until = self.end.filter(|(nm, _)| *nm > 0.0).map_or(String::new(), |(nm, _)| {
                     format!("; {} is carried", Unit::NewtonMetre.show(nm, 4))
                 });
-                return format!("NOT HELD: {torque} is not carried, {}{until}", why.words());
+                return format!("NOT HELD: {torque} is not carried: {}{until}", why.words());
             }
         };
         let word = if self.held() { "HELD" } else { "NOT HELD" };
@@ -293,9 +293,10 @@ impl<'a> SharingAnswer<'a> {
             );
         } else if let Some(count) = self.may_be_lost().filter(|_| self.held()) {
             said += &match count {
-                0 => "; none may fail".to_owned(),
-                1 => "; the most pressed one may fail".to_owned(),
-                _ => format!("; the {count} most pressed may fail, one after another"),
+                0 => "; if the most pressed one failed, the others would be pressed beyond that".to_owned(),
+                1 => "; if the most pressed one failed, the others would still hold, after a second one not"
+                    .to_owned(),
+                _ => format!("; {count} may fail, each time the most pressed one, and the others still hold"),
             };
         }
         said
@@ -353,32 +354,28 @@ impl<'a> SharingAnswer<'a> {
 
     /// Every place of a turn.
     fn places(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("widest_gap_deg", "Widest gap at", Unit::Degree, 4),
-            Column::number("windup_deg", "Windup", Unit::Degree, 4),
-            Column::number("carrying", "Carry", Unit::One, 3),
-            Column::number("largest_share", "Largest share", Unit::One, 4),
-            Column::number("most_pressed", "Sprag", Unit::One, 3),
-            Column::number("hertz_mpa", "p₀", Unit::Megapascal, 4),
-            Column::number("required_friction", "Needs μ", Unit::One, 3),
-            Column::number("radial_force_n", "Bearings hold", Unit::Newton, 3),
-            Column::number("shift_um", "Shift", Unit::Micrometre, 3),
-        ]);
-        for (s, gap) in self.turned.as_deref().unwrap_or_default().iter().zip(&self.gaps_rad) {
-            let (most, pa) = s.worst(Bears::hertz_pa);
-            table.row(vec![
-                (*gap).into(),
-                s.windup_rad.into(),
-                s.carrying().into(),
-                largest(&s.shares()).into(),
-                (most + 1).into(),
-                pa.into(),
-                s.worst(Bears::required_friction).1.into(),
-                s.radial_n[0].hypot(s.radial_n[1]).into(),
-                s.shift_m[0].hypot(s.shift_m[1]).into(),
-            ]);
-        }
-        table
+        Rows::of(
+            self.turned
+                .as_deref()
+                .unwrap_or_default()
+                .iter()
+                .zip(&self.gaps_rad)
+                .map(|(s, gap)| (s, gap, s.worst(Bears::hertz_pa))),
+        )
+        .number("widest_gap_deg", "Widest gap at", Unit::Degree, 4, |(_, gap, _)| **gap)
+        .number("windup_deg", "Windup", Unit::Degree, 4, |(s, _, _)| s.windup_rad)
+        .number("carrying", "Carry", Unit::One, 3, |(s, _, _)| s.carrying())
+        .number("largest_share", "Largest share", Unit::One, 4, |(s, _, _)| largest(&s.shares()))
+        .number("most_pressed", "Sprag", Unit::One, 3, |(_, _, (most, _))| most + 1)
+        .number("hertz_mpa", "p₀", Unit::Megapascal, 4, |(_, _, (_, pa))| *pa)
+        .number("required_friction", "Needs μ", Unit::One, 3, |(s, _, _)| {
+            s.worst(Bears::required_friction).1
+        })
+        .number("radial_force_n", "Bearings hold", Unit::Newton, 3, |(s, _, _)| {
+            s.radial_n[0].hypot(s.radial_n[1])
+        })
+        .number("shift_um", "Shift", Unit::Micrometre, 3, |(s, _, _)| s.shift_m[0].hypot(s.shift_m[1]))
+        .table()
     }
 
     /// As the torque rises, at the worst place.
@@ -477,14 +474,28 @@ impl<'a> SharingAnswer<'a> {
             Standing::Sprung => "each sprag's spring has turned it until it touches both races",
             Standing::Caged => "a cage holds all sprags at one angle, larger ones take load earlier",
         };
-        let mut all = vec![format!(
-            "Drawn from seed {}: sizes within ± {}, gaps up to {}, azimuths within ± {}, friction within ± {}; at the start {start}",
-            sharing.seed,
-            Unit::Micrometre.show(sharing.size_within_m, 3),
-            Unit::Micrometre.show(sharing.gap_up_to_m, 3),
-            Unit::Degree.show(sharing.azimuth_within_rad, 3),
-            significant(sharing.friction_within, 3)
-        )];
+        let mut drawn = Vec::new();
+        let mut bound = |what: &str, value: f64, words: String| {
+            if value > 0.0 {
+                drawn.push(format!("{what} {words}"));
+            }
+        };
+        bound("size ±", sharing.size_within_m, Unit::Micrometre.show(sharing.size_within_m, 3));
+        bound("gap up to", sharing.gap_up_to_m, Unit::Micrometre.show(sharing.gap_up_to_m, 3));
+        bound("azimuth ±", sharing.azimuth_within_rad, Unit::Degree.show(sharing.azimuth_within_rad, 3));
+        bound("friction ±", sharing.friction_within, significant(sharing.friction_within, 3));
+        let mut all = vec![match drawn.is_empty() {
+            true => "Nothing is drawn by chance".to_owned(),
+            false => format!("Drawn by chance, from seed {}, within: {}", sharing.seed, drawn.join(", ")),
+        }];
+        let given: Vec<String> = sharing.given.iter().map(|g| (g.index + 1).to_string()).collect();
+        if !given.is_empty() {
+            all.push(format!(
+                "As the file gives them, not drawn: what [sharing] says of sprags {}",
+                given.join(", ")
+            ));
+        }
+        all.push(format!("When torque begins {start}"));
         let idle: Vec<String> = self
             .sprags
             .iter()

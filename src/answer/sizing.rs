@@ -64,7 +64,8 @@ impl<'a> Sizing<'a> {
             page.verdict(true, &verdict(sized)).list(figures(made));
         });
         page.heading("Alternatives").paragraph(
-            "Every race space tried, each as short as its limits allow; the smallest ring is taken. All at one scale.",
+            "Every race space (gap between the tracks) tried, each as narrow as its limits allow; of those that do it the one of the least \
+             volume, from bore to outside, is taken. All at one scale.",
         );
         alternatives(&mut page, sized);
         page.table("", &self.csv_table());

@@ -1,7 +1,7 @@
 //! The steels that a design may name, as a table, as JSON and in words.
 
 use crate::material::{STEELS, Steel};
-use crate::report::{Column, Screen, Table, Unit};
+use crate::report::{Rows, Screen, Table, Unit};
 use serde_json::{Value, json};
 
 /// Thermal expansion, um/(m K). Divided, since 1e6 times 11.4e-6 is 11.399999999999999.
@@ -11,31 +11,17 @@ fn expansion_um_per_m_k(steel: &Steel) -> f64 {
 
 /// The steels with their constants and allowed stresses.
 pub fn table() -> Table {
-    let mut table = Table::new(vec![
-        Column::text("name", "Name"),
-        Column::text("also", "Also"),
-        Column::number("youngs_modulus_gpa", "E", Unit::Gigapascal, 4),
-        Column::number("poisson_ratio", "Poisson", Unit::One, 3),
-        Column::number("density_kg_m3", "Density, kg/m³", Unit::One, 4),
-        Column::number("expansion_um_per_m_k", "Expansion, µm/(m K)", Unit::One, 3),
-        Column::number("race_stress_mpa", "Race stress", Unit::Megapascal, 4),
-        Column::number("hertz_nominal_mpa", "Hertz, nominal", Unit::Megapascal, 4),
-        Column::number("hertz_peak_mpa", "Hertz, peak", Unit::Megapascal, 4),
-    ]);
-    for s in &STEELS {
-        table.row(vec![
-            s.name.into(),
-            s.also.join(", ").into(),
-            s.material.youngs_modulus_pa.into(),
-            s.material.poisson_ratio.into(),
-            s.material.density_kg_m3.into(),
-            expansion_um_per_m_k(s).into(),
-            s.race_stress_pa.into(),
-            s.hertz_nominal_pa.into(),
-            s.hertz_peak_pa.into(),
-        ]);
-    }
-    table
+    Rows::of(&STEELS)
+        .text("name", "Name", |s| s.name)
+        .text("also", "Also", |s| s.also.join(", "))
+        .number("youngs_modulus_gpa", "E", Unit::Gigapascal, 4, |s| s.material.youngs_modulus_pa)
+        .number("poisson_ratio", "Poisson", Unit::One, 3, |s| s.material.poisson_ratio)
+        .number("density_kg_m3", "Density, kg/m³", Unit::One, 4, |s| s.material.density_kg_m3)
+        .number("expansion_um_per_m_k", "Expansion, µm/(m K)", Unit::One, 3, |s| expansion_um_per_m_k(s))
+        .number("race_stress_mpa", "Race stress", Unit::Megapascal, 4, |s| s.race_stress_pa)
+        .number("hertz_nominal_mpa", "Hertz, nominal", Unit::Megapascal, 4, |s| s.hertz_nominal_pa)
+        .number("hertz_peak_mpa", "Hertz, peak", Unit::Megapascal, 4, |s| s.hertz_peak_pa)
+        .table()
 }
 
 /// The same as JSON, with the source of each.

@@ -1,14 +1,14 @@
 //! `accuracy`: error against work of every method and fidelity, and the stability map.
 
+use super::context::timed;
 use super::exit::{Exit, Failure};
-use super::{Context, parts, positive};
+use super::{Context, Run, positive};
 use crate::accuracy::PrecisionSettings;
 use crate::answer::accuracy::{AccuracyStudy, is_torsional, usual_scenarios};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use clap::Args;
 use std::path::PathBuf;
-use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -45,25 +45,21 @@ pub struct AccuracyArgs {
     pub min_step: f64,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &AccuracyArgs, context: &Context) -> Result<Exit, Failure> {
-    context.outputs.check(&[&args.file], &[])?;
-    if !(1e-8..=1e-4).contains(&args.min_step) {
-        return Err(Failure::malformed(format!("--min-step {:e}: allowed: 1e-8 to 1e-4", args.min_step)));
+impl Run for AccuracyArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        context.outputs.check(&[&self.file], &[])?;
+        if !(1e-8..=1e-4).contains(&self.min_step) {
+            return Err(Failure::malformed(format!("--min-step {:e}: allowed: 1e-8 to 1e-4", self.min_step)));
+        }
+        let design = context.design(&self.file)?;
+        let scenarios = chosen(self, &design)?;
+        let (study, run_time_s) = timed(|| study(self, context, &design, &scenarios));
+        context.outputs.write_csv(&study.csv_table());
+        context.outputs.write_report(|| study.page(&design, &context.provenance(run_time_s)));
+        context.answer(&study.text(context.screen))?;
+        context.print(&study.envelope(&design, run_time_s))?;
+        Ok(if study.interrupted { Exit::Interrupted } else { Exit::Held })
     }
-    let design = parts::read_design(&args.file, context)?;
-    let scenarios = chosen(args, &design)?;
-    let start = Instant::now();
-    let study = study(args, context, &design, &scenarios);
-    let run_time_s = start.elapsed().as_secs_f64();
-    context.outputs.write_csv(&study.csv_table());
-    context.outputs.write_report(|| study.page(&design, &context.provenance(run_time_s)));
-    context.answer(&study.text(context.screen))?;
-    context.print(&study.envelope(&design, run_time_s))?;
-    Ok(if study.interrupted { Exit::Interrupted } else { Exit::Held })
 }
 
 fn chosen<'a>(args: &AccuracyArgs, design: &'a Design) -> Result<Vec<&'a Scenario>, Failure> {

@@ -1,12 +1,11 @@
 //! `compare`: several designs side by side.
 
+use super::context::timed;
 use super::exit::{Exit, Failure};
-use super::{Context, parts};
+use super::{Context, Run};
 use crate::answer::comparison::{Comparison, NoComparison, subjects};
-use crate::design::Design;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -29,30 +28,25 @@ pub struct CompareArgs {
     pub files: Vec<PathBuf>,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &CompareArgs, context: &Context) -> Result<Exit, Failure> {
-    let files: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&files, &[])?;
-    let designs: Vec<Design> =
-        args.files.iter().map(|file| parts::read_design(file, context)).collect::<Result<_, _>>()?;
-    let started = Instant::now();
-    let progress = context.progress("margins", "designs", Some(designs.len() as u64));
-    let subjects = subjects(designs, &context.follow, &|| progress.advance(1)).map_err(|why| match why {
-        NoComparison::NoClutch(i, why) => parts::no_clutch(&args.files[i], &why),
-        NoComparison::Stopped => Failure::Interrupted,
-    })?;
-    drop(progress);
-    let run_time_s = started.elapsed().as_secs_f64();
-    let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
-    let compared = Comparison::of(&subjects, &names);
-    context.outputs.write_csv(&compared.csv_table());
-    context.outputs.write_report(|| compared.page(&context.provenance(run_time_s)).unwrap_or_default());
-    context.answer(&compared.text(context.screen))?;
-    if let Some(answer) = compared.envelope(run_time_s) {
-        context.print(&answer)?;
+impl Run for CompareArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        context.reads(&self.files)?;
+        let designs = self.files.iter().map(|file| context.design(file)).collect::<Result<Vec<_>, _>>()?;
+        let progress = context.progress("margins", "designs", Some(designs.len() as u64));
+        let (found, run_time_s) = timed(|| subjects(designs, &context.follow, &|| progress.advance(1)));
+        let subjects = found.map_err(|why| match why {
+            NoComparison::NoClutch(i, why) => Failure::no_clutch(&self.files[i], &why),
+            NoComparison::Stopped => Failure::Interrupted,
+        })?;
+        drop(progress);
+        let names: Vec<String> = self.files.iter().map(|file| file.display().to_string()).collect();
+        let compared = Comparison::of(&subjects, &names);
+        context.outputs.write_csv(&compared.csv_table());
+        context.outputs.write_report(|| compared.page(&context.provenance(run_time_s)).unwrap_or_default());
+        context.answer(&compared.text(context.screen))?;
+        if let Some(answer) = compared.envelope(run_time_s) {
+            context.print(&answer)?;
+        }
+        Ok(Exit::Held)
     }
-    Ok(Exit::Held)
 }

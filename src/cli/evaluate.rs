@@ -2,7 +2,7 @@
 
 use super::exit::{Exit, Failure};
 use super::sweep::PointArgs;
-use super::{Context, evaluate_points, output, parts};
+use super::{Context, Run, Without, evaluate_points, output};
 use crate::answer::search::{describe_problem, evaluate_line};
 use crate::design::Optimize;
 use crate::optimise::ClutchProblem;
@@ -62,50 +62,50 @@ pub struct EvaluateArgs {
     pub columns: Vec<String>,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &EvaluateArgs, context: &Context) -> Result<Exit, Failure> {
-    let of_points = args.vectors.is_some() || args.points.sampling().is_some();
-    if !of_points {
-        refuse_of_points_alone(args, context)?;
-    }
-    let design = parts::read_design(&args.file, context)?;
-    let Some(task) = design.optimize.as_ref() else {
-        return Err(Failure::malformed(format!(
-            "{}: the design has no [optimize] table; add one with objective, scenarios and variables",
-            args.file.display()
-        )));
-    };
-    if of_points {
-        if args.describe {
-            return Err(Failure::malformed(
-                "--describe goes with lines of JSON; a table names its columns itself",
-            ));
+impl Run for EvaluateArgs {
+    const WITHOUT: Without = ("its answer is a JSON object for each line that it reads", &["json", "report"]);
+
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let of_points = self.vectors.is_some() || self.points.sampling().is_some();
+        if !of_points {
+            refuse_of_points_alone(self, context)?;
         }
-        return evaluate_points::run(args, &design, context);
-    }
-    let problem = ClutchProblem::of_task(&design, task, args.full);
-    let problem = if args.at_rest { problem.at_rest() } else { problem };
-    if args.describe {
-        output::print_json(&describe_problem(&design, &problem))?;
-    }
-    // Lines in the order in which they came, each with the place where its answer will appear; as many as keep every thread
-    // at work, no more of the input is read ahead.
-    let (queue, places) = sync_channel(2 * rayon::current_num_threads());
-    let asked = Arc::new((problem, task.clone()));
-    std::thread::spawn(move || read_lines(&asked, &queue));
-    let mut malformed = false;
-    while let Some(place) = next(&places, context)? {
-        let Some(reply) = next(&place, context)? else { break };
-        let (value, is_malformed) = reply?;
-        malformed |= is_malformed;
-        if !output::heard(&format!("{value}\n"))? {
-            return Ok(Exit::Unheard);
+        let design = context.design(&self.file)?;
+        let Some(task) = design.optimize.as_ref() else {
+            return Err(Failure::malformed(format!(
+                "{}: the design has no [optimize] table; add one with objective, scenarios and variables",
+                self.file.display()
+            )));
+        };
+        if of_points {
+            if self.describe {
+                return Err(Failure::malformed(
+                    "--describe goes with lines of JSON; a table names its columns itself",
+                ));
+            }
+            return evaluate_points::run(self, &design, context);
         }
+        let problem = ClutchProblem::of_task(&design, task, self.full);
+        let problem = if self.at_rest { problem.at_rest() } else { problem };
+        if self.describe {
+            output::print_json(&describe_problem(&design, &problem))?;
+        }
+        // Lines in the order in which they came, each with the place where its answer will appear; as many as keep every thread
+        // at work, no more of the input is read ahead.
+        let (queue, places) = sync_channel(2 * rayon::current_num_threads());
+        let asked = Arc::new((problem, task.clone()));
+        std::thread::spawn(move || read_lines(&asked, &queue));
+        let mut malformed = false;
+        while let Some(place) = next(&places, context)? {
+            let Some(reply) = next(&place, context)? else { break };
+            let (value, is_malformed) = reply?;
+            malformed |= is_malformed;
+            if !output::heard(&format!("{value}\n"))? {
+                return Ok(Exit::Unheard);
+            }
+        }
+        Ok(if malformed { Exit::Malformed } else { Exit::Held })
     }
-    Ok(if malformed { Exit::Malformed } else { Exit::Held })
 }
 
 /// Refuse what means something of a table of points alone.

@@ -175,7 +175,7 @@ fn last_of(source: &Source, range: &Range<u64>, design: &Design) -> Result<Optio
 }
 
 fn refused(path: &Path, why: &str) -> Failure {
-    Failure::malformed(format!("{}: {why}", path_text(path)))
+    Failure::of(path, why)
 }
 
 fn opened(path: &Path, design: &Design) -> Result<Vectors<File>, Failure> {

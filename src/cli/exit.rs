@@ -1,7 +1,11 @@
 //! Exit codes, promised to scripts.
 
 use crate::design::{DesignError, shown};
+use crate::margin::NoMargins;
+use crate::wedge::{NoCurve, NoElastic};
 use serde_json::{Value, json};
+use std::fmt::Display;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// How the program ends.
@@ -32,6 +36,13 @@ impl Exit {
             Self::Interrupted => 130,
             Self::Unheard => 141,
         }
+    }
+}
+
+impl Exit {
+    /// Of a verdict.
+    pub fn of(held: bool) -> Self {
+        if held { Self::Held } else { Self::NotHeld }
     }
 }
 
@@ -71,6 +82,33 @@ impl Failure {
         Self::Malformed(miette::Report::msg(shown(message.as_ref())))
     }
 
+    /// As [`Self::malformed`], of a file.
+    pub fn of(file: &Path, why: impl Display) -> Self {
+        Self::malformed(format!("{}: {why}", file.display()))
+    }
+
+    /// The refusal of a clutch that has no curve: file, reason, and the keys that decide it.
+    pub fn no_clutch(file: &Path, why: &NoMargins) -> Self {
+        let keys = match why {
+            NoMargins::Outline(_) => "sprags.flanks, sprags.inner_arcs",
+            NoMargins::Curve(NoCurve::NoElastic(NoElastic::Race(_))) => "races, material",
+            NoMargins::Curve(NoCurve::NoElastic(NoElastic::ThinRace { .. })) => {
+                "races.inner_bore_radius_mm with races.inner_radius_mm, races.outer_outside_radius_mm with races.outer_radius_mm"
+            }
+            NoMargins::Curve(NoCurve::NoElastic(NoElastic::Contact(_))) => {
+                "contact, material, sprags.length_mm"
+            }
+            NoMargins::Curve(NoCurve::NoConvergence) => {
+                "contact, material, sprags.length_mm, sprags.inner_arcs, races"
+            }
+            NoMargins::Profile(_) | NoMargins::Curve(NoCurve::NoFirstContact) => {
+                "sprags.outer_radius_mm, sprags.centre_distance_mm, sprags.inner_arcs, races.inner_radius_mm, \
+                 races.outer_radius_mm"
+            }
+        };
+        Self::NoClutch(format!("{}: {why}; keys that decide it: {keys}", file.display()))
+    }
+
     /// For programs: `message`; of a refused design file also `file` and `problems`.
     pub fn to_json(&self) -> Value {
         let message = match self {
@@ -97,6 +135,12 @@ impl Failure {
     }
 }
 
+impl From<DesignError> for Failure {
+    fn from(refused: DesignError) -> Self {
+        Self::Malformed(miette::Report::new(refused))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -107,5 +151,14 @@ mod tests {
             [Exit::Held, Exit::NotHeld, Exit::Malformed, Exit::Failed, Exit::Interrupted, Exit::Unheard]
                 .map(Exit::code);
         assert_eq!(codes, [0, 1, 2, 3, 130, 141]);
+    }
+
+    #[test]
+    fn a_clutch_without_a_curve_is_told_with_file_and_keys() {
+        let why = NoMargins::Curve(NoCurve::NoConvergence);
+        let text = Failure::no_clutch(Path::new("a.toml"), &why).to_json()["message"].to_string();
+        for word in ["a.toml", "did not converge", "contact, material", "sprags.inner_arcs"] {
+            assert!(text.contains(word), "{text}");
+        }
     }
 }

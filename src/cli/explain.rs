@@ -1,10 +1,10 @@
 //! `explain`: what a code, a key or a name means.
 
 use super::exit::{Exit, Failure};
-use super::{Context, output};
+use super::{Context, Run, Without};
 use crate::answer::explanation::{Explanation, all, explain, groups, unknown};
 use clap::Args;
-use serde_json::json;
+use serde_json::{Map, json};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -24,40 +24,47 @@ pub struct ExplainArgs {
     pub name: Option<String>,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure::Malformed`] where nothing has that name.
-pub fn run(args: &ExplainArgs, context: &Context) -> Result<Exit, Failure> {
-    let Some(name) = &args.name else {
-        context.answer(&all())?;
-        if context.json {
-            let names: Vec<_> =
-                groups().into_iter().map(|(kind, names)| json!({ "kind": kind, "names": names })).collect();
-            output::print_json(&json!({ "tool": output::TOOL, "version": output::VERSION, "names": names }))?;
+/// Tables of the file, and the command that shows what they come to, where it has another name.
+const SHOWN_BY: [(&str, &str); 6] = [
+    ("lubrication", "overrun FILE"),
+    ("scenarios", "simulate FILE --scenario NAME"),
+    ("drivetrain", "simulate FILE --scenario NAME"),
+    ("limits", "check FILE"),
+    ("thermal", "check FILE"),
+    ("tolerances", "optimize FILE -o NEW.toml"),
+];
+
+impl Run for ExplainArgs {
+    const WITHOUT: Without =
+        ("its answer is a few words", &["csv", "report", "set", "force", "threads", "quiet"]);
+
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let Some(name) = &self.name else {
+            context.answer(&all())?;
+            let group = |(kind, names)| json!({ "kind": kind, "names": names });
+            context.object(|| json!({ "names": groups().into_iter().map(group).collect::<Vec<_>>() }))?;
+            return Ok(Exit::Held);
+        };
+        let command = super::command().find_subcommand(name).and_then(|c| c.get_about()).map(|about| {
+            ("command", format!("sprag-design {name}: {about}; see sprag-design {name} --help"))
+        });
+        let mut found = match (explain(name), &command) {
+            (Some(found), _) => found,
+            (None, Some(_)) => Explanation { kind: "a command", lines: Vec::new() },
+            (None, None) => return Err(Failure::malformed(unknown(name))),
+        };
+        if let (None, Some((_, example))) = (&command, SHOWN_BY.iter().find(|(table, _)| table == name)) {
+            found.lines.push(("shown by", format!("sprag-design {example}")));
         }
-        return Ok(Exit::Held);
-    };
-    let command = super::command()
-        .find_subcommand(name)
-        .and_then(|c| c.get_about())
-        .map(|about| ("command", format!("sprag-design {name}: {about}; see sprag-design {name} --help")));
-    let mut found = match (explain(name), &command) {
-        (Some(found), _) => found,
-        (None, Some(_)) => Explanation { kind: "a command", lines: Vec::new() },
-        (None, None) => return Err(Failure::malformed(unknown(name))),
-    };
-    found.lines.extend(command);
-    let mut text = format!("{name}: {}\n", found.kind);
-    for (heading, line) in &found.lines {
-        text.push_str(&format!("  {heading:<11} {line}\n"));
+        found.lines.extend(command);
+        let mut text = format!("{name}: {}\n", found.kind);
+        for (heading, line) in &found.lines {
+            text.push_str(&format!("  {heading:<11} {line}\n"));
+        }
+        context.answer(&text)?;
+        let lines = found.lines.iter().map(|(heading, line)| ((*heading).to_owned(), json!(line)));
+        context
+            .object(|| json!({ "name": name, "kind": found.kind, "says": lines.collect::<Map<_, _>>() }))?;
+        Ok(Exit::Held)
     }
-    context.answer(&text)?;
-    if context.json {
-        let lines: serde_json::Map<_, _> =
-            found.lines.iter().map(|(heading, line)| ((*heading).to_owned(), json!(line))).collect();
-        let object = json!({ "tool": output::TOOL, "version": output::VERSION, "name": name, "kind": found.kind, "says": lines });
-        output::print_json(&object)?;
-    }
-    Ok(Exit::Held)
 }

@@ -7,7 +7,7 @@ mod result;
 
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
-use super::{Context, parts, positive};
+use super::{Context, Run, positive};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -176,22 +176,23 @@ pub struct ExportArgs {
     pub torques: Vec<f64>,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
-    refuse_meaningless(args)?;
-    let inputs: Vec<_> =
-        std::iter::once(&args.file).chain(&args.read).chain(&args.library).map(PathBuf::as_path).collect();
-    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), args.format.kind())).collect();
-    context.outputs.check(&inputs, &others)?;
-    let design = parts::read_design(&args.file, context)?;
-    match (&args.read, args.format) {
-        (Some(dat), _) => result::run(&design, dat, &args.torques, context),
-        (None, Format::Calculix) => deck::run(&design, args, context),
-        (None, Format::Fmu) => fmu::run(&design, args, context),
-        (None, _) => geometry::run(&design, args, context),
+impl Run for ExportArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        refuse_meaningless(self)?;
+        let inputs: Vec<_> = std::iter::once(&self.file)
+            .chain(&self.read)
+            .chain(&self.library)
+            .map(PathBuf::as_path)
+            .collect();
+        let others: Vec<_> = self.output.iter().map(|path| (path.as_path(), self.format.kind())).collect();
+        context.outputs.check(&inputs, &others)?;
+        let design = context.design(&self.file)?;
+        match (&self.read, self.format) {
+            (Some(dat), _) => result::run(&design, dat, &self.torques, context),
+            (None, Format::Calculix) => deck::run(&design, self, context),
+            (None, Format::Fmu) => fmu::run(&design, self, context),
+            (None, _) => geometry::run(&design, self, context),
+        }
     }
 }
 

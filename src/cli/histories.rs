@@ -19,7 +19,7 @@ impl Histories {
         let mut out = Self::default();
         for from in &design.histories {
             let to = folder_of(new).join(from.strip_prefix(&design.folder).unwrap_or(from));
-            let unread = |why| Failure::malformed(format!("{}: {why}", from.display()));
+            let unread = |why| Failure::of(from, why);
             let text = read_text(from, MOST_TABLE).map_err(unread)?;
             if !to.exists() {
                 out.0.push((to, text));

@@ -1,17 +1,16 @@
 //! `identify`: unknown parameters of a design from measured or published numbers.
 
+use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::origin::FileKind;
-use super::output::{TOOL, VERSION};
-use super::{Context, parts};
+use super::{Context, Run};
 use crate::answer::identification::{Identification, StoppedIdentification};
 use crate::design::{MOST_TABLE, read_text};
 use crate::identify::{FitSettings, NoFit, Unknown, identify, observations};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
-use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -76,63 +75,61 @@ fn unknown(text: &str) -> Result<Unknown, String> {
     Ok(Unknown { name: (*name).to_owned(), min, max })
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &IdentifyArgs, context: &Context) -> Result<Exit, Failure> {
-    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
-    context.outputs.check(&[&args.file, &args.data], &others)?;
-    let design = parts::read_design(&args.file, context)?;
-    let named = |why: String| Failure::malformed(format!("{}: {why}", args.data.display()));
-    let histories =
-        args.output.as_deref().map(|new| Histories::beside(&design, new)).transpose()?.unwrap_or_default();
-    let text = read_text(&args.data, MOST_TABLE).map_err(|e| named(e.to_string()))?;
-    let data = observations(&text).map_err(|fault| named(fault.to_string()))?;
-    let settings = FitSettings {
-        starts: usize::from(args.starts),
-        seed: args.seed,
-        evaluations: args.evaluations as usize,
-    };
-    context.message(&format!(
-        "{} observations, {} unknowns, {} starts, seed {}",
-        data.len(),
-        args.unknown.len(),
-        settings.starts,
-        settings.seed
-    ));
-    let started = Instant::now();
-    let found = identify(&design, &data, &args.unknown, &settings, &context.follow);
-    let run_time_s = started.elapsed().as_secs_f64();
-    let found = match found {
-        Ok(found) => found,
-        Err(NoFit::Stopped(None)) => return Err(Failure::Interrupted),
-        Err(NoFit::Stopped(Some(so_far))) => {
-            let answer = StoppedIdentification { design: &design, unknowns: &args.unknown, so_far: &so_far };
-            let written = written(args, &histories, &answer.file(&context.command_line), context);
-            context.answer(&answer.text(written.as_deref()))?;
-            context.print(&answer.envelope(run_time_s, written.as_deref()))?;
-            return Ok(Exit::Interrupted);
-        }
-        Err(why @ NoFit::Nowhere { .. }) => {
-            context.answer(&format!("{why}\n"))?;
-            if context.json {
-                super::output::print_json(
-                    &json!({ "tool": TOOL, "version": VERSION, "error": { "message": why.to_string() } }),
-                )?;
+impl Run for IdentifyArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let others: Vec<_> = self.output.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
+        context.outputs.check(&[&self.file, &self.data], &others)?;
+        let design = context.design(&self.file)?;
+        let named = |why: String| Failure::of(&self.data, why);
+        let histories = self
+            .output
+            .as_deref()
+            .map(|new| Histories::beside(&design, new))
+            .transpose()?
+            .unwrap_or_default();
+        let text = read_text(&self.data, MOST_TABLE).map_err(|e| named(e.to_string()))?;
+        let data = observations(&text).map_err(|fault| named(fault.to_string()))?;
+        let settings = FitSettings {
+            starts: usize::from(self.starts),
+            seed: self.seed,
+            evaluations: self.evaluations as usize,
+        };
+        context.message(&format!(
+            "{} observations, {} unknowns, {} starts, seed {}",
+            data.len(),
+            self.unknown.len(),
+            settings.starts,
+            settings.seed
+        ));
+        let (found, run_time_s) =
+            timed(|| identify(&design, &data, &self.unknown, &settings, &context.follow));
+        let found = match found {
+            Ok(found) => found,
+            Err(NoFit::Stopped(None)) => return Err(Failure::Interrupted),
+            Err(NoFit::Stopped(Some(so_far))) => {
+                let answer =
+                    StoppedIdentification { design: &design, unknowns: &self.unknown, so_far: &so_far };
+                let written = written(self, &histories, &answer.file(&context.command_line), context);
+                context.answer(&answer.text(written.as_deref()))?;
+                context.print(&answer.envelope(run_time_s, written.as_deref()))?;
+                return Ok(Exit::Interrupted);
             }
-            return Ok(Exit::NotHeld);
-        }
-        Err(why) => return Err(Failure::malformed(format!("{}: {why}", args.file.display()))),
-    };
-    let answer = Identification { design: &design, found: &found };
-    let written = written(args, &histories, &answer.file(&context.command_line), context);
-    let written = written.as_deref();
-    context.outputs.write_csv(&answer.csv_table());
-    context.outputs.write_report(|| answer.page(&context.provenance(run_time_s), written));
-    context.answer(&answer.text(context.screen))?;
-    context.print(&answer.envelope(run_time_s, written))?;
-    Ok(if answer.determined() { Exit::Held } else { Exit::NotHeld })
+            Err(why @ NoFit::Nowhere { .. }) => {
+                context.answer(&format!("{why}\n"))?;
+                context.object(|| json!({ "error": { "message": why.to_string() } }))?;
+                return Ok(Exit::NotHeld);
+            }
+            Err(why) => return Err(Failure::of(&self.file, why)),
+        };
+        let answer = Identification { design: &design, found: &found };
+        let written = written(self, &histories, &answer.file(&context.command_line), context);
+        let written = written.as_deref();
+        context.outputs.write_csv(&answer.csv_table());
+        context.outputs.write_report(|| answer.page(&context.provenance(run_time_s), written));
+        context.answer(&answer.text(context.screen))?;
+        context.print(&answer.envelope(run_time_s, written))?;
+        Ok(if answer.determined() { Exit::Held } else { Exit::NotHeld })
+    }
 }
 
 /// Write the design file that `-o` asks for; its name, if it was written.

@@ -2,7 +2,7 @@
 
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
-use super::{Context, positive};
+use super::{Context, Run, positive};
 use crate::answer::imported::Imported;
 use crate::design::{Design, MOST_TABLE, read_text, with_keys, with_sprag};
 use crate::import::{Wanted, read_dxf, read_points, sprag};
@@ -63,80 +63,78 @@ pub struct ImportArgs {
     pub swap: bool,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &ImportArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> =
-        std::iter::once(&args.file).chain(&args.template).map(PathBuf::as_path).collect();
-    let others: Vec<_> = args.output.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
-    context.outputs.check(&inputs, &others)?;
-    context.outputs.refuse_foreign()?;
-    if context.outputs.report.is_some() {
-        return Err(Failure::malformed(
-            "--report has no meaning with import: write the design with -o, then check NEW.toml --report",
-        ));
-    }
-    let refused = |e| Failure::Malformed(miette::Report::new(e));
-    let template = match &args.template {
-        Some(path) => Design::read(path),
-        None => Design::parse(TEMPLATE, TEMPLATE_NAME),
-    }
-    .map_err(refused)?;
-    let tracks: Vec<(&str, f64)> =
-        [("races.inner_radius_mm", args.inner_radius), ("races.outer_radius_mm", args.outer_radius)]
-            .into_iter()
-            .filter_map(|(key, value)| Some((key, value?)))
-            .collect();
-    let started = Instant::now();
-    let named = |why: String| Failure::malformed(format!("{}: {why}", args.file.display()));
-    let text = read_text(&args.file, MOST_TABLE).map_err(|e| named(e.to_string()))?;
-    let is_dxf = args.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
-    let drawn = if is_dxf { read_dxf(&text, args.layer.as_deref()) } else { read_points(&text) };
-    let drawn = drawn.map_err(|e| named(e.to_string()))?;
-    let made = template.as_made().map_err(refused)?.races;
-    let track = |given: Option<f64>, own_m: f64| given.map_or(own_m, |mm| 1e-3 * mm);
-    let wanted = Wanted {
-        tracks_m: [
-            track(args.inner_radius, made.inner_radius_m),
-            track(args.outer_radius, made.outer_radius_m),
-        ],
-        arcs: args.arcs.map(usize::from),
-        deviation_m: args.deviation_um.map(|um| 1e-6 * um),
-        swap: args.swap,
-    };
-    let found = sprag(&drawn, &wanted).map_err(|e| named(e.to_string()))?;
-    let source = with_sprag(
-        &template.source,
-        found.outer_radius_m,
-        found.centre_distance_m,
-        &found.inner_arcs,
-        &found.flanks,
-    )
-    .and_then(|source| with_keys(&source, &tracks))
-    .map_err(|e| Failure::malformed(format!("the template: {e}")))?;
-    let on = args.template.as_ref().map_or(TEMPLATE_NAME.to_owned(), |path| path.display().to_string());
-    let answer = Imported {
-        drawn: &drawn,
-        found: &found,
-        template: &on,
-        no_template: args.template.is_none(),
-        deviation_m: wanted.deviation_m,
-    };
-    let file = args.file.display().to_string();
-    let source = format!("{}{source}", answer.head(&file, &context.command_line));
-    let folder = args.template.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
-    let design = Design::parse_in(folder, &source, "the imported design").map_err(refused)?;
-    let run_time_s = started.elapsed().as_secs_f64();
+impl Run for ImportArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let inputs: Vec<&Path> =
+            std::iter::once(&self.file).chain(&self.template).map(PathBuf::as_path).collect();
+        let others: Vec<_> = self.output.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
+        context.outputs.check(&inputs, &others)?;
+        context.outputs.refuse_foreign()?;
+        if context.outputs.report.is_some() {
+            return Err(Failure::malformed(
+                "--report has no meaning with import: write the design with -o, then check NEW.toml --report",
+            ));
+        }
+        let refused = |e| Failure::Malformed(miette::Report::new(e));
+        let template = match &self.template {
+            Some(path) => Design::read(path),
+            None => Design::parse(TEMPLATE, TEMPLATE_NAME),
+        }
+        .map_err(refused)?;
+        let tracks: Vec<(&str, f64)> =
+            [("races.inner_radius_mm", self.inner_radius), ("races.outer_radius_mm", self.outer_radius)]
+                .into_iter()
+                .filter_map(|(key, value)| Some((key, value?)))
+                .collect();
+        let started = Instant::now();
+        let named = |why: String| Failure::of(&self.file, why);
+        let text = read_text(&self.file, MOST_TABLE).map_err(|e| named(e.to_string()))?;
+        let is_dxf = self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
+        let drawn = if is_dxf { read_dxf(&text, self.layer.as_deref()) } else { read_points(&text) };
+        let drawn = drawn.map_err(|e| named(e.to_string()))?;
+        let made = template.as_made().map_err(refused)?.races;
+        let track = |given: Option<f64>, own_m: f64| given.map_or(own_m, |mm| 1e-3 * mm);
+        let wanted = Wanted {
+            tracks_m: [
+                track(self.inner_radius, made.inner_radius_m),
+                track(self.outer_radius, made.outer_radius_m),
+            ],
+            arcs: self.arcs.map(usize::from),
+            deviation_m: self.deviation_um.map(|um| 1e-6 * um),
+            swap: self.swap,
+        };
+        let found = sprag(&drawn, &wanted).map_err(|e| named(e.to_string()))?;
+        let source = with_sprag(
+            &template.source,
+            found.outer_radius_m,
+            found.centre_distance_m,
+            &found.inner_arcs,
+            &found.flanks,
+        )
+        .and_then(|source| with_keys(&source, &tracks))
+        .map_err(|e| Failure::malformed(format!("the template: {e}")))?;
+        let on = self.template.as_ref().map_or(TEMPLATE_NAME.to_owned(), |path| path.display().to_string());
+        let answer = Imported {
+            drawn: &drawn,
+            found: &found,
+            template: &on,
+            no_template: self.template.is_none(),
+            deviation_m: wanted.deviation_m,
+        };
+        let file = self.file.display().to_string();
+        let source = format!("{}{source}", answer.head(&file, &context.command_line));
+        let folder = self.template.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
+        let design = Design::parse_in(folder, &source, "the imported design").map_err(refused)?;
+        let run_time_s = started.elapsed().as_secs_f64();
 
-    let written = args
-        .output
-        .as_ref()
-        .filter(|path| context.outputs.write(path, FileKind::Design, source.as_bytes()))
-        .map(|path| path.display().to_string());
-    context.outputs.write_csv(&answer.csv_table());
-    context.print(&answer.envelope(&design, run_time_s, written.as_deref()))?;
-    context.answer(&answer.text(written.as_deref(), context.screen))?;
-    Ok(Exit::Held)
+        let written = self
+            .output
+            .as_ref()
+            .filter(|path| context.outputs.write(path, FileKind::Design, source.as_bytes()))
+            .map(|path| path.display().to_string());
+        context.outputs.write_csv(&answer.csv_table());
+        context.print(&answer.envelope(&design, run_time_s, written.as_deref()))?;
+        context.answer(&answer.text(written.as_deref(), context.screen))?;
+        Ok(Exit::Held)
+    }
 }

@@ -296,7 +296,7 @@ fn locked(path: &Path) -> Result<(File, Vec<u8>), Failure> {
     let options = OpenOptions::new().read(true).append(true).create(true).to_owned();
     if std::fs::metadata(path).is_ok_and(|there| !there.is_file()) {
         let why = "no regular file; name another one with --journal";
-        return Err(Failure::malformed(format!("{}: {why}", path.display())));
+        return Err(Failure::of(path, why));
     }
     let mut file = options.open(path).map_err(|e| named(path, &e))?;
     // A search that is just ending lets go of it in a moment.

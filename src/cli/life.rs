@@ -1,12 +1,11 @@
 //! `life`: what a life of loads does to the clutch.
 
+use super::context::timed;
 use super::exit::{Exit, Failure};
-use super::output::path_text;
-use super::{Context, parts};
+use super::{Context, Run};
 use crate::answer::life::NoLife;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,27 +26,16 @@ pub struct LifeArgs {
     pub files: Vec<PathBuf>,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &LifeArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&inputs, &[])?;
-    parts::each(&args.files, context, |file| one(file, context))
-}
-
-fn one(file: &Path, context: &Context) -> Result<Exit, Failure> {
-    let design = parts::read_design(file, context)?;
-    let started = Instant::now();
-    let found = design.life().map_err(|why| match why {
-        NoLife::NoClutch(why) => parts::no_clutch(file, &why),
-        NoLife::NoService => Failure::malformed(format!("{}: {why}", path_text(file))),
-    })?;
-    let run_time_s = started.elapsed().as_secs_f64();
-    context.outputs.write_csv(&found.loads());
-    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
-    context.answer(&found.text(context.screen))?;
-    context.print(&found.envelope(run_time_s))?;
-    Ok(if found.life.held() { Exit::Held } else { Exit::NotHeld })
+impl Run for LifeArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        context.each(&self.files, |file, design| {
+            let (found, run_time_s) = timed(|| design.life());
+            let found = found.map_err(|why| match why {
+                NoLife::NoClutch(why) => Failure::no_clutch(file, &why),
+                NoLife::NoService => Failure::of(file, why),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(Exit::of(found.life.held()))
+        })
+    }
 }

@@ -1,40 +1,42 @@
 //! What `size` and `new` do with an answer: write the design, print figures and alternatives.
 
-use super::Context;
+use super::context::{Context, timed};
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
-use super::output::{TOOL, VERSION, print_json};
 use crate::answer::sizing::{Sizing, tried_json, tried_table};
 use crate::scenario::Settings;
 use crate::size::{NoSize, Requirements, size};
 use serde_json::json;
 use std::path::Path;
-use std::time::Instant;
+
+/// Refuse what no clutch can be asked for.
+///
+/// # Errors
+/// [`Failure::Malformed`] naming the option.
+pub fn refuse(wanted: &Requirements) -> Result<(), Failure> {
+    wanted.check().map_err(|why| Failure::malformed(format!("--{why}")))
+}
 
 /// Compute, write, print; `title`: that of the page.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Context) -> Result<Exit, Failure> {
-    let started = Instant::now();
     let settings = Settings { follow: context.follow.unseen(), ..Settings::default() };
-    let sized = size(wanted, &settings);
-    let run_time_s = started.elapsed().as_secs_f64();
+    let (sized, run_time_s) = timed(|| size(wanted, &settings));
     if context.follow.stopped() {
         return Err(Failure::Interrupted);
     }
     let sized = match sized {
         Ok(sized) => sized,
-        Err(NoSize::Requirements(why)) => return Err(Failure::malformed(format!("--{why}"))),
-        Err(why @ NoSize::None { .. }) => {
-            let NoSize::None { tried } = &why else { return Ok(Exit::NotHeld) };
-            if context.json {
-                print_json(
-                    &json!({ "tool": TOOL, "version": VERSION, "sized": false, "why": why.to_string(), "tried": tried_json(tried, None) }),
-                )?;
-            }
-            context.outputs.write_csv(&tried_table(tried, None));
-            context.answer(&format!("{}\n{why}\n", tried_table(tried, None).to_text(context.screen)))?;
+        Err(NoSize::Requirements(_)) => return refuse(wanted).map(|()| Exit::Failed),
+        Err(ref why @ NoSize::None { ref tried }) => {
+            let object =
+                || json!({ "sized": false, "why": why.to_string(), "tried": tried_json(tried, None) });
+            context.object(object)?;
+            let table = tried_table(tried, None);
+            context.outputs.write_csv(&table);
+            context.answer(&format!("{}\n{why}\n", table.to_text(context.screen)))?;
             return Ok(Exit::NotHeld);
         }
     };

@@ -1,12 +1,11 @@
 //! `map`: what a table of `evaluate` shows.
 
 use super::exit::{Exit, Failure};
-use super::output::path_text;
-use super::{Context, output};
+use super::{Context, Run, Without, output};
 use crate::answer::sweep::{NoMap, SweepMap};
 use clap::Args;
 use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -40,38 +39,37 @@ fn pair(text: &str) -> Result<[String; 2], String> {
     }
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &MapArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> = args.tables.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&inputs, &[])?;
-    context.outputs.refuse_foreign()?;
-    let started = Instant::now();
-    let mut map = SweepMap::of(&args.by);
-    let each = |read: &mut dyn FnMut(File) -> Result<(), NoMap>| {
-        args.tables.iter().try_for_each(|path| {
-            if context.follow.stopped() {
-                return Err(Failure::Interrupted);
-            }
-            let refused = |why: String| Failure::malformed(format!("{}: {why}", path_text(path)));
-            if path.exists() && !path.is_file() {
-                return Err(refused("is no file: tables are read twice".to_owned()));
-            }
-            let file = File::open(path).map_err(|e| refused(format!("cannot be read: {e}")))?;
-            read(file).map_err(|why| refused(why.to_string()))
-        })
-    };
-    each(&mut |file| map.survey(file))?;
-    map.lay_out(&args.over).map_err(|why| Failure::malformed(why.to_string()))?;
-    each(&mut |file| map.add(file))?;
-    let run_time_s = started.elapsed().as_secs_f64();
-    context.outputs.write_csv(&map.variables_table());
-    context.outputs.write_report(|| map.page(&context.provenance(run_time_s)));
-    context.answer(&map.text(context.screen))?;
-    if context.json {
-        output::print_json(&map.object())?;
+impl Run for MapArgs {
+    const WITHOUT: Without = ("its tables name the design", &["set", "threads", "quiet"]);
+
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        context.reads(&self.tables)?;
+        context.outputs.refuse_foreign()?;
+        let started = Instant::now();
+        let mut map = SweepMap::of(&self.by);
+        let each = |read: &mut dyn FnMut(File) -> Result<(), NoMap>| {
+            self.tables.iter().try_for_each(|path| {
+                if context.follow.stopped() {
+                    return Err(Failure::Interrupted);
+                }
+                let refused = |why: String| Failure::of(path, why);
+                if path.exists() && !path.is_file() {
+                    return Err(refused("is no file: tables are read twice".to_owned()));
+                }
+                let file = File::open(path).map_err(|e| refused(format!("cannot be read: {e}")))?;
+                read(file).map_err(|why| refused(why.to_string()))
+            })
+        };
+        each(&mut |file| map.survey(file))?;
+        map.lay_out(&self.over).map_err(|why| Failure::malformed(why.to_string()))?;
+        each(&mut |file| map.add(file))?;
+        let run_time_s = started.elapsed().as_secs_f64();
+        context.outputs.write_csv(&map.variables_table());
+        context.outputs.write_report(|| map.page(&context.provenance(run_time_s)));
+        context.answer(&map.text(context.screen))?;
+        if context.json {
+            output::print_json(&map.object())?;
+        }
+        Ok(Exit::Held)
     }
-    Ok(Exit::Held)
 }

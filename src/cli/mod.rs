@@ -4,59 +4,50 @@
 //! Absent: physics, units (`report` changes them), allowables (`margin` has them).
 //! Equations: none.
 
-pub mod accuracy;
-pub mod check;
+mod accuracy;
+mod check;
 mod clock;
 mod command_line;
-pub mod compare;
-pub mod evaluate;
+mod compare;
+mod context;
+mod evaluate;
 mod evaluate_points;
 pub mod exit;
-pub mod explain;
-pub mod export;
-pub mod histories;
-pub mod identify;
-pub mod import;
-pub mod interrupt;
+mod explain;
+mod export;
+mod histories;
+mod identify;
+mod import;
+mod interrupt;
 pub mod journal;
 mod laws;
-pub mod life;
+mod life;
+mod lists;
 mod made;
-pub mod map;
-pub mod materials;
-pub mod new;
-pub mod oils;
-pub mod optimize;
-pub mod origin;
+mod map;
+mod new;
+mod optimize;
+mod origin;
 pub mod output;
-pub mod overrun;
-pub mod parts;
-pub mod progress;
-pub mod reengage;
-pub mod resonance;
-pub mod sample;
-pub mod schema;
-pub mod sharing;
-pub mod sheet;
-pub mod simulate;
-pub mod size;
-pub mod stiffness;
-pub mod studio;
-pub mod sweep;
+mod overrun;
+mod progress;
+mod reengage;
+mod resonance;
+mod sample;
+mod sharing;
+mod sheet;
+mod simulate;
+mod size;
+mod stiffness;
+mod studio;
+mod sweep;
 
-use crate::answer::{Envelope, Provenance};
-use crate::follow::Follow;
-use crate::report::Screen;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
-use command_line::{command_line, missing_value};
+use command_line::missing_value;
+use context::{Common, Context};
 use exit::{Exit, Failure};
-use output::Outputs;
-use progress::ProgressLine;
-use serde::Serialize;
 use serde_json::json;
 use std::ffi::OsString;
-use std::io::IsTerminal;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
@@ -98,8 +89,45 @@ struct Cli {
     common: Common,
 }
 
-#[derive(Debug, Subcommand)]
-enum Command {
+/// A command: its arguments, and what it does with them.
+trait Run: Args {
+    /// Common options that mean nothing to it, and why.
+    const WITHOUT: Without = ("", &[]);
+
+    /// Run the command.
+    fn run(&self, context: &Context) -> Result<Exit, Failure>;
+}
+
+/// Why options mean nothing to a command, and which.
+type Without = (&'static str, &'static [&'static str]);
+
+/// The commands in the order of the help: what each does in a line, its name, its arguments.
+macro_rules! commands {
+    ($($(#[$($about:tt)+])+ $name:ident($args:ty),)+) => {
+        #[derive(Debug, Subcommand)]
+        enum Command {
+            $($(#[$($about)+])+ $name($args),)+
+        }
+
+        impl Command {
+            fn run(&self, context: &Context) -> Result<Exit, Failure> {
+                match self {
+                    $(Self::$name(args) => args.run(context),)+
+                }
+            }
+        }
+
+        /// What means nothing to the command of that name.
+        fn without(command: &str) -> Without {
+            $(if command.eq_ignore_ascii_case(stringify!($name)) {
+                return <$args as Run>::WITHOUT;
+            })+
+            ("", &[])
+        }
+    };
+}
+
+commands! {
     /// A live page in the browser: change a number and see what it does
     Studio(studio::StudioArgs),
     /// Hold the design against each of its limits: demand, allowable, margin, torque capacity
@@ -145,98 +173,13 @@ enum Command {
     /// What a limit, a key, a variable or another name means, and what moves it
     Explain(explain::ExplainArgs),
     /// List the steels that a design may name, with their constants, allowed stresses and sources
-    Materials,
+    Materials(lists::MaterialsArgs),
     /// List the oils and greases that a design may name, with viscosities and sources
-    Oils,
+    Oils(lists::OilsArgs),
     /// Print the JSON Schema of the design file
-    Schema,
+    Schema(lists::SchemaArgs),
     /// Print a completion script for a shell
-    Completions {
-        /// The shell
-        shell: clap_complete::Shell,
-    },
-}
-
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Output")]
-struct Common {
-    /// Print one JSON object on standard output and nothing else there
-    #[arg(long, global = true)]
-    json: bool,
-    /// Write the result table as CSV, units in the column names; - writes it to standard output in place of the text
-    #[arg(long, global = true, value_name = "PATH")]
-    csv: Option<PathBuf>,
-    /// Write a self-contained HTML page with drawing, curves and tables; a PDF is made by printing it (A4)
-    #[arg(long, global = true, value_name = "PATH.html")]
-    report: Option<PathBuf>,
-    /// Set a value of the design before anything else, as often as wanted: a dotted path of the file
-    /// (`sprags.inner_arcs[0].radius_mm=4.1`, rows count from 0) or a variable's short name (`r_i1_mm=4.1`, arcs from 1);
-    /// checked like the file, which stays as it is
-    #[arg(long, global = true, value_name = "KEY=VALUE", value_parser = setting)]
-    set: Vec<(String, String)>,
-    /// Replace files that this tool has not written, too
-    #[arg(long, global = true)]
-    force: bool,
-    /// Number of threads [default: all cores]
-    #[arg(long, global = true, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-    /// No progress and no messages, only the answer and errors
-    #[arg(long, short, global = true)]
-    quiet: bool,
-}
-
-/// What every command may use of the outside world.
-#[derive(Debug, Clone)]
-pub struct Context {
-    /// One JSON object instead of text on standard output.
-    pub json: bool,
-    /// No progress, no messages.
-    pub quiet: bool,
-    /// What the answer is printed on.
-    pub screen: Screen,
-    /// Files to write.
-    pub outputs: Outputs,
-    /// What `--set` sets: path and value as typed.
-    pub set: Vec<(String, String)>,
-    /// The command line as typed, for the reports.
-    pub command_line: String,
-    /// Stopped by Ctrl-C.
-    pub follow: Follow,
-}
-
-impl Context {
-    /// A message on standard error, unless `--quiet`.
-    pub fn message(&self, text: &str) {
-        if !self.quiet {
-            output::note(text);
-        }
-    }
-
-    /// A progress line on standard error; `unit` names the steps, `total` counts them if known.
-    pub fn progress(&self, what: &str, unit: &str, total: Option<u64>) -> ProgressLine {
-        ProgressLine::new(!self.quiet, what, unit, total)
-    }
-
-    /// How an answer came about that took `run_time_s`, s.
-    pub fn provenance(&self, run_time_s: f64) -> Provenance {
-        Provenance { command: self.command_line.clone(), run_time_s }
-    }
-
-    /// The one JSON object of `--json`, with what could not be written until now; nothing without it.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] where standard output cannot be written.
-    pub fn print<B: Serialize>(&self, answer: &Envelope<'_, B>) -> Result<(), Failure> {
-        if self.json { output::print_json(&answer.object(self.outputs.unwritten())) } else { Ok(()) }
-    }
-
-    /// The answer as text on standard output; nothing with `--json` and with `--csv -`.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] where standard output cannot be written.
-    pub fn answer(&self, text: &str) -> Result<(), Failure> {
-        if self.json || self.outputs.csv_is_answer() { Ok(()) } else { output::print(text) }
-    }
+    Completions(lists::CompletionsArgs),
 }
 
 /// Run the program.
@@ -254,15 +197,17 @@ pub fn run_from<A: Into<OsString>>(args: impl IntoIterator<Item = A>) -> u8 {
 
 fn ended(args: Vec<String>) -> Exit {
     let parsed = missing_value(&args).map_or_else(|| command().try_get_matches_from(&args), Err);
-    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
+    let named = |matches: clap::ArgMatches| {
+        Ok((Cli::from_arg_matches(&matches)?, matches.subcommand_name().unwrap_or_default().to_owned()))
+    };
+    let (cli, name) = match parsed.and_then(named) {
         Ok(cli) => cli,
         Err(e) if e.use_stderr() => {
             // The message repeats what was typed.
             let message = e.render().to_string();
             if args.iter().take_while(|arg| *arg != "--").any(|arg| arg == "--json") {
-                let _ = output::print_json(&json!({
-                    "tool": output::TOOL, "version": output::VERSION, "error": { "message": message.trim_end() },
-                }));
+                let refused = json!({ "error": { "message": message.trim_end() } });
+                let _ = output::print_json(&output::signed(refused));
             }
             output::note(message.trim_end());
             return Exit::Malformed;
@@ -272,16 +217,14 @@ fn ended(args: Vec<String>) -> Exit {
             return Exit::Held;
         }
     };
-    let json = cli.common.json && takes(name_of(&cli.command), "json");
+    let json = cli.common.json && !without(&name).1.contains(&"json");
     exit::keep_names_whole();
-    match dispatch(cli, &args) {
+    match dispatch(cli, &name, &args) {
         Ok(exit) => exit,
         Err(failure) => {
             if json {
                 // Standard output may be what has failed; standard error says it in words.
-                let _ = output::print_json(&json!({
-                    "tool": output::TOOL, "version": output::VERSION, "error": failure.to_json(),
-                }));
+                let _ = output::print_json(&output::signed(json!({ "error": failure.to_json() })));
             }
             match &failure {
                 Failure::Malformed(report) => output::note_painted(&format!("{report:?}")),
@@ -297,16 +240,17 @@ fn ended(args: Vec<String>) -> Exit {
 fn command() -> clap::Command {
     let root = Cli::command();
     let common: Vec<clap::Arg> = root.get_arguments().filter(|a| a.is_global_set()).cloned().collect();
-    let whole = MEANINGLESS.iter().fold(root, |root, (name, _, without)| {
-        let hidden = common.iter().filter(|a| without.contains(&a.get_id().as_str()));
-        let hidden: Vec<clap::Arg> = hidden.map(|a| a.clone().hide(true)).collect();
-        root.mut_subcommand(name, |command| command.args(hidden))
-    });
     let folded = |command: clap::Command| {
         let after = command.get_after_help().map(|text| in_paragraphs(&text.to_string()));
         after.into_iter().fold(command, |command, text| command.after_help(text))
     };
-    folded(whole.mut_subcommands(folded))
+    let hidden = |command: clap::Command| {
+        let options = without(command.get_name()).1;
+        let hidden = common.iter().filter(|a| options.contains(&a.get_id().as_str()));
+        let hidden: Vec<clap::Arg> = hidden.map(|a| a.clone().hide(true)).collect();
+        command.args(hidden)
+    };
+    folded(root.mut_subcommands(|command| folded(hidden(command))))
 }
 
 /// The text with each paragraph on a line of its own, for the terminal to fold: lines that neither are indented nor follow a
@@ -325,150 +269,15 @@ fn in_paragraphs(text: &str) -> String {
     whole
 }
 
-fn dispatch(cli: Cli, args: &[String]) -> Result<Exit, Failure> {
-    refuse_meaningless(&cli.command, &cli.common)?;
-    let context = context(cli.common, args)?;
-    let exit = match cli.command {
-        Command::Studio(args) => studio::run(&args, &context),
-        Command::Check(args) => check::run(&args, &context),
-        Command::Sheet(args) => sheet::run(&args, &context),
-        Command::Compare(args) => compare::run(&args, &context),
-        Command::Stiffness(args) => stiffness::run(&args, &context),
-        Command::Simulate(args) => simulate::run(&args, &context),
-        Command::Life(args) => life::run(&args, &context),
-        Command::Sharing(args) => sharing::run(&args, &context),
-        Command::Reengage(args) => reengage::run(&args, &context),
-        Command::Resonance(args) => resonance::run(&args, &context),
-        Command::Overrun(args) => overrun::run(&args, &context),
-        Command::Optimize(args) => optimize::run(&args, &context),
-        Command::Evaluate(args) => evaluate::run(&args, &context),
-        Command::Sample(args) => sample::run(&args, &context),
-        Command::Map(args) => map::run(&args, &context),
-        Command::Accuracy(args) => accuracy::run(&args, &context),
-        Command::New(args) => new::run(&args, &context),
-        Command::Size(args) => size::run(&args, &context),
-        Command::Identify(args) => identify::run(&args, &context),
-        Command::Export(args) => export::run(&args, &context),
-        Command::Import(args) => import::run(&args, &context),
-        Command::Explain(args) => explain::run(&args, &context),
-        Command::Materials => materials::run(&context),
-        Command::Oils => oils::run(&context),
-        Command::Schema => schema::run(),
-        Command::Completions { shell } => {
-            let mut script = Vec::new();
-            clap_complete::generate(shell, &mut command(), output::TOOL, &mut script);
-            output::print(&String::from_utf8_lossy(&script))?;
-            Ok(Exit::Held)
-        }
-    }?;
+fn dispatch(cli: Cli, name: &str, args: &[String]) -> Result<Exit, Failure> {
+    let (why, options) = without(name);
+    // --force, --threads and --quiet, which then change nothing, are let pass.
+    if let Some(flag) = cli.common.answers().into_iter().flatten().find(|flag| options.contains(flag)) {
+        return Err(Failure::malformed(format!("--{flag} has no meaning with {name}: {why}")));
+    }
+    let context = Context::new(cli.common, args)?;
+    let exit = cli.command.run(&context)?;
     Ok(if context.outputs.unwritten().is_empty() { exit } else { Exit::Failed })
-}
-
-/// Commands, why common options mean nothing to them, and which.
-const MEANINGLESS: [(&str, &str, &[&str]); 11] = [
-    ("explain", "its answer is a few words", &["csv", "report", "set", "force", "threads", "quiet"]),
-    ("new", "it makes a design, it reads none", &["set"]),
-    ("size", "it makes a design, it reads none", &["set"]),
-    ("studio", "its answers are shown in the browser", &["json", "csv", "report", "force"]),
-    ("materials", "steels are a table, they have no page", &["report", "set", "threads", "quiet"]),
-    ("oils", "oils are a table, they have no page", &["report", "set", "threads", "quiet"]),
-    ("schema", "its answer is one JSON object", &["csv", "report", "set", "force", "threads", "quiet"]),
-    ("completions", "its answer is a script", &["json", "csv", "report", "set", "force", "threads", "quiet"]),
-    ("evaluate", "its answer is a JSON object for each line that it reads", &["json", "report"]),
-    ("sample", "its answer is a table of points", &["json", "report", "threads"]),
-    ("map", "its tables name the design", &["set", "threads", "quiet"]),
-];
-
-fn takes(command: &str, option: &str) -> bool {
-    MEANINGLESS.iter().all(|(name, _, without)| *name != command || !without.contains(&option))
-}
-
-fn name_of(command: &Command) -> &'static str {
-    match command {
-        Command::Studio(_) => "studio",
-        Command::Check(_) => "check",
-        Command::Sheet(_) => "sheet",
-        Command::Compare(_) => "compare",
-        Command::Stiffness(_) => "stiffness",
-        Command::Simulate(_) => "simulate",
-        Command::Life(_) => "life",
-        Command::Sharing(_) => "sharing",
-        Command::Reengage(_) => "reengage",
-        Command::Resonance(_) => "resonance",
-        Command::Overrun(_) => "overrun",
-        Command::Optimize(_) => "optimize",
-        Command::Evaluate(_) => "evaluate",
-        Command::Sample(_) => "sample",
-        Command::Map(_) => "map",
-        Command::Accuracy(_) => "accuracy",
-        Command::New(_) => "new",
-        Command::Size(_) => "size",
-        Command::Identify(_) => "identify",
-        Command::Export(_) => "export",
-        Command::Import(_) => "import",
-        Command::Explain(_) => "explain",
-        Command::Materials => "materials",
-        Command::Oils => "oils",
-        Command::Schema => "schema",
-        Command::Completions { .. } => "completions",
-    }
-}
-
-/// Refuse `--json`, `--csv`, `--report` and `--set` where a command has no such answer; --force, --threads and --quiet, which then
-/// change nothing, are let pass.
-fn refuse_meaningless(command: &Command, common: &Common) -> Result<(), Failure> {
-    let given = [
-        ("json", common.json),
-        ("csv", common.csv.is_some()),
-        ("report", common.report.is_some()),
-        ("set", !common.set.is_empty()),
-    ];
-    let command = name_of(command);
-    let Some((name, why, without)) = MEANINGLESS.iter().find(|(name, ..)| *name == command) else {
-        return Ok(());
-    };
-    match given.into_iter().find(|(flag, given)| *given && without.contains(flag)) {
-        Some((flag, _)) => Err(Failure::malformed(format!("--{flag} has no meaning with {name}: {why}"))),
-        None => Ok(()),
-    }
-}
-
-fn context(common: Common, args: &[String]) -> Result<Context, Failure> {
-    if common.json && common.csv.as_deref().is_some_and(output::is_standard_output) {
-        return Err(Failure::malformed(
-            "--csv - and --json both write to standard output: give --csv a file",
-        ));
-    }
-    let follow = interrupt::install(common.quiet);
-    if let Some(threads) = common.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::from(threads))
-            .build_global()
-            .map_err(|e| Failure::Failed(format!("--threads {threads}: {e}")))?;
-    }
-    // NO_COLOR counts when set to anything but nothing (no-color.org).
-    let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
-    let out = std::io::stdout();
-    let terminal = out.is_terminal();
-    // A pipe or a file takes lines of any length.
-    let columns = terminal_size::terminal_size_of(&out).filter(|_| terminal).map(|(w, _)| usize::from(w.0));
-    Ok(Context {
-        json: common.json,
-        quiet: common.quiet,
-        screen: Screen { colour: terminal && !refused, columns },
-        outputs: Outputs::new(common.csv, common.report, common.force),
-        set: common.set,
-        command_line: command_line(args.iter().cloned()),
-        follow,
-    })
-}
-
-/// A path and a value, for `--set`.
-fn setting(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((path, value)) if !path.trim().is_empty() => Ok((path.trim().to_owned(), value.to_owned())),
-        _ => Err("KEY=VALUE is needed, such as sprags.inner_arcs[1].radius_mm=4.1 or r_i2_mm=4.1".to_owned()),
-    }
 }
 
 /// A number, for flags that say its unit.

@@ -3,7 +3,7 @@
 use super::exit::{Exit, Failure};
 use super::output;
 use super::size::{WishArgs, a_steel, may_write};
-use super::{Context, made, number};
+use super::{Context, Run, Without, made, number};
 use crate::follow::Follow;
 use crate::material::STEELS;
 use crate::report::plain;
@@ -38,7 +38,7 @@ pub struct NewArgs {
     /// What it shall do.
     #[command(flatten)]
     pub wish: WishArgs,
-    /// Engagements in its life: kept as a comment: the command life tells whether it lives as long
+    /// Engagements in its life, at nominal torque: written into [life], for the command life
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number)]
     pub engagements: Option<f64>,
     /// Where to write the design file
@@ -46,43 +46,47 @@ pub struct NewArgs {
     pub output: Option<PathBuf>,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &NewArgs, context: &Context) -> Result<Exit, Failure> {
-    let mut args = args.clone();
-    let missing = args.missing();
-    if !missing.is_empty() {
-        if !std::io::stdin().is_terminal() || context.json {
-            return Err(Failure::malformed(format!(
-                "needed: {}; on a terminal, without them, `new` asks",
-                missing.join(", ")
-            )));
+impl Run for NewArgs {
+    const WITHOUT: Without = ("it makes a design, it reads none", &["set"]);
+
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let mut args = self.clone();
+        let missing = args.missing();
+        if !missing.is_empty() {
+            if !std::io::stdin().is_terminal() || context.json {
+                return Err(Failure::malformed(format!(
+                    "needed: {}; on a terminal, without them, `new` asks",
+                    missing.join(", ")
+                )));
+            }
+            args.wish.check_safety()?;
+            Questions { lines: lines(), follow: &context.follow }.fill(&mut args)?;
         }
         args.wish.check_safety()?;
-        Questions { lines: lines(), follow: &context.follow }.fill(&mut args)?;
+        let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
+        let wanted = args.requirements();
+        made::refuse(&wanted)?;
+        may_write(&output, context)?;
+        let exit = made::answer(&wanted, &output, "New clutch", context)?;
+        let taken = wanted.taken();
+        if !taken.is_empty() {
+            let lines: String = taken
+                .iter()
+                .map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n"))
+                .collect();
+            context.answer(&format!(
+                "\nTaken where nothing was said (an option of `new --help` says otherwise):\n{lines}"
+            ))?;
+        }
+        if exit == Exit::Held {
+            let path = output::path_text(&output);
+            context.answer(&format!(
+                "\nNext:\n  sprag-design studio {path}\n  sprag-design check {path}\n  sprag-design optimize {path} -o better.toml\n  \
+                 sprag-design sheet {path}\n"
+            ))?;
+        }
+        Ok(exit)
     }
-    args.wish.check_safety()?;
-    let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
-    may_write(&output, context)?;
-    let exit = made::answer(&args.requirements(), &output, "New clutch", context)?;
-    let taken = args.requirements().taken();
-    if !taken.is_empty() {
-        let lines: String =
-            taken.iter().map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n")).collect();
-        context.answer(&format!(
-            "\nTaken where nothing was said (an option of `new --help` says otherwise):\n{lines}"
-        ))?;
-    }
-    if exit == Exit::Held {
-        let path = output::path_text(&output);
-        context.answer(&format!(
-            "\nNext:\n  sprag-design studio {path}\n  sprag-design check {path}\n  sprag-design optimize {path} -o better.toml\n  \
-             sprag-design sheet {path}\n"
-        ))?;
-    }
-    Ok(exit)
 }
 
 impl NewArgs {
@@ -206,7 +210,7 @@ const NUMBERS: [Number; 11] = [
         needed: false,
     },
     Number {
-        question: "Engagements in its life (none: not said; kept as a comment: the command life tells whether it lives as long)",
+        question: "Engagements in its life, at nominal torque (none: not said; written into [life], for the command life)",
         what: "engagements",
         at: |a| &mut a.engagements,
         without: |_| None,

@@ -1,14 +1,13 @@
 //! `optimize`: a better design, and how it was found.
 
-use super::Context;
 use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
 use super::origin::FileKind;
 use super::output::TOOL;
-use super::parts;
 use super::progress::ProgressLine;
 use super::simulate::refuse_tolerance;
+use super::{Context, Run};
 use crate::answer::search::{
     Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, SearchSettings, file_text, further_files,
     further_text,
@@ -112,96 +111,94 @@ pub struct OptimizeArgs {
     pub tolerance: f64,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &OptimizeArgs, context: &Context) -> Result<Exit, Failure> {
-    refuse_tolerance(args.tolerance)?;
-    let new = output_path(args);
-    let record = args.journal.clone().unwrap_or_else(|| journal::path_for(&new));
-    context.outputs.check(&[&args.file], &[(&new, FileKind::Design), (&record, FileKind::Journal)])?;
-    let design = parts::read_design(&args.file, context)?;
-    let histories = Histories::beside(&design, &new)?;
-    let at = |what: String| Failure::malformed(format!("{}: {what}", args.file.display()));
-    let Some(task) = design.optimize.clone() else {
-        return Err(at(
-            "the design has no [optimize] table; add one with objective, scenarios and variables".into(),
-        ));
-    };
-    refuse_front(args)?;
-    if args.robust && design.tolerances.is_none() {
-        return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
-    }
-    let beside = beside(&new, args);
-    let others: Vec<_> = beside.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
-    context.outputs.check(&[&args.file], &others)?;
-    let (model, content) = (journal::model(), design.content_hash());
-    let file = match (args.resume, args.journal.is_some()) {
-        (true, _) => JournalFile::resume(&record, &model, &content)?,
-        (false, true) => JournalFile::open(&record, &model, &content)?,
-        (false, false) => {
-            let (file, kept) = JournalFile::begin(&record, &model, &content)?;
-            if let Some(kept) = kept {
-                context.message(&format!(
-                    "{} held the record of an earlier search; it is kept as {}, and --resume --journal with that name goes on from it",
-                    record.display(),
-                    kept.display()
-                ));
-            }
-            file
+impl Run for OptimizeArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        refuse_tolerance(self.tolerance)?;
+        let new = output_path(self);
+        let record = self.journal.clone().unwrap_or_else(|| journal::path_for(&new));
+        context.outputs.check(&[&self.file], &[(&new, FileKind::Design), (&record, FileKind::Journal)])?;
+        let design = context.design(&self.file)?;
+        let histories = Histories::beside(&design, &new)?;
+        let at = |what: String| Failure::malformed(format!("{}: {what}", self.file.display()));
+        let Some(task) = design.optimize.clone() else {
+            return Err(at(
+                "the design has no [optimize] table; add one with objective, scenarios and variables".into(),
+            ));
+        };
+        refuse_front(self)?;
+        if self.robust && design.tolerances.is_none() {
+            return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
         }
-    };
-    if let Some(what) = file.unused() {
-        context.message(&format!("warning: {what}"));
-    }
-    let known = file.entries();
-    let drawn = args.starts != Some(1) || args.global.is_some() || args.robust;
-    context.message(&format!(
-        "{} variables, {} scenarios, seed {}{}{}",
-        task.variables.len(),
-        task.scenarios.len(),
-        task.seed,
-        if drawn { "" } else { " (this search draws nothing at random)" },
-        if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
-    ));
-    let settings = SearchSettings {
-        evaluations: args.evaluations as usize,
-        starts: args.starts.map(|n| n as usize),
-        swarm: args.global.map(|n| n as usize),
-        tolerance: args.tolerance,
-        full: args.full,
-        front: args.pareto.clone(),
-        front_steps: args.points as usize,
-        robust: args.robust,
-        draws: args.draws as usize,
-        step_mm: args.step_mm,
-        reserve: args.reserve,
-        follow: context.follow.clone(),
-    };
-    let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
-    let started = Instant::now();
-    let answer = design.optimise_recorded(&settings, &mut keeper);
-    let run_time_s = started.elapsed().as_secs_f64();
-    let Keeper { progress, file, .. } = keeper;
-    drop(progress);
-    if let Some(why) = &file.failed {
+        let beside = beside(&new, self);
+        let others: Vec<_> = beside.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
+        context.outputs.check(&[&self.file], &others)?;
+        let (model, content) = (journal::model(), design.content_hash());
+        let file = match (self.resume, self.journal.is_some()) {
+            (true, _) => JournalFile::resume(&record, &model, &content)?,
+            (false, true) => JournalFile::open(&record, &model, &content)?,
+            (false, false) => {
+                let (file, kept) = JournalFile::begin(&record, &model, &content)?;
+                if let Some(kept) = kept {
+                    context.message(&format!(
+                        "{} held the record of an earlier search; it is kept as {}, and --resume --journal with that name goes on from it",
+                        record.display(),
+                        kept.display()
+                    ));
+                }
+                file
+            }
+        };
+        if let Some(what) = file.unused() {
+            context.message(&format!("warning: {what}"));
+        }
+        let known = file.entries();
+        let drawn = self.starts != Some(1) || self.global.is_some() || self.robust;
         context.message(&format!(
-            "warning: {}: {why}; evaluations from there on are not in the journal",
-            file.path().display()
+            "{} variables, {} scenarios, seed {}{}{}",
+            task.variables.len(),
+            task.scenarios.len(),
+            task.seed,
+            if drawn { "" } else { " (this search draws nothing at random)" },
+            if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
         ));
-    }
-    let answer = match answer {
-        Ok(answer) => answer,
-        Err(NoSearch::Stopped) => return Err(Failure::Interrupted),
-        Err(why) => {
-            if args.journal.is_none() && !args.resume {
-                file.discard();
-            }
-            return Err(at(why.to_string()));
+        let settings = SearchSettings {
+            evaluations: self.evaluations as usize,
+            starts: self.starts.map(|n| n as usize),
+            swarm: self.global.map(|n| n as usize),
+            tolerance: self.tolerance,
+            full: self.full,
+            front: self.pareto.clone(),
+            front_steps: self.points as usize,
+            robust: self.robust,
+            draws: self.draws as usize,
+            step_mm: self.step_mm,
+            reserve: self.reserve,
+            follow: context.follow.clone(),
+        };
+        let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
+        let started = Instant::now();
+        let answer = design.optimise_recorded(&settings, &mut keeper);
+        let run_time_s = started.elapsed().as_secs_f64();
+        let Keeper { progress, file, .. } = keeper;
+        drop(progress);
+        if let Some(why) = &file.failed {
+            context.message(&format!(
+                "warning: {}: {why}; evaluations from there on are not in the journal",
+                file.path().display()
+            ));
         }
-    };
-    finish(&design, &answer, (&new, &histories), (file, args.journal.is_some()), run_time_s, context)
+        let answer = match answer {
+            Ok(answer) => answer,
+            Err(NoSearch::Stopped) => return Err(Failure::Interrupted),
+            Err(why) => {
+                if self.journal.is_none() && !self.resume {
+                    file.discard();
+                }
+                return Err(at(why.to_string()));
+            }
+        };
+        finish(&design, &answer, (&new, &histories), (file, self.journal.is_some()), run_time_s, context)
+    }
 }
 
 /// A number from 0 to 1.

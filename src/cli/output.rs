@@ -6,6 +6,7 @@ pub use crate::answer::{TOOL, VERSION};
 use crate::design::shown;
 use crate::report::{Page, Table};
 use serde::Serialize;
+use serde_json::{Value, json};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -69,6 +70,15 @@ pub fn path_text(path: &Path) -> String {
 pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string(value).map_err(|e| Failure::Failed(format!("JSON: {e}")))?;
     print(&(text + "\n"))
+}
+
+/// The object with tool and version before its keys.
+pub fn signed(keys: Value) -> Value {
+    let mut object = json!({ "tool": TOOL, "version": VERSION });
+    if let (Value::Object(all), Value::Object(keys)) = (&mut object, keys) {
+        all.extend(keys);
+    }
+    object
 }
 
 /// Files that may be written, checked before any computing begins.

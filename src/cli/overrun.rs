@@ -1,12 +1,12 @@
 //! `overrun`: film, drag, heat, swing and wear of a clutch that overruns.
 
+use super::context::timed;
 use super::exit::{Exit, Failure};
-use super::output::path_text;
-use super::{Context, number, parts, positive};
+use super::{Context, Run, number, positive};
 use crate::answer::overrun::{NoOverrun, OverrunQuestion, RunningRace};
 use clap::{Args, ValueEnum};
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::f64::consts::PI;
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -54,35 +54,24 @@ fn oil_temperature(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &OverrunArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&inputs, &[])?;
-    let question = OverrunQuestion {
-        race: match args.race {
-            RaceName::Inner => RunningRace::Inner,
-            RaceName::Outer => RunningRace::Outer,
-        },
-        speeds_rad_s: args.speeds.iter().map(|rpm| rpm * std::f64::consts::PI / 30.0).collect(),
-        temperatures_c: args.temperatures.clone(),
-    };
-    parts::each(&args.files, context, |file| one(file, &question, context))
-}
-
-fn one(file: &Path, question: &OverrunQuestion, context: &Context) -> Result<Exit, Failure> {
-    let design = parts::read_design(file, context)?;
-    let started = Instant::now();
-    let found = design.overrun(question).map_err(|why| match why {
-        NoOverrun::NoClutch(why) => parts::no_clutch(file, &why),
-        NoOverrun::NoLubrication => Failure::malformed(format!("{}: {why}", path_text(file))),
-    })?;
-    let run_time_s = started.elapsed().as_secs_f64();
-    context.outputs.write_csv(&found.all());
-    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
-    context.answer(&found.text(context.screen))?;
-    context.print(&found.envelope(run_time_s))?;
-    Ok(Exit::Held)
+impl Run for OverrunArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let question = OverrunQuestion {
+            race: match self.race {
+                RaceName::Inner => RunningRace::Inner,
+                RaceName::Outer => RunningRace::Outer,
+            },
+            speeds_rad_s: self.speeds.iter().map(|rpm| rpm * PI / 30.0).collect(),
+            temperatures_c: self.temperatures.clone(),
+        };
+        context.each(&self.files, |file, design| {
+            let (found, run_time_s) = timed(|| design.overrun(&question));
+            let found = found.map_err(|why| match why {
+                NoOverrun::NoClutch(why) => Failure::no_clutch(file, &why),
+                NoOverrun::NoLubrication => Failure::of(file, why),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(Exit::Held)
+        })
+    }
 }

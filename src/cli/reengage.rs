@@ -1,14 +1,13 @@
 //! `reengage`: slip under load and the blow when the clutch grips again.
 
+use super::context::timed;
 use super::exit::{Exit, Failure};
-use super::output::path_text;
-use super::{Context, parts, positive};
+use super::{Context, Run, positive};
 use crate::answer::reengagement::{NoReengagement, ReengagementSettings};
 use crate::dynamics::Stop;
 use clap::Args;
 use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -50,45 +49,33 @@ pub struct ReengageArgs {
     pub paths: Option<Vec<f64>>,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &ReengageArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&inputs, &[])?;
-    parts::each(&args.files, context, |file| one(args, file, context))
-}
-
-fn one(args: &ReengageArgs, file: &Path, context: &Context) -> Result<Exit, Failure> {
-    let design = parts::read_design(file, context)?;
-    let plain = ReengagementSettings::default();
-    let settings = ReengagementSettings {
-        torque_nm: args.torque,
-        inertia_kg_m2: [args.inner_inertia, args.outer_inertia],
-        outer_held: args.outer_held,
-        friction: args.friction,
-        speed_rad_s: args.speed * PI / 30.0,
-        paths_m: args.paths.as_ref().map_or(plain.paths_m, |list| list.iter().map(|mm| 1e-3 * mm).collect()),
-        follow: context.follow.clone(),
-    };
-    let started = Instant::now();
-    let found = match design.reengagement(&settings) {
-        Ok(found) => found,
-        Err(why @ NoReengagement::Refused(_)) => return Err(Failure::malformed(why.to_string())),
-        Err(why) => return Err(Failure::malformed(format!("{}: {why}", path_text(file)))),
-    };
-    let run_time_s = started.elapsed().as_secs_f64();
-    context.outputs.write_csv(&found.blows());
-    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
-    context.answer(&found.text(context.screen))?;
-    context.print(&found.envelope(run_time_s))?;
-    let ends =
-        found.found.list.iter().filter_map(|blow| blow.ended).chain(found.found.ended.map(|end| end.stop));
-    Ok(match ends.last() {
-        Some(Stop::Interrupted) => Exit::Interrupted,
-        Some(stop) if stop.gave_up() => Exit::Failed,
-        _ if found.held() => Exit::Held,
-        _ => Exit::NotHeld,
-    })
+impl Run for ReengageArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let usual = ReengagementSettings::default();
+        let paths_m = self.paths.as_ref().map(|list| list.iter().map(|mm| 1e-3 * mm).collect());
+        let settings = ReengagementSettings {
+            torque_nm: self.torque,
+            inertia_kg_m2: [self.inner_inertia, self.outer_inertia],
+            outer_held: self.outer_held,
+            friction: self.friction,
+            speed_rad_s: self.speed * PI / 30.0,
+            paths_m: paths_m.unwrap_or(usual.paths_m),
+            follow: context.follow.clone(),
+        };
+        context.each(&self.files, |file, design| {
+            let (found, run_time_s) = timed(|| design.reengagement(&settings));
+            let found = found.map_err(|why| match why {
+                NoReengagement::Refused(_) => Failure::malformed(why.to_string()),
+                why => Failure::of(file, why),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            let all = &found.found;
+            let ends = all.list.iter().filter_map(|blow| blow.ended).chain(all.ended.map(|end| end.stop));
+            Ok(match ends.last() {
+                Some(Stop::Interrupted) => Exit::Interrupted,
+                Some(stop) if stop.gave_up() => Exit::Failed,
+                _ => Exit::of(found.held()),
+            })
+        })
+    }
 }

@@ -1,14 +1,16 @@
 //! `resonance`: periodic states of a torsional excitation, one or a map over frequency and amplitude.
 
+use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::output::path_text;
 use super::simulate::chosen;
-use super::{Context, parts, positive};
-use crate::answer::resonance::{NoResonance, ResonanceQuestion};
+use super::{Context, Run, positive};
+use crate::answer::resonance::{EXAMPLE, NoResonance, ResonanceQuestion};
+use crate::clutch::Scenario;
+use crate::design::Design;
 use crate::scenario::Settings;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -17,7 +19,8 @@ Examples:
   sprag-design resonance designs/huang2017-multi-arc.toml --scenario low-10-mu082 --frequency 50:150 --points 21 --csv row.csv
 
 The motion that repeats with the excitation, its start forgotten: found by shooting, with its stability. Without ranges that of
-the scenario; with them a map of the friction that rolling needs and of what the clutch does.";
+the scenario; with them a map of the friction that rolling needs and of what the clutch does. Ctrl-C: the amplitudes that are done
+are written.";
 
 /// Arguments of `resonance`.
 #[derive(Debug, Clone, Args)]
@@ -26,7 +29,7 @@ pub struct ResonanceArgs {
     /// Design files (TOML)
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
-    /// Name of one of the design's scenarios, a torsional excitation [default: the only one]
+    /// Name of one of the design's scenarios, a torsional excitation [default: the only one of these]
     #[arg(long, value_name = "NAME")]
     pub scenario: Option<String>,
     /// Frequencies, Hz: from and to, or one [default: the scenario's]
@@ -75,53 +78,59 @@ fn values(range: Option<[f64; 2]>, n: usize) -> Vec<f64> {
     }
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &ResonanceArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&inputs, &[])?;
-    if args.points.is_some() && args.frequency.is_none() && args.amplitude.is_none() {
-        return Err(Failure::malformed("--points: needs --frequency FROM:TO, --amplitude FROM:TO or both"));
+impl Run for ResonanceArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        context.reads(&self.files)?;
+        if self.points.is_some() && self.frequency.is_none() && self.amplitude.is_none() {
+            return Err(Failure::malformed(
+                "--points: needs --frequency FROM:TO, --amplitude FROM:TO or both",
+            ));
+        }
+        let [frequencies, amplitudes] = self.points.unwrap_or([50, 50]);
+        let question = ResonanceQuestion {
+            frequencies_hz: values(self.frequency, frequencies),
+            amplitudes_nm: values(self.amplitude, amplitudes),
+        };
+        let settings =
+            Settings { tolerance: self.tolerance, follow: context.follow.unseen(), ..Settings::default() };
+        context.each(&self.files, |file, design| {
+            let scenario = excited(self.scenario.as_deref(), design, file)?;
+            // Each is found on the way up and on the way down.
+            let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);
+            let line = context.progress("resonance", "states", Some(total as u64));
+            let (found, run_time_s) =
+                timed(|| design.resonance(scenario, &question, &settings, &|| line.advance(1)));
+            drop(line);
+            let named = |why: &NoResonance| format!("{}: {}: {why}", path_text(file), scenario.name);
+            let found = found.map_err(|why| match why {
+                NoResonance::Stopped => Failure::Interrupted,
+                NoResonance::NoExcitation => Failure::malformed(named(&why)),
+                NoResonance::NoStart(_) => Failure::NoClutch(named(&why)),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(if found.amplitudes_left() > 0 { Exit::Interrupted } else { Exit::Held })
+        })
     }
-    let [frequencies, amplitudes] = args.points.unwrap_or([50, 50]);
-    let question = ResonanceQuestion {
-        frequencies_hz: values(args.frequency, frequencies),
-        amplitudes_nm: values(args.amplitude, amplitudes),
-    };
-    parts::each(&args.files, context, |file| one(args, file, &question, context))
 }
 
-fn one(
-    args: &ResonanceArgs,
-    file: &Path,
-    question: &ResonanceQuestion,
-    context: &Context,
-) -> Result<Exit, Failure> {
-    let design = parts::read_design(file, context)?;
-    let scenario = chosen(args.scenario.as_deref(), &design, file)?;
-    // Each is found on the way up and on the way down.
-    let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);
-    let line = context.progress("resonance", "states", Some(total as u64));
-    let settings =
-        Settings { tolerance: args.tolerance, follow: context.follow.unseen(), ..Settings::default() };
-    let started = Instant::now();
-    let found =
-        design.resonance(scenario, question, &settings, &|| line.advance(1)).map_err(|why| match why {
-            NoResonance::Stopped => Failure::Interrupted,
-            NoResonance::NoExcitation => {
-                Failure::malformed(format!("{}: {}: {why}", path_text(file), scenario.name))
-            }
-            NoResonance::NoStart(_) => {
-                Failure::NoClutch(format!("{}: {}: {why}", path_text(file), scenario.name))
-            }
-        })?;
-    let run_time_s = started.elapsed().as_secs_f64();
-    drop(line);
-    context.outputs.write_csv(&found.table());
-    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
-    context.answer(&found.text(context.screen))?;
-    context.print(&found.envelope(run_time_s))?;
-    Ok(Exit::Held)
+/// The scenario of that name, else the only torsional excitation that the design has.
+fn excited<'d>(name: Option<&str>, design: &'d Design, file: &Path) -> Result<&'d Scenario, Failure> {
+    if name.is_some() {
+        return chosen(name, design, file);
+    }
+    let swings = design.scenarios.iter().filter(|s| s.kind.frequency_hz().is_some());
+    match swings.collect::<Vec<_>>().as_slice() {
+        [only] => Ok(only),
+        [] => Err(Failure::malformed(format!(
+            "{}: the design has no torsional excitation; add one, such as\n\n{EXAMPLE}\n\n`sprag-design explain scenarios` lists its keys",
+            path_text(file)
+        ))),
+        several => {
+            let names: Vec<&str> = several.iter().map(|s| s.name.as_str()).collect();
+            Err(Failure::malformed(format!(
+                "needed: --scenario NAME; torsional excitations of the design: {}",
+                names.join(", ")
+            )))
+        }
+    }
 }

@@ -1,9 +1,8 @@
 //! `sample`: points of the box of a design's variables.
 
 use super::exit::{Exit, Failure};
-use super::output::path_text;
 use super::sweep::{PointArgs, Sink, Sunk};
-use super::{Context, parts};
+use super::{Context, Run, Without};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -30,47 +29,47 @@ pub struct SampleArgs {
     pub points: PointArgs,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &SampleArgs, context: &Context) -> Result<Exit, Failure> {
-    let design = parts::read_design(&args.file, context)?;
-    let Some(sampling) = args.points.sampling() else {
-        return Err(Failure::malformed("no points asked for: --sobol N, or --grid NAME=N,..."));
-    };
-    let named = |why| Failure::malformed(format!("{}: {why}", path_text(&args.file)));
-    let sample = design.sample(&sampling).map_err(named)?;
-    let range = args.points.range(sample.count())?;
-    let begin = sample.csv(&design, 0..0).next().unwrap_or_default();
-    let last = range.clone().next_back();
-    let sink = Sink::of(&context.outputs);
-    let sunk = sink.fill(
-        &begin,
-        || Ok(last),
-        |emit| {
-            // Pieces of some size: a line alone is little to write.
-            let mut piece = Vec::new();
-            for line in sample.csv(&design, range.clone()) {
-                piece.extend(line);
-                if piece.len() > PIECE {
-                    if context.follow.stopped() {
-                        return Err(Failure::Interrupted);
+impl Run for SampleArgs {
+    const WITHOUT: Without = ("its answer is a table of points", &["json", "report", "threads"]);
+
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let design = context.design(&self.file)?;
+        let Some(sampling) = self.points.sampling() else {
+            return Err(Failure::malformed("no points asked for: --sobol N, or --grid NAME=N,..."));
+        };
+        let named = |why| Failure::of(&self.file, why);
+        let sample = design.sample(&sampling).map_err(named)?;
+        let range = self.points.range(sample.count())?;
+        let begin = sample.csv(&design, 0..0).next().unwrap_or_default();
+        let last = range.clone().next_back();
+        let sink = Sink::of(&context.outputs);
+        let sunk = sink.fill(
+            &begin,
+            || Ok(last),
+            |emit| {
+                // Pieces of some size: a line alone is little to write.
+                let mut piece = Vec::new();
+                for line in sample.csv(&design, range.clone()) {
+                    piece.extend(line);
+                    if piece.len() > PIECE {
+                        if context.follow.stopped() {
+                            return Err(Failure::Interrupted);
+                        }
+                        if !emit(&piece)? {
+                            return Ok(false);
+                        }
+                        piece.clear();
                     }
-                    if !emit(&piece)? {
-                        return Ok(false);
-                    }
-                    piece.clear();
                 }
-            }
-            emit(&piece)
-        },
-    )?;
-    match sunk {
-        Sunk::Standing => context.message(&format!("{}: there already", sink.place())),
-        Sunk::Written | Sunk::Unheard => {}
+                emit(&piece)
+            },
+        )?;
+        match sunk {
+            Sunk::Standing => context.message(&format!("{}: there already", sink.place())),
+            Sunk::Written | Sunk::Unheard => {}
+        }
+        Ok(Exit::Held)
     }
-    Ok(Exit::Held)
 }
 
 /// Bytes written at once.

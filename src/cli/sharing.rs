@@ -1,12 +1,11 @@
 //! `sharing`: what each sprag carries.
 
+use super::context::timed;
 use super::exit::{Exit, Failure};
-use super::output::path_text;
-use super::{Context, parts, positive};
+use super::{Context, Run, positive};
 use crate::answer::sharing::NoSharing;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -30,27 +29,16 @@ pub struct SharingArgs {
     pub torque: Option<f64>,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &SharingArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&inputs, &[])?;
-    parts::each(&args.files, context, |file| one(args, file, context))
-}
-
-fn one(args: &SharingArgs, file: &Path, context: &Context) -> Result<Exit, Failure> {
-    let design = parts::read_design(file, context)?;
-    let started = Instant::now();
-    let found = design.sharing(args.torque).map_err(|why| match why {
-        NoSharing::NoClutch(why) => parts::no_clutch(file, &why),
-        why => Failure::malformed(format!("{}: {why}", path_text(file))),
-    })?;
-    let run_time_s = started.elapsed().as_secs_f64();
-    context.outputs.write_csv(&found.by_sprag());
-    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
-    context.answer(&found.text(context.screen))?;
-    context.print(&found.envelope(run_time_s))?;
-    Ok(if found.held() { Exit::Held } else { Exit::NotHeld })
+impl Run for SharingArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        context.each(&self.files, |file, design| {
+            let (found, run_time_s) = timed(|| design.sharing(self.torque));
+            let found = found.map_err(|why| match why {
+                NoSharing::NoClutch(why) => Failure::no_clutch(file, &why),
+                why => Failure::of(file, why),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(Exit::of(found.held()))
+        })
+    }
 }

@@ -3,8 +3,7 @@
 use super::check::{checked, exit};
 use super::exit::{Exit, Failure};
 use super::output::path_text;
-use super::{Context, parts};
-use crate::answer::check::csv_table;
+use super::{Context, Run};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -25,27 +24,25 @@ pub struct SheetArgs {
     pub file: PathBuf,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &SheetArgs, context: &Context) -> Result<Exit, Failure> {
-    let mut context = context.clone();
-    let path = context.outputs.report.clone().unwrap_or_else(|| beside(&args.file));
-    context.outputs.report = Some(path.clone());
-    context.outputs.check(&[&args.file], &[])?;
-    let design = parts::read_design(&args.file, &context)?;
-    let (check, run_time_s) = checked(&design, &args.file, &context)?;
-    context.outputs.write_csv(&csv_table(&check.rows, check.state.curve.end_torque_nm()));
-    context.outputs.write_report(|| check.sheet(&design, &context.provenance(run_time_s)));
-    let mut lines = vec![check.body.verdict()];
-    lines.extend(check.body.capacity_lines());
-    if context.outputs.unwritten().is_empty() {
-        lines.push(format!("written to {}", path_text(&path)));
+impl Run for SheetArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let mut context = context.clone();
+        let path = context.outputs.report.clone().unwrap_or_else(|| beside(&self.file));
+        context.outputs.report = Some(path.clone());
+        context.outputs.check(&[&self.file], &[])?;
+        let design = context.design(&self.file)?;
+        let (check, run_time_s) = checked(&design, &self.file, &context)?;
+        context.outputs.write_csv(&check.csv_table());
+        context.outputs.write_report(|| check.sheet(&design, &context.provenance(run_time_s)));
+        let mut lines = vec![check.body.verdict()];
+        lines.extend(check.body.capacity_lines());
+        if context.outputs.unwritten().is_empty() {
+            lines.push(format!("written to {}", path_text(&path)));
+        }
+        context.answer(&(lines.join("\n") + "\n"))?;
+        context.print(&check.envelope(&design, run_time_s))?;
+        Ok(exit(&check.body))
     }
-    context.answer(&(lines.join("\n") + "\n"))?;
-    context.print(&check.envelope(&design, run_time_s))?;
-    Ok(exit(&check.body))
 }
 
 /// `my-clutch-sheet.html` of `my-clutch.toml`.

@@ -1,8 +1,9 @@
 //! `simulate`: one scenario in time.
 
 use super::clock::while_shown;
+use super::context::timed;
 use super::exit::{Exit, Failure};
-use super::{Context, parts, positive};
+use super::{Context, Run, positive};
 use crate::answer::simulation::{
     self as scene, Ran, RefusedSetting, Setting, SimulationAnswer, SimulationSettings,
 };
@@ -12,7 +13,6 @@ use crate::dynamics::Stop;
 use crate::report::plain;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -84,36 +84,24 @@ pub struct SimulateArgs {
     pub figures: bool,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &SimulateArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
-    context.outputs.check(&inputs, &[])?;
-    let settings = args.settings(context);
-    settings.validate().map_err(|why| refusal(why, args.window))?;
-    refuse_strangers(args)?;
-    parts::each(&args.files, context, |file| one(args, file, &settings, context))
-}
-
-fn one(
-    args: &SimulateArgs,
-    file: &Path,
-    settings: &SimulationSettings,
-    context: &Context,
-) -> Result<Exit, Failure> {
-    let design = parts::read_design(file, context)?;
-    let scenario = chosen(args.scenario.as_deref(), &design, file)?;
-    settings.validate_for(scenario).map_err(|why| refusal(why, args.window))?;
-    refuse_unknown_to_published(args)?;
-    let duration_s = scenario.kind.duration_s();
-    let start = Instant::now();
-    let ran = while_shown(&scenario.name, duration_s, context, || Ran::new(&design, scenario, settings));
-    let run_time_s = start.elapsed().as_secs_f64();
-    let other = format!("{}, contact damping changed", scenario.name);
-    let damping = while_shown(&other, duration_s, context, || ran.damping_effect(settings));
-    report(&SimulationAnswer::new(ran, damping, settings), run_time_s, args, context)
+impl Run for SimulateArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        context.reads(&self.files)?;
+        let settings = self.settings(context);
+        settings.validate().map_err(|why| refusal(why, self.window))?;
+        refuse_strangers(self)?;
+        context.each(&self.files, |file, design| {
+            let scenario = chosen(self.scenario.as_deref(), design, file)?;
+            settings.validate_for(scenario).map_err(|why| refusal(why, self.window))?;
+            refuse_unknown_to_published(self)?;
+            let duration_s = scenario.kind.duration_s();
+            let run = || Ran::new(design, scenario, &settings);
+            let (ran, run_time_s) = timed(|| while_shown(&scenario.name, duration_s, context, run));
+            let other = format!("{}, contact damping changed", scenario.name);
+            let damping = while_shown(&other, duration_s, context, || ran.damping_effect(&settings));
+            report(&SimulationAnswer::new(ran, damping, &settings), run_time_s, self, context)
+        })
+    }
 }
 
 impl SimulateArgs {

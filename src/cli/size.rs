@@ -2,7 +2,7 @@
 
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
-use super::{Context, made, number};
+use super::{Context, Run, Without, made, number};
 use crate::design::nearest;
 use crate::material::{STEELS, Steel, steel};
 use crate::size::Wish;
@@ -17,7 +17,8 @@ Examples:
   sprag-design check mine.toml
   sprag-design optimize mine.toml -o better.toml
 
-Every race space of one family of similar sprags is tried; the smallest ring from bore to outside is taken. The file that
+Every race space of one family of similar sprags is tried; of those that do it the one of the
+least volume, from bore to outside and as wide as it must be, is taken. The file that
 is written holds its limits, with a static scenario at nominal torque and a torque step up to it, and an optimize table. A
 file that is there already is replaced only with --force. `new` asks the same questions one by one, and adds the scenes of a
 purpose.
@@ -62,12 +63,19 @@ pub struct WishArgs {
     /// Speed of the outer race in overrun, rpm, in the same sense [default: that of --keep-contact-rpm]
     #[arg(long = "outer-rpm", value_name = "RPM", allow_hyphen_values = true, value_parser = number)]
     pub outer: Option<f64>,
+    /// Refused with the two that are meant.
+    #[arg(long = "overrun-rpm", value_name = "RPM", hide = true, value_parser = which_race)]
+    pub overrun: Option<f64>,
     /// Static friction [default: 0.11, by GMN 9050]
     #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = number)]
     pub friction: Option<f64>,
     /// Steel of sprags and races, by its name in `materials` [default: 100Cr6]; brings the allowed stresses
     #[arg(long, value_name = "STEEL", value_parser = a_steel)]
     pub material: Option<&'static Steel>,
+}
+
+fn which_race(_: &str) -> Result<f64, String> {
+    Err("in overrun one race runs past the other: name the speeds, --inner-rpm and --outer-rpm".to_owned())
 }
 
 impl WishArgs {
@@ -143,18 +151,20 @@ pub struct SizeArgs {
     pub output: PathBuf,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &SizeArgs, context: &Context) -> Result<Exit, Failure> {
-    may_write(&args.output, context)?;
-    let missing = args.wish.missing();
-    if !missing.is_empty() {
-        return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
+impl Run for SizeArgs {
+    const WITHOUT: Without = ("it makes a design, it reads none", &["set"]);
+
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let missing = self.wish.missing();
+        if !missing.is_empty() {
+            return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
+        }
+        self.wish.check_safety()?;
+        let wanted = self.wish.wish().requirements();
+        made::refuse(&wanted)?;
+        may_write(&self.output, context)?;
+        made::answer(&wanted, &self.output, "First design", context)
     }
-    args.wish.check_safety()?;
-    made::answer(&args.wish.wish().requirements(), &args.output, "First design", context)
 }
 
 /// Refuse an output that cannot be written, or that would cost somebody's work.

@@ -1,7 +1,7 @@
 //! `stiffness`: the static curve, for one contact law or several side by side.
 
 use super::exit::{Exit, Failure};
-use super::{Context, parts, positive};
+use super::{Context, Run, positive};
 use crate::answer::stiffness::{
     Fem, NoStiffness, PressureMap, StiffnessAnswer, StiffnessSettings, StiffnessStudy, csv_table, curves,
     page,
@@ -73,50 +73,48 @@ impl PressureName {
     }
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`].
-pub fn run(args: &StiffnessArgs, context: &Context) -> Result<Exit, Failure> {
-    let inputs: Vec<&Path> = args.files.iter().chain(&args.fem).map(PathBuf::as_path).collect();
-    context.outputs.check(&inputs, &[])?;
-    args.settings(context).validate().map_err(|why| Failure::malformed(why.to_string()))?;
-    let several = args.files.len() > 1;
-    if several && context.outputs.csv.is_some() {
-        return Err(Failure::malformed(
-            "--csv is of one FILE; several make one page with --report, or a line each with --json",
-        ));
+impl Run for StiffnessArgs {
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        context.reads(self.files.iter().chain(&self.fem))?;
+        self.settings(context).validate().map_err(|why| Failure::malformed(why.to_string()))?;
+        let several = self.files.len() > 1;
+        if several && context.outputs.csv.is_some() {
+            return Err(Failure::malformed(
+                "--csv is of one FILE; several make one page with --report, or a line each with --json",
+            ));
+        }
+        if !self.fem.is_empty() && self.fem.len() != self.files.len() {
+            let (fem, files) = (self.fem.len(), self.files.len());
+            return Err(Failure::malformed(format!(
+                "{fem} --fem for {files} FILEs: give one for each, in their order"
+            )));
+        }
+        let studies =
+            (0..self.files.len()).map(|i| study(self, i, context)).collect::<Result<Vec<_>, _>>()?;
+        if let [study] = studies.as_slice() {
+            context.outputs.write_csv(&csv_table(&study.found.laws));
+        }
+        context.outputs.write_report(|| page(&studies, &context.command_line));
+        for study in &studies {
+            context.answer(&study.text(context.screen))?;
+            context.print(&study.envelope())?;
+        }
+        Ok(Exit::Held)
     }
-    if !args.fem.is_empty() && args.fem.len() != args.files.len() {
-        let (fem, files) = (args.fem.len(), args.files.len());
-        return Err(Failure::malformed(format!(
-            "{fem} --fem for {files} FILEs: give one for each, in their order"
-        )));
-    }
-    let studies = (0..args.files.len()).map(|i| study(args, i, context)).collect::<Result<Vec<_>, _>>()?;
-    if let [study] = studies.as_slice() {
-        context.outputs.write_csv(&csv_table(&study.found.laws));
-    }
-    context.outputs.write_report(|| page(&studies, &context.command_line));
-    for study in &studies {
-        context.answer(&study.text(context.screen))?;
-        context.print(&study.envelope())?;
-    }
-    Ok(Exit::Held)
 }
 
 /// What is asked of the `i`-th file.
 fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<StiffnessStudy, Failure> {
-    let design = parts::read_design(&args.files[i], context)?;
+    let design = context.design(&args.files[i])?;
     let fem = args.fem.get(i).map(|path| read_fem(path, args.fem_model.as_deref())).transpose()?;
     let profile =
-        design.clutch.profile().map_err(|e| parts::no_clutch(&args.files[i], &NoMargins::Profile(e)))?;
+        design.clutch.profile().map_err(|e| Failure::no_clutch(&args.files[i], &NoMargins::Profile(e)))?;
     let started = Instant::now();
     let settings = args.settings(context);
     let count = settings.laws_of(&design.clutch.contact).len() as u64;
     let progress = context.progress("curves", "contact laws", Some(count));
     let laws = curves(&design, &profile, &settings, &|| progress.advance(1)).map_err(|why| match why {
-        NoStiffness::NoClutch(why) => parts::no_clutch(&args.files[i], &why),
+        NoStiffness::NoClutch(why) => Failure::no_clutch(&args.files[i], &why),
         NoStiffness::Torque(_) => Failure::malformed(why.to_string()),
         NoStiffness::Stopped => Failure::Interrupted,
     })?;

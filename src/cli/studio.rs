@@ -3,7 +3,7 @@
 use super::exit::{Exit, Failure};
 use super::origin::{FileKind, WRITTEN_BY};
 use super::output::{self, Outputs};
-use super::{Context, parts};
+use super::{Context, Run, Without};
 use crate::design::{Design, MOST_TABLE};
 use crate::follow::Follow;
 use crate::scenario::Settings;
@@ -63,53 +63,54 @@ struct Studio<'a> {
     asked: Mutex<HashMap<String, Follow>>,
 }
 
-/// Run the command.
-///
-/// # Errors
-/// [`Failure`]: the file is no design, the port is taken.
-pub fn run(args: &StudioArgs, context: &Context) -> Result<Exit, Failure> {
-    let (text, file) = match &args.file {
-        Some(path) => {
-            let design = parts::read_design(path, context)?;
-            (design.source, path.clone())
+impl Run for StudioArgs {
+    const WITHOUT: Without = ("its answers are shown in the browser", &["json", "csv", "report", "force"]);
+
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let (text, file) = match &self.file {
+            Some(path) => {
+                let design = context.design(path)?;
+                (design.source, path.clone())
+            }
+            None => (FIRST.to_owned(), PathBuf::from("huang2017-multi-arc.toml")),
+        };
+        let server = Server::http(("127.0.0.1", self.port)).map_err(|why| {
+            let hint =
+                if self.port == 0 { "" } else { "; take another --port, or none for one that is free" };
+            Failure::Failed(format!("cannot listen on 127.0.0.1, port {}: {why}{hint}", self.port))
+        })?;
+        let port = server.server_addr().to_ip().map_or(self.port, |at| at.port());
+        let folder = output::folder_of(&file);
+        let name = file.display().to_string();
+        let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+        let studio = Studio {
+            context,
+            engine: Engine::new(&name, folder.clone()),
+            text,
+            file: name,
+            folder,
+            save_as: format!("{stem}-studio.toml"),
+            token: token()?,
+            port,
+            searching: Mutex::default(),
+            asked: Mutex::default(),
+        };
+        let address = format!("http://127.0.0.1:{port}/{}/", studio.token);
+        output::print(&format!("{address}\n"))?;
+        context.message("the studio runs until Ctrl-C");
+        if !self.no_open && !open(&address) {
+            context.message("no browser could be opened; open the address above");
         }
-        None => (FIRST.to_owned(), PathBuf::from("huang2017-multi-arc.toml")),
-    };
-    let server = Server::http(("127.0.0.1", args.port)).map_err(|why| {
-        let hint = if args.port == 0 { "" } else { "; take another --port, or none for one that is free" };
-        Failure::Failed(format!("cannot listen on 127.0.0.1, port {}: {why}{hint}", args.port))
-    })?;
-    let port = server.server_addr().to_ip().map_or(args.port, |at| at.port());
-    let folder = output::folder_of(&file);
-    let name = file.display().to_string();
-    let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-    let studio = Studio {
-        context,
-        engine: Engine::new(&name, folder.clone()),
-        text,
-        file: name,
-        folder,
-        save_as: format!("{stem}-studio.toml"),
-        token: token()?,
-        port,
-        searching: Mutex::default(),
-        asked: Mutex::default(),
-    };
-    let address = format!("http://127.0.0.1:{port}/{}/", studio.token);
-    output::print(&format!("{address}\n"))?;
-    context.message("the studio runs until Ctrl-C");
-    if !args.no_open && !open(&address) {
-        context.message("no browser could be opened; open the address above");
-    }
-    std::thread::scope(|scope| {
-        for _ in 0..WORKERS {
-            scope.spawn(|| studio.serve(&server));
+        std::thread::scope(|scope| {
+            for _ in 0..WORKERS {
+                scope.spawn(|| studio.serve(&server));
+            }
+        });
+        if let Some(search) = &*studio.searching.lock().unwrap_or_else(PoisonError::into_inner) {
+            search.stop();
         }
-    });
-    if let Some(search) = &*studio.searching.lock().unwrap_or_else(PoisonError::into_inner) {
-        search.stop();
+        Ok(Exit::Held)
     }
-    Ok(Exit::Held)
 }
 
 /// 128 random bits of the system, as hex.

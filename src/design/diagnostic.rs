@@ -96,10 +96,24 @@ fn arc_in_words(key: &str) -> String {
         .map_or(String::new(), |k| format!(" (inner arc {})", k + 1))
 }
 
+/// What is found where a key is needed and absent.
+pub(super) const NO_SUCH_KEY: &str = "no such key";
+
+impl Problem {
+    /// Name of a key that is needed and absent, where all that is to be said of it is to add it.
+    fn absent(&self) -> Option<&str> {
+        let name = self.key.rsplit('.').next()?;
+        (self.found == NO_SUCH_KEY && self.help.starts_with(&format!("add {name} = ..."))).then_some(name)
+    }
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.key.is_empty() {
             write!(f, "{}{}: ", self.key, arc_in_words(&self.key))?;
+        }
+        if let Some(name) = self.absent() {
+            return write!(f, "{NO_SUCH_KEY}; add {name} = ..., {}", self.allowed);
         }
         write!(f, "found {}; allowed: {}; to mend: {}", self.found, self.allowed, self.help)
     }
@@ -218,7 +232,19 @@ impl Diagnostic for DesignError {
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let labels = self.problems.iter().take(MOST_TOLD).flat_map(|p| {
+        // Keys that are absent at one place are one label.
+        let told = || self.problems.iter().take(MOST_TOLD);
+        let mut absent: Vec<(Range<usize>, Vec<&str>)> = Vec::new();
+        for (place, name) in told().filter_map(|p| Some((p.place.as_ref()?, p.absent()?))) {
+            match absent.iter_mut().find(|(span, _)| *span == place.span) {
+                Some((_, names)) => names.push(name),
+                None => absent.push((place.span.clone(), vec![name])),
+            }
+        }
+        let absent = absent.into_iter().map(|(span, names)| {
+            LabeledSpan::new_primary_with_span(Some(format!("without {}", names.join(", "))), span)
+        });
+        let labels = told().filter(|p| p.absent().is_none()).flat_map(|p| {
             let first = p.place.iter().map(|place| {
                 LabeledSpan::new_primary_with_span(
                     Some(format!("allowed: {}", p.allowed)),
@@ -231,7 +257,7 @@ impl Diagnostic for DesignError {
                 .map(|(key, place)| LabeledSpan::new_with_span(Some(key.clone()), place.span.clone()));
             first.chain(also)
         });
-        Some(Box::new(labels))
+        Some(Box::new(labels.chain(absent)))
     }
 }
 

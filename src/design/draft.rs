@@ -79,6 +79,8 @@ pub struct Draft {
     pub abutment_nm_per_rad: f64,
     /// Further scenes.
     pub scenes: Vec<DraftScene>,
+    /// Engagements at nominal torque that are wanted of it; `None`: not said.
+    pub engagements: Option<f64>,
 }
 
 /// mu_c over mu_s of a draft.
@@ -95,7 +97,7 @@ impl Draft {
             (mm(self.outer_radius_m), mm(self.inner_radius_m), mm(self.centre_distance_m), mm(self.length_m));
         let body = match self.flanks_m {
             Some((rear, front)) => format!(
-                "flanks = {{ rear_mm = {}, front_mm = {} }}   # the narrowest that works; mass and centroid follow from it",
+                "flanks = {{ rear_mm = {}, front_mm = {} }}   # sides of the body, from the strut outwards: the narrowest that work; mass and centroid follow",
                 mm(rear),
                 mm(front)
             ),
@@ -136,6 +138,13 @@ impl Draft {
         let held: String =
             self.scenes.iter().filter(|s| s.held).map(|s| format!(", \"{}\"", s.name)).collect();
         let scenes: String = self.scenes.iter().map(DraftScene::to_toml).collect();
+        let life = self.engagements.map_or(String::new(), |count| {
+            format!(
+                "\n# What the command life counts. What contacts and rings bear is to be added: pitting, rings.\n[life]\n\
+                 loads = [ {{ torque_nm = {nominal}, engagements = {} }} ]\n",
+                float(count)
+            )
+        });
         format!(
             r#"{why}schema = 1
 name = "{name}"
@@ -197,7 +206,7 @@ step_time_s = {step_time}
 abutment_stiffness_nm_per_rad = {abutment}
 duration_s = {duration}
 speed_rpm = {speed}
-{scenes}
+{scenes}{life}
 [optimize]
 objective = "slip-margin"
 scenarios = ["rated-static", "rated-step"{held}]

@@ -5,7 +5,7 @@
 
 use toml::de::DeValue;
 
-use super::diagnostic::{MOST_COLLECTED, Problem};
+use super::diagnostic::{MOST_COLLECTED, NO_SUCH_KEY, Problem};
 use super::document::Document;
 
 /// Problems of one document; `scope` is the path of the table whose overrides are being checked, or empty.
@@ -64,7 +64,7 @@ impl<'d, 'a> Findings<'d, 'a> {
     }
 
     fn found(&self, path: &str) -> String {
-        self.doc.entry(path).map_or_else(|| "no such key".to_owned(), |e| self.doc.text_of(e.value))
+        self.doc.entry(path).map_or_else(|| NO_SUCH_KEY.to_owned(), |e| self.doc.text_of(e.value))
     }
 }
 

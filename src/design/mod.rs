@@ -51,7 +51,7 @@ pub use notes::with_notes;
 pub use objective::{Link, Objective, Optimize, OptimizeVariable, multiple};
 pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
 pub use set::with_setting;
-pub use shape::{allowed, keys_of, nearest, schema, shape_of};
+pub use shape::{allowed, keys_of, nearest, paths_of, schema, shape_of};
 pub use steels::beside_the_name;
 pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
 

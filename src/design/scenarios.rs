@@ -191,6 +191,17 @@ pub(super) fn scenarios(
     all
 }
 
+/// What a key of a scene is, where its kind is known: without the kinds that it belongs to, and without what an absent one means.
+fn meaning(key: &str) -> String {
+    let whole = shape::meaning_of(key);
+    let parts: Vec<&str> = whole.splitn(3, ": ").collect();
+    let [allowed, kinds, words] = parts.as_slice() else { return whole };
+    if !KINDS.iter().any(|(_, kind, ..)| kinds.contains(kind)) {
+        return whole;
+    }
+    format!("{allowed}: {}", words.split(';').next().unwrap_or(words))
+}
+
 /// Refuse what `key` names as a history.
 pub(super) fn refuse_history(key: &str, found: String, out: &mut Findings) {
     let allowed = "a CSV file in the folder of the design file, or below it".to_owned();
@@ -232,7 +243,7 @@ fn kind(s: &ScenarioFile, path: &str, joined: bool, out: &mut Findings) -> Optio
         let free = name == "abutment_stiffness_nm_per_rad" && joined;
         if value.is_none() && required.contains(&name) && !free {
             let help = format!("add {name} = ... to scenario {:?}, which is of kind {kind}", s.name);
-            out.refuse(&[&key], shape::meaning_of(&key), help);
+            out.refuse(&[&key], meaning(&key), help);
         } else if value.is_some() && !required.contains(&name) && !optional.contains(&name) {
             let keys = [required, optional].concat().join(", ");
             out.refuse(

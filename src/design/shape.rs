@@ -15,7 +15,7 @@ use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::diagnostic::{MOST_COLLECTED, Problem, unprintable};
+use super::diagnostic::{MOST_COLLECTED, NO_SUCH_KEY, Problem, unprintable};
 use super::document::{Document, number_of};
 use super::file::DesignFile;
 
@@ -86,6 +86,32 @@ pub(super) fn paths_that_end_in(name: &str) -> Vec<String> {
     let all: Vec<&str> = paths().map(|(_, key)| key).collect();
     let like = nearest(last, &all);
     paths().filter(|(_, key)| Some(*key) == like).map(|(table, key)| format!("{table}.{key}")).collect()
+}
+
+/// Dotted paths of all keys named `name`, rows of arrays as `[0]`; what a scene overrides, or a task sharpens, has its path in the
+/// clutch's own table.
+pub fn paths_of(name: &str) -> Vec<String> {
+    fn walk(schema: &Value, path: &str, name: &str, found: &mut Vec<String>) {
+        let properties = schema.get("properties").and_then(Value::as_object);
+        for (key, property) in properties.into_iter().flatten() {
+            let own =
+                !path.is_empty() && SCHEMA.get("properties").is_some_and(|tables| tables.get(key).is_some());
+            let here = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            if key == name && !path.is_empty() {
+                found.push(here.clone());
+            }
+            // `scenarios.sprags`, `optimize.limits`: tables of the clutch once more.
+            if !own || !["scenarios", "optimize"].contains(&path.trim_end_matches("[0]")) {
+                walk(property, &here, name, found);
+            }
+            if let Some(row) = property.get("items") {
+                walk(row, &format!("{here}[0]"), name, found);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    walk(&SCHEMA, "", name, &mut found);
+    found
 }
 
 /// "number" or "integer" where the key at a dotted path holds one.
@@ -174,7 +200,7 @@ impl<'a> Walk<'_, 'a> {
                     format!("add {name} = ... to {place}")
                 };
                 let what = format!("{}: {}", allowed(property), description(property));
-                self.refuse(&dotted(name), header.clone(), "no such key".to_owned(), what, help);
+                self.refuse(&dotted(name), header.clone(), NO_SUCH_KEY.to_owned(), what, help);
             }
         }
     }

@@ -6,9 +6,11 @@
 use super::check::m;
 use super::file::DesignFile;
 use super::findings::Findings;
-use crate::clutch::{GivenSprag, Sharing, Standing};
+use crate::clutch::{Clutch, GivenSprag, Sharing, Standing};
+use crate::profile::{Outline, least_pitch_rad};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::f64::consts::TAU;
 
 /// Sprags one by one, drawn within bounds from a seed or given by number: read by `sharing`, and by `check` and `optimize`, which then
 /// hold the worst sprag.
@@ -84,10 +86,63 @@ pub(super) struct GivenSpragFile {
     pub missing: bool,
 }
 
+/// By how much the azimuths of two neighbours may come nearer until their outlines touch at first contact, deg; without an outline
+/// nothing but their order is known.
+fn room_deg(count: usize, clutch: Option<&Clutch>) -> f64 {
+    let even_rad = TAU / count as f64;
+    let least_rad = clutch.and_then(|clutch| {
+        let flanks = clutch.sprags.flanks?;
+        let profile = clutch.profile().ok()?;
+        let outline = Outline::closed(&profile, &flanks).ok()?;
+        Some(least_pitch_rad(&outline, profile.outer_centre_distance_m, even_rad))
+    });
+    (even_rad - least_rad.unwrap_or(0.0)).to_degrees()
+}
+
+/// Refuse azimuths that bring neighbours upon one another.
+fn neighbours(sharing: &SharingFile, count: usize, clutch: Option<&Clutch>, out: &mut Findings) {
+    let room_deg = room_deg(count, clutch);
+    let help = || "neighbours keep their order, and their outlines do not overlap".to_owned();
+    let within_deg = sharing.azimuth_within_deg;
+    if within_deg >= 0.5 * room_deg {
+        let allowed = format!("less than {:.4} deg, half of the room between neighbours", 0.5 * room_deg);
+        out.refuse(&["sharing.azimuth_within_deg"], allowed, help());
+        return;
+    }
+    // How far ahead and behind a place a sprag may come to stand.
+    let span_deg = |number: usize| {
+        let given = sharing.sprags.iter().find(|sprag| sprag.number == number);
+        let missing = given.is_some_and(|sprag| sprag.missing);
+        let [behind, ahead] = match given.and_then(|sprag| sprag.ahead_deg) {
+            Some(ahead) => [ahead; 2],
+            None => [-within_deg, within_deg],
+        };
+        (!missing).then_some([behind, ahead])
+    };
+    for (i, sprag) in sharing.sprags.iter().enumerate() {
+        let Some(ahead_deg) = sprag.ahead_deg.filter(|_| !sprag.missing) else { continue };
+        let number = sprag.number;
+        let (next, before) = (number % count + 1, (number + count - 2) % count + 1);
+        let most = span_deg(next).map_or(f64::INFINITY, |[behind, _]| behind + room_deg);
+        let least = span_deg(before).map_or(f64::NEG_INFINITY, |[_, ahead]| ahead - room_deg);
+        // A sprag beside one that is missing stays on its side of that place.
+        let (least, most) = (least.max(-0.5 * 360.0 / count as f64), most.min(0.5 * 360.0 / count as f64));
+        if ahead_deg <= least || ahead_deg >= most {
+            let allowed =
+                format!("above {least:.4} and below {most:.4} deg, where its neighbours stand as they do");
+            out.refuse(&[&format!("sharing.sprags[{i}].ahead_deg")], allowed, help());
+        }
+    }
+}
+
 /// `[sharing]` in SI; problems go to `out`.
-pub(super) fn si(file: &DesignFile, sharing: &SharingFile, out: &mut Findings) -> Sharing {
+pub(super) fn si(
+    file: &DesignFile,
+    sharing: &SharingFile,
+    clutch: Option<&Clutch>,
+    out: &mut Findings,
+) -> Sharing {
     let count = file.sprags.count;
-    let pitch_deg = 360.0 / count as f64;
     for (i, sprag) in sharing.sprags.iter().enumerate() {
         let key = format!("sharing.sprags[{i}].number");
         if !(1..=count).contains(&sprag.number) {
@@ -103,20 +158,8 @@ pub(super) fn si(file: &DesignFile, sharing: &SharingFile, out: &mut Findings) -
                 "put what is known of it into one entry".to_owned(),
             );
         }
-        if sprag.ahead_deg.is_some_and(|ahead| ahead.abs() >= 0.5 * pitch_deg) {
-            let key = format!("sharing.sprags[{i}].ahead_deg");
-            let help = "sprags keep their order round the clutch".to_owned();
-            out.refuse(&[&key], format!("less than half a pitch, {:.4} deg", 0.5 * pitch_deg), help);
-        }
     }
-    if sharing.azimuth_within_deg >= 0.5 * pitch_deg {
-        let help = "sprags keep their order round the clutch".to_owned();
-        out.refuse(
-            &["sharing.azimuth_within_deg"],
-            format!("less than half a pitch, {:.4} deg", 0.5 * pitch_deg),
-            help,
-        );
-    }
+    neighbours(sharing, count, clutch, out);
     let floats = sharing.bearing_stiffness_n_per_um == Some(0.0);
     if floats && file.races.eccentricity.as_ref().is_some_and(|e| e.turning) {
         out.refuse(

@@ -411,7 +411,15 @@ impl Element {
             abutment_nm_per_rad: self.model.loads.abutment_nm_per_rad,
             ..Beginning::default()
         };
-        let mut other = Self::new(clutch, &beginning, &self.settings)?;
+        self.moved_to(Self::new(clutch, &beginning, &self.settings)?)
+    }
+
+    /// As [`Self::exchanged`], by another clutch that is made already, for the same speed and abutment; where that one stands does not
+    /// matter.
+    ///
+    /// # Errors
+    /// [`NoElement::Malformed`] where its forces in this motion are no numbers.
+    pub fn moved_to(&self, mut other: Self) -> Result<Self, NoElement> {
         other.at = Saved { memory: self.at.memory.moved_to(&other.model), ..self.at };
         other.under(self.at.torques_nm, self.at.held_rad_s2);
         if other.motion().is_finite() {

@@ -122,8 +122,12 @@ pub struct Limit {
     pub when: When,
     /// How its margin comes of demand and allowable.
     pub rule: Rule,
-    /// What it is, its formula and source, and what moves it.
+    /// What it is and what moves it.
     pub explanation: &'static str,
+    /// What is computed, in the symbols of the guide.
+    pub formula: &'static str,
+    /// Where that comes from: equation, textbook, standard.
+    pub source: &'static str,
     /// Whether to reach it is to reach the end of the static curve.
     pub ends_curve: bool,
     pub(super) of: Of,

@@ -237,3 +237,9 @@ impl Margin {
         (!self.asks_nothing()).then_some(if margin.abs() < RESOLUTION { 0.0 } else { margin })
     }
 }
+
+/// The required limit among those that `counts` that is reached at the lowest torque, and that torque, N m.
+pub fn lowest_capacity(rows: &[Margin], counts: impl Fn(&Margin) -> bool) -> Option<(&Margin, f64)> {
+    let counted = rows.iter().filter(|r| r.required && counts(r));
+    counted.filter_map(|r| Some((r, r.torque_capacity_nm?))).min_by(|a, b| a.1.total_cmp(&b.1))
+}

@@ -21,19 +21,31 @@ const PRESSURE: Limit = Limit {
     explanation: "Largest pressure p_0 in the contact of one sprag with the race, by Hertz's line contact with the curvature \
                   that the contact law averages over the patch. Larger radii of the arcs, longer or more sprags, or a larger wedge \
                   angle lower it.",
+    formula: "p_0 = 2 N/(pi a l), a^2 = 4 N R/(pi l E*); 1/R = 1/r_i + 1/R_i inside, 1/r_e - 1/R_e outside; 1/E* = (1 - \
+              nu_1^2)/E_1 + (1 - nu_2^2)/E_2",
+    source: "Johnson, Contact Mechanics, (4.43) and (4.45)",
     ends_curve: false,
     of: Of::Room,
 };
 
-const UNLIKE_PRESSURE: &str = "Largest pressure p_0 in a contact of any sprag where the table sharing sets them apart: sizes, gaps and places drawn or \
+const UNLIKE_PRESSURE: Limit = Limit {
+    explanation: "Largest pressure p_0 in a contact of any sprag where the table sharing sets them apart: sizes, gaps and places drawn or \
                                given, races that bend, run out and give way, over a turn of the races. Closer tolerances, more or softer \
-                               sprags, stiffer races lower it.";
+                               sprags, stiffer races lower it.",
+    formula: "p_0 of each sprag k with its own N_k and radii; sum of its torques = torque, forces on both races in balance",
+    source: "this project: sprags one by one; Johnson (4.45)",
+    of: Of::UnlikePressure,
+    ..PRESSURE
+};
 
 const HOOP: Limit = Limit {
     when: When::Peak,
     explanation: "Hoop stress of the race as a ring under the sprags' mean pressure (Lame), at its bore and track; a fit adds \
                   its own stress, and the larger magnitude, loaded or at rest, counts. A thicker race or a larger \
                   wedge angle lowers it.",
+    formula: "p = n_s N/(2 pi R w); outer race p (R_ed^2 + R_e^2)/(R_ed^2 - R_e^2) at its track, inner race -2 p \
+              R_i^2/(R_i^2 - R_id^2) at its bore",
+    source: "Lame; Timoshenko, Strength of Materials II, art. 41",
     ..PRESSURE
 };
 
@@ -41,6 +53,8 @@ const BENDING: Limit = Limit {
     explanation: "Hoop stress of the race with the bending between the sprags, which press at single places: the mean of Lame \
                   and what a ring under evenly spaced forces bends. Shown only where the file limits the mean stress alone, as makers' \
                   allowed stresses do; its own key makes it count. More sprags or a thicker race lower it.",
+    formula: "Lame's mean + sum over k of the ring's hoop stress under the wave cos(k n_s phi) of the sprags' forces",
+    source: "Michell's ring; Timoshenko and Goodier, Theory of Elasticity",
     ..HOOP
 };
 
@@ -49,6 +63,8 @@ const SHEAR: Limit = Limit {
     when: When::Peak,
     explanation: "Largest shear stress below the contact, 0.300 p_0 at 0.786 half widths for Hertz's line contact: it starts \
                   pitting in the hardened case. What lowers the Hertz pressure lowers it.",
+    formula: "tau = (p_0/a) (z - z^2/sqrt(a^2 + z^2)), largest at z = 0.786 a: 0.300 p_0",
+    source: "Johnson, Contact Mechanics, (4.46)",
     of: Of::shear(|_, l| l.case_shear_pa, |c, p| shear_below(c, inner(p), 0.0)),
     ..PRESSURE
 };
@@ -57,6 +73,8 @@ const CORE: Limit = Limit {
     key: Some("core_shear_mpa"),
     explanation: "Largest shear stress below the contact at the depth of the hardened case and deeper, where the soft core \
                   bears it (Hertz's line contact). A deeper case or a lower pressure lowers it.",
+    formula: "tau = (p_0/a) (z - z^2/sqrt(a^2 + z^2)) at z = the depth of the case or, where that is deeper, 0.786 a",
+    source: "Johnson, Contact Mechanics, (4.46)",
     of: Of::shear(core_allowed, |c, p| shear_below(c, inner(p), case_m(c))),
     ..SHEAR
 };
@@ -64,6 +82,9 @@ const CORE: Limit = Limit {
 const EQUIVALENT: Limit = Limit {
     explanation: "Equivalent stress (von Mises) of the race under the mean pressure of the sprags on its track, by Lame for a \
                   thick ring. A thicker race or a larger wedge angle lowers it.",
+    formula: "sqrt(p^2 + p h + h^2) at the outer race's track, h its hoop stress; 2 p R_i^2/(R_i^2 - R_id^2) at the \
+              inner race's bore",
+    source: "Lame and von Mises; Timoshenko, Strength of Materials II, art. 41",
     ..PRESSURE
 };
 
@@ -75,6 +96,8 @@ const GAP: Limit = Limit {
     per_si: 1e3,
     explanation: "What the gap between the tracks opens under load, by the growth of both races, against what the allowed gap \
                   leaves of it above the gap at rest. Thicker races or a larger wedge angle lower it.",
+    formula: "N_A c_i + N_B c_e, c = n_s/(2 pi w E) ((R_o^2 + R_b^2)/(R_o^2 - R_b^2) + nu outside, - nu inside)",
+    source: "Huang 2017, (5); Lame",
     of: Of::clutch(|d, l| opening(l.gap_nominal_m, d), gap_opening_m),
     ..PRESSURE
 };
@@ -94,6 +117,9 @@ const GRIP: Limit = Limit {
     explanation: "Friction that a contact needs to hold its sprag, tangential over normal force, the largest up to peak torque, \
                   against the static coefficient mu_s. An axial load adds to the tangential force as a vector. A smaller wedge \
                   angle lowers it and raises the forces.",
+    formula: "tan omega = OB sin beta/(OB cos beta - OA) at A, tan nu = T_B/N_B with T_B = T_A OA/OB at B; with an \
+              axial load F_a sqrt(T^2 + (F_a/n_s)^2)/N",
+    source: "Huang 2017, (10)",
     of: Of::sprag(static_friction, |d, l, p| grip(d, l, p)[0], Some(|p| p.tan_omega)),
     ..PRESSURE
 };
@@ -108,6 +134,8 @@ pub static END_OF_PROFILE: Limit = Limit {
     unit: "rad",
     explanation: "How far the contact has turned on the sprag's inner arcs at peak torque, against where the last arc ends. A \
                   longer last arc or less windup leaves more.",
+    formula: "turn of the sprag - (beta - beta_0) against until_rad of its last inner arc",
+    source: "Huang 2017, figure 5",
     ends_curve: true,
     of: Of::sprag(
         |d, _| d.clutch.sprags.inner_arcs.last().map(|a| a.until_rad),
@@ -129,6 +157,8 @@ pub static KEEP_CONTACT: Limit = Limit {
     explanation: "Moment of the centrifugal force that lifts a sprag off the inner race in overrun, about its centroid, against \
                   that of the energizing spring, at the speed up to which contact is to be kept. A stiffer spring, or a \
                   centroid less far ahead of the sprag's outer centre, keeps contact.",
+    formula: "-h_e m_g OC_g Omega^2/cos gamma against K_r (alpha_max - alpha), both at first contact at that speed",
+    source: "Huang 2017, (13b), without load at A",
     of: Of::KeepContact,
     ..GRIP
 };
@@ -142,6 +172,8 @@ pub static LIFT_OFF: Limit = Limit {
     explanation: "Moment of the energizing spring against that of the centrifugal force, at the overrun speed by which the \
                       sprags are to have lifted off the inner race. A softer spring, or a centroid farther ahead of the \
                       sprag's outer centre, lifts off earlier.",
+    formula: "K_r (alpha_max - alpha) against -h_e m_g OC_g Omega^2/cos gamma, both at first contact at that speed",
+    source: "Huang 2017, (13b), without load at A",
     of: Of::LiftOff,
     ..KEEP_CONTACT
 };
@@ -158,6 +190,8 @@ pub static FILM: Limit = Limit {
     explanation: "Thickness of the oil film at the inner contact over the roughness of both surfaces, in overrun of the inner race at \
                   film_at_rpm: what is wanted against what there is. A thicker or cooler oil, smoother surfaces, longer sprags or a \
                   weaker spring raise it.",
+    formula: "lambda = h/sqrt(Rq_sprag^2 + Rq_race^2), h = R U^(1/2) H(M, L), the film where the pressure is largest",
+    source: "Moes' line contact (2000); see the command overrun",
     ends_curve: false,
     of: Of::Film,
 };
@@ -172,6 +206,8 @@ pub static SLIP: Limit = Limit {
     explanation: "Static friction from which on the scenario sticks throughout, by a run that rolls without slip, or by \
                   bisection where that run unloads the contact. Its slip margin mu_s/mu_required - 1 is held against the wanted \
                   one, limits.slip_margin. A smaller wedge angle, more preload or more damping raises it.",
+    formula: "the largest |T|/N of both contacts while the scenario rolls; margin mu_s/mu_required - 1",
+    source: "Huang 2017, (11) to (15), rolling",
     of: Of::Slip,
     ..GRIP
 };
@@ -184,6 +220,8 @@ pub static CONTACT: Limit = Limit {
     rule: Rule::Itself,
     explanation: "Smallest normal force of the inner contact while the scenario rolls, over the static one; below zero the \
                   contact would have to pull, and opens. More preload or a stiffer spring keeps it closed.",
+    formula: "least N_A(t) while the scenario rolls/N_A of the static state",
+    source: "Huang 2017, (13) to (15), rolling",
     of: Of::Contact,
     ..SLIP
 };
@@ -193,7 +231,10 @@ const ROOM: Limit = Limit {
     when: When::Outline,
     rule: Rule::Difference,
     explanation: "What a flank of the sprag may still move until outline and arcs no longer meet, over its half width, less a \
-                  fixed room. Asked only while flanks are variables of the optimiser.",
+                  fixed room. A flank farther out, or arcs that end earlier, leave more. Asked only while flanks are variables of the \
+                  optimiser.",
+    formula: "half width of the flank less what outline and arcs need to meet, over that half width",
+    source: "geometry of the outline",
     of: Of::Room,
     ..GRIP
 };
@@ -221,6 +262,8 @@ pub static LIMITS: &[&Limit] = &[
         per_si: 180.0 / std::f64::consts::PI,
         explanation: "Turn of the races against each other from first contact to nominal torque, by the curve of the wedge. \
                       Stiffer races, more sprags or a larger wedge angle lower it.",
+        formula: "windup = sum of dtheta_e - dtheta_i of the sprag rolling on both tracks while N rises",
+        source: "Huang 2017, (A.3) and (A.4), corrected",
         of: Of::clutch(|_, l| l.windup_nominal_rad, |_, p| p.windup_rad),
         ..GAP
     },
@@ -310,6 +353,9 @@ pub static LIMITS: &[&Limit] = &[
         name: |_| "compression of the sprag's body half way between the contacts, peak torque",
         explanation: "Largest compression in the narrowest section of the sprag, strut force over the section and its bending \
                       where the strut has moved off the middle (Roark 12.4). Wider flanks or a longer sprag lower it.",
+        formula: "sigma = F/(b l) (1 + 6 e/b), F = N_A/cos omega, b the width flank to flank, e the strut's distance from \
+                  the middle",
+        source: "Roark's Formulas for Stress and Strain, 7th ed., 12.4",
         of: Of::clutch(|_, l| l.body_yield_pa, |c, p| body_stress_pa(c.design, c.state, p)),
         ..HOOP
     },
@@ -342,6 +388,8 @@ pub static LIMITS: &[&Limit] = &[
         unit: "Nm",
         explanation: "Peak torque against that at which the strut stands upright and the sprag rolls over. More height of the \
                       sprag against the gap, or stiffer races, raise it.",
+        formula: "largest torque of the curve, dC/dN_A = 0, or the last at which the sprag still spans the gap",
+        source: "Huang 2017, (10)",
         ends_curve: true,
         of: Of::RollOver,
         ..GRIP
@@ -365,7 +413,9 @@ pub static LIMITS: &[&Limit] = &[
         unit: "Nm",
         rule: Rule::Onset,
         explanation: "Torque from which on, up to peak torque, the friction of both contacts carries the axial load as well: \
-                      below it the normal forces are too small. Shown only.",
+                      below it the normal forces are too small. More friction or a smaller wedge angle lowers it. Shown only.",
+        formula: "sqrt(T^2 + (F_a/n_s)^2) = mu_s N at the worse contact",
+        source: "Coulomb, with the axial load as a vector",
         of: Of::AxialFrom,
         ..GRIP
     },
@@ -378,6 +428,8 @@ pub static LIMITS: &[&Limit] = &[
         explanation: "Smallest distance between the outlines of neighbouring sprags from no load up to peak torque; they must not \
                       touch, so the demand is 0, and the margin is that distance over the race gap. Fewer or \
                       narrower sprags leave more.",
+        formula: "least distance between two outlines 360 deg/n_s apart, over R_e - R_i",
+        source: "geometry of the outline",
         of: Of::Neighbours,
         ..GRIP
     },
@@ -388,6 +440,8 @@ pub static LIMITS: &[&Limit] = &[
         explanation: "Friction that the inner contact needs when it begins to carry, tan omega at first contact, against the \
                       kinetic coefficient mu_c, which is all that a sliding contact has. A smaller wedge angle at first \
                       contact lowers it.",
+        formula: "tan omega as N goes to 0",
+        source: "Huang 2017, (10); a sliding contact has mu_c",
         of: Of::ReEngagement,
         ..GRIP
     },
@@ -410,6 +464,8 @@ pub static LIMITS: &[&Limit] = &[
         unit: "Nm",
         explanation: "Peak torque against that at which the first sprag of a clutch off centre rolls over or leaves its \
                       profile. Less eccentricity raises it.",
+        formula: "least end of the curves of all sprags, each with its own gap R_e - R_i - offset cos phi",
+        source: "this project: one curve per sprag off centre",
         ends_curve: true,
         of: Of::RunOutEnd,
         ..GRIP
@@ -420,24 +476,22 @@ pub static LIMITS: &[&Limit] = &[
         when: When::Nominal,
         explanation: "Largest normal force of a sprag of a clutch off centre over the mean of all, against that with which its \
                       pressure would meet the Hertz limit (p_0^2 ~ N). Less eccentricity lowers it. Shown only.",
+        formula: "largest N_k/mean of N_k against (p_allowed/p_0)^2",
+        source: "this project: one curve per sprag off centre; Hertz",
         of: Of::RunOutShare,
         ..GRIP
     },
     &Limit {
         code: "sprag-hertz-nominal",
         name: |_| "largest Hertz pressure of unlike sprags, nominal torque",
-        explanation: UNLIKE_PRESSURE,
-        of: Of::UnlikePressure,
-        ..PRESSURE
+        ..UNLIKE_PRESSURE
     },
     &Limit {
         code: "sprag-hertz-peak",
         key: Some("hertz_peak_mpa"),
         name: |_| "largest Hertz pressure of unlike sprags, peak torque",
         when: When::Peak,
-        explanation: UNLIKE_PRESSURE,
-        of: Of::UnlikePressure,
-        ..PRESSURE
+        ..UNLIKE_PRESSURE
     },
     &Limit {
         code: "sprag-grip",
@@ -449,6 +503,8 @@ pub static LIMITS: &[&Limit] = &[
         explanation: "Friction that a sprag needs, tangential over normal force at its worse contact, over the static friction that it \
                       has, the largest of all sprags of the table sharing; one that does not hold even at its touch carries nothing and \
                       is not counted. A smaller wedge angle, or less spread of friction and size, lowers it.",
+        formula: "largest over the sprags of |T_k|/(N_k mu_s,k)",
+        source: "this project: sprags one by one; Coulomb",
         of: Of::UnlikeFriction,
         ..PRESSURE
     },

@@ -47,9 +47,11 @@ struct Neighbours {
 impl Neighbours {
     /// None below two sprags.
     fn new(outline: &Outline, count: usize) -> Option<Self> {
-        if count < 2 {
-            return None;
-        }
+        (count >= 2).then(|| Self::apart(outline, TAU / count as f64))
+    }
+
+    /// Two that stand `pitch` apart.
+    fn apart(outline: &Outline, pitch: f64) -> Self {
         let segments = outline.segments();
         let mut features = Vec::with_capacity(2 * segments.len());
         for (segment, next) in segments.iter().zip(segments.iter().cycle().skip(1)) {
@@ -69,7 +71,7 @@ impl Neighbours {
             }
             features.push(Feature { centre: segment.end_m(), radius: 0.0, from_azimuth, span });
         }
-        Some(Self { features, pitch: TAU / count as f64 })
+        Self { features, pitch }
     }
 
     /// Largest n.p over the outline for the direction n at `azimuth`, m.
@@ -132,6 +134,21 @@ pub fn clearance_m(outline: &Outline, outer_centre_distance_m: f64, rotation_rad
     Neighbours::new(outline, count)
         .map_or(f64::INFINITY, |neighbours| neighbours.clearance(outer_centre_distance_m, rotation_rad))
 }
+
+/// Least pitch from 0 to `even_rad`, rad, at which neighbours turned alike do not overlap; `even_rad` itself where they do at that. As
+/// in [`clearance_m`] else. Convex sprags that overlap at one pitch overlap at every smaller one, so bisection finds it.
+pub fn least_pitch_rad(outline: &Outline, outer_centre_distance_m: f64, even_rad: f64) -> f64 {
+    let clear = |pitch: f64| Neighbours::apart(outline, pitch).clearance(outer_centre_distance_m, 0.0) > 0.0;
+    let (mut touches, mut clears) = (0.0, even_rad);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (touches + clears);
+        if clear(middle) { clears = middle } else { touches = middle }
+    }
+    clears
+}
+
+/// Halvings of a pitch: to 1e-12 of it.
+const HALVINGS: usize = 40;
 
 /// Smallest rotation Omega from 0 to `max_rotation_rad`, rad, at which neighbouring sprags touch, from its
 /// free side; 0 where they overlap from the start, none where they stay apart.

@@ -21,7 +21,7 @@ mod properties;
 mod reseat;
 mod unclosed;
 
-pub use crowding::{clearance_m, touch_rotation_rad};
+pub use crowding::{clearance_m, least_pitch_rad, touch_rotation_rad};
 pub use curvature::PatchCurvature;
 pub use flank::{Flanks, STEEPEST_RAD};
 pub use mass::MassProperties;

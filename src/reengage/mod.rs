@@ -188,9 +188,9 @@ impl Drive<'_> {
         Ok(Slipped::Ended(Stop::StepLimit))
     }
 
-    /// Grip again with the friction of `held` from where `slips` stands.
-    fn grip(&self, slips: &Element, held: &Clutch, path_m: f64) -> Result<Blow, NoElement> {
-        let mut grips = slips.exchanged(held)?;
+    /// Grip again as `held` does, from where `slips` stands.
+    fn grip(&self, slips: &Element, held: &Element, path_m: f64) -> Result<Blow, NoElement> {
+        let mut grips = slips.moved_to(held.clone())?;
         let slip_s = grips.t_s();
         let (mut most_n, mut peak_s, mut speed_rad_s, mut ended) = (0.0, slip_s, 0.0_f64, None);
         let mut wound = false;
@@ -279,6 +279,8 @@ pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<B
     let mut drive = Drive { case, radius_m: clutch.races.inner_radius_m, begun_rad: 0.0, dt_s, follow };
     drive.begun_rad = drive.apart(&rests).0 / drive.radius_m;
     let mut slips = rests.exchanged(&slippery)?;
+    // Made once: each path goes on from where the slip stands then.
+    let grips = slips.exchanged(&held)?;
     let mut found = Blows { list: Vec::with_capacity(case.paths_m.len()), holds: None, needs, ended: None };
     for &path_m in &case.paths_m {
         if let Some(end) = found.ended {
@@ -286,7 +288,7 @@ pub fn blows(clutch: &Clutch, case: &SlipUnderLoad, follow: &Follow) -> Result<B
             continue;
         }
         match drive.slip_to(&mut slips, path_m)? {
-            Slipped::There => found.list.push(drive.grip(&slips, &held, path_m)?),
+            Slipped::There => found.list.push(drive.grip(&slips, &grips, path_m)?),
             Slipped::Holds(needed) => return Ok(Blows { holds: Some(needed), ..found }),
             Slipped::Ended(stop) => {
                 let (fled_m, speed_rad_s) = drive.apart(&slips);

@@ -1,6 +1,6 @@
 //! A plane of tiles over two variables: shades of what is held and of what is not, or colours of kinds, with the border between both.
 
-use super::plot::{Axis, LEFT_PX, PITCH_X_PX, RIGHT_PX, draw_below, draw_left};
+use super::plot::{Axis, LEFT_PX, PITCH_X_PX, RIGHT_PX, draw_below, draw_left, left_px};
 use super::svg::{
     Anchor, BAD, GOOD, INK, PHONE_PX, RULE, SERIES, SOFT, Svg, begin_within, for_both, polyline, rectangle,
     text_width,
@@ -14,6 +14,8 @@ pub enum Shade {
     Blank,
     /// There is nothing to judge.
     Void,
+    /// Something was looked for and not found: crossed.
+    Missing,
     /// Held, from 0, barely, to [`SHADES`] - 1.
     Held(u8),
     /// Not held, from 0, barely, to [`SHADES`] - 1.
@@ -34,10 +36,24 @@ impl Shade {
         let fill = |colour: &str, opacity: f64| format!("fill=\"{colour}\" fill-opacity=\"{opacity:.2}\"");
         match self {
             Self::Blank => fill("none", 0.0),
+            Self::Missing => format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""),
             Self::Void => fill(RULE, 1.0),
             Self::Held(k) => fill(GOOD, part(k)),
             Self::Broken(k) => fill(BAD, 0.8 * part(k)),
             Self::Kind(k) => fill(SERIES[k.min(KINDS)], 0.8),
+        }
+    }
+}
+
+impl Shade {
+    /// Path of a tile from its upper left corner: its edges, or a cross in it.
+    fn outline(self, [x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
+        match self {
+            Self::Missing => {
+                let (right, below) = (x + width, y + height);
+                polyline(&[[x, y], [right, below]], false) + &polyline(&[[x, below], [right, y]], false)
+            }
+            _ => rectangle([x, y], [width, height]),
         }
     }
 }
@@ -65,6 +81,7 @@ const SIZE_PX: [f64; 2] = [500.0, 400.0];
 const BOTTOM_PX: f64 = 50.0;
 const ROW_PX: f64 = 17.0;
 const SWATCH_PX: f64 = 14.0;
+const PITCH_Y_PX: f64 = 32.0;
 
 impl HeatMap {
     /// The figure of a page.
@@ -85,15 +102,16 @@ impl HeatMap {
             [low, .., high] if high > low => [*low, *high],
             _ => [0.0, 1.0],
         };
-        let x = Axis { log: false, range: range(&self.x_edges), px: [LEFT_PX, width - RIGHT_PX] };
         let y = Axis { log: false, range: range(&self.y_edges), px: [height - BOTTOM_PX, top] };
+        let left = left_px(&y.ticks(PITCH_Y_PX));
+        let x = Axis { log: false, range: range(&self.x_edges), px: [left, width - RIGHT_PX] };
         let mut svg =
             Svg::new(width, height, &format!("{}: {} over {}", self.title, self.y_title, self.x_title));
         svg.title_text([begin_within(LEFT_PX, &self.title, width), 15.0], &self.title);
         for (shade, at, row) in legend {
             let line = 26.0 + ROW_PX * row;
             let name = &self.legend[at.1].1;
-            svg.path(&rectangle([at.0, line - 2.0], [SWATCH_PX, 12.0]), &shade.style());
+            svg.path(&shade.outline([at.0, line - 2.0], [SWATCH_PX, 12.0]), &shade.style());
             svg.bare_text([at.0 + SWATCH_PX + 5.0, line + 8.0], Anchor::Start, INK, name);
         }
         if self.tiles.len() == self.columns() * self.y_edges.len().saturating_sub(1) {
@@ -103,7 +121,7 @@ impl HeatMap {
         let frame = rectangle([x.px[0], y.px[1]], [x.px[1] - x.px[0], y.px[0] - y.px[1]]);
         svg.path(&frame, &format!("fill=\"none\" stroke=\"{SOFT}\""));
         draw_below(&mut svg, &x, &x.ticks(PITCH_X_PX), y.px[0], &self.x_title, width);
-        draw_left(&mut svg, &y, &y.ticks(32.0), LEFT_PX, &self.y_title, height);
+        draw_left(&mut svg, &y, &y.ticks(PITCH_Y_PX), left, &self.y_title, height);
         svg.finish()
     }
 
@@ -133,7 +151,7 @@ impl HeatMap {
             self.tiles.chunks(self.columns().max(1)).zip(self.y_edges.windows(2)).enumerate()
         {
             let mut from = 0;
-            for run in tiles.chunk_by(|a, b| a.0 == b.0) {
+            for run in tiles.chunk_by(|a, b| a.0 == b.0 && a.0 != Shade::Missing) {
                 let until = from + run.len();
                 let (left, right) = (x.at(self.x_edges[from]), x.at(self.x_edges[until]));
                 let (bottom, top) = (y.at(edges[0]), y.at(edges[1]));
@@ -141,7 +159,7 @@ impl HeatMap {
                 // A hair of overlap, so that no line of paper shows between rows.
                 let over = if row > 0 { 0.3 } else { 0.0 };
                 let path = paths.entry(run[0].0).or_default();
-                path.push_str(&rectangle([left, top], [right - left, bottom - top + over]));
+                path.push_str(&run[0].0.outline([left, top], [right - left, bottom - top + over]));
             }
         }
         for (shade, path) in paths.iter().filter(|(shade, _)| **shade != Shade::Blank) {
@@ -196,6 +214,9 @@ mod tests {
         let (held, broken) = ((Shade::Held(3), Some(true)), (Shade::Broken(3), Some(false)));
         let count = |tiles| map(tiles).to_svg().matches("stroke-linecap=\"square\"").count();
         assert_eq!(count(vec![held, broken, held, held]), 1);
+        // What was not found is crossed, each tile for itself.
+        let crossed = map(vec![(Shade::Missing, None), (Shade::Missing, None), held, held]).to_svg();
+        assert!(crossed.contains("stroke-width=\"0.8\"") && !crossed.contains("NaN"));
         assert_eq!(count(vec![held; 4]), 0);
         assert_eq!(count(vec![held, (Shade::Blank, None), held, (Shade::Blank, None)]), 0);
     }

@@ -23,6 +23,6 @@ pub use page::{Page, PageHead, greek};
 pub use parallel::Parallel;
 pub use plot::{Curve, Dash, Marker, Plot};
 pub use strip::{Span, Strip};
-pub use table::{Cell, Column, Screen, Table};
+pub use table::{Cell, Column, Rows, Screen, Table};
 #[cfg(test)]
 mod tests;

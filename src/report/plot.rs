@@ -9,7 +9,7 @@ use super::svg::{Anchor, INK, PHONE_PX, RULE, SOFT, Svg, begin_within, for_both,
 use scale::{Extent, thinned};
 use style::{Style, styles};
 
-pub(super) use axis::{Axis, draw_below, draw_left};
+pub(super) use axis::{Axis, draw_below, draw_left, left_px};
 
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -149,8 +149,9 @@ impl Plot {
         let [width, height] = self.size_px;
         let extent = self.extent();
         let [x_range, y_range] = extent.ranges(self.log_x, self.log_y);
-        let x = Axis { log: self.log_x, range: x_range, px: [LEFT_PX, width - RIGHT_PX] }.begun(PITCH_X_PX);
         let legend = self.legend_rows();
+        let left = self.left_px(y_range, height);
+        let x = Axis { log: self.log_x, range: x_range, px: [left, width - RIGHT_PX] }.begun(PITCH_X_PX);
         let markers = self.placed_markers(&x, &extent);
         let marker_rows = markers.iter().filter_map(|m| m.2).max().map_or(0, |row| row + 1);
         let title = self.title();
@@ -165,7 +166,7 @@ impl Plot {
         svg.title_text([begin_within(LEFT_PX, &title, width), 15.0], &title);
         self.draw_legend(&mut svg, &legend, &styles, title_px);
         self.draw_markers(&mut svg, &x, &markers, top_px);
-        self.draw_levels(&mut svg, &y, top_px);
+        self.draw_levels(&mut svg, &y, left, top_px);
         if extent.is_empty() {
             svg.text([width / 2.0, height / 2.0], Anchor::Middle, SOFT, "no data");
         }
@@ -175,11 +176,18 @@ impl Plot {
     /// The figure of a page.
     pub fn to_figure(&self) -> String {
         let [_, height] = self.size_px;
-        let mut phone = self.clone().sized(PHONE_PX, height.min(300.0));
+        let mut phone = self.clone().sized(PHONE_PX, height.min(320.0));
         // What more the legend takes is not taken from the frame.
         let more = phone.legend_rows().len().saturating_sub(self.legend_rows().len());
         phone.size_px[1] += ROW_PX * more as f64;
         for_both(&self.to_svg(), &phone.to_svg())
+    }
+
+    /// Where the frame begins: farther in where the numbers of its axis would run into their title.
+    fn left_px(&self, range: [f64; 2], height: f64) -> f64 {
+        let log = usize::from(self.log_y);
+        let y = Axis { log: self.log_y, range, px: [height - BOTTOM_PX, ROW_PX] }.begun(PITCH_Y_PX[log]);
+        axis::left_px(&y.ticks(PITCH_Y_PX[log]))
     }
 
     /// Where the legend begins.
@@ -325,12 +333,12 @@ impl Plot {
         }
     }
 
-    fn draw_levels(&self, svg: &mut Svg, y: &Axis, top_px: f64) {
+    fn draw_levels(&self, svg: &mut Svg, y: &Axis, left: f64, top_px: f64) {
         let right = self.size_px[0] - RIGHT_PX;
         let style = format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"1.2\" stroke-dasharray=\"7 4\"");
         for level in self.sound_levels() {
             let at = y.at(level.at);
-            svg.line([LEFT_PX, at], [right, at], &style);
+            svg.line([left, at], [right, at], &style);
             let label_y = if at < top_px + ROW_PX { at + 14.0 } else { at - 5.0 };
             svg.text([right - 5.0, label_y], Anchor::End, SOFT, &level.label);
         }
@@ -339,9 +347,9 @@ impl Plot {
 
 /// The name in an axis title: what stands before the unit.
 fn without_unit(title: &str) -> &str {
-    const UNITS: [&str; 22] = [
-        "deg", "rad", "mrad", "Nm", "mNm", "Nm/rad", "N", "kN", "MPa", "GPa", "mm", "µm", "m", "ms", "s",
-        "Hz", "rpm", "rad/s", "%", "g", "W", "J",
+    const UNITS: [&str; 24] = [
+        "°C", "°", "deg", "rad", "mrad", "Nm", "mNm", "Nm/rad", "N", "kN", "MPa", "GPa", "mm", "µm", "m",
+        "ms", "s", "Hz", "rpm", "rad/s", "%", "g", "W", "J",
     ];
     match title.rsplit_once(", ") {
         Some((name, unit)) if UNITS.contains(&unit) => name,

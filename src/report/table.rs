@@ -129,12 +129,54 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// Rows, top to bottom.
     pub rows: Vec<Vec<Cell>>,
+    /// So many columns, one at least, say what a row is: where not all columns fit on a screen these come again.
+    pub lead: usize,
+}
+
+/// A table of things, column by column: each says where its cells come from.
+#[derive(Debug, Clone)]
+pub struct Rows<T> {
+    items: Vec<T>,
+    table: Table,
+}
+
+impl<T> Rows<T> {
+    /// One row for each of `items`, no column yet.
+    pub fn of(items: impl IntoIterator<Item = T>) -> Self {
+        let items: Vec<T> = items.into_iter().collect();
+        let table = Table { rows: vec![Vec::new(); items.len()], ..Table::new(Vec::new()) };
+        Self { items, table }
+    }
+
+    /// A further column of numbers.
+    pub fn number<C: Into<Cell>>(
+        mut self,
+        key: &str,
+        heading: &str,
+        unit: Unit,
+        digits: usize,
+        cell: impl Fn(&T) -> C,
+    ) -> Self {
+        self.table.columns.push(Column::number(key, heading, unit, digits));
+        self.table.rows.iter_mut().zip(&self.items).for_each(|(row, item)| row.push(cell(item).into()));
+        self
+    }
+
+    /// A further column of words.
+    pub fn text<C: Into<Cell>>(self, key: &str, heading: &str, cell: impl Fn(&T) -> C) -> Self {
+        self.number(key, heading, Unit::One, 1, cell)
+    }
+
+    /// The table.
+    pub fn table(self) -> Table {
+        self.table
+    }
 }
 
 impl Table {
     /// An empty table.
     pub fn new(columns: Vec<Column>) -> Self {
-        Self { columns, rows: Vec::new() }
+        Self { columns, rows: Vec::new(), lead: 1 }
     }
 
     /// Two columns for short facts: what, and how much with its unit.
@@ -161,8 +203,8 @@ impl Table {
         row.get(index).unwrap_or(&Cell::Empty)
     }
 
-    /// Aligned columns for a terminal, units in the headings. Columns that do not fit on the screen follow below, beside
-    /// the first column once more.
+    /// Aligned columns for a terminal, units in the headings. Where they do not fit on the screen, headings take several lines; columns
+    /// that still do not fit follow below, beside those that lead.
     pub fn to_text(&self, screen: Screen) -> String {
         let shown: Vec<Vec<String>> = self
             .rows
@@ -170,11 +212,19 @@ impl Table {
             .map(|row| self.columns.iter().enumerate().map(|(i, c)| Self::cell(row, i).shown(c)).collect())
             .collect();
         let headings: Vec<String> = self.columns.iter().map(|c| c.unit.heading(&c.heading)).collect();
-        let width = |i: usize, heading: &str| {
-            let cells = shown.iter().filter_map(|row| row.get(i)).map(|s| s.chars().count());
-            cells.chain([heading.chars().count()]).max().unwrap_or(0)
+        let cells = |i: usize| shown.iter().filter_map(|row| row.get(i)).map(|s| s.chars().count()).max();
+        let wide = |(i, h): (usize, &String)| cells(i).unwrap_or(0).max(h.chars().count());
+        let whole = headings.iter().enumerate().map(wide).map(|w| w + BETWEEN.len()).sum::<usize>();
+        let fits = screen.columns.is_none_or(|most| whole <= most + BETWEEN.len());
+        let headings: Vec<Vec<String>> = headings
+            .into_iter()
+            .enumerate()
+            .map(|(i, h)| if fits { vec![h] } else { in_lines(&h, cells(i).unwrap_or(0)) })
+            .collect();
+        let width = |(i, lines): (usize, &Vec<String>)| {
+            lines.iter().map(|line| line.chars().count()).chain(cells(i)).max().unwrap_or(0)
         };
-        let widths: Vec<usize> = headings.iter().enumerate().map(|(i, h)| width(i, h)).collect();
+        let widths: Vec<usize> = headings.iter().enumerate().map(width).collect();
         let mut out = String::new();
         let mut line = |block: &[usize], cells: &[String], paint: &dyn Fn(usize) -> Option<bool>| {
             let mut text = String::new();
@@ -201,11 +251,19 @@ impl Table {
             out.push('\n');
         };
         let rule: Vec<String> = widths.iter().map(|&w| "─".repeat(w)).collect();
-        for (k, block) in blocks(&widths, screen.columns).iter().enumerate() {
+        for (k, block) in blocks(&widths, screen.columns, self.lead.max(1)).iter().enumerate() {
             if k > 0 {
                 line(&[], &[], &|_| None);
             }
-            line(block, &headings, &|_| None);
+            // Headings end above the rule.
+            let height = block.iter().map(|&i| headings[i].len()).max().unwrap_or(0);
+            for row in 0..height {
+                let part =
+                    |lines: &Vec<String>| (row + lines.len()).checked_sub(height).map(|at| lines[at].clone());
+                let parts: Vec<String> =
+                    headings.iter().map(|lines| part(lines).unwrap_or_default()).collect();
+                line(block, &parts, &|_| None);
+            }
             line(block, &rule, &|_| None);
             for (row, cells) in self.rows.iter().zip(&shown) {
                 line(block, cells, &|i| match Self::cell(row, i) {
@@ -265,17 +323,36 @@ impl Table {
 /// What stands between two columns.
 const BETWEEN: &str = "  ";
 
-/// Which columns stand side by side: as many as fit into `most` characters, but two at least; the first leads each block.
-fn blocks(widths: &[usize], most: Option<usize>) -> Vec<Vec<usize>> {
+/// A heading in lines as wide as its longest word or `cells` at most.
+fn in_lines(heading: &str, cells: usize) -> Vec<String> {
+    let count = |text: &str| text.chars().count();
+    let most = heading.split(' ').map(count).max().unwrap_or(0).max(cells);
+    let mut lines: Vec<String> = Vec::new();
+    for word in heading.split(' ') {
+        match lines.last_mut() {
+            Some(line) if count(line) + 1 + count(word) <= most => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// Which columns stand side by side: as many as fit into `most` characters, but one beside the `lead` ones at least.
+fn blocks(widths: &[usize], most: Option<usize>, lead: usize) -> Vec<Vec<usize>> {
     let mut blocks: Vec<Vec<usize>> = Vec::new();
     for i in 0..widths.len() {
         let taken = |block: &Vec<usize>| block.iter().map(|&j| widths[j] + BETWEEN.len()).sum::<usize>();
         match blocks.last_mut() {
             None => blocks.push(vec![i]),
-            Some(block) if block.len() < 2 || most.is_none_or(|most| taken(block) + widths[i] <= most) => {
+            Some(block)
+                if block.len() <= lead || most.is_none_or(|most| taken(block) + widths[i] <= most) =>
+            {
                 block.push(i);
             }
-            Some(_) => blocks.push(vec![0, i]),
+            Some(_) => blocks.push((0..lead).chain([i]).collect()),
         }
     }
     blocks
@@ -337,16 +414,20 @@ mod tests {
         let text = at(45);
         assert_eq!(
             text,
-            "Limit                    Demand  Margin, %\n\
-                          ────────────────────  ─────────  ─────────\n\
-                          Hertz, nominal         3910 MPa       7.42\n\
-                          Hoop <outer>, \"mean\"  760.0 MPa      −1.30\n\
+            "                                 Margin,\n\
+                          Limit                    Demand        %\n\
+                          ────────────────────  ─────────  ───────\n\
+                          Hertz, nominal         3910 MPa     7.42\n\
+                          Hoop <outer>, \"mean\"  760.0 MPa    −1.30\n\
                           \n\
                           Limit                 Verdict\n\
                           ────────────────────  ───────\n\
                           Hertz, nominal        held\n\
                           Hoop <outer>, \"mean\"  broken\n"
         );
+        // What two columns tell stands beside what follows below.
+        let two = Table { lead: 2, ..margins() }.to_text(Screen { colour: false, columns: Some(45) });
+        assert!(two.contains("Limit                    Demand  Verdict\n"), "{two}");
         // Nothing is lost where not even two columns fit, nor where the whole table does.
         let narrow = at(5);
         assert!(["Demand", "Margin, %", "Verdict", "broken"].iter().all(|word| narrow.contains(word)));

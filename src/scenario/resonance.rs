@@ -24,7 +24,8 @@ pub struct ResonanceCell {
 }
 
 /// The states of `scenario` at every amplitude (N m), the first row first, and every frequency (Hz, rising), with its start and all
-/// else. `done` is told of each cell. `Ok(None)`: stopped by [`Settings::follow`], or no torsional excitation.
+/// else. `done` is told of each cell. Stopped by [`Settings::follow`]: the rows that were walked both ways until then; `Ok(None)`: not one,
+/// or no torsional excitation.
 ///
 /// # Errors
 /// [`NoScenario`] where the clutch cannot carry the preload.
@@ -39,8 +40,8 @@ pub fn resonance(
         .par_iter()
         .map(|&amplitude_nm| row(scenario, frequencies_hz, amplitude_nm, settings, done))
         .collect();
-    let rows: Option<Vec<_>> = rows?.into_iter().collect();
-    Ok(rows.filter(|_| !settings.follow.stopped()))
+    let rows: Vec<_> = rows?.into_iter().flatten().collect();
+    Ok(Some(rows).filter(|rows| !rows.is_empty()))
 }
 
 fn row(

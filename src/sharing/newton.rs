@@ -5,6 +5,7 @@ use crate::clutch::Carrier;
 use crate::numeric::root;
 use crate::wedge::{EndReason, SpragDeviation, Statics};
 use nalgebra::{DMatrix, DVector};
+use std::f64::consts::{PI, TAU};
 
 /// Steps of Newton's method: it needs 4 to 12, more where many sprags come off.
 const STEPS: usize = 80;
@@ -29,9 +30,16 @@ pub enum NotShared {
     NoneCarries,
     /// A sprag comes to its end before: its number, why.
     End(usize, EndReason),
+    /// The torque is so small that rounding hides it.
+    Faint,
+    /// Nothing holds the race, and no sprag stands opposite of those that carry.
+    OneSided,
     /// No balance was found.
     NoBalance,
 }
+
+/// Part of the torque at the curve's end below which rounding may hide a torque.
+const FAINT: f64 = 1e-8;
 
 impl NotShared {
     /// In words.
@@ -39,7 +47,9 @@ impl NotShared {
         match self {
             Self::NoneCarries => "no sprag carries".to_owned(),
             Self::End(i, reason) => format!("sprag {} comes to its end first, {}", i + 1, reason.name()),
-            Self::NoBalance => "no balance was found".to_owned(),
+            Self::Faint => "too small a torque: rounding hides it".to_owned(),
+            Self::OneSided => "nothing holds the race (bearing_stiffness_n_per_um = 0), and no sprag opposite keeps it in its place".to_owned(),
+            Self::NoBalance => "its balance of forces was not found by the method".to_owned(),
         }
     }
 }
@@ -94,6 +104,31 @@ impl Unlike<'_> {
         }
         let (x, scales) = self.guess(asked, first)?;
         let case = Case { asked, turned_rad, scales, stiffness_n_per_m: self.stiffness_n_per_m };
+        self.balanced(x, case).map_err(|why| self.reason(why, asked))
+    }
+
+    /// What lies behind a torque that is not carried.
+    fn reason(&self, why: NotShared, asked: Asked) -> NotShared {
+        let faint = matches!(asked, Asked::Torque(torque) if torque < FAINT * self.curve.end_torque_nm());
+        match why {
+            _ if self.stiffness_n_per_m == 0.0 && self.one_sided() => NotShared::OneSided,
+            NotShared::NoBalance if faint => NotShared::Faint,
+            why => why,
+        }
+    }
+
+    /// Whether all sprags that can carry stand in one half of the circumference.
+    fn one_sided(&self) -> bool {
+        let able = self.sprags.iter().zip(&self.idle).filter(|(_, idle)| idle.is_none());
+        let mut at: Vec<f64> = able.map(|(sprag, _)| sprag.azimuth_rad.rem_euclid(TAU)).collect();
+        at.sort_by(f64::total_cmp);
+        let round = at.first().map(|first| first + TAU);
+        let next = at.iter().copied().skip(1).chain(round);
+        at.iter().zip(next).any(|(from, to)| to - from > PI)
+    }
+
+    fn balanced(&self, x: DVector<f64>, case: Case) -> Result<Shared, NotShared> {
+        let scales = case.scales;
         let direct = self.solved(&x, case);
         if direct.is_ok() || self.stiffness_n_per_m.is_infinite() {
             return direct.and_then(|(_, found)| self.finished(found));

@@ -245,7 +245,8 @@ fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Ve
     }
     if let Some(count) = wanted.engagements {
         lines.push(format!(
-            "Engagements wanted: {count}. Kept as a note: whether it lives as long is told by the command `life`, from a table [life]."
+            "Engagements wanted: {count}, at nominal torque: see [life]. Its size does not follow from them; the command life tells what \
+             they do to it."
         ));
     }
     lines

@@ -102,6 +102,7 @@ pub(super) fn draft(wanted: &Requirements, space_m: f64, [wall, outside]: [f64; 
         step_duration_s: 0.02,
         abutment_nm_per_rad: 10.0 * wanted.torque_nm,
         scenes: Vec::new(),
+        engagements: wanted.engagements,
     };
     lengthen(&mut draft, longest_m(wanted, space_m));
     spring(&mut draft, SPRING_N * (space_m / 8.33e-3).powi(2));

@@ -37,7 +37,7 @@ pub struct Requirements {
     pub steel: &'static Steel,
     /// What the clutch is for: the scenes that its file has beside the two of every first design.
     pub purpose: Option<&'static Purpose>,
-    /// Engagements in its life, for the file's comment alone: nothing computes a life.
+    /// Engagements in its life at nominal torque, for `[life]` of the file: the size does not follow from them.
     pub engagements: Option<f64>,
 }
 

@@ -82,18 +82,20 @@ impl fmt::Display for NoSize {
 }
 
 fn first_reason(tried: &[Tried]) -> String {
-    let why = |t: &Tried| match t.decided_by.as_str() {
+    let why = |t: &Tried| {
+        match t.decided_by.as_str() {
         "count" => format!("room for {} sprags, the family has {} to {}", t.count, COUNTS.0, COUNTS.1),
         "width" => {
             format!("sprags as long as the race space are wider than --width leaves ({} sprags)", t.count)
         }
         "outside" => "the outer race would be too thin within --outside".to_owned(),
-        "flanks" => "no flank fits between the arcs of the profile".to_owned(),
-        "lift-off" => "no spring and no flank lets the sprags off by that speed".to_owned(),
+        "flanks" => "no flanks (the sides of the body between the profiles) fit".to_owned(),
+        "lift-off" => "neither a softer spring nor a heavier front side (flank) of the body lets the sprags off by that speed".to_owned(),
         "keep-contact" => {
             "a spring that holds the sprags against their centrifugal moment drags too much".to_owned()
         }
         other => other.to_owned(),
+    }
     };
     tried.iter().map(|t| format!("\n  race space {:.2} mm: {}", t.space_m * 1e3, why(t))).collect()
 }

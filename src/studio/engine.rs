@@ -108,17 +108,24 @@ impl Engine {
         Ok(scene_row(&solved.design, &solved.state, scenario, settings))
     }
 
-    /// The course of one scenario.
+    /// The course of one scenario, with that of the same name in a pinned text as ghost.
     ///
     /// # Errors
-    /// [`StudioRefusal`].
-    pub fn scene(&self, text: &str, name: &str, settings: &Settings) -> Result<SceneView, StudioRefusal> {
+    /// [`StudioRefusal`]; a pinned text that is refused, or has no such scenario, is left out.
+    pub fn scene(
+        &self,
+        text: &str,
+        pinned: Option<&str>,
+        name: &str,
+        settings: &Settings,
+    ) -> Result<SceneView, StudioRefusal> {
         let solved = self.solved(text)?;
+        let pinned = pinned.filter(|pinned| *pinned != text).and_then(|text| self.solved(text).ok());
         let scenario = solved
             .design
             .scenario(name)
             .ok_or_else(|| StudioRefusal::said(format!("no scenario {name:?}")))?;
-        Ok(scene_view(scenario, settings)?)
+        Ok(scene_view(scenario, pinned.as_ref().and_then(|p| p.design.scenario(name)), settings)?)
     }
 
     /// The text with a value set, its comments kept. The new text may still be refused by [`Engine::check`].
@@ -148,7 +155,10 @@ impl Engine {
                 "scene_row" => {
                     json(serde_json::to_value(self.scene_row(need("text")?, need("name")?, settings)?))
                 }
-                "scene" => json(serde_json::to_value(self.scene(need("text")?, need("name")?, settings)?)),
+                "scene" => {
+                    let found = self.scene(need("text")?, text("pinned"), need("name")?, settings)?;
+                    json(serde_json::to_value(found))
+                }
                 "change" => {
                     let text = self.set(need("text")?, need("path")?, need("value")?)?;
                     let look = self.check(&text, question.get("pinned").and_then(Value::as_str))?;
@@ -193,9 +203,13 @@ mod tests {
         let row = engine.scene_row(DESIGN, "low-10", &settings).unwrap();
         assert!(row.required_friction.is_some() && row.margins.len() >= 2);
         assert_eq!(engine.scene_row(DESIGN, "high-10", &settings).unwrap().required_friction, None);
-        let scene = engine.scene(DESIGN, "high-10", &settings).unwrap();
+        let scene = engine.scene(DESIGN, None, "high-10", &settings).unwrap();
         assert_eq!(scene.t_s.len(), scene.forces_n.len());
         assert!(scene.t_s.len() > 500 && scene.plots.len() == 3);
+        let text = engine.set(DESIGN, "r_i2_mm", "4.2").unwrap();
+        let beside = engine.scene(&text, Some(DESIGN), "high-10", &settings).unwrap();
+        assert!(beside.plots.iter().all(|plot| plot.contains("pinned")));
+        assert!(scene.plots.iter().all(|plot| !plot.contains("pinned")));
     }
 
     #[test]

@@ -17,7 +17,8 @@ pub struct Field {
     /// Value of a number, in the file's unit.
     pub value: Option<f64>,
     /// Ends of its slider: the bounds of `[optimize]` where it is a variable there, else a quarter to both sides, within what
-    /// the file format allows. None for 0, which has no size.
+    /// the file format allows. A 0 that is no variable has none of that: it goes to the size of the largest like number of the
+    /// file, or to 1.
     pub range: Option<[f64; 2]>,
     /// Whether it takes whole numbers only.
     pub whole: bool,
@@ -34,10 +35,17 @@ const APART: &[&str] = &["schema", "name", "optimize", "identify", "tolerances",
 pub fn fields(design: &Design) -> Vec<Field> {
     let table = |path: &str| path.split(['.', '[']).next().unwrap_or("").to_owned();
     let own = inputs(&design.source).into_iter().filter(|i| !APART.contains(&table(&i.path).as_str()));
-    own.filter_map(|input| field(design, input)).collect()
+    let own: Vec<Input> = own.collect();
+    let key = |path: &str| path.rsplit('.').next().unwrap_or("").to_owned();
+    let like = |path: &str| {
+        let same = own.iter().filter(|i| key(&i.path) == key(path));
+        same.filter_map(|i| i.number).fold(0.0, |most: f64, x| if x.abs() > most.abs() { x } else { most })
+    };
+    own.iter().filter_map(|input| field(design, input.clone(), like(&input.path))).collect()
 }
 
-fn field(design: &Design, input: Input) -> Option<Field> {
+/// One of them; `like` is the largest number of the file under the same key.
+fn field(design: &Design, input: Input, like: f64) -> Option<Field> {
     let Input { path, unit, text: typed, number } = input;
     let schema = shape_of(&path)?;
     let text = |key: &str| schema.get(key).and_then(|v| v.as_str()).unwrap_or("").to_owned();
@@ -65,10 +73,14 @@ fn field(design: &Design, input: Input) -> Option<Field> {
         let half = if whole { (0.25 * x.abs()).ceil().max(2.0) } else { 0.25 * x.abs() };
         [(x - half).max(low), (x + half).min(high)]
     };
+    let from_zero = |like: f64| {
+        let [low, high] = around(if like == 0.0 { 1.0 } else { like });
+        [low.min(0.0), high.max(0.0)]
+    };
     let range = number.and_then(|x| match bounds {
         Some([low, high]) => Some([low.min(x), high.max(x)]),
         None if x != 0.0 => Some(around(x)),
-        None => None,
+        None => Some(from_zero(like)),
     });
     Some(Field {
         meaning: text("description"),
@@ -105,6 +117,7 @@ mod tests {
             );
             assert!(!f.meaning.is_empty() || f.path.ends_with("name"), "{}", f.path);
         }
+        assert!(all.iter().all(|f| f.value.is_none_or(|x| f.range.is_some_and(|[a, b]| a <= x && x <= b && a < b))));
         let of = |path: &str| all.iter().find(|f| f.path == path).unwrap();
         assert_eq!(of("sprags.inner_arcs[1].radius_mm").unit, "mm");
         assert_eq!(of("limits.hertz_peak_mpa").unit, "MPa");

@@ -5,8 +5,8 @@ use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::dynamics::{Grip, Place, Sample};
 use crate::margin::{LoadState, SceneDemand, scene_demand, scene_rows};
-use crate::report::{Plot, Unit, significant};
-use crate::scenario::{NoScenario, Settings, prepare, simulate_prepared};
+use crate::report::{Curve, Dash, Plot, Unit, significant};
+use crate::scenario::{NoScenario, Prepared, Settings, prepare, simulate_prepared};
 use serde::Serialize;
 
 /// The demand of one scenario on friction, without its course.
@@ -70,13 +70,19 @@ pub fn scene_row(design: &Design, state: &LoadState, scenario: &Scenario, settin
     SceneRow { name, required_friction, static_friction, margins, note }
 }
 
-/// The course of a scenario, `settings` with samples or without.
+/// The course of a scenario, `settings` with samples or without; that of the `pinned` one as a ghost in its plots, where it has
+/// one.
 ///
 /// # Errors
 /// [`NoScenario`].
-pub fn scene_view(scenario: &Scenario, settings: &Settings) -> Result<SceneView, NoScenario> {
+pub fn scene_view(
+    scenario: &Scenario,
+    pinned: Option<&Scenario>,
+    settings: &Settings,
+) -> Result<SceneView, NoScenario> {
+    let settings = Settings { samples: SAMPLES, ..settings.clone() };
     let prepared = prepare(scenario)?;
-    let s = simulate_prepared(&prepared, &Settings { samples: SAMPLES, ..settings.clone() }, false);
+    let s = simulate_prepared(&prepared, &settings, false);
     let mut facts = vec![("reached".to_owned(), Unit::Second.show(s.t_s, 4))];
     if let (Some(free), ScenarioKind::Overrun { speed_rad_s, overrun_rad_s }) =
         (prepared.overrun, scenario.kind)
@@ -119,30 +125,13 @@ pub fn scene_view(scenario: &Scenario, settings: &Settings) -> Result<SceneView,
     fact("contact lost", Unit::Millisecond.show(s.contact_lost_s, 3));
     let samples = &s.samples;
     let column = |f: &dyn Fn(&Sample) -> f64| samples.iter().map(f).collect::<Vec<_>>();
-    let over = |f: &dyn Fn(&Sample) -> f64| samples.iter().map(|p| [p.t * 1e3, f(p)]).collect::<Vec<_>>();
-    let count = scenario.clutch.sprags.count as f64;
-    let oa = |p: &Sample| prepared.model.point(p.mode.place, p.state[0]).oa;
-    let ratio = |t: f64, n: f64| if n > 0.0 { (t / n).abs() } else { f64::NAN };
-    let sized = |plot: Plot| plot.sized(WIDTH, 170.0).to_svg();
-    let plots = if samples.is_empty() {
-        Vec::new()
-    } else {
-        vec![
-            sized(
-                Plot::new("Time, ms", "Clutch torque, Nm")
-                    .curve("torque", over(&|p| count * p.forces.t_bi * oa(p))),
-            ),
-            sized(
-                Plot::new("Time, ms", "|T|/N")
-                    .curve("inner", over(&|p| ratio(p.forces.t_bi, p.forces.n_bi)))
-                    .curve("outer", over(&|p| ratio(p.forces.t_be, p.forces.n_be)))
-                    .level(scenario.clutch.friction.static_, "μₛ"),
-            ),
-            sized(
-                Plot::new("Time, ms", "Windup, deg")
-                    .curve("windup", over(&|p| Unit::Degree.from_si(p.state[3] - p.state[2]))),
-            ),
-        ]
+    let before = pinned.and_then(|pinned| {
+        let prepared = prepare(pinned).ok()?;
+        Some(Course::new(pinned, &prepared, &simulate_prepared(&prepared, &settings, false).samples))
+    });
+    let plots = match samples.is_empty() {
+        true => Vec::new(),
+        false => Course::new(scenario, &prepared, samples).plots(before, scenario.clutch.friction.static_),
     };
     let mode = |grip: Grip| match grip {
         Grip::Stick => 0,
@@ -170,4 +159,52 @@ pub fn scene_view(scenario: &Scenario, settings: &Settings) -> Result<SceneView,
         plots,
         frame: Plot::frame(WIDTH),
     })
+}
+
+/// A scene over time, ms.
+struct Course {
+    torque_nm: Vec<[f64; 2]>,
+    ratio_inner: Vec<[f64; 2]>,
+    ratio_outer: Vec<[f64; 2]>,
+    windup_deg: Vec<[f64; 2]>,
+}
+
+impl Course {
+    fn new(scenario: &Scenario, prepared: &Prepared, samples: &[Sample]) -> Self {
+        let over = |f: &dyn Fn(&Sample) -> f64| samples.iter().map(|p| [p.t * 1e3, f(p)]).collect();
+        let count = scenario.clutch.sprags.count as f64;
+        let oa = |p: &Sample| prepared.model.point(p.mode.place, p.state[0]).oa;
+        let ratio = |t: f64, n: f64| if n > 0.0 { (t / n).abs() } else { f64::NAN };
+        Self {
+            torque_nm: over(&|p| count * p.forces.t_bi * oa(p)),
+            ratio_inner: over(&|p| ratio(p.forces.t_bi, p.forces.n_bi)),
+            ratio_outer: over(&|p| ratio(p.forces.t_be, p.forces.n_be)),
+            windup_deg: over(&|p| Unit::Degree.from_si(p.state[3] - p.state[2])),
+        }
+    }
+
+    /// Torque, demand on friction, windup; `before`, the pinned design's, dashed.
+    fn plots(self, before: Option<Self>, static_friction: f64) -> Vec<String> {
+        let (torque, friction, windup) = before.map_or((None, None, None), |b| {
+            (Some(b.torque_nm), Some(b.ratio_inner), Some(b.windup_deg))
+        });
+        let plot = |y: &str, now: Vec<Curve>, was: &str, before: Option<Vec<[f64; 2]>>| {
+            let ghost = before.map(|points| Curve { dash: Dash::Dashed, ..Curve::new(was, points).coloured(1) });
+            let mut plot = Plot::new("Time, ms", y).sized(WIDTH, 170.0);
+            plot.curves.extend(now.into_iter().chain(ghost));
+            plot
+        };
+        let both = vec![
+            Curve::new("inner", self.ratio_inner).coloured(0),
+            Curve::new("outer", self.ratio_outer).coloured(2),
+        ];
+        let alone = |name: &str, points| vec![Curve::new(name, points).coloured(0)];
+        [
+            plot("Clutch torque, Nm", alone("torque", self.torque_nm), "pinned", torque),
+            plot("|T|/N", both, "inner, pinned", friction).level(static_friction, "μₛ"),
+            plot("Windup, deg", alone("windup", self.windup_deg), "pinned", windup),
+        ]
+        .map(|plot| plot.to_svg())
+        .to_vec()
+    }
 }

@@ -98,7 +98,7 @@ function buttons() {
 }
 
 /* Margins ---------------------------------------------------------------------------------------------------------- */
-const known = { scenes: {}, pinned: {} };
+const known = { scenes: {}, pinned: {}, pinnedScenes: {}, pinnedOf: null };
 function rows() {
   const fromScenes = Object.values(known.scenes).flatMap((s) => s.margins);
   const all = state.look.margins.concat(fromScenes);
@@ -114,8 +114,12 @@ function rows() {
   $("scenes").tBodies[0].innerHTML = Object.values(known.scenes).map((s) => {
     const top = 1.5 * s.static_friction;
     const part = (mu) => `${Math.min(100, (100 * mu) / top)}%`;
-    const bar = s.required_friction === null ? "" : `<div class="bar"><i style="width:${part(s.required_friction)}"></i><b style="left:${part(s.static_friction)}" title="static friction ${s.static_friction}"></b></div>`;
-    const word = s.required_friction === null ? escaped(s.note || "none suffices") : "μ " + short(s.required_friction, 4);
+    const was = state.pinned ? known.pinnedScenes[s.name] : undefined;
+    const ghost = was !== undefined && was !== s.required_friction;
+    const pinned = was === null ? "none suffices" : ghost ? "μ " + short(was, 4) : "";
+    const mark = ghost && was !== null ? `<u style="left:${part(was)}" title="pinned: ${pinned}"></u>` : "";
+    const bar = s.required_friction === null ? "" : `<div class="bar"><i style="width:${part(s.required_friction)}"></i>${mark}<b style="left:${part(s.static_friction)}" title="static friction ${s.static_friction}"></b></div>`;
+    const word = (s.required_friction === null ? escaped(s.note || "none suffices") : "μ " + short(s.required_friction, 4)) + (ghost ? `<br><span class="was">pinned ${pinned}</span>` : "");
     return `<tr class="${s.stale ? "stale" : ""}"><td>${escaped(s.name)}</td><td class="n">${word}</td><td>${bar}</td></tr>`;
   }).join("");
 }
@@ -148,6 +152,19 @@ async function allScenes(signal) {
     delete found.stale;
     rows();
   }
+  const pinned = state.pinned;
+  if (pinned === null || known.pinnedOf === pinned) return;
+  known.pinnedScenes = {};
+  for (const name of names) {
+    // A scenario that the pinned design does not have has no ghost.
+    const found = await engine.ask("scene_row", { text: pinned, name }, signal).catch((error) => { if (signal.aborted) throw error; });
+    if (signal.aborted) return;
+    if (!found) continue;
+    known.pinnedScenes[name] = found.required_friction;
+    for (const m of found.margins) known.pinned[m.code] = m.text;
+    rows();
+  }
+  known.pinnedOf = pinned;
 }
 
 /* Fields ----------------------------------------------------------------------------------------------------------- */
@@ -330,7 +347,7 @@ function draw(here, forces, slips, relative, largest) {
 
 /* Scenes, played --------------------------------------------------------------------------------------------------- */
 async function play(name, signal) {
-  const found = await engine.ask("scene", { text: state.text, name }, signal);
+  const found = await engine.ask("scene", { text: state.text, pinned: state.pinned, name }, signal);
   if (signal?.aborted || $("mode").value !== name) return;
   state.scene = found;
   $("course").hidden = false;

@@ -90,11 +90,11 @@ class _Common:
     """What all answers share."""
 
     run_time_s: float
-    """Time of the computation, s."""
+    """Time of the computation alone, s."""
     left_out: tuple[LeftOut, ...]
-    """What the model leaves out, each with its cost."""
+    """What the model leaves out, each with its reason and its cost."""
     error_estimate: Any
-    """How far off the answer is: a number, or numbers by name."""
+    """How far off the answer is, where something was integrated or iterated: a number, or numbers by name."""
     _data: dict[str, Any] = field(repr=False, compare=False)
 
     def to_dict(self) -> dict[str, Any]:
@@ -125,21 +125,22 @@ class Margin:
     """A limit: what is demanded, what is allowed, the margin between them."""
 
     code: str
-    """Code, such as ``hoop-inner`` or ``slip:high-6``."""
+    """Code for scripts, such as ``hoop-inner``, ``slip:high-6``."""
     name: str
     """Name for people."""
     demand: float | None
-    """Demand in ``unit``; ``None`` where no friction suffices, or the curve ends below the row's torque."""
+    """Demand, in ``unit``; ``None`` where no friction suffices, the scene is overloaded or the curve ends below the row's
+    torque."""
     allowable: float
-    """Allowable in ``unit``; of slip the wanted slip margin."""
+    """Allowable, in ``unit``; of slip the wanted slip margin."""
     unit: str
     """Unit of demand and allowable; ``1`` of a pure number."""
     margin: float
     """Margin as a number; 0 or more is held."""
     torque_capacity_nm: float | None
-    """Torque at which the limit would be reached, N m."""
+    """Torque at which the limit would be reached, N m, where it depends on torque."""
     capacity_beyond_end: bool
-    """Whether the curve ends before: the capacity is then at least that much."""
+    """Whether the limit is not reached before the curve ends: the capacity is then at least that much."""
     required: bool
     """Whether it counts for the verdict; the others are shown only."""
     computed: bool
@@ -149,7 +150,7 @@ class Margin:
     held: bool
     """Whether the limit is held."""
     slip_margin: float | None
-    """Of slip rows static over required friction, less 1."""
+    """Of slip rows static over required friction, less 1; ``None`` elsewhere."""
 
 
 @dataclass(frozen=True)
@@ -157,8 +158,11 @@ class Deciding:
     """The required limit with the least margin."""
 
     code: str
+    """Code of that limit."""
     name: str
+    """Name of that limit."""
     margin: float
+    """Its margin as a number."""
 
 
 @dataclass(frozen=True)
@@ -166,8 +170,11 @@ class Capacity:
     """A torque capacity and the limit that sets it."""
 
     code: str
+    """Code of the limit that sets it."""
     name: str
+    """Name of that limit."""
     torque_capacity_nm: float
+    """That torque, N m."""
 
 
 @dataclass(frozen=True)
@@ -175,7 +182,9 @@ class End:
     """Where the static curve ends."""
 
     reason: str
+    """Why the curve ends there."""
     torque_nm: float
+    """Torque at the end, N m."""
 
 
 @dataclass(frozen=True)
@@ -183,18 +192,28 @@ class OverrunPoint:
     """Steady overrun at one speed."""
 
     race: str
-    """Race that runs, ``outer`` or ``inner``; the other stands."""
+    """Race that runs: ``outer`` or ``inner``; the other stands."""
     speed_rpm: float
+    """Speed of that race, rev/min."""
     drag_torque_nm: float
+    """Drag torque of the whole clutch, N m."""
     normal_inner_n: float
+    """Normal force of one sprag at the inner contact, N."""
     normal_outer_n: float
+    """The same at the outer contact, N."""
     friction: float
+    """Coefficient of friction of the inner contact at that speed."""
     growth_rate_per_s: float | None
-    """Growth of a small swing of the sprags; positive: the equilibrium does not stay."""
+    """Growth of a small swing of the sprags about the equilibrium, 1/s; positive: the equilibrium does not stay; ``None``
+    where they are off or nothing slides."""
     swing_frequency_hz: float | None
+    """Frequency of that swing, Hz."""
     lifted_off: bool
+    """Whether the sprags are off the inner race."""
     outer_race_growth_um: float
+    """Growth of the outer track by rotation, um."""
     rotation_hoop_outer_mpa: float
+    """Hoop stress of the outer race by rotation, MPa."""
 
 
 @dataclass(frozen=True)
@@ -204,9 +223,14 @@ class Overrun:
     centrifugal: str
     """What the centrifugal force does to the sprags: ``engaging``, ``disengaging`` or ``neutral``."""
     gamma_deg: float
+    """Azimuth of the outer contact arc's centre ahead of the centroid at first contact at rest, deg; positive: engaging at
+    speed."""
     drag_torque_slow_nm: float
+    """Drag torque of the slowest overrun, without centrifugal force, N m."""
     points: tuple[OverrunPoint, ...]
+    """All speeds looked at: first the outer race runs, then the inner one."""
     warning: str | None
+    """A warning where the equilibrium does not stay; ``None`` where it does."""
 
 
 @dataclass(frozen=True)
@@ -216,7 +240,7 @@ class Check(_Common):
     verdict: str
     """The answer in one line."""
     margins: tuple[Margin, ...]
-    """A row for each limit."""
+    """One row for each limit."""
     passed: bool
     """Whether every required limit is held; ``pass`` in JSON."""
     deciding: Deciding | None
@@ -228,10 +252,12 @@ class Check(_Common):
     peak_torque_capacity: Capacity | None
     """The lowest among the limits that are held at peak torque."""
     end: End
-    """Where the static curve ends."""
+    """Where the static curve ends, which may be below the torques of the limits."""
     lift_off_rpm: float | None
-    """Speed at which the sprags lift off the inner race; ``None``: contact is kept up to ``lift_off_searched_to_rpm``."""
+    """Speed at which the sprags lift off the inner race, rev/min; ``None``: contact is kept up to
+    ``lift_off_searched_to_rpm``."""
     lift_off_searched_to_rpm: float
+    """How far a lift-off was looked for, rev/min."""
     overrun: Overrun
     """Overrun against speed."""
     running: dict[str, Any] | None
@@ -288,9 +314,11 @@ class Junction:
     """Where one inner arc hands over to the next."""
 
     torque_nm: float
+    """Torque at which it does, N m."""
     alpha_rad: float
+    """Rotation of the sprag there, rad."""
     arc: int
-    """Arc that ends here, from 1."""
+    """Number of the arc that ends here, from 1."""
 
 
 _POINT = (
@@ -317,37 +345,38 @@ class Curve:
     contact: str
     """The contact law."""
     torque_nm: Numbers
-    """Torque of the clutch."""
+    """Torque asked for, N m."""
     normal_inner_n: Numbers
-    """Normal force of one sprag at the inner contact."""
+    """Normal force of one sprag at the inner contact, N."""
     normal_outer_n: Numbers
-    """The same at the outer contact."""
+    """The same at the outer contact, N."""
     tan_omega: Numbers
     """Tangential over normal force at the inner contact."""
     tan_nu: Numbers
     """The same at the outer contact."""
     alpha_rad: Numbers
-    """Rotation of the sprag."""
+    """Rotation of the sprag, rad."""
     windup_deg: Numbers
-    """Windup of the races against each other."""
+    """Windup of the races against each other, deg."""
     k_secant_nm_per_rad: Numbers
-    """Secant stiffness."""
+    """Secant stiffness, N m/rad."""
     k_tangent_nm_per_rad: Numbers
-    """Tangent stiffness."""
+    """Tangent stiffness, N m/rad."""
     hertz_inner_mpa: Numbers
-    """Peak Hertz pressure at the inner contact."""
+    """Peak Hertz pressure at the inner contact, MPa."""
     hertz_inner_error_mpa: Numbers
-    """How far that is off at most."""
+    """How far that is off at most: the curve's interpolation, and the pressure's shape while a junction lies under the
+    contact."""
     hertz_inner_pointwise_mpa: Numbers
-    """The same with the radius at the contact point alone, as the paper takes it."""
+    """Peak Hertz pressure there with the radius at the contact point alone, as the paper takes it, MPa."""
     hertz_outer_mpa: Numbers
-    """Peak Hertz pressure at the outer contact."""
+    """Peak Hertz pressure at the outer contact, MPa."""
     arc: npt.NDArray[np.int64]
     """Inner arc in contact, from 1."""
     straddles_junction: npt.NDArray[np.bool_]
-    """Whether the contact lies on two arcs."""
+    """Whether the inner contact lies on two arcs."""
     beyond_end_nm: tuple[float, ...]
-    """Torques asked for that the curve does not reach."""
+    """Torques asked for that the curve does not reach, N m; ``beyond_end`` in JSON."""
     junctions: tuple[Junction, ...]
     """Where one arc hands over to the next."""
     end: End
@@ -438,11 +467,11 @@ class Slip:
     """Slip at one contact."""
 
     time_s: float | None
-    """Time of slip."""
+    """Time of slip, s."""
     distance_mm: float | None
-    """Path of slip."""
+    """Path of slip, mm."""
     net_mm: float | None
-    """Net slip; positive towards overrunning."""
+    """Net slip, mm; positive towards overrunning."""
 
 
 @dataclass(frozen=True)
@@ -450,7 +479,9 @@ class Slips:
     """Slip at both contacts."""
 
     inner: Slip
+    """At the inner contact."""
     outer: Slip
+    """At the outer contact."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -461,7 +492,7 @@ class Simulation(_Common):
     scenario: str
     """Name of the scenario."""
     kind: str
-    """Its kind."""
+    """Kind of the scenario."""
     method: str
     """``event``, ``published``, or ``equilibrium`` where nothing is integrated."""
     verdict: str | None
@@ -469,72 +500,91 @@ class Simulation(_Common):
     stop: str
     """Why the run ended; ``no-start`` where the clutch has no such start."""
     reason: str | None
-    """Why the scenario has no start, or why a run did not come to its end."""
+    """Why the scenario has no start, or why a run did not come to its end and what would let it."""
     t_end_s: float | None
-    """Time reached."""
+    """Time reached, s."""
     theta_inner_end_rad: float | None
-    """Rotation of the inner race at the end."""
+    """Rotation of the inner race at the end, rad."""
     theta_outer_end_rad: float | None
-    """Rotation of the outer race at the end."""
+    """Rotation of the outer race at the end, rad."""
     offset_rad: float | None
-    """Offset; positive towards overrunning."""
+    """Offset that slip leaves between the races, rad; positive towards overrunning."""
     slip: Slips
     """Slip at both contacts."""
     contact_lost_s: float | None
-    """Time without contact."""
+    """Time without contact, s."""
     peak_tan_demand: float | None
     """Largest tangential over normal force, either contact."""
     required_static_friction: float | None
-    """Friction that rolling would need."""
+    """Static friction from which on the scene sticks."""
     required_static_friction_by: str | None
-    """How that was found: ``rolling`` or ``bisection``."""
+    """How that was found. ``rolling``: the largest tangential over normal force in pure rolling; ``bisection``: by runs with
+    slip, where rolling unloads the contact."""
     slip_margin: float | None
     """Static over required friction, less 1."""
     contact_margin: float | None
+    """Smallest normal force at the inner contact in pure rolling over that of the static load; negative by the pull that
+    rolling would need."""
     normal_min_n: float | None
-    """Smallest normal force at the inner contact."""
+    """Smallest normal force of one sprag at the inner contact, N."""
     normal_max_n: float | None
-    """Largest normal force at the inner contact."""
+    """Largest normal force of one sprag at the inner contact, N."""
     extremes: dict[str, Any] | None
-    """Extremes with their times."""
+    """Extremes of the run, with their times."""
     equilibrium: dict[str, Any] | None
-    """The state of a static scenario or of a steady overrun."""
+    """The state of a static scenario or of a steady overrun, where nothing is integrated."""
     hertz_peak_mpa: float | None
-    """Largest Hertz pressure."""
+    """Largest Hertz pressure, MPa."""
     hertz_static_mpa: float | None
-    """Hertz pressure of the static load."""
+    """Hertz pressure of the static load, MPa."""
     hertz_least_mpa: float | None
-    """Hertz pressure at the smallest normal force."""
+    """Hertz pressure at the inner contact at the smallest normal force, MPa."""
     hertz_rated_mpa: float | None
-    """Hertz pressure at nominal torque."""
+    """Hertz pressure at the inner contact at nominal torque, MPa."""
     events: int | None
-    """Changes of mode."""
+    """Changes of mode: sticking, slipping, open."""
     zeno_closures: int | None
+    """Sequences of ever faster changes of mode that were closed at their limit."""
     inconsistent_choices: int | None
+    """Changes of mode at which no mode was consistent with the forces."""
     fast_motion: dict[str, Any] | None
     """What was fastest where the run gave up."""
     steps: int | None
+    """Steps of the integrator, of all runs."""
     rejections: int | None
+    """Steps refused and tried again, of all runs."""
     rhs_evaluations: int | None
+    """Evaluations of the equations of motion, of all runs."""
     error_estimates: dict[str, Any] | None
     """Errors of the figures by name."""
     energy_balance: dict[str, Any] | None
     """Where the energy went, J."""
+    eigenfrequencies: tuple[dict[str, Any], ...] | None
+    """Eigenfrequencies of races and drivetrain with the clutch engaged, lowest first; none without a drivetrain."""
     assumptions: tuple[str, ...] | None
-    """Inputs of an engagement that the paper does not publish."""
+    """Inputs of an engagement that the paper does not publish for its Figure 8."""
     tolerance_reached: bool | None
     """Whether every error is below the tolerance."""
     worst_figure: tuple[Any, ...] | None
-    """The figure with the largest error, where the tolerance is not reached, and that."""
+    """The figure whose error is largest by its natural size, where the tolerance is not reached, and that."""
     finer_gave_up: str | None
+    """Why a run with finer steps than those that answer did not come to its end."""
     spread_rad: tuple[float, ...] | None
+    """Smallest and largest rotation of the inner race at the end over the runs made, rad, where the tolerance is not
+    reached."""
     initial_slip_s: float | None
+    """How long the inner contact slips after a reversal, s."""
     drag_torque_nm: float | None
-    """Drag torque of a steady overrun."""
+    """Drag torque of a steady overrun, N m."""
     lift_off_rpm: float | None
+    """Speed of the outer race at which the sprags lift off, rev/min; absent where they stay on up to 60 000."""
     growth_rate_per_s: float | None
+    """Growth of a small swing of the sprags about a steady overrun, races at held speeds, 1/s; positive: the overrun does
+    not stay. Absent where they are off."""
     swing_frequency_hz: float | None
+    """Frequency of that swing, Hz."""
     swing_normal_inner_n: float | None
+    """Normal force at the inner contact about which they swing, by the equations of motion, N."""
     kept: tuple[LeftOut, ...]
     """Terms that the planner looked at and kept."""
     notes: tuple[str, ...]
@@ -655,12 +705,19 @@ class FoundMargin:
     """A margin of a design of the search."""
 
     code: str
+    """Code for scripts."""
     name: str
+    """Name for people."""
     unit: str
+    """Unit of demand and allowable."""
     allowable: float
+    """Allowable, in ``unit``; of slip the wanted slip margin."""
     margin: float
+    """Margin as a number; 0 or more is held."""
     slip_margin: float | None
+    """Of slip rows static over required friction, less 1."""
     demand: float | None
+    """Demand, in ``unit``, where it is a number."""
 
 
 @dataclass(frozen=True)
@@ -668,10 +725,11 @@ class Found:
     """A design of the search."""
 
     variables: dict[str, float]
-    """Values in the units of their names, in the order of the vector."""
+    """Values of the variables, in the units of their names."""
     objective: float
     """The objective, in its own unit."""
     margins: tuple[FoundMargin, ...]
+    """Margins of that design."""
 
 
 @dataclass(frozen=True)
@@ -691,7 +749,9 @@ class CodeMargin:
     """A margin in short."""
 
     code: str
+    """Code for scripts."""
     margin: float
+    """Margin as a number; 0 or more is held."""
 
 
 @dataclass(frozen=True)
@@ -703,7 +763,7 @@ class Steps:
     variables: tuple[str, ...]
     """Variables that have it."""
     found: bool
-    """Whether a point near the optimum holds every limit, so that it is the answer."""
+    """Whether a point of the grid near the optimum holds every limit, so that it is the answer."""
     not_held: tuple[CodeMargin, ...]
     """Else what the nearest point does not hold; margins less the reserve."""
     evaluations: int
@@ -719,7 +779,7 @@ class Optimum(_Common):
     robust_design: Design | None
     """The design that holds at every corner of the tolerances, or comes as near as was found, where that was asked for."""
     status: str
-    """How the best climb ended: ``converged``, ``infeasible``, ``evaluation-limit``, ``stalled``."""
+    """How the best climb ended: ``converged``, ``infeasible``, ``evaluation-limit``, ``interrupted``, ``stalled``."""
     aim: str
     """What was made better."""
     feasible: bool
@@ -729,14 +789,15 @@ class Optimum(_Common):
     best: Found
     """The design found."""
     in_file: dict[str, float]
-    """Values of the variables in the given design."""
+    """Values in the design file."""
     start: Found
     """Where the search began."""
     objective_error: float
-    """How far the objective is off."""
+    """How far the objective is off: its change when the optimum is looked at in full at a tenth of the tolerance."""
     evaluations: int
-    """Evaluations of the clutch."""
+    """Evaluations of the clutch in all."""
     failed_evaluations: int
+    """Evaluations of the best climb at which there was no clutch."""
     fighting_limits: tuple[str, ...]
     """Limits that no design near holds together."""
     dropped_variables: tuple[str, ...]
@@ -744,9 +805,9 @@ class Optimum(_Common):
     makeable: bool
     """Whether it can be made: a search that is stopped may have a free centroid, for which there are no flanks yet."""
     free_centroid: Bound | None
-    """What the search came to with its centroid free and its mass given."""
+    """What the search came to with its centroid free and its mass given: a bound, no flanks were asked for."""
     unrounded: Bound | None
-    """The answer before its lengths were put in steps."""
+    """The answer before its lengths were put in steps: a bound."""
     steps: Steps | None
     """Its lengths in steps."""
     reserve: float
@@ -887,16 +948,21 @@ class LifeLoad:
     carried: bool
     """Whether the clutch carries it."""
     hertz_inner_mpa: float | None
+    """Hertz pressure at the inner contact, MPa; ``None`` where the torque is not carried, as the three below."""
     hertz_outer_mpa: float | None
+    """The same at the outer contact, MPa."""
     hoop_inner_mpa: float | None
-    """With the bending between the sprags."""
+    """Hoop stress of the inner race, with the bending between the sprags, MPa."""
     hoop_outer_mpa: float | None
+    """The same of the outer race, MPa."""
     walk_inner_mm: float
-    """What the contact rolls on sprag and race."""
+    """What the inner contact rolls on sprag and race in an engagement, mm."""
     walk_outer_mm: float
+    """The same of the outer contact, mm."""
     passes_inner: float
-    """Contacts that one place of the track sees in an engagement."""
+    """Contacts that one place of the inner track sees in an engagement."""
     passes_outer: float
+    """The same of the outer track."""
     slip_probability: float | None
     """Chance of a slip in an engagement."""
 
@@ -934,38 +1000,62 @@ class FilmOverrunLine:
     """Overrun at one speed and one temperature of the oil; what needs a film is ``None`` where none bears."""
 
     oil_c: float
+    """Temperature of the oil, C."""
     speed_rpm: float
+    """Speed of the race that runs, rev/min."""
     normal_inner_n: float
+    """Normal force of one sprag at the inner contact, N."""
     lifted_off: bool
+    """Whether the sprags are off the inner race."""
     film_um: float | None
-    """Thickness of the film."""
+    """Thickness of the film, um."""
     film_over_roughness: float | None
-    """Lambda; ``lambda`` in JSON."""
+    """Thickness of the film over the composite roughness; ``lambda`` in JSON."""
     regime: str | None
+    """``IR``, ``IE``, ``VR`` or ``VE``: oil of constant viscosity (I) or one that pressure makes thicker (V), rigid (R) or elastic
+    (E) bodies."""
     moes_load: float | None
+    """Moes' load number of the line contact."""
     moes_lubricant: float | None
+    """Moes' number of its lubricant."""
     asperity_share: float | None
     """Share of the load that asperities bear."""
     nahme: float | None
+    """Nahme's number: by how much shear heats and thins the film."""
     friction: float
+    """Coefficient of friction of the inner contact, film and asperities together."""
     friction_dry: float
-    """By the friction law alone."""
+    """The same by the friction law alone, without a film."""
     drag_torque_nm: float
+    """Drag torque of the whole clutch, N m."""
     drag_torque_dry_nm: float
+    """The same by the friction law alone, N m."""
     heat_w: float | None
+    """Heat of all inner contacts, W."""
     film_c: float | None
+    """Temperature of the film, C."""
     contact_c: float | None
+    """Temperature of the contact's surfaces, C."""
     inner_race_c: float | None
+    """Temperature of the inner race, C."""
     sprags_c: float | None
+    """Temperature of the sprags, C."""
     outer_race_c: float | None
+    """Temperature of the outer race, C."""
     heat_balance_error: float | None
+    """What the balance of heat leaves over, by the heat."""
     growth_rate_per_s: float | None
-    """Growth of a small swing of the sprags; positive: the equilibrium does not stay."""
+    """Growth of a small swing of the sprags, 1/s; positive: the equilibrium does not stay."""
     growth_by_friction_per_s: float | None
+    """The same with the film's friction alone, without its squeeze, 1/s."""
     growth_dry_per_s: float | None
+    """The same by the friction law alone, 1/s."""
     swing_frequency_hz: float | None
+    """Frequency of that swing, Hz."""
     sprag_wear_first_hour_um: float | None
+    """Depth worn off a sprag in the first hour from its drawn shape, um; it grows with the power 2/3 of time."""
     race_wear_um_per_hour: float | None
+    """Depth worn off the track of the inner race in every hour, um."""
 
 
 @dataclass(frozen=True)
@@ -973,14 +1063,23 @@ class SlipWear:
     """What the slip does that ``[lubrication]`` asks for."""
 
     torque_nm: float
+    """Torque under which it slips, N m."""
     speed_m_s: float
+    """Speed of slip, m/s."""
     path_mm: float
+    """Path of slip, mm."""
     normal_n: float
+    """Normal force of one sprag, N."""
     friction: float
+    """Coefficient of friction."""
     flash_k: float
+    """Rise of the hottest place above the bodies, K."""
     peclet: float
+    """Peclet number of the contact; below some 5 heat goes sideways too, and the rise is less."""
     sprag_wear_um: float | None
+    """Depth worn off a sprag, um."""
     race_wear_um: float | None
+    """Depth worn off a place of the race that one sprag slips over, um."""
 
 
 @dataclass(frozen=True)
@@ -1023,18 +1122,21 @@ class Blow:
     """A path of slip and the blow after it."""
 
     path_mm: float
-    """Path until the friction is back."""
+    """Path of slip after which the friction is back, mm at the inner track."""
     slip_ms: float
+    """When that is, ms after the slip began."""
     peak_ms: float
+    """When the load is largest, ms after the slip began."""
     path_in_all_mm: float
-    """Until the races stand still against one another."""
+    """Path until the races stand still against one another, mm at the inner track."""
     speed_rpm: float
-    """Largest speed of the races against one another."""
+    """Largest speed of the races against one another, rev/min."""
     peak_torque_nm: float | None
-    """The blow; ``None`` where the clutch does not grip."""
+    """The blow, N m; ``None``: beyond the end of the curve."""
     peak_by_energy_nm: float | None
-    """The same where nothing is lost."""
+    """The same where nothing is lost, N m."""
     hertz_inner_mpa: float | None
+    """Largest Hertz pressure at the inner contact, MPa."""
     held: bool
     """Whether every limit at peak torque bears it."""
     ended: str | None
@@ -1050,14 +1152,17 @@ class Reengagement(_Common):
     held: bool
     """Whether the clutch bears every blow."""
     torque_nm: float
-    """Carried when the slip begins."""
+    """Torque that the clutch carries when the slip begins, and that goes on acting, N m."""
     friction: float
-    """While it slips."""
+    """Coefficient of friction of both contacts while they slip."""
     speed_rpm: float
+    """Speed of both races before, rev/min."""
     inertia_inner_kg_m2: float
+    """What turns with the inner race, that included, kg m^2."""
     inertia_outer_kg_m2: float
+    """The same of the outer race, kg m^2."""
     bears_nm: float | None
-    """Peak torque that every limit bears."""
+    """Peak torque that every limit bears, N m."""
     bears_by: str | None
     """The limit that sets it."""
     blows: tuple[Blow, ...]

@@ -42,6 +42,9 @@ Setting = bool | int | float | str | Sequence[Any]
 
 def _toml(value: Any) -> str:
     """A value as a design file has it."""
+    if getattr(value, "ndim", None) == 0:
+        # A number of numpy, be it an array without an axis.
+        value = value.item()
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
@@ -450,6 +453,9 @@ class Problem:
         """``count`` scrambled Sobol points of the box, a row each, from number ``first`` on: those of the command ``sample``."""
         import numpy as np
 
+        for name, value in ("count", count), ("seed", seed), ("first", first):
+            if value < 0:
+                raise ValueError(f"{name} {value}: allowed: 0 or more")
         return np.array(self._core.sample(count, seed, first), dtype=np.float64)
 
     def design_at(self, x: Iterable[float]) -> Design:

@@ -7,7 +7,7 @@ use crate::answer::Provenance;
 use crate::answer::page::{begun, half};
 use crate::design::Design;
 use crate::report::plot::Dash;
-use crate::report::{Column, Curve, Page, Plot, Table, Unit, significant};
+use crate::report::{Curve, Page, Plot, Rows, Table, Unit, significant};
 
 /// Smaller errors are drawn here: rounding.
 const FLOOR_RAD: f64 = 1e-15;
@@ -155,14 +155,10 @@ fn stability(page: &mut Page, study: &AccuracyStudy) {
 }
 
 fn axes() -> Table {
-    let mut table = Table::new(vec![
-        Column::text("parameter", "Parameter, SI"),
-        Column::number("from", "From", Unit::One, 4),
-        Column::number("to", "To", Unit::One, 4),
-        Column::text("zero", "Zero too"),
-    ]);
-    for p in &PARAMETERS {
-        table.row(vec![p.key.into(), p.low.into(), p.high.into(), if p.zero { "yes" } else { "no" }.into()]);
-    }
-    table
+    Rows::of(&PARAMETERS)
+        .text("parameter", "Parameter, SI", |p| p.key)
+        .number("from", "From", Unit::One, 4, |p| p.low)
+        .number("to", "To", Unit::One, 4, |p| p.high)
+        .text("zero", "Zero too", |p| if p.zero { "yes" } else { "no" })
+        .table()
 }

@@ -3,8 +3,8 @@
 use super::overrun::OverrunSection;
 use super::{run_out, running};
 use crate::answer::stiffness::CurveEnd;
-use crate::margin::{Demand, Margin, When};
-use crate::report::{Cell, Column, Table, Unit, greek, significant};
+use crate::margin::{Demand, Margin, When, lowest_capacity};
+use crate::report::{Cell, Rows, Table, Unit, greek, significant};
 use crate::wedge::EndReason;
 use serde::Serialize;
 
@@ -26,7 +26,8 @@ pub struct CheckRow {
     pub code: String,
     /// Name for people.
     pub name: String,
-    /// `None` where no friction suffices, the scene is overloaded or the curve ends below the row's torque.
+    /// Demand, in `unit`; `None` where no friction suffices, the scene is overloaded or the curve ends below the row's
+    /// torque.
     pub demand: Option<f64>,
     /// Allowable, in `unit`; of slip the wanted slip margin.
     pub allowable: f64,
@@ -46,18 +47,18 @@ pub struct CheckRow {
     pub overloaded: bool,
     /// Whether the limit is held.
     pub held: bool,
-    /// Of slip rows mu_s over the friction required, less 1; null elsewhere.
+    /// Of slip rows static over required friction, less 1; null elsewhere.
     pub slip_margin: Option<f64>,
 }
 
 /// The required limit with the least margin.
 #[derive(Debug, Clone, Serialize)]
 pub struct Deciding {
-    /// Its code.
+    /// Code of that limit.
     pub code: String,
-    /// Its name.
+    /// Name of that limit.
     pub name: String,
-    /// Its margin.
+    /// Its margin as a number.
     pub margin: f64,
     /// The margin in words.
     #[serde(skip)]
@@ -71,7 +72,7 @@ pub struct Capacity {
     pub code: String,
     /// Name of that limit.
     pub name: String,
-    /// The torque, N m.
+    /// That torque, N m.
     pub torque_capacity_nm: f64,
 }
 
@@ -119,15 +120,15 @@ pub struct CheckBody {
     asked_nm: f64,
     #[serde(skip)]
     materials: Vec<String>,
-    /// Null: contact is kept up to `lift_off_searched_to_rpm`.
+    /// Speed at which the sprags lift off the inner race, rev/min; null: contact is kept up to `lift_off_searched_to_rpm`.
     pub lift_off_rpm: Option<f64>,
     /// How far a lift-off was looked for, rev/min.
     pub lift_off_searched_to_rpm: f64,
     /// Overrun against speed.
     pub overrun: OverrunSection,
-    /// Null: the races run as made.
+    /// Radii as made and as run; null: the races run as made.
     pub running: Option<running::RunningSection>,
-    /// Null: the design names no eccentricity.
+    /// Load round the circumference; null: the design names no eccentricity.
     pub run_out: Option<run_out::RunOutSection>,
 }
 
@@ -136,17 +137,13 @@ impl CheckBody {
         let rpm = |rad_s| Unit::Rpm.from_si(rad_s);
         let required = || rows.iter().filter(|r| r.required);
         let lowest = |counts: &dyn Fn(&Margin) -> bool| {
-            required()
-                .filter(|r| counts(r))
-                .filter_map(|r| Some((r, r.torque_capacity_nm?)))
-                // A limit that the curve never reaches sets nothing; the end of the curve does.
-                .filter(|(r, c)| !is_beyond(r, *c, source.end_torque_nm))
-                .min_by(|a, b| a.1.total_cmp(&b.1))
-                .map(|(r, torque_capacity_nm)| Capacity {
-                    code: r.code(),
-                    name: r.name.clone(),
-                    torque_capacity_nm,
-                })
+            // A limit that the curve never reaches sets nothing; the end of the curve does.
+            let counts = |r: &Margin| counts(r) && !ends_first(r, source.end_torque_nm);
+            lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Capacity {
+                code: r.code(),
+                name: r.name.clone(),
+                torque_capacity_nm,
+            })
         };
         let nominal = |r: &Margin| r.limit.when == When::Nominal;
         Self {
@@ -300,27 +297,17 @@ fn demand(r: &Margin) -> Option<f64> {
 /// The table for people: codes, not sentences, so that it fits a terminal. A limit that is not reached before the
 /// curve ends, at `end_torque_nm`, has a capacity beyond it.
 pub fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("code", "Limit"),
-        Column::number("demand", "Demand", Unit::One, 4),
-        Column::number("allowable", "Allowable", Unit::One, 4),
-        Column::text("unit", "Unit"),
-        Column::number("margin", "Margin", Unit::Percent, 3),
-        Column::number("torque_capacity_nm", "Reached at", Unit::NewtonMetre, 4),
-        Column::text("verdict", "Verdict"),
-    ]);
-    for r in rows {
-        table.row(vec![
-            r.code().into(),
-            demand_cell(r),
-            allowable_cell(r),
-            unit_cell(r),
-            margin_cell(r),
-            r.torque_capacity_nm.map_or(Cell::Empty, |c| capacity_cell(r, c, end_torque_nm)),
-            verdict(r),
-        ]);
-    }
-    table
+    Rows::of(rows)
+        .text("code", "Limit", |r| r.code())
+        .number("demand", "Demand", Unit::One, 4, |r| demand_cell(r))
+        .number("allowable", "Allowable", Unit::One, 4, |r| allowable_cell(r))
+        .text("unit", "Unit", |r| unit_cell(r))
+        .number("margin", "Margin", Unit::Percent, 3, |r| margin_cell(r))
+        .number("torque_capacity_nm", "Reached at", Unit::NewtonMetre, 4, |r| {
+            r.torque_capacity_nm.map_or(Cell::Empty, |c| capacity_cell(r, c, end_torque_nm))
+        })
+        .text("verdict", "Verdict", |r| verdict(r))
+        .table()
 }
 
 /// The demand as people read it.
@@ -396,35 +383,21 @@ fn verdict(r: &Margin) -> Cell {
 
 /// The table for programs: every number in full, nothing but numbers in number columns.
 pub fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("code", "Code"),
-        Column::text("name", "Limit"),
-        Column::number("demand", "Demand", Unit::One, 5),
-        Column::number("allowable", "Allowable", Unit::One, 5),
-        Column::text("unit", "Unit"),
-        Column::number("margin", "Margin", Unit::One, 5),
-        Column::number("torque_capacity_nm", "Torque capacity", Unit::NewtonMetre, 5),
-        Column::text("required", "Required"),
-        Column::text("held", "Held"),
-        Column::text("capacity_beyond_end", "Capacity beyond the end of the curve"),
-        Column::number("slip_margin", "Slip margin", Unit::One, 5),
-    ]);
-    for r in rows {
-        table.row(vec![
-            r.code().into(),
-            r.name.as_str().into(),
-            demand(r).into(),
-            r.shown_allowable().into(),
-            r.limit.unit.into(),
-            r.margin().into(),
-            r.torque_capacity_nm.into(),
-            r.required.to_string().into(),
-            r.held().to_string().into(),
-            ends_first(r, end_torque_nm).to_string().into(),
-            r.slip_margin().into(),
-        ]);
-    }
-    table
+    Rows::of(rows)
+        .text("code", "Code", |r| r.code())
+        .text("name", "Limit", |r| r.name.as_str())
+        .number("demand", "Demand", Unit::One, 5, |r| demand(r))
+        .number("allowable", "Allowable", Unit::One, 5, |r| r.shown_allowable())
+        .text("unit", "Unit", |r| r.limit.unit)
+        .number("margin", "Margin", Unit::One, 5, |r| r.margin())
+        .number("torque_capacity_nm", "Torque capacity", Unit::NewtonMetre, 5, |r| r.torque_capacity_nm)
+        .text("required", "Required", |r| r.required.to_string())
+        .text("held", "Held", |r| r.held().to_string())
+        .text("capacity_beyond_end", "Capacity beyond the end of the curve", |r| {
+            ends_first(r, end_torque_nm).to_string()
+        })
+        .number("slip_margin", "Slip margin", Unit::One, 5, |r| r.slip_margin())
+        .table()
 }
 
 /// A margin in percent, or the words in its place; a limit that nothing demands has none.

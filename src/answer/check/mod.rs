@@ -29,7 +29,7 @@ use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows,
     static_margins,
 };
-use crate::report::{Page, Screen};
+use crate::report::{Page, Screen, Table};
 use crate::scenario::Settings;
 use crate::wedge::straddling_error;
 use body::Source;
@@ -85,6 +85,11 @@ impl CheckAnswer {
             error_estimate: Some(json!(self.errors)),
             body: &self.body,
         }
+    }
+
+    /// The table for programs: every number in full, nothing but numbers in number columns.
+    pub fn csv_table(&self) -> Table {
+        body::csv_table(&self.rows, self.state.curve.end_torque_nm())
     }
 
     /// The answer on a terminal.

@@ -4,7 +4,7 @@ use crate::clutch::ScenarioKind;
 use crate::design::{Design, Limits};
 use crate::follow::Follow;
 use crate::margin::{LoadState, OverrunCurve, OverrunPoint, overrun_at, overrun_curve};
-use crate::report::{Column, Table, Unit};
+use crate::report::{Rows, Table, Unit};
 use crate::wedge::NoCurve;
 use serde::Serialize;
 
@@ -107,17 +107,18 @@ fn insert(points: &mut Vec<OverrunPoint>, point: OverrunPoint) {
 pub struct OverrunRow {
     /// Race that runs: `outer` or `inner`; the other stands.
     pub race: &'static str,
-    /// Its speed, rev/min.
+    /// Speed of that race, rev/min.
     pub speed_rpm: f64,
-    /// Drag of the whole clutch, N m.
+    /// Drag torque of the whole clutch, N m.
     pub drag_torque_nm: f64,
-    /// Normal force at A of one sprag, N.
+    /// Normal force of one sprag at the inner contact, N.
     pub normal_inner_n: f64,
-    /// The same at B, N.
+    /// The same at the outer contact, N.
     pub normal_outer_n: f64,
-    /// Coefficient of friction at A at that speed.
+    /// Coefficient of friction of the inner contact at that speed.
     pub friction: f64,
-    /// Of a small swing of the sprags about the equilibrium, + grows; null where they are off or nothing slides.
+    /// Growth of a small swing of the sprags about the equilibrium, 1/s; positive: the equilibrium does not stay; null where
+    /// they are off or nothing slides.
     pub growth_rate_per_s: Option<f64>,
     /// Frequency of that swing, Hz.
     pub swing_frequency_hz: Option<f64>,
@@ -167,22 +168,23 @@ const NAMED: usize = 4;
 /// `overrun` of the JSON.
 #[derive(Debug, Clone, Serialize)]
 pub struct OverrunSection {
-    /// engaging, disengaging or neutral: what the centrifugal force does to the sprags.
+    /// What the centrifugal force does to the sprags: `engaging`, `disengaging` or `neutral`.
     pub centrifugal: &'static str,
-    /// Azimuth of C_e ahead of the centroid at first contact at rest.
+    /// Azimuth of the outer contact arc's centre ahead of the centroid at first contact at rest, deg; positive: engaging at
+    /// speed.
     pub gamma_deg: f64,
-    /// Drag torque with either race at rest.
+    /// Drag torque of the slowest overrun, without centrifugal force, N m.
     pub drag_torque_slow_nm: f64,
     /// Whether the design names a speed of the outer race, in a limit or a scene.
     pub outer_race_turns: bool,
     /// The overruns that the design names.
     pub named: Vec<NamedOverrun>,
-    /// All speeds looked at: outer race runs, then inner race.
+    /// All speeds looked at: first the outer race runs, then the inner one.
     pub points: Vec<OverrunRow>,
     /// Whether the sliding contact is on a film of oil.
     #[serde(skip)]
     pub on_film: bool,
-    /// That the equilibrium does not stay; null where it does.
+    /// A warning where the equilibrium does not stay; null where it does.
     pub warning: Option<String>,
 }
 
@@ -291,32 +293,21 @@ impl OverrunSection {
 
     /// All speeds, for `--overrun-csv` and the page.
     pub fn table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("race", "Race that runs"),
-            Column::number("speed_rpm", "Speed, rpm", Unit::One, 5),
-            Column::number("drag_torque_nm", "Drag torque", Unit::NewtonMetre, 4),
-            Column::number("normal_inner_n", "Normal force at A", Unit::Newton, 4),
-            Column::number("normal_outer_n", "Normal force at B", Unit::Newton, 4),
-            Column::number("friction", "Friction at A", Unit::One, 4),
-            Column::number("growth_rate_per_s", "Growth of the swing, 1/s", Unit::One, 4),
-            Column::number("swing_frequency_hz", "Swing, Hz", Unit::One, 4),
-            Column::number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4),
-            Column::number("rotation_hoop_outer_mpa", "Hoop by rotation, outer race, MPa", Unit::One, 4),
-        ]);
-        for p in &self.points {
-            table.row(vec![
-                p.race.into(),
-                p.speed_rpm.into(),
-                p.drag_torque_nm.into(),
-                p.normal_inner_n.into(),
-                p.normal_outer_n.into(),
-                p.friction.into(),
-                p.growth_rate_per_s.into(),
-                p.swing_frequency_hz.into(),
-                p.outer_race_growth_um.into(),
-                p.rotation_hoop_outer_mpa.into(),
-            ]);
-        }
-        table
+        Rows::of(&self.points)
+            .text("race", "Race that runs", |p| p.race)
+            .number("speed_rpm", "Speed, rpm", Unit::One, 5, |p| p.speed_rpm)
+            .number("drag_torque_nm", "Drag torque", Unit::NewtonMetre, 4, |p| p.drag_torque_nm)
+            .number("normal_inner_n", "Normal force at A", Unit::Newton, 4, |p| p.normal_inner_n)
+            .number("normal_outer_n", "Normal force at B", Unit::Newton, 4, |p| p.normal_outer_n)
+            .number("friction", "Friction at A", Unit::One, 4, |p| p.friction)
+            .number("growth_rate_per_s", "Growth of the swing, 1/s", Unit::One, 4, |p| p.growth_rate_per_s)
+            .number("swing_frequency_hz", "Swing, Hz", Unit::One, 4, |p| p.swing_frequency_hz)
+            .number("outer_race_growth_um", "Growth of the outer track, µm", Unit::One, 4, |p| {
+                p.outer_race_growth_um
+            })
+            .number("rotation_hoop_outer_mpa", "Hoop by rotation, outer race, MPa", Unit::One, 4, |p| {
+                p.rotation_hoop_outer_mpa
+            })
+            .table()
     }
 }

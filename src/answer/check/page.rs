@@ -1,6 +1,6 @@
 //! The margin check as a page.
 
-use super::text::overrunning;
+use super::text::{overrunning, two_pressures};
 use super::{CheckAnswer, charts, is_beyond, margin_text, people_table, sections};
 use crate::answer::Provenance;
 use crate::answer::page::{drawing, half, opened, pose_at_rest};
@@ -17,9 +17,20 @@ pub(super) fn answered(
 ) -> (Page, Vec<String>) {
     let page = opened(title, design, command, |page| {
         page.verdict(check.body.pass, &check.body.verdict());
-        page.list(check.body.capacity_lines());
+        page.list(rated(design).into_iter().chain(check.body.capacity_lines()));
     });
     (page, check.body.other_remarks())
+}
+
+/// The torques that the clutch is held to, in a line; none where no limit names one.
+fn rated(design: &Design) -> Option<String> {
+    let limits = &design.limits;
+    let named = [(limits.nominal_torque_nm, "nominal"), (limits.peak_torque_nm, "peak")];
+    let said: Vec<String> = named
+        .into_iter()
+        .filter_map(|(torque_nm, name)| Some(format!("{} {name}", Unit::NewtonMetre.show(torque_nm?, 4))))
+        .collect();
+    (!said.is_empty()).then(|| format!("Rated torque: {}", said.join(", ")))
 }
 
 /// The page.
@@ -40,7 +51,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
          the torque at which the limit would be reached (>: not before the curve ends).",
         &people_table(&check.rows, end_nm),
     );
-    page.list(remarks.into_iter().chain(overrunning(design)));
+    page.list(remarks.into_iter().chain(two_pressures(&check.rows)).chain(overrunning(design)));
     page.apart("Margins and torque capacities as bars", |page| {
         page.figure(
             &margin_bars(&check.rows).to_figure(),

@@ -3,7 +3,7 @@
 use crate::clutch::TrackRun;
 use crate::design::Design;
 use crate::margin::LoadState;
-use crate::report::{Column, Table, Unit};
+use crate::report::{Rows, Table, Unit};
 use serde::Serialize;
 
 /// One track of the JSON.
@@ -112,30 +112,20 @@ impl RunningSection {
 
     /// Radii as made and as run, what they fit and how they turned.
     pub fn table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("track", "Track"),
-            Column::number("as_made_mm", "As made, mm", Unit::One, 7),
-            Column::number("by_fit_um", "By fit, µm", Unit::One, 4),
-            Column::number("by_temperature_um", "By temperature, µm", Unit::One, 4),
-            Column::number("as_run_mm", "As run, mm", Unit::One, 7),
-            Column::number("to_make_mm", "To make, mm", Unit::One, 7),
-            Column::number("joint_pressure_mpa", "Joint pressure, MPa", Unit::One, 4),
-            Column::number("fit_hoop_at_track_mpa", "Fit hoop, track, MPa", Unit::One, 4),
-            Column::number("fit_hoop_at_joint_mpa", "Fit hoop, joint, MPa", Unit::One, 4),
-        ]);
-        for (name, t) in [("inner", &self.inner), ("outer", &self.outer)] {
-            table.row(vec![
-                name.into(),
-                t.as_made_mm.into(),
-                t.by_fit_um.into(),
-                t.by_temperature_um.into(),
-                t.as_run_mm.into(),
-                t.to_make_mm.into(),
-                t.joint_pressure_mpa.into(),
-                t.fit_hoop_at_track_mpa.into(),
-                t.fit_hoop_at_joint_mpa.into(),
-            ]);
-        }
-        table
+        Rows::of([("inner", &self.inner), ("outer", &self.outer)])
+            .text("track", "Track", |(name, _)| *name)
+            .number("as_made_mm", "As made, mm", Unit::One, 7, |(_, t)| t.as_made_mm)
+            .number("by_fit_um", "By fit, µm", Unit::One, 4, |(_, t)| t.by_fit_um)
+            .number("by_temperature_um", "By temperature, µm", Unit::One, 4, |(_, t)| t.by_temperature_um)
+            .number("as_run_mm", "As run, mm", Unit::One, 7, |(_, t)| t.as_run_mm)
+            .number("to_make_mm", "To make, mm", Unit::One, 7, |(_, t)| t.to_make_mm)
+            .number("joint_pressure_mpa", "Joint pressure, MPa", Unit::One, 4, |(_, t)| t.joint_pressure_mpa)
+            .number("fit_hoop_at_track_mpa", "Fit hoop, track, MPa", Unit::One, 4, |(_, t)| {
+                t.fit_hoop_at_track_mpa
+            })
+            .number("fit_hoop_at_joint_mpa", "Fit hoop, joint, MPa", Unit::One, 4, |(_, t)| {
+                t.fit_hoop_at_joint_mpa
+            })
+            .table()
     }
 }

@@ -3,7 +3,7 @@
 use super::{CheckAnswer, NONE_SUFFICES, OVERLOADED, people_table};
 use crate::design::Design;
 use crate::margin::{Demand, Margin};
-use crate::report::{Screen, Unit, greek};
+use crate::report::{Screen, Unit, greek, significant};
 
 /// What a capacity in a table of margins means.
 pub(crate) const REACHED_AT: &str =
@@ -27,6 +27,10 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
         out.push_str(&greek(&line));
         out.push('\n');
     }
+    if let Some(line) = two_pressures(&check.rows) {
+        out.push_str(&line);
+        out.push('\n');
+    }
     if check.rows.iter().any(|r| !r.required) {
         out.push_str(SHOWN_ONLY);
     }
@@ -44,6 +48,19 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
         ));
     }
     out
+}
+
+/// Why one contact has two allowed pressures, where it has.
+pub(super) fn two_pressures(rows: &[Margin]) -> Option<String> {
+    let of = |key: &str| rows.iter().find(|r| r.limit.key == Some(key)).map(Margin::shown_allowable);
+    let (nominal, peak) = (of("hertz_nominal_mpa")?, of("hertz_peak_mpa")?);
+    let [nominal, peak] = [nominal, peak].map(|mpa| significant(mpa, 4));
+    (nominal != peak).then(|| {
+        format!(
+            "Hertz pressure, two allowables: {nominal} MPa (hertz_nominal_mpa) at nominal torque, which comes again and again; {peak} MPa \
+             (hertz_peak_mpa) at peak torque and in scenes, which come seldom"
+        )
+    })
 }
 
 /// Outside, width and mass in one line.

@@ -2,7 +2,7 @@
 
 use crate::answer::check::ends_first;
 use crate::compare::Subject;
-use crate::margin::{When, overrun_at};
+use crate::margin::{Margin, When, lowest_capacity, overrun_at};
 use crate::report::Unit;
 use crate::wedge::StaticPoint;
 
@@ -41,8 +41,8 @@ const fn figure(
 /// Lowest torque at which a required limit of one torque would be reached before the curve ends.
 fn capacity(subject: &Subject, nominal: bool) -> Option<f64> {
     let end_nm = subject.state.curve.end_torque_nm();
-    let counts = subject.margins.iter().filter(|m| m.required && (m.limit.when == When::Nominal) == nominal);
-    counts.filter(|m| !ends_first(m, end_nm)).filter_map(|m| m.torque_capacity_nm).min_by(f64::total_cmp)
+    let counts = |m: &Margin| (m.limit.when == When::Nominal) == nominal && !ends_first(m, end_nm);
+    lowest_capacity(&subject.margins, counts).map(|(_, nm)| nm)
 }
 
 fn at_nominal(subject: &Subject, value: fn(&StaticPoint) -> f64) -> Option<f64> {

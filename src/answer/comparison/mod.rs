@@ -13,6 +13,7 @@ use crate::follow::Follow;
 use crate::margin::{LIFT_OFF_TO_RAD_S, Margin, NoMargins};
 use crate::report::{Page, Screen, Table, Unit, greek};
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// Designs with all that differs.
 #[derive(Debug, Clone)]
@@ -32,6 +33,12 @@ pub struct Comparison<'a> {
 /// A, B, C ...: short enough for a heading.
 fn letter(i: usize) -> String {
     char::from(b'A' + u8::try_from(i).unwrap_or(0)).to_string()
+}
+
+/// The letter of a design with the name of its file: designs out of one another have one name.
+fn label(compared: &Comparison<'_>, i: usize) -> String {
+    let file = compared.files.get(i).and_then(|file| Path::new(file).file_name());
+    file.map_or_else(|| letter(i), |file| format!("{}, {}", letter(i), file.to_string_lossy()))
 }
 
 /// Why designs were not compared.

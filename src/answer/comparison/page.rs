@@ -1,6 +1,6 @@
 //! The comparison as a page.
 
-use super::{Comparison, farthest, letter, proud, tables};
+use super::{Comparison, farthest, label, letter, proud, tables};
 use crate::answer::Envelope;
 use crate::answer::page::{begun, draw_sheet, half};
 use crate::compare::Subject;
@@ -64,15 +64,16 @@ pub(super) fn page(compared: &Comparison<'_>, answer: &Envelope<'_, Value>, comm
     answer.close(&mut page);
     for (i, s) in compared.subjects.iter().enumerate().skip(1) {
         let (name, hash) = (&s.design.name, &s.design.hash);
-        page.source(&format!("Design file {}: {name}, hash {hash}", letter(i)), &s.design.source);
+        page.source(&format!("Design file {}: {name}, hash {hash}", label(compared, i)), &s.design.source);
     }
     page
 }
 
 /// Outlines over one another, the second in full, and by how much the profiles differ.
 fn profiles(page: &mut Page, compared: &Comparison<'_>) {
-    let pose =
-        |(i, s): (usize, &Subject)| SpragPose::at_rest(&letter(i), &s.design.clutch.sprags, &s.state.profile);
+    let pose = |(i, s): (usize, &Subject)| {
+        SpragPose::at_rest(&label(compared, i), &s.design.clutch.sprags, &s.state.profile)
+    };
     let mut poses: Vec<SpragPose> = compared.subjects.iter().enumerate().map(pose).collect();
     let Some(now) = compared.subjects.get(1) else { return };
     poses.swap(0, 1);
@@ -86,7 +87,11 @@ fn profiles(page: &mut Page, compared: &Comparison<'_>) {
     for (i, points) in proud(compared.subjects).enumerate() {
         apart.extend(farthest(&points).map(|words| format!("A and {}: {words}", letter(i + 1))));
         let points = points.into_iter().map(|[t, h]| [t, Unit::Micrometre.from_si(h)]).collect();
-        plot.curves.push(Curve::new(&letter(i + 1), points).coloured(if i == 0 { 0 } else { i + 1 }));
+        plot.curves.push(Curve::new(&label(compared, i + 1), points).coloured(if i == 0 {
+            0
+        } else {
+            i + 1
+        }));
     }
     if apart.is_empty() {
         page.paragraph("The inner profiles are the same.");
@@ -107,7 +112,7 @@ fn curves(compared: &Comparison<'_>, x: &str, y: &str, point: &dyn Fn(&StaticPoi
     for (i, s) in compared.subjects.iter().enumerate() {
         let samples = s.state.curve.samples(up_to, PLOTTED);
         let points = samples.iter().map(|(p, _)| point(p)).collect();
-        let curve = Curve::new(&letter(i), points);
+        let curve = Curve::new(&label(compared, i), points);
         plot.curves.push(match i {
             0 => Curve { dash: Dash::Dashed, ..curve.coloured(1) },
             1 => curve.coloured(0),

@@ -5,7 +5,7 @@ use super::{Comparison, farthest, letter, proud, with_unit};
 use crate::answer::check::{in_place_of_margin, margin_cell};
 use crate::compare::Scene;
 use crate::margin::{LIFT_OFF_TO_RAD_S, Margin};
-use crate::report::{Cell, Column, Screen, Table, Unit, significant};
+use crate::report::{Cell, Column, Rows, Screen, Table, Unit, significant};
 
 /// Friction that a scene needs; none where none suffices or it does not run.
 pub(super) fn required_friction(scene: &Scene) -> Option<f64> {
@@ -35,25 +35,15 @@ fn change(values: &[Option<f64>]) -> Option<Cell> {
 
 /// Letters, names, files, hashes.
 pub(super) fn designs(compared: &Comparison<'_>) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("letter", ""),
-        Column::text("name", "Design"),
-        Column::text("file", "File"),
-        Column::text("hash", "Hash"),
-        Column::text("verdict", "Required limits"),
-    ]);
-    for (i, (s, file)) in compared.subjects.iter().zip(compared.files).enumerate() {
-        let hash = s.design.short_hash();
-        let verdict = if s.held() { "held" } else { "NOT HELD" };
-        table.row(vec![
-            letter(i).into(),
-            s.design.name.as_str().into(),
-            file.as_str().into(),
-            hash.into(),
-            Cell::Verdict(s.held(), verdict.into()),
-        ]);
-    }
-    table
+    Rows::of(compared.subjects.iter().zip(compared.files).enumerate())
+        .text("letter", "", |(i, _)| letter(*i))
+        .text("name", "Design", |(_, (s, _))| s.design.name.as_str())
+        .text("file", "File", |(_, (_, file))| file.as_str())
+        .text("hash", "Hash", |(_, (s, _))| s.design.short_hash())
+        .text("verdict", "Required limits", |(_, (s, _))| {
+            Cell::Verdict(s.held(), if s.held() { "held" } else { "NOT HELD" }.to_owned())
+        })
+        .table()
 }
 
 pub(super) fn inputs(compared: &Comparison<'_>) -> Table {
@@ -88,7 +78,8 @@ pub(super) fn figures(compared: &Comparison<'_>) -> Table {
 pub(super) fn margins(compared: &Comparison<'_>) -> Table {
     let mut table = Table::new(columns(compared, "Limit", (Unit::Percent, 3), None));
     if compared.subjects.len() == 2 {
-        table.columns.push(Column::number("change", "B − A", Unit::Percent, 3));
+        // A difference of per cents is not per cent of anything.
+        table.columns.push(Column::number("change", "B − A, points", Unit::One, 3));
     }
     table.columns.push(Column::text("verdict", "Verdict"));
     for row in &compared.margins {
@@ -100,7 +91,7 @@ pub(super) fn margins(compared: &Comparison<'_>) -> Table {
                 (Some(a), Some(b)) if [a, b].into_iter().any(|m| in_place_of_margin(m).is_some()) => {
                     Cell::Empty
                 }
-                (Some(a), Some(b)) => (shown(b) - shown(a)).into(),
+                (Some(a), Some(b)) => Unit::Percent.from_si(shown(b) - shown(a)).into(),
                 _ => Cell::Empty,
             });
         }

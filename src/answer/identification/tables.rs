@@ -1,7 +1,7 @@
 //! What an identification says: tables and sentences.
 
 use crate::identify::{Doubt, FittedPoint, INSEPARABLE, Identified, Tied, Use};
-use crate::report::{Cell, Column, Table, Unit, significant};
+use crate::report::{Cell, Column, Rows, Table, Unit, significant};
 
 pub(super) fn use_name(purpose: Use) -> &'static str {
     match purpose {
@@ -12,71 +12,51 @@ pub(super) fn use_name(purpose: Use) -> &'static str {
 
 /// The unknowns as found; each in the unit of its name.
 pub(super) fn estimates(found: &Identified) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("unknown", "Unknown"),
-        Column::number("min", "From", Unit::One, 6),
-        Column::number("max", "To", Unit::One, 6),
-        Column::number("before", "Before", Unit::One, 6),
-        Column::number("value", "Found", Unit::One, 7),
-        Column::number("half_width_95", "± scatter", Unit::One, 3),
-        Column::number("half_width_95_by_law", "± law", Unit::One, 3),
-        Column::text("note", "Note"),
-    ]);
-    for ((u, before), e) in found.unknowns.iter().zip(&found.before).zip(&found.knowledge.estimates) {
-        let range = u.max - u.min;
-        let bound = if e.value - u.min < 1e-6 * range {
-            Some("at its lower bound")
-        } else if u.max - e.value < 1e-6 * range {
-            Some("at its upper bound")
-        } else {
-            None
-        };
-        let doubt = e.doubt.map(|doubt| in_short(found, doubt));
-        let note = bound.map(str::to_owned).into_iter().chain(doubt).collect::<Vec<_>>().join(", ");
-        table.row(vec![
-            u.name.as_str().into(),
-            u.min.into(),
-            u.max.into(),
-            (*before).into(),
-            e.value.into(),
-            e.half_width.into(),
-            e.by_law.into(),
-            note.into(),
-        ]);
-    }
-    table
+    Rows::of(found.unknowns.iter().zip(&found.before).zip(&found.knowledge.estimates).map(
+        |((u, before), e)| {
+            let range = u.max - u.min;
+            let bound = if e.value - u.min < 1e-6 * range {
+                Some("at its lower bound")
+            } else if u.max - e.value < 1e-6 * range {
+                Some("at its upper bound")
+            } else {
+                None
+            };
+            let doubt = e.doubt.map(|doubt| in_short(found, doubt));
+            let note = bound.map(str::to_owned).into_iter().chain(doubt).collect::<Vec<_>>().join(", ");
+            (u, before, e, note)
+        },
+    ))
+    .text("unknown", "Unknown", |(u, _, _, _)| u.name.as_str())
+    .number("min", "From", Unit::One, 6, |(u, _, _, _)| u.min)
+    .number("max", "To", Unit::One, 6, |(u, _, _, _)| u.max)
+    .number("before", "Before", Unit::One, 6, |(_, before, _, _)| **before)
+    .number("value", "Found", Unit::One, 7, |(_, _, e, _)| e.value)
+    .number("half_width_95", "± scatter", Unit::One, 3, |(_, _, e, _)| e.half_width)
+    .number("half_width_95_by_law", "± law", Unit::One, 3, |(_, _, e, _)| e.by_law)
+    .text("note", "Note", |(_, _, _, note)| note.clone())
+    .table()
 }
 
 /// Every observation beside what the model says.
 pub(super) fn residuals(found: &Identified) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("label", "Row"),
-        Column::text("use", "Use"),
-        Column::text("quantity", "Quantity"),
-        Column::number("torque_nm", "At torque", Unit::NewtonMetre, 5),
-        Column::number("observed", "Observed", Unit::One, 6),
-        Column::number("predicted", "Model", Unit::One, 6),
-        Column::number("relative_percent", "Off", Unit::Percent, 3),
-        Column::text("decided_by", "Decided by"),
-    ]);
-    for p in &found.points {
+    Rows::of(found.points.iter().map(|p| {
         let o = &p.observation;
         let (value, note) = match &p.predicted {
             Ok(prediction) => (Cell::Si(prediction.value), prediction.decided_by.clone().unwrap_or_default()),
             Err(why) => (Cell::Empty, why.to_string()),
         };
-        table.row(vec![
-            o.label.as_str().into(),
-            use_name(o.purpose).into(),
-            o.kind.column().into(),
-            o.torque_nm.into(),
-            o.value.into(),
-            value,
-            p.relative().into(),
-            note.into(),
-        ]);
-    }
-    table
+        (p, o, value, note)
+    }))
+    .text("label", "Row", |(_, o, _, _)| o.label.as_str())
+    .text("use", "Use", |(_, o, _, _)| use_name(o.purpose))
+    .text("quantity", "Quantity", |(_, o, _, _)| o.kind.column())
+    .number("torque_nm", "At torque", Unit::NewtonMetre, 5, |(_, o, _, _)| o.torque_nm)
+    .number("observed", "Observed", Unit::One, 6, |(_, o, _, _)| o.value)
+    .number("predicted", "Model", Unit::One, 6, |(_, _, value, _)| value.clone())
+    .number("relative_percent", "Off", Unit::Percent, 3, |(p, _, _, _)| p.relative())
+    .text("decided_by", "Decided by", |(_, _, _, note)| note.clone())
+    .table()
 }
 
 /// Correlation of the unknowns.

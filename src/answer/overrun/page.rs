@@ -19,31 +19,36 @@ pub(super) fn page(answer: &OverrunAnswer<'_>, provenance: &Provenance) -> Page 
         .first()
         .cloned()
         .unwrap_or_else(|| "steady overrun stays; asperities hardly touch".to_owned());
-    let mut page = opened("Overrun", answer.design, &provenance.command, |page| {
+    let mut page = opened("Overrun on a film of oil", answer.design, &provenance.command, |page| {
         page.verdict_in(tone, &first);
     });
     page.list(answer.remarks().into_iter().chain(warnings.into_iter().skip(1)));
     let sets = curves(answer);
+    let speed = format!("Speed of the {} race, rpm", answer.question.race.name());
     let plot = |title: &str, shown: Shown| {
-        let mut plot = Plot::new("Speed, rpm", title);
+        let mut plot = Plot::new(&speed, title);
         plot.log_x = true;
         for (name, lines) in &sets {
             plot.curves.push(Curve::new(name, points(lines, shown)));
         }
         plot
     };
-    let mut drag = plot("Drag, Nm", |l| Some(l.point.state.drag_torque_nm));
+    let mut drag = plot("Drag torque, Nm", |l| Some(l.point.state.drag_torque_nm));
     if let Some((_, lines)) = sets.first() {
         let dry = points(lines, |l| Some(l.dry.state.drag_torque_nm));
-        drag.curves.push(Curve { dash: Dash::Dotted, ..Curve::new("by (12)", dry) });
+        drag.curves.push(Curve { dash: Dash::Dotted, ..Curve::new("dry, by the friction law (12)", dry) });
     }
-    let lambda = plot("λ", |l| l.point.lubricated.map(|f| f.film.lambda)).level(1.0, "1");
-    let friction = plot("μ", |l| l.point.lubricated.map(|_| l.point.friction));
-    let warmth = plot("Film, C", |l| l.point.lubricated.map(|f| f.film_c));
+    let lambda = plot("Film over roughness, λ", |l| l.point.lubricated.map(|f| f.film.lambda))
+        .level(1.0, "asperities carry much below");
+    let friction = plot("Friction coefficient μ", |l| l.point.lubricated.map(|_| l.point.friction));
+    let warmth = plot("Film temperature, °C", |l| l.point.lubricated.map(|f| f.film_c));
     page.figures(&[
         (half(drag), "Drag of all sprags; dotted: by the friction law (12) alone."),
         (half(friction), "Stribeck curve of the inner contact, at the load that the sprags settle at."),
-        (half(lambda), "Film over roughness."),
+        (
+            half(lambda),
+            "Thickness of the film over the roughness of both surfaces; above 3 asperities hardly touch.",
+        ),
         (half(warmth), "Temperature of the film by the heat balance."),
     ]);
     page.heading("Film and drag").table(
@@ -81,7 +86,7 @@ fn curves(answer: &OverrunAnswer<'_>) -> Vec<(String, Vec<OverrunLine>)> {
         let there = OilAt::new(answer.design, oil_c);
         let lines = (0..POINTS).map(at).filter(|w| *w < end);
         let lines = lines.filter_map(|w| there.line(&answer.state, answer.question.race, w).ok()).collect();
-        (format!("{} C", significant(oil_c, 3)), lines)
+        (format!("oil at {} °C", significant(oil_c, 3)), lines)
     };
     answer.question.temperatures_c.iter().map(one).collect()
 }

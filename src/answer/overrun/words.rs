@@ -126,11 +126,12 @@ impl OverrunAnswer<'_> {
         }
         if let Some((l, f)) = films().find(|(_, f)| !f.film.is_checked() && f.lambda > 0.0) {
             all.push(format!(
-                "Warning: Moes' numbers M {}, L {} at {} lie beyond those that the formula was checked at here (M {}, L {})",
-                significant(f.film.load, 3),
-                significant(f.film.lubricant, 3),
+                "Warning: at {} the film formula (Moes) is used beyond where it was checked: load number M {}, checked to {}; lubricant \
+                 number L {}, checked to {}. Take the film there as an estimate",
                 place(l),
+                significant(f.film.load, 3),
                 Film::CHECKED[0],
+                significant(f.film.lubricant, 3),
                 Film::CHECKED[1]
             ));
         }

@@ -21,7 +21,7 @@ pub struct Found {
     pub variables: Named,
     /// The objective, in its own unit.
     pub objective: f64,
-    /// Its margins.
+    /// Margins of that design.
     pub margins: Vec<SearchRow>,
 }
 
@@ -38,7 +38,7 @@ pub struct SearchRow {
     pub allowable: f64,
     /// Margin as a number; 0 or more is held.
     pub margin: f64,
-    /// Of slip rows mu_s over the friction required, less 1.
+    /// Of slip rows static over required friction, less 1.
     pub slip_margin: Option<f64>,
     /// Demand, in `unit`, where it is a number.
     pub demand: Option<f64>,
@@ -140,7 +140,7 @@ pub struct SearchBody {
     pub feasible: bool,
     /// Whether it can be made: a search that is stopped may have a free centroid, for which there are no flanks yet.
     pub makeable: bool,
-    /// Codes of those that are not.
+    /// Codes of the margins that are not.
     pub not_held: Vec<String>,
     /// The design found.
     pub best: Found,
@@ -148,11 +148,11 @@ pub struct SearchBody {
     pub in_file: Named,
     /// Where the search began.
     pub start: Found,
-    /// Change of the objective when the optimum is looked at in full at a tenth of the tolerance.
+    /// How far the objective is off: its change when the optimum is looked at in full at a tenth of the tolerance.
     pub objective_error: f64,
     /// Evaluations of the clutch in all.
     pub evaluations: usize,
-    /// Of the best climb those without an answer.
+    /// Evaluations of the best climb at which there was no clutch.
     pub failed_evaluations: usize,
     /// What holds the optimum where it is.
     pub active_constraints: Vec<String>,
@@ -160,9 +160,9 @@ pub struct SearchBody {
     pub fighting_limits: Vec<String>,
     /// Variables that move no margin.
     pub dropped_variables: Vec<String>,
-    /// Influence at the start.
+    /// Change of each margin over the whole range of each variable, at the start.
     pub influence: Slopes,
-    /// Influence at the optimum.
+    /// The same at the optimum.
     pub sensitivities: Option<Slopes>,
     /// Points of the front, or the optimum as the only one.
     pub pareto: Vec<FrontBody>,
@@ -170,7 +170,7 @@ pub struct SearchBody {
     pub seed: u64,
     /// Climbs.
     pub starts: Vec<Climb>,
-    /// Optima that they met.
+    /// Optima that they met, and how many are to be expected.
     pub optima: OptimaBody,
     /// Whole numbers that were tried.
     pub whole_numbers: Vec<Climb>,
@@ -192,7 +192,7 @@ pub struct SearchBody {
     pub reserve: f64,
     /// The optimum as it may be made.
     pub tolerances: Option<MadeBody>,
-    /// The design that holds at every corner.
+    /// The design that holds at every corner of the tolerances.
     pub robust: Option<RobustFound>,
     /// What was asked and could not be done.
     pub not_done: Vec<String>,

@@ -4,28 +4,21 @@ use super::relief::relief_parts;
 use super::words::{Hints, gain, optima_line, price_sentence, shown};
 use super::{Story, steps};
 use crate::design::Objective;
-use crate::optimise::{Branch, ClimbRecord, Front, Realised, Robust, Search};
-use crate::report::{Cell, Column, Plot, Table, Unit, significant};
+use crate::optimise::{Branch, ClimbRecord, Front, Realised, Robust, Search, Status};
+use crate::report::{Cell, Column, Plot, Rows, Table, Unit, significant};
 
 fn start_table(starts: &[ClimbRecord]) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("start", "Start"),
-        Column::text("ended", "Ended"),
-        Column::number("least_margin", "Least scaled objective", Unit::One, 6),
-        Column::number("violation", "Worst violation", Unit::One, 3),
-        Column::number("evaluations", "Evaluations", Unit::One, 6),
-    ]);
-    for s in starts {
-        let ended = s.ended.as_ref().map_or_else(|why| why.clone(), |e| e.name().to_owned());
-        table.row(vec![
-            s.from.as_str().into(),
-            ended.as_str().into(),
-            finite(s.least_margin),
-            finite(s.violation),
-            s.evaluations.into(),
-        ]);
-    }
-    table
+    Rows::of(starts)
+        .text("start", "Start", |s| s.from.as_str())
+        .text("ended", "Ended", |s| how_ended(&s.ended))
+        .number("least_margin", "Least scaled objective", Unit::One, 6, |s| finite(s.least_margin))
+        .number("violation", "Worst violation", Unit::One, 3, |s| finite(s.violation))
+        .number("evaluations", "Evaluations", Unit::One, 6, |s| s.evaluations)
+        .table()
+}
+
+fn how_ended(ended: &Result<Status, String>) -> String {
+    ended.as_ref().map_or_else(Clone::clone, |e| e.name().to_owned())
 }
 
 fn finite(v: f64) -> Cell {
@@ -33,50 +26,26 @@ fn finite(v: f64) -> Cell {
 }
 
 fn branch_table(branches: &[Branch]) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("values", "Whole numbers"),
-        Column::text("ended", "Ended"),
-        Column::number("least_margin", "Least scaled objective", Unit::One, 6),
-        Column::number("violation", "Worst violation", Unit::One, 3),
-        Column::number("evaluations", "Evaluations", Unit::One, 6),
-    ]);
-    for b in branches {
-        let values: Vec<String> = b.values.iter().map(|(n, v)| format!("{n} = {v}")).collect();
-        let ended = b.ended.as_ref().map_or_else(|why| why.clone(), |e| e.name().to_owned());
-        table.row(vec![
-            values.join(", ").as_str().into(),
-            ended.as_str().into(),
-            finite(b.least_margin),
-            finite(b.violation),
-            b.evaluations.into(),
-        ]);
-    }
-    table
+    let value = |(name, value): &(String, f64)| format!("{name} = {value}");
+    Rows::of(branches)
+        .text("values", "Whole numbers", |b| b.values.iter().map(value).collect::<Vec<_>>().join(", "))
+        .text("ended", "Ended", |b| how_ended(&b.ended))
+        .number("least_margin", "Least scaled objective", Unit::One, 6, |b| finite(b.least_margin))
+        .number("violation", "Worst violation", Unit::One, 3, |b| finite(b.violation))
+        .number("evaluations", "Evaluations", Unit::One, 6, |b| b.evaluations)
+        .table()
 }
 
 fn spread_table(made: &Robust) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("code", "Margin"),
-        Column::number("nominal", "As drawn", Unit::One, 4),
-        Column::number("worst", "Worst corner", Unit::One, 4),
-        Column::number("p01", "1 %", Unit::One, 4),
-        Column::number("p05", "5 %", Unit::One, 4),
-        Column::number("p50", "50 %", Unit::One, 4),
-        Column::text("worst_at", "Worst at"),
-    ]);
-    for s in &made.spreads {
-        let [p01, p05, p50] = s.percentiles;
-        table.row(vec![
-            s.code.as_str().into(),
-            s.nominal.into(),
-            s.worst.into(),
-            p01.into(),
-            p05.into(),
-            p50.into(),
-            s.worst_at.as_str().into(),
-        ]);
-    }
-    table
+    Rows::of(&made.spreads)
+        .text("code", "Margin", |s| s.code.as_str())
+        .number("nominal", "As drawn", Unit::One, 4, |s| s.nominal)
+        .number("worst", "Worst corner", Unit::One, 4, |s| s.worst)
+        .number("p01", "1 %", Unit::One, 4, |s| s.percentiles[0])
+        .number("p05", "5 %", Unit::One, 4, |s| s.percentiles[1])
+        .number("p50", "50 %", Unit::One, 4, |s| s.percentiles[2])
+        .text("worst_at", "Worst at", |s| s.worst_at.as_str())
+        .table()
 }
 
 fn front_table(front: &Front) -> Table {

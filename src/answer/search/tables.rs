@@ -4,7 +4,7 @@ use super::Story;
 use crate::answer::check::{allowable_cell, demand_cell, margin_cell, unit_cell};
 use crate::margin::Margin;
 use crate::optimise::NO_INFLUENCE;
-use crate::report::{Cell, Column, Table, Unit};
+use crate::report::{Cell, Column, Rows, Table, Unit};
 
 impl Story {
     fn held_cell(&self, m: &Margin) -> Cell {
@@ -18,72 +18,42 @@ impl Story {
 
     /// Margins before and after, as `check` shows them.
     pub fn margin_table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("code", "Limit"),
-            Column::number("demand_before", "Demand before", Unit::One, 4),
-            Column::number("demand_after", "Demand after", Unit::One, 4),
-            Column::number("allowable", "Allowable", Unit::One, 4),
-            Column::text("unit", "Unit"),
-            Column::number("margin_before", "Margin before", Unit::Percent, 3),
-            Column::number("margin_after", "Margin after", Unit::Percent, 3),
-            Column::text("held", "Held"),
-        ]);
-        for b in self.margins() {
-            let a = self.before(b);
-            table.row(vec![
-                b.code().into(),
-                a.map_or(Cell::Empty, demand_cell),
-                demand_cell(b),
-                allowable_cell(b),
-                unit_cell(b),
-                a.map_or(Cell::Empty, margin_cell),
-                margin_cell(b),
-                self.held_cell(b),
-            ]);
-        }
-        table
+        Rows::of(self.margins().iter().map(|b| (b, self.before(b))))
+            .text("code", "Limit", |(b, _)| b.code())
+            .number("demand_before", "Demand before", Unit::One, 4, |(_, a)| {
+                a.map_or(Cell::Empty, demand_cell)
+            })
+            .number("demand_after", "Demand after", Unit::One, 4, |(b, _)| demand_cell(b))
+            .number("allowable", "Allowable", Unit::One, 4, |(b, _)| allowable_cell(b))
+            .text("unit", "Unit", |(b, _)| unit_cell(b))
+            .number("margin_before", "Margin before", Unit::Percent, 3, |(_, a)| {
+                a.map_or(Cell::Empty, margin_cell)
+            })
+            .number("margin_after", "Margin after", Unit::Percent, 3, |(b, _)| margin_cell(b))
+            .text("held", "Held", |(b, _)| self.held_cell(b))
+            .table()
     }
 
     /// The same for programs: every number in full.
     pub fn csv_table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("code", "Limit"),
-            Column::text("unit", "Unit"),
-            Column::number("demand_before", "Demand before", Unit::One, 5),
-            Column::number("demand_after", "Demand after", Unit::One, 5),
-            Column::number("allowable", "Allowable", Unit::One, 5),
-            Column::number("margin_before", "Margin before", Unit::One, 4),
-            Column::number("margin_after", "Margin after", Unit::One, 4),
-            Column::text("held", "Held"),
-        ]);
-        for b in self.margins() {
-            let a = self.before(b);
-            let demand = |m: &Margin| m.demand_in_unit().map_or(Cell::Empty, Cell::Si);
-            table.row(vec![
-                b.code().into(),
-                b.limit.unit.into(),
-                a.map_or(Cell::Empty, demand),
-                demand(b),
-                b.shown_allowable().into(),
-                a.map_or(Cell::Empty, |a| a.margin().into()),
-                b.margin().into(),
-                self.held_cell(b),
-            ]);
-        }
-        table
+        let demand = |m: &Margin| m.demand_in_unit().map_or(Cell::Empty, Cell::Si);
+        Rows::of(self.margins().iter().map(|b| (b, self.before(b))))
+            .text("code", "Limit", |(b, _)| b.code())
+            .text("unit", "Unit", |(b, _)| b.limit.unit)
+            .number("demand_before", "Demand before", Unit::One, 5, |(_, a)| a.map_or(Cell::Empty, demand))
+            .number("demand_after", "Demand after", Unit::One, 5, |(b, _)| demand(b))
+            .number("allowable", "Allowable", Unit::One, 5, |(b, _)| b.shown_allowable())
+            .number("margin_before", "Margin before", Unit::One, 4, |(_, a)| {
+                a.map_or(Cell::Empty, |a| a.margin().into())
+            })
+            .number("margin_after", "Margin after", Unit::One, 4, |(b, _)| b.margin())
+            .text("held", "Held", |(b, _)| self.held_cell(b))
+            .table()
     }
 
     /// Variables before and after, with their bounds.
     pub fn variable_table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("variable", "Variable"),
-            Column::number("min", "From", Unit::One, 6),
-            Column::number("max", "To", Unit::One, 6),
-            Column::number("before", "Before", Unit::One, 6),
-            Column::number("after", "After", Unit::One, 6),
-            Column::text("note", "Note"),
-        ]);
-        for v in &self.made().variables {
+        Rows::of(self.made().variables.iter().map(|v| {
             let before = self.found.variables.iter().find(|f| f.name == v.name);
             let bound = match (v.best == v.min, v.best == v.max) {
                 (true, _) => Some("lower"),
@@ -96,16 +66,17 @@ impl Story {
                 Some(bound) => format!("a step from its {bound} bound"),
                 None => String::new(),
             };
-            table.row(vec![
-                v.name.as_str().into(),
-                v.min.into(),
-                v.max.into(),
-                before.map_or(Cell::Empty, |f| f.start.into()),
-                self.value(v).into(),
-                note.as_str().into(),
-            ]);
-        }
-        table
+            (v, before, note)
+        }))
+        .text("variable", "Variable", |(v, _, _)| v.name.as_str())
+        .number("min", "From", Unit::One, 6, |(v, _, _)| v.min)
+        .number("max", "To", Unit::One, 6, |(v, _, _)| v.max)
+        .number("before", "Before", Unit::One, 6, |(_, before, _)| {
+            before.map_or(Cell::Empty, |f| f.start.into())
+        })
+        .number("after", "After", Unit::One, 6, |(v, _, _)| self.value(v))
+        .text("note", "Note", |(_, _, note)| note.clone())
+        .table()
     }
 
     /// Change of each margin over the whole range of each variable, at the start.

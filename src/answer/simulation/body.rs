@@ -14,16 +14,16 @@ pub struct Slip {
     pub time_s: Option<f64>,
     /// Path of slip, mm.
     pub distance_mm: Option<f64>,
-    /// Net slip, mm; + towards overrunning.
+    /// Net slip, mm; positive towards overrunning.
     pub net_mm: Option<f64>,
 }
 
 /// Slip at both contacts.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Slips {
-    /// At A.
+    /// At the inner contact.
     pub inner: Slip,
-    /// At B.
+    /// At the outer contact.
     pub outer: Slip,
 }
 
@@ -125,11 +125,11 @@ pub struct Equilibrium {
 pub struct SimulationBody {
     /// Name of the scenario.
     pub scenario: String,
-    /// Its kind.
+    /// Kind of the scenario.
     pub kind: &'static str,
-    /// `event`, `published`, or `equilibrium`.
+    /// `event`, `published`, or `equilibrium` where nothing is integrated.
     pub method: &'static str,
-    /// Verdict by its name.
+    /// `sticks`, `slips-overrunning`, `slips-engaging`, `disengages`, `overloaded`, `at-threshold`.
     pub verdict: Option<&'static str>,
     /// Why the run ended; `no-start` where the clutch has no such start.
     pub stop: &'static str,
@@ -137,63 +137,65 @@ pub struct SimulationBody {
     pub reason: Option<String>,
     /// Time reached, s.
     pub t_end_s: Option<f64>,
-    /// theta_bi at the end, rad.
+    /// Rotation of the inner race at the end, rad.
     pub theta_inner_end_rad: Option<f64>,
-    /// theta_be at the end, rad.
+    /// Rotation of the outer race at the end, rad.
     pub theta_outer_end_rad: Option<f64>,
-    /// Offset, rad; + towards overrunning.
+    /// Offset that slip leaves between the races, rad; positive towards overrunning.
     pub offset_rad: Option<f64>,
     /// Slip at both contacts.
     pub slip: Slips,
     /// Time without contact, s.
     pub contact_lost_s: Option<f64>,
-    /// Largest |T|/N, either contact.
+    /// Largest tangential over normal force, either contact.
     pub peak_tan_demand: Option<f64>,
-    /// Friction that rolling would need.
+    /// Static friction from which on the scene sticks.
     pub required_static_friction: Option<f64>,
-    /// `rolling`: the peak of |T|/N in pure rolling; `bisection`: by runs with slip, where rolling unloads the contact.
+    /// How that was found. `rolling`: the largest tangential over normal force in pure rolling; `bisection`: by runs with
+    /// slip, where rolling unloads the contact.
     pub required_static_friction_by: Option<&'static str>,
-    /// Slip margin.
+    /// Static over required friction, less 1.
     pub slip_margin: Option<f64>,
-    /// Contact margin.
+    /// Smallest normal force at the inner contact in pure rolling over that of the static load; negative by the pull that
+    /// rolling would need.
     pub contact_margin: Option<f64>,
-    /// Smallest N_bi, N.
+    /// Smallest normal force of one sprag at the inner contact, N.
     pub normal_min_n: Option<f64>,
-    /// Largest N_bi, N.
+    /// Largest normal force of one sprag at the inner contact, N.
     pub normal_max_n: Option<f64>,
-    /// Extremes of the run.
+    /// Extremes of the run, with their times.
     pub extremes: Option<Extremes>,
-    /// Where nothing is integrated.
+    /// The state of a static scenario or of a steady overrun, where nothing is integrated.
     pub equilibrium: Option<Equilibrium>,
     /// Largest Hertz pressure, MPa.
     pub hertz_peak_mpa: Option<f64>,
     /// Hertz pressure of the static load, MPa.
     pub hertz_static_mpa: Option<f64>,
-    /// Hertz pressure at A at the smallest N_bi, MPa.
+    /// Hertz pressure at the inner contact at the smallest normal force, MPa.
     pub hertz_least_mpa: Option<f64>,
-    /// Hertz pressure at A at nominal torque, MPa.
+    /// Hertz pressure at the inner contact at nominal torque, MPa.
     pub hertz_rated_mpa: Option<f64>,
-    /// Mode changes.
+    /// Changes of mode: sticking, slipping, open.
     pub events: Option<u64>,
-    /// Sequences of mode changes closed at their limit.
+    /// Sequences of ever faster changes of mode that were closed at their limit.
     pub zeno_closures: Option<u64>,
-    /// Mode changes at which no candidate was consistent.
+    /// Changes of mode at which no mode was consistent with the forces.
     pub inconsistent_choices: Option<u64>,
     /// What was fastest where the run gave up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fast_motion: Option<Fast>,
-    /// Steps of all runs.
+    /// Steps of the integrator, of all runs.
     pub steps: Option<u64>,
     /// Steps refused and tried again, of all runs.
     pub rejections: Option<u64>,
-    /// Right-hand sides of all runs.
+    /// Evaluations of the equations of motion, of all runs.
     pub rhs_evaluations: Option<u64>,
-    /// Errors of the figures.
+    /// Errors of the figures by name.
     pub error_estimates: Option<SimulationErrors>,
-    /// Where the energy went.
+    /// Where the energy went, J.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_balance: Option<Energy>,
-    /// Of races and drivetrain with the clutch engaged, lowest first; none without a drivetrain.
+    /// Eigenfrequencies of races and drivetrain with the clutch engaged, lowest first; none without a drivetrain.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub eigenfrequencies: Vec<Eigenfrequency>,
     /// Inputs of an engagement that the paper does not publish for its Figure 8.
@@ -208,10 +210,11 @@ pub struct SimulationBody {
     /// Why a run with finer steps than those that answer did not come to its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub finer_gave_up: Option<&'static str>,
-    /// Smallest and largest theta_inner_end over the runs made, where the tolerance is not reached.
+    /// Smallest and largest rotation of the inner race at the end over the runs made, rad, where the tolerance is not
+    /// reached.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spread_rad: Option<[f64; 2]>,
-    /// How long A slips after a reversal, s.
+    /// How long the inner contact slips after a reversal, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub initial_slip_s: Option<f64>,
     /// Drag torque of a steady overrun, N m.
@@ -220,13 +223,14 @@ pub struct SimulationBody {
     /// Speed of the outer race at which the sprags lift off, rev/min; absent where they stay on up to 60 000.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lift_off_rpm: Option<f64>,
-    /// Of a small swing of the sprags about a steady overrun, races at held speeds; + grows. Absent where they are off.
+    /// Growth of a small swing of the sprags about a steady overrun, races at held speeds, 1/s; positive: the overrun does
+    /// not stay. Absent where they are off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub growth_rate_per_s: Option<f64>,
     /// Frequency of that swing, Hz.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub swing_frequency_hz: Option<f64>,
-    /// N_bi about which they swing: that of the equations of motion.
+    /// Normal force at the inner contact about which they swing, by the equations of motion, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub swing_normal_inner_n: Option<f64>,
     /// Terms that the planner looked at and kept.

@@ -12,43 +12,43 @@ use serde::Serialize;
 pub struct CurvePoint {
     /// Torque asked for, N m.
     pub torque_nm: f64,
-    /// N_bi, N.
+    /// Normal force of one sprag at the inner contact, N.
     pub normal_inner_n: f64,
-    /// N_be, N.
+    /// The same at the outer contact, N.
     pub normal_outer_n: f64,
-    /// |T|/N at A.
+    /// Tangential over normal force at the inner contact.
     pub tan_omega: f64,
-    /// |T|/N at B.
+    /// The same at the outer contact.
     pub tan_nu: f64,
     /// Rotation of the sprag, rad.
     pub alpha_rad: f64,
-    /// Windup W, deg.
+    /// Windup of the races against each other, deg.
     pub windup_deg: f64,
     /// Secant stiffness, N m/rad.
     pub k_secant_nm_per_rad: f64,
     /// Tangent stiffness, N m/rad.
     pub k_tangent_nm_per_rad: f64,
-    /// From 1.
+    /// Inner arc in contact, from 1.
     pub arc: usize,
-    /// Whether the patch at A lies on two arcs.
+    /// Whether the inner contact lies on two arcs.
     pub straddles_junction: bool,
-    /// Peak Hertz pressure at A, MPa.
+    /// Peak Hertz pressure at the inner contact, MPa.
     pub hertz_inner_mpa: f64,
     /// How far that is off at most: the curve's interpolation, and the pressure's shape while a junction lies under the
     /// contact.
     pub hertz_inner_error_mpa: f64,
-    /// With the radius at the contact point alone, as the paper takes it.
+    /// Peak Hertz pressure there with the radius at the contact point alone, as the paper takes it, MPa.
     pub hertz_inner_pointwise_mpa: f64,
-    /// The same at B, MPa.
+    /// Peak Hertz pressure at the outer contact, MPa.
     pub hertz_outer_mpa: f64,
 }
 
 /// Where a curve ends.
 #[derive(Debug, Clone, Serialize)]
 pub struct CurveEnd {
-    /// Why.
+    /// Why the curve ends there.
     pub reason: &'static str,
-    /// Torque there, N m.
+    /// Torque at the end, N m.
     pub torque_nm: f64,
 }
 

@@ -21,9 +21,9 @@ pub fn junctions(curve: &WedgeCurve) -> Vec<Junction> {
 /// Where one arc hands over to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Junction {
-    /// Torque, N m.
+    /// Torque at which it does, N m.
     pub torque_nm: f64,
-    /// alpha, rad.
+    /// Rotation of the sprag there, rad.
     pub alpha_rad: f64,
     /// Number of the arc that ends here, from 1.
     pub arc: usize,

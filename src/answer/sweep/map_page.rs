@@ -301,7 +301,8 @@ fn void_entry(tiles: &[(Shade, Option<bool>)]) -> Option<(Shade, String)> {
 /// A variable's name with its unit apart: `r_i2, mm`.
 fn axis_title(name: &str) -> String {
     let unit = variable_unit(name).filter(|unit| !unit.is_empty());
-    let bare = unit.and_then(|unit| name.strip_suffix(&unit.to_lowercase())?.strip_suffix('_'));
+    let bare =
+        unit.and_then(|unit| name.strip_suffix(&unit.to_lowercase().replace('µ', "u"))?.strip_suffix('_'));
     match (bare, unit) {
         (Some(bare), Some(unit)) => format!("{bare}, {unit}"),
         _ => name.to_owned(),

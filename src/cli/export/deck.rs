@@ -3,7 +3,7 @@
 use super::{ExportArgs, VariantName};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::origin::FileKind;
-use crate::cli::{Context, output, parts};
+use crate::cli::{Context, output};
 use crate::design::Design;
 use crate::export::calculix::{Options, Variant, deck};
 use crate::margin::NoMargins;
@@ -50,12 +50,12 @@ fn text(design: &Design, variant: Variant, args: &ExportArgs) -> Result<String, 
         .torque
         .or(design.limits.nominal_torque_nm)
         .ok_or_else(|| Failure::malformed("--torque is needed: the design names no nominal torque"))?;
-    let profile = clutch.profile().map_err(|e| parts::no_clutch(&args.file, &NoMargins::Profile(e)))?;
+    let profile = clutch.profile().map_err(|e| Failure::no_clutch(&args.file, &NoMargins::Profile(e)))?;
     let outline = match clutch.sprags.flanks {
         Some(flanks) => Outline::closed(&profile, &flanks),
         None => Outline::narrowest(&profile),
     }
-    .map_err(|e| parts::no_clutch(&args.file, &NoMargins::Outline(e)))?;
+    .map_err(|e| Failure::no_clutch(&args.file, &NoMargins::Outline(e)))?;
     let usual = Options::default();
     let options = Options {
         variant,

@@ -3,10 +3,10 @@
 use super::{ExportArgs, FmiName};
 use crate::answer::Envelope;
 use crate::answer::left_out::LeftOut;
+use crate::cli::Context;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::origin::FileKind;
 use crate::cli::output::{TOOL, VERSION};
-use crate::cli::{Context, parts};
 use crate::design::{Design, inputs};
 use crate::element::{Beginning, Element, NoElement, Settings};
 use crate::export::fmu::{Fmi, MARK, MODEL, description, variables};
@@ -44,10 +44,10 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     // What cannot begin at rest without load is no element anywhere.
     match Element::new(&design.clutch, &Beginning::default(), &Settings::default()) {
         Err(NoElement::NoStart(NoScenario::Profile(e))) => {
-            return Err(parts::no_clutch(&args.file, &NoMargins::Profile(e)));
+            return Err(Failure::no_clutch(&args.file, &NoMargins::Profile(e)));
         }
         Err(NoElement::NoStart(NoScenario::Curve(e))) => {
-            return Err(parts::no_clutch(&args.file, &NoMargins::Curve(e)));
+            return Err(Failure::no_clutch(&args.file, &NoMargins::Curve(e)));
         }
         Err(e) => return Err(Failure::NoClutch(format!("{}: {e}", args.file.display()))),
         Ok(_) => {}
@@ -63,8 +63,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     files.push((inside, library, true));
     files.push(("resources/design.toml".to_owned(), design.source.clone().into_bytes(), true));
     for history in &design.histories {
-        let text =
-            std::fs::read(history).map_err(|e| Failure::malformed(format!("{}: {e}", history.display())))?;
+        let text = std::fs::read(history).map_err(|e| Failure::of(history, e))?;
         let name = history.strip_prefix(&design.folder).unwrap_or(history);
         let parts: Vec<_> = name.components().map(|c| c.as_os_str().to_string_lossy().into_owned()).collect();
         files.push((format!("resources/{}", parts.join("/")), text, true));

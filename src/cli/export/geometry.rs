@@ -3,7 +3,7 @@
 use super::{ExportArgs, Format, PartName, TableName};
 use crate::answer::exported::{Exported, arcs_table, points_table};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::{Context, output, parts};
+use crate::cli::{Context, output};
 use crate::design::Design;
 use crate::export::rows::{arcs, points};
 use crate::export::{DrawnClutch, Part, dxf::dxf, step::step, svg::svg};
@@ -33,12 +33,12 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     }
     let started = Instant::now();
     let made = design.as_made().map_err(|refused| Failure::Malformed(miette::Report::new(refused)))?;
-    let profile = made.profile().map_err(|e| parts::no_clutch(&args.file, &NoMargins::Profile(e)))?;
+    let profile = made.profile().map_err(|e| Failure::no_clutch(&args.file, &NoMargins::Profile(e)))?;
     let part = part(args.part.unwrap_or(PartName::Sprag));
     let outline = match made.sprags.flanks {
         Some(flanks) => Some(
             Outline::closed(&profile, &flanks)
-                .map_err(|e| parts::no_clutch(&args.file, &NoMargins::Outline(e)))?,
+                .map_err(|e| Failure::no_clutch(&args.file, &NoMargins::Outline(e)))?,
         ),
         None => None,
     };

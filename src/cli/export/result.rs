@@ -28,8 +28,7 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
             design.hash
         )));
     }
-    let reading =
-        read(&facts, &dat_text).map_err(|e| Failure::malformed(format!("{}: {e}", dat.display())))?;
+    let reading = read(&facts, &dat_text).map_err(|e| Failure::of(dat, e))?;
     let whole = reading.is_whole();
     let (turned, all) = (reading.turned, reading.rows);
     if !whole {
@@ -53,10 +52,6 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
         return Err(Failure::malformed("the result holds none of the torques asked for"));
     }
     let answer = FiniteElements::of(design, &facts, &rows, turned);
-    let run_time_s = started.elapsed().as_secs_f64();
-    context.outputs.write_csv(&answer.table());
-    context.outputs.write_report(|| answer.page(&context.provenance(run_time_s)));
-    context.print(&answer.envelope(run_time_s))?;
-    context.answer(&format!("{}\n{}\n", answer.table().to_text(context.screen), answer.compared()))?;
+    context.deliver(&answer, started.elapsed().as_secs_f64())?;
     Ok(Exit::Held)
 }

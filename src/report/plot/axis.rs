@@ -138,6 +138,13 @@ pub(in crate::report) fn draw_left(
     svg.rising_text([14.0, middle.max(half + 2.0).min((height_px - half - 2.0).max(0.0))], INK, title);
 }
 
+/// Left margin that numbers and title of an upright axis need, px.
+pub(in crate::report) fn left_px(ticks: &[Tick]) -> f64 {
+    let widest = ticks.iter().map(|tick| text_width(&tick.text, super::TEXT_PX)).fold(0.0, f64::max);
+    // Title, its distance, numbers, their distance from the line.
+    super::LEFT_PX.max(18.0 + 4.0 + widest + 8.0)
+}
+
 /// Middle of a text that belongs at `px` of a figure `width_px` wide: near an edge it leans inwards.
 pub(super) fn within(px: f64, text: &str, width_px: f64) -> f64 {
     let half = text_width(text, super::TEXT_PX) / 2.0;
