@@ -1,6 +1,7 @@
 //! `map`: what a table of `evaluate` shows.
 
 use super::exit::{Exit, Failure};
+use super::sweep::opened_again;
 use super::{Context, Run, Without, output};
 use crate::answer::sweep::{NoMap, SweepMap};
 use clap::Args;
@@ -52,12 +53,7 @@ impl Run for MapArgs {
                 if context.follow.stopped() {
                     return Err(Failure::Interrupted);
                 }
-                let refused = |why: String| Failure::of(path, why);
-                if path.exists() && !path.is_file() {
-                    return Err(refused("is no file: tables are read twice".to_owned()));
-                }
-                let file = File::open(path).map_err(|e| refused(format!("cannot be read: {e}")))?;
-                read(file).map_err(|why| refused(why.to_string()))
+                read(opened_again(path, "tables")?).map_err(|why| Failure::of(path, why))
             })
         };
         each(&mut |file| map.survey(file))?;

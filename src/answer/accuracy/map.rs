@@ -2,7 +2,7 @@
 
 use super::AccuracyStudy;
 use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS};
-use crate::report::{Bar, Bars, Cell, Column, Curve, Plot, Table, Tone, Unit};
+use crate::report::{Bar, Bars, Curve, Plot, Rows, Table, Tone, Unit};
 
 /// Outcomes in the order in which they are listed.
 const ORDER: [&str; 14] = [
@@ -61,29 +61,19 @@ pub(super) fn at_half(h: &Halved) -> String {
 
 /// Counts and worst work by outcome.
 pub(super) fn counts(study: &AccuracyStudy) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("outcome", "Outcome"),
-        Column::number("cases", "Cases", Unit::One, 6),
-        Column::number("not_converged", "Tolerance not reached", Unit::One, 6),
-        Column::number("most_events", "Most changes of mode", Unit::One, 6),
-        Column::number("most_steps", "Most steps, both answers", Unit::One, 6),
-        Column::number("most_rhs_evaluations", "Most right-hand sides", Unit::One, 6),
-    ]);
-    for (name, cases) in by_outcome(study) {
-        let most = |f: fn(&Judged) -> u64| {
-            let most = cases.iter().map(|c| f(c)).max().unwrap_or(0);
-            Cell::Count(usize::try_from(most).unwrap_or(usize::MAX))
-        };
-        table.row(vec![
-            name.into(),
-            cases.len().into(),
-            cases.iter().filter(|c| !c.converged).count().into(),
-            most(|c| c.events),
-            most(|c| c.steps),
-            most(|c| c.rhs_evaluations),
-        ]);
-    }
-    table
+    let most = |cases: &[&Judged], f: fn(&Judged) -> u64| cases.iter().map(|c| f(c)).max().unwrap_or(0);
+    Rows::of(by_outcome(study))
+        .text("outcome", "Outcome", |(name, _)| *name)
+        .number("cases", "Cases", Unit::One, 6, |(_, cases)| cases.len())
+        .number("not_converged", "Tolerance not reached", Unit::One, 6, |(_, cases)| {
+            cases.iter().filter(|c| !c.converged).count()
+        })
+        .number("most_events", "Most changes of mode", Unit::One, 6, |(_, cases)| most(cases, |c| c.events))
+        .number("most_steps", "Most steps, both answers", Unit::One, 6, |(_, cases)| most(cases, |c| c.steps))
+        .number("most_rhs_evaluations", "Most right-hand sides", Unit::One, 6, |(_, cases)| {
+            most(cases, |c| c.rhs_evaluations)
+        })
+        .table()
 }
 
 /// Kinds of cases that a reader must see: key of the list in the results, words, which they are.
@@ -99,16 +89,11 @@ pub(super) const REMARKABLE: [(&str, &str, fn(&Judged) -> bool); 4] = [
 
 /// How many there are of each kind.
 pub(super) fn remarkable(study: &AccuracyStudy) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("what", "Cases to look at"),
-        Column::number("cases", "Cases", Unit::One, 6),
-        Column::text("key", "List in --json"),
-    ]);
-    for (key, words, is) in REMARKABLE {
-        let count = study.cases.iter().filter(|c| is(c)).count();
-        table.row(vec![words.into(), count.into(), format!("stability_map.{key}").into()]);
-    }
-    table
+    Rows::of(REMARKABLE)
+        .text("what", "Cases to look at", |(_, words, _)| *words)
+        .number("cases", "Cases", Unit::One, 6, |(.., is)| study.cases.iter().filter(|c| is(c)).count())
+        .text("key", "List in --json", |(key, ..)| format!("stability_map.{key}"))
+        .table()
 }
 
 /// How many cases ended in each way.
