@@ -385,7 +385,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         found.push(study(contact, case)?);
         eprintln!("{}", case.name);
     }
-    let spots: Vec<String> = cases.iter().zip(&found).map(|(case, found)| sweet_spots(case, &found.0)).collect();
+    let spots: Vec<String> =
+        cases.iter().zip(&found).map(|(case, found)| sweet_spots(case, &found.0)).collect();
     if let (Some(spot), Some(first)) = (spots.first(), found.first()) {
         page.verdict_in(Tone::Plain, &format!("How many slices are enough, and what they leave: {spot}"));
         page.figure(

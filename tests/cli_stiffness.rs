@@ -140,7 +140,7 @@ fn laws_stand_side_by_side() {
     // The larger coefficient yields more, rigid slices less than the roller law.
     assert!(windup(3) > windup(1) && windup(1) > windup(2), "{} {} {}", windup(3), windup(1), windup(2));
     let page = is_self_contained(html);
-    for part in ["Windup against hertz", "K = 3.944e-5", "60 slices", "at 110 Nm"] {
+    for part in ["More windup than hertz", "K = 3.944e-5", "60 slices", "at 110 Nm"] {
         assert!(page.contains(part), "{part}");
     }
 }

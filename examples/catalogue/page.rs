@@ -19,7 +19,11 @@ pub(crate) fn page(study: &Study) -> Page {
     });
     let [rms_printed, rms_gap] = [&study.printed, &study.gap].map(|case| {
         let off = case.judged();
-        format!("{} in the mean, {} at worst", Unit::Percent.show(rms(&off), 3), Unit::Percent.show(worst(&off), 3))
+        format!(
+            "{} in the mean, {} at worst",
+            Unit::Percent.show(rms(&off), 3),
+            Unit::Percent.show(worst(&off), 3)
+        )
     });
     page.verdict_in(
         if study.printed.holds() { Tone::Good } else { Tone::Soft },
@@ -40,7 +44,9 @@ pub(crate) fn page(study: &Study) -> Page {
     page.heading("What was asked").table("", &asked(study));
     limits(&mut page, study);
     for case in [&study.printed, &study.gap] {
-        page.apart(&format!("The profile that the fitted rows identify: {}", case.name), |page| identified(page, case));
+        page.apart(&format!("The profile that the fitted rows identify: {}", case.name), |page| {
+            identified(page, case)
+        });
         page.apart(&format!("Row by row: {}", case.name), |page| sizes(page, case));
     }
     page.apart("Rows left out", |page| left(page, study));

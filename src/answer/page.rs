@@ -54,7 +54,7 @@ pub fn draw(page: &mut Page, drawing: &Drawing) {
         "One sprag between its races, to scale."
     };
     page.figure(&drawing.detail_svg(), caption);
-    page.figure(&drawing.centres_svg(), "Arc centres and centroid in the body frame (origin Cₑ).");
+    page.figures(&[(drawing.centres_svg(), "Arc centres and centroid in the body frame (origin Cₑ).")]);
 }
 
 /// A page that opens with `answer`, its banner and what belongs to that, and the dimensioned drawing: both in the first screen.

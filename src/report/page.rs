@@ -91,13 +91,13 @@ impl Page {
         self.push(&format!("<p>{}</p>\n", escape(text)))
     }
 
-    /// A bulleted list.
+    /// A bulleted list; nothing where it is empty.
     pub fn list<S: AsRef<str>>(&mut self, items: impl IntoIterator<Item = S>) -> &mut Self {
-        self.body.push_str("<ul>\n");
-        for item in items {
-            self.body.push_str(&format!("<li>{}</li>\n", escape(item.as_ref())));
+        let items = items.into_iter().map(|item| format!("<li>{}</li>\n", escape(item.as_ref())));
+        match items.collect::<String>() {
+            items if items.is_empty() => self,
+            items => self.push(&format!("<ul>\n{items}</ul>\n")),
         }
-        self.push("</ul>\n")
     }
 
     /// A table with its caption (empty: none).

@@ -54,7 +54,7 @@ impl Stretch {
             until_s: (at_s + length_s).min(end_s),
             zero_s: at_s,
             per_s,
-            title: format!("Time since then, {unit}"),
+            title: format!("Time since {what}, {unit}"),
         };
         Some((stretch, what, at_s))
     }

@@ -26,10 +26,11 @@ pub fn page(studies: &[StiffnessStudy], command: &str) -> Page {
 
 fn section(page: &mut Page, study: &StiffnessStudy) {
     let (design, profile, laws) = (&study.design, &study.profile, study.laws());
-    for law in laws {
-        page.verdict_in(Tone::Plain, &banner(design, law));
+    if let Some(first) = laws.first() {
+        page.verdict_in(Tone::Plain, &banner(design, first));
     }
     draw_sheet(page, design, "");
+    page.list(laws.iter().skip(1).map(|law| banner(design, law)));
     page.list(laws.iter().map(|l| {
         format!(
             "{}. Curve ends {}{}.",
