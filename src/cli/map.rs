@@ -4,8 +4,10 @@ use super::exit::{Exit, Failure};
 use super::output::path_text;
 use super::{Context, output};
 use crate::answer::sweep::{NoMap, SweepMap};
+use crate::follow::Follow;
 use clap::Args;
 use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -16,7 +18,8 @@ Examples:
   sprag-design map margins.csv --by least --json
 
 TABLE is what `evaluate` writes of points (--csv), whole or in parts. The page: planes over two variables with the best margin, what
-decides, and the border of what is held; points across all variables; what decides how often. Read twice, in flat memory.";
+decides, and the border of what is held; points across all variables; what decides how often. Read twice, in flat memory. Ctrl-C ends it
+without a map: one of half a table would show another box.";
 
 /// Arguments of `map`.
 #[derive(Debug, Clone, Args)]
@@ -40,6 +43,18 @@ fn pair(text: &str) -> Result<[String; 2], String> {
     }
 }
 
+/// A table that ends where somebody asks to stop.
+struct Heard<'a> {
+    file: File,
+    follow: &'a Follow,
+}
+
+impl Read for Heard<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.follow.stopped() { Err(io::Error::other("stopped")) } else { self.file.read(buffer) }
+    }
+}
+
 /// Run the command.
 ///
 /// # Errors
@@ -50,7 +65,7 @@ pub fn run(args: &MapArgs, context: &Context) -> Result<Exit, Failure> {
     context.outputs.refuse_foreign()?;
     let started = Instant::now();
     let mut map = SweepMap::of(&args.by);
-    let each = |read: &mut dyn FnMut(File) -> Result<(), NoMap>| {
+    let each = |read: &mut dyn FnMut(Heard<'_>) -> Result<(), NoMap>| {
         args.tables.iter().try_for_each(|path| {
             if context.follow.stopped() {
                 return Err(Failure::Interrupted);
@@ -60,7 +75,10 @@ pub fn run(args: &MapArgs, context: &Context) -> Result<Exit, Failure> {
                 return Err(refused("is no file: tables are read twice".to_owned()));
             }
             let file = File::open(path).map_err(|e| refused(format!("cannot be read: {e}")))?;
-            read(file).map_err(|why| refused(why.to_string()))
+            read(Heard { file, follow: &context.follow }).map_err(|why| match context.follow.stopped() {
+                true => Failure::Interrupted,
+                false => refused(why.to_string()),
+            })
         })
     };
     each(&mut |file| map.survey(file))?;
