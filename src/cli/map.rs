@@ -3,8 +3,10 @@
 use super::exit::{Exit, Failure};
 use super::{Context, Run, Without, output};
 use crate::answer::sweep::{NoMap, SweepMap};
+use crate::follow::Follow;
 use clap::Args;
 use std::fs::File;
+use std::io::{self, Read};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -15,7 +17,8 @@ Examples:
   sprag-design map margins.csv --by least --json
 
 TABLE is what `evaluate` writes of points (--csv), whole or in parts. The page: planes over two variables with the best margin, what
-decides, and the border of what is held; points across all variables; what decides how often. Read twice, in flat memory.";
+decides, and the border of what is held; points across all variables; what decides how often. Read twice, in flat memory. Ctrl-C ends it
+without a map: one of half a table would show another box.";
 
 /// Arguments of `map`.
 #[derive(Debug, Clone, Args)]
@@ -39,6 +42,18 @@ fn pair(text: &str) -> Result<[String; 2], String> {
     }
 }
 
+/// A table that ends where somebody asks to stop.
+struct Heard<'a> {
+    file: File,
+    follow: &'a Follow,
+}
+
+impl Read for Heard<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.follow.stopped() { Err(io::Error::other("stopped")) } else { self.file.read(buffer) }
+    }
+}
+
 impl Run for MapArgs {
     const WITHOUT: Without = ("its tables name the design", &["set", "threads", "quiet"]);
 
@@ -47,7 +62,7 @@ impl Run for MapArgs {
         context.outputs.refuse_foreign()?;
         let started = Instant::now();
         let mut map = SweepMap::of(&self.by);
-        let each = |read: &mut dyn FnMut(File) -> Result<(), NoMap>| {
+        let each = |read: &mut dyn FnMut(Heard<'_>) -> Result<(), NoMap>| {
             self.tables.iter().try_for_each(|path| {
                 if context.follow.stopped() {
                     return Err(Failure::Interrupted);
@@ -57,7 +72,10 @@ impl Run for MapArgs {
                     return Err(refused("is no file: tables are read twice".to_owned()));
                 }
                 let file = File::open(path).map_err(|e| refused(format!("cannot be read: {e}")))?;
-                read(file).map_err(|why| refused(why.to_string()))
+                read(Heard { file, follow: &context.follow }).map_err(|why| match context.follow.stopped() {
+                    true => Failure::Interrupted,
+                    false => refused(why.to_string()),
+                })
             })
         };
         each(&mut |file| map.survey(file))?;
