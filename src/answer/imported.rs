@@ -4,7 +4,7 @@ use super::left_out::LeftOut;
 use super::{Envelope, VERSION, WRITTEN_BY};
 use crate::design::{Design, shown};
 use crate::import::{Arcs, Drawn, FittedSprag, STANDARD_ERROR};
-use crate::report::{Cell, Column, Screen, Table, Unit};
+use crate::report::{Rows, Screen, Table, Unit};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -167,29 +167,24 @@ fn worst(found: &FittedSprag, of: fn(&Arcs) -> f64) -> f64 {
 }
 
 fn table(found: &FittedSprag) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("surface", "Surface"),
-        Column::number("radius_mm", "Radius", Unit::Millimetre, 7),
-        Column::number("radius_standard_error_um", "Standard error", Unit::Micrometre, 3),
-        Column::number("span_rad", "Spans", Unit::Radian, 4),
-        Column::number("points", "Points", Unit::One, 6),
-        Column::number("max_um", "Farthest", Unit::Micrometre, 4),
-        Column::number("rms_um", "rms", Unit::Micrometre, 4),
-    ]);
-    for (name, side) in [("inner arc", &found.inner), ("outer arc", &found.outer)] {
-        for (k, arc) in side.arcs.iter().enumerate() {
-            table.row(vec![
-                if name == "outer arc" { name.into() } else { format!("{name} {}", k + 1).into() },
-                arc.radius_m.into(),
-                felt(arc.radius_error_m).into(),
-                arc.span_rad.into(),
-                Cell::Count(arc.points),
-                felt(side.max_m).into(),
-                felt(side.rms_m).into(),
-            ]);
-        }
-    }
-    table
+    let inner = found
+        .inner
+        .arcs
+        .iter()
+        .enumerate()
+        .map(|(k, arc)| (format!("inner arc {}", k + 1), &found.inner, arc));
+    let outer = found.outer.arcs.iter().map(|arc| ("outer arc".to_owned(), &found.outer, arc));
+    Rows::of(inner.chain(outer))
+        .text("surface", "Surface", |(name, _, _)| name.clone())
+        .number("radius_mm", "Radius", Unit::Millimetre, 7, |(_, _, arc)| arc.radius_m)
+        .number("radius_standard_error_um", "Standard error", Unit::Micrometre, 3, |(_, _, arc)| {
+            felt(arc.radius_error_m)
+        })
+        .number("span_rad", "Spans", Unit::Radian, 4, |(_, _, arc)| arc.span_rad)
+        .number("points", "Points", Unit::One, 6, |(_, _, arc)| arc.points)
+        .number("max_um", "Farthest", Unit::Micrometre, 4, |(_, side, _)| felt(side.max_m))
+        .number("rms_um", "rms", Unit::Micrometre, 4, |(_, side, _)| felt(side.rms_m))
+        .table()
 }
 
 fn side_json(side: &Arcs) -> Value {

@@ -304,52 +304,37 @@ impl<'a> SharingAnswer<'a> {
 
     /// Every sprag at the worst place of the turn.
     pub fn by_sprag(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("number", "Sprag", Unit::One, 3),
-            Column::number("azimuth_deg", "At", Unit::Degree, 4),
-            Column::number("size_um", "Larger by", Unit::Micrometre, 3),
-            Column::number("gap_um", "Gap", Unit::Micrometre, 3),
-            Column::number("friction", "μs", Unit::One, 3),
-            Column::number("catches_nm", "Catches at", Unit::NewtonMetre, 3),
-            Column::number("normal_inner_n", "N inner", Unit::Newton, 4),
-            Column::number("share", "Share", Unit::One, 4),
-            Column::number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4),
-            Column::number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4),
-            Column::number("required_friction", "Needs μ", Unit::One, 3),
-            Column::text("state", "State"),
-        ]);
-        for (i, r) in self.sprags.iter().enumerate() {
-            let on = r.bears.normal_inner_n > 0.0;
-            let carried = |value: f64| if on { Cell::Si(value) } else { Cell::Empty };
-            let state = match (r.idle, on) {
-                (Some(idle), _) => idle.into(),
-                (None, false) => "no load".into(),
-                (None, true) if r.bears.required_friction() > r.sprag.friction => {
-                    Cell::Verdict(false, "slips".to_owned())
-                }
-                (None, true) => "carries".into(),
-            };
-            let needs = if on {
-                Cell::Si(r.bears.required_friction())
-            } else {
-                Some(r.first_friction).filter(|f| *f > 0.0).into()
-            };
-            table.row(vec![
-                (i + 1).into(),
-                r.sprag.azimuth_rad.into(),
-                r.sprag.size_m.into(),
-                r.sprag.gap_m.into(),
-                r.sprag.friction.into(),
-                r.catches_nm.into(),
-                carried(r.bears.normal_inner_n),
-                r.share.into(),
-                carried(r.bears.hertz_inner_pa),
-                carried(r.bears.hertz_outer_pa),
-                needs,
-                state,
-            ]);
-        }
-        table
+        let on = |r: &OneRow| r.bears.normal_inner_n > 0.0;
+        let slips = |r: &OneRow| r.bears.required_friction() > r.sprag.friction;
+        let carried = |r: &OneRow, value: f64| on(r).then_some(value);
+        let needs = |r: &OneRow| match on(r) {
+            true => Some(r.bears.required_friction()),
+            false => Some(r.first_friction).filter(|f| *f > 0.0),
+        };
+        let state = |r: &OneRow| match r.idle {
+            Some(idle) => idle.into(),
+            None if !on(r) => "no load".into(),
+            None if slips(r) => Cell::Verdict(false, "slips".to_owned()),
+            None => "carries".into(),
+        };
+        Rows::of(self.sprags.iter().enumerate())
+            .number("number", "Sprag", Unit::One, 3, |(i, _)| i + 1)
+            .number("azimuth_deg", "At", Unit::Degree, 4, |(_, r)| r.sprag.azimuth_rad)
+            .number("size_um", "Larger by", Unit::Micrometre, 3, |(_, r)| r.sprag.size_m)
+            .number("gap_um", "Gap", Unit::Micrometre, 3, |(_, r)| r.sprag.gap_m)
+            .number("friction", "μs", Unit::One, 3, |(_, r)| r.sprag.friction)
+            .number("catches_nm", "Catches at", Unit::NewtonMetre, 3, |(_, r)| r.catches_nm)
+            .number("normal_inner_n", "N inner", Unit::Newton, 4, |(_, r)| carried(r, r.bears.normal_inner_n))
+            .number("share", "Share", Unit::One, 4, |(_, r)| r.share)
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |(_, r)| {
+                carried(r, r.bears.hertz_inner_pa)
+            })
+            .number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4, |(_, r)| {
+                carried(r, r.bears.hertz_outer_pa)
+            })
+            .number("required_friction", "Needs μ", Unit::One, 3, |(_, r)| needs(r))
+            .text("state", "State", |(_, r)| state(r))
+            .table()
     }
 
     /// Every place of a turn.
@@ -380,42 +365,19 @@ impl<'a> SharingAnswer<'a> {
 
     /// As the torque rises, at the worst place.
     fn course(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
-            Column::number("windup_deg", "Windup", Unit::Degree, 4),
-            Column::number("carrying", "Carry", Unit::One, 3),
-            Column::number("largest_share", "Largest share", Unit::One, 4),
-            Column::number("most_pressed", "Sprag", Unit::One, 3),
-            Column::number("hertz_mpa", "p₀", Unit::Megapascal, 4),
-            Column::text("ended", "Not carried"),
-        ]);
-        for (torque, found) in &self.engagement {
-            table.row(match found {
-                Ok(s) => {
-                    let (most, pa) = s.worst(Bears::hertz_pa);
-                    vec![
-                        (*torque).into(),
-                        s.windup_rad.into(),
-                        s.carrying().into(),
-                        largest(&s.shares()).into(),
-                        (most + 1).into(),
-                        pa.into(),
-                    ]
-                }
-                Err(why) => {
-                    vec![
-                        (*torque).into(),
-                        Cell::Empty,
-                        Cell::Empty,
-                        Cell::Empty,
-                        Cell::Empty,
-                        Cell::Empty,
-                        why.words().into(),
-                    ]
-                }
-            });
-        }
-        table
+        let of = |(_, found): &(f64, Result<Shared, NotShared>)| found.clone().ok();
+        let pressed = |row: &(f64, Result<Shared, NotShared>)| Some(of(row)?.worst(Bears::hertz_pa));
+        Rows::of(&self.engagement)
+            .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |(torque, _)| *torque)
+            .number("windup_deg", "Windup", Unit::Degree, 4, |row| of(row).map(|s| s.windup_rad))
+            .number("carrying", "Carry", Unit::One, 3, |row| of(row).map(|s| s.carrying()))
+            .number("largest_share", "Largest share", Unit::One, 4, |row| {
+                of(row).map(|s| largest(&s.shares()))
+            })
+            .number("most_pressed", "Sprag", Unit::One, 3, |row| pressed(row).map(|(most, _)| most + 1))
+            .number("hertz_mpa", "p₀", Unit::Megapascal, 4, |row| pressed(row).map(|(_, pa)| pa))
+            .text("ended", "Not carried", |(_, found)| found.as_ref().err().map(|why| why.words()))
+            .table()
     }
 
     /// One loss after another.

@@ -6,7 +6,7 @@ use super::page::{begun, draw_sheet};
 use super::{Envelope, Provenance};
 use crate::design::shown;
 use crate::margin::{Margin, load_state};
-use crate::report::{Cell, Column, Drawing, Page, Screen, SpragPose, Table, Unit};
+use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit};
 use crate::size::{Made, Sized, Tried};
 use serde_json::{Value, json};
 
@@ -153,38 +153,26 @@ fn no_flanks(tried: &[Tried]) -> Option<String> {
 
 /// Every race space tried; `taken`: the one of the answer.
 pub fn tried_table(tried: &[Tried], taken: Option<usize>) -> Table {
-    let mut table = Table::new(vec![
-        Column::number("race_space_mm", "Race space", Unit::Millimetre, 4),
-        Column::number("count", "Sprags", Unit::One, 3),
-        Column::number("length_mm", "Length", Unit::Millimetre, 4),
-        Column::number("outside_mm", "⌀", Unit::Millimetre, 4),
-        Column::number("mass_g", "Mass", Unit::Gram, 4),
-        Column::number("carries_nm", "Carries", Unit::NewtonMetre, 4),
-        Column::text("decided_by", "Decided by"),
-        Column::text("verdict", ""),
-    ]);
-    for (i, t) in tried.iter().enumerate() {
-        let word = if taken == Some(i) {
-            "taken"
-        } else if t.held {
-            "possible"
-        } else {
-            "NOT POSSIBLE"
-        };
-        let of = |value: fn(&Made) -> f64| t.made.as_ref().map_or(Cell::Empty, |made| Cell::Si(value(made)));
-        table.row(vec![
-            t.space_m.into(),
-            t.count.into(),
-            // Of what finds no room there is no length.
-            if t.carries_nm > 0.0 { t.length_m.into() } else { Cell::Empty },
-            of(|made| 2.0 * made.design.clutch.races.outer_outside_radius_m),
-            of(|made| made.mass_kg),
-            if t.carries_nm > 0.0 { t.carries_nm.into() } else { Cell::Empty },
-            t.decided_by.as_str().into(),
-            Cell::Verdict(t.held, word.to_owned()),
-        ]);
-    }
-    table
+    let word = |i: usize, t: &Tried| match (taken == Some(i), t.held) {
+        (true, _) => "taken",
+        (false, true) => "possible",
+        (false, false) => "NOT POSSIBLE",
+    };
+    let of = |t: &Tried, value: fn(&Made) -> f64| t.made.as_ref().map(value);
+    // Of what finds no room there is no length.
+    let carries = |t: &Tried, value: f64| (t.carries_nm > 0.0).then_some(value);
+    Rows::of(tried.iter().enumerate())
+        .number("race_space_mm", "Race space", Unit::Millimetre, 4, |(_, t)| t.space_m)
+        .number("count", "Sprags", Unit::One, 3, |(_, t)| t.count)
+        .number("length_mm", "Length", Unit::Millimetre, 4, |(_, t)| carries(t, t.length_m))
+        .number("outside_mm", "⌀", Unit::Millimetre, 4, |(_, t)| {
+            of(t, |made| 2.0 * made.design.clutch.races.outer_outside_radius_m)
+        })
+        .number("mass_g", "Mass", Unit::Gram, 4, |(_, t)| of(t, |made| made.mass_kg))
+        .number("carries_nm", "Carries", Unit::NewtonMetre, 4, |(_, t)| carries(t, t.carries_nm))
+        .text("decided_by", "Decided by", |(_, t)| t.decided_by.as_str())
+        .text("verdict", "", |(i, t)| Cell::Verdict(t.held, word(*i, t).to_owned()))
+        .table()
 }
 
 /// The same as JSON.

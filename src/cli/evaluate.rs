@@ -6,6 +6,7 @@ use super::{Context, Run, Without, evaluate_points, output};
 use crate::answer::search::{describe_problem, evaluate_line};
 use crate::design::Optimize;
 use crate::optimise::ClutchProblem;
+use crate::sweep::NoSample;
 use clap::Args;
 use serde_json::Value;
 use std::io::BufRead;
@@ -72,10 +73,7 @@ impl Run for EvaluateArgs {
         }
         let design = context.design(&self.file)?;
         let Some(task) = design.optimize.as_ref() else {
-            return Err(Failure::malformed(format!(
-                "{}: the design has no [optimize] table; add one with objective, scenarios and variables",
-                self.file.display()
-            )));
+            return Err(Failure::of(&self.file, NoSample::NoTask));
         };
         if of_points {
             if self.describe {

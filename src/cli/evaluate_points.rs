@@ -3,8 +3,7 @@
 use super::Context;
 use super::evaluate::EvaluateArgs;
 use super::exit::{Exit, Failure};
-use super::output::path_text;
-use super::sweep::{Emit, Sink, Sunk};
+use super::sweep::{Emit, Sink, Sunk, opened_again};
 use crate::answer::sweep::{SweepHead, SweepLines, Vectors};
 use crate::design::Design;
 use crate::sweep::{BoxSample, Sweep};
@@ -39,9 +38,7 @@ struct Tally {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &EvaluateArgs, design: &Design, context: &Context) -> Result<Exit, Failure> {
-    let file = path_text(&args.file);
-    let named = |why: String| Failure::malformed(format!("{file}: {why}"));
-    let sweep = design.sweep(args.at_rest, args.full).map_err(|why| named(why.to_string()))?;
+    let sweep = design.sweep(args.at_rest, args.full).map_err(|why| Failure::of(&args.file, why))?;
     let (source, points, all) = match (&args.vectors, args.points.sampling()) {
         (Some(path), _) => {
             let inputs = [args.file.as_path(), path];
@@ -50,7 +47,7 @@ pub fn run(args: &EvaluateArgs, design: &Design, context: &Context) -> Result<Ex
             (Source::Table(path), points, all)
         }
         (None, Some(sampling)) => {
-            let sample = design.sample(&sampling).map_err(|why| named(why.to_string()))?;
+            let sample = design.sample(&sampling).map_err(|why| Failure::of(&args.file, why))?;
             let all = sample.count();
             (Source::Drawn(sample), sampling.to_string(), all)
         }
@@ -153,7 +150,7 @@ fn over(
         }
         Source::Table(path) => {
             let mut vectors = opened(path, design)?;
-            let mut next = || vectors.next_point().map_err(|why| refused(path, &why.to_string()));
+            let mut next = || vectors.next_point().map_err(|why| Failure::of(path, why));
             for _ in 0..range.start {
                 next()?;
             }
@@ -174,22 +171,13 @@ fn last_of(source: &Source, range: &Range<u64>, design: &Design) -> Result<Optio
     Ok(number)
 }
 
-fn refused(path: &Path, why: &str) -> Failure {
-    Failure::of(path, why)
-}
-
 fn opened(path: &Path, design: &Design) -> Result<Vectors<File>, Failure> {
-    // It is read more than once.
-    if path.exists() && !path.is_file() {
-        return Err(refused(path, "is no file: vectors are read twice"));
-    }
-    let file = File::open(path).map_err(|e| refused(path, &format!("cannot be read: {e}")))?;
-    Vectors::open(design, file).map_err(|why| refused(path, &why.to_string()))
+    Vectors::open(design, opened_again(path, "vectors")?).map_err(|why| Failure::of(path, why))
 }
 
 /// All vectors of the table read once: which points these are, and how many.
 fn surveyed(path: &Path, design: &Design) -> Result<(String, u64), Failure> {
     let mut vectors = opened(path, design)?;
-    while vectors.next_point().map_err(|why| refused(path, &why.to_string()))?.is_some() {}
+    while vectors.next_point().map_err(|why| Failure::of(path, why))?.is_some() {}
     Ok((vectors.points(), vectors.count()))
 }

@@ -1,6 +1,7 @@
 //! `map`: what a table of `evaluate` shows.
 
 use super::exit::{Exit, Failure};
+use super::sweep::opened_again;
 use super::{Context, Run, Without, output};
 use crate::answer::sweep::{NoMap, SweepMap};
 use crate::follow::Follow;
@@ -67,14 +68,10 @@ impl Run for MapArgs {
                 if context.follow.stopped() {
                     return Err(Failure::Interrupted);
                 }
-                let refused = |why: String| Failure::of(path, why);
-                if path.exists() && !path.is_file() {
-                    return Err(refused("is no file: tables are read twice".to_owned()));
-                }
-                let file = File::open(path).map_err(|e| refused(format!("cannot be read: {e}")))?;
+                let file = opened_again(path, "tables")?;
                 read(Heard { file, follow: &context.follow }).map_err(|why| match context.follow.stopped() {
                     true => Failure::Interrupted,
-                    false => refused(why.to_string()),
+                    false => Failure::of(path, why),
                 })
             })
         };

@@ -14,6 +14,7 @@ use crate::answer::search::{
 };
 use crate::design::{Design, EditError, Objective};
 use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record, Status};
+use crate::sweep::NoSample;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -119,11 +120,9 @@ impl Run for OptimizeArgs {
         context.outputs.check(&[&self.file], &[(&new, FileKind::Design), (&record, FileKind::Journal)])?;
         let design = context.design(&self.file)?;
         let histories = Histories::beside(&design, &new)?;
-        let at = |what: String| Failure::malformed(format!("{}: {what}", self.file.display()));
+        let at = |what: String| Failure::of(&self.file, what);
         let Some(task) = design.optimize.clone() else {
-            return Err(at(
-                "the design has no [optimize] table; add one with objective, scenarios and variables".into(),
-            ));
+            return Err(Failure::of(&self.file, NoSample::NoTask));
         };
         refuse_front(self)?;
         if self.robust && design.tolerances.is_none() {

@@ -116,16 +116,18 @@ impl Outputs {
         let mut seen: Vec<PathBuf> = Vec::new();
         for (path, kind) in csv.chain(report).chain(others.iter().copied()) {
             if path.is_dir() {
-                return Err(refused(path, "is a folder, a file is needed"));
+                return Err(Failure::of(path, "is a folder, a file is needed"));
             }
             let folder = folder_of(path);
             if !folder.is_dir() {
-                return Err(refused(path, &format!("the folder {} does not exist", folder.display())));
+                return Err(Failure::of(path, format!("the folder {} does not exist", folder.display())));
             }
             let here = resolved(path);
             match inputs.iter().position(|input| here == resolved(input)) {
-                Some(0) => return Err(refused(path, "is the design file itself; it is never overwritten")),
-                Some(_) => return Err(refused(path, "is read by this command; it is never overwritten")),
+                Some(0) => {
+                    return Err(Failure::of(path, "is the design file itself; it is never overwritten"));
+                }
+                Some(_) => return Err(Failure::of(path, "is read by this command; it is never overwritten")),
                 None => {}
             }
             // Two outputs to /dev/null or to a terminal do no harm.
@@ -133,14 +135,14 @@ impl Outputs {
                 continue;
             }
             if seen.contains(&here) {
-                return Err(refused(path, "is named for two outputs"));
+                return Err(Failure::of(path, "is named for two outputs"));
             }
-            kind.fits(path).map_err(|why| refused(path, &why))?;
+            kind.fits(path).map_err(|why| Failure::of(path, why))?;
             seen.push(here);
         }
         others
             .iter()
-            .try_for_each(|(path, kind)| self.may_replace(path, *kind).map_err(|why| refused(path, &why)))
+            .try_for_each(|(path, kind)| self.may_replace(path, *kind).map_err(|why| Failure::of(path, why)))
     }
 
     /// Refuse a `--csv` or `--report` that somebody else has made. Apart, because what the command reads is known first.
@@ -151,7 +153,7 @@ impl Outputs {
         let own = [(&self.csv, FileKind::Table), (&self.report, FileKind::Page)];
         own.into_iter()
             .filter_map(|(path, kind)| Some((path.as_deref()?, kind)))
-            .try_for_each(|(path, kind)| self.may_replace(path, kind).map_err(|why| refused(path, &why)))
+            .try_for_each(|(path, kind)| self.may_replace(path, kind).map_err(|why| Failure::of(path, why)))
     }
 
     /// Refuse a file that is there already, whoever has written it: of a command that reads no design and would put a new one
@@ -164,7 +166,7 @@ impl Outputs {
         if self.force || is_special(path) || empty {
             return Ok(());
         }
-        Err(refused(
+        Err(Failure::of(
             path,
             "exists, and may hold work of yours; name another file, or replace it with --force",
         ))
@@ -244,10 +246,6 @@ impl Outputs {
             self.write(path, FileKind::Page, page().to_html().as_bytes());
         }
     }
-}
-
-fn refused(path: &Path, why: &str) -> Failure {
-    Failure::malformed(format!("{}: {why}", path.display()))
 }
 
 /// The folder that a path lies in.

@@ -139,6 +139,17 @@ impl<'a> Sink<'a> {
     }
 }
 
+/// A file that is read more than once, which a pipe cannot be; `what` is in it.
+///
+/// # Errors
+/// [`Failure::Malformed`].
+pub fn opened_again(path: &Path, what: &str) -> Result<File, Failure> {
+    if path.exists() && !path.is_file() {
+        return Err(Failure::of(path, format!("is no file: {what} are read twice")));
+    }
+    File::open(path).map_err(|e| Failure::of(path, format!("cannot be read: {e}")))
+}
+
 /// More than a line is long.
 const TAIL: u64 = 1 << 16;
 

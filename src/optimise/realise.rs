@@ -165,19 +165,7 @@ pub fn realise(
 
 /// A search with flanks that was not begun: its start as the answer.
 fn standing(found: &Search, problem: &ClutchProblem, joint: &Optimize) -> Result<Search, NoSearch> {
-    let variables: Vec<Variable> = joint
-        .variables
-        .iter()
-        .map(|v| Variable {
-            name: v.name.clone(),
-            min: v.min,
-            max: v.max,
-            given: v.given,
-            start: v.start,
-            best: v.start,
-            dropped: false,
-        })
-        .collect();
+    let variables: Vec<Variable> = joint.variables.iter().map(Variable::at_start).collect();
     let x: Vec<f64> = variables.iter().map(|v| v.start).collect();
     let as_searched = problem.assess_at(&x).map_err(NoSearch::Start)?;
     let best = problem.at_fidelity(problem.fidelity().sharper()).assess_at(&x).map_err(NoSearch::Start)?;

@@ -6,6 +6,7 @@ use super::problem::ClutchProblem;
 use crate::clutch::ScenarioKind;
 use crate::design::{Design, with_keys};
 use crate::margin::Margin;
+use serde::Serialize;
 
 /// Factor between looks while a value that frees is sought.
 const STRIDE: f64 = 1.5;
@@ -17,7 +18,7 @@ const HALVINGS: usize = 8;
 const FIRST: f64 = 1e-3;
 
 /// One parameter of the question that was turned, all others and the profile held.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Freed {
     /// Scenario that does not hold.
     pub scenario: String,

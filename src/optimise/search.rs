@@ -32,6 +32,21 @@ pub struct Variable {
     pub dropped: bool,
 }
 
+impl Variable {
+    /// Where it starts, nothing found yet.
+    pub(super) fn at_start(v: &crate::design::OptimizeVariable) -> Self {
+        Self {
+            name: v.name.clone(),
+            min: v.min,
+            max: v.max,
+            given: v.given,
+            start: v.start,
+            best: v.start,
+            dropped: false,
+        }
+    }
+}
+
 /// Result of a search.
 #[derive(Debug, Clone)]
 pub struct Search {
@@ -182,19 +197,7 @@ pub fn search_problem(
     method: &SearchMethod,
     desk: &Desk,
 ) -> Result<Search, NoSearch> {
-    let mut variables: Vec<Variable> = task
-        .variables
-        .iter()
-        .map(|v| Variable {
-            name: v.name.clone(),
-            min: v.min,
-            max: v.max,
-            given: v.given,
-            start: v.start,
-            best: v.start,
-            dropped: false,
-        })
-        .collect();
+    let mut variables: Vec<Variable> = task.variables.iter().map(Variable::at_start).collect();
     let x0: Vec<f64> = variables.iter().map(|v| v.start).collect();
     let start = whole.assess_at(&x0).map_err(NoSearch::Start)?;
     let mut evaluations = 1;

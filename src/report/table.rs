@@ -63,9 +63,15 @@ impl From<f64> for Cell {
     }
 }
 
-impl From<Option<f64>> for Cell {
-    fn from(si: Option<f64>) -> Self {
-        si.map_or(Self::Empty, Self::Si)
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(what: Option<T>) -> Self {
+        what.map_or(Self::Empty, Into::into)
+    }
+}
+
+impl From<u64> for Cell {
+    fn from(count: u64) -> Self {
+        Self::Count(usize::try_from(count).unwrap_or(usize::MAX))
     }
 }
 

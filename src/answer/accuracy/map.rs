@@ -2,7 +2,7 @@
 
 use super::AccuracyStudy;
 use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS};
-use crate::report::{Bar, Bars, Cell, Column, Curve, Plot, Table, Tone, Unit};
+use crate::report::{Bar, Bars, Curve, Plot, Rows, Table, Tone, Unit};
 
 /// Outcomes in the order in which they are listed.
 const ORDER: [&str; 14] = [
@@ -61,29 +61,19 @@ pub(super) fn at_half(h: &Halved) -> String {
 
 /// Counts and worst work by outcome.
 pub(super) fn counts(study: &AccuracyStudy) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("outcome", "CaseEnd"),
-        Column::number("cases", "Cases", Unit::One, 6),
-        Column::number("not_converged", "Tolerance not reached", Unit::One, 6),
-        Column::number("most_events", "Most changes of mode", Unit::One, 6),
-        Column::number("most_steps", "Most steps, both answers", Unit::One, 6),
-        Column::number("most_rhs_evaluations", "Most right-hand sides", Unit::One, 6),
-    ]);
-    for (name, cases) in by_outcome(study) {
-        let most = |f: fn(&Judged) -> u64| {
-            let most = cases.iter().map(|c| f(c)).max().unwrap_or(0);
-            Cell::Count(usize::try_from(most).unwrap_or(usize::MAX))
-        };
-        table.row(vec![
-            name.into(),
-            cases.len().into(),
-            cases.iter().filter(|c| !c.converged).count().into(),
-            most(|c| c.events),
-            most(|c| c.steps),
-            most(|c| c.rhs_evaluations),
-        ]);
-    }
-    table
+    let most = |cases: &[&Judged], f: fn(&Judged) -> u64| cases.iter().map(|c| f(c)).max().unwrap_or(0);
+    Rows::of(by_outcome(study))
+        .text("outcome", "CaseEnd", |(name, _)| *name)
+        .number("cases", "Cases", Unit::One, 6, |(_, cases)| cases.len())
+        .number("not_converged", "Tolerance not reached", Unit::One, 6, |(_, cases)| {
+            cases.iter().filter(|c| !c.converged).count()
+        })
+        .number("most_events", "Most changes of mode", Unit::One, 6, |(_, cases)| most(cases, |c| c.events))
+        .number("most_steps", "Most steps, both answers", Unit::One, 6, |(_, cases)| most(cases, |c| c.steps))
+        .number("most_rhs_evaluations", "Most right-hand sides", Unit::One, 6, |(_, cases)| {
+            most(cases, |c| c.rhs_evaluations)
+        })
+        .table()
 }
 
 /// Cases that a reader must see: verdicts changed, lost or gained, numbers that are none, limits met.

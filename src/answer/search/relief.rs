@@ -3,7 +3,7 @@
 use super::Story;
 use super::body::Named;
 use super::parts::StoryPart;
-use crate::optimise;
+use crate::optimise::{self, Freed};
 use crate::report::significant;
 use serde::Serialize;
 
@@ -25,20 +25,9 @@ pub struct ReliefBody {
 /// A parameter of a scenario that would free it alone.
 #[derive(Debug, Clone, Serialize)]
 pub struct FreedBody {
-    /// The scenario.
-    pub scenario: String,
-    /// Dotted path of the key.
-    pub key: String,
-    /// What it is, in words.
-    pub what: &'static str,
-    /// Its unit.
-    pub unit: &'static str,
-    /// Value in the file.
-    pub given: f64,
-    /// Value that frees it, if one was found.
-    pub needed: Option<f64>,
-    /// Farthest value looked at.
-    pub tried_to: f64,
+    /// The parameter and the value that frees it.
+    #[serde(flatten)]
+    pub freed: Freed,
     /// In words.
     pub sentence: String,
 }
@@ -77,16 +66,7 @@ pub struct AloneBody {
 
 impl ReliefBody {
     pub(super) fn of(story: &Story, r: &optimise::Relief) -> Self {
-        let freed = r.freed.iter().map(|f| FreedBody {
-            scenario: f.scenario.clone(),
-            key: f.key.clone(),
-            what: f.what,
-            unit: f.unit,
-            given: f.given,
-            needed: f.needed,
-            tried_to: f.tried_to,
-            sentence: freed_sentence(f),
-        });
+        let freed = r.freed.iter().map(|f| FreedBody { freed: f.clone(), sentence: freed_sentence(f) });
         let numbers = story.loosened.iter().map(|l| LoosenedBody {
             key: l.key.clone(),
             unit: l.unit,
@@ -125,7 +105,7 @@ fn bound(needed: f64, given: f64, unit: &str) -> String {
 }
 
 /// "preload in high-10: at least 5.2001 Nm instead of 3.34 Nm".
-fn freed_sentence(f: &optimise::Freed) -> String {
+fn freed_sentence(f: &Freed) -> String {
     let value = |v: f64| format!("{} {}", significant(v, 4), f.unit);
     match f.needed {
         Some(v) => format!("{} in {}: {}", f.what, f.scenario, bound(v, f.given, f.unit)),

@@ -6,7 +6,7 @@ use crate::answer::{Provenance, TOOL, VERSION};
 use crate::design::variable_unit;
 use crate::report::heat::{KINDS, SHADES};
 use crate::report::{
-    Cell, Column, HeatMap, Page, PageHead, Parallel, Screen, Shade, Table, Tone, Unit, plain, significant,
+    HeatMap, Page, PageHead, Parallel, Rows, Screen, Shade, Table, Tone, Unit, plain, significant,
 };
 use serde_json::{Value, json};
 
@@ -50,26 +50,14 @@ impl SweepMap {
     /// Each variable: its range, and that of the points that are held.
     pub fn variables_table(&self) -> Table {
         let digits = 5;
-        let mut table = Table::new(vec![
-            Column::text("variable", "Variable"),
-            Column::number("from", "From", Unit::One, digits),
-            Column::number("to", "To", Unit::One, digits),
-            Column::number("held_from", "Held from", Unit::One, digits),
-            Column::number("held_to", "Held to", Unit::One, digits),
-            Column::number("best", "Best point", Unit::One, digits),
-        ]);
-        for (i, v) in self.variables.iter().enumerate() {
-            let held = |k: usize| v.held.map_or(Cell::Empty, |held| Cell::Si(held[k]));
-            table.row(vec![
-                v.name.as_str().into(),
-                v.range[0].into(),
-                v.range[1].into(),
-                held(0),
-                held(1),
-                self.best.as_ref().and_then(|b| b.x.get(i)).map_or(Cell::Empty, |x| Cell::Si(*x)),
-            ]);
-        }
-        table
+        Rows::of(self.variables.iter().enumerate())
+            .text("variable", "Variable", |(_, v)| v.name.as_str())
+            .number("from", "From", Unit::One, digits, |(_, v)| v.range[0])
+            .number("to", "To", Unit::One, digits, |(_, v)| v.range[1])
+            .number("held_from", "Held from", Unit::One, digits, |(_, v)| v.held.map(|held| held[0]))
+            .number("held_to", "Held to", Unit::One, digits, |(_, v)| v.held.map(|held| held[1]))
+            .number("best", "Best point", Unit::One, digits, |(i, _)| Some(*self.best.as_ref()?.x.get(*i)?))
+            .table()
     }
 
     /// What decides, most often first: places in [`SweepMap::deciding`].
@@ -81,22 +69,14 @@ impl SweepMap {
 
     /// Which limit decides at how many points.
     pub fn deciding_table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("limit", "Limit that decides"),
-            Column::number("points", "Points", Unit::One, 9),
-            Column::number("share_percent", "Share", Unit::Percent, 3),
-        ]);
         let all: u64 = self.deciding.iter().map(|(_, n)| n).sum();
-        for i in self.ranked() {
-            let (code, points) = &self.deciding[i];
-            let share = *points as f64 / all.max(1) as f64;
-            table.row(vec![
-                code.as_str().into(),
-                Cell::Count(usize::try_from(*points).unwrap_or(usize::MAX)),
-                share.into(),
-            ]);
-        }
-        table
+        Rows::of(self.ranked().into_iter().map(|i| &self.deciding[i]))
+            .text("limit", "Limit that decides", |(code, _)| code.as_str())
+            .number("points", "Points", Unit::One, 9, |(_, points)| *points)
+            .number("share_percent", "Share", Unit::Percent, 3, |(_, points)| {
+                *points as f64 / all.max(1) as f64
+            })
+            .table()
     }
 
     /// What the tables do not say.
