@@ -83,7 +83,11 @@ fn figures(made: &Made) -> Vec<String> {
     let size = size_line(&made.design);
     let drag = made.drag.map(|d| match (d.torque_nm > 0.0, d.sliding_rad_s > 0.0) {
         (false, _) => "In overrun as asked for the sprags are off: no drag, no heat".to_owned(),
-        (true, false) => format!("Drag in slow overrun {}", Unit::NewtonMetre.show(d.torque_nm, 3)),
+        (true, false) => format!(
+            "Drag in slow overrun {}: {} of heat at 1000 rpm",
+            Unit::NewtonMetre.show(d.torque_nm, 3),
+            Unit::Watt.show(d.torque_nm * 1000.0 / Unit::Rpm.from_si(1.0), 3)
+        ),
         (true, true) => format!(
             "In overrun, sliding at {}: drag {}, heat {}",
             Unit::Rpm.show_plain(d.sliding_rad_s, 5),
