@@ -25,14 +25,8 @@ fn settings_of(prepared: &Prepared, tolerance: f64, longest_step_s: f64) -> RunS
         tolerance,
         duration_s: prepared.duration_s,
         longest_step_s,
-        most_events: 100_000,
         most_steps: 200_000,
-        samples: 0,
-        jump_period_s: None,
-        rolling: false,
-        energy: false,
-        history: Default::default(),
-        follow: Follow::nobody(),
+        ..RunSettings::default()
     }
 }
 

@@ -206,6 +206,10 @@ class Overrun:
     gamma_deg: float
     drag_torque_slow_nm: float
     points: tuple[OverrunPoint, ...]
+    outer_race_turns: bool
+    """Whether the design names a speed of the outer race."""
+    named: tuple[dict[str, Any], ...]
+    """The overruns that limits and scenes name, with their drag."""
     warning: str | None
 
 
@@ -908,7 +912,13 @@ class Life(_Common):
     verdict: str
     """The answer in one line."""
     held: bool
-    """Whether nothing is used up before its end and every torque is carried."""
+    """Whether nothing that is known fails: carried, no slip in the mean, no mark, every life long enough, slips as allowed."""
+    indents: bool
+    """Whether the largest load indents a contact."""
+    not_known: tuple[str, ...]
+    """Codes of the places whose life is not known."""
+    slips_allowed: float | None
+    """Slips by chance that the file allows."""
     engagements: float
     """Engagements in all."""
     largest_torque_nm: float
@@ -1025,8 +1035,9 @@ class Blow:
     path_mm: float
     """Path until the friction is back."""
     slip_ms: float
-    peak_ms: float
-    path_in_all_mm: float
+    peak_ms: float | None
+    """When the load is largest; ``None`` where the sprags are out of reach."""
+    path_in_all_mm: float | None
     """Until the races stand still against one another."""
     speed_rpm: float
     """Largest speed of the races against one another."""
@@ -1055,7 +1066,9 @@ class Reengagement(_Common):
     """While it slips."""
     speed_rpm: float
     inertia_inner_kg_m2: float
-    inertia_outer_kg_m2: float
+    inertia_outer_kg_m2: float | None
+    """``None`` where the outer race is held."""
+    outer_held: bool
     bears_nm: float | None
     """Peak torque that every limit bears."""
     bears_by: str | None
@@ -1066,6 +1079,10 @@ class Reengagement(_Common):
     """Where it does not slip: the friction that the torque needs."""
     slip_ended: str | None
     """Why the slip was not followed to its end."""
+    lift_off_rpm: float | None
+    """Speed of the outer race from which on the sprags lift off in steady overrun."""
+    thrown: dict[str, Any] | None
+    """Where the slip throws the sprags out of reach: time, path, speeds."""
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each path of slip. Needs pandas."""
