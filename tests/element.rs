@@ -5,7 +5,7 @@ use sprag_design::clutch::{Clutch, Start};
 use sprag_design::dynamics::{Place, RunSettings, run};
 use sprag_design::element::{Beginning, Element, Saved, Settings, Torque};
 use sprag_design::scenario::{Prepared, prepare};
-use sprag_design::{Design, Follow, Stop, WedgeCurve, simulate};
+use sprag_design::{Design, Stop, WedgeCurve, simulate};
 
 fn design(name: &str) -> Design {
     let path = format!("{}/designs/{name}.toml", env!("CARGO_MANIFEST_DIR"));
