@@ -191,7 +191,7 @@ fn table_and_page_are_written_whole() {
         "hoop-inner",
         "Demand / allowable",
         "1 − demand / allowable; −1 where",
-        "the sprags are off by then",
+        "keep_contact_to_rpm",
         "(decides)",
         "arctan μs",
         "undeformed sprag",

@@ -38,6 +38,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "margin",
         &[
+            "follow",
             "sharing",
             "numeric",
             "contact",

@@ -413,6 +413,7 @@ fn one_sprag_on_a_free_race_and_a_torque_lost_in_rounding_have_their_words() {
     }
     let held = of("");
     assert!(held.sharing(Some(5.0)).unwrap().turned.is_ok());
-    let said = held.sharing(Some(1e-12)).unwrap().verdict();
+    let whole = Design::parse(&text, "whole").unwrap();
+    let said = whole.sharing(Some(1e-9)).unwrap().verdict();
     assert!(said.contains("rounding hides it"), "{said}");
 }

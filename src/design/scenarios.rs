@@ -242,7 +242,7 @@ fn kind(s: &ScenarioFile, path: &str, joined: bool, out: &mut Findings) -> Optio
         let key = format!("{path}.{name}");
         let free = name == "abutment_stiffness_nm_per_rad" && joined;
         if value.is_none() && required.contains(&name) && !free {
-            let help = format!("add {name} = ... to scenario {:?}, which is of kind {kind}", s.name);
+            let help = format!("add {name} = ... to scenario {:?}, kind {kind}", s.name);
             out.refuse(&[&key], meaning(&key), help);
         } else if value.is_some() && !required.contains(&name) && !optional.contains(&name) {
             let keys = [required, optional].concat().join(", ");

@@ -59,7 +59,10 @@ fn syntax() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 5, "{text}");
     assert!(
-        lines[0].ends_with("scenarios[0].preload_nm: no such key; add preload_nm = ..., a finite number of at least 0: preload on the inner race, N m"),
+        lines[0].ends_with(
+            "scenarios[0].preload_nm: no such key; add preload_nm = ... to scenario \"bare\", kind torsional-excitation: \
+             a finite number of at least 0: preload on the inner race, N m"
+        ),
         "{text}"
     );
     assert!(lines.iter().all(|line| line.len() < 200), "{text}");
