@@ -81,13 +81,7 @@ fn a_long_transient_comes_to_it() {
             duration_s: 3.0,
             longest_step_s: 0.01 / 14.0,
             most_events: 1_000_000,
-            most_steps: 10_000_000,
-            samples: 0,
-            jump_period_s: None,
-            rolling: false,
-            energy: false,
-            history: Default::default(),
-            follow: Default::default(),
+            ..RunSettings::default()
         };
         let long = dynamics::run(&prepared.model, prepared.state, prepared.mode, &settings);
         let next = RunSettings { duration_s: 3.01, ..settings };

@@ -68,8 +68,8 @@ impl Run for MapArgs {
                 if context.follow.stopped() {
                     return Err(Failure::Interrupted);
                 }
-                let file = opened_again(path, "tables")?;
-                read(Heard { file, follow: &context.follow }).map_err(|why| match context.follow.stopped() {
+                let table = Heard { file: opened_again(path, "tables")?, follow: &context.follow };
+                read(table).map_err(|why| match context.follow.stopped() {
                     true => Failure::Interrupted,
                     false => Failure::of(path, why),
                 })
