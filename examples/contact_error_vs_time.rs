@@ -12,7 +12,7 @@ use sprag_design::contact::{
 };
 use sprag_design::material::{Material, PlaneState};
 use sprag_design::report::plot::{Curve, Dash};
-use sprag_design::report::{Column, Page, PageHead, Plot, Table, Unit, significant};
+use sprag_design::report::{Column, Page, PageHead, Plot, Table, Tone, Unit, significant};
 
 const LOADS_N: [f64; 7] = [1.0, 10.0, 100.0, 500.0, 2441.0, 8000.0, 20_000.0];
 const SLICES: [usize; 5] = [10, 20, 40, 80, 160];
@@ -242,10 +242,15 @@ fn curves(plot: Plot, laws: &[Law], of: impl Fn(&Error3) -> f64 + Copy) -> Strin
             .collect();
         plot.curves.push(Curve { name: family.into(), points, dash, dots: true, colour: None });
     }
-    plot.to_svg()
+    plot.to_figure()
 }
 
-fn section(page: &mut Page, case: &Case, found: &(Vec<Law>, f64, f64)) -> String {
+fn line_load(laws: &[Law]) -> String {
+    let plot = Plot::new("Time of a solution, ms", "Line load, % of the force misplaced").sized(720.0, 340.0);
+    curves(plot, laws, |e| e.load)
+}
+
+fn section(page: &mut Page, case: &Case, found: &(Vec<Law>, f64, f64)) {
     let (laws, uncertainty, seconds) = found;
     page.heading(case.name);
     page.paragraph(&format!(
@@ -253,11 +258,11 @@ fn section(page: &mut Page, case: &Case, found: &(Vec<Law>, f64, f64)) -> String
          line load by at most {:.2} % (the worst load).",
         100.0 * uncertainty
     ));
-    let plot = |title: &str| Plot::new("time of a solution, ms", title).sized(560.0, 340.0);
+    let plot = |title: &str| Plot::new("Time of a solution, ms", title).sized(500.0, 320.0);
     let figures = [
-        (curves(plot("line load, % of the force misplaced"), laws, |e| e.load), "Line load"),
-        (curves(plot("approach, % off"), laws, |e| e.approach), "Approach"),
-        (curves(plot("peak pressure, % off"), laws, |e| e.peak), "Peak pressure"),
+        (curves(plot("Line load, % of the force misplaced"), laws, |e| e.load), "Line load"),
+        (curves(plot("Approach, % off"), laws, |e| e.approach), "Approach"),
+        (curves(plot("Peak pressure, % off"), laws, |e| e.peak), "Peak pressure"),
     ];
     page.figures(&figures);
     let mut table = Table::new(vec![
@@ -295,7 +300,13 @@ fn section(page: &mut Page, case: &Case, found: &(Vec<Law>, f64, f64)) -> String
         row.extend(law.errors.iter().map(|e| e.load.into()));
         by_load.row(row);
     }
-    page.table("Share of the force misplaced, by load", &by_load);
+    page.apart("Share of the force misplaced, by load", |page| {
+        page.table("", &by_load);
+    });
+}
+
+/// The sweet spot of each kind of law.
+fn sweet_spots(case: &Case, laws: &[Law]) -> String {
     let spot = |family: &str| {
         sweet_spot(laws, family).map_or(String::new(), |spot| {
             format!(
@@ -315,7 +326,7 @@ fn section(page: &mut Page, case: &Case, found: &(Vec<Law>, f64, f64)) -> String
 fn cost(page: &mut Page, contact: LineContact, cases: &[Case]) -> Result<(), ContactError> {
     const COUNTS: [usize; 10] = [1, 10, 20, 60, 160, 320, 500, 1000, 1500, 2000];
     let roller = RollerLaw::new(&contact, 3.944e-5)?;
-    let mut plot = Plot::new("slices", "time of a solution, ms").sized(560.0, 340.0);
+    let mut plot = Plot::new("Slices", "Time of a solution, ms").sized(720.0, 340.0);
     (plot.log_x, plot.log_y) = (true, true);
     let mut table = Table::new(vec![Column::number("slices", "Slices", Unit::One, 4)]);
     let mut times = Vec::new();
@@ -342,7 +353,7 @@ fn cost(page: &mut Page, contact: LineContact, cases: &[Case]) -> Result<(), Con
          straight contacts (one table of ratios per number of slices and process), some 58 a contact with an end profile \
          or a tilt.",
     );
-    page.figure(&plot.to_svg(), "Time over the number of slices; a slope of 2 is n^2.");
+    page.figure(&plot.to_figure(), "Time over the number of slices; a slope of 2 is n^2.");
     page.table("The same", &table);
     Ok(())
 }
@@ -369,6 +380,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         design: "Steel on steel, R = 2.952 mm, l = 6 mm (inner contact of the Huang clutch)".into(),
         design_hash: "no design file".into(),
     });
+    let mut found = Vec::new();
+    for case in &cases {
+        found.push(study(contact, case)?);
+        eprintln!("{}", case.name);
+    }
+    let spots: Vec<String> = cases.iter().zip(&found).map(|(case, found)| sweet_spots(case, &found.0)).collect();
+    if let (Some(spot), Some(first)) = (spots.first(), found.first()) {
+        page.verdict_in(Tone::Plain, &format!("How many slices are enough, and what they leave: {spot}"));
+        page.figure(
+            &line_load(&first.0),
+            "Load along the contact, square ends: median error over the loads against the time of a solution; lower left is better.",
+        );
+    }
     page.paragraph(
         "Every law solves the same contacts at 1, 10, 100, 500, 2441, 8000 and 20 000 N a sprag. Line load: half \
          the sum of the differences of load per slice, as a share of the force, the reference averaged over the same \
@@ -380,12 +404,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "The roller law's approach is another quantity than a half-space's (it is a bearing's, fitted), so its \
          distance stays whatever the number of slices; slices on half-spaces have no such scale.",
     );
-    let mut spots = Vec::new();
-    for case in &cases {
-        let found = study(contact, case)?;
-        spots.push(section(&mut page, case, &found));
-        eprintln!("{}", spots.last().map_or("", |s| s));
-    }
+    cases.iter().zip(&found).for_each(|(case, found)| section(&mut page, case, found));
     cost(&mut page, contact, &cases)?;
     page.heading("Sweet spot");
     page.paragraph(

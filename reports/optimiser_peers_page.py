@@ -23,10 +23,13 @@ TOOL, OUT, COMMAND, *DESIGNS = sys.argv[1:]
 OURS = "sprag-design optimize, 1 thread"
 PAIR = "sprag-design optimize, 2 threads"
 GLOBAL = "scipy differential evolution"
-STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
-table{border-collapse:collapse;margin:1rem 0}td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:right}
-td:first-child,th:first-child{text-align:left}tr.ours{background:#eef5ff}svg{max-width:100%;height:auto}
-.small{color:#666;font-size:.85em}"""
+# That of the pages of all commands; numbers are on the right, ours are marked, and pictures stay dark on light.
+with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "src", "report", "page.css")) as style:
+    STYLE = style.read() + """td, th { text-align: right; }
+td:first-child, th:first-child { text-align: left; }
+tr.ours { background: var(--tint); font-weight: 600; }
+figure svg { background: #ffffff; }
+"""
 
 
 def about(design):
@@ -41,7 +44,7 @@ def gap(best, value):
 
 
 def table(rows, best):
-    out = ["<table><tr><th>method</th><th>evaluations</th><th>of them until within 0.1 % of the best</th>"
+    out = ["<div class=table><table><tr><th>method</th><th>evaluations</th><th>of them until within 0.1 % of the best</th>"
            "<th>slip margin found</th><th>below the best, %</th><th>time, s</th></tr>"]
     for r in rows:
         found = r["objective"]
@@ -50,7 +53,7 @@ def table(rows, best):
         out.append(f"<tr{' class=ours' if r['method'] in (OURS, PAIR) else ''}><td>{html.escape(r['method'])}</td>"
                    f"<td>{r['evaluations']}</td><td>{near if near else ('–' if r['course'] else '')}</td>"
                    f"<td>{cells[0]}</td><td>{cells[1]}</td><td>{float(r['time_s']):.0f}</td></tr>")
-    return "".join(out) + "</table>"
+    return "".join(out) + "</table></div>"
 
 
 def robust(design):
@@ -60,7 +63,7 @@ def robust(design):
                                "--robust"], capture_output=True, text=True)
     found = json.loads(done.stdout)
     made, held = found["tolerances"], found["robust"]["made"]
-    out = ["<table><tr><th>within the tolerances of the file</th><th>as drawn</th><th>worst corner</th><th>1 %</th>"
+    out = ["<div class=table><table><tr><th>within the tolerances of the file</th><th>as drawn</th><th>worst corner</th><th>1 %</th>"
            "<th>50 %</th><th>draws that hold every limit</th></tr>"]
     for name, m in (("optimum", made), ("optimum that holds every limit at every corner", held)):
         o = m["objective"]
@@ -69,7 +72,7 @@ def robust(design):
     broken = [f"{r['code']} {r['worst']:.3g}" for r in made["margins"] if r["worst"] < 0]
     note = (f"Of {made['corners']} corners and {made['draws']} draws (seed {made['seed']}). Limits of the optimum that the "
             f"tolerances break, at their worst corner: {', '.join(broken) or 'none'}.")
-    return "".join(out) + f"</table><p>{html.escape(note)}</p>"
+    return "".join(out) + f"</table></div><p>{html.escape(note)}</p>"
 
 
 def fidelities(design):
@@ -86,14 +89,14 @@ def fidelities(design):
             rows.append((tolerance, full, d["best"]["objective"], d["error_estimate"], moved, d["evaluations"],
                          1e3 * d["run_time_s"] / d["evaluations"], d["run_time_s"]))
     sharpest = rows[-1][2]
-    out = ["<table><tr><th>error allowed in the search</th><th>model in the search</th><th>optimum, looked at in full</th>"
+    out = ["<div class=table><table><tr><th>error allowed in the search</th><th>model in the search</th><th>optimum, looked at in full</th>"
            "<th>off the sharpest, %</th><th>objective moves when looked at in full</th><th>any margin moves</th>"
            "<th>evaluations</th><th>ms each</th><th>time, s</th></tr>"]
     for tolerance, full, objective, own, moved, count, each, seconds in rows:
         out.append(f"<tr><td>{tolerance}</td><td>{'everything' if full else 'reduced'}</td><td>{objective:.7f}</td>"
                    f"<td>{100 * abs(gap(sharpest, objective)):.1g}</td><td>{own:.1e}</td><td>{moved:.1e}</td><td>{count}</td>"
                    f"<td>{each:.0f}</td><td>{seconds:.1f}</td></tr>")
-    return "".join(out) + "</table>"
+    return "".join(out) + "</table></div>"
 
 
 def picture(rows, best):
@@ -112,9 +115,14 @@ def picture(rows, best):
              ylim=(5e-7, 200))
     axes.legend(fontsize=7, loc="lower left")
     out = io.StringIO()
-    figure.savefig(out, format="svg", metadata={"Date": None})
+    figure.savefig(out, format="svg", bbox_inches="tight", metadata={"Date": None})
     plt.close(figure)
-    return out.getvalue()[out.getvalue().index("<svg"):]
+    return figured(out.getvalue()[out.getvalue().index("<svg"):])
+
+
+def figured(svg):
+    return (f"<figure>{svg}<figcaption>How far the best design so far lies below the best that any method found, over the "
+            "evaluations spent; dashed: 0.1 %. A star: a method without a course, at its end.</figcaption></figure>")
 
 
 def main():
@@ -127,7 +135,7 @@ def main():
                 continue  # a method's own complaint
             name, method, course = json.loads(text)
             courses[name, method] = course
-    parts, verdicts, hashes = [], [], []
+    parts, verdicts, hashes, distances, spent, opening = [], [], [], [], [], ""
     for design in DESIGNS:
         name = os.path.splitext(os.path.basename(design))[0]
         problem = about(design)
@@ -140,21 +148,48 @@ def main():
         verdicts.append(f"<li>{html.escape(problem['design'])}: ours {float(ours['objective']):.6f} in "
                         f"{ours['evaluations']} evaluations; {GLOBAL} {float(other['objective']):.6f} in "
                         f"{other['evaluations']}: ours is {abs(off):.2g} % {'below' if off > 0 else 'above'} it.</li>")
+        distances.append(off)
+        spent.append((int(ours["evaluations"]), int(other["evaluations"])))
         pair = next(r for r in rows if r["method"] == PAIR)
         same = "the same to the last digit" if pair["objective"] == ours["objective"] else "NOT the same"
         threads = (f"{ours['starts']} climbs met {ours['optima']} {'optimum' if ours['optima'] == '1' else 'optima'}; none took more than {ours['most_in_a_start']} "
                    f"evaluations. Two threads end at {same}, {float(ours['time_s']) / float(pair['time_s']):.2f} times sooner.")
         v = ", ".join(f"{x['name']} {x['min']:g} to {x['max']:g}" for x in problem["variables"])
+        drawn = picture(rows, best)
+        if not opening:
+            # The first opens the page.
+            opening, drawn = drawn.replace("<figcaption>", f"<figcaption>{html.escape(problem['design'])}. ", 1), ""
         parts.append(f"<h2>{html.escape(problem['design'])}</h2><p>Free: {html.escape(v)}. Objectives (the least is "
                      f"maximised): {html.escape(', '.join(problem['objectives']))}. Limits: {len(problem['limits'])}."
-                     f"</p>{table(rows, best)}{picture(rows, best)}<p>{html.escape(threads)}</p>{robust(design)}"
+                     f"</p>{drawn}{table(rows, best)}<p>{html.escape(threads)}</p>"
+                     f"<details class=apart><summary>Tolerances, and error against run time</summary>{robust(design)}"
                      f"<p>Error against run time by what is left out of an evaluation (one climb from the file's start, one "
-                     f"thread; the default allows 1e-6 and leaves out what a scene cannot feel):</p>{fidelities(design)}")
+                     f"thread; the default allows 1e-6 and leaves out what a scene cannot feel):</p>{fidelities(design)}</details>")
     first = f"sprag-design {problem['version']}; designs {', '.join(hashes)}; {COMMAND}"
+    fewest, most = min(n for n, _ in spent), max(n for n, _ in spent)
+    said = (f"optimize ends above what {GLOBAL} finds or within {max(distances + [0.0]):.7f} % of it on all {len(distances)} problems, "
+            f"after {fewest} to {most} evaluations against {max(n for _, n in spent)}.")
     page = f"""<!-- {html.escape(first)} -->
-<!doctype html><html lang="en"><meta charset="utf-8"><title>Optimisers on one evaluator</title><style>{STYLE}</style>
-<h1>Optimisers on one evaluator</h1>
-<p>Three problems, the same evaluator for all (<code>sprag-design evaluate</code>: every scenario's slip margin and
+<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Optimisers on one evaluator</title>
+<style>
+{STYLE}</style>
+</head>
+<body>
+<main>
+<header>
+<p class="kind">Optimisers on one evaluator</p>
+<h1>optimize beside scipy, pymoo, basin and cobyla</h1>
+<dl><dt>Designs</dt><dd>{html.escape(", ".join(hashes))}</dd><dt>Command</dt><dd><code>{html.escape(COMMAND)}</code></dd>
+<dt>Made by</dt><dd>sprag-design {problem['version']}</dd></dl>
+</header>
+<p class="verdict said">{html.escape(said)}</p>
+{opening}
+<p>{len(distances)} problems, the same evaluator for all (<code>sprag-design evaluate</code>: every scenario's slip margin and
 every limit at one vector). Bounds are mapped to a unit box. A point asked for twice counts once. The value counts only
 where no limit is violated.</p><ul>{''.join(verdicts)}</ul>{''.join(parts)}
 <h2>How each was run</h2><ul>
@@ -172,7 +207,9 @@ for all five; differences of SLSQP 1e-5 of the range, simplex 0.1 to 1e-6 of the
 <li>Time is wall time on a machine that did other work, through a pipe for all but ours: compare evaluations.</li>
 <li>The best value is the best that any of these found, not proved to be the greatest there is.</li>
 <li>Ours goes on with new starts until no other optimum is to be expected; the stochastic ones use up their budget.</li></ul>
-<p class="small">{html.escape(first)}</p></html>
+</main>
+</body>
+</html>
 """
     with open(OUT + ".html.new", "w") as f:
         f.write(page)

@@ -2,7 +2,7 @@
 
 use sprag_design::identify::{Tied, Use};
 use sprag_design::report::plot::Dash;
-use sprag_design::report::{Cell, Column, Curve, Page, PageHead, Plot, Table, Unit, significant};
+use sprag_design::report::{Cell, Column, Curve, Page, PageHead, Plot, Table, Tone, Unit, significant};
 
 use crate::rows::{LEFT_OUT, PITCH_MM, Row};
 use crate::size::power_law;
@@ -17,6 +17,18 @@ pub(crate) fn page(study: &Study) -> Page {
         design: format!("{}; GMN 9050, series FE 8000", study.series.name),
         design_hash: study.series.hash.clone(),
     });
+    let [rms_printed, rms_gap] = [&study.printed, &study.gap].map(|case| {
+        let off = case.judged();
+        format!("{} in the mean, {} at worst", Unit::Percent.show(rms(&off), 3), Unit::Percent.show(worst(&off), 3))
+    });
+    page.verdict_in(
+        if study.printed.holds() { Tone::Good } else { Tone::Soft },
+        &format!(
+            "The maker's rules and one profile, found from every third row, give the nominal torques of the other rows within {rms_printed}; \
+             with the one rule set free that fails, the race gap, within {rms_gap}"
+        ),
+    );
+    deviations(&mut page, study);
     page.paragraph(
         "The maker prints diameters, widths and nominal torques of 38 sizes and the rules by which he rates them: Hertz pressure \
          4200 MPa, race gap 8.46 mm (8.33 at rest), equivalent stress 750 MPa (100Cr6), each at nominal torque, on a solid shaft, \
@@ -24,21 +36,15 @@ pub(crate) fn page(study: &Study) -> Page {
          neither the sprag's profile nor the number of sprags. Here one profile is found from every third row; the torque \
          of every row is then the smallest at which one of his rules is reached. Law: elastic, with nothing fitted in it.",
     );
-    for case in study.cases() {
-        page.heading(&sentence_case(case.name));
-        for (held, text) in case.verdicts() {
-            page.verdict(held, &text);
-        }
-    }
     conclusion(&mut page, study);
-    deviations(&mut page, study);
-    for case in [&study.printed, &study.gap] {
-        identified(&mut page, case);
-        sizes(&mut page, case);
-    }
+    page.heading("What was asked").table("", &asked(study));
     limits(&mut page, study);
-    left(&mut page, study);
-    residuals(&mut page, study);
+    for case in [&study.printed, &study.gap] {
+        page.apart(&format!("The profile that the fitted rows identify: {}", case.name), |page| identified(page, case));
+        page.apart(&format!("Row by row: {}", case.name), |page| sizes(page, case));
+    }
+    page.apart("Rows left out", |page| left(page, study));
+    page.apart("What the residuals say, gap set free", |page| residuals(page, study));
     omissions(&mut page);
     page.source("Series before the profile is known", &study.series.source);
     page.source("Series with the profile found, rules as printed", &study.printed.found.source);
@@ -46,11 +52,21 @@ pub(crate) fn page(study: &Study) -> Page {
     page
 }
 
-fn sentence_case(text: &str) -> String {
-    let mut letters = text.chars();
-    letters
-        .next()
-        .map_or_else(String::new, |first| first.to_uppercase().collect::<String>() + letters.as_str())
+/// Every reading against what was asked of it.
+fn asked(study: &Study) -> Table {
+    let mut table = Table::new(vec![
+        Column::text("case", "Reading"),
+        Column::text("found", "What came out"),
+        Column::text("verdict", "Verdict"),
+    ]);
+    for case in study.cases() {
+        for (i, (held, text)) in case.verdicts().into_iter().enumerate() {
+            let name = if i == 0 { case.name } else { "" };
+            let verdict = Cell::Verdict(held, if held { "held" } else { "NOT HELD" }.to_owned());
+            table.row(vec![name.into(), text.into(), verdict]);
+        }
+    }
+    table
 }
 
 /// Which rule fails, and what the data put in its place.
@@ -103,11 +119,10 @@ fn deviations(page: &mut Page, study: &Study) {
             let points = each.map(|(s, p)| [s.row.inner_mm, 100.0 * (p.0 / s.row.torque_nm - 1.0)]).collect();
             plot.curves.push(Curve { dots: true, dash: Dash::Dotted, ..Curve::new(name, points) });
         }
-        plot.level(0.0, "0").sized(500.0, 320.0).to_svg()
+        plot.level(0.0, "0").sized(500.0, 320.0).to_figure()
     };
-    page.heading("Predicted torque over the catalogue's, less one");
     page.figures(&[
-        (figure(&study.printed), "Rules as printed."),
+        (figure(&study.printed), "Predicted torque over the catalogue's, less one: rules as printed."),
         (figure(&study.gap), "Gap at nominal torque set free."),
     ]);
     let mut torque = Plot::new("Inner track, mm", "Nominal torque per mm of sprag, Nm/mm");
@@ -120,12 +135,11 @@ fn deviations(page: &mut Page, study: &Study) {
     torque.curves.push(dots("catalogue", each(&|i| study.gap.sizes[i].row.torque_nm)));
     torque.curves.push(dots("rules as printed", each(&|i| study.printed.predicted[i].0)));
     torque.curves.push(dots("gap set free", each(&|i| study.gap.predicted[i].0)));
-    page.figure(&torque.to_svg(), "Sizes of 25 mm width.");
+    page.figure(&torque.to_figure(), "Sizes of 25 mm width.");
 }
 
 fn identified(page: &mut Page, case: &Case) {
     let k = &case.found.knowledge;
-    page.heading(&format!("The profile that the fitted rows identify: {}", case.name));
     let mut table = Table::new(vec![
         Column::text("unknown", "Unknown"),
         Column::number("min", "From", Unit::One, 4),
@@ -279,7 +293,7 @@ fn limits(page: &mut Page, study: &Study) {
     ]);
     table.row(vec!["catalogue".into(), count.into(), catalogue.0.into(), catalogue.2.into()]);
     page.figure(
-        &plot.level(1.0, "catalogue").to_svg(),
+        &plot.level(1.0, "catalogue").to_figure(),
         "Sizes of 25 mm width: the lowest curve rates the size.",
     );
     page.table(
@@ -291,7 +305,6 @@ fn limits(page: &mut Page, study: &Study) {
 
 /// Rows left out, and the weights.
 fn left(page: &mut Page, study: &Study) {
-    page.heading("Rows left out");
     page.list(LEFT_OUT.iter().map(|(name, why)| format!("{name}: {why}.")));
     let used = |r: &&Row| r.left_out().is_none();
     let each: Vec<f64> = study.all.iter().filter(used).map(Row::weight_each_g).collect();
@@ -309,7 +322,6 @@ fn left(page: &mut Page, study: &Study) {
 }
 
 fn residuals(page: &mut Page, study: &Study) {
-    page.heading("What the residuals say, gap set free");
     let group = |keep: &dyn Fn(&Row) -> bool| -> String {
         let off = study.gap.off(|r, _| keep(r));
         format!("{} ({} rows)", Unit::Percent.show(off.iter().sum::<f64>() / off.len() as f64, 2), off.len())

@@ -103,6 +103,11 @@ impl Case {
         (tan, windup, catalogue)
     }
 
+    /// Whether all that was asked came out.
+    pub(crate) fn holds(&self) -> bool {
+        self.verdicts().iter().all(|(held, _)| *held)
+    }
+
     /// What was asked, with what came out.
     pub(crate) fn verdicts(&self) -> Vec<(bool, String)> {
         let off = self.judged();

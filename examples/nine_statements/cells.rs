@@ -22,7 +22,7 @@ pub struct Ran {
 }
 
 const SAMPLES: usize = 1501;
-pub const ROWS: [&str; 3] = ["3.34 Nm, mu_s = 0.12", "16.8 Nm, mu_s = 0.12", "16.8 Nm, mu_s = mu_c = 0.082"];
+pub const ROWS: [&str; 3] = ["3.34 Nm, μs = 0.12", "16.8 Nm, μs = 0.12", "16.8 Nm, μs = μc = 0.082"];
 pub const AMPLITUDES: [&str; 3] = ["6 Nm", "8 Nm", "10 Nm"];
 
 pub fn label(cell: usize) -> String {
@@ -125,12 +125,12 @@ fn e(ran: &Ran) -> sprag_design::scenario::ErrorEstimate {
 }
 
 fn plot(ran: &[Ran], what: usize, title: &str, size: [f64; 2], until_ms: f64) -> String {
-    let mut plot = Plot::new("time, ms", title).sized(size[0], size[1]);
+    let mut plot = Plot::new("Time, ms", title).sized(size[0], size[1]);
     for ((r, name), dash) in ran.iter().zip(AMPLITUDES).zip([Dash::Solid, Dash::Dashed, Dash::Solid]) {
         let points = r.history.iter().filter(|h| h[0] <= until_ms).map(|h| [h[0], h[what]]).collect();
         plot.curves.push(Curve { name: name.into(), points, dash, dots: false, colour: None });
     }
-    plot.to_svg()
+    plot.to_figure()
 }
 
 /// Statements, figures and histories.
@@ -140,6 +140,14 @@ pub fn write(page: &mut Page, ran: &[Ran]) {
         .filter_map(|i| remark(&ran[i].run, ran[i].mu_static).map(|r| format!("{}: {r}", label(i))))
         .collect();
     page.verdict(held == 9, &format!("{held} of 9 statements hold. {}.", remarks.join(". ")));
+    let half = [500.0, 320.0];
+    page.figures(&[
+        (
+            plot(&ran[..3], 2, "Offset, mrad", half, 300.0),
+            "What the inner race has slipped, θbi − θbe + windup, 3.34 Nm: + overrunning.",
+        ),
+        (plot(&ran[6..], 2, "Offset, mrad", half, 300.0), "The same, 16.8 Nm at 0.082: − engaging."),
+    ]);
     page.heading("The nine statements");
     let mut table = Table::new(vec![
         Column::text("cell", "Preload, friction, amplitude"),
@@ -169,18 +177,10 @@ pub fn write(page: &mut Page, ran: &[Ran]) {
     page.heading("Histories");
     for (row, three) in ROWS.iter().zip(ran.chunks(3)) {
         let caption = format!("Rotation of the inner race, {row}.");
-        page.figure(&plot(three, 1, "theta_bi, mrad", [1040.0, 300.0], 300.0), &caption);
+        page.figure(&plot(three, 1, "Rotation θbi, mrad", [1040.0, 300.0], 300.0), &caption);
     }
-    let half = [520.0, 300.0];
-    page.figures(&[
-        (
-            plot(&ran[..3], 2, "offset, mrad", half, 300.0),
-            "Offset theta_bi - theta_be + windup, 3.34 Nm: + overrunning.",
-        ),
-        (plot(&ran[6..], 2, "offset, mrad", half, 300.0), "The same, 16.8 Nm at 0.082: - engaging."),
-    ]);
     page.figure(
-        &plot(&ran[..3], 3, "N_bi, N", [1040.0, 300.0], 100.0),
+        &plot(&ran[..3], 3, "Normal force of one sprag, N", [1040.0, 300.0], 100.0),
         "Normal force of one sprag at the inner race, 3.34 Nm, first 100 ms: at 8 and 10 Nm it touches 0.",
     );
 }

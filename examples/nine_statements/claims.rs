@@ -129,10 +129,10 @@ fn initial_slip(page: &mut Page, bench: &Design) -> Anyhow<()> {
     );
     page.table("At the reversal", &table);
     page.figure(
-        &slip.marker(TABLE_1_NM, "Table 1").level(0.5, "the paper's half millisecond").to_svg(),
+        &slip.marker(TABLE_1_NM, "Table 1").level(0.5, "the paper's half millisecond").to_figure(),
         "Initial slip over the drag torque; no point: none.",
     );
-    page.figure(&ratio.to_svg(), "The same over the ratio of the torques.");
+    page.figure(&ratio.to_figure(), "The same over the ratio of the torques.");
     let onset: Vec<String> = REVERSING_NM
         .iter()
         .zip(found.chunks(drags.len()))

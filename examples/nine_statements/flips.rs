@@ -74,7 +74,7 @@ fn bars(unknowns: &[Unknown], flips: &Flips, title: &str, counts: impl Fn(usize)
             bars.bars.push(Bar { label, value, text, tone });
         }
     }
-    bars.to_svg()
+    bars.to_figure()
 }
 
 /// Half of the last printed digit of 4.68 and 0.62 mm.

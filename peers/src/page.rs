@@ -75,6 +75,9 @@ pub fn page(head: PageHead, scenes: &[Scene], peers: &[String; 2], designs: &[De
     let mut page = Page::new(head);
     let (held, line) = verdict(scenes);
     page.verdict(held, &line);
+    if let Some(first) = scenes.first() {
+        page.figure(&plot(first, "Time, ms", time_ms), &format!("{}: error over time; lower left is better.", first.name));
+    }
     page.paragraph(&format!(
         "Peers: {} and {}. Every method has the same right-hand side in each mode (Model::slope, which puts the rates of \
          a contact in stick in exactly), and the peers the same event functions (dynamics::events) and our rule for the \
@@ -281,7 +284,7 @@ fn section(page: &mut Page, scene: &Scene) {
         "{}. Reference: theta_bi {:.12} rad after {} changes of mode.",
         scene.what, scene.reference_rad, scene.changes
     ));
-    let time = plot(scene, "Time, ms", |p| 1e3 * p.seconds);
+    let time = plot(scene, "Time, ms", time_ms);
     let rhs = plot(scene, "Right-hand sides", |p| p.found.as_ref().map_or(f64::NAN, |a| a.rhs as f64));
     page.figures(&[(time, "Error over time."), (rhs, "Error over right-hand sides.")]);
     page.table("", &table(scene));
@@ -338,9 +341,14 @@ fn failures(scene: &Scene) -> Vec<String> {
     found.into_iter().map(|((who, why), at)| format!("{who}: {why}: {}", at.join("; "))).collect()
 }
 
+/// For an axis, ms.
+fn time_ms(p: &Point) -> f64 {
+    1e3 * p.seconds
+}
+
 fn plot(scene: &Scene, x_title: &str, x: impl Fn(&Point) -> f64) -> String {
     let mut plot =
-        Plot::new(x_title, "Error of theta_bi, rad").sized(640.0, 430.0).level(WANTED_RAD, "compared");
+        Plot::new(x_title, "Error of θbi, rad").sized(720.0, 400.0).level(WANTED_RAD, "compared");
     (plot.log_x, plot.log_y) = (true, true);
     for method in PLOTTED {
         let at = |p: &Point| [x(p), p.error_rad.map_or(f64::NAN, |e| e.max(FLOOR_RAD))];
@@ -352,7 +360,7 @@ fn plot(scene: &Scene, x_title: &str, x: impl Fn(&Point) -> f64) -> String {
         let points = scene.of(method).map(at).collect();
         plot.curves.push(Curve { dash, dots: true, ..Curve::new(method.name(), points) });
     }
-    plot.to_svg()
+    plot.to_figure()
 }
 
 fn table(scene: &Scene) -> Table {

@@ -1,13 +1,13 @@
 //! A result of finite elements beside the design's own contact law.
 
 use super::left_out::LeftOut;
-use super::page::begun;
+use super::page::opened;
 use super::{Envelope, Provenance};
 use crate::clutch::Clutch;
 use crate::design::Design;
 use crate::export::calculix::{Facts, ResultRow};
 use crate::race::twist_rad_per_nm;
-use crate::report::{Cell, Page, Rows, Screen, Table, Unit};
+use crate::report::{Cell, Page, Rows, Screen, Table, Tone, Unit};
 use crate::wedge::{StaticPoint, WedgeCurve};
 use serde::Serialize;
 
@@ -107,10 +107,10 @@ impl<'a> FiniteElements<'a> {
 
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = begun("Finite elements", self.design, &provenance.command);
-        page.heading("CalculiX beside the design's contact law")
-            .paragraph(&self.compared())
-            .table("", &self.table());
+        let mut page = opened("Finite elements", self.design, &provenance.command, |page| {
+            page.verdict_in(Tone::Plain, &self.compared());
+        });
+        page.heading("CalculiX beside the design's contact law").table("", &self.table());
         self.envelope(provenance.run_time_s).close(&mut page);
         page
     }

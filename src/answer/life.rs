@@ -1,7 +1,7 @@
 //! What a life of loads does to a clutch: loads, places, verdict, curves of life.
 
 use super::left_out::{LeftOut, left_out};
-use super::page::begun;
+use super::page::opened;
 use super::{Envelope, Provenance};
 use crate::clutch::Service;
 use crate::design::Design;
@@ -309,14 +309,15 @@ impl<'a> LifeAnswer<'a> {
 
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = begun("Life", self.design, &provenance.command);
         let tone = match (self.life.held(), self.life.decides(), self.not_known().is_empty()) {
             (false, ..) => Tone::Bad,
             (true, None, _) => Tone::Plain,
             (true, Some(_), false) => Tone::Soft,
             (true, Some(_), true) => Tone::Good,
         };
-        page.verdict_in(tone, &self.verdict());
+        let mut page = opened("Life", self.design, &provenance.command, |page| {
+            page.verdict_in(tone, &self.verdict());
+        });
         page.list(self.remarks());
         let known = self.life.used.iter().any(|u| u.sum.is_some());
         if known {

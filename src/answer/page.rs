@@ -44,7 +44,7 @@ pub fn drawing(design: &Design, poses: Vec<SpragPose>) -> Drawing {
     Drawing::of(&design.clutch, poses)
 }
 
-/// Section of a page with the drawing to scale: one sprag, then clutch and arc centres side by side.
+/// Section of a page with drawings to scale: one sprag in its poses, its arc centres.
 pub fn draw(page: &mut Page, drawing: &Drawing) {
     page.heading("Geometry");
     let caption = if drawing.poses.len() > 1 {
@@ -54,14 +54,20 @@ pub fn draw(page: &mut Page, drawing: &Drawing) {
         "One sprag between its races, to scale."
     };
     page.figure(&drawing.detail_svg(), caption);
-    page.figures(&[
-        (drawing.clutch_svg(), "The clutch, to scale."),
-        (drawing.centres_svg(), "Arc centres and centroid in the body frame (origin Cₑ)."),
-    ]);
+    page.figure(&drawing.centres_svg(), "Arc centres and centroid in the body frame (origin Cₑ).");
 }
 
-/// The dimensioned drawing: clutch, section, one sprag, masses.
-pub fn draw_sheet(page: &mut Page, design: &Design, profile: &Profile) {
+/// A page that opens with `answer`, its banner and what belongs to that, and the dimensioned drawing: both in the first screen.
+pub fn opened(title: &str, design: &Design, command: &str, answer: impl FnOnce(&mut Page)) -> Page {
+    let mut page = begun(title, design, command);
+    answer(&mut page);
+    draw_sheet(&mut page, design, "");
+    page
+}
+
+/// The dimensioned drawing: clutch, section, one sprag, masses. `whose`: of which of several designs.
+pub fn draw_sheet(page: &mut Page, design: &Design, whose: &str) {
+    let Ok(profile) = design.clutch.profile() else { return };
     let (s, r) = (&design.clutch.sprags, &design.clutch.races);
     let mm = |m: f64| Unit::Millimetre.show_plain(m, 6);
     let gram = |kg: f64| Unit::Gram.show(kg, 4);
@@ -72,16 +78,20 @@ pub fn draw_sheet(page: &mut Page, design: &Design, profile: &Profile) {
         format!("mass {}: sprags {},", gram(sprags + inner + outer), gram(sprags)),
         format!("inner race {}, outer race {}", gram(inner), gram(outer)),
     ];
-    let rest = pose_at_rest("first contact, no load", design, profile);
+    let rest = pose_at_rest("first contact, no load", design, &profile);
     let svg = drawing(design, vec![rest]).sheet_svg([r.width_m, s.length_m], &notes);
-    page.true_figure(&svg, "Radii as run; inner, outer: the tracks. ν, ω: angles of the strut AB to the radii at B and A; junctions by the turn of the contact; races as plain rings.");
+    let said = "Radii as run; inner, outer: the tracks. ν, ω: angles of the strut AB to the radii at B and A; junctions by the turn of the contact; races as plain rings.";
+    page.true_figure(&svg, &if whose.is_empty() { said.to_owned() } else { format!("{whose}. {said}") });
 }
 
 /// As many columns of the scenes' table fit a page.
 const SCENE_COLUMNS: usize = 8;
 
-/// Every value of the design file: a short table for each of its parts, one for the scenes, or one for each where that would be
-/// too wide.
+/// As many scenes stand side by side.
+const SCENES_ABREAST: usize = 11;
+
+/// Every value of the design file: a short table for each of its parts, one for the scenes, or one for each where there are too
+/// many of them.
 pub fn draw_inputs(page: &mut Page, design: &Design) {
     let all = inputs(&design.source);
     let (scenes, others): (Vec<&Input>, Vec<&Input>) =
@@ -93,6 +103,8 @@ pub fn draw_inputs(page: &mut Page, design: &Design) {
     let table = scene_table(&scenes);
     if table.columns.len() <= SCENE_COLUMNS {
         page.table("scenarios", &table);
+    } else if table.rows.len() <= SCENES_ABREAST {
+        page.table("scenarios", &scenes_abreast(&table));
     } else {
         page.columns(&each_scene(&table));
     }
@@ -113,6 +125,22 @@ fn each_scene(scenes: &Table) -> Vec<(String, Table)> {
         (name, table)
     };
     scenes.rows.iter().map(one).collect()
+}
+
+/// The scenes' table with a row for each key and a column for each scene.
+fn scenes_abreast(scenes: &Table) -> Table {
+    let mut columns = vec![Column::text("key", "scene")];
+    columns.extend(scenes.rows.iter().map(|row| match row.first() {
+        Some(Cell::Text(name)) => Column::text(name, name),
+        _ => Column::text("", ""),
+    }));
+    let mut table = Table::new(columns);
+    for (at, column) in scenes.columns.iter().enumerate().skip(1) {
+        let mut cells: Vec<Cell> = vec![column.heading.as_str().into()];
+        cells.extend(scenes.rows.iter().map(|row| row.get(at).cloned().unwrap_or(Cell::Empty)));
+        table.row(cells);
+    }
+    table
 }
 
 /// A table for each part of the file; a row of a list (arc, variable) in one line.

@@ -1,7 +1,7 @@
 //! What a slip under load and the blow after it do to a clutch: each path of slip, verdict, curve.
 
 use super::left_out::{LeftOut, left_out};
-use super::page::begun;
+use super::page::opened;
 use super::{Envelope, Provenance};
 use crate::design::Design;
 use crate::dynamics::Stop;
@@ -359,8 +359,9 @@ impl<'a> ReengagementAnswer<'a> {
 
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = begun("Slip and re-engagement", self.design, &provenance.command);
-        page.verdict(self.held(), &self.verdict());
+        let mut page = opened("Slip and re-engagement", self.design, &provenance.command, |page| {
+            page.verdict(self.held(), &self.verdict());
+        });
         page.list(self.remarks());
         let points = |of: &dyn Fn(&Blow) -> Option<f64>| -> Vec<[f64; 2]> {
             self.found.list.iter().filter_map(|b| Some([1e3 * b.path_m, of(b)?])).collect()

@@ -1,7 +1,7 @@
 //! Periodic states of a torsional excitation, one or a map over frequency and amplitude, as text, table, JSON and page.
 
 use super::left_out::{LeftOut, left_out};
-use super::page::{begun, half};
+use super::page::{half, opened};
 use super::{Envelope, Provenance};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
@@ -298,14 +298,15 @@ impl<'a> ResonanceAnswer<'a> {
 
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = begun("Resonance", self.design, &provenance.command);
         // A map is to show where it slips: that it does somewhere is no verdict.
         let tone = match (self.cells().count(), self.rolls()) {
             (_, true) => Tone::Plain,
             (1, false) => Tone::Bad,
             _ => Tone::Soft,
         };
-        page.verdict_in(tone, &format!("{}: {}", self.scenario.name, self.verdict()));
+        let mut page = opened("Resonance", self.design, &provenance.command, |page| {
+            page.verdict_in(tone, &format!("{}: {}", self.scenario.name, self.verdict()));
+        });
         page.list(self.remarks());
         let wide = self.rows.iter().all(|row| row.len() > 1);
         if wide && self.rows.len() > 1 {

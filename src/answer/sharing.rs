@@ -2,7 +2,7 @@
 
 use super::drawn::drawn_words;
 use super::left_out::{LeftOut, left_out, one_by_one};
-use super::page::begun;
+use super::page::{half, opened};
 use super::{Envelope, Provenance};
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
@@ -474,15 +474,16 @@ impl<'a> SharingAnswer<'a> {
 
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = begun("Sharing", self.design, &provenance.command);
-        page.verdict(self.held(), &self.verdict());
+        let mut page = opened("Sharing", self.design, &provenance.command, |page| {
+            page.verdict(self.held(), &self.verdict());
+        });
         page.list(self.remarks());
         page.figures(&[
             (
-                super::page::half(self.round()),
+                half(self.round()),
                 "Normal force of each sprag over the mean, round the clutch, at parts of the torque.",
             ),
-            (super::page::half(self.rising()), "The largest and the smallest share as the torque rises."),
+            (half(self.rising()), "The largest and the smallest share as the torque rises."),
         ]);
         page.heading("Sprags")
             .table("At the place of the turn where the most pressed one is pressed most.", &self.by_sprag());

@@ -2,7 +2,7 @@
 
 use super::check::{REACHED_AT, ends_first, margin_words, people_table, size_line};
 use super::left_out::left_out;
-use super::page::{begun, draw_sheet};
+use super::page::opened;
 use super::{Envelope, Provenance};
 use crate::design::shown;
 use crate::margin::{Margin, load_state};
@@ -60,12 +60,9 @@ impl<'a> Sizing<'a> {
     pub fn page(&self, title: &str, provenance: &Provenance, written: Option<&str>) -> Page {
         let (sized, made) = (self.sized, &self.sized.made);
         let design = &made.design;
-        let mut page = begun(title, design, &provenance.command);
-        page.verdict(true, &verdict(sized));
-        page.list(figures(made));
-        if let Ok(profile) = design.clutch.profile() {
-            draw_sheet(&mut page, design, &profile);
-        }
+        let mut page = opened(title, design, &provenance.command, |page| {
+            page.verdict(true, &verdict(sized)).list(figures(made));
+        });
         page.heading("Alternatives").paragraph(
             "Every race space (gap between the tracks) tried, each as narrow as its limits allow; of those that do it the one of the least \
              volume, from bore to outside, is taken. All at one scale.",

@@ -172,12 +172,7 @@ impl Drawing {
         Self { race_radii_m, count: clutch.sprags.count, poses }
     }
 
-    /// The whole clutch with all its sprags and the radii of its races.
-    pub fn clutch_svg(&self) -> String {
-        clutch::svg(self)
-    }
-
-    /// The same small and without radii, at a scale at which a radius of `widest_m`, m, would just find room.
+    /// The whole clutch with all its sprags, small, at a scale at which a radius of `widest_m`, m, would just find room.
     pub fn small_svg(&self, widest_m: f64) -> String {
         clutch::small(self, widest_m)
     }

@@ -1,19 +1,49 @@
-// Pictures of pages: node pictures.mjs FOLDER PAGE.html ...
-import { chromium } from "playwright-core";
+// Pictures of pages and of the studio: node pictures.mjs FOLDER BINARY DESIGN PAGE.html ... Ends with 1 where a page is wider than its
+// window, or has neither its answer nor the drawing in the first screen. STUDIES: names of pages that show no one clutch.
+import { spawn } from "node:child_process";
 import path from "node:path";
+import { chromium } from "playwright-core";
 
-const [folder, ...pages] = process.argv.slice(2);
+const HEIGHT = { 1280: 900, 390: 844 };
+const [folder, binary, design, ...files] = process.argv.slice(2);
+const studies = (process.env.STUDIES || "").split(" ");
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM || "/usr/bin/chromium", args: ["--no-sandbox"] });
-for (const file of pages) {
-  const name = path.basename(file, ".html");
+let found = 0;
+const say = (words) => {
+  console.log(words);
+  found = 1;
+};
+
+async function look(name, address, ready) {
   for (const width of [1280, 390]) {
-    const page = await browser.newPage({ viewport: { width, height: 900 } });
-    await page.goto("file://" + path.resolve(file));
+    const page = await browser.newPage({ viewport: { width, height: HEIGHT[width] } });
+    await page.goto(address);
+    await ready?.(page);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-    if (wide > width) console.log(`${name}: ${wide} px wide in a window of ${width}`);
-    await page.screenshot({ path: `${folder}/${name}-${width}.jpg`, fullPage: true, type: "jpeg", quality: 55 });
+    if (wide > width) say(`${name}: ${wide} px wide in a window of ${width}`);
+    if (width === 1280 && name !== "studio") {
+      const top = (pick) => page.evaluate((p) => document.querySelector(p)?.getBoundingClientRect().top ?? Infinity, pick);
+      if ((await top(".verdict")) > 300) say(`${name}: no answer at the top`);
+      // Half of the drawing at least.
+      if (!studies.includes(name) && (await top("figure.true")) > HEIGHT[width] - 230) say(`${name}: no drawing in the first screen`);
+    }
+    // Of the many pages of `check` the sheets do.
+    if (!name.startsWith("check-")) await page.screenshot({ path: `${folder}/${name}-${width}.jpg`, fullPage: true, type: "jpeg", quality: 55 });
     if (width === 1280) await page.pdf({ path: `${folder}/${name}.pdf`, format: "A4", preferCSSPageSize: true });
     await page.close();
   }
 }
+
+for (const file of files) await look(path.basename(file, ".html"), "file://" + path.resolve(file));
+
+const server = spawn(binary, ["studio", design, "--no-open", "--quiet"], { stdio: ["ignore", "pipe", "inherit"] });
+const address = await new Promise((answer, failed) => {
+  server.stdout.once("data", (line) => answer(line.toString().trim()));
+  server.once("exit", () => failed(new Error("the studio ended at once")));
+});
+await look("studio", address, (page) =>
+  page.waitForFunction(() => /^(NOT )?HELD: /.test(document.getElementById("banner").textContent), null, { timeout: 60000 }),
+);
+server.kill("SIGINT");
 await browser.close();
+process.exit(found);

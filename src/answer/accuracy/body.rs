@@ -76,9 +76,8 @@ fn point(method: Scheme, p: &WorkPoint) -> Value {
 fn stability(study: &AccuracyStudy) -> Value {
     let outcomes: Map<String, Value> =
         map::by_outcome(study).into_iter().map(|(name, c)| (name.to_owned(), json!(c.len()))).collect();
-    let pick = |f: fn(&Judged) -> bool| study.cases.iter().filter(|c| f(c)).map(case).collect::<Vec<_>>();
     let most = |f: fn(&Judged) -> u64| study.cases.iter().map(f).max();
-    json!({
+    let mut all = json!({
         "seed": study.seed,
         "cases": study.cases.len(),
         "tolerance": study.limit.tolerance,
@@ -89,10 +88,14 @@ fn stability(study: &AccuracyStudy) -> Value {
         "not_converged": study.cases.iter().filter(|c| !c.converged).count(),
         "worst": { "events": most(|c| c.events), "steps": most(|c| c.steps), "rhs_evaluations": most(|c| c.rhs_evaluations) },
         "at_half_the_tolerance": Halved::of(&study.cases),
-        "verdict_changes": pick(|c| c.verdict_changes),
-        "not_finite": pick(|c| c.not_finite.is_some()),
-        "limits": pick(|c| c.outcomes.iter().any(|o| o.met_a_limit())),
-    })
+    });
+    if let Some(keys) = all.as_object_mut() {
+        for (key, _, is) in map::REMARKABLE {
+            let list: Vec<Value> = study.cases.iter().filter(|c| is(c)).map(case).collect();
+            keys.insert(key.to_owned(), list.into());
+        }
+    }
+    all
 }
 
 fn case(c: &Judged) -> Value {

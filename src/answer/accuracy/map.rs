@@ -63,7 +63,7 @@ pub(super) fn at_half(h: &Halved) -> String {
 pub(super) fn counts(study: &AccuracyStudy) -> Table {
     let most = |cases: &[&Judged], f: fn(&Judged) -> u64| cases.iter().map(|c| f(c)).max().unwrap_or(0);
     Rows::of(by_outcome(study))
-        .text("outcome", "CaseEnd", |(name, _)| *name)
+        .text("outcome", "Outcome", |(name, _)| *name)
         .number("cases", "Cases", Unit::One, 6, |(_, cases)| cases.len())
         .number("not_converged", "Tolerance not reached", Unit::One, 6, |(_, cases)| {
             cases.iter().filter(|c| !c.converged).count()
@@ -76,33 +76,24 @@ pub(super) fn counts(study: &AccuracyStudy) -> Table {
         .table()
 }
 
-/// Cases that a reader must see: verdicts changed, lost or gained, numbers that are none, limits met.
-pub(super) fn remarkable(study: &AccuracyStudy) -> Vec<String> {
-    let mut lines = Vec::new();
-    for c in study.cases.iter().filter(|c| c.verdict_changes) {
-        let [a, b] = c.outcomes.map(CaseEnd::name);
-        lines.push(format!("verdict changes from {a} to {b}: {}", described(c)));
-    }
-    for c in &study.cases {
-        if let Some(what) = c.not_finite {
-            lines.push(format!("{what} is not finite: {}", described(c)));
-        }
-    }
-    let stopped = |c: &&Judged| {
+/// Kinds of cases that a reader must see: key of the list in the results, words, which they are.
+pub(super) const REMARKABLE: [(&str, &str, fn(&Judged) -> bool); 4] = [
+    ("verdict_changes", "Verdict is another at half the tolerance", |c| c.verdict_changes),
+    ("lost_or_gained", "Verdict is lost or gained at half the tolerance", |c| {
         let [a, b] = c.verdicts();
-        a.is_some() != b.is_some() || c.outcomes.iter().any(|o| o.met_a_limit())
-    };
-    for c in study.cases.iter().filter(stopped) {
-        let rate = c.fastest_rad_s.map_or(String::new(), |r| format!(", fastest motion {r:.1e} rad/s"));
-        let [a, b] = c.outcomes.map(CaseEnd::name);
-        let both = if a == b { a.to_owned() } else { format!("{a}, at half the tolerance {b},") };
-        lines.push(format!("{both} at {:.3e} s{rate}: {}", c.t_s, described(c)));
-    }
-    lines
-}
+        a.is_some() != b.is_some()
+    }),
+    ("not_finite", "A number is not finite", |c| c.not_finite.is_some()),
+    ("limits", "A limit of work is met at either tolerance", |c| c.outcomes.iter().any(|o| o.met_a_limit())),
+];
 
-fn described(c: &Judged) -> String {
-    format!("case {}: {}", c.case.number, c.case.described())
+/// How many there are of each kind.
+pub(super) fn remarkable(study: &AccuracyStudy) -> Table {
+    Rows::of(REMARKABLE)
+        .text("what", "Cases to look at", |(_, words, _)| *words)
+        .number("cases", "Cases", Unit::One, 6, |(.., is)| study.cases.iter().filter(|c| is(c)).count())
+        .text("key", "List in --json", |(key, ..)| format!("stability_map.{key}"))
+        .table()
 }
 
 /// How many cases ended in each way.

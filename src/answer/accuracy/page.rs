@@ -17,22 +17,30 @@ pub(super) fn page(study: &AccuracyStudy, design: &Design, provenance: &Provenan
     let mut page = begun("Accuracy", design, &provenance.command);
     let (held, line) = verdict(study);
     page.verdict(held, &line);
+    if let Some(first) = study.scenes.first() {
+        let time = plot(first, "Time, ms", |p| 1e3 * p.seconds);
+        page.figure(
+            &time.to_figure(),
+            &format!("Error of the angle of the inner race over the time of a run, scene {}: lower left is better.", first.scene),
+        );
+    }
     for scene in &study.scenes {
         page.heading(&scene.scene).paragraph(&sentence(scene));
-        page.paragraph(&reference(scene));
         let rhs = plot(scene, "Right-hand sides", |p| p.rhs_evaluations as f64);
         let time = plot(scene, "Time, ms", |p| 1e3 * p.seconds);
         page.figures(&[
             (half(rhs), "Error of θ_bi over right-hand sides."),
             (half(time), "The same over time (median; one thread of a machine that others use too)."),
         ]);
-        page.table("", &tables::scene(scene));
+        page.apart(&format!("Reference and settings of {}", scene.scene), |page| {
+            page.paragraph(&reference(scene)).table("", &tables::scene(scene));
+        });
     }
     page.list(study.without_start.iter().map(|(name, why)| format!("{name}: {why}")));
-    page.heading("Omissions").list(OMISSIONS);
     if !study.cases.is_empty() {
         stability(&mut page, study);
     }
+    page.heading("Omissions").list(OMISSIONS);
     study.envelope(design, provenance.run_time_s).close(&mut page);
     page
 }
@@ -143,16 +151,7 @@ fn stability(page: &mut Page, study: &AccuracyStudy) {
         "Outcome over static friction and preload; a preload of zero stands at 0.1 Nm.",
     );
     page.figure(&map::work(study).to_figure(), "Work over changes of mode.");
-    let lines = map::remarkable(study);
-    if lines.is_empty() {
-        page.paragraph("No case met a limit, changed its verdict or gave a number that is not finite.");
-    } else {
-        page.paragraph(
-            "Cases whose verdict changes, is lost or is gained at half the tolerance, that gave a number that is not finite, \
-             or met a limit at either, SI:",
-        )
-        .list(&lines);
-    }
+    page.table("The cases themselves are in the results of this page too.", &map::remarkable(study));
 }
 
 fn axes() -> Table {

@@ -53,9 +53,7 @@ pub(super) fn text(study: &AccuracyStudy, screen: Screen) -> String {
     }
     if !study.cases.is_empty() {
         out += &format!("{}\n\n{}\n", map::summary(study), map::counts(study).to_text(screen));
-        for line in map::remarkable(study) {
-            out += &format!("{line}\n");
-        }
+        out += &map::remarkable(study).to_text(screen);
     }
     out
 }

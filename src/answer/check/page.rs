@@ -3,22 +3,22 @@
 use super::text::{overrunning, two_pressures};
 use super::{CheckAnswer, charts, is_beyond, margin_text, people_table, sections};
 use crate::answer::Provenance;
-use crate::answer::page::{begun, draw_sheet, drawing, half, pose_at_rest};
+use crate::answer::page::{drawing, half, opened, pose_at_rest};
 use crate::design::Design;
 use crate::margin::Margin;
 use crate::report::{Bar, Bars, Column, Page, Table, Tone, Unit, greek};
 
 /// A page with verdict, torque capacities and the dimensioned drawing, and the remarks that come later.
-pub(super) fn opened(
+pub(super) fn answered(
     title: &str,
     design: &Design,
     check: &CheckAnswer,
     command: &str,
 ) -> (Page, Vec<String>) {
-    let mut page = begun(title, design, command);
-    page.verdict(check.body.pass, &check.body.verdict());
-    page.list(rated(design).into_iter().chain(check.body.capacity_lines()));
-    draw_sheet(&mut page, design, &check.state.profile);
+    let page = opened(title, design, command, |page| {
+        page.verdict(check.body.pass, &check.body.verdict());
+        page.list(rated(design).into_iter().chain(check.body.capacity_lines()));
+    });
     (page, check.body.other_remarks())
 }
 
@@ -36,7 +36,7 @@ fn rated(design: &Design) -> Option<String> {
 /// The page.
 pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance) -> Page {
     let answer = check.envelope(design, provenance.run_time_s);
-    let (mut page, remarks) = opened("Margin check", design, check, &provenance.command);
+    let (mut page, remarks) = answered("Margin check", design, check, &provenance.command);
     let end_nm = check.state.curve.end_torque_nm();
     page.heading("Limits against torque");
     page.figure(

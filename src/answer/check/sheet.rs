@@ -1,6 +1,6 @@
 //! The design sheet: the answer and a dimensioned drawing first, then margins, scenes and all inputs, to print on A4.
 
-use super::page::opened;
+use super::page::answered;
 use super::text::{overrunning, two_pressures};
 use super::{CheckAnswer, people_table};
 use crate::answer::Provenance;
@@ -14,7 +14,7 @@ use crate::wedge::{PLOTTED, StaticPoint};
 /// The page.
 pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance) -> Page {
     let answer = check.envelope(design, provenance.run_time_s);
-    let (mut page, remarks) = opened("Design sheet", design, check, &provenance.command);
+    let (mut page, remarks) = answered("Design sheet", design, check, &provenance.command);
     let end_nm = check.state.curve.end_torque_nm();
     curves(&mut page, design, check);
     page.heading("Margins");

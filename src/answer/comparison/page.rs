@@ -2,7 +2,7 @@
 
 use super::{Comparison, farthest, label, letter, proud, tables};
 use crate::answer::Envelope;
-use crate::answer::page::{begun, half};
+use crate::answer::page::{begun, draw_sheet, half};
 use crate::compare::Subject;
 use crate::report::{Curve, Dash, Drawing, Page, Plot, SpragPose, Tone, Unit};
 use crate::wedge::{PLOTTED, StaticPoint};
@@ -20,6 +20,9 @@ pub(super) fn page(compared: &Comparison<'_>, answer: &Envelope<'_, Value>, comm
         (false, _) => Tone::Bad,
     };
     page.verdict_in(tone, &compared.banner());
+    if let Some(now) = compared.subjects.get(1) {
+        draw_sheet(&mut page, &now.design, &letter(1));
+    }
     page.table("", &tables::designs(compared));
     page.heading("What differs");
     match compared.inputs.as_slice() {

@@ -3,7 +3,7 @@
 use super::Identification;
 use super::tables::{correlation, estimates, residuals, sentences, verdict};
 use crate::answer::Provenance;
-use crate::answer::page::begun;
+use crate::answer::page::opened;
 use crate::identify::{Identified, Use};
 use crate::report::plot::Dash;
 use crate::report::{Curve, Page, Plot};
@@ -11,8 +11,10 @@ use crate::report::{Curve, Page, Plot};
 /// The page.
 pub(super) fn page(answer: &Identification<'_>, provenance: &Provenance, written: Option<&str>) -> Page {
     let found = answer.found;
-    let mut page = begun("Identification", answer.design, &provenance.command);
-    page.verdict(answer.determined(), &verdict(found)).list(sentences(found));
+    let mut page = opened("Identification", answer.design, &provenance.command, |page| {
+        page.verdict(answer.determined(), &verdict(found));
+    });
+    page.list(sentences(found));
     page.heading("Unknowns").table("Each in the unit of its name.", &estimates(found));
     if let Some(table) = correlation(found) {
         page.table("Correlation of what was found.", &table);

@@ -1,6 +1,6 @@
 //! The page of an overrun.
 
-use super::super::page::{begun, half};
+use super::super::page::{half, opened};
 use super::{OilAt, OverrunAnswer, OverrunLine, RunningRace};
 use crate::answer::Provenance;
 use crate::report::plot::{Curve, Dash};
@@ -13,14 +13,15 @@ const POINTS: usize = 24;
 type Shown = fn(&OverrunLine) -> Option<f64>;
 
 pub(super) fn page(answer: &OverrunAnswer<'_>, provenance: &Provenance) -> Page {
-    let mut page = begun("Overrun on a film of oil", answer.design, &provenance.command);
     let warnings = answer.warnings();
     let tone = if warnings.iter().any(|w| w.starts_with("Warning")) { Tone::Bad } else { Tone::Plain };
     let first = warnings
         .first()
         .cloned()
         .unwrap_or_else(|| "steady overrun stays; asperities hardly touch".to_owned());
-    page.verdict_in(tone, &first);
+    let mut page = opened("Overrun on a film of oil", answer.design, &provenance.command, |page| {
+        page.verdict_in(tone, &first);
+    });
     page.list(answer.remarks().into_iter().chain(warnings.into_iter().skip(1)));
     let sets = curves(answer);
     let speed = format!("Speed of the {} race, rpm", answer.question.race.name());

@@ -142,7 +142,7 @@ impl SearchReport<'_> {
         let (Ok(p), Ok(q)) = (self.design.clutch.profile(), after.clutch.profile()) else {
             return;
         };
-        draw_sheet(page, &after, &q);
+        draw_sheet(page, &after, "The optimum");
         let poses = vec![pose_at_rest("after", &after, &q), pose_at_rest("before", self.design, &p)];
         draw(page, &drawing(&after, poses));
         let depth = |design: &Design, profile| {

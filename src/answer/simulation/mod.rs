@@ -11,6 +11,7 @@ mod page;
 #[cfg(feature = "validation")]
 mod published;
 mod settings;
+mod stretch;
 mod table;
 mod train;
 mod unfelt;

@@ -1,17 +1,14 @@
 //! The HTML report of a simulation.
 
-use super::{HistoryRow, Ran, SimulationAnswer, word};
-use super::{facts, train};
+use super::stretch::Stretch;
+use super::{HistoryRow, Ran, SimulationAnswer, facts, train};
 use crate::answer::Provenance;
-use crate::answer::page::{begun, draw, drawing, pose_at_rest, pose_at_torque};
+use crate::answer::page::{draw, drawing, half, opened, pose_at_rest, pose_at_torque};
 use crate::clutch::{Phrase, ScenarioKind};
-use crate::dynamics::Mode;
-use crate::report::plot::Dash;
-use crate::report::{Curve, Page, Plot, Span, Strip, Unit};
+use crate::report::{Curve, Dash, Page, Plot, Unit};
 use crate::scenario::{Prepared, Simulation};
 use crate::wedge::{Lengthwise, Side, along};
 
-const TIME: &str = "Time, ms";
 /// From here on ticks run into the title of the axis, which is then in the next larger unit.
 const FOUR_DIGITS: f64 = 9000.0;
 /// Friction is drawn up to this many times the static one: Vernay's outer contact, which holds whatever that takes, has
@@ -21,8 +18,9 @@ const DRAWN_FRICTION: f64 = 2.0;
 /// The page.
 pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
     let title = format!("Simulation of {}", scene.scenario.name);
-    let mut page = begun(&title, &scene.design, &provenance.command);
-    page.verdict(scene.held(), &scene.verdict_line());
+    let mut page = opened(&title, &scene.design, &provenance.command, |page| {
+        page.verdict(scene.held(), &scene.verdict_line());
+    });
     page.paragraph(&described(scene));
     page.list(&scene.body.notes);
     let (first, all) = facts::first_and_all(facts::table(scene));
@@ -110,21 +108,19 @@ fn courses(scene: &Ran) -> [String; 2] {
 
 fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) {
     let rows = scene.rows();
-    let curve = |value: &dyn Fn(&HistoryRow) -> f64| over_time(&rows, value);
-    let least_at = s.peaks.at_s[2] * 1e3;
+    let whole = Stretch::whole(s);
+    let plot = |y_title: &str| whole.plot(y_title);
+    let curve = |value: &dyn Fn(&HistoryRow) -> f64| whole.points(&rows, value);
+    let least_at = whole.at(s.peaks.at_s[2]);
     page.heading("Histories");
-    // The cause first; what swings acts on the outer race.
-    let loads = &prepared.model.loads;
-    let outside = |r: &HistoryRow| r.acting[0] + loads.amplitude_nm * (loads.omega_rad_s * r.sample.t).sin();
-    let cause = Curve::new("from outside", curve(&outside)).coloured(5);
-    let mut torque = plot("Torque, Nm").curve("in the clutch", curve(&|r| r.torque_nm));
-    torque.curves.push(Curve { dash: Dash::Dashed, ..cause });
+    // The cause first.
     page.figure(
-        &torque.to_figure(),
+        &torque(&whole, prepared, &rows).to_figure(),
         "Torque from outside, on both races together, and what the clutch carries, positive in the sense in which it does; the rest \
          speeds the races up.",
     );
-    train::figures(page, scene);
+    event(page, prepared, s, &rows);
+    train::figures(page, scene, &whole);
     let turning = if rows.iter().any(|r| r.acting[1] != 0.0) { ", relative to the mean speed" } else { "" };
     let largest_rad = largest(&rows, &|r| r.sample.state[2].abs().max(r.sample.state[3].abs()));
     let (unit, per_rad) = if largest_rad < FOUR_DIGITS * 1e-3 { ("mrad", 1e3) } else { ("rad", 1.0) };
@@ -153,18 +149,47 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
         &normal.to_figure(),
         &format!("Normal forces; the smallest {}.", phase(scene, s.peaks.at_s[2])),
     );
-    friction(page, scene, prepared, s, &rows);
-    page.figure(&strip(s).to_figure(), "What each contact does; each change is located in time.");
-    slip(page, s, &rows);
-    pressures(page, scene, prepared, s, &rows);
+    friction(page, scene, prepared, s, &rows, &whole);
+    page.figure(&whole.strip(s).to_figure(), "What each contact does; each change is located in time.");
+    slip(page, s, &rows, &whole);
+    pressures(page, scene, prepared, s, &rows, &whole);
 }
 
-pub(super) fn plot(y_title: &str) -> Plot {
-    Plot::new(TIME, y_title).sized(720.0, 300.0)
+/// Torque from outside and in the clutch; what swings acts on the outer race.
+fn torque(stretch: &Stretch, prepared: &Prepared, rows: &[HistoryRow]) -> Plot {
+    let loads = &prepared.model.loads;
+    let outside = |r: &HistoryRow| r.acting[0] + loads.amplitude_nm * (loads.omega_rad_s * r.sample.t).sin();
+    let cause = Curve::new("from outside", stretch.points(rows, &outside)).coloured(5);
+    let mut torque =
+        stretch.plot("Torque, Nm").curve("in the clutch", stretch.points(rows, &|r| r.torque_nm));
+    torque.curves.push(Curve { dash: Dash::Dashed, ..cause });
+    torque
 }
 
-fn over_time(rows: &[HistoryRow], value: &dyn Fn(&HistoryRow) -> f64) -> Vec<[f64; 2]> {
-    envelope(rows.iter().map(|r| [r.sample.t * 1e3, value(r)]).collect())
+/// The first event enlarged: torque, friction over normal force, what the contacts do.
+fn event(page: &mut Page, prepared: &Prepared, s: &Simulation, rows: &[HistoryRow]) {
+    let Some((stretch, what, at_s)) = Stretch::first_event(s, rows) else { return };
+    let caption = format!("The first event enlarged: {what} {}.", facts::at(at_s));
+    page.figures(&[
+        (half(torque(&stretch, prepared, rows).marker(0.0, what)), caption.as_str()),
+        (half(ratios(&stretch, prepared, rows).marker(0.0, what)), "Friction over normal force meanwhile."),
+    ]);
+    page.figure(&stretch.strip(s).to_figure(), "What each contact does meanwhile.");
+}
+
+/// Friction over normal force with its sign, where that is worth drawing.
+fn ratios(stretch: &Stretch, prepared: &Prepared, rows: &[HistoryRow]) -> Plot {
+    let law = &prepared.model.friction;
+    let most = DRAWN_FRICTION * law.static_;
+    let drawn = |q: Option<f64>| q.filter(|q| q.abs() <= most).unwrap_or(f64::NAN);
+    let mut plot = stretch.plot("T/N");
+    // The outer contact first: where it trembles it would hide the inner one.
+    plot.curves = vec![
+        Curve::new("outer contact", stretch.points(rows, &|r| drawn(r.tan[1]))).coloured(1),
+        Curve::new("inner contact", stretch.points(rows, &|r| drawn(r.tan[0]))).coloured(0),
+        stretch.levels("±μ static", &[law.static_, -law.static_]),
+    ];
+    plot
 }
 
 /// Points that are drawn one by one.
@@ -200,15 +225,15 @@ fn largest(rows: &[HistoryRow], value: &dyn Fn(&HistoryRow) -> f64) -> f64 {
     rows.iter().map(value).fold(0.0, f64::max)
 }
 
-/// Levels over the whole run as a curve: their name stands in the legend, where it covers no other curve.
-fn levels(name: &str, at: &[f64], s: &Simulation) -> Curve {
-    let line = |&y: &f64| [[0.0, y], [s.t_s * 1e3, y], [f64::NAN, y]];
-    let points = at.iter().flat_map(line).collect();
-    Curve { dash: Dash::Dashed, ..Curve::new(name, points).coloured(5) }
-}
-
 /// Friction over normal force with its sign (the paper's Figure 9c).
-fn friction(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, rows: &[HistoryRow]) {
+fn friction(
+    page: &mut Page,
+    scene: &Ran,
+    prepared: &Prepared,
+    s: &Simulation,
+    rows: &[HistoryRow],
+    whole: &Stretch,
+) {
     let found = || rows.iter().flat_map(|r| r.tan).flatten();
     if found().next().is_none() {
         page.paragraph(
@@ -219,14 +244,7 @@ fn friction(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, r
     let law = &prepared.model.friction;
     let number = |mu: f64| Unit::One.show(mu, 3);
     let most = DRAWN_FRICTION * law.static_;
-    let drawn = |q: Option<f64>| q.filter(|q| q.abs() <= most).unwrap_or(f64::NAN);
-    let mut plot = plot("T/N").marker(s.peaks.at_s[0] * 1e3, "largest");
-    // The outer contact first: where it trembles it would hide the inner one.
-    plot.curves = vec![
-        Curve::new("outer contact", over_time(rows, &|r| drawn(r.tan[1]))).coloured(1),
-        Curve::new("inner contact", over_time(rows, &|r| drawn(r.tan[0]))).coloured(0),
-        levels("±μ static", &[law.static_, -law.static_], s),
-    ];
+    let plot = ratios(whole, prepared, rows).marker(whole.at(s.peaks.at_s[0]), "largest");
     let slipping = if law.kinetic < law.static_ {
         format!("±μ(v), from {} at rest down to {}", number(law.static_), number(law.kinetic))
     } else {
@@ -246,7 +264,7 @@ fn friction(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, r
 }
 
 /// Slip since the clutch engaged: the overrun before would hide it.
-fn slip(page: &mut Page, s: &Simulation, rows: &[HistoryRow]) {
+fn slip(page: &mut Page, s: &Simulation, rows: &[HistoryRow], whole: &Stretch) {
     let (from_s, base) = s.engaged.map_or((0.0, [0.0; 2]), |e| (e.t_s, [e.state[8], e.state[9]]));
     let slipped = |r: &HistoryRow| -> [f64; 2] {
         let y = &r.sample.state;
@@ -263,24 +281,33 @@ fn slip(page: &mut Page, s: &Simulation, rows: &[HistoryRow]) {
         return;
     }
     let (unit, per_m) = if largest_m < FOUR_DIGITS * 1e-6 { ("µm", 1e6) } else { ("mm", 1e3) };
-    let plot = plot(&format!("Net slip, {unit}"))
-        .curve("inner contact", over_time(rows, &|r| slipped(r)[0] * per_m))
-        .curve("outer contact", over_time(rows, &|r| slipped(r)[1] * per_m));
+    let plot = whole
+        .plot(&format!("Net slip, {unit}"))
+        .curve("inner contact", whole.points(rows, &|r| slipped(r)[0] * per_m))
+        .curve("outer contact", whole.points(rows, &|r| slipped(r)[1] * per_m));
     let caption =
         format!("Signed slip distance since {from}; at the inner contact + is towards overrunning.");
     page.figure(&plot.to_figure(), &caption);
 }
 
 /// Contact pressure over time (the paper's Figures 9 and 10) and, with slices, along the length.
-fn pressures(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation, rows: &[HistoryRow]) {
-    let mega = |value: &dyn Fn(&HistoryRow) -> f64| over_time(rows, &|r| value(r) / 1e6);
-    let mut plot = plot("Contact pressure, MPa")
+fn pressures(
+    page: &mut Page,
+    scene: &Ran,
+    prepared: &Prepared,
+    s: &Simulation,
+    rows: &[HistoryRow],
+    whole: &Stretch,
+) {
+    let mega = |value: &dyn Fn(&HistoryRow) -> f64| whole.points(rows, &|r| value(r) / 1e6);
+    let mut plot = whole
+        .plot("Contact pressure, MPa")
         .curve("inner contact", mega(&|r| r.hertz_pa[0]))
         .curve("outer contact", mega(&|r| r.hertz_pa[1]));
     if rows.iter().any(|r| r.slice_pa.is_some()) {
         plot = plot.curve("inner contact, end slice", mega(&|r| r.slice_pa.map_or(f64::NAN, |p| p[0])));
     }
-    plot.curves.push(levels("static load", &[s.hertz_static_pa / 1e6], s));
+    plot.curves.push(whole.levels("static load", &[s.hertz_static_pa / 1e6]));
     let rated = match scene.rated().map(|p| p.hertz_inner_pa) {
         Some(p) => {
             let share = Unit::Percent.show(s.hertz_peak_pa / p, 3);
@@ -333,26 +360,6 @@ fn phase(scene: &Ran, t_s: f64) -> String {
             format!("{when}, {:.0}° after the excitation's zero", 360.0 * (t_s * frequency_hz).fract())
         }
         None => when,
-    }
-}
-
-fn strip(s: &Simulation) -> Strip {
-    let words = ["stick", "slip+", "slip-", "open"];
-    let spans = |inner: bool| -> Vec<Span> {
-        let ends = s.modes.iter().skip(1).map(|m| m.0).chain([s.t_s]);
-        let state = |mode: &Mode| words.iter().position(|w| *w == word(mode, inner)).unwrap_or(0);
-        let span = |((from, mode), until): (&(f64, Mode), f64)| Span {
-            from: from * 1e3,
-            until: until * 1e3,
-            state: state(mode),
-        };
-        s.modes.iter().zip(ends).map(span).collect()
-    };
-    Strip {
-        title: TIME.to_owned(),
-        range: [0.0, s.t_s * 1e3],
-        states: ["sticks", "slips, race ahead", "slips, race behind", "open"].map(str::to_owned).to_vec(),
-        rows: vec![("inner".to_owned(), spans(true)), ("outer".to_owned(), spans(false))],
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::Ran;
 use super::history::{SceneHistory, Values};
-use super::page::{envelope, plot};
+use super::page::envelope;
+use super::stretch::Stretch;
 use crate::dynamics::NodeMotion;
 use crate::report::{Page, Unit};
 use crate::scenario::{Prepared, Simulation};
@@ -60,7 +61,7 @@ pub(super) fn add(history: &mut SceneHistory, prepared: &Prepared, s: &Simulatio
 }
 
 /// Figures of the page: torques of its shafts, speeds; none without a drivetrain.
-pub(super) fn figures(page: &mut Page, scene: &Ran) {
+pub(super) fn figures(page: &mut Page, scene: &Ran, whole: &Stretch) {
     let Some(run) = scene.simulation().and_then(|s| s.train.as_ref()) else { return };
     let names: Vec<&str> = run.train.names().collect();
     if names.is_empty() {
@@ -76,12 +77,12 @@ pub(super) fn figures(page: &mut Page, scene: &Ran) {
         ),
         ("speed_rpm", "Speed, rpm", "Speeds of the inertias, each its own."),
     ] {
-        let mut drawn = plot(axis);
+        let mut drawn = whole.plot(axis);
         for name in &names {
             let wanted = format!("{name}_{column}");
             let found = history.columns.iter().find(|(n, _)| *n == wanted);
             let Some((_, Values::Numbers(values))) = found else { continue };
-            let points = time.iter().zip(values).map(|(t, v)| [t * 1e3, *v]).collect();
+            let points = time.iter().zip(values).map(|(t, v)| [whole.at(*t), *v]).collect();
             drawn = drawn.curve(name, envelope(points));
         }
         page.figure(&drawn.to_figure(), caption);

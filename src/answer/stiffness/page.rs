@@ -3,7 +3,7 @@
 use super::fem::{self, Distance, Fem, distance, findings};
 use super::tables::{end_text, full, junction_text, tangents, windups};
 use super::{LawCurve, StiffnessStudy, junctions};
-use crate::answer::page::{begun, draw, drawing, half, pose_at_rest, pose_at_torque};
+use crate::answer::page::{begun, draw, draw_sheet, drawing, half, pose_at_rest, pose_at_torque};
 use crate::design::Design;
 use crate::profile::Profile;
 use crate::report::plot::{Curve, Dash};
@@ -29,6 +29,7 @@ fn section(page: &mut Page, study: &StiffnessStudy) {
     for law in laws {
         page.verdict_in(Tone::Plain, &banner(design, law));
     }
+    draw_sheet(page, design, "");
     page.list(laws.iter().map(|l| {
         format!(
             "{}. Curve ends {}{}.",
@@ -269,7 +270,7 @@ impl<'a> Curves<'a> {
 
     /// Windup over that of finite elements, less one, %, whole and with local deformation alone.
     fn against(&self, fem: &Fem) -> Plot {
-        let mut plot = Plot::new("Torque, Nm", "Windup against finite elements, %");
+        let mut plot = Plot::new("Torque, Nm", "More windup than finite elements, %");
         for (k, law) in self.laws.iter().enumerate() {
             let points = |of: &dyn Fn(&Distance) -> Option<f64>| {
                 let each = fem.rows.iter();
@@ -297,7 +298,7 @@ impl<'a> Curves<'a> {
     /// Windup of each law over that of the first, less one, %; the first keeps its colour as the zero line.
     fn difference(&self) -> Plot {
         let Some(first) = self.laws.first() else { return Plot::new("", "") };
-        let mut plot = Plot::new("Torque, Nm", &format!("Windup against {}, %", first.name.facts().key));
+        let mut plot = Plot::new("Torque, Nm", &format!("More windup than {}, %", first.name.facts().key));
         for (law, points) in self.laws.iter().zip(self.loaded()) {
             let against = |p: &StaticPoint| {
                 let reference = first.curve.at_torque(p.torque_nm)?;

@@ -37,7 +37,7 @@ impl fmt::Display for ColumnsUnknown {
         let meant = nearest(&self.name, &known).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
         write!(
             f,
-            "no column {}{meant} There are: {}; groups: variables, objectives, limits",
+            "no column {}; there are: {}; groups: variables, objectives, limits{meant}",
             self.name,
             known.join(", ")
         )

@@ -236,7 +236,7 @@ impl SweepMap {
             let known: Vec<&str> = names.iter().map(String::as_str).collect();
             let meant = nearest(&self.by, &known).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
             return Err(NoMap::whole(format!(
-                "no column {}{meant} There are: {}",
+                "no column {}; there are: {}{meant}",
                 self.by,
                 known.join(", ")
             )));
@@ -281,7 +281,7 @@ impl SweepMap {
             let known: Vec<&str> = self.variables.iter().map(|v| v.name.as_str()).collect();
             known.iter().position(|n| n == name).ok_or_else(|| {
                 let meant = nearest(name, &known).map(|n| format!("; did you mean {n}?")).unwrap_or_default();
-                NoMap::whole(format!("no variable {name}{meant} There are: {}", known.join(", ")))
+                NoMap::whole(format!("no variable {name}; there are: {}{meant}", known.join(", ")))
             })
         };
         let varying: Vec<usize> = (0..self.variables.len()).filter(|&i| self.variables[i].varies()).collect();

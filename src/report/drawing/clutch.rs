@@ -1,47 +1,8 @@
 //! The whole clutch.
 
-use super::{Drawing, spread};
-use crate::report::number::Unit;
-use crate::report::svg::{Anchor, BODY, EDGE, INK, PAPER, RACE, SERIES, SOFT, Svg, circle, polyline};
+use super::Drawing;
+use crate::report::svg::{BODY, EDGE, RACE, SERIES, SOFT, Svg, circle, polyline};
 use std::f64::consts::TAU;
-
-const WIDTH: f64 = 560.0;
-const HEIGHT: f64 = 440.0;
-const MARGIN: f64 = 12.0;
-
-pub fn svg(drawing: &Drawing) -> String {
-    let mut svg = Svg::new(WIDTH, HEIGHT, "The clutch, all sprags at first contact, to scale");
-    let [bore, inner, outer, outside] = drawing.race_radii_m;
-    if !(outside > 0.0 && [bore, inner, outer].iter().all(|r| r.is_finite())) {
-        return svg.finish();
-    }
-    let scale = (HEIGHT / 2.0 - MARGIN) / outside;
-    let o = [HEIGHT / 2.0, HEIGHT / 2.0];
-    draw(&mut svg, drawing, o, scale);
-    // Radii on leaders to the right, from points of the circles that lie apart.
-    let radii: Vec<(f64, &str)> =
-        [(outside, "outside"), (outer, "outer track"), (inner, "inner track"), (bore, "bore")]
-            .into_iter()
-            .filter(|(r, _)| *r > 0.0)
-            .collect();
-    let azimuths = [0.62, 0.86, 1.25, 1.75];
-    let ends: Vec<[f64; 2]> = radii
-        .iter()
-        .zip(azimuths)
-        .map(|((r, _), a): (_, f64)| [o[0] + r * scale * a.sin(), o[1] - r * scale * a.cos()])
-        .collect();
-    let wanted: Vec<f64> = ends.iter().map(|e| e[1]).collect();
-    let heights = spread(&wanted, 34.0, 40.0, HEIGHT - 40.0);
-    let label_x = HEIGHT + 6.0;
-    for ((&(radius, name), end), y) in radii.iter().zip(&ends).zip(heights) {
-        svg.line(*end, [label_x - 6.0, y], &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""));
-        svg.dot(*end, 2.2, &format!("fill=\"{INK}\" stroke=\"{PAPER}\" stroke-width=\"1\""));
-        svg.text([label_x, y], Anchor::Start, INK, &format!("R {}", Unit::Millimetre.show_plain(radius, 6)));
-        svg.text([label_x, y + 14.0], Anchor::Start, SOFT, name);
-    }
-    svg.text([label_x, HEIGHT - MARGIN], Anchor::Start, SOFT, &format!("{} sprags", drawing.count));
-    svg.finish()
-}
 
 /// Side of the small picture, px.
 const SMALL: f64 = 200.0;

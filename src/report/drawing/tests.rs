@@ -77,12 +77,12 @@ fn drawings_hold_no_nan_and_name_no_other_place() {
     (other.label, other.rotation_rad) = ("<after>".into(), 0.3);
     drawing.poses.push(other);
     drawing.poses.push(broken);
-    for svg in [drawing.clutch_svg(), drawing.detail_svg(), drawing.centres_svg()] {
+    for svg in [drawing.small_svg(0.03), drawing.detail_svg(), drawing.centres_svg()] {
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(!svg.contains("<after>") && svg.matches("http").count() == 1 && !svg.contains(" id="));
     }
     assert!(drawing.detail_svg().contains("&lt;after&gt;"));
-    assert_eq!(drawing.clutch_svg().matches("<path").count(), 2 + 2 * 12 + 2 + 4);
+    assert_eq!(drawing.small_svg(0.03).matches("<path").count(), 2 + 2 * 12 + 2);
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn the_sheet_has_every_dimension_at_a_scale_that_it_states() {
 #[test]
 fn a_drawing_without_sprags_or_sense_is_empty_not_a_panic() {
     let nothing = Drawing { race_radii_m: [0.0; 4], count: 0, poses: vec![] };
-    for svg in [nothing.clutch_svg(), nothing.detail_svg(), nothing.centres_svg()] {
+    for svg in [nothing.small_svg(0.0), nothing.detail_svg(), nothing.centres_svg()] {
         assert!(svg.starts_with("<svg") && !svg.contains("NaN"));
     }
 }
