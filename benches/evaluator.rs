@@ -49,12 +49,7 @@ fn beside_the_published_scheme() {
         longest_step_s: p.period_s.expect("excited") / 4.0,
         most_events: 1_000,
         most_steps: 100_000,
-        samples: 0,
-        jump_period_s: None,
-        rolling: false,
-        energy: false,
-        history: Default::default(),
-        follow: Default::default(),
+        ..RunSettings::default()
     };
     let scheme = PublishedSettings { duration_s: p.duration_s, step_s: 1e-5, band_m_s: 1e-4, samples: 0 };
     let [mut ours, mut theirs] = [Vec::new(), Vec::new()];

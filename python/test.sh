@@ -30,7 +30,7 @@ design=$(cd .. && pwd)/designs/huang2017-multi-arc.toml
     run sh -c 'command -v cargo rustc' && echo "cargo is one of the system's programs: what follows says less"
     run python -c 'import sys, sprag_design as sd; print(sd.__file__, sd.Design.load(sys.argv[1]).check().verdict, sep="\n")' "$design"
     run sprag-design --version
-    run sprag-design check "$design" --quiet | tail -n 1
+    run sprag-design check "$design" --quiet >/dev/null
 )
 
 stage "environment"

@@ -35,11 +35,7 @@ fn a_sequence_without_end_is_closed_at_its_limit() {
         most_events: 1000,
         most_steps: 100_000,
         samples: 2,
-        jump_period_s: None,
-        rolling: false,
-        energy: false,
-        history: Default::default(),
-        follow: Default::default(),
+        ..RunSettings::default()
     };
     let r = run(&p.model, p.state, p.mode, &settings);
     let times: Vec<f64> = r.modes.iter().map(|m| m.0).collect();

@@ -191,7 +191,7 @@ fn table_and_page_are_written_whole() {
         "hoop-inner",
         "Demand / allowable",
         "1 − demand / allowable; −1 where",
-        "the sprags are off by then",
+        "keep_contact_to_rpm",
         "(decides)",
         "arctan μs",
         "undeformed sprag",
@@ -403,6 +403,72 @@ fn races_whose_inertia_nobody_names_have_that_of_their_rings() {
     // Wider rings are heavier by themselves.
     let wide = Design::parse(&without.replace("width_mm = 19.0", "width_mm = 38.0"), "a.toml").unwrap();
     assert!((wide.clutch.races.inner_inertia_kg_m2 / r.inner_inertia_kg_m2 - 2.0).abs() < 1e-12);
+}
+
+/// What the design names is told of; what it does not name is told as what would be.
+#[test]
+fn overrun_is_that_of_the_speeds_that_the_design_names() {
+    let said = |file: &str| stdout(&run(&["check", file, "--quiet"]));
+    let named = said("designs/starter.toml");
+    assert!(named.contains("Sprags lift off the inner race at an overrun speed of 848 rpm"), "{named}");
+    assert!(named.contains("250 rpm of the outer race (keep_contact_to_rpm)"), "{named}");
+    assert!(
+        named.contains("none (the sprags are off) at 900 rpm of the outer race (lift_off_by_rpm)"),
+        "{named}"
+    );
+    let none = said("designs/series-833-small.toml");
+    assert!(
+        none.contains("No speed of the outer race is named; if it turned in overrun, sprags would lift off"),
+        "{none}"
+    );
+    assert!(
+        !none.contains("Overrun: drag 0.0426 Nm when slow; at") && none.contains("would be disengaging"),
+        "{none}"
+    );
+    let json = json(&run(&["check", "designs/huang2017-bench.toml", "--json", "--quiet"]));
+    let named = json["overrun"]["named"].as_array().unwrap();
+    assert!(
+        named.iter().any(|n| n["by"] == "overrun" && n["drag_torque_nm"].as_f64().unwrap() > 0.0),
+        "{named:?}"
+    );
+}
+
+/// Where nominal and peak torque have pressures of their own, a line says why.
+#[test]
+fn two_allowables_of_one_pressure_are_explained_once() {
+    let said = stdout(&run(&["check", "designs/huang2017-multi-arc.toml", "--quiet"]));
+    assert_eq!(said.matches("Hertz pressure, two allowables: 4200 MPa").count(), 1, "{said}");
+}
+
+/// A speed of overrun is no flag of these commands: they say where it belongs.
+#[test]
+fn overrun_rpm_is_told_where_it_belongs() {
+    let wanted = [
+        (&["check", "designs/starter.toml", "--overrun-rpm", "3000"][..], "keep_contact_to_rpm"),
+        (
+            &["size", "--bore", "30", "--torque", "100", "-o", "x.toml", "--overrun-rpm", "3000"],
+            "--inner-rpm and --outer-rpm",
+        ),
+    ];
+    for (args, word) in wanted {
+        let refused = run(args);
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(
+            refused.status.code() == Some(2) && said.contains(word) && !said.contains("similar"),
+            "{said}"
+        );
+    }
+    // Values are looked at before the file that is there already.
+    let folder = Folder::new();
+    let there = folder.path("there.toml");
+    std::fs::write(&there, "name = 1").unwrap();
+    for (bore, word) in [("-30", "bore"), ("30", "exists")] {
+        let bore = format!("--bore={bore}");
+        let refused = run(&["size", &bore, "--torque=100", "-o", &there]);
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(refused.status.code() == Some(2) && said.contains(word), "{said}");
+        assert_eq!(word == "exists", said.contains("exists"), "{said}");
+    }
 }
 
 /// Several files: each as by itself, one behind the other; the exit code is the worst.

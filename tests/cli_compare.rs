@@ -124,7 +124,9 @@ fn the_page_of_a_comparison_has_one_colour_for_before_and_one_for_after() {
         .split("<svg ")
         .filter(|svg| svg.contains("against torque<") || svg.contains("Torque against windup<"))
         .collect();
-    assert_eq!(plots.len(), 4);
+    // Each for a window and for a phone.
+    assert_eq!(plots.len(), 8);
+    assert_eq!(plots.iter().filter(|svg| svg.starts_with("class=\"phone\"")).count(), 4);
     for svg in plots {
         let lines: Vec<&str> =
             svg.lines().filter(|l| l.contains("stroke-linejoin") && l.contains("1.8")).collect();

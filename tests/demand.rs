@@ -83,14 +83,8 @@ fn below_the_friction_that_was_bisected_the_scene_does_not_stick() {
                     tolerance: 1e-8,
                     duration_s: p.duration_s,
                     longest_step_s: p.period_s.unwrap_or(p.duration_s / 25.0) / 14.0,
-                    most_events: 100_000,
                     most_steps: 1_000_000,
-                    samples: 0,
-                    jump_period_s: None,
-                    rolling: false,
-                    energy: false,
-                    history: Default::default(),
-                    follow: Default::default(),
+                    ..RunSettings::default()
                 },
             );
             let slipped = r.inner.net_m - r.engaged.unwrap().inner.net_m;

@@ -24,19 +24,7 @@ fn scene(name: &str) -> Scenario {
 }
 
 fn settings(tolerance: f64, duration_s: f64, samples: usize) -> RunSettings {
-    RunSettings {
-        tolerance,
-        duration_s,
-        longest_step_s: 5e-4,
-        most_events: 100_000,
-        most_steps: 10_000_000,
-        samples,
-        jump_period_s: None,
-        rolling: false,
-        energy: false,
-        history: Default::default(),
-        follow: Default::default(),
-    }
+    RunSettings { tolerance, duration_s, longest_step_s: 5e-4, samples, ..RunSettings::default() }
 }
 
 fn run_at(p: &Prepared, tolerance: f64) -> Run {

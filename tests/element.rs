@@ -5,7 +5,7 @@ use sprag_design::clutch::{Clutch, Start};
 use sprag_design::dynamics::{Place, RunSettings, run};
 use sprag_design::element::{Beginning, Element, Saved, Settings, Torque};
 use sprag_design::scenario::{Prepared, prepare};
-use sprag_design::{Design, Follow, Stop, WedgeCurve, simulate};
+use sprag_design::{Design, Stop, WedgeCurve, simulate};
 
 fn design(name: &str) -> Design {
     let path = format!("{}/designs/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -25,14 +25,8 @@ fn settings_of(prepared: &Prepared, tolerance: f64, longest_step_s: f64) -> RunS
         tolerance,
         duration_s: prepared.duration_s,
         longest_step_s,
-        most_events: 100_000,
         most_steps: 200_000,
-        samples: 0,
-        jump_period_s: None,
-        rolling: false,
-        energy: false,
-        history: Default::default(),
-        follow: Follow::nobody(),
+        ..RunSettings::default()
     }
 }
 

@@ -39,14 +39,9 @@ fn changed(
         tolerance,
         duration_s: p.duration_s,
         longest_step_s: 5e-4,
-        most_events: 100_000,
         most_steps: 1_000_000,
-        samples: 0,
-        jump_period_s: None,
-        rolling: false,
         energy: true,
-        history: Default::default(),
-        follow: Default::default(),
+        ..RunSettings::default()
     };
     let r = run(&p.model, p.state, p.mode, &settings);
     (r.energy.unwrap(), r.open_s, r.outer.distance_m)

@@ -19,12 +19,7 @@ fn runs(scene: &Scenario, tolerances: &[f64]) -> Vec<Run> {
             longest_step_s: p.period_s.unwrap_or(p.duration_s / 25.0) / 4.0,
             most_events: 10_000,
             most_steps: 1_000_000,
-            samples: 0,
-            jump_period_s: None,
-            rolling: false,
-            energy: false,
-            history: Default::default(),
-            follow: Default::default(),
+            ..RunSettings::default()
         };
         run(&p.model, p.state, p.mode, &settings)
     };

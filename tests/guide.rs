@@ -133,9 +133,13 @@ fn every_command_of_readme_and_guide_prints_what_they_show() {
                 format!("{}{}", String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
             let place = format!("{}: {}", page.display(), step.command);
             // What the page shows as refused is refused, all else is answered.
-            let refused = step.shown.first().is_some_and(|line| line.starts_with("  ×") || line.starts_with("error:"));
+            let refused =
+                step.shown.first().is_some_and(|line| line.starts_with("  ×") || line.starts_with("error:"));
             let code = out.status.code();
-            assert!(matches!((refused, code), (false, Some(0 | 1)) | (true, Some(2 | 3))), "{place}: {code:?}\n{printed}");
+            assert!(
+                matches!((refused, code), (false, Some(0 | 1)) | (true, Some(2 | 3))),
+                "{place}: {code:?}\n{printed}"
+            );
             if let Some(line) = missing(&step.shown, &printed) {
                 panic!("{place}\nis said to print\n{line}\nand prints\n{printed}");
             }

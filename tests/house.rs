@@ -38,6 +38,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "margin",
         &[
+            "follow",
             "sharing",
             "numeric",
             "contact",
@@ -444,6 +445,32 @@ fn nothing_names_a_place_outside() {
         for place in &places {
             assert!(!text.contains(place.as_str()), "{} names {place}", name(&path));
         }
+    }
+}
+
+/// What is set for a release in a manifest, without comments.
+fn release(manifest: &str) -> Vec<String> {
+    let text = read(&root().join(manifest));
+    let mut inside = false;
+    let lines = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'));
+    lines
+        .filter(|line| {
+            if line.starts_with('[') {
+                inside = line.starts_with("[profile.release");
+            }
+            inside
+        })
+        .map(str::to_owned)
+        .collect()
+}
+
+/// A dependency that is built for another profile, be it by a flag, is built again: minutes for each of them.
+#[test]
+fn what_is_built_beside_the_tool_is_built_like_it() {
+    let own = release("Cargo.toml");
+    assert!(own.len() > 5 && own.contains(&"strip = true".to_owned()), "{own:?}");
+    for manifest in ["python/Cargo.toml", "fmu/Cargo.toml", "peers/Cargo.toml"] {
+        assert_eq!(release(manifest), own, "{manifest}");
     }
 }
 

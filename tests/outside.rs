@@ -53,14 +53,7 @@ fn another_integrator_comes_to_the_same_angle_through_the_public_modes() {
             tolerance: 1e-12,
             duration_s: p.duration_s,
             longest_step_s: 5e-4,
-            most_events: 100_000,
-            most_steps: 10_000_000,
-            samples: 0,
-            jump_period_s: None,
-            rolling: false,
-            energy: false,
-            history: Default::default(),
-            follow: Default::default(),
+            ..RunSettings::default()
         };
         let ours = run(&p.model, p.state, p.mode, &settings);
         let (theta, changes) = by_hand(&p);

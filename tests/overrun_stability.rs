@@ -49,15 +49,10 @@ fn measured(model: &Model, steady: &Overrun, ahead_rad_s: f64, expected: &Swing)
     let settings = RunSettings {
         tolerance: 1e-12,
         duration_s: periods / expected.frequency_hz,
-        longest_step_s: f64::INFINITY,
         most_events: 10,
         most_steps: 1_000_000,
         samples: periods as usize * 200 + 1,
-        jump_period_s: None,
-        rolling: false,
-        energy: false,
-        history: Default::default(),
-        follow: Default::default(),
+        ..RunSettings::default()
     };
     let run = integrate(model, y, OVERRUNNING, &settings);
     assert_eq!((run.stop, run.events), (Stop::Finished, 0));

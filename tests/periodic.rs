@@ -81,13 +81,7 @@ fn a_long_transient_comes_to_it() {
             duration_s: 3.0,
             longest_step_s: 0.01 / 14.0,
             most_events: 1_000_000,
-            most_steps: 10_000_000,
-            samples: 0,
-            jump_period_s: None,
-            rolling: false,
-            energy: false,
-            history: Default::default(),
-            follow: Default::default(),
+            ..RunSettings::default()
         };
         let long = dynamics::run(&prepared.model, prepared.state, prepared.mode, &settings);
         let next = RunSettings { duration_s: 3.01, ..settings };
@@ -244,6 +238,43 @@ fn a_map_is_the_same_on_one_thread_and_on_two() {
     follow.stop();
     let stopped = resonance(&low, &frequencies, &[2.0], &Settings { follow, ..Settings::default() }, &|| ());
     assert!(stopped.unwrap().is_none());
+    // Amplitudes that were walked both ways until then are an answer, the same as without the stop.
+    let follow = sprag_design::Follow::new();
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let count = || {
+        if done.fetch_add(1, std::sync::atomic::Ordering::SeqCst) + 1 == 2 * frequencies.len() {
+            follow.stop();
+        }
+    };
+    let settings = Settings { follow: follow.clone(), ..Settings::default() };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let part = pool.install(|| resonance(&low, &frequencies, &[2.0, 12.0, 20.0], &settings, &count));
+    assert_eq!(figures(&part.unwrap().unwrap()), figures(&one[..1]));
+}
+
+/// The only torsional excitation is meant where none is named; a design without one is told what to add, and that can be added.
+#[test]
+fn the_command_finds_its_scene_or_says_what_to_add() {
+    let folder = Folder::new();
+    let text = std::fs::read_to_string("designs/unlike-sprags.toml").unwrap();
+    let bare = folder.path("bare.toml");
+    let none: String = text.split("[[scenarios]]").next().unwrap().to_owned();
+    let none = none
+        .lines()
+        .filter(|l| !l.starts_with("scenarios = ") && *l != "[check]")
+        .collect::<Vec<_>>()
+        .join("\n");
+    std::fs::write(&bare, &none).unwrap();
+    let refused = run(&["resonance", &bare]);
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(refused.status.code() == Some(2) && said.contains("[[scenarios]]"), "{said}");
+    let static_scene = "\n[[scenarios]]\nname = \"held\"\nkind = \"static\"\ntorque_nm = 10.0\n";
+    let example = sprag_design::answer::resonance::EXAMPLE
+        .replace("100.0 ", "10.0 ")
+        .replace("= 50.0     #", "= 1.0     #");
+    std::fs::write(&bare, format!("{none}{static_scene}\n{example}\n")).unwrap();
+    let found = run(&["resonance", &bare, "--json", "--quiet"]);
+    assert_eq!(json(&found)["scenario"], "swing", "{found:?}");
 }
 
 #[test]

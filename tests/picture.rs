@@ -207,7 +207,8 @@ fn the_guide_has_the_register_of_equations() {
         plain += &format!("{}{}", &rest[..open], &rest[open + 1..at]);
         rest = &rest[at + rest[at..].find(')').unwrap() + 1..];
     }
-    let now = format!("# Every equation of the paper, and its misprints\n\n{plain}{rest}").replace("\n# ", "\n## ");
+    let now =
+        format!("# Every equation of the paper, and its misprints\n\n{plain}{rest}").replace("\n# ", "\n## ");
     if std::env::var_os("REMAKE").is_some() {
         std::fs::write(root.join(EQUATIONS), &now).unwrap();
     }

@@ -96,14 +96,9 @@ fn two_equations_roll_as_four_do() {
             tolerance: 1e-11,
             duration_s: 0.1,
             longest_step_s: p.period_s.unwrap() / 14.0,
-            most_events: 100_000,
             most_steps: 100_000,
-            samples: 0,
-            jump_period_s: None,
             rolling: true,
-            energy: false,
-            history: Default::default(),
-            follow: Default::default(),
+            ..RunSettings::default()
         };
         let four = rolling(&p.model, p.state, p.mode.place, &settings);
         let two = rolling_quickly(&p.model, p.state, p.mode.place, &settings, 1e-11);

@@ -21,14 +21,8 @@ fn run_at(p: &Prepared, tolerance: f64, samples: usize) -> Run {
         tolerance,
         duration_s: p.duration_s,
         longest_step_s: p.duration_s / 200.0,
-        most_events: 100_000,
-        most_steps: 10_000_000,
         samples,
-        jump_period_s: None,
-        rolling: false,
-        energy: false,
-        history: Default::default(),
-        follow: Default::default(),
+        ..RunSettings::default()
     };
     run(&p.model, p.state, p.mode, &settings)
 }

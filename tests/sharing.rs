@@ -362,6 +362,13 @@ fn the_answer_holds_together() {
         ),
         ("sprags = [ { number = 2, ahead_deg = 15.0 } ]", "sharing.sprags[0].ahead_deg"),
         ("sprags = []\nazimuth_within_deg = 15.0", "sharing.azimuth_within_deg"),
+        // Outlines of neighbours touch long before the sprags change places.
+        ("sprags = [ { number = 2, ahead_deg = 10.0 } ]", "sharing.sprags[0].ahead_deg"),
+        (
+            "sprags = [ { number = 2, ahead_deg = 4.0 }, { number = 3, ahead_deg = -4.0 } ]",
+            "sharing.sprags[0].ahead_deg",
+        ),
+        ("sprags = []\nazimuth_within_deg = 6.0", "sharing.azimuth_within_deg"),
     ] {
         let from = text.find("sprags = [\n").unwrap();
         let until = text[from..].find("\n]").unwrap() + from + 2;
@@ -369,4 +376,44 @@ fn the_answer_holds_together() {
         let error = Design::parse(&changed, "unlike").unwrap_err();
         assert!(error.problems().iter().any(|p| p.key == key), "{error}");
     }
+    // What is allowed can be typed: a hair within it is taken, neighbours do not touch there.
+    let from = text.find("sprags = [\n").unwrap();
+    let until = text[from..].find("\n]").unwrap() + from + 2;
+    let with = |given: &str| Design::parse(&format!("{}{given}{}", &text[..from], &text[until..]), "unlike");
+    let refused = with("sprags = []\nazimuth_within_deg = 14.0").unwrap_err();
+    let allowed = &refused.problems()[0].allowed;
+    let most: f64 = allowed.split_whitespace().nth(2).unwrap().parse().unwrap();
+    assert!((1.0..6.0).contains(&most), "{allowed}");
+    assert!(with(&format!("sprags = []\nazimuth_within_deg = {}", most - 1e-3)).is_ok());
+    assert!(with("sprags = [ { number = 2, ahead_deg = 4.0 }, { number = 3, ahead_deg = 4.0 } ]").is_ok());
+    // Beside a sprag that is missing there is more room.
+    let alone = "sprags = [ { number = 2, ahead_deg = 10.0 }, { number = 3, missing = true } ]";
+    assert!(with(alone).is_ok());
+}
+
+/// What cannot be shared is told with its reason, not as a failure of the method.
+#[test]
+fn one_sprag_on_a_free_race_and_a_torque_lost_in_rounding_have_their_words() {
+    let text =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/designs/unlike-sprags.toml")).unwrap();
+    let (from, rest) = (text.find("[sharing]").unwrap(), text.find("[sharing]").unwrap() + 9);
+    let until = text[rest..].find("\n[").map_or(text.len(), |at| rest + at);
+    let missing: Vec<String> = (2..=12).map(|i| format!("{{ number = {i}, missing = true }}")).collect();
+    let of = |bearing: &str| {
+        let table = format!("[sharing]\n{bearing}\nsprags = [ {} ]\n", missing.join(", "));
+        Design::parse(&format!("{}{table}{}", &text[..from], &text[until..]), "one").unwrap()
+    };
+    let free = of("bearing_stiffness_n_per_um = 0.0");
+    for torque in [1e-3, 5.0, 90.0] {
+        let said = free.sharing(Some(torque)).unwrap().verdict();
+        assert!(
+            said.contains("no sprag opposite keeps it in its place") && !said.contains("0 Nm is carried"),
+            "{said}"
+        );
+    }
+    let held = of("");
+    assert!(held.sharing(Some(5.0)).unwrap().turned.is_ok());
+    let whole = Design::parse(&text, "whole").unwrap();
+    let said = whole.sharing(Some(1e-9)).unwrap().verdict();
+    assert!(said.contains("rounding hides it"), "{said}");
 }

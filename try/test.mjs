@@ -34,6 +34,9 @@ try {
     }
     console.log(`try: r_i2 ${set ?? "as given"}: ${same} of ${Object.keys(here).length} margins equal to the bit, worst ${worst.toExponential(1)}`);
     assert.ok(worst < 1e-9);
+    // What is printed is the same to the last digit.
+    const printed = (margins) => Object.fromEntries(Object.keys(here).map((code) => [code, (100 * margins[code]).toPrecision(4)]));
+    assert.deepEqual(printed(here), printed(there));
   }
   const slider = page.locator('.field[data-path="sprags.inner_arcs[1].radius_mm"] input[type=range]');
   const times = [];

@@ -234,17 +234,13 @@ fn inner_above_outer(page: &mut Page, multi: &Design) -> Anyhow<()> {
         let scene = scene(multi, name)?;
         let p = prepare(scene)?;
         let settings = RunSettings {
-            energy: false,
             tolerance: 1e-9,
             duration_s: p.duration_s,
             longest_step_s: 5e-4,
-            most_events: 100_000,
             most_steps: 200_000,
             samples: SAMPLES,
-            jump_period_s: None,
             rolling: true,
-            history: Default::default(),
-            follow: Default::default(),
+            ..RunSettings::default()
         };
         let rolled = rolling(&p.model, p.state, p.mode.place, &settings).run;
         let peaks = |p: &Peaks| [p.tan_inner, p.tan_outer, p.normal_min_n];

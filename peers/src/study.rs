@@ -120,15 +120,8 @@ fn ours(p: &Prepared, tolerance: f64, per_period: f64) -> Result<Answer, String>
         tolerance,
         duration_s: p.duration_s,
         longest_step_s: longest_s(p, per_period),
-        most_events: 100_000,
         most_steps: 5_000_000,
-        samples: 0,
-        jump_period_s: None,
-        rolling: false,
-        energy: false,
-        interrupt: None,
-        history: Default::default(),
-        clock: None,
+        ..RunSettings::default()
     };
     let r = run(&p.model, p.state, p.mode, &settings);
     let answer = Answer { theta_rad: r.state[2], rhs: r.counters.rhs_evaluations, changes: r.events };

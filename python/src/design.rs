@@ -299,12 +299,14 @@ impl Design {
     }
 
     /// Common keys and figures of a slip under load and the blow after it, each as JSON.
-    #[pyo3(signature = (torque_nm, inertia_kg_m2, friction, speed_rpm, paths_mm))]
+    #[pyo3(signature = (torque_nm, inertia_kg_m2, outer_held, friction, speed_rpm, paths_mm))]
+    #[allow(clippy::too_many_arguments)] // One question, as the class that asks has it.
     fn reengage(
         &self,
         py: Python<'_>,
         torque_nm: Option<f64>,
         inertia_kg_m2: [Option<f64>; 2],
+        outer_held: bool,
         friction: Option<f64>,
         speed_rpm: f64,
         paths_mm: Option<Vec<f64>>,
@@ -314,6 +316,7 @@ impl Design {
         let ask = ReengagementSettings {
             torque_nm,
             inertia_kg_m2,
+            outer_held,
             friction,
             speed_rad_s: speed_rpm * PI / 30.0,
             paths_m: paths_mm.map_or(usual.paths_m, |list| list.iter().map(|mm| 1e-3 * mm).collect()),

@@ -198,17 +198,13 @@ impl Bench<'_> {
     fn run(&self, tolerance: f64, per_period: f64) -> Run {
         let p = &self.full;
         let s = RunSettings {
-            energy: false,
             tolerance,
             duration_s: p.duration_s,
             longest_step_s: self.longest_step_s(per_period),
             most_events: MOST,
             most_steps: MOST,
-            samples: 0,
-            jump_period_s: None,
-            rolling: false,
-            history: Default::default(),
             follow: self.settings.follow.unseen(),
+            ..RunSettings::default()
         };
         run(&p.model, p.state, p.mode, &s)
     }

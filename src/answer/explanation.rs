@@ -2,9 +2,11 @@
 
 use crate::clutch::LAWS;
 use crate::design::{
-    Objective, VARIABLES, allowed, keys_of, nearest, paths_of, shape_of, unit_of_key, variable_path,
+    Objective, SCENARIO_KINDS, VARIABLES, allowed, keys_of, nearest, paths_of, shape_of, unit_of_key,
+    variable_path,
 };
 use crate::margin::{LIMITS, limit_of};
+use crate::size::PURPOSES;
 
 /// What is known of a name: its kind, and lines of a heading and a text.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +28,8 @@ pub fn groups() -> Vec<(&'static str, Vec<String>)> {
         ),
         ("objectives of [optimize]", owned(&mut Objective::ALL.iter().map(|o| o.name()))),
         ("contact laws", owned(&mut LAWS.iter().map(|l| l.key))),
+        ("kinds of scenario", owned(&mut SCENARIO_KINDS.iter().map(|k| k.name))),
+        ("what `new` designs a clutch for", owned(&mut PURPOSES.iter().map(|p| p.name))),
         ("tables of the design file", keys_of("").into_iter().map(str::to_owned).collect()),
     ]
 }
@@ -42,7 +46,8 @@ pub fn all() -> String {
 
 /// What `name` is, if anything.
 pub fn explain(name: &str) -> Option<Explanation> {
-    limit(name).or_else(|| objective(name)).or_else(|| law(name)).or_else(|| key(name)).or_else(|| bare(name))
+    let of: [fn(&str) -> Option<Explanation>; 7] = [limit, objective, law, scenario_kind, purpose, key, bare];
+    of.into_iter().find_map(|kind_of_name| kind_of_name(name))
 }
 
 fn limit(code: &str) -> Option<Explanation> {
@@ -83,6 +88,21 @@ fn objective(name: &str) -> Option<Explanation> {
 fn law(name: &str) -> Option<Explanation> {
     let law = LAWS.iter().find(|l| l.key == name)?;
     Some(Explanation { kind: "a contact law, contact.law", lines: vec![("is", law.title.to_owned())] })
+}
+
+fn scenario_kind(name: &str) -> Option<Explanation> {
+    let kind = SCENARIO_KINDS.iter().find(|k| k.name == name)?;
+    let mut lines = vec![("is", kind.words.to_owned()), ("needs", kind.required.join(", "))];
+    if !kind.optional.is_empty() {
+        lines.push(("may have", kind.optional.join(", ")));
+    }
+    Some(Explanation { kind: "a kind of scenario, scenarios[].kind", lines })
+}
+
+fn purpose(name: &str) -> Option<Explanation> {
+    let purpose = PURPOSES.iter().find(|p| p.name == name)?;
+    let is = format!("a clutch that {}", purpose.words);
+    Some(Explanation { kind: "what a clutch is for, `new --for`", lines: vec![("is", is)] })
 }
 
 /// A key without the tables that it stands in.
@@ -173,6 +193,8 @@ mod tests {
         );
         assert!(holds("contact:swing @ +friction").contains("force in swing over"));
         assert!(explain("run-out-grip-inner").is_some());
+        assert!(explain("torsional-excitation").unwrap().lines[1].1.contains("amplitude_nm"));
+        assert!(explain("two-speed").unwrap().lines[0].1.contains("lower gear"));
         let keys =
             |name: &str| explain(name).unwrap().lines.iter().find(|l| l.0 == "keys").unwrap().1.clone();
         assert!(keys("scenarios").contains("preload_nm") && keys("races").contains("width_mm"));

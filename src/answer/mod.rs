@@ -9,6 +9,7 @@
 pub mod accuracy;
 pub mod check;
 pub mod comparison;
+mod drawn;
 mod envelope;
 pub mod explanation;
 pub mod exported;

@@ -1,9 +1,9 @@
 //! Sprags one by one: what each carries, over a turn, through an engagement, after losses; races out of round.
 
+use super::drawn::drawn_words;
 use super::left_out::{LeftOut, left_out, one_by_one};
 use super::page::{half, opened};
 use super::{Envelope, Provenance};
-use crate::clutch::Standing;
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
 use crate::report::plot::Curve;
@@ -432,32 +432,7 @@ impl<'a> SharingAnswer<'a> {
 
     fn remarks(&self) -> Vec<String> {
         let Some(sharing) = &self.design.sharing else { return Vec::new() };
-        let start = match sharing.start {
-            Standing::Sprung => "each sprag's spring has turned it until it touches both races",
-            Standing::Caged => "a cage holds all sprags at one angle, larger ones take load earlier",
-        };
-        let mut drawn = Vec::new();
-        let mut bound = |what: &str, value: f64, words: String| {
-            if value > 0.0 {
-                drawn.push(format!("{what} {words}"));
-            }
-        };
-        bound("size ±", sharing.size_within_m, Unit::Micrometre.show(sharing.size_within_m, 3));
-        bound("gap up to", sharing.gap_up_to_m, Unit::Micrometre.show(sharing.gap_up_to_m, 3));
-        bound("azimuth ±", sharing.azimuth_within_rad, Unit::Degree.show(sharing.azimuth_within_rad, 3));
-        bound("friction ±", sharing.friction_within, significant(sharing.friction_within, 3));
-        let mut all = vec![match drawn.is_empty() {
-            true => "Nothing is drawn by chance".to_owned(),
-            false => format!("Drawn by chance, from seed {}, within: {}", sharing.seed, drawn.join(", ")),
-        }];
-        let given: Vec<String> = sharing.given.iter().map(|g| (g.index + 1).to_string()).collect();
-        if !given.is_empty() {
-            all.push(format!(
-                "As the file gives them, not drawn: what [sharing] says of sprags {}",
-                given.join(", ")
-            ));
-        }
-        all.push(format!("When torque begins {start}"));
+        let mut all = drawn_words(sharing);
         let idle: Vec<String> = self
             .sprags
             .iter()

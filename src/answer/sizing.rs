@@ -68,7 +68,7 @@ impl<'a> Sizing<'a> {
              volume, from bore to outside, is taken. All at one scale.",
         );
         alternatives(&mut page, sized);
-        page.table("", &self.csv_table());
+        page.table(&no_flanks(&sized.tried).unwrap_or_default(), &self.csv_table());
         page.heading("Margins").table(REACHED_AT, &people_table(&made.margins, self.end_nm));
         self.envelope(provenance.run_time_s, written).close(&mut page);
         page
@@ -80,7 +80,11 @@ fn figures(made: &Made) -> Vec<String> {
     let size = size_line(&made.design);
     let drag = made.drag.map(|d| match (d.torque_nm > 0.0, d.sliding_rad_s > 0.0) {
         (false, _) => "In overrun as asked for the sprags are off: no drag, no heat".to_owned(),
-        (true, false) => format!("Drag in slow overrun {}", Unit::NewtonMetre.show(d.torque_nm, 3)),
+        (true, false) => format!(
+            "Drag in slow overrun {}: {} of heat at 1000 rpm",
+            Unit::NewtonMetre.show(d.torque_nm, 3),
+            Unit::Watt.show(d.torque_nm * 1000.0 / Unit::Rpm.from_si(1.0), 3)
+        ),
         (true, true) => format!(
             "In overrun, sliding at {}: drag {}, heat {}",
             Unit::Rpm.show_plain(d.sliding_rad_s, 5),
@@ -129,16 +133,23 @@ fn alternatives(page: &mut Page, sized: &Sized) {
 
 fn text(sized: &Sized, end_nm: f64, written: Option<&str>, screen: Screen) -> String {
     let design = &sized.made.design;
+    let tried = tried_table(&sized.tried, Some(sized.taken)).to_text(screen);
     format!(
-        "{}  {}\n\n{}\n{}\n{}\n{}\n{REACHED_AT}\n{}\n",
+        "{}  {}\n\n{tried}{}\n{}\n{}\n{}\n{REACHED_AT}\n{}\n",
         design.name,
         design.short_hash(),
-        tried_table(&sized.tried, Some(sized.taken)).to_text(screen),
+        no_flanks(&sized.tried).map_or(String::new(), |line| line + "\n"),
         people_table(&sized.made.margins, end_nm).to_text(screen),
         verdict(sized),
         figures(&sized.made).join("\n"),
         written.map_or("no design written".to_owned(), |path| format!("written to {}", shown(path)))
     )
+}
+
+/// What flanks are, where they decided a race space.
+fn no_flanks(tried: &[Tried]) -> Option<String> {
+    let any = tried.iter().any(|t| t.decided_by == "flanks");
+    any.then(|| "flanks: the sides of a sprag's body between its two profiles; none fit there".to_owned())
 }
 
 /// Every race space tried; `taken`: the one of the answer.

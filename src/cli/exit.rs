@@ -19,7 +19,7 @@ pub enum Exit {
     Malformed,
     /// 3: the answer could not be computed, written or printed.
     Failed,
-    /// 130: stopped by Ctrl-C (128 + SIGINT); what had been found is written.
+    /// 130: stopped by Ctrl-C (128 + SIGINT); what had been found is written where a part of the answer is one.
     Interrupted,
     /// 141: whoever read the answers of `evaluate` has gone before the last (128 + SIGPIPE, which other programs die of).
     Unheard,

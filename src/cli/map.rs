@@ -4,8 +4,10 @@ use super::exit::{Exit, Failure};
 use super::sweep::opened_again;
 use super::{Context, Run, Without, output};
 use crate::answer::sweep::{NoMap, SweepMap};
+use crate::follow::Follow;
 use clap::Args;
 use std::fs::File;
+use std::io::{self, Read};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -16,7 +18,8 @@ Examples:
   sprag-design map margins.csv --by least --json
 
 TABLE is what `evaluate` writes of points (--csv), whole or in parts. The page: planes over two variables with the best margin, what
-decides, and the border of what is held; points across all variables; what decides how often. Read twice, in flat memory.";
+decides, and the border of what is held; points across all variables; what decides how often. Read twice, in flat memory. Ctrl-C ends it
+without a map: one of half a table would show another box.";
 
 /// Arguments of `map`.
 #[derive(Debug, Clone, Args)]
@@ -40,6 +43,18 @@ fn pair(text: &str) -> Result<[String; 2], String> {
     }
 }
 
+/// A table that ends where somebody asks to stop.
+struct Heard<'a> {
+    file: File,
+    follow: &'a Follow,
+}
+
+impl Read for Heard<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.follow.stopped() { Err(io::Error::other("stopped")) } else { self.file.read(buffer) }
+    }
+}
+
 impl Run for MapArgs {
     const WITHOUT: Without = ("its tables name the design", &["set", "threads", "quiet"]);
 
@@ -48,12 +63,16 @@ impl Run for MapArgs {
         context.outputs.refuse_foreign()?;
         let started = Instant::now();
         let mut map = SweepMap::of(&self.by);
-        let each = |read: &mut dyn FnMut(File) -> Result<(), NoMap>| {
+        let each = |read: &mut dyn FnMut(Heard<'_>) -> Result<(), NoMap>| {
             self.tables.iter().try_for_each(|path| {
                 if context.follow.stopped() {
                     return Err(Failure::Interrupted);
                 }
-                read(opened_again(path, "tables")?).map_err(|why| Failure::of(path, why))
+                let table = Heard { file: opened_again(path, "tables")?, follow: &context.follow };
+                read(table).map_err(|why| match context.follow.stopped() {
+                    true => Failure::Interrupted,
+                    false => Failure::of(path, why),
+                })
             })
         };
         each(&mut |file| map.survey(file))?;

@@ -137,9 +137,9 @@ fn open(address: &str) -> bool {
 }
 
 /// An answer: HTTP status, kind of text, text.
-struct Answer(u16, &'static str, String);
+struct Reply(u16, &'static str, String);
 
-impl Answer {
+impl Reply {
     fn json(status: u16, value: &Value) -> Self {
         Self(status, "application/json", value.to_string())
     }
@@ -154,7 +154,7 @@ impl Studio<'_> {
     fn serve(&self, server: &Server) {
         while !self.context.follow.stopped() {
             let Ok(Some(mut request)) = server.recv_timeout(Duration::from_millis(200)) else { continue };
-            let Answer(status, kind, text) = self.answer(&mut request);
+            let Reply(status, kind, text) = self.answer(&mut request);
             let header = |name: &str, value: &str| Header::from_bytes(name.as_bytes(), value.as_bytes()).ok();
             let headers = [
                 ("Content-Type", &*format!("{kind}; charset=utf-8")),
@@ -182,23 +182,23 @@ impl Studio<'_> {
         });
     }
 
-    fn answer(&self, request: &mut Request) -> Answer {
+    fn answer(&self, request: &mut Request) -> Reply {
         if !self.is_from_here(request) {
-            return Answer::refused(403, "this studio answers its own page alone");
+            return Reply::refused(403, "this studio answers its own page alone");
         }
         let Some(path) = request.url().strip_prefix(&format!("/{}/", self.token)).map(str::to_owned) else {
-            return Answer::refused(
+            return Reply::refused(
                 403,
                 "the address lacks the studio's token; take the address that it printed",
             );
         };
         match (request.method(), path.strip_prefix("ask/")) {
-            (Method::Get, None) if path.is_empty() => Answer(200, "text/html", page()),
+            (Method::Get, None) if path.is_empty() => Reply(200, "text/html", page()),
             (Method::Post, Some(ask)) => match question(request) {
                 Ok(question) => self.ask(ask, &question),
-                Err(why) => Answer::refused(400, &why),
+                Err(why) => Reply::refused(400, &why),
             },
-            _ => Answer::refused(404, "there is no such place in the studio"),
+            _ => Reply::refused(404, "there is no such place in the studio"),
         }
     }
 
@@ -214,7 +214,7 @@ impl Studio<'_> {
         host && origin
     }
 
-    fn ask(&self, ask: &str, question: &Value) -> Answer {
+    fn ask(&self, ask: &str, question: &Value) -> Reply {
         let answer = match ask {
             "open" => Ok(json!({ "text": self.text, "file": self.file, "save_as": self.save_as })),
             "save" => self.save(question),
@@ -230,8 +230,8 @@ impl Studio<'_> {
             }
         };
         match answer {
-            Ok(value) => Answer::json(200, &value),
-            Err(refused) => Answer::json(422, &refused),
+            Ok(value) => Reply::json(200, &value),
+            Err(refused) => Reply::json(422, &refused),
         }
     }
 

@@ -1,3 +1,4 @@
+use super::command_line::command_line;
 use super::*;
 
 fn parse(line: &str) -> Result<Cli, clap::Error> {

@@ -112,8 +112,8 @@ impl fmt::Display for Problem {
         if !self.key.is_empty() {
             write!(f, "{}{}: ", self.key, arc_in_words(&self.key))?;
         }
-        if let Some(name) = self.absent() {
-            return write!(f, "{NO_SUCH_KEY}; add {name} = ..., {}", self.allowed);
+        if self.absent().is_some() {
+            return write!(f, "{NO_SUCH_KEY}; {}: {}", self.help, self.allowed);
         }
         write!(f, "found {}; allowed: {}; to mend: {}", self.found, self.allowed, self.help)
     }

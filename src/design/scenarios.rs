@@ -29,35 +29,68 @@ pub(super) enum KindFile {
     Transient,
 }
 
-/// Kind, its name, the keys it must have, those it may have.
-type KindKeys = (KindFile, &'static str, &'static [&'static str], &'static [&'static str]);
+/// A kind of scenario: its name in the file, what happens, the keys that it must have and those that it may have.
+#[derive(Debug, Clone, Copy)]
+pub struct KindKeys {
+    kind: KindFile,
+    /// Name.
+    pub name: &'static str,
+    /// What happens.
+    pub words: &'static str,
+    /// Keys that it must have.
+    pub required: &'static [&'static str],
+    /// Keys that it may have.
+    pub optional: &'static [&'static str],
+}
 
-const KINDS: [KindKeys; 5] = [
-    (KindFile::Static, "static", &["torque_nm"], &["start"]),
-    (
-        KindFile::TorsionalExcitation,
-        "torsional-excitation",
-        &["preload_nm", "amplitude_nm", "frequency_hz", "abutment_stiffness_nm_per_rad", "duration_s"],
-        &["speed_rpm", "start", "drivetrain"],
-    ),
-    (
-        KindFile::Engagement,
-        "engagement",
-        &[
+/// All of them.
+pub const SCENARIO_KINDS: [KindKeys; 5] = [
+    KindKeys {
+        kind: KindFile::Static,
+        name: "static",
+        words: "the clutch holds a torque; nothing moves",
+        required: &["torque_nm"],
+        optional: &["start"],
+    },
+    KindKeys {
+        kind: KindFile::TorsionalExcitation,
+        name: "torsional-excitation",
+        words: "a torque swings about a mean one on the inner race; an abutment holds the outer race",
+        required: &[
+            "preload_nm",
+            "amplitude_nm",
+            "frequency_hz",
+            "abutment_stiffness_nm_per_rad",
+            "duration_s",
+        ],
+        optional: &["speed_rpm", "start", "drivetrain"],
+    },
+    KindKeys {
+        kind: KindFile::Engagement,
+        name: "engagement",
+        words: "the inner race runs free, a torque reverses it, the sprags grip, a stop takes the load",
+        required: &[
             "free_run_rpm",
             "reversing_torque_nm",
             "stop_stiffness_nm_per_rad",
             "bench_inertia_kg_m2",
             "duration_s",
         ],
-        &["drivetrain"],
-    ),
-    (KindFile::Overrun, "overrun", &["speed_rpm", "overrun_rpm"], &[]),
-    (
-        KindFile::Transient,
-        "transient",
-        &["abutment_stiffness_nm_per_rad", "duration_s"],
-        &[
+        optional: &["drivetrain"],
+    },
+    KindKeys {
+        kind: KindFile::Overrun,
+        name: "overrun",
+        words: "one race runs ahead, the sprags slide or are off: steady",
+        required: &["speed_rpm", "overrun_rpm"],
+        optional: &[],
+    },
+    KindKeys {
+        kind: KindFile::Transient,
+        name: "transient",
+        words: "torques and speeds over time: a step, or histories from files",
+        required: &["abutment_stiffness_nm_per_rad", "duration_s"],
+        optional: &[
             "preload_nm",
             "torque_step_nm",
             "step_time_s",
@@ -68,7 +101,7 @@ const KINDS: [KindKeys; 5] = [
             "start",
             "drivetrain",
         ],
-    ),
+    },
 ];
 
 impl Scenario {
@@ -196,7 +229,7 @@ fn meaning(key: &str) -> String {
     let whole = shape::meaning_of(key);
     let parts: Vec<&str> = whole.splitn(3, ": ").collect();
     let [allowed, kinds, words] = parts.as_slice() else { return whole };
-    if !KINDS.iter().any(|(_, kind, ..)| kinds.contains(kind)) {
+    if !SCENARIO_KINDS.iter().any(|kind| kinds.contains(kind.name)) {
         return whole;
     }
     format!("{allowed}: {}", words.split(';').next().unwrap_or(words))
@@ -210,12 +243,13 @@ pub(super) fn refuse_history(key: &str, found: String, out: &mut Findings) {
 
 /// Whether the drivetrain moves in scenarios of this kind.
 fn takes_part(kind: KindFile) -> bool {
-    KINDS.iter().any(|(known, .., optional)| *known == kind && optional.contains(&"drivetrain"))
+    SCENARIO_KINDS.iter().any(|known| known.kind == kind && known.optional.contains(&"drivetrain"))
 }
 
 /// `joined`: whether a drivetrain takes part, beside which the outer race need not be tied and something changes.
 fn kind(s: &ScenarioFile, path: &str, joined: bool, out: &mut Findings) -> Option<ScenarioKind> {
-    let (_, kind, required, optional) = KINDS.into_iter().find(|(kind, ..)| *kind == s.kind)?;
+    let KindKeys { name: kind, required, optional, .. } =
+        SCENARIO_KINDS.into_iter().find(|known| known.kind == s.kind)?;
     let values = [
         ("torque_nm", s.torque_nm),
         ("preload_nm", s.preload_nm),
@@ -242,7 +276,7 @@ fn kind(s: &ScenarioFile, path: &str, joined: bool, out: &mut Findings) -> Optio
         let key = format!("{path}.{name}");
         let free = name == "abutment_stiffness_nm_per_rad" && joined;
         if value.is_none() && required.contains(&name) && !free {
-            let help = format!("add {name} = ... to scenario {:?}, which is of kind {kind}", s.name);
+            let help = format!("add {name} = ... to scenario {:?}, kind {kind}", s.name);
             out.refuse(&[&key], meaning(&key), help);
         } else if value.is_some() && !required.contains(&name) && !optional.contains(&name) {
             let keys = [required, optional].concat().join(", ");

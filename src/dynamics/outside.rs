@@ -28,12 +28,7 @@ pub fn next_mode(model: &Model, mode: &Mode, which: usize, t: f64, y: &State) ->
         longest_step_s: 1.0,
         most_events: 1,
         most_steps: 1,
-        samples: 0,
-        jump_period_s: None,
-        rolling: false,
-        energy: false,
-        history: Default::default(),
-        follow: Default::default(),
+        ..RunSettings::default()
     };
     let mut driver = Driver::new(model, *y, *mode, &settings);
     driver.run.t_s = t;

@@ -36,6 +36,25 @@ pub struct RunSettings {
     pub follow: Follow,
 }
 
+/// A run of no duration that nothing is kept of but its end; steps as long as the tolerance bears.
+impl Default for RunSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-6,
+            duration_s: 0.0,
+            longest_step_s: f64::INFINITY,
+            most_events: 100_000,
+            most_steps: 10_000_000,
+            samples: 0,
+            jump_period_s: None,
+            rolling: false,
+            energy: false,
+            history: History::default(),
+            follow: Follow::nobody(),
+        }
+    }
+}
+
 /// What a history holds.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct History {

@@ -17,7 +17,6 @@ pub use motion::{Contact, Flange, Motion};
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{Drive, FlangeDrive, Memory, Model, Ramp, Run, RunSettings, SlipRecord, Stop, go_on};
-use crate::follow::Follow;
 use crate::scenario::{NoScenario, prepare};
 use serde::{Deserialize, Serialize};
 
@@ -391,12 +390,8 @@ impl Element {
             longest_step_s: self.settings.longest_step_s.map_or(dt_s, |longest_s| longest_s.min(dt_s)),
             most_events: self.settings.most_steps / 2,
             most_steps: self.settings.most_steps,
-            samples: 0,
-            jump_period_s: None,
-            rolling: false,
             energy: self.settings.energy,
-            history: Default::default(),
-            follow: Follow::nobody(),
+            ..RunSettings::default()
         }
     }
 

@@ -476,7 +476,7 @@ mod tests {
     #[test]
     fn no_nan_reaches_a_reader() {
         let mut table = Table::new(vec![Column::number("x_m", "x", Unit::Millimetre, 3)]);
-        table.row(vec![f64::NAN.into()]).row(vec![None.into()]);
+        table.row(vec![f64::NAN.into()]).row(vec![None::<f64>.into()]);
         let all = table.to_text(Screen::default())
             + &table.to_html()
             + &String::from_utf8(table.to_csv().unwrap()).unwrap();

@@ -104,11 +104,10 @@ pub fn steady_motion(prepared: &Prepared, settings: &Settings, near: Option<&Ste
         most_events,
         most_steps,
         samples: settings.samples,
-        jump_period_s: None,
-        rolling: false,
         energy: settings.energy,
         history: settings.history,
         follow: settings.follow.clone(),
+        ..RunSettings::default()
     };
     let search = |start: (State, Mode), rolling: bool, settle: u64| {
         let period = RunSettings { rolling, ..period.clone() };

@@ -58,13 +58,15 @@ fn row(
     let mut walk = |order: &mut dyn Iterator<Item = &f64>, from: Option<Steady>| {
         let mut found: Vec<Steady> = Vec::new();
         for &frequency_hz in order {
-            if settings.follow.stopped() {
-                return None;
-            }
             prepared.period_s = Some(1.0 / frequency_hz);
             prepared.model.loads.omega_rad_s = std::f64::consts::TAU * frequency_hz;
             let near = found.last().or(from.as_ref());
-            found.push(steady_motion(&prepared, settings, near)?);
+            let state = steady_motion(&prepared, settings, near)?;
+            // One that was cut short is none.
+            if settings.follow.stopped() {
+                return None;
+            }
+            found.push(state);
             done();
         }
         Some(found)

@@ -48,7 +48,9 @@ impl NotShared {
             Self::NoneCarries => "no sprag carries".to_owned(),
             Self::End(i, reason) => format!("sprag {} comes to its end first, {}", i + 1, reason.name()),
             Self::Faint => "too small a torque: rounding hides it".to_owned(),
-            Self::OneSided => "nothing holds the race (bearing_stiffness_n_per_um = 0), and no sprag opposite keeps it in its place".to_owned(),
+            Self::OneSided => {
+                "nothing holds the race, and no sprag opposite keeps it in its place".to_owned()
+            }
             Self::NoBalance => "its balance of forces was not found by the method".to_owned(),
         }
     }

@@ -117,7 +117,10 @@ mod tests {
             );
             assert!(!f.meaning.is_empty() || f.path.ends_with("name"), "{}", f.path);
         }
-        assert!(all.iter().all(|f| f.value.is_none_or(|x| f.range.is_some_and(|[a, b]| a <= x && x <= b && a < b))));
+        assert!(
+            all.iter()
+                .all(|f| f.value.is_none_or(|x| f.range.is_some_and(|[a, b]| a <= x && x <= b && a < b)))
+        );
         let of = |path: &str| all.iter().find(|f| f.path == path).unwrap();
         assert_eq!(of("sprags.inner_arcs[1].radius_mm").unit, "mm");
         assert_eq!(of("limits.hertz_peak_mpa").unit, "MPa");

@@ -185,11 +185,11 @@ impl Course {
 
     /// Torque, demand on friction, windup; `before`, the pinned design's, dashed.
     fn plots(self, before: Option<Self>, static_friction: f64) -> Vec<String> {
-        let (torque, friction, windup) = before.map_or((None, None, None), |b| {
-            (Some(b.torque_nm), Some(b.ratio_inner), Some(b.windup_deg))
-        });
+        let (torque, friction, windup) = before
+            .map_or((None, None, None), |b| (Some(b.torque_nm), Some(b.ratio_inner), Some(b.windup_deg)));
         let plot = |y: &str, now: Vec<Curve>, was: &str, before: Option<Vec<[f64; 2]>>| {
-            let ghost = before.map(|points| Curve { dash: Dash::Dashed, ..Curve::new(was, points).coloured(1) });
+            let ghost =
+                before.map(|points| Curve { dash: Dash::Dashed, ..Curve::new(was, points).coloured(1) });
             let mut plot = Plot::new("Time, ms", y).sized(WIDTH, 170.0);
             plot.curves.extend(now.into_iter().chain(ghost));
             plot

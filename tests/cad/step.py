@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Read STEP solids with OpenCASCADE and hold them against the design: valid, volume, area, inertia to 1e-6.
+"""Read STEP solids with OpenCASCADE and hold them against the design: valid, volume, centre, moments of inertia to 1e-6.
 
     python3 -m venv /tmp/cad && /tmp/cad/bin/pip install cadquery-ocp      # 1.1 GB, so not in CI
     /tmp/cad/bin/python tests/cad/step.py path/to/sprag-design designs/starter.toml [more designs]
@@ -17,6 +17,8 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+import numpy
 
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
@@ -39,14 +41,12 @@ def run(tool, *arguments):
 
 
 def plane_moments(rows):
-    """Area, first moments and polar moment about the origin of the loops in a table of arcs, each counterclockwise.
+    """Area, first moments and second moments about the origin of the loops in a table of arcs, each counterclockwise.
 
-    Integrals of 1, x, y, x2 + y2 by Green's theorem, Gauss-Legendre with 40 points on every arc: exact to rounding.
+    Integrals of 1, x, y, x2, y2 by Green's theorem, Gauss-Legendre with 40 points on every arc: exact to rounding.
     """
-    import numpy
-
     nodes, weights = numpy.polynomial.legendre.leggauss(40)
-    sums = numpy.zeros(4)
+    sums = numpy.zeros(5)
     for row in rows:
         if row["kind"] == "line":
             p, q = (numpy.array([float(row[f"{e}_x_mm"]), float(row[f"{e}_y_mm"])]) for e in ("start", "end"))
@@ -65,23 +65,23 @@ def plane_moments(rows):
             (0.5 * (x * dy - y * dx)).sum(),
             (0.5 * x * x * dy).sum(),
             (-0.5 * y * y * dx).sum(),
-            (x**3 / 3 * dy - y**3 / 3 * dx).sum(),
+            (x**3 / 3 * dy).sum(),
+            (-(y**3) / 3 * dx).sum(),
         ]
     return sums
 
 
 def expected(tool, design, part, lengths):
-    """Volume, and polar moment of volume about the z axis through the origin, mm3 and mm5."""
+    """Integrals over the volume, z from the middle: 1 (mm3), x, y (mm4), x2, y2, z2 (mm5)."""
     rows = list(csv.DictReader(io.StringIO(run(tool, design, "--format", "csv", "--part", part))))
-    volume = polar = 0.0
+    whole = 0.0
     for body in dict.fromkeys(r["body"] for r in rows):
         of_body = [r for r in rows if r["body"] == body]
         sums = plane_moments([r for r in of_body if r["surface"] not in holes(body)])
         sums = sums - plane_moments([r for r in of_body if r["surface"] in holes(body)])
         length = lengths["sprag" if body.startswith("sprag") else "race"]
-        volume += sums[0] * length
-        polar += sums[3] * length
-    return volume, polar
+        whole = whole + length * numpy.array([*sums, sums[0] * length**2 / 12])
+    return whole
 
 
 def holes(body):
@@ -118,21 +118,30 @@ def check(tool, design, folder):
         BRepGProp.VolumeProperties_s(shape, properties, 1e-12)
         volume = properties.Mass()
         matrix, centre = properties.MatrixOfInertia(), properties.CentreOfMass()
-        polar = matrix.Value(3, 3) + volume * (centre.X() ** 2 + centre.Y() ** 2)
-        want, want_polar = expected(tool, design, part, lengths)
+        want = expected(tool, design, part, lengths)
+        x, y = want[1:3] / want[0]
+        # About the centre: the moments about x, y and z.
+        about = want[3:] - want[0] * numpy.array([x * x, y * y, 0.0])
+        moments = about.sum() - about
+        size = math.sqrt(moments[2] / want[0])
         solids = count(shape, TopAbs_SOLID)
         kinds = {}
         for face in count(shape, TopAbs_FACE):
             kind = BRepAdaptor_Surface(TopoDS.Face(face)).GetType().name.removeprefix("GeomAbs_")
             kinds[kind] = kinds.get(kind, 0) + 1
         valid = BRepCheck_Analyzer(shape).IsValid()
-        off = abs(volume / want - 1), abs(polar / want_polar - 1)
+        off = (
+            abs(volume / want[0] - 1),
+            math.hypot(centre.X() - x, centre.Y() - y) / size,
+            max(abs(matrix.Value(k + 1, k + 1) / moments[k] - 1) for k in range(3)),
+        )
         wanted = {"sprag": 1, "inner": 1, "outer": 1, "clutch": 2 + text["sprags"]["count"]}[part]
         fine = valid and max(off) < WITHIN and len(solids) == wanted and set(kinds) <= {"Plane", "Cylinder"}
         good &= fine
         print(
             f"{path.name}: {'valid' if valid else 'NOT VALID'}, {len(solids)} solids, {kinds}, "
-            f"volume {volume:.6f} mm3 ({off[0]:.1e} off), inertia {polar:.5f} mm5 ({off[1]:.1e} off)"
+            f"volume {volume:.6f} mm3 ({off[0]:.1e} off), centre {off[1]:.1e} of the radius of gyration off, "
+            f"moments of inertia {', '.join(f'{m:.5f}' for m in moments)} mm5 ({off[2]:.1e} off)"
             f"{'' if fine else '  FAILED'}"
         )
         if part == "sprag":

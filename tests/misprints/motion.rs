@@ -102,11 +102,8 @@ fn eq_13_a_lossless_run_keeps_its_energy() {
         most_events: 1000,
         most_steps: 100_000,
         samples: 501,
-        jump_period_s: None,
         rolling: true,
-        energy: false,
-        history: Default::default(),
-        follow: Default::default(),
+        ..RunSettings::default()
     };
     let mode = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
     let run = run(&model, y, mode, &settings);

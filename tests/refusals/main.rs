@@ -53,6 +53,19 @@ fn syntax() {
     ]);
     let error = refusal(&changed(&[("length_mm = 6.0", "count = 13\nlength_mm = 6.0")]));
     assert!(error.to_string().contains("x.toml:11:1: sprags.count: found duplicate key"), "{error}");
+    // Keys that a scene lacks: a line each, with what it is.
+    let bare = changed(&[("[[scenarios]]", "[[scenarios]]\nname = \"bare\"\nkind = \"torsional-excitation\"\n\n[[scenarios]]")]);
+    let text = refusal(&bare).to_string();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 5, "{text}");
+    assert!(
+        lines[0].ends_with(
+            "scenarios[0].preload_nm: no such key; add preload_nm = ... to scenario \"bare\", kind torsional-excitation: \
+             a finite number of at least 0: preload on the inner race, N m"
+        ),
+        "{text}"
+    );
+    assert!(lines.iter().all(|line| line.len() < 200), "{text}");
     let error = refusal(&changed(&[("[races]", "[sprags]")]));
     assert!(error.to_string().contains("duplicate"), "{error}");
     let error = refusal(&changed(&[("\"Huang 2017, multi-arc\"", "\"Huang")]));

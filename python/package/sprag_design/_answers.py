@@ -229,6 +229,10 @@ class Overrun:
     """Drag torque of the slowest overrun, without centrifugal force, N m."""
     points: tuple[OverrunPoint, ...]
     """All speeds looked at: first the outer race runs, then the inner one."""
+    outer_race_turns: bool
+    """Whether the design names a speed of the outer race, in a limit or a scene."""
+    named: tuple[dict[str, Any], ...]
+    """The overruns that the design names."""
     warning: str | None
     """A warning where the equilibrium does not stay; ``None`` where it does."""
 
@@ -974,7 +978,13 @@ class Life(_Common):
     verdict: str
     """The answer in one line."""
     held: bool
-    """Whether nothing is used up before its end and every torque is carried."""
+    """Whether nothing that is known fails: carried, no slip in the mean, no mark, every life long enough, slips as allowed."""
+    indents: bool
+    """Whether the largest load indents a contact."""
+    not_known: tuple[str, ...]
+    """Codes of the places whose life is not known."""
+    slips_allowed: float | None
+    """Slips by chance that the file allows."""
     engagements: float
     """Engagements in all."""
     largest_torque_nm: float
@@ -1125,10 +1135,10 @@ class Blow:
     """Path of slip after which the friction is back, mm at the inner track."""
     slip_ms: float
     """When that is, ms after the slip began."""
-    peak_ms: float
-    """When the load is largest, ms after the slip began."""
-    path_in_all_mm: float
-    """Path until the races stand still against one another, mm at the inner track."""
+    peak_ms: float | None
+    """When the load is largest, ms after the slip began; ``None`` where the sprags are out of reach."""
+    path_in_all_mm: float | None
+    """Path until the races stand still against one another, mm at the inner track; ``None`` likewise."""
     speed_rpm: float
     """Largest speed of the races against one another, rev/min."""
     peak_torque_nm: float | None
@@ -1159,8 +1169,10 @@ class Reengagement(_Common):
     """Speed of both races before, rev/min."""
     inertia_inner_kg_m2: float
     """What turns with the inner race, that included, kg m^2."""
-    inertia_outer_kg_m2: float
-    """The same of the outer race, kg m^2."""
+    inertia_outer_kg_m2: float | None
+    """The same of the outer race, kg m^2; ``None`` where it is held."""
+    outer_held: bool
+    """Whether the outer race is held."""
     bears_nm: float | None
     """Peak torque that every limit bears, N m."""
     bears_by: str | None
@@ -1171,6 +1183,10 @@ class Reengagement(_Common):
     """Where it does not slip: the friction that the torque needs."""
     slip_ended: str | None
     """Why the slip was not followed to its end."""
+    lift_off_rpm: float | None
+    """Speed of the outer race from which on the sprags lift off in steady overrun."""
+    thrown: dict[str, Any] | None
+    """Where the slip throws the sprags out of reach: time, path, speeds."""
 
     def to_pandas(self) -> pd.DataFrame:
         """A row for each path of slip. Needs pandas."""

@@ -319,12 +319,14 @@ class Design:
         torque_nm: float | None = None,
         inertia_inner_kg_m2: float | None = None,
         inertia_outer_kg_m2: float | None = None,
+        outer_held: bool = False,
         friction: float | None = None,
         speed_rpm: float = 0.0,
     ) -> Reengagement:
         """Slip under load and the blow when the clutch grips again, for each path of slip at the inner track (mm, rising; left
         out: 0.1 to 30). ``torque_nm``: carried when the slip begins, left out the nominal torque of ``[limits]``; inertias:
-        what turns with each race, the race included, left out the race alone; ``friction`` while it slips, left out 0.95 of
+        what turns with each race, the race included, left out the race alone; ``outer_held``: the outer race keeps its speed
+        whatever acts on it; ``friction`` while it slips, left out 0.95 of
         what the torque needs; ``speed_rpm``: of both races.
 
         Raises ``ValueError`` for what makes no sense, :class:`NoClutch` where the clutch cannot carry the torque.
@@ -342,7 +344,7 @@ class Design:
             raise ValueError(f"speed_rpm {speed_rpm}: allowed: a finite number")
         paths = None if paths_mm is None else _positive("paths_mm", paths_mm)
         inertias = (inertia_inner_kg_m2, inertia_outer_kg_m2)
-        return plain_of(Reengagement, self._core.reengage(torque_nm, inertias, friction, speed_rpm, paths))
+        return plain_of(Reengagement, self._core.reengage(torque_nm, inertias, outer_held, friction, speed_rpm, paths))
 
     def problem(self, *, full: bool = False) -> Problem:
         """The variables of ``[optimize]`` and the margins at their values, for optimisers of others. ``full`` leaves nothing
