@@ -77,10 +77,10 @@ fn field(design: &Design, input: Input, like: f64) -> Option<Field> {
         let [low, high] = around(if like == 0.0 { 1.0 } else { like });
         [low.min(0.0), high.max(0.0)]
     };
-    let range = number.and_then(|x| match bounds {
-        Some([low, high]) => Some([low.min(x), high.max(x)]),
-        None if x != 0.0 => Some(around(x)),
-        None => Some(from_zero(like)),
+    let range = number.map(|x| match bounds {
+        Some([low, high]) => [low.min(x), high.max(x)],
+        None if x != 0.0 => around(x),
+        None => from_zero(like),
     });
     Some(Field {
         meaning: text("description"),

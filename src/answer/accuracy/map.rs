@@ -76,8 +76,11 @@ pub(super) fn counts(study: &AccuracyStudy) -> Table {
         .table()
 }
 
-/// Kinds of cases that a reader must see: key of the list in the results, words, which they are.
-pub(super) const REMARKABLE: [(&str, &str, fn(&Judged) -> bool); 4] = [
+/// A kind of cases: key of its list in the results, words, which they are.
+type Kind = (&'static str, &'static str, fn(&Judged) -> bool);
+
+/// Kinds that a reader must see.
+pub(super) const REMARKABLE: [Kind; 4] = [
     ("verdict_changes", "Verdict is another at half the tolerance", |c| c.verdict_changes),
     ("lost_or_gained", "Verdict is lost or gained at half the tolerance", |c| {
         let [a, b] = c.verdicts();
