@@ -65,7 +65,7 @@ fn syntax() {
         ),
         "{text}"
     );
-    assert!(lines.iter().all(|line| line.len() < 200), "{text}");
+    assert!(lines.iter().all(|line| line.len() < 240), "{text}");
     let error = refusal(&changed(&[("[races]", "[sprags]")]));
     assert!(error.to_string().contains("duplicate"), "{error}");
     let error = refusal(&changed(&[("\"Huang 2017, multi-arc\"", "\"Huang")]));
