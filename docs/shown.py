@@ -77,7 +77,9 @@ def renew(page, binary):
         words = shlex.split(command)[1:]
         given = given.removeprefix("echo '")
         run = subprocess.run([binary, *words, "--quiet"], cwd=folder, capture_output=True, text=True, input=given)
-        printed = [p.rstrip() for p in run.stdout.rstrip("\n").split("\n")]
+        # A refusal stands on standard error.
+        text = run.stdout if run.returncode < 2 else run.stdout + run.stderr
+        printed = [p.rstrip() for p in text.rstrip("\n").split("\n")]
         tail = []
         while shown and not shown[-1].strip():
             tail.append(shown.pop())
