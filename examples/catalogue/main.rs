@@ -1,7 +1,7 @@
 //! Nominal torques of a maker's series (GMN FE 8000) from its published rules and one profile, found by `identify` on a
 //! third of the rows; then with the one rule set free that fails.
 //!
-//! `cargo run --release --example catalogue` writes reports/catalogue.html (about 8 min of one core).
+//! `cargo run --release --example catalogue` writes reports/catalogue.html (about a minute).
 
 mod page;
 mod rows;

@@ -51,6 +51,10 @@ pub struct SceneView {
 
 /// Samples of a course: more than a plot of the page can tell apart.
 const SAMPLES: usize = 900;
+/// How exact a course is that is played: its plots show a hundredth, its figures three digits.
+const PLAYED: f64 = 1e-4;
+/// How exact a scene's demand is: the page prints four digits of it.
+const ASKED: f64 = 1e-5;
 /// Width of the plots, px: as wide as the page shows them, so that their letters keep theirs.
 const WIDTH: f64 = 480.0;
 
@@ -62,7 +66,8 @@ pub fn scene_row(design: &Design, state: &LoadState, scenario: &Scenario, settin
         let note = Some("steady overrun: nothing is to stick".to_owned());
         return SceneRow { name, required_friction: None, static_friction, margins: Vec::new(), note };
     }
-    let found: SceneDemand = scene_demand(scenario, Some(state.at_rest(design)), settings);
+    let settings = Settings { tolerance: settings.tolerance.max(ASKED), ..settings.clone() };
+    let found: SceneDemand = scene_demand(scenario, Some(state.at_rest(design)), &settings);
     let required = design.check_scenarios.contains(&scenario.name);
     let margins = scene_rows(scenario, &found, &design.limits, required).iter().map(row).collect();
     let note = found.demand.as_ref().err().map(ToString::to_string);
@@ -80,7 +85,8 @@ pub fn scene_view(
     pinned: Option<&Scenario>,
     settings: &Settings,
 ) -> Result<SceneView, NoScenario> {
-    let settings = Settings { samples: SAMPLES, ..settings.clone() };
+    let tolerance = settings.tolerance.max(PLAYED);
+    let settings = Settings { samples: SAMPLES, tolerance, ..settings.clone() };
     let prepared = prepare(scenario)?;
     let s = simulate_prepared(&prepared, &settings, false);
     let mut facts = vec![("reached".to_owned(), Unit::Second.show(s.t_s, 4))];
