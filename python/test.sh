@@ -48,5 +48,5 @@ stage "tests"
 "$WORK/venv/bin/python" -m pytest -q "$@"
 
 stage "what a call costs, and what a second thread brings"
-"$WORK/venv/bin/python" measure.py
+"$WORK/venv/bin/python" measure.py || echo "not held here: ask again on a machine that does nothing else"
 stage "done"

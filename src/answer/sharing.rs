@@ -162,9 +162,15 @@ impl<'a> SharingAnswer<'a> {
             .map(|(i, _, needs)| (i, needs))
     }
 
-    /// How many sprags, the most pressed first, may be lost until a limit is passed; `None`: not known, no limit is given.
+    /// How many sprags, the most pressed first, may be lost until a limit is passed; `None`: not known, since no limit is given or
+    /// since no balance was found after a loss.
     pub fn may_be_lost(&self) -> Option<usize> {
-        (self.allowed.is_some() && self.turned.is_ok()).then(|| self.losses.len().saturating_sub(1))
+        (self.allowed.is_some() && self.turned.is_ok() && !self.loss_not_found())
+            .then(|| self.losses.len().saturating_sub(1))
+    }
+
+    fn loss_not_found(&self) -> bool {
+        self.losses.last().is_some_and(|last| matches!(last.left, Err(NotShared::NoBalance)))
     }
 
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
@@ -298,6 +304,11 @@ impl<'a> SharingAnswer<'a> {
                     .to_owned(),
                 _ => format!("; {count} may fail, each time the most pressed one, and the others still hold"),
             };
+        } else if self.held() && self.loss_not_found() {
+            said += &format!(
+                "; how many may fail is not known: after {} no balance of forces was found",
+                if self.losses.len() == 1 { "one".to_owned() } else { self.losses.len().to_string() }
+            );
         }
         said
     }

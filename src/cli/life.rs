@@ -35,7 +35,9 @@ impl Run for LifeArgs {
                 NoLife::NoService => Failure::of(file, why),
             })?;
             context.deliver(&found, run_time_s)?;
-            Ok(Exit::of(found.life.held()))
+            // Nothing fails, and nothing is known of its life: no answer.
+            let unknown = found.life.held() && found.life.decides().is_none();
+            Ok(if unknown { Exit::Failed } else { Exit::of(found.life.held()) })
         })
     }
 }

@@ -124,7 +124,10 @@ impl FileKind {
 
     fn wrote(self, head: &str) -> bool {
         match self {
-            Self::Design => head.starts_with(WRITTEN_BY),
+            // What `new`, `size` and the studio write is gone on with by hand.
+            Self::Design => head.strip_prefix(WRITTEN_BY).is_some_and(|rest| {
+                [" optimize ", " import ", " identify "].iter().any(|command| rest.starts_with(command))
+            }),
             Self::Page => head.starts_with(PAGE),
             Self::Deck => head.lines().take(8).any(|line| line.starts_with(DECK_FACT)),
             Self::Dxf => head.lines().nth(1).is_some_and(|line| line.starts_with(MARK)),
@@ -162,7 +165,11 @@ mod tests {
     #[test]
     fn what_we_wrote_is_known_by_its_first_lines() {
         for (kind, ours, theirs) in [
-            (FileKind::Design, "# Written by sprag-design size 1\nschema = 1\n", "schema = 1\n"),
+            (
+                FileKind::Design,
+                "# Written by sprag-design optimize 1\nschema = 1\n",
+                "# Written by sprag-design size 1\n",
+            ),
             (FileKind::Page, "<!-- sprag-design 1; -->\n", "<!DOCTYPE html>\n"),
             (FileKind::Deck, "** a\n** b\n** sprag-design design = 0\n", "*NODE\n"),
             (FileKind::Dxf, "999\nsprag-design 1; design 0\n", "  0\nSECTION\n  2\nHEADER\n"),

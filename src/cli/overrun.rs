@@ -25,8 +25,9 @@ pub struct OverrunArgs {
     /// Design files (TOML) with a table `lubrication`
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
-    /// Speeds of the race that runs, rpm, comma separated [default: 50, 100, 200, 500 ... up to lift-off and 50 m/s]
-    #[arg(long, value_name = "RPM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',')]
+    /// Speeds of the race that runs, rpm, comma separated [default: 50, 100, 200, 500 ... up to lift-off and 50 m/s, and those of the
+    /// file's overruns]
+    #[arg(long, value_name = "RPM,...", allow_hyphen_values = true, value_parser = speed, value_delimiter = ',')]
     pub speeds: Vec<f64>,
     /// Temperatures of the oil, C, comma separated [default: lubrication.temperature_c]
     #[arg(long, value_name = "C,...", allow_hyphen_values = true, value_parser = oil_temperature, value_delimiter = ',')]
@@ -43,6 +44,14 @@ pub enum RaceName {
     Inner,
     /// The outer race, the sprags with it
     Outer,
+}
+
+/// A speed at which such a clutch may run.
+fn speed(text: &str) -> Result<f64, String> {
+    match positive(text)? {
+        rpm if rpm <= 100_000.0 => Ok(rpm),
+        _ => Err("a speed of at most 100000 rpm is needed".to_owned()),
+    }
 }
 
 /// A temperature within the range of `lubrication.temperature_c`.

@@ -172,7 +172,7 @@ impl Run for SizeArgs {
 /// # Errors
 /// [`Failure::Malformed`].
 pub fn may_write(output: &Path, context: &Context) -> Result<(), Failure> {
-    context.outputs.check(&[], &[(output, FileKind::Design)])?;
     context.outputs.refuse_work(output)?;
+    context.outputs.check(&[], &[(output, FileKind::Design)])?;
     context.outputs.refuse_foreign()
 }

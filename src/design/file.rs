@@ -315,10 +315,10 @@ pub(super) struct BodyFile {
 pub(super) struct FrictionFile {
     /// Static coefficient mu_s.
     #[serde(rename = "static")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
     pub static_: f64,
     /// Kinetic coefficient mu_c, at most the static one.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
     pub kinetic: f64,
     /// Decay gamma_b with sliding speed, s/m.
     #[schemars(extend("minimum" = 0))]

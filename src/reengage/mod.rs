@@ -192,7 +192,8 @@ impl Drive<'_> {
     fn grip(&self, slips: &Element, held: &Element, path_m: f64) -> Result<Blow, NoElement> {
         let mut grips = slips.moved_to(held.clone())?;
         let slip_s = grips.t_s();
-        let (mut most_n, mut peak_s, mut speed_rad_s, mut ended) = (0.0, slip_s, 0.0_f64, None);
+        let (mut most_n, mut peak_s, mut ended) = (0.0, slip_s, None);
+        let (_, mut speed_rad_s) = self.apart(&grips);
         let mut wound = false;
         for _ in 0..MOST {
             if self.follow.stopped() {
@@ -204,12 +205,12 @@ impl Drive<'_> {
             if run.peaks.normal_max_n > most_n {
                 (most_n, peak_s) = (run.peaks.normal_max_n, before_s + run.peaks.at_s[3]);
             }
+            let (_, speed) = self.apart(&grips);
+            speed_rad_s = speed_rad_s.max(speed);
             if run.stop != Stop::Finished {
                 ended = Some(run.stop);
                 break;
             }
-            let (_, speed) = self.apart(&grips);
-            speed_rad_s = speed_rad_s.max(speed);
             // Wound up and on its way back.
             if speed < 0.0 {
                 wound = true;
@@ -225,7 +226,7 @@ impl Drive<'_> {
             path_m,
             slip_s,
             peak_s: Some(peak_s),
-            path_in_all_m: Some(self.apart(&grips).0),
+            path_in_all_m: Some(self.apart(&grips).0).filter(|_| wound),
             speed_rad_s,
             peak: curve.at_normal(most_n).filter(|_| ended.is_none()),
             by_energy_nm: self.by_energy_nm(curve, speed_rad_s).filter(|_| known),

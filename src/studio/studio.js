@@ -214,7 +214,11 @@ function fieldOf(f) {
   const listen = (input, event) => {
     input.addEventListener("pointerdown", begin);
     input.addEventListener("focus", begin);
-    input.addEventListener(event, () => { if (input.value !== "") change(f.path, input.value, field, before || state.text); });
+    input.addEventListener(event, () => {
+      if (input.value !== "") return change(f.path, input.value, field, before || state.text);
+      fault(field, "a number is needed: the one before stands");
+      fields(state.look.fields);
+    });
     input.addEventListener("change", () => { before = state.text; });
     input.setAttribute("aria-label", f.path);
   };
@@ -251,7 +255,10 @@ function fieldOf(f) {
 $("find").addEventListener("input", () => {
   const wanted = $("find").value.toLowerCase();
   document.querySelectorAll(".field").forEach((field) => { field.hidden = !field.dataset.path.toLowerCase().includes(wanted) && !field.querySelector("label").title.toLowerCase().includes(wanted); field.style.display = field.hidden ? "none" : ""; });
-  if (wanted) document.querySelectorAll("#fields details").forEach((d) => { d.open = true; });
+  document.querySelectorAll("#fields details").forEach((d) => {
+    if (wanted) d.open = true;
+    d.hidden = ![...d.querySelectorAll(".field")].some((field) => !field.hidden);
+  });
 });
 
 /* Picture ---------------------------------------------------------------------------------------------------------- */

@@ -264,7 +264,7 @@ fn figures(design: &Design, state: &LoadState) -> [(&'static str, String); 5] {
         ("width", Unit::Millimetre.show(races.width_m, 4)),
         ("mass", Unit::Gram.show(design.clutch.mass_kg(), 4)),
         ("drag, slow", slow.map_or_else(|_| none(), |p| Unit::NewtonMetre.show(p.state.drag_torque_nm, 3))),
-        ("lift-off at", off.map_or_else(none, |speed| Unit::Rpm.show(speed, 4))),
+        ("lift-off, outer race", off.map_or_else(none, |speed| Unit::Rpm.show(speed, 4))),
     ]
 }
 
@@ -306,7 +306,7 @@ pub(super) fn row(r: &Margin) -> MarginRow {
     MarginRow {
         code: r.code(),
         name: format!("{}. {}", r.name, r.limit.explanation),
-        against: against(r),
+        against: if in_place_of_margin(r).is_some() { String::new() } else { against(r) },
         text,
         margin,
         required: r.required,

@@ -6,7 +6,7 @@ mod words;
 
 use super::left_out::{LeftOut, left_out};
 use super::{Envelope, Provenance};
-use crate::clutch::{Clutch, Lubrication};
+use crate::clutch::{Clutch, Lubrication, ScenarioKind};
 use crate::design::Design;
 use crate::life::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
 use crate::margin::{
@@ -41,7 +41,7 @@ impl RunningRace {
 pub struct OverrunQuestion {
     /// Race that runs.
     pub race: RunningRace,
-    /// Speeds, rad/s; none: 1, 2, 5 ... up to lift-off and 50 m/s.
+    /// Speeds, rad/s; none: 1, 2, 5 ... up to lift-off and 50 m/s, and those of the overruns that the design names.
     pub speeds_rad_s: Vec<f64>,
     /// Temperatures of the oil, C; none: that of the file.
     pub temperatures_c: Vec<f64>,
@@ -127,7 +127,21 @@ impl Design {
             let track = self.clutch.races.inner_radius_m;
             let lift = lift_off.filter(|_| question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
             let usual = USUAL_RPM.iter().map(|rpm| rpm * std::f64::consts::PI / 30.0);
-            question.speeds_rad_s = usual.filter(|w| *w < lift && *w * track <= FASTEST_M_S).collect();
+            let named = self.scenarios.iter().filter_map(|scene| match (scene.kind, question.race) {
+                (ScenarioKind::Overrun { speed_rad_s, overrun_rad_s }, RunningRace::Inner)
+                    if speed_rad_s == 0.0 =>
+                {
+                    Some(overrun_rad_s)
+                }
+                (ScenarioKind::Overrun { speed_rad_s, .. }, RunningRace::Outer) if speed_rad_s > 0.0 => {
+                    Some(speed_rad_s)
+                }
+                _ => None,
+            });
+            let all = usual.chain(named).filter(|w| *w < lift && *w * track <= FASTEST_M_S);
+            question.speeds_rad_s = all.collect();
+            question.speeds_rad_s.sort_by(f64::total_cmp);
+            question.speeds_rad_s.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * *b);
         }
         let mut lines = Vec::new();
         for &oil_c in &question.temperatures_c {
