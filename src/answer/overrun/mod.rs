@@ -128,9 +128,7 @@ impl Design {
             let lift = lift_off.filter(|_| question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
             let usual = USUAL_RPM.iter().map(|rpm| rpm * std::f64::consts::PI / 30.0);
             let named = self.scenarios.iter().filter_map(|scene| match (scene.kind, question.race) {
-                (ScenarioKind::Overrun { speed_rad_s, overrun_rad_s }, RunningRace::Inner)
-                    if speed_rad_s == 0.0 =>
-                {
+                (ScenarioKind::Overrun { speed_rad_s: 0.0, overrun_rad_s }, RunningRace::Inner) => {
                     Some(overrun_rad_s)
                 }
                 (ScenarioKind::Overrun { speed_rad_s, .. }, RunningRace::Outer) if speed_rad_s > 0.0 => {
