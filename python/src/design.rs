@@ -343,6 +343,10 @@ impl Design {
         let clutch = &self.design.clutch;
         let drawing =
             Drawing::of(clutch, vec![SpragPose::at_rest(&self.design.name, &clutch.sprags, &profile)]);
-        Ok((drawing.detail_svg(), drawing.small_svg(clutch.races.outer_outside_radius_m), drawing.centres_svg()))
+        Ok((
+            drawing.detail_svg(),
+            drawing.small_svg(clutch.races.outer_outside_radius_m),
+            drawing.centres_svg(),
+        ))
     }
 }
