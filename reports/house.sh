@@ -99,7 +99,11 @@ print("| files of `src` that a further kind of scenario touches | 3 | 14 |\n")
 print("Files touched were counted by adding each in a branch that was thrown away: a limit on the length of the strut")
 print("(`design/limits.rs`, `margin/table.rs`); Palmgren's line contact (`clutch/law.rs`, `wedge/elastic.rs`); a torque held")
 print("for a while (`clutch/question.rs`, `design/scenarios.rs`, `scenario/prepare.rs`). Each was accepted in a file, computed,")
-print("and worded on page and terminal.")
+print("and worded on page and terminal.\n")
+cli = now.get("cli", [0, 0, 0])[0]
+help_lines = sum(text.count("\n    /// ") for path, text in ((str(p), p.read_text()) for p in pathlib.Path("src/cli").rglob("*.rs")))
+print(f"`cli` keeps arguments, paths, printing, journal files, progress, exit codes: {cli} lines for 26 commands, beside {help_lines} lines of")
+print("help on their arguments. It had 7817 for 11. The 2000 that were aimed at, and 35 000 for all, were for the commands of that time.")
 PY
 )
 if [ "${1:-}" = --no-build ]; then

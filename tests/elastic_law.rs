@@ -22,12 +22,12 @@ fn curve_of(design: &str, law: ContactLaw, change: impl Fn(&mut Clutch)) -> Wedg
     WedgeCurve::build(&clutch, &profile, 0.0).unwrap()
 }
 
-/// (torque, normal force, windup deg) of the rows whose model is in the given state.
-fn rows(state: StressState) -> Vec<(f64, f64, f64)> {
+/// Torque, normal force, windup (deg) and tan omega of the rows whose model is in the given state.
+fn rows(state: StressState) -> Vec<[f64; 4]> {
     rows_of(include_str!("reference/fem_single_arc.csv"), state)
 }
 
-fn rows_of(table: &str, state: StressState) -> Vec<(f64, f64, f64)> {
+fn rows_of(table: &str, state: StressState) -> Vec<[f64; 4]> {
     table
         .lines()
         .skip(1)
@@ -42,35 +42,52 @@ fn rows_of(table: &str, state: StressState) -> Vec<(f64, f64, f64)> {
                 StressState::Layer
             };
             let v: Vec<f64> = rest.split(',').filter_map(|f| f.parse().ok()).collect();
-            (of == state).then(|| (v[0], v[1], v[2]))
+            // Some rows have no pressure.
+            (of == state).then(|| [v[0], v[1], v[2], v[v.len() - 1]])
         })
         .collect()
 }
 
-fn within_two_per_cent(curve: &WedgeCurve, rows: &[(f64, f64, f64)], what: &str) {
-    for &(torque, normal, windup) in rows {
+/// Windup rim against rim, as finite elements have it: with the torsion of the races.
+fn with_torsion_deg(curve: &WedgeCurve, torque_nm: f64) -> f64 {
+    let elastic = &curve.statics().elastic;
+    let races = [&elastic.inner_race, &elastic.outer_race];
+    let twist: f64 = races.iter().filter_map(|race| race.twist_rad_per_nm()).sum();
+    (curve.at_torque(torque_nm).unwrap().windup_rad + torque_nm * twist).to_degrees()
+}
+
+/// The tables are good to 0.3 % of windup.
+fn within(curve: &WedgeCurve, rows: &[[f64; 4]], largest: f64, what: &str) {
+    for &[torque, normal, windup, tan] in rows {
         let p = curve.at_torque(torque).unwrap();
-        let error = p.windup_rad.to_degrees() / windup - 1.0;
-        let force = p.normal_inner_n / normal - 1.0;
-        println!("{what} {torque} Nm: windup {:+.2} %, N {:+.2} %", 100.0 * error, 100.0 * force);
-        assert!(error.abs() < 0.02 && force.abs() < 0.015, "{what} {torque} Nm: {error:+.4} {force:+.4}");
+        let error = with_torsion_deg(curve, torque) / windup - 1.0;
+        let (force, angle) = (p.normal_inner_n / normal - 1.0, p.tan_omega / tan - 1.0);
+        let percent = [error, force, angle].map(|e| 100.0 * e);
+        println!(
+            "{what} {torque} Nm: windup {:+.2} %, N {:+.2} %, tan {:+.2} %",
+            percent[0], percent[1], percent[2]
+        );
+        assert!(error.abs() < largest, "{what} {torque} Nm: windup {error:+.4}");
+        assert!(force.abs() < 0.0015 && angle.abs() < 0.002, "{what} {torque} Nm: {force:+.4} {angle:+.4}");
     }
 }
 
 #[test]
-fn windup_within_two_per_cent_of_finite_elements_in_every_stress_state() {
+fn windup_and_forces_are_those_of_finite_elements_in_every_stress_state() {
     for (state, count) in
         [(StressState::Layer, 6), (StressState::PlaneStress, 4), (StressState::PlaneStrain, 4)]
     {
         let rows = rows(state);
         assert_eq!(rows.len(), count);
-        within_two_per_cent(&curve(ContactLaw::Elastic { state }, |_| {}), &rows, &format!("{state:?}"));
+        // Where plane strain gives way to plane stress is an estimate, good to half a percent.
+        let largest = if state == StressState::Layer { 0.0055 } else { 0.0035 };
+        within(&curve(ContactLaw::Elastic { state }, |_| {}), &rows, largest, &format!("{state:?}"));
     }
 }
 
 /// Another clutch: twice the sprags, races 2.5 times as large, two arcs; and Table 1's with three arcs.
 #[test]
-fn windup_within_two_per_cent_on_other_geometries() {
+fn windup_and_forces_are_those_of_finite_elements_on_other_geometries() {
     let table = include_str!("reference/fem_24_sprags.csv");
     for (state, count) in
         [(StressState::Layer, 3), (StressState::PlaneStress, 5), (StressState::PlaneStrain, 5)]
@@ -79,22 +96,22 @@ fn windup_within_two_per_cent_on_other_geometries() {
         let curve = curve_of("fe-check-24", ContactLaw::Elastic { state }, |c| c.races.width_m = 13e-3);
         let rows = rows_of(table, state);
         assert_eq!(rows.len(), count);
-        within_two_per_cent(&curve, &rows, &format!("24 sprags, {state:?}"));
+        within(&curve, &rows, 0.0025, &format!("24 sprags, {state:?}"));
     }
     let rows = rows_of(include_str!("reference/fem_multi_arc.csv"), StressState::Layer);
     assert_eq!(rows.len(), 5);
     let law = ContactLaw::Elastic { state: StressState::Layer };
-    within_two_per_cent(&curve_of("huang2017-multi-arc", law, |_| {}), &rows, "three arcs");
+    within(&curve_of("huang2017-multi-arc", law, |_| {}), &rows, 0.0055, "three arcs");
 }
 
 /// Races 12 mm wide on the same 6 mm sprags (same source).
 #[test]
-fn windup_within_three_per_cent_for_races_twice_as_wide() {
+fn windup_within_one_and_a_half_per_cent_for_races_twice_as_wide() {
     let curve = curve(ContactLaw::Elastic { state: StressState::Layer }, |c| c.races.width_m = 12e-3);
     for (torque, windup) in [(3.34, 0.302), (10.0, 0.822), (16.8, 1.316)] {
-        let error = curve.at_torque(torque).unwrap().windup_rad.to_degrees() / windup - 1.0;
+        let error = with_torsion_deg(&curve, torque) / windup - 1.0;
         println!("wide races, {torque} Nm: windup {:+.2} %", 100.0 * error);
-        assert!(error.abs() < 0.03, "{torque} Nm: {error:+.4}");
+        assert!(error.abs() < 0.015, "{torque} Nm: {error:+.4}");
     }
 }
 
@@ -103,7 +120,7 @@ fn windup_within_three_per_cent_for_races_twice_as_wide() {
 fn the_papers_laws_are_too_soft() {
     for law in [ContactLaw::Roller { coefficient: 3.944e-5 }, ContactLaw::Slice { coefficient: 3.944e-5 }] {
         let curve = curve(law, |_| {});
-        for (torque, _, windup) in rows(StressState::Layer) {
+        for [torque, _, windup, _] in rows(StressState::Layer) {
             let error = curve.at_torque(torque).unwrap().windup_rad.to_degrees() / windup - 1.0;
             println!("{law:?} {torque} Nm: windup {:+.2} %", 100.0 * error);
             assert!((0.10..0.14).contains(&error), "{law:?} {torque} Nm: {error:+.4}");

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use sprag_design::answer::simulation::SimulationSettings;
 use sprag_design::clutch::{Scenario, ScenarioKind};
 use sprag_design::design::{Design, DesignError};
 use sprag_design::optimise::{ClutchProblem, Fidelity};
-use sprag_design::{Follow, Settings};
+use sprag_design::{Follow, Settings, WedgeCurve};
 
 const DESIGN: &str = include_str!("../designs/huang2017-multi-arc.toml");
 
@@ -98,9 +99,57 @@ fn transients() {
         ),
         ("overrun_rpm = 5\nstep_time_s = 0.1\n", ["step_time_s", "only with torque_step_nm"]),
         ("torque_history_csv = \"not-there.csv\"\n", ["torque_history_csv", "not-there.csv: no such file"]),
+        (
+            "torque_random = { spectrum = [[5, 1], [9, 1]] }\ntorque_step_nm = 3\n",
+            ["torque_step_nm", "no torque_step_nm beside torque_random"],
+        ),
+        (
+            "torque_random = { spectrum = [[5, 1], [5, 1]] }\n",
+            ["torque_random.spectrum", "frequencies ascending"],
+        ),
+        (
+            "torque_random = { spectrum = [[5, 0], [9, 0]] }\n",
+            ["torque_random.spectrum", "one density above 0"],
+        ),
+        (
+            "torque_random = { spectrum = [[5, 1], [9e9, 1]] }\n",
+            ["torque_random.spectrum", "at most 2500 periods"],
+        ),
+        ("torque_random = { seed = 3 }\n", ["torque_random", "spectrum"]),
         ("torque_step_nm = 1\nfrequency_hz = 3\n", ["frequency_hz", "for kind transient"]),
     ] {
         let said = of(keys);
         assert!(words.iter().all(|w| said.contains(w)), "{keys:?}: {said}");
     }
+}
+
+/// Far below resonance the clutch carries a random torque as the static curve does.
+#[test]
+fn a_slow_random_torque_winds_up_as_the_static_curve_does() {
+    let scene = "\n[[scenarios]]\nname = \"rough\"\nkind = \"transient\"\npreload_nm = 16.8\nabutment_stiffness_nm_per_rad = 1e6\nduration_s = 2.0\n\
+                 torque_random = { spectrum = [[1.0, 0.3], [8.0, 0.3]], seed = 5 }\n";
+    let design = parse(&[DESIGN, scene].concat());
+    let rows = design.scenario("rough").and_then(|s| s.torque_history.clone()).expect("rows");
+    let mean = rows.iter().map(|row| row[1]).sum::<f64>() / rows.len() as f64;
+    let variance = rows.iter().map(|row| (row[1] - mean).powi(2)).sum::<f64>() / rows.len() as f64;
+    // 7 Hz at 0.3, in 2 s: 14 bins of the band are resolved.
+    assert!((mean - 16.8).abs() < 1.0 && (0.5..2.0).contains(&(variance / 2.1)), "{mean} {variance}");
+    let ask = SimulationSettings { rows: Some(400), ..SimulationSettings::default() };
+    let answer = design.simulate("rough", &ask).unwrap_or_else(|e| panic!("{e}"));
+    let curve =
+        WedgeCurve::build(&design.clutch, &design.clutch.profile().expect("profile"), 0.0).expect("curve");
+    let torque_at = |t: f64| {
+        let k = rows.partition_point(|row| row[0] <= t).clamp(1, rows.len() - 1);
+        let [a, b] = [rows[k - 1], rows[k]];
+        a[1] + (b[1] - a[1]) * (t - a[0]) / (b[0] - a[0])
+    };
+    let history = answer.history();
+    let [times, forces] =
+        ["time_s", "normal_inner_n"].map(|name| history.numbers(name).expect("column").to_vec());
+    let off = times.iter().zip(&forces).map(|(&t, n)| {
+        let held = curve.at_torque(torque_at(t)).expect("carried");
+        (n / held.normal_inner_n - 1.0).abs()
+    });
+    let worst = off.fold(0.0, f64::max);
+    assert!(worst < 0.01, "{worst}");
 }

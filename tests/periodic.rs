@@ -269,7 +269,7 @@ fn the_command_finds_its_scene_or_says_what_to_add() {
     let said = String::from_utf8_lossy(&refused.stderr).into_owned();
     assert!(refused.status.code() == Some(2) && said.contains("[[scenarios]]"), "{said}");
     let static_scene = "\n[[scenarios]]\nname = \"held\"\nkind = \"static\"\ntorque_nm = 10.0\n";
-    let example = sprag_design::answer::resonance::EXAMPLE
+    let example = sprag_design::answer::resonance::example(100.0)
         .replace("100.0 ", "10.0 ")
         .replace("= 50.0     #", "= 1.0     #");
     std::fs::write(&bare, format!("{none}{static_scene}\n{example}\n")).unwrap();

@@ -21,7 +21,7 @@ pub struct Explanation {
 pub fn groups() -> Vec<(&'static str, Vec<String>)> {
     let owned = |names: &mut dyn Iterator<Item = &'static str>| names.map(str::to_owned).collect::<Vec<_>>();
     vec![
-        ("limits, as check, optimize and the studio call them", owned(&mut LIMITS.iter().map(|l| l.code))),
+        ("limits", owned(&mut LIMITS.iter().map(|l| l.code))),
         (
             "variables of [optimize], beside any number of the clutch by its dotted key",
             owned(&mut VARIABLES.iter().map(|(name, ..)| *name)),
@@ -34,10 +34,10 @@ pub fn groups() -> Vec<(&'static str, Vec<String>)> {
     ]
 }
 
-/// The same as text.
-pub fn all() -> String {
+/// Those whose kind begins with one of `kinds`, as text.
+pub fn listed(kinds: &[&str]) -> String {
     let mut text = String::new();
-    for (kind, names) in groups() {
+    for (kind, names) in groups().iter().filter(|(kind, _)| kinds.iter().any(|k| kind.starts_with(k))) {
         text.push_str(&format!("{kind}:\n"));
         names.chunks(4).for_each(|row| text.push_str(&format!("  {}\n", row.join(", "))));
     }
@@ -144,6 +144,11 @@ fn key(name: &str) -> Option<Explanation> {
     let key = path.rsplit('.').next()?;
     if let Some(unit) = unit_of_key(key).filter(|unit| !unit.is_empty()) {
         lines.push(("unit", unit.to_owned()));
+    }
+    let at_it: Vec<&str> =
+        LIMITS.iter().filter(|l| l.when.key().is_some_and(|at| at == key)).map(|l| l.code).collect();
+    if !at_it.is_empty() {
+        lines.push(("held at it", at_it.join(", ")));
     }
     // Of an array of tables those of one row.
     let keys = [path.clone(), format!("{path}[0]")].iter().flat_map(|at| keys_of(at)).collect::<Vec<_>>();

@@ -24,6 +24,10 @@ pub struct FiniteElementBody {
     pub turned: f64,
     /// Which windups are compared.
     pub compared: String,
+    /// Error of windup that the design's law is stated with, percent.
+    pub law_windup_error_percent: f64,
+    /// The same of forces and angles.
+    pub law_force_error_percent: f64,
     /// The rows.
     pub points: Vec<FiniteElementPoint>,
 }
@@ -53,6 +57,8 @@ pub struct FiniteElementPoint {
     pub law_windup_deg: Option<f64>,
     /// N_bi by the design's law, N.
     pub law_normal_inner_n: Option<f64>,
+    /// tan omega by the design's law.
+    pub law_tan_omega: Option<f64>,
 }
 
 /// Rows of a result of CalculiX beside the curve of the design.
@@ -81,11 +87,16 @@ impl<'a> FiniteElements<'a> {
     /// Which windups stand beside each other.
     pub fn compared(&self) -> String {
         let [inner, outer] = self.facts.driven_mm;
+        let law = self.design.clutch.contact.facts();
         format!(
             "Law over FE compares rim with rim: the law's windup, track against track, and the torsion of the races out to the \
-             driven circles (radii {} and {}) against the windup of finite elements there.",
+             driven circles (radii {} and {}) against the windup of finite elements there. The law {} is stated with {} of windup, \
+             {} of forces and tangents at most.",
             Unit::Millimetre.show(1e-3 * inner, 4),
-            Unit::Millimetre.show(1e-3 * outer, 4)
+            Unit::Millimetre.show(1e-3 * outer, 4),
+            law.key,
+            Unit::Percent.show(law.beside_fem[0], 2),
+            Unit::Percent.show(law.beside_fem[1], 2)
         )
     }
 
@@ -137,9 +148,13 @@ impl<'a> FiniteElements<'a> {
                 races_twist_deg: (self.twist_rad_per_nm * r.torque_nm).to_degrees(),
                 law_windup_deg: l.map(|l| l.windup_rad.to_degrees()),
                 law_normal_inner_n: l.map(|l| l.normal_inner_n),
+                law_tan_omega: l.map(|l| l.tan_omega),
             })
             .collect();
+        let [windup, force] = self.design.clutch.contact.facts().beside_fem;
         FiniteElementBody {
+            law_windup_error_percent: 100.0 * windup,
+            law_force_error_percent: 100.0 * force,
             source: "calculix",
             variant: self.facts.variant.clone(),
             mesh_mm: self.facts.mesh_mm,
@@ -178,6 +193,12 @@ fn table(rows: &[ResultRow], law: &[Option<StaticPoint>], twist_rad_per_nm: f64)
         .number("races_twist_deg", "Twist of races", Unit::Degree, 3, |(r, _)| twist_rad(r))
         .number("law_over_fe_percent", "Law over FE", Unit::Percent, 3, |(r, l)| {
             l.map_or(Cell::Empty, |l| ((l.windup_rad + twist_rad(r)) / r.windup_rad - 1.0).into())
+        })
+        .number("law_normal_over_fe_percent", "N, law over FE", Unit::Percent, 3, |(r, l)| {
+            l.map_or(Cell::Empty, |l| (l.normal_inner_n / r.normal_inner_n - 1.0).into())
+        })
+        .number("law_tan_over_fe_percent", "tan ω, law over FE", Unit::Percent, 3, |(r, l)| {
+            l.map_or(Cell::Empty, |l| (l.tan_omega / r.tan_omega - 1.0).into())
         })
         .table()
 }

@@ -25,7 +25,10 @@ pub struct LifeAnswer<'a> {
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoLife {
     /// The design has no `[life]` table.
-    NoService,
+    NoService {
+        /// Torque of the table that is suggested, N m.
+        torque_nm: f64,
+    },
     /// There is no clutch to speak of.
     NoClutch(NoMargins),
 }
@@ -33,10 +36,11 @@ pub enum NoLife {
 impl fmt::Display for NoLife {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoService => write!(
+            Self::NoService { torque_nm } => write!(
                 f,
-                "the design has no [life] table; add one with what it goes through, such as\n\n{EXAMPLE}\n\n\
-                 `sprag-design explain life` lists its keys"
+                "the design has no [life] table; add one with what it goes through, such as\n\n{}\n\n\
+                 `sprag-design explain life` lists its keys",
+                example(*torque_nm)
             ),
             Self::NoClutch(why) => why.fmt(f),
         }
@@ -46,8 +50,12 @@ impl fmt::Display for NoLife {
 impl std::error::Error for NoLife {}
 
 /// A table to begin with.
-pub const EXAMPLE: &str = "[life]\nloads = [ { torque_nm = 200.0, engagements = 1e5 } ]\n\
-                           pitting = { pressure_mpa = 4200.0, cycles = 1e6 }   # from the maker's curve or own tests";
+fn example(torque_nm: f64) -> String {
+    format!(
+        "[life]\nloads = [ {{ torque_nm = {torque_nm:?}, engagements = 1e5 }} ]\n\
+         pitting = {{ pressure_mpa = 4200.0, cycles = 1e6 }}   # from the maker's curve or own tests"
+    )
+}
 
 impl Design {
     /// What the life that the file names does to the clutch.
@@ -55,10 +63,26 @@ impl Design {
     /// # Errors
     /// [`NoLife`].
     pub fn life(&self) -> Result<LifeAnswer<'_>, NoLife> {
-        let service = self.service.as_ref().ok_or(NoLife::NoService)?;
+        let service = self
+            .service
+            .as_ref()
+            .ok_or_else(|| NoLife::NoService { torque_nm: super::example_torque_nm(self) })?;
         let life = life(self, service).map_err(NoLife::NoClutch)?;
         Ok(LifeAnswer { design: self, service, life })
     }
+}
+
+/// How much is known of a life.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LifeKnown {
+    /// Something fails before its end.
+    NotHeld,
+    /// All is known, and nothing fails.
+    Held,
+    /// Nothing fails of what is known.
+    HeldInPart,
+    /// Nothing fails, and no strength is given.
+    Nothing,
 }
 
 impl<'a> LifeAnswer<'a> {
@@ -157,17 +181,27 @@ impl<'a> LifeAnswer<'a> {
             said.insert(at, decides);
         }
         let unknown = self.not_known();
-        let word = match (life.held(), life.decides(), unknown.is_empty()) {
-            (false, ..) => "NOT HELD: ",
-            (true, Some(_), true) => "HELD: ",
-            (true, Some(_), false) => "HELD as far as is known: ",
-            (true, None, _) => "NOT KNOWN: no strength is given, so no life",
+        let word = match self.known() {
+            LifeKnown::NotHeld => "NOT HELD: ",
+            LifeKnown::Held => "HELD: ",
+            LifeKnown::HeldInPart => "HELD as far as is known: ",
+            LifeKnown::Nothing => "NOT KNOWN: no strength is given, so no life",
         };
         let mut all = format!("{word}{}", said.join("; "));
         if !unknown.is_empty() {
             all += &format!("; not known: {}", unknown.join(", "));
         }
         all
+    }
+
+    /// How much the answer knows.
+    pub fn known(&self) -> LifeKnown {
+        match (self.life.held(), self.life.decides(), self.not_known().is_empty()) {
+            (false, ..) => LifeKnown::NotHeld,
+            (true, None, _) => LifeKnown::Nothing,
+            (true, Some(_), false) => LifeKnown::HeldInPart,
+            (true, Some(_), true) => LifeKnown::Held,
+        }
     }
 
     /// What no strength is given for, and the key that would give it.
@@ -309,11 +343,11 @@ impl<'a> LifeAnswer<'a> {
 
     /// The answer as a page.
     pub fn page(&self, provenance: &Provenance) -> Page {
-        let tone = match (self.life.held(), self.life.decides(), self.not_known().is_empty()) {
-            (false, ..) => Tone::Bad,
-            (true, None, _) => Tone::Plain,
-            (true, Some(_), false) => Tone::Soft,
-            (true, Some(_), true) => Tone::Good,
+        let tone = match self.known() {
+            LifeKnown::NotHeld => Tone::Bad,
+            LifeKnown::Held => Tone::Good,
+            LifeKnown::HeldInPart => Tone::Soft,
+            LifeKnown::Nothing => Tone::Plain,
         };
         let mut page = opened("Life", self.design, &provenance.command, |page| {
             page.verdict_in(tone, &self.verdict());

@@ -34,3 +34,8 @@ mod under_load;
 
 pub use envelope::{Answer, Envelope, Provenance, TOOL, VERSION, WRITTEN_BY};
 pub use left_out::LeftOut;
+
+/// Torque of a table or scene that is suggested for a clutch, N m.
+pub(crate) fn example_torque_nm(design: &crate::design::Design) -> f64 {
+    design.limits.usual_torque_nm().unwrap_or(100.0)
+}

@@ -1,5 +1,6 @@
 //! What a slip under load and the blow after it do to a clutch: each path of slip, verdict, curve.
 
+use super::check::overrun::outer_turns;
 use super::left_out::{LeftOut, left_out};
 use super::page::opened;
 use super::{Envelope, Provenance};
@@ -325,10 +326,17 @@ impl<'a> ReengagementAnswer<'a> {
                 .to_owned(),
             "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however short the slip".to_owned(),
         ];
+        if !case.outer_held && !outer_turns(self.design) {
+            all.push(
+                "The design names no speed of the outer race: here it is free to turn, with its own inertia unless another is given; one that is \
+                 fixed to a housing is asked for by --outer-held (outer_held=True)"
+                    .to_owned(),
+            );
+        }
         if let Some(end) = self.thrown() {
             all.push(format!(
-                "THROWN OUT from {} of slip on: rows beyond are of races with nothing between them; by energy: what the speed would come to if the \
-                 sprags gripped there",
+                "From {} of slip on the slip itself throws the sprags out of reach: rows beyond are of races with nothing between them; by energy: what \
+                 the speed would come to if the sprags gripped there. Rows above that end so are thrown out once the friction is back",
                 Unit::Millimetre.show(end.path_m, 3)
             ));
             all.push(format!(

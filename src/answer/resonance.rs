@@ -63,10 +63,16 @@ impl std::fmt::Display for NoResonance {
 
 impl std::error::Error for NoResonance {}
 
-/// A scene to begin with.
-pub const EXAMPLE: &str = "[[scenarios]]\nname = \"swing\"\nkind = \"torsional-excitation\"\npreload_nm = 100.0      # carried in the mean\n\
-                           amplitude_nm = 50.0     # swings by that\nfrequency_hz = 50.0\n\
-                           abutment_stiffness_nm_per_rad = 5000.0   # what holds the outer race\nduration_s = 0.1";
+/// A scene to begin with, for a clutch that is asked to carry `torque_nm`.
+pub fn example(torque_nm: f64) -> String {
+    format!(
+        "[[scenarios]]\nname = \"swing\"\nkind = \"torsional-excitation\"\npreload_nm = {torque_nm:?}      # carried in the mean\n\
+         amplitude_nm = {:?}     # swings by that\nfrequency_hz = 50.0\n\
+         abutment_stiffness_nm_per_rad = {:?}   # what holds the outer race\nduration_s = 0.1",
+        0.5 * torque_nm,
+        50.0 * torque_nm
+    )
+}
 
 impl Design {
     /// Periodic states of `scenario`, one of this design's; where `question` is none, the one at its own frequency and amplitude.

@@ -4,6 +4,7 @@ use super::drawn::drawn_words;
 use super::left_out::{LeftOut, left_out, one_by_one};
 use super::page::{half, opened};
 use super::{Envelope, Provenance};
+use crate::clutch::Rim;
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
 use crate::report::plot::Curve;
@@ -246,7 +247,14 @@ impl<'a> SharingAnswer<'a> {
             ),
             LeftOut::new(
                 "what holds the races",
-                "rings are free but for the shift of their axes: no housing, hub or flange stiffens them, and their first harmonic is the shift",
+                match [clutch.races.inner_rim, clutch.races.outer_rim].contains(&Rim::Held) {
+                    false => {
+                        "rings are free but for the shift of their axes: no housing, hub or flange stiffens them, and their first harmonic is the shift"
+                    }
+                    true => {
+                        "a rim that the design holds does not yield at all, a free one is stiffened by nothing, and the first harmonic of every ring is the shift of its axis"
+                    }
+                },
                 "not estimated; a housing round a thin race keeps it round: give its wall to the race",
             ),
             LeftOut::new(
@@ -309,6 +317,10 @@ impl<'a> SharingAnswer<'a> {
                 "; how many may fail is not known: after {} no balance of forces was found",
                 if self.losses.len() == 1 { "one".to_owned() } else { self.losses.len().to_string() }
             );
+        }
+        if let Some(peak_nm) = self.design.limits.peak_torque_nm.filter(|nm| *nm > self.torque_nm) {
+            said +=
+                &format!("; at peak torque, {}, `check` holds the worst", Unit::NewtonMetre.show(peak_nm, 4));
         }
         said
     }

@@ -1,30 +1,43 @@
 //! What a first design answers: the design, its figures, and the alternatives.
 
-use super::check::{REACHED_AT, ends_first, margin_words, people_table, size_line};
+use super::check::{REACHED_AT, ends_first, far_more_than_asked, margin_words, people_table, size_line};
 use super::left_out::left_out;
 use super::page::opened;
 use super::{Envelope, Provenance};
 use crate::design::shown;
-use crate::margin::{Margin, load_state};
+use crate::follow::Follow;
+use crate::margin::{Margin, load_state, lowest_capacity};
 use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit};
 use crate::size::{Made, Sized, Tried};
 use serde_json::{Value, json};
 
 /// A first design, with every race space that was tried.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Sizing<'a> {
     sized: &'a Sized,
     /// End of the curve, N m.
     end_nm: f64,
+    /// What one should not overlook.
+    warnings: Vec<String>,
 }
 
 impl<'a> Sizing<'a> {
     /// Of what was found.
     pub fn of(sized: &'a Sized) -> Self {
         // Of a design whose margins are known there is a curve.
-        let end_nm =
-            load_state(&sized.made.design).map_or(f64::INFINITY, |state| state.curve.end_torque_nm());
-        Self { sized, end_nm }
+        let (design, made) = (&sized.made.design, &sized.made);
+        let state = load_state(design);
+        let end_nm = state.as_ref().map_or(f64::INFINITY, |state| state.curve.end_torque_nm());
+        let overruns = state.ok().and_then(|state| design.overruns(&state, &Follow::nobody()).ok());
+        let limits = &design.limits;
+        let asked_nm = limits.largest_torque_nm().unwrap_or(0.0);
+        let carries_nm = lowest_capacity(&made.margins, |_| true).map_or(0.0, |(_, nm)| nm.min(end_nm));
+        let far = far_more_than_asked(asked_nm, carries_nm);
+        Self {
+            sized,
+            end_nm,
+            warnings: overruns.and_then(|(section, _)| section.warning).into_iter().chain(far).collect(),
+        }
     }
 
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s; `written`: where the design is.
@@ -41,6 +54,7 @@ impl<'a> Sizing<'a> {
             "heat_w": made.drag.map(|d| d.heat_w()),
             "sliding_rpm": made.drag.map(|d| Unit::Rpm.from_si(d.sliding_rad_s)),
             "tried": tried_json(&sized.tried, Some(sized.taken)),
+            "warnings": self.warnings,
             "margins": made.margins.iter().map(|r| margin_json(r, self.end_nm)).collect::<Vec<_>>(),
         });
         Envelope { design, run_time_s, left_out: left_out(&design.clutch), error_estimate: None, body }
@@ -53,7 +67,7 @@ impl<'a> Sizing<'a> {
 
     /// The answer on a terminal; `written`: where the design is.
     pub fn text(&self, written: Option<&str>, screen: Screen) -> String {
-        text(self.sized, self.end_nm, written, screen)
+        text(self, written, screen)
     }
 
     /// The answer as a page under `title`.
@@ -61,7 +75,7 @@ impl<'a> Sizing<'a> {
         let (sized, made) = (self.sized, &self.sized.made);
         let design = &made.design;
         let mut page = opened(title, design, &provenance.command, |page| {
-            page.verdict(true, &verdict(sized)).list(figures(made));
+            page.verdict(true, &verdict(sized)).list(figures(made).into_iter().chain(self.warnings.clone()));
         });
         page.heading("Alternatives").paragraph(
             "Every race space (gap between the tracks) tried, each as narrow as its limits allow; of those that do it the one of the least \
@@ -131,17 +145,17 @@ fn alternatives(page: &mut Page, sized: &Sized) {
     page.figures(&figures);
 }
 
-fn text(sized: &Sized, end_nm: f64, written: Option<&str>, screen: Screen) -> String {
-    let design = &sized.made.design;
+fn text(sizing: &Sizing<'_>, written: Option<&str>, screen: Screen) -> String {
+    let (sized, design) = (sizing.sized, &sizing.sized.made.design);
     let tried = tried_table(&sized.tried, Some(sized.taken)).to_text(screen);
     format!(
         "{}  {}\n\n{tried}{}\n{}\n{}\n{}\n{REACHED_AT}\n{}\n",
         design.name,
         design.short_hash(),
         no_flanks(&sized.tried).map_or(String::new(), |line| line + "\n"),
-        people_table(&sized.made.margins, end_nm).to_text(screen),
+        people_table(&sized.made.margins, sizing.end_nm).to_text(screen),
         verdict(sized),
-        figures(&sized.made).join("\n"),
+        figures(&sized.made).into_iter().chain(sizing.warnings.clone()).collect::<Vec<_>>().join("\n"),
         written.map_or("no design written".to_owned(), |path| format!("written to {}", shown(path)))
     )
 }

@@ -1,12 +1,14 @@
 //! Terms left out whose cost grows with the load, at the pressure at which other costs are named too: torsion of the
-//! races, tension behind the patches, a coefficient that is steel's.
+//! races, tension behind the patches, creep, a coefficient that is steel's.
 
 use super::left_out::LeftOut;
 use crate::clutch::Clutch;
 use crate::contact::edge_tension;
+use crate::margin::{TrackPatch, track_tension};
 use crate::material::{Material, PlaneState};
 use crate::report::Unit;
 use crate::wedge::{StaticPoint, WedgeCurve};
+use std::f64::consts::PI;
 
 /// Pressure at A at which the costs are named, Pa.
 const PRESSURE_PA: f64 = 2e9;
@@ -21,7 +23,8 @@ pub(super) fn left_out_under_load(clutch: &Clutch) -> Vec<LeftOut> {
     let mut list: Vec<LeftOut> = other_bodies(clutch).into_iter().collect();
     let curve = clutch.profile().ok().and_then(|p| WedgeCurve::build(clutch, &p, 0.0).ok());
     if let Some((curve, point)) = curve.as_ref().and_then(|c| Some((c, at_pressure(c)?))) {
-        list.extend([torsion(curve, &point), tension(clutch, &point)]);
+        list.extend([torsion(curve, &point), tension(clutch, curve, &point)]);
+        list.extend(creep(clutch, curve, &point));
     }
     list
 }
@@ -65,24 +68,55 @@ fn torsion(curve: &WedgeCurve, point: &StaticPoint) -> LeftOut {
     )
 }
 
-fn tension(clutch: &Clutch, point: &StaticPoint) -> LeftOut {
+fn tension(clutch: &Clutch, curve: &WedgeCurve, point: &StaticPoint) -> LeftOut {
     let mu = clutch.friction.static_;
-    let places =
-        [("inner", point.hertz_inner_pa, point.tan_omega), ("outer", point.hertz_outer_pa, point.tan_nu)];
-    let words = places.map(|(track, peak_pa, tan)| {
+    let elastic = &curve.statics().elastic;
+    let places = [
+        ("inner", &elastic.inner_race, point.normal_inner_n, point.hertz_inner_pa, point.tan_omega),
+        ("outer", &elastic.outer_race, point.normal_outer_n, point.hertz_outer_pa, point.tan_nu),
+    ];
+    let words = places.map(|(track, race, normal_n, peak_pa, tan)| {
         let tension = edge_tension(peak_pa, tan, mu);
+        let half_width_m = 2.0 * normal_n / (PI * clutch.contact_length_m() * peak_pa);
+        let count = clutch.sprags.count;
+        let patch = TrackPatch { count, normal_n, tan, half_width_m, peak_pa, friction: mu };
+        let most = track_tension(race, &patch, |t| t.standing_pa.max(t.rolling_pa));
         format!(
-            "{track} track +{} where the force came without rolling, +{} where the contact rolls steadily",
+            "{track} track +{} (no rolling) to +{} (steady rolling); {} at most with the ring's own, {} behind a patch's middle, and {} \
+             midway between patches",
             Unit::Megapascal.show(tension.standing_pa, 3),
-            Unit::Megapascal.show(tension.rolling_pa, 3)
+            Unit::Megapascal.show(tension.rolling_pa, 3),
+            Unit::Megapascal.show(most.largest_pa, 3),
+            Unit::Millimetre.show(most.behind_m, 2),
+            Unit::Megapascal.show(race.hoop_between_pa(count, normal_n), 3),
         )
     });
     LeftOut::new(
         "tension of the traction behind the patches",
-        "hoop stress is the ring's own; the tangential force adds tension to the surface at the trailing edge of a patch, \
-         which dies out over half a width",
+        "hoop stress is the ring's own; the tangential force adds tension at the trailing edge of a patch",
         &format!("{}: {}; static friction {mu}, part of the patch slips", at(point), words.join("; ")),
     )
+}
+
+/// Loss of a law whose contacts creep.
+fn creep(clutch: &Clutch, curve: &WedgeCurve, point: &StaticPoint) -> Option<LeftOut> {
+    let loss = curve.creep_loss(point.normal_inner_n)?;
+    let r = &clutch.races;
+    let inertia = 1.0 / (1.0 / r.inner_inertia_kg_m2 + 1.0 / r.outer_inertia_kg_m2);
+    let viscous = 0.5 * r.viscous_damping_nm_s_per_rad / (point.k_tangent_nm_per_rad * inertia).sqrt();
+    Some(LeftOut::new(
+        "loss by creep of the rolling contacts",
+        "the curve is that of a rising load; a falling one creeps on, while scenes go both ways on the curve",
+        &format!(
+            "{} of the work of a rise and a fall {}: damping ratio {:.1e} of such a swing, where viscous damping of the \
+             races gives {:.1e}; windup back at no load {} more",
+            Unit::Percent.show(2.0 * loss.lost_j / loss.work_j, 2),
+            at(point),
+            loss.damping_ratio(),
+            viscous,
+            Unit::Degree.show(loss.lead_rad, 2)
+        ),
+    ))
 }
 
 /// A coefficient of the roller law on bodies that are not of its steel.
@@ -121,10 +155,12 @@ mod tests {
         };
         assert!(cost("torsion", &list).unwrap().contains("the shaft's own"));
         assert!(cost("tension", &list).unwrap().contains("static friction"));
+        assert!(cost("creep", &list).unwrap().contains("damping ratio"));
         // The law elastic has no coefficient.
         assert_eq!(cost("elastic constants", &list), None);
         clutch.contact = ContactLaw::Roller { coefficient: 3.84e-5 };
-        assert!(cost("elastic constants", &left_out_under_load(&clutch)).is_some());
+        let list = left_out_under_load(&clutch);
+        assert!(cost("elastic constants", &list).is_some() && cost("creep", &list).is_none());
     }
 
     #[test]

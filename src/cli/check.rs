@@ -35,6 +35,8 @@ fn speed_of_the_file(_: &str) -> Result<f64, String> {
 }
 
 impl Run for CheckArgs {
+    const NAMES: &[&str] = &["limits"];
+
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         let others: Vec<_> = self.overrun_csv.iter().map(|path| (path.as_path(), FileKind::Table)).collect();
         let inputs: Vec<&Path> = self.files.iter().map(PathBuf::as_path).collect();

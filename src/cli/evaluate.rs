@@ -65,6 +65,7 @@ pub struct EvaluateArgs {
 
 impl Run for EvaluateArgs {
     const WITHOUT: Without = ("its answer is a JSON object for each line that it reads", &["json", "report"]);
+    const NAMES: &[&str] = &["variables"];
 
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         let of_points = self.vectors.is_some() || self.points.sampling().is_some();

@@ -2,7 +2,7 @@
 
 use super::exit::{Exit, Failure};
 use super::{Context, Run, Without};
-use crate::answer::explanation::{Explanation, all, explain, groups, unknown};
+use crate::answer::explanation::{Explanation, explain, groups, listed, unknown};
 use clap::Args;
 use serde_json::{Map, json};
 
@@ -40,7 +40,7 @@ impl Run for ExplainArgs {
 
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         let Some(name) = &self.name else {
-            context.answer(&all())?;
+            context.answer(&listed(&[""]))?;
             let group = |(kind, names)| json!({ "kind": kind, "names": names });
             context.object(|| json!({ "names": groups().into_iter().map(group).collect::<Vec<_>>() }))?;
             return Ok(Exit::Held);

@@ -3,7 +3,7 @@
 use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run};
-use crate::answer::life::NoLife;
+use crate::answer::life::{LifeKnown, NoLife};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -32,12 +32,13 @@ impl Run for LifeArgs {
             let (found, run_time_s) = timed(|| design.life());
             let found = found.map_err(|why| match why {
                 NoLife::NoClutch(why) => Failure::no_clutch(file, &why),
-                NoLife::NoService => Failure::of(file, why),
+                NoLife::NoService { .. } => Failure::of(file, why),
             })?;
             context.deliver(&found, run_time_s)?;
-            // Nothing fails, and nothing is known of its life: no answer.
-            let unknown = found.life.held() && found.life.decides().is_none();
-            Ok(if unknown { Exit::Failed } else { Exit::of(found.life.held()) })
+            Ok(match found.known() {
+                LifeKnown::Nothing => Exit::Failed,
+                known => Exit::of(known != LifeKnown::NotHeld),
+            })
         })
     }
 }

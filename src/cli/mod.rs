@@ -42,6 +42,7 @@ mod stiffness;
 mod studio;
 mod sweep;
 
+use crate::answer::explanation::listed;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use command_line::missing_value;
 use context::{Common, Context};
@@ -71,7 +72,7 @@ Exit codes:
   141 the reader of the answers of evaluate has gone before the last
 
 A file that is there already is replaced only if this tool has written it (its first lines say so; of a table: the names of
-its columns); --force replaces any. What cannot be written costs no answer: it is printed, with exit code 3.
+its columns) and nobody goes on with it by hand, as with designs of new, size and the studio; --force replaces any. What cannot be written costs no answer: it is printed, with exit code 3.
 With --json whatever is refused or fails is one JSON object too: tool, version, error (message; of a refused design file
 also file and problems), with the same exit code.";
 
@@ -94,6 +95,8 @@ struct Cli {
 trait Run: Args {
     /// Common options that mean nothing to it, and why.
     const WITHOUT: Without = ("", &[]);
+    /// Kinds of names, as `explain` has them, that its help lists.
+    const NAMES: &[&str] = &[];
 
     /// Run the command.
     fn run(&self, context: &Context) -> Result<Exit, Failure>;
@@ -118,12 +121,12 @@ macro_rules! commands {
             }
         }
 
-        /// What means nothing to the command of that name.
-        fn without(command: &str) -> Without {
+        /// What means nothing to the command of that name, and the kinds of names that its help lists.
+        fn of_command(command: &str) -> (Without, &'static [&'static str]) {
             $(if command.eq_ignore_ascii_case(stringify!($name)) {
-                return <$args as Run>::WITHOUT;
+                return (<$args as Run>::WITHOUT, <$args as Run>::NAMES);
             })+
-            ("", &[])
+            (("", &[]), &[])
         }
     };
 }
@@ -218,7 +221,7 @@ fn ended(args: Vec<String>) -> Exit {
             return Exit::Held;
         }
     };
-    let json = cli.common.json && !without(&name).1.contains(&"json");
+    let json = cli.common.json && !of_command(&name).0.1.contains(&"json");
     exit::keep_names_whole();
     match dispatch(cli, &name, &args) {
         Ok(exit) => exit,
@@ -242,11 +245,15 @@ fn command() -> clap::Command {
     let root = Cli::command();
     let common: Vec<clap::Arg> = root.get_arguments().filter(|a| a.is_global_set()).cloned().collect();
     let folded = |command: clap::Command| {
-        let after = command.get_after_help().map(|text| in_paragraphs(&text.to_string()));
+        let names = match of_command(command.get_name()).1 {
+            [] => String::new(),
+            kinds => format!("\n\nNames, which `explain` explains:\n\n{}", listed(kinds)),
+        };
+        let after = command.get_after_help().map(|text| in_paragraphs(&text.to_string()) + names.trim_end());
         after.into_iter().fold(command, |command, text| command.after_help(text))
     };
     let hidden = |command: clap::Command| {
-        let options = without(command.get_name()).1;
+        let options = of_command(command.get_name()).0.1;
         let hidden = common.iter().filter(|a| options.contains(&a.get_id().as_str()));
         let hidden: Vec<clap::Arg> = hidden.map(|a| a.clone().hide(true)).collect();
         command.args(hidden)
@@ -271,7 +278,7 @@ fn in_paragraphs(text: &str) -> String {
 }
 
 fn dispatch(cli: Cli, name: &str, args: &[String]) -> Result<Exit, Failure> {
-    let (why, options) = without(name);
+    let (why, options) = of_command(name).0;
     // --force, --threads and --quiet, which then change nothing, are let pass.
     if let Some(flag) = cli.common.answers().into_iter().flatten().find(|flag| options.contains(flag)) {
         return Err(Failure::malformed(format!("--{flag} has no meaning with {name}: {why}")));

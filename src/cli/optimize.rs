@@ -113,6 +113,8 @@ pub struct OptimizeArgs {
 }
 
 impl Run for OptimizeArgs {
+    const NAMES: &[&str] = &["objectives", "variables", "limits"];
+
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         refuse_tolerance(self.tolerance)?;
         let new = output_path(self);

@@ -116,10 +116,13 @@ impl FileKind {
 
     /// Whether the file at `path` is of this kind and written by this tool, or empty.
     pub fn is_ours(self, path: &Path) -> bool {
-        let mut head = Vec::new();
-        let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-        // What cannot be read is not ours.
-        read.is_ok() && (head.is_empty() || self.wrote(&String::from_utf8_lossy(&head)))
+        head_of(path).is_some_and(|head| head.is_empty() || self.wrote(&head))
+    }
+
+    /// Whether it is a design that this tool has begun and a person goes on with: of `new`, `size` or the studio.
+    pub fn is_work(self, path: &Path) -> bool {
+        self == Self::Design
+            && head_of(path).is_some_and(|head| head.starts_with(WRITTEN_BY) && !self.wrote(&head))
     }
 
     fn wrote(self, head: &str) -> bool {
@@ -152,6 +155,13 @@ impl FileKind {
     }
 }
 
+/// The beginning of a file; `None`: it cannot be read.
+fn head_of(path: &Path) -> Option<String> {
+    let mut head = Vec::new();
+    File::open(path).ok()?.take(HEAD).read_to_end(&mut head).ok()?;
+    Some(String::from_utf8_lossy(&head).into_owned())
+}
+
 /// Names of columns as this tool writes them: two or more, lower case, unit behind an underscore.
 fn is_our_header(line: &str) -> bool {
     let ours = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "_.[]".contains(c);
@@ -165,11 +175,8 @@ mod tests {
     #[test]
     fn what_we_wrote_is_known_by_its_first_lines() {
         for (kind, ours, theirs) in [
-            (
-                FileKind::Design,
-                "# Written by sprag-design optimize 1\nschema = 1\n",
-                "# Written by sprag-design size 1\n",
-            ),
+            (FileKind::Design, "# Written by sprag-design optimize 1\nschema = 1\n", "schema = 1\n"),
+            (FileKind::Design, "# Written by sprag-design import 1\n", "# Written by sprag-design size 1\n"),
             (FileKind::Page, "<!-- sprag-design 1; -->\n", "<!DOCTYPE html>\n"),
             (FileKind::Deck, "** a\n** b\n** sprag-design design = 0\n", "*NODE\n"),
             (FileKind::Dxf, "999\nsprag-design 1; design 0\n", "  0\nSECTION\n  2\nHEADER\n"),

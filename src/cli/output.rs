@@ -94,6 +94,9 @@ pub struct Outputs {
     unwritten: Arc<Mutex<Vec<String>>>,
 }
 
+/// Why a file is kept that somebody may have gone on with.
+const WORK: &str = "exists, and may hold work of yours; name another file, or replace it with --force";
+
 impl Outputs {
     /// Those of the command line.
     pub fn new(csv: Option<PathBuf>, report: Option<PathBuf>, force: bool) -> Self {
@@ -166,10 +169,7 @@ impl Outputs {
         if self.force || is_special(path) || empty {
             return Ok(());
         }
-        Err(Failure::of(
-            path,
-            "exists, and may hold work of yours; name another file, or replace it with --force",
-        ))
+        Err(Failure::of(path, WORK))
     }
 
     /// Whether what stands at `path` may be replaced by a file of this kind; why not.
@@ -177,6 +177,9 @@ impl Outputs {
         if self.force || is_standard_output(path) || is_special(path) || !path.exists() || kind.is_ours(path)
         {
             return Ok(());
+        }
+        if kind.is_work(path) {
+            return Err(WORK.to_owned());
         }
         Err(format!(
             "exists, and it is no {} that {TOOL} has written; name another file, or replace it with --force",

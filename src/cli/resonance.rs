@@ -5,7 +5,8 @@ use super::exit::{Exit, Failure};
 use super::output::path_text;
 use super::simulate::chosen;
 use super::{Context, Run, positive};
-use crate::answer::resonance::{EXAMPLE, NoResonance, ResonanceQuestion};
+use crate::answer::example_torque_nm;
+use crate::answer::resonance::{NoResonance, ResonanceQuestion, example};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::scenario::Settings;
@@ -122,8 +123,9 @@ fn excited<'d>(name: Option<&str>, design: &'d Design, file: &Path) -> Result<&'
     match swings.collect::<Vec<_>>().as_slice() {
         [only] => Ok(only),
         [] => Err(Failure::malformed(format!(
-            "{}: the design has no torsional excitation; add one, such as\n\n{EXAMPLE}\n\n`sprag-design explain scenarios` lists its keys",
-            path_text(file)
+            "{}: the design has no torsional excitation; add one, such as\n\n{}\n\n`sprag-design explain scenarios` lists its keys",
+            path_text(file),
+            example(example_torque_nm(design))
         ))),
         several => {
             let names: Vec<&str> = several.iter().map(|s| s.name.as_str()).collect();

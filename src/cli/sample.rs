@@ -31,6 +31,7 @@ pub struct SampleArgs {
 
 impl Run for SampleArgs {
     const WITHOUT: Without = ("its answer is a table of points", &["json", "report", "threads"]);
+    const NAMES: &[&str] = &["variables"];
 
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         let design = context.design(&self.file)?;

@@ -85,6 +85,8 @@ pub struct SimulateArgs {
 }
 
 impl Run for SimulateArgs {
+    const NAMES: &[&str] = &["kinds"];
+
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         context.reads(&self.files)?;
         let settings = self.settings(context);

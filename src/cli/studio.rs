@@ -32,7 +32,7 @@ and fetches nothing. Ctrl-C ends it.";
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct StudioArgs {
-    /// Design file (TOML) to begin with [default: the clutch of Huang, Liu, Zhao (2017)]
+    /// Design file (TOML) to begin with [default: the clutch of Huang, Liu, Zhao (2017) with law elastic]
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// Do not open the browser, only print the address
@@ -43,7 +43,7 @@ pub struct StudioArgs {
     pub port: u16,
 }
 
-const FIRST: &str = include_str!("../../designs/huang2017-multi-arc.toml");
+const FIRST: &str = include_str!("../../designs/huang2017-elastic.toml");
 /// Requests answered side by side: a slow scene does not hold a slider up.
 const WORKERS: usize = 4;
 /// Longest question, bytes: two designs and something.
@@ -72,7 +72,7 @@ impl Run for StudioArgs {
                 let design = context.design(path)?;
                 (design.source, path.clone())
             }
-            None => (FIRST.to_owned(), PathBuf::from("huang2017-multi-arc.toml")),
+            None => (FIRST.to_owned(), PathBuf::from("huang2017-elastic.toml")),
         };
         let server = Server::http(("127.0.0.1", self.port)).map_err(|why| {
             let hint =

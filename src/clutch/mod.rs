@@ -13,6 +13,7 @@ mod service;
 mod sharing;
 mod tolerances;
 
+pub use crate::race::Rim;
 pub use drivetrain::{DriveInertia, DriveTorque, GasTorque, MOST_SHAFTS, Shaft, Towards};
 pub(crate) use law::ROLLER_COEFFICIENT;
 pub use law::{ContactLaw, LAWS, LawFacts, LawName};
@@ -94,6 +95,10 @@ pub struct Races {
     pub viscous_damping_nm_s_per_rad: f64,
     /// How the axes of the two tracks lie; `None`: on one another.
     pub eccentricity: Option<Eccentricity>,
+    /// How the bore of the inner race is held under load.
+    pub inner_rim: Rim,
+    /// How the outside of the outer race is held under load.
+    pub outer_rim: Rim,
 }
 
 /// Two tracks whose axes are parallel but apart.

@@ -136,6 +136,18 @@ impl ScenarioKind {
         matches!(self, Self::Static { .. })
     }
 
+    /// The overrun that it is or begins with, rad/s: by how much the inner race is ahead, and the speed of the outer one.
+    pub fn overrun_rad_s(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Overrun { speed_rad_s, overrun_rad_s } => Some([overrun_rad_s, speed_rad_s]),
+            Self::Engagement { free_run_rad_s, .. } => Some([free_run_rad_s, 0.0]),
+            Self::Transient { speed_rad_s, overrun_rad_s, .. } => {
+                (overrun_rad_s > 0.0).then_some([overrun_rad_s, speed_rad_s])
+            }
+            Self::Static { .. } | Self::TorsionalExcitation { .. } => None,
+        }
+    }
+
     /// Whether it is a steady overrun, in which nothing is to hold.
     pub fn is_overrun(&self) -> bool {
         matches!(self, Self::Overrun { .. })

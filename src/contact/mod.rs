@@ -34,4 +34,4 @@ pub use shaped::ShapedLaw;
 pub use slice::{SliceCompliance, SliceContact, SliceSolution, SliceStatus};
 pub use slice_ratio::SliceRatio;
 pub use subsurface::{depth_of_largest_shear_m, largest_shear_below, shear_at_depth_pa};
-pub use traction::{EdgeTension, edge_tension};
+pub use traction::{EdgeTension, edge_tension, tension_behind};

@@ -28,6 +28,17 @@ pub fn edge_tension(peak_pressure_pa: f64, tan: f64, mu: f64) -> EdgeTension {
     }
 }
 
+/// The same at `half_widths` >= 1 from the middle of the patch, on the side of its trailing edge, Pa. Of a traction
+/// q_0 sqrt(1 - x^2/c^2) there is 2 q_0/(z + sqrt(z^2 - 1)) at z half widths from its own middle.
+pub fn tension_behind(peak_pressure_pa: f64, tan: f64, mu: f64, half_widths: f64) -> EdgeTension {
+    let stuck = (1.0 - (tan.abs() / mu).min(1.0)).sqrt();
+    let of = |z: f64| (z + (z * z - 1.0).max(0.0).sqrt()).recip();
+    let strip = |ahead: f64| if stuck > 0.0 { stuck * of((half_widths + ahead) / stuck) } else { 0.0 };
+    let [standing_pa, rolling_pa] =
+        [0.0, 1.0 - stuck].map(|ahead| 2.0 * mu * peak_pressure_pa * (of(half_widths) - strip(ahead)));
+    EdgeTension { standing_pa, rolling_pa }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,6 +71,18 @@ mod tests {
             assert!((got.standing_pa / want[0] - 1.0).abs() < 1e-3, "{tan}: {got:?} against {want:?}");
             assert!((got.rolling_pa / want[1] - 1.0).abs() < 1e-3, "{tan}: {got:?} against {want:?}");
         }
+    }
+
+    #[test]
+    fn at_the_edge_it_is_the_largest_and_far_away_that_of_a_line_load() {
+        let (mu, tan) = (0.12, 0.08);
+        let (edge, at) = (edge_tension(1e9, tan, mu), tension_behind(1e9, tan, mu, 1.0));
+        assert!((at.standing_pa / edge.standing_pa - 1.0).abs() < 1e-12);
+        assert!((at.rolling_pa / edge.rolling_pa - 1.0).abs() < 1e-12);
+        // (2/pi) T/x with T = tan p_0 pi a/2.
+        let far = tension_behind(1e9, tan, mu, 200.0);
+        assert!((far.standing_pa / (tan * 1e9 / 200.0) - 1.0).abs() < 1e-4, "{far:?}");
+        assert!((far.rolling_pa / far.standing_pa - 1.0).abs() < 1e-2);
     }
 
     #[test]

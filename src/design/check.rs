@@ -105,6 +105,8 @@ fn races(file: &RacesFile, materials: Option<&Materials>, out: &mut Findings) ->
         outer_inertia_kg_m2: file.outer_inertia_kg_m2.unwrap_or_else(|| ring(radii[2].1, radii[3].1, outer)),
         viscous_damping_nm_s_per_rad: file.viscous_damping_nm_s_per_rad,
         eccentricity: file.eccentricity.as_ref().map(eccentricity::si),
+        inner_rim: running::rim(file.inner_rim),
+        outer_rim: running::rim(file.outer_rim),
     })
 }
 

@@ -8,6 +8,9 @@ use std::f64::consts::PI;
 use crate::material::Steel;
 use crate::numeric::rounded;
 
+/// Box of the variables of a new design file, r_i1 and e_1, over their values there.
+pub const BOX: [[f64; 2]; 2] = [[0.9, 1.1], [0.8, 1.2]];
+
 /// A scene of a new design file beside the two that every one has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DraftScene {
@@ -233,10 +236,10 @@ seed = 1
             abutment = digits(self.abutment_nm_per_rad, 4),
             step_time = digits(0.1 * self.step_duration_s, 4),
             duration = digits(self.step_duration_s, 4),
-            ri_min = mm(0.9 * self.inner_radius_m),
-            ri_max = mm(1.1 * self.inner_radius_m),
-            e_min = mm(0.8 * self.centre_distance_m),
-            e_max = mm(1.2 * self.centre_distance_m),
+            ri_min = mm(BOX[0][0] * self.inner_radius_m),
+            ri_max = mm(BOX[0][1] * self.inner_radius_m),
+            e_min = mm(BOX[1][0] * self.centre_distance_m),
+            e_max = mm(BOX[1][1] * self.centre_distance_m),
         )
     }
 }

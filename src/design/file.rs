@@ -179,6 +179,22 @@ pub(super) struct RacesFile {
     pub press_fit: Option<PressFitFile>,
     /// Axes of the two tracks apart by a known amount; absent: concentric.
     pub eccentricity: Option<EccentricityFile>,
+    /// What holds the bore of the inner race against load: nothing, or a shaft so stiff that the bore keeps its radius and does
+    /// not slide on it; absent: free.
+    #[serde(default)]
+    pub inner_rim: RimFile,
+    /// What holds the outside of the outer race against load: nothing, or a housing so stiff that the outside keeps its radius
+    /// and does not slide in it; absent: free.
+    #[serde(default)]
+    pub outer_rim: RimFile,
+}
+
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum RimFile {
+    #[default]
+    Free,
+    Held,
 }
 
 /// Tracks off centre, for the rows run-out-* of `check`: every sprag in its own gap. Not a tolerance: [tolerances] has

@@ -116,9 +116,9 @@ macro_rules! limits {
 
 limits! {
     nominal_torque_nm: "exclusiveMinimum" 0, "Nm" -> nominal_torque_nm by same, ALONE,
-        "Torque at which hertz_nominal_mpa is held, N m.";
+        "Torque that comes again and again, at which the limits of nominal torque are held, N m.";
     peak_torque_nm: "exclusiveMinimum" 0, "Nm" -> peak_torque_nm by same, ALONE,
-        "Torque at which Hertz peak, hoop, end of profile and roll-over are held, N m.";
+        "Largest torque, which comes seldom, at which the limits of peak torque are held, N m.";
     hertz_nominal_mpa: "exclusiveMinimum" 0, "MPa" -> hertz_nominal_pa by pa, AT_NOMINAL,
         "Allowed Hertz pressure at nominal torque, MPa.";
     hertz_peak_mpa: "exclusiveMinimum" 0, "MPa" -> hertz_peak_pa by pa, AT_PEAK,
@@ -161,6 +161,18 @@ limits! {
         "Smallest ratio wanted of film to roughness at the sliding inner contact at film_at_rpm; needs the table `lubrication`.";
     film_at_rpm: "exclusiveMinimum" 0, "rpm" -> film_at_rad_s by rad_s, ALONE,
         "Speed of the inner race in overrun, the outer one at rest, at which film_lambda is held, rev/min.";
+}
+
+impl Limits {
+    /// The torque that comes again and again, N m: the nominal one, else the peak.
+    pub fn usual_torque_nm(&self) -> Option<f64> {
+        self.nominal_torque_nm.or(self.peak_torque_nm)
+    }
+
+    /// The largest torque at which a limit is held, N m: the peak, else the nominal one.
+    pub fn largest_torque_nm(&self) -> Option<f64> {
+        self.peak_torque_nm.or(self.nominal_torque_nm)
+    }
 }
 
 #[cfg(test)]

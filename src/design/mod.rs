@@ -25,6 +25,7 @@ mod notes;
 mod objective;
 mod open;
 mod outline;
+mod random_torque;
 mod read;
 mod running;
 mod scenario_file;
@@ -39,7 +40,7 @@ mod tolerances_file;
 mod variables;
 
 pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
-pub use draft::{Draft, DraftScene, KINETIC_SHARE};
+pub use draft::{BOX, Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
     Blank, EditError, content, lean, other_variables, value_at, with_flanks, with_keys, with_limits,
     with_sprag, with_values,

@@ -4,14 +4,58 @@
 //! what a fit does ([`Fits::run`]). Equations: none.
 
 use super::check::m;
-use super::file::DesignFile;
+use super::file::{DesignFile, RimFile};
 use super::findings::Findings;
 use super::geometry::mm;
 use super::steels;
-use crate::clutch::{Fits, Joint, Materials, NotRunning, Races, Running, Sprags};
+use crate::clutch::{Fits, Joint, Materials, NotRunning, Races, Rim, Running, Sprags};
 
 /// Keys that change a radius, for refusals of what they lead to.
 const KEYS: [&str; 3] = ["thermal", "races.press_fit", "races"];
+
+pub(super) fn rim(file: RimFile) -> Rim {
+    match file {
+        RimFile::Free => Rim::Free,
+        RimFile::Held => Rim::Held,
+    }
+}
+
+/// Refuse a rim that is held where there is none, or where a fit says what yields beyond it.
+fn rims(file: &DesignFile, out: &mut Findings) {
+    let races = &file.races;
+    let fit = races.press_fit.as_ref();
+    if races.inner_rim == RimFile::Held && races.inner_bore_radius_mm == 0.0 {
+        out.refuse(
+            &["races.inner_rim", "races.inner_bore_radius_mm"],
+            "\"free\": a solid inner race has no bore to be held".to_owned(),
+            "remove inner_rim, or give the bore".to_owned(),
+        );
+    }
+    for (held, fitted, rim, key, partner) in [
+        (
+            races.inner_rim,
+            fit.is_some_and(|f| f.inner_interference_um.is_some()),
+            "races.inner_rim",
+            "races.press_fit.inner_interference_um",
+            "shaft",
+        ),
+        (
+            races.outer_rim,
+            fit.is_some_and(|f| f.outer_interference_um.is_some()),
+            "races.outer_rim",
+            "races.press_fit.outer_interference_um",
+            "housing",
+        ),
+    ] {
+        if held == RimFile::Held && fitted {
+            out.refuse(
+                &[rim, key],
+                format!("\"free\" together with {key}: the {partner} of the fit yields by its own radius and steel"),
+                format!("remove {rim}, or the fit where the {partner} does not yield"),
+            );
+        }
+    }
+}
 
 /// Races and sprags as run, and how; as made where the file names neither fits nor temperatures.
 pub(super) fn running(
@@ -21,6 +65,7 @@ pub(super) fn running(
     materials: &Materials,
     out: &mut Findings,
 ) -> Option<(Races, Sprags, Option<Running>)> {
+    rims(file, out);
     if file.thermal.is_none() && file.races.press_fit.is_none() {
         return Some((made, sprags, None));
     }

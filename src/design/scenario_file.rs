@@ -5,6 +5,7 @@
 
 use super::contact_file::ContactFile;
 use super::file::{FrictionFile, MaterialFile, RacesFile, SpragsFile, SpringFile};
+use super::random_torque::RandomTorqueFile;
 use super::scenarios::KindFile;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
@@ -13,7 +14,7 @@ use serde::Deserialize;
 /// frequency_hz, abutment_stiffness_nm_per_rad, duration_s, speed_rpm, start, drivetrain; engagement: free_run_rpm,
 /// reversing_torque_nm, stop_stiffness_nm_per_rad, bench_inertia_kg_m2, duration_s, drivetrain; overrun: speed_rpm,
 /// overrun_rpm; transient: abutment_stiffness_nm_per_rad, duration_s, preload_nm, torque_step_nm, step_time_s,
-/// torque_history_csv, speed_rpm, speed_history_csv, overrun_rpm, start, drivetrain. Any of the clutch's tables may be overridden in part.
+/// torque_history_csv, torque_random, speed_rpm, speed_history_csv, overrun_rpm, start, drivetrain. Any of the clutch's tables may be overridden in part.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ScenarioFile {
@@ -65,6 +66,8 @@ pub(super) struct ScenarioFile {
     /// on the inner race, engaging positive, straight between the rows; two rows at one time are a jump.
     #[schemars(length(min = 1))]
     pub torque_history_csv: Option<String>,
+    /// transient: a random torque on the inner race beside preload_nm.
+    pub torque_random: Option<RandomTorqueFile>,
     /// transient: CSV file, named from the design file's folder, with the columns time_s and speed_rpm: the mean
     /// speed, straight between the rows.
     #[schemars(length(min = 1))]

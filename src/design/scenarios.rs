@@ -88,13 +88,14 @@ pub const SCENARIO_KINDS: [KindKeys; 5] = [
     KindKeys {
         kind: KindFile::Transient,
         name: "transient",
-        words: "torques and speeds over time: a step, or histories from files",
+        words: "torques and speeds over time: a step, a random torque, or histories from files",
         required: &["abutment_stiffness_nm_per_rad", "duration_s"],
         optional: &[
             "preload_nm",
             "torque_step_nm",
             "step_time_s",
             "torque_history_csv",
+            "torque_random",
             "speed_rpm",
             "speed_history_csv",
             "overrun_rpm",
@@ -117,10 +118,14 @@ impl Scenario {
 }
 
 /// Keys of a transient of which at least one is needed.
-const CHANGES: [&str; 4] = ["torque_step_nm", "torque_history_csv", "speed_history_csv", "overrun_rpm"];
+const CHANGES: [&str; 5] =
+    ["torque_step_nm", "torque_history_csv", "torque_random", "speed_history_csv", "overrun_rpm"];
 
 /// Keys of a transient that give one thing twice: the one, and the other that is then to go.
-const EITHER: [[&str; 2]; 5] = [
+const EITHER: [[&str; 2]; 8] = [
+    ["torque_random", "torque_history_csv"],
+    ["torque_random", "torque_step_nm"],
+    ["torque_random", "step_time_s"],
     ["torque_history_csv", "preload_nm"],
     ["torque_history_csv", "torque_step_nm"],
     ["torque_history_csv", "step_time_s"],
@@ -166,6 +171,11 @@ pub(super) fn scenarios(
         // A drivetrain that is refused may be there for the scene.
         let joined = takes_part(entry.kind) && train.as_ref().is_none_or(|t| !t.is_empty());
         let kind = kind(entry, &path, joined, out);
+        // Of a random torque its rows, or none where it is refused.
+        let drawn = entry.torque_random.as_ref().zip(entry.duration_s).map(|(random, duration_s)| {
+            let accepted = random.accepted(duration_s, &format!("{path}.torque_random"), out);
+            accepted.then(|| Some(random.rows(entry.preload_nm.unwrap_or(0.0), duration_s)))
+        });
         let mut history = |name: &str, file: &Option<String>, which| {
             let Some(file) = file else { return Some(None) };
             match load(file, which) {
@@ -178,7 +188,10 @@ pub(super) fn scenarios(
                 }
             }
         };
-        let torque = history("torque_history_csv", &entry.torque_history_csv, HistoryKind::Torque);
+        let torque = match drawn {
+            Some(rows) => rows,
+            None => history("torque_history_csv", &entry.torque_history_csv, HistoryKind::Torque),
+        };
         let speed = history("speed_history_csv", &entry.speed_history_csv, HistoryKind::Speed);
         let overrides: Vec<(&str, &Table)> = OVERRIDABLE
             .into_iter()
@@ -266,6 +279,7 @@ fn kind(s: &ScenarioFile, path: &str, joined: bool, out: &mut Findings) -> Optio
         ("torque_step_nm", s.torque_step_nm),
         ("step_time_s", s.step_time_s),
         ("torque_history_csv", s.torque_history_csv.as_ref().map(|_| 0.0)),
+        ("torque_random", s.torque_random.as_ref().map(|_| 0.0)),
         ("speed_history_csv", s.speed_history_csv.as_ref().map(|_| 0.0)),
         ("start", s.start.map(|_| 0.0)),
         ("drivetrain", s.drivetrain.as_ref().map(|_| 0.0)),
@@ -331,7 +345,8 @@ fn kind(s: &ScenarioFile, path: &str, joined: bool, out: &mut Findings) -> Optio
             duration_s: s.duration_s?,
         },
         KindFile::Transient => ScenarioKind::Transient {
-            preload_nm: s.preload_nm.unwrap_or(0.0),
+            // A random torque has the preload in its rows.
+            preload_nm: s.preload_nm.filter(|_| s.torque_random.is_none()).unwrap_or(0.0),
             torque_step_nm: s.torque_step_nm.unwrap_or(0.0),
             step_time_s: s.step_time_s.unwrap_or(0.0),
             abutment_stiffness_nm_per_rad: abutment_nm_per_rad?,

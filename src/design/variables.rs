@@ -110,6 +110,7 @@ const UNITS: &[(&str, &str)] = &[
     ("rod_ratio", ""),
     ("roller_coefficient", ""),
     ("seed", ""),
+    ("spectrum", ""),
     ("shaft_bore_radius_mm", "mm"),
     ("size_um", "µm"),
     ("size_within_um", "µm"),
@@ -237,10 +238,13 @@ mod tests {
         for table in OTHER_TABLES {
             numbers(&schema["properties"][table], table, &mut all);
         }
-        let without = |name: &&String| unit_of_key(name.rsplit('.').next().unwrap()).is_none();
+        // A key, without the places in its array.
+        let key =
+            |path: &str| path.rsplit('.').next().and_then(|key| key.split('[').next()).unwrap().to_owned();
+        let without = |name: &&String| unit_of_key(&key(name)).is_none();
         assert_eq!(all[own..].iter().find(without), None);
-        for (key, _) in UNITS {
-            assert!(all.iter().any(|path| path.rsplit('.').next() == Some(key)), "no key {key}");
+        for (known, _) in UNITS {
+            assert!(all.iter().any(|path| key(path) == *known), "no key {known}");
         }
         let unit = |name| variable_unit(name).unwrap();
         assert_eq!(unit("races.viscous_damping_nm_s_per_rad"), "Nm s/rad");

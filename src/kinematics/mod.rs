@@ -63,6 +63,23 @@ pub fn lengths(r: &Radii, d: &Deformations) -> Lengths {
     }
 }
 
+/// OA and OB where the bodies roll on their unstrained circumferences: the pitch points, which part OC_i as R_i : r_i and
+/// OC_e as R_e : r_e. `effective_m`: R of 1/R = 1/R_i + 1/r_i at A and of 1/R = 1/r_e - 1/R_e at B, m.
+///
+/// A surface comes to a contact unstrained but for the growth of its ring, so ds = R dtheta - r dOmega says how far
+/// rolling is missed, and the work that it takes is a force times ds: its moments about the two axes are as R to r, so
+/// it crosses the line of centres at a pitch point. (8) takes the middle of the approach, which would hold if the patch
+/// did not give along the track (`src/wedge/rolling.rs`).
+pub fn pitch_points(r: &Radii, d: &Deformations, effective_m: [Dual; 2]) -> [Dual; 2] {
+    let [inner, outer] = effective_m;
+    let share_inner = -(inner * r.inner_race_m.recip()) + 1.0;
+    let share_outer = outer * r.outer_race_m.recip() + 1.0;
+    [
+        -(d.race_inner + d.contact_inner * share_inner) + r.inner_race_m,
+        d.race_outer + d.contact_outer * share_outer + (r.outer_race_m + d.growth_m),
+    ]
+}
+
 /// Triangle O C_i C_e: sine and cosine of beta, azimuth of C_i ahead of C_e.
 ///
 /// Eq. (9), second line, as sin^2(beta/2) = (C_iC_e^2 - (OC_i - OC_e)^2)/(4 OC_i OC_e), which keeps the digits

@@ -3,7 +3,7 @@
 use super::load::{Case, LoadState};
 use crate::clutch::TrackRun;
 use crate::design::Design;
-use crate::race::Race;
+use crate::race::{Race, Rim};
 use crate::wedge::StaticPoint;
 
 /// A race.
@@ -29,7 +29,15 @@ pub(super) fn hoop_pa(case: &Case, p: &StaticPoint, which: Which, bending: bool)
             let bore = race.hoop_at_bore_pa(count, normal_n).abs();
             bore.max(race.hoop_at_track_pa(count, normal_n).abs())
         }
-        Which::Outer => race.hoop_at_track_pa(count, normal_n),
+        Which::Outer => {
+            let track = race.hoop_at_track_pa(count, normal_n);
+            match race.rim() {
+                Rim::Free => track,
+                Rim::Held => {
+                    track.abs().max(race.hoop_at_radius_pa(count, normal_n, race.other_rim_m()).abs())
+                }
+            }
+        }
     };
     let plain = if bending { race.hoop_with_bending_pa(count, normal_n).abs() } else { mean };
     let fitted = case.design.clutch.running.as_ref().map(|running| match which {

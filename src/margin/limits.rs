@@ -24,6 +24,15 @@ pub enum When {
 }
 
 impl When {
+    /// Key of `[limits]` that names the torque, where it is one.
+    pub fn key(self) -> Option<&'static str> {
+        match self {
+            Self::Nominal => Some("nominal_torque_nm"),
+            Self::Peak => Some("peak_torque_nm"),
+            _ => None,
+        }
+    }
+
     /// The torque, N m, where it is one and the limits name it.
     pub(super) fn torque_nm(self, limits: &Limits) -> Option<f64> {
         match self {

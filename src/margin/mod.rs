@@ -15,6 +15,7 @@ mod scenes;
 mod sprag;
 mod subsurface;
 mod table;
+mod track_tension;
 mod unlike;
 
 pub use capacity::{DemandCourse, courses, nominal_capacity};
@@ -28,6 +29,7 @@ pub use row::{Demand, Margin, RESOLUTION, Rule, lowest_capacity};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
 pub use table::{CONTACT, END_OF_PROFILE, FILM, KEEP_CONTACT, LIFT_OFF, LIMITS, SLIP};
+pub use track_tension::{TrackPatch, TrackTension, track_tension};
 pub use unlike::unlike_margins;
 
 use crate::clutch::Scenario;

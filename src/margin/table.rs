@@ -44,7 +44,7 @@ const HOOP: Limit = Limit {
                   its own stress, and the larger magnitude, loaded or at rest, counts. A thicker race or a larger \
                   wedge angle lowers it.",
     formula: "p = n_s N/(2 pi R w); outer race p (R_ed^2 + R_e^2)/(R_ed^2 - R_e^2) at its track, inner race -2 p \
-              R_i^2/(R_i^2 - R_id^2) at its bore",
+              R_i^2/(R_i^2 - R_id^2) at its bore; a rim that the design holds: Lame's ring with that rim unmoved",
     source: "Lame; Timoshenko, Strength of Materials II, art. 41",
     ..PRESSURE
 };

@@ -59,6 +59,23 @@ pub enum Cause {
     RestorationCycle,
 }
 
+impl Cause {
+    /// What it means to who searches.
+    pub fn words(&self) -> &'static str {
+        match self {
+            Self::FailingRegion => {
+                "the way up leads to sprags that cannot be built or closed by their flanks (check one step further with --set)"
+            }
+            Self::NoDerivative(_) => "near a variable's value no design can be built",
+            Self::NoDescent => "no step, however short, gains what the slopes promise",
+            Self::Noise => "what is violated is as small as the error of an evaluation",
+            Self::IterationLimit => "its limit of steps was met",
+            Self::Subproblem => "no next step was found",
+            Self::RestorationCycle => "limits were restored and lost again",
+        }
+    }
+}
+
 /// What is left at the last point of the main phase; see the tolerances of [`Settings`](super::Settings).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Residuals {

@@ -263,6 +263,17 @@ impl Outline {
     /// # Errors
     /// [`OutlineError::NoArcs`]; whether the flanks close the profile is seen when they do.
     pub fn narrowest_flanks(profile: &Profile) -> Result<(f64, f64), OutlineError> {
+        let half_width = |[need, reach]: [f64; 2]| (BEYOND * need).min(0.5 * (need + reach));
+        let [rear, front] = Self::flank_window(profile)?;
+        Ok((half_width(rear), half_width(front)))
+    }
+
+    /// Distances from the strut between which parallel flanks close the profile, rear and front, m: what its contacts need, and how
+    /// far the arcs reach.
+    ///
+    /// # Errors
+    /// [`OutlineError::NoArcs`].
+    pub fn flank_window(profile: &Profile) -> Result<[[f64; 2]; 2], OutlineError> {
         let (Some(first), Some(last)) = (profile.arcs.first(), profile.arcs.last()) else {
             return Err(OutlineError::NoArcs);
         };
@@ -271,17 +282,13 @@ impl Outline {
         let any = Flanks::parallel(profile.outer_radius_m, profile.outer_radius_m);
         let (rear, front) =
             (Flank::new(&strut, FlankSide::Rear, &any)?, Flank::new(&strut, FlankSide::Front, &any)?);
-        let half_width = |flank: &Flank, end: Vector2<f64>, arc: &ProfileArc| {
-            let need = flank.need(end);
+        let window = |flank: &Flank, end: Vector2<f64>, arc: &ProfileArc| {
             let inner = flank.reach(arc.centre_m, arc.radius_m);
-            let reach = inner.min(flank.reach(Vector2::zeros(), profile.outer_radius_m));
-            (BEYOND * need).min(0.5 * (need + reach))
+            [flank.need(end), inner.min(flank.reach(Vector2::zeros(), profile.outer_radius_m))]
         };
         let outer_end =
             profile.outer_radius_m * along(outer_contact_azimuth(profile, profile.end_turn_rad()));
-        let rear_m = half_width(&rear, outer_end, first);
-        let front_m = half_width(&front, inner_end(profile, last), last);
-        Ok((rear_m, front_m))
+        Ok([window(&rear, outer_end, first), window(&front, inner_end(profile, last), last)])
     }
 
     /// Segments in order, each beginning where the one before ends.

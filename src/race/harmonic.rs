@@ -2,7 +2,7 @@
 //!
 //! n contacts load the track with p(theta) = p_mean [1 + 2 sum_k f_k cos(k n theta)]. The mean is Lame's; each
 //! harmonic m = k n is a plane problem of the ring, solved with Michell's stress function
-//! phi = (A r^m + B r^(m+2) + C r^-m + D r^(2-m)) cos m theta, other rim free (Barber, *Elasticity*, table 9.1;
+//! phi = (A r^m + B r^(m+2) + C r^-m + D r^(2-m)) cos m theta, other rim free or held (Barber, *Elasticity*, table 9.1;
 //! Timoshenko & Goodier, art. 43). For large m it is the half-plane with u_m = 2 (1-nu^2) R/(E m) p_m, whose sum is
 //! the local contact; what the ring adds is the sum of the differences, which dies out within a few harmonics.
 
@@ -10,6 +10,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 
+use super::rim::Rim;
 use super::ring::Race;
 use crate::material::PlaneState;
 
@@ -28,22 +29,32 @@ struct Harmonic {
     hoop_other: f64,
 }
 
-/// Solve one harmonic on a ring whose loaded rim has radius 1 and whose free rim has radius `other` (0: disc).
-fn harmonic(m: f64, other: f64, poisson: f64, plane: PlaneState) -> Option<Harmonic> {
-    harmonic_with(m, other, poisson, plane, OtherRim::Free)
+/// Solve one harmonic on a ring whose loaded rim has radius 1 and whose other rim has radius `other` (0: disc).
+fn harmonic(m: f64, other: f64, poisson: f64, plane: PlaneState, rim: Rim) -> Option<Harmonic> {
+    let kappa = plane.kolosov(poisson);
+    harmonic_with(m, other, poisson, plane, conditions(m, other, kappa, rim))
 }
 
-/// What the rim away from the contacts is held by.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum OtherRim {
-    /// Nothing.
-    Free,
-    /// It stays a circle that may grow and turns without shear: the boundary of a finite-element sector.
-    #[cfg(test)]
-    Circular,
+/// Rows that vanish but for the load in the first: stress across and along the track, then at the other rim stresses where it is
+/// free, displacements where it is held.
+fn conditions(m: f64, other: f64, kappa: f64, rim: Rim) -> [[f64; 4]; 4] {
+    let mut rows = tractions(m, other);
+    if rim == Rim::Held {
+        let at_rim = [0, 1, 2, 3].map(|i| scale(other, exponents(m)[i], other, exponents(m)[i] - 1.0));
+        let (lift, drift) = (lifts(m, kappa), drifts(m, kappa));
+        rows[2] = [0, 1, 2, 3].map(|i| lift[i] * at_rim[i]);
+        rows[3] = [0, 1, 2, 3].map(|i| drift[i] * at_rim[i]);
+    }
+    rows
 }
 
-fn harmonic_with(m: f64, other: f64, poisson: f64, plane: PlaneState, rim: OtherRim) -> Option<Harmonic> {
+fn harmonic_with(
+    m: f64,
+    other: f64,
+    poisson: f64,
+    plane: PlaneState,
+    rows: [[f64; 4]; 4],
+) -> Option<Harmonic> {
     let exponents = exponents(m);
     let kappa = plane.kolosov(poisson);
     let hoop = |k: f64, s: f64| k * (k - 1.0) * scale(other, k, s, k - 2.0);
@@ -69,15 +80,6 @@ fn harmonic_with(m: f64, other: f64, poisson: f64, plane: PlaneState, rim: Other
         let outward = x[0] * lift[0] + x[1] * lift[1];
         let hoop_loaded = x[0] * m * (m - 1.0) + x[1] * (m + 2.0) * (m + 1.0);
         return Some(Harmonic { displacement_ratio: -outward / half_plane, hoop_loaded, hoop_other: 0.0 });
-    }
-    #[cfg_attr(not(test), expect(unused_mut, reason = "the other rim is held in tests alone"))]
-    let mut rows = tractions(m, other);
-    match rim {
-        OtherRim::Free => {}
-        #[cfg(test)]
-        OtherRim::Circular => {
-            rows[2] = [0, 1, 2, 3].map(|i| lift[i] * scale(other, exponents[i], other, exponents[i] - 1.0));
-        }
     }
     let matrix = Matrix4::from_fn(|i, j| rows[i][j]);
     let x = matrix.lu().solve(&Vector4::new(-1.0, 0.0, 0.0, 0.0))?;
@@ -112,8 +114,9 @@ fn tractions(m: f64, other: f64) -> [[f64; 4]; 4] {
 }
 
 /// Displacements of the track under pressure cos(m theta) and under shear sin(m theta) on it in the positive sense, other rim
-/// free; unit radius, unit modulus, plane stress. Rows: away from the load over cos(m theta), along the track over sin(m theta).
-pub(super) fn response(m: f64, other: f64, poisson: f64) -> Option<[[f64; 2]; 2]> {
+/// as `rim` says; unit radius, unit modulus, plane stress. Rows: away from the load over cos(m theta), along the track over sin(m
+/// theta).
+pub(super) fn response(m: f64, other: f64, poisson: f64, rim: Rim) -> Option<[[f64; 2]; 2]> {
     let plane = PlaneState::Stress;
     let kappa = plane.kolosov(poisson);
     // u = (1 + nu)/E times 2 mu u; a bore is seen from within.
@@ -132,7 +135,7 @@ pub(super) fn response(m: f64, other: f64, poisson: f64) -> Option<[[f64; 2]; 2]
             of.solve(&Vector2::new(0.0, 1.0))?.as_slice().to_vec(),
         )
     } else {
-        let rows = tractions(m, other);
+        let rows = conditions(m, other, kappa, rim);
         let of = Matrix4::from_fn(|i, j| rows[i][j]).lu();
         let shear = Vector4::new(0.0, -sense, 0.0, 0.0);
         (
@@ -144,6 +147,46 @@ pub(super) fn response(m: f64, other: f64, poisson: f64) -> Option<[[f64; 2]; 2]
     Some([[up, ut], [vp, vt]])
 }
 
+/// Hoop stress at the track over cos(m theta) under the pressure cos(m theta) on it, and over sin(m theta) under the shear cos(m
+/// theta) on it in the positive sense, m = n, 2n, ...; plane stress.
+pub(super) fn track_hoops(race: &Race, contacts: usize) -> impl Iterator<Item = [f64; 2]> {
+    let (other, nu, rim) = (race.other_rim_m() / race.track_m(), race.material().poisson_ratio, race.rim());
+    let kappa = PlaneState::Stress.kolosov(nu);
+    (1..=HARMONICS).map_while(move |k| {
+        let m = (k * contacts) as f64;
+        if other == 0.0 {
+            return Some([-1.0, -2.0]);
+        }
+        track_hoop(m, other, conditions(m, other, kappa, rim))
+    })
+}
+
+/// The same of a ring whose rim is free across itself and turns as one: so finite elements drive it.
+#[cfg(test)]
+pub(super) fn driven_hoops(race: &Race, contacts: usize) -> impl Iterator<Item = [f64; 2]> {
+    let (other, nu) = (race.other_rim_m() / race.track_m(), race.material().poisson_ratio);
+    let kappa = PlaneState::Stress.kolosov(nu);
+    (1..=HARMONICS).map_while(move |k| {
+        let m = (k * contacts) as f64;
+        let mut rows = conditions(m, other, kappa, Rim::Free);
+        rows[3] = conditions(m, other, kappa, Rim::Held)[3];
+        track_hoop(m, other, rows)
+    })
+}
+
+fn track_hoop(m: f64, other: f64, rows: [[f64; 4]; 4]) -> Option<[f64; 2]> {
+    let of = Matrix4::from_fn(|i, j| rows[i][j]).lu();
+    let hoop = |x: Vector4<f64>| -> f64 {
+        let at_track = |(k, x): (&f64, &f64)| x * k * (k - 1.0) * scale(other, *k, 1.0, k - 2.0);
+        exponents(m).iter().zip(x.iter()).map(at_track).sum()
+    };
+    // Traction on an outside is the stress, on a bore its reverse; a quarter wave on, sin is cos and cos is -sin.
+    let sense = if other > 1.0 { 1.0 } else { -1.0 };
+    let pressed = of.solve(&Vector4::new(-1.0, 0.0, 0.0, 0.0))?;
+    let sheared = of.solve(&Vector4::new(0.0, sense, 0.0, 0.0))?;
+    Some([hoop(pressed), hoop(sheared)])
+}
+
 fn radial_free(k: f64, m: f64) -> f64 {
     k - m * m
 }
@@ -151,9 +194,9 @@ fn radial_free(k: f64, m: f64) -> f64 {
 impl Race {
     fn harmonics(&self, contacts: usize, plane: PlaneState) -> impl Iterator<Item = (f64, Harmonic)> + '_ {
         let other = self.other_rim_m() / self.track_m();
-        let nu = self.material().poisson_ratio;
+        let (nu, rim) = (self.material().poisson_ratio, self.rim());
         (1..=HARMONICS)
-            .map_while(move |k| harmonic((k * contacts) as f64, other, nu, plane).map(|h| (k as f64, h)))
+            .map_while(move |k| harmonic((k * contacts) as f64, other, nu, plane, rim).map(|h| (k as f64, h)))
     }
 
     /// Depth d, m, at which a half-plane under one contact has the approach that the ring has between that contact
@@ -184,6 +227,7 @@ impl Race {
     /// Largest and smallest hoop stress at the rim away from the contacts, Pa: behind and between contacts.
     pub fn hoop_other_rim_pa(&self, contacts: usize, normal_n: f64) -> (f64, f64) {
         let mean = match self.other_rim_m() > self.track_m() {
+            _ if self.rim() == Rim::Held => self.hoop_at_radius_pa(contacts, normal_n, self.other_rim_m()),
             // Lame at the outside of an outer race: the mean at its track less the pressure there.
             true => self.hoop_at_track_pa(contacts, normal_n) - self.track_pressure_pa(contacts, normal_n),
             false => self.hoop_at_bore_pa(contacts, normal_n),
@@ -201,8 +245,8 @@ impl Race {
     /// Hoop stress of largest magnitude away from the contacts, Pa, tension positive: midway between them at the
     /// track, behind and between them at the other rim. What the contacts do right under themselves is Hertz's.
     ///
-    /// The other rim is free. Held circular, as in finite elements that turn the ring by its rim, the track of
-    /// Table 1's outer race has 1.28 of the mean between sprags instead of 1.34.
+    /// Held circular and free to slide, as in finite elements that turn the ring by its rim, the track of
+    /// Table 1's outer race has 1.28 of the mean between sprags instead of the 1.34 of a free rim.
     pub fn hoop_with_bending_pa(&self, contacts: usize, normal_n: f64) -> f64 {
         let (largest, smallest) = self.hoop_other_rim_pa(contacts, normal_n);
         let between = self.hoop_between_pa(contacts, normal_n);
@@ -239,9 +283,9 @@ mod tests {
     #[test]
     fn a_ring_is_a_half_plane_to_short_waves() {
         for plane in [PlaneState::Strain, PlaneState::Stress] {
-            let h = harmonic(3000.0, 1.35, 0.3, plane).unwrap();
+            let h = harmonic(3000.0, 1.35, 0.3, plane, Rim::Free).unwrap();
             assert!((h.displacement_ratio - 1.0).abs() < 1e-3 && (h.hoop_loaded + 1.0).abs() < 1e-9);
-            let h = harmonic(3000.0, 0.65, 0.3, plane).unwrap();
+            let h = harmonic(3000.0, 0.65, 0.3, plane, Rim::Free).unwrap();
             assert!((h.displacement_ratio - 1.0).abs() < 1e-3);
         }
     }
@@ -251,7 +295,7 @@ mod tests {
         // Ring of radius R, thickness h, load p cos(m theta): w = p R^4/(E I) /(m^2 - 1)^2 for h << R, I = h^3/12
         // per unit width (Timoshenko, *Strength of Materials* II, art. 15), outward load outward displacement.
         let (h, m) = (0.01, 2.0);
-        let ring = harmonic(m, 1.0 + h, 0.3, PlaneState::Stress).unwrap();
+        let ring = harmonic(m, 1.0 + h, 0.3, PlaneState::Stress, Rim::Free).unwrap();
         let u = ring.displacement_ratio * PlaneState::Stress.half_plane_ratio(0.3) / m;
         // u is 2 mu u_r for unit pressure at unit radius, and 2 mu = E/(1 + nu); the load acts on the inner rim.
         let expected = 12.0 / h.powi(3) / (m * m - 1.0).powi(2) / 1.3 * (1.0 + 0.5 * h).powi(3);
@@ -260,8 +304,8 @@ mod tests {
 
     #[test]
     fn a_solid_shaft_is_the_limit_of_a_small_bore() {
-        let solid = harmonic(12.0, 0.0, 0.3, PlaneState::Strain).unwrap();
-        let bored = harmonic(12.0, 0.05, 0.3, PlaneState::Strain).unwrap();
+        let solid = harmonic(12.0, 0.0, 0.3, PlaneState::Strain, Rim::Free).unwrap();
+        let bored = harmonic(12.0, 0.05, 0.3, PlaneState::Strain, Rim::Free).unwrap();
         assert!((solid.displacement_ratio - bored.displacement_ratio).abs() < 1e-9);
         assert!((solid.hoop_loaded - bored.hoop_loaded).abs() < 1e-9);
     }
@@ -298,7 +342,11 @@ mod tests {
         let (mut track, mut rim) = (mean + p, mean - p);
         for k in 1..=HARMONICS {
             let m = 12.0 * k as f64;
-            let h = harmonic_with(m, other, 0.3, PlaneState::Stress, OtherRim::Circular).unwrap();
+            // It stays a circle that may grow and turns without shear: the boundary of that finite-element sector.
+            let kappa = PlaneState::Stress.kolosov(0.3);
+            let mut rows = conditions(m, other, kappa, Rim::Free);
+            rows[2] = conditions(m, other, kappa, Rim::Held)[2];
+            let h = harmonic_with(m, other, 0.3, PlaneState::Stress, rows).unwrap();
             let sign = if k % 2 == 0 { 2.0 } else { -2.0 };
             track += sign * p * (h.hoop_loaded + 1.0);
             rim += sign * p * h.hoop_other;

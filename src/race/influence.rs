@@ -37,7 +37,7 @@ impl Race {
             mean_m_per_n: self.compliance_m_per_n(1),
             per_n: 1.0 / (PI * self.width_m() * self.material().youngs_modulus_pa),
             poisson: nu,
-            modes: (2..=HARMONICS).map_while(|m| response(m as f64, other, nu)).collect(),
+            modes: (2..=HARMONICS).map_while(|m| response(m as f64, other, nu, self.rim())).collect(),
         }
     }
 }

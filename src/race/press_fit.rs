@@ -1,5 +1,6 @@
 //! Two rings pressed into one another: pressure at the joint, what the track moves, hoop stress of the race.
 
+use super::rim::Rim;
 use super::ring::Race;
 
 /// What a fit does to a race; stresses and growth by the fit alone, all proportional to the interference.
@@ -46,8 +47,11 @@ impl Race {
 
     /// Mean hoop stress under track load at the radius `at_m` of a race that is one piece from its far rim to its track,
     /// Pa, tension positive (Lame): -+ P T^2 (1 + o^2/r^2)/|T^2 - o^2| with the pressure P on the track T, o the other rim;
-    /// - for an inner race, + for an outer one.
+    /// - for an inner race, + for an outer one. Of a race whose rim is held, Lame's with that rim unmoved.
     pub fn hoop_at_radius_pa(&self, contacts: usize, normal_n: f64, at_m: f64) -> f64 {
+        if self.rim() == Rim::Held {
+            return self.held_hoop_pa(self.track_pressure_pa(contacts, normal_n), at_m);
+        }
         let (track, other) = (self.track_m().powi(2), self.other_rim_m().powi(2));
         -self.track_pressure_pa(contacts, normal_n) * track * (1.0 + other / at_m.powi(2)) / (track - other)
     }

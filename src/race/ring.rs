@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
+use super::rim::Rim;
 use crate::material::Material;
 
 /// Which side of the ring the contacts press on.
@@ -57,6 +58,7 @@ pub struct Race {
     outside_m: f64,
     width_m: f64,
     material: Material,
+    rim: Rim,
 }
 
 impl Race {
@@ -84,7 +86,23 @@ impl Race {
         if !(width_m > 0.0 && width_m.is_finite()) {
             return Err(RaceError::WidthNotPositive { width_m });
         }
-        Ok(Self { side, bore_m, outside_m, width_m, material })
+        Ok(Self { side, bore_m, outside_m, width_m, material, rim: Rim::Free })
+    }
+
+    /// The same race with its other rim as `rim` says; a solid shaft has none to be held.
+    pub fn with_rim(self, rim: Rim) -> Self {
+        let rim = if self.other_rim_m() > 0.0 { rim } else { Rim::Free };
+        Self { rim, ..self }
+    }
+
+    /// How the rim away from the contacts is held.
+    pub fn rim(&self) -> Rim {
+        self.rim
+    }
+
+    /// Whether the contacts press on its outside.
+    pub(super) fn is_inner(&self) -> bool {
+        self.side == Side::Inner
     }
 
     /// Track radius at rest, m: R_i or R_e.
@@ -118,8 +136,12 @@ impl Race {
         &self.material
     }
 
-    /// (R_o^2 + R_b^2)/(R_o^2 - R_b^2) of Lame's ring with bore R_b and outside R_o; 1 for a solid shaft.
+    /// (R_o^2 + R_b^2)/(R_o^2 - R_b^2) of Lame's ring with bore R_b and outside R_o; 1 for a solid shaft; of a ring whose rim is
+    /// held what takes its place.
     pub(super) fn lame_factor(&self) -> f64 {
+        if self.rim == Rim::Held {
+            return self.held_factor();
+        }
         let (o, b) = (self.outside_m.powi(2), self.bore_m.powi(2));
         (o + b) / (o - b)
     }
@@ -162,6 +184,9 @@ impl Race {
             Side::Outer => self.hoop_at_track_pa(contacts, normal_n),
             Side::Inner => {
                 let p = self.track_pressure_pa(contacts, normal_n);
+                if self.rim == Rim::Held {
+                    return self.held_hoop_pa(p, self.bore_m);
+                }
                 if self.bore_m == 0.0 {
                     return -p;
                 }
@@ -175,6 +200,9 @@ impl Race {
     /// Materials* II, art. 41): sqrt(p^2 + p h + h^2) at the outer race's track with its hoop stress h; for an inner race
     /// 2 p R_i^2/(R_i^2 - R_id^2) at the free bore, above that at its track; p throughout a solid shaft.
     pub fn equivalent_pa(&self, contacts: usize, normal_n: f64) -> f64 {
+        if self.rim == Rim::Held {
+            return self.held_equivalent_pa(self.track_pressure_pa(contacts, normal_n));
+        }
         match self.side {
             Side::Inner => self.hoop_at_bore_pa(contacts, normal_n).abs(),
             Side::Outer => {
@@ -187,8 +215,11 @@ impl Race {
 
     /// Hoop stress at the bore of the ring rotating at `speed_rad_s`, unloaded, Pa, tension positive:
     /// rho omega^2/4 [(3+nu) R_o^2 + (1-nu) R_b^2] (Timoshenko, *Theory of Elasticity*, art. 32);
-    /// a solid shaft has (3+nu)/8 rho omega^2 R_o^2 at its centre.
+    /// a solid shaft has (3+nu)/8 rho omega^2 R_o^2 at its centre. At the track of an outer race whose outside is held, less.
     pub fn rotating_bore_hoop_pa(&self, speed_rad_s: f64) -> f64 {
+        if self.rim == Rim::Held && self.side == Side::Outer {
+            return self.held_rotating_hoop_pa(speed_rad_s);
+        }
         let nu = self.material.poisson_ratio;
         let inertia = self.material.density_kg_m3 * speed_rad_s.powi(2);
         if self.bore_m == 0.0 {

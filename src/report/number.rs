@@ -158,15 +158,15 @@ pub fn plain(value: f64, digits: usize) -> String {
     format!("{}{power}", mantissa.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// The error of `value` as it stands beside it where it is shown with `digits` significant digits, in the same unit: a word
+/// The error of `value` as it stands beside it where it is shown with `digits` significant digits, both in `unit`: words
 /// where it is less than half of the last digit.
-pub fn error_beside(value: f64, digits: usize, error: f64) -> String {
+pub fn error_beside(value: f64, digits: usize, error: f64, unit: &str) -> String {
     let exponent = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
     let last = 10.0_f64.powi(exponent + 1 - digits.max(1) as i32);
     if error.abs() < 0.5 * last {
         "exact to the digits shown".to_owned()
     } else {
-        format!("\u{b1} {}", significant(error.abs(), 1))
+        format!("\u{b1} {} {unit}", significant(error.abs(), 1)).trim_end().to_owned()
     }
 }
 
@@ -203,7 +203,7 @@ mod tests {
             (-0.246, 2e-4, "\u{b1} 0.0002"),
             (0.0, 1e-9, "exact to the digits shown"),
         ] {
-            assert_eq!(error_beside(value, 5, error), want, "{value}");
+            assert_eq!(error_beside(value, 5, error, ""), want, "{value}");
         }
     }
 

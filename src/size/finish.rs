@@ -3,7 +3,8 @@
 use super::Requirements;
 use super::proportions::{COUNTS, lengthen, longest_m, spring};
 use super::purpose::{CREST_S, DRIVE_HZ, STOP};
-use crate::design::{Design, Draft};
+use crate::clutch::Clutch;
+use crate::design::{BOX, Design, Draft};
 use crate::margin::{
     KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state, margins, overrun_at,
 };
@@ -77,15 +78,11 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
         let peak = state.curve.at_torque(draft.torques_nm[1]).ok_or("the curve ends below peak torque")?;
         let nominal =
             state.curve.at_torque(draft.torques_nm[0]).ok_or("the curve ends below nominal torque")?;
-        // A third of the turn, and a little for small ones, is left at peak torque.
-        draft.until_rad = 1.3 * peak.contact_turn_rad + 0.02;
-        let mut ended = design.clutch.clone();
-        ended.sprags.inner_arcs[0].until_rad = draft.until_rad;
-        let profile = ended.profile().map_err(|e| e.to_string())?;
-        let (rear, front) = Outline::narrowest_flanks(&profile).map_err(|e| e.to_string())?;
         // A sprag is no needle: at least a fifth of the race space to either side, where the arcs reach that far.
         let space = draft.races_m[2] - draft.races_m[1];
         let least_half = (0.2 * space).min(0.8 * draft.inner_radius_m);
+        let (until_rad, [rear, front]) = closed(&design.clutch, peak.contact_turn_rad)?;
+        draft.until_rad = until_rad;
         draft.flanks_m = Some((rear.max(least_half), front.max(least_half)));
         let stiffness = nominal.k_secant_nm_per_rad;
         // The drive on the inner race swings against the clutch.
@@ -123,6 +120,50 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
         }
     }
     Err(why)
+}
+
+/// Turn at which the profile ends, and flanks, rear and front, m, for a contact that turns by `turn_rad` at peak torque. Of the turn a third,
+/// and a little for small ones, is left; less where no flank would close all sprags of the box that the file gives the optimiser.
+fn closed(clutch: &Clutch, turn_rad: f64) -> Result<(f64, [f64; 2]), String> {
+    const LEFT: [f64; 5] = [1.3, 1.25, 1.2, 1.15, 1.1];
+    /// Of the box: all, else a part about the sprag.
+    const SHARES: [f64; 4] = [1.0, 0.6, 0.3, 0.1];
+    /// What flanks of the box keep of their window at either end.
+    const WITHIN: f64 = 0.01;
+    let ended = |until_rad: f64, radius: f64, distance: f64| {
+        let mut clutch = clutch.clone();
+        clutch.sprags.inner_arcs[0].until_rad = until_rad;
+        clutch.sprags.inner_arcs[0].radius_m *= radius;
+        clutch.sprags.centre_distance_m *= distance;
+        clutch.profile()
+    };
+    let window = |until_rad: f64, share: f64| {
+        let mut narrowed = [[0.0_f64, f64::INFINITY]; 2];
+        for corner in 0..4 {
+            let [radius, distance] =
+                [BOX[0][corner % 2], BOX[1][corner / 2]].map(|x| 1.0 + share * (x - 1.0));
+            let profile = ended(until_rad, radius, distance).ok()?;
+            for (side, [need, reach]) in narrowed.iter_mut().zip(Outline::flank_window(&profile).ok()?) {
+                *side = [side[0].max(need), side[1].min(reach)];
+            }
+        }
+        let open = |[need, reach]: &[f64; 2]| need * (1.0 + 2.0 * WITHIN) < *reach;
+        narrowed.iter().all(open).then_some(narrowed)
+    };
+    let end = |left: f64| left * turn_rad + 0.02;
+    let at = |share: f64| LEFT.into_iter().find_map(|left| Some((end(left), window(end(left), share)?)));
+    let found = SHARES.into_iter().find_map(at);
+    if let Some((until_rad, window)) = found {
+        let profile = ended(until_rad, 1.0, 1.0).map_err(|e| e.to_string())?;
+        let (rear, front) = Outline::narrowest_flanks(&profile).map_err(|e| e.to_string())?;
+        let within =
+            |at: f64, [need, reach]: [f64; 2]| at.clamp(need * (1.0 + WITHIN), reach * (1.0 - WITHIN));
+        return Ok((until_rad, [within(rear, window[0]), within(front, window[1])]));
+    }
+    let until_rad = end(LEFT[0]);
+    let profile = ended(until_rad, 1.0, 1.0).map_err(|e| e.to_string())?;
+    let (rear, front) = Outline::narrowest_flanks(&profile).map_err(|e| e.to_string())?;
+    Ok((until_rad, [rear, front]))
 }
 
 /// What stands in the way of a draft that its width should carry.

@@ -205,7 +205,7 @@ impl Solved {
             pinned_poses: pinned.iter().flat_map(|p| p.samples.iter().map(Pose::new)).collect(),
             end: (self.state.curve.end_torque_nm(), self.state.curve.end().0.name()),
             nominal_nm: limits.nominal_torque_nm.unwrap_or(0.0),
-            asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
+            asked_nm: limits.largest_torque_nm().unwrap_or(0.0),
             windup_svg: self.windup(pinned).to_svg(),
             tangent_svg: self.tangent(pinned).to_svg(),
         }
@@ -226,7 +226,7 @@ impl Solved {
     /// Torque to which the plots go: half as much again as is asked, or the curve's end.
     fn plotted_to_nm(&self) -> f64 {
         let limits = &self.design.limits;
-        let asked = limits.peak_torque_nm.or(limits.nominal_torque_nm);
+        let asked = limits.largest_torque_nm();
         asked.map_or(f64::INFINITY, |t| 1.5 * t)
     }
 

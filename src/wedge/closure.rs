@@ -44,6 +44,8 @@ pub struct Closure {
     pub t_offset_n: f64,
     /// Pure number, OB sin(beta)/(OB cos(beta) - OA).
     pub t_ratio: f64,
+    /// Its derivative by N_bi, 1/N.
+    pub t_ratio_slope_per_n: f64,
     /// Tangential force at B, N.
     pub t_be: Dual,
     /// Lengths of (8).
@@ -67,6 +69,9 @@ pub struct Closure {
     /// By how much the race that carries the offset has turned against the line OC_e since first contact at rest between
     /// concentric races, rad.
     pub carried_rad: f64,
+    /// By how much the contacts at A and at B give along the tracks as N_bi grows, m/N; 0 for a law that lets them give
+    /// across alone.
+    pub give_m_per_n: [f64; 2],
 }
 
 impl Closure {
@@ -99,6 +104,8 @@ impl Closure {
             self.beta.v + self.gamma.v,
             self.gamma.v,
         );
+        let [give_i, give_e] = self.give_rad_per_n();
+        let (rho_i, rho_e) = (rho_i + give_i / self.alpha.d, rho_e + give_e / self.alpha.d);
         match self.offset_m.map(|o| o.v) {
             [0.0, 0.0] => (rho_i, rho_e),
             // Against OG the offset moves by itself: only the sum has a meaning, the windup's.
@@ -117,7 +124,14 @@ impl Closure {
         let axis = across.d * cos_b - along.d * sin_b;
         let inner = (self.rotation.d * arm - sin_b * l.oc_e.d - axis) / l.oa.v;
         let outer = self.rotation.d * (l.ob.v - l.oc_e.v) / l.ob.v;
-        outer - inner
+        let [give_i, give_e] = self.give_rad_per_n();
+        outer - inner + (give_i + give_e)
+    }
+
+    /// By how much each race turns further in engagement as its contact gives, rad/N.
+    fn give_rad_per_n(&self) -> [f64; 2] {
+        let [inner, outer] = self.give_m_per_n;
+        [inner / self.lengths.oa.v, outer / self.lengths.ob.v]
     }
 }
 
@@ -242,7 +256,10 @@ impl Statics {
         let mut unsettled = f64::INFINITY;
         for round in 0..60 {
             let d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
-            let l = kinematics::lengths(&radii, &d);
+            let mut l = kinematics::lengths(&radii, &d);
+            if self.elastic.gives_along {
+                [l.oa, l.ob] = kinematics::pitch_points(&radii, &d, self.effective_radii_m(&inner));
+            }
             let (sin_b, cos_b) =
                 kinematics::beta_off_centre(&l, distance, apart).ok_or(NoClosure::RolledOver)?;
             let [along, across] = apart;
@@ -291,12 +308,13 @@ impl Statics {
             n_be = next;
             (residual, slope_residual, unsettled) = (change, slope_change, change.max(moved.v));
             if settled {
-                return Ok(Closure {
+                let mut found = Closure {
                     n_bi,
                     n_be,
                     t_bi,
                     t_offset_n: offset.v,
                     t_ratio: ratio.v,
+                    t_ratio_slope_per_n: ratio.d,
                     t_be,
                     lengths: l,
                     deformations: d,
@@ -308,7 +326,10 @@ impl Statics {
                     alpha: rotation + g.gamma - self.gamma0,
                     offset_m: apart,
                     carried_rad: self.carried(arc, rotation, turn).v,
-                });
+                    give_m_per_n: [0.0; 2],
+                };
+                found.give_m_per_n = self.give_m_per_n(arc, &found);
+                return Ok(found);
             }
             if !self.is_concentric() {
                 apart = turned(self.offset_m, carried);

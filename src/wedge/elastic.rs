@@ -66,6 +66,8 @@ pub struct Elastic {
     pub inner_race: Race,
     /// Outer race.
     pub outer_race: Race,
+    /// Whether the contacts give along the tracks as well and roll on unstrained circumferences: law `elastic`.
+    pub(super) gives_along: bool,
     race_inner_m_per_n: f64,
     race_outer_m_per_n: f64,
     body_m_per_n: f64,
@@ -94,8 +96,10 @@ impl Elastic {
             _ => material,
         };
         let race = |inner: bool, material: Material| match inner {
-            true => Race::inner(r.inner_bore_radius_m, r.inner_radius_m, r.width_m, material),
-            false => Race::outer(r.outer_radius_m, r.outer_outside_radius_m, r.width_m, material),
+            true => Race::inner(r.inner_bore_radius_m, r.inner_radius_m, r.width_m, material)
+                .map(|race| race.with_rim(r.inner_rim)),
+            false => Race::outer(r.outer_radius_m, r.outer_outside_radius_m, r.width_m, material)
+                .map(|race| race.with_rim(r.outer_rim)),
         };
         let (inner_race, outer_race) = (race(true, ring(m.inner_race))?, race(false, ring(m.outer_race))?);
         let length_m = clutch.contact_length_m();
@@ -142,6 +146,7 @@ impl Elastic {
             outer_contact,
             inner_race,
             outer_race,
+            gives_along: own,
             race_inner_m_per_n: inner_race.compliance_m_per_n(s.count) + band(&half[0]),
             race_outer_m_per_n: outer_race.compliance_m_per_n(s.count) + band(&half[1]),
             body_m_per_n: body_compliance_m_per_n(

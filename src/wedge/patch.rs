@@ -107,7 +107,7 @@ impl InnerApproach {
     }
 }
 
-fn at_curvature(contact: &LineContact, curvature_per_m: f64) -> LineContact {
+pub(super) fn at_curvature(contact: &LineContact, curvature_per_m: f64) -> LineContact {
     LineContact { effective_radius_m: 1.0 / curvature_per_m, ..*contact }
 }
 

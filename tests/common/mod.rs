@@ -34,6 +34,8 @@ pub fn clutch(arcs: &[(f64, f64)]) -> (Clutch, Profile) {
             inner_inertia_kg_m2: 1.41e-3,
             outer_inertia_kg_m2: 1.41e-3,
             viscous_damping_nm_s_per_rad: 0.1,
+            inner_rim: Rim::Free,
+            outer_rim: Rim::Free,
             eccentricity: None,
         },
         running: None,

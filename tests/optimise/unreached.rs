@@ -37,8 +37,11 @@ fn a_slip_margin_out_of_reach_is_infeasible_and_says_what_can_be_reached() {
 /// which is no variable, frees it. Contact to the wanted speed is no obstacle: the centroid holds it.
 #[test]
 fn a_dimension_that_is_no_variable_is_named_where_it_frees() {
-    let design =
-        changed(HUANG, &[("law = \"roller\"\nroller_coefficient = 3.944e-5 ", "law = \"elastic\" ")]);
+    let changes = [
+        ("law = \"roller\"\nroller_coefficient = 3.944e-5 ", "law = \"elastic\" "),
+        ("limits = { keep_contact_to_rpm = 6000 }", "limits = { keep_contact_to_rpm = 6500 }"),
+    ];
+    let design = changed(HUANG, &changes);
     let found = search_with(&design, &SearchMethod::default());
     assert!(matches!(found.outcome.status, Status::Infeasible { .. }), "{:?}", found.outcome.status);
     let nobody = &mut Forgetful;

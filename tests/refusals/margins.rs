@@ -45,6 +45,16 @@ fn fits_and_temperatures() {
     case("housing_outside_radius_mm = 40.0", "housing_outside_radius_mm", &["outer_interference_um, which is missing"]);
     case("outer_interference_um = 10.0, housing_outside_radius_mm = 26.0", "housing_outside_radius_mm", &["more than the outer race's outside, 26.23 mm"]);
     case("interference_um = 10.0", "interference_um", &["did you mean inner_interference_um?"]);
+    let held = |keys: &str| format!("{keys}\nwidth_mm = 6.0      ");
+    let rim = |keys: &str, key: &str, words: &[&str]| {
+        let held = held(keys);
+        hold(&[Case(&[("width_mm = 6.0      ", &held)], &format!("races.{key}"), key, words)]);
+    };
+    rim("inner_rim = \"held\"\npress_fit = { inner_interference_um = 10.0 }", "inner_rim", &["the shaft of the fit yields", "remove races.inner_rim"]);
+    rim("outer_rim = \"held\"\npress_fit = { outer_interference_um = 10.0, housing_outside_radius_mm = 40.0 }", "outer_rim", &["the housing of the fit yields"]);
+    rim("outer_rim = \"stiff\"", "outer_rim", &["\"free\" or \"held\""]);
+    let bore = held("inner_rim = \"held\"");
+    hold(&[Case(&[("width_mm = 6.0      ", &bore), ("inner_bore_radius_mm = 7.21", "inner_bore_radius_mm = 0")], "races.inner_rim", "inner_rim", &["no bore to be held"])]);
     let solid = fit("inner_interference_um = 10.0");
     hold(&[
         Case(&[("width_mm = 6.0      ", &solid), ("inner_bore_radius_mm = 7.21", "inner_bore_radius_mm = 0")], "races.press_fit.inner_interference_um", "press_fit", &["solid inner race has no shaft"]),

@@ -7,6 +7,7 @@ import json
 import math
 import numbers
 import os
+import warnings
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -161,13 +162,18 @@ class Design:
         """The static curve at rest, at torques in N m or at 20 even ones up to ``max_torque_nm`` (the design's peak torque
         where that is left out), by the contact laws named, or the design's own (:func:`contact_laws`).
 
+        Torques beyond the end of a curve have no row: they stand in ``beyond_end_nm``, and a warning names them.
+
         Raises ``ValueError`` for a torque that is not above 0, :class:`NoClutch`.
         """
         torques = [] if torques_nm is None else [float(t) for t in torques_nm]
         if torques and max_torque_nm is not None:
             raise ValueError("torques_nm and max_torque_nm: give one of the two")
         laws = [laws] if isinstance(laws, str) else list(laws)
-        return stiffness_of(self._core.stiffness(torques, laws, max_torque_nm))
+        found = stiffness_of(self._core.stiffness(torques, laws, max_torque_nm))
+        if beyond := sorted({nm for law in found.laws for nm in law.beyond_end_nm}):
+            warnings.warn(f"beyond the end of the curve, and no rows: {beyond} N m", stacklevel=2)
+        return found
 
     def simulate(
         self,

@@ -10,6 +10,8 @@ use serde::Serialize;
 
 /// A demand that no friction meets, in words.
 pub const NONE_SUFFICES: &str = "none suffices";
+/// What stands for its margin.
+const NONE: &str = "none";
 /// A scene whose load goes beyond the end of the curve.
 pub const OVERLOADED: &str = "overloaded";
 /// What stands for the demand of a row whose torque lies beyond the end of the curve.
@@ -74,6 +76,18 @@ pub struct Capacity {
     pub name: String,
     /// That torque, N m.
     pub torque_capacity_nm: f64,
+}
+
+/// A remark where the clutch carries so much more than it is asked to that the torques may be in another unit.
+pub fn far_more_than_asked(asked_nm: f64, carries_nm: f64) -> Option<String> {
+    /// A choice: no reserve, but kNm taken for Nm.
+    const FAR: f64 = 100.0;
+    (asked_nm > 0.0 && carries_nm > FAR * asked_nm).then(|| {
+        format!(
+            "The clutch carries {} times the largest torque that the limits name: torques are in Nm",
+            significant(carries_nm / asked_nm, 2)
+        )
+    })
 }
 
 /// What the margins were read from.
@@ -262,12 +276,21 @@ impl CheckBody {
                 Unit::NewtonMetre.show_plain(self.asked_nm, 4)
             )
         });
+        let carried = self.lowest_torque_capacity.as_ref().map_or(0.0, |c| c.torque_capacity_nm);
+        let far = far_more_than_asked(self.asked_nm, carried);
         let running = self.running.iter().flat_map(running::RunningSection::remarks);
         let run_out = self.run_out.iter().flat_map(run_out::RunOutSection::remarks);
         let lift_off = self.overrun.lift_off_remark(self.lift_off_rpm, self.lift_off_searched_to_rpm);
         let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
         let materials = self.materials.iter().cloned();
-        capacity.chain(early).chain(overrun).chain(running).chain(run_out).chain(materials).collect()
+        capacity
+            .chain(early)
+            .chain(far)
+            .chain(overrun)
+            .chain(running)
+            .chain(run_out)
+            .chain(materials)
+            .collect()
     }
 }
 
@@ -332,11 +355,11 @@ pub fn unit_cell(r: &Margin) -> Cell {
     if r.limit.unit == "1" { "".into() } else { r.limit.unit.into() }
 }
 
-/// What stands in place of a margin that is no number: no friction suffices, its scene lies beyond the end of the curve, or a run
+/// What stands in place of a margin that is no number: no friction suffices, which the demand says, its scene lies beyond the end of the curve, or a run
 /// met its limit of work.
 pub fn in_place_of_margin(r: &Margin) -> Option<&'static str> {
     match r.demand {
-        Demand::NoneSuffices => Some(NONE_SUFFICES),
+        Demand::NoneSuffices => Some(NONE),
         Demand::Overloaded { .. } if r.margin() <= -1.0 => Some(OVERLOADED),
         Demand::NotComputed => Some(NOT_COMPUTED),
         _ => None,

@@ -14,8 +14,8 @@ mod text;
 
 pub use body::{Capacity, CheckBody, CheckRow, Deciding};
 pub use body::{
-    NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, in_place_of_margin,
-    is_beyond, margin_cell, margin_text, margin_words, people_table, unit_cell,
+    NONE_SUFFICES, OVERLOADED, allowable_cell, csv_table, demand_cell, ends_first, far_more_than_asked,
+    in_place_of_margin, is_beyond, margin_cell, margin_text, margin_words, people_table, unit_cell,
 };
 
 pub(super) use text::{REACHED_AT, size_line};
@@ -26,8 +26,7 @@ use crate::clutch::Scenario;
 use crate::design::{Design, beside_the_name};
 use crate::follow::Follow;
 use crate::margin::{
-    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows,
-    static_margins,
+    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, scene_demand, scene_rows, static_margins,
 };
 use crate::report::{Page, Screen, Table};
 use crate::scenario::Settings;
@@ -165,23 +164,19 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
         scenario_margins = Some(error.max(scenario_margins.unwrap_or(0.0)));
     }
     let limits = &design.limits;
-    let lift_off_rad_s = lift_off_rad_s(design, &state, LIFT_OFF_TO_RAD_S);
-    let track_m = design.clutch.races.outer_radius_m;
-    let up_to = overrun::up_to_rad_s(limits, lift_off_rad_s, track_m);
-    let course = overrun::curve(design, &state, up_to, lift_off_rad_s, follow)
-        .map_err(|why| NoCheck::NoClutch(NoMargins::Curve(why)))?;
-    let named = overrun::named(design, &state);
+    let (overrun, lift_off_rad_s) =
+        design.overruns(&state, follow).map_err(|why| NoCheck::NoClutch(NoMargins::Curve(why)))?;
     if follow.stopped() {
         return Err(NoCheck::Stopped);
     }
     let source = Source {
         end: state.curve.end().0,
         end_torque_nm: state.curve.end_torque_nm(),
-        asked_nm: limits.peak_torque_nm.or(limits.nominal_torque_nm).unwrap_or(0.0),
+        asked_nm: limits.largest_torque_nm().unwrap_or(0.0),
         lift_off_rad_s,
         materials: beside_the_name(&design.source),
         searched_to_rad_s: LIFT_OFF_TO_RAD_S,
-        overrun: overrun::OverrunSection::new(&course, named, design),
+        overrun,
         running: running::RunningSection::new(design, &state),
         run_out: ring.as_ref().map(|ring| run_out::RunOutSection::new(design, &state, ring)),
     };

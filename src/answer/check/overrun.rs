@@ -1,9 +1,11 @@
 //! Overrun in the margin check: words, JSON, table.
 
-use crate::clutch::ScenarioKind;
+use crate::answer::overrun::usual_speeds_rad_s;
 use crate::design::{Design, Limits};
 use crate::follow::Follow;
-use crate::margin::{LoadState, OverrunCurve, OverrunPoint, overrun_at, overrun_curve};
+use crate::margin::{
+    LIFT_OFF_TO_RAD_S, LoadState, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
+};
 use crate::report::{Rows, Table, Unit};
 use crate::wedge::NoCurve;
 use serde::Serialize;
@@ -13,17 +15,34 @@ use serde::Serialize;
 const FASTEST_M_S: f64 = 50.0;
 
 /// How far the curve goes, rad/s: beyond lift-off and the speed up to which contact is wanted.
-pub(super) fn up_to_rad_s(limits: &Limits, lift_off_rad_s: Option<f64>, track_m: f64) -> f64 {
+fn up_to_rad_s(limits: &Limits, lift_off_rad_s: Option<f64>, track_m: f64) -> f64 {
     let wanted = limits.keep_contact_to_rad_s.unwrap_or(0.0);
     let beyond = 1.25 * lift_off_rad_s.unwrap_or(0.0).max(wanted);
     if lift_off_rad_s.is_some() && beyond > 0.0 { beyond } else { beyond.max(FASTEST_M_S / track_m) }
+}
+
+impl Design {
+    /// Overrun of the clutch in `state`, and the speed at which the sprags lift off, rad/s.
+    ///
+    /// # Errors
+    /// [`NoCurve`] as [`overrun_curve`].
+    pub(in crate::answer) fn overruns(
+        &self,
+        state: &LoadState,
+        follow: &Follow,
+    ) -> Result<(OverrunSection, Option<f64>), NoCurve> {
+        let lift_off_rad_s = lift_off_rad_s(self, state, LIFT_OFF_TO_RAD_S);
+        let up_to = up_to_rad_s(&self.limits, lift_off_rad_s, self.clutch.races.outer_radius_m);
+        let course = curve(self, state, up_to, lift_off_rad_s, follow)?;
+        Ok((OverrunSection::new(&course, named(self, state), self), lift_off_rad_s))
+    }
 }
 
 /// Overrun up to `up_to_rad_s`, lift-off among the speeds: there drag and force at A end.
 ///
 /// # Errors
 /// [`NoCurve`] as [`overrun_curve`].
-pub(super) fn curve(
+fn curve(
     design: &Design,
     state: &LoadState,
     up_to_rad_s: f64,
@@ -43,17 +62,17 @@ pub(super) fn curve(
                 .for_each(|last| insert(points, *last));
         }
     }
-    // Speeds at which the file lets the inner race run, the outer one held.
-    for scenario in &design.scenarios {
-        if let ScenarioKind::Overrun { speed_rad_s: 0.0, overrun_rad_s } = scenario.kind {
-            insert(&mut curve.inner_race, overrun_at(design, state, 0.0, overrun_rad_s)?);
-        }
+    // Usual speeds, slow ones among them, and those at which the file lets the inner race run, the outer one held.
+    let named = design.scenarios.iter().filter_map(|s| s.kind.overrun_rad_s());
+    let named = named.filter(|[_, outer]| *outer == 0.0).map(|[ahead, _]| ahead);
+    for speed_rad_s in usual_speeds_rad_s().filter(|speed| *speed < up_to_rad_s).chain(named) {
+        insert(&mut curve.inner_race, overrun_at(design, state, 0.0, speed_rad_s)?);
     }
     Ok(curve)
 }
 
 /// Whether the design names a speed of the outer race: in a limit or in a scene.
-fn outer_turns(design: &Design) -> bool {
+pub(in crate::answer) fn outer_turns(design: &Design) -> bool {
     let limits = &design.limits;
     let asked = [limits.keep_contact_to_rad_s, limits.lift_off_by_rad_s].into_iter().flatten();
     // An infinite mean speed stands for a history.
@@ -61,7 +80,7 @@ fn outer_turns(design: &Design) -> bool {
 }
 
 /// The overruns that the design names, in limits and scenes: drag at each. None of a speed at which there is no first contact.
-pub(super) fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
+fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
     let limits = &design.limits;
     let by_limit = [
         ("keep_contact_to_rpm", limits.keep_contact_to_rad_s),
@@ -71,16 +90,7 @@ pub(super) fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
         let speed = speed.filter(|speed| *speed > 0.0)?;
         Some((key.to_owned(), [-speed, speed]))
     });
-    let by_scene = design.scenarios.iter().filter_map(|s| match s.kind {
-        ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
-            Some((s.name.clone(), [overrun_rad_s, speed_rad_s]))
-        }
-        ScenarioKind::Engagement { free_run_rad_s, .. } => Some((s.name.clone(), [free_run_rad_s, 0.0])),
-        ScenarioKind::Transient { speed_rad_s, overrun_rad_s, .. } if overrun_rad_s > 0.0 => {
-            Some((s.name.clone(), [overrun_rad_s, speed_rad_s]))
-        }
-        _ => None,
-    });
+    let by_scene = design.scenarios.iter().filter_map(|s| Some((s.name.clone(), s.kind.overrun_rad_s()?)));
     let one = |(by, [ahead, outer]): (String, [f64; 2])| {
         let point = overrun_at(design, state, outer, ahead.abs()).ok()?;
         Some(NamedOverrun {
@@ -190,8 +200,9 @@ pub struct OverrunSection {
 
 /// What an equilibrium does not say: the fastest growth of the swing among the speeds looked at, up to `wanted_rpm` of the
 /// outer race where contact is to be kept.
-fn warning(points: &[OverrunRow], wanted_rpm: Option<f64>) -> Option<String> {
-    let within = |p: &&OverrunRow| p.race == "inner" || wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
+fn warning(points: &[OverrunRow], outer_turns: bool, wanted_rpm: Option<f64>) -> Option<String> {
+    let wanted = |p: &OverrunRow| wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
+    let within = |p: &&OverrunRow| p.race == "inner" || outer_turns && wanted(p);
     let growth = |p: &OverrunRow| p.growth_rate_per_s.unwrap_or(0.0);
     let p =
         points.iter().filter(|p| p.grows).filter(within).max_by(|a, b| growth(a).total_cmp(&growth(b)))?;
@@ -236,7 +247,7 @@ impl OverrunSection {
             gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
             on_film: curve.inner_race.iter().any(|p| p.lubricated.is_some()),
-            warning: warning(&points, wanted_rpm),
+            warning: warning(&points, outer_turns(design), wanted_rpm),
             outer_race_turns: outer_turns(design),
             named,
             points,
@@ -276,13 +287,19 @@ impl OverrunSection {
 
     /// Where the sprags lift off, if they do up to `searched_to_rpm`.
     pub(super) fn lift_off_remark(&self, lift_off_rpm: Option<f64>, searched_to_rpm: f64) -> String {
+        let why = match self.centrifugal {
+            "engaging" => {
+                ": the outer race grows with speed, the sprags turn on, and the centrifugal force changes its sense"
+            }
+            _ => "",
+        };
         match (self.outer_race_turns, lift_off_rpm) {
             (true, Some(rpm)) => {
-                format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm")
+                format!("Sprags lift off the inner race at an overrun speed of {rpm:.0} rpm{why}")
             }
             (true, None) => format!("Sprags keep contact in overrun up to {searched_to_rpm:.0} rpm at least"),
             (false, Some(rpm)) => format!(
-                "No speed of the outer race is named; if it turned in overrun, sprags would lift off the inner race at {rpm:.0} rpm of it"
+                "No speed of the outer race is named; if it turned in overrun, sprags would lift off the inner race at {rpm:.0} rpm of it{why}"
             ),
             (false, None) => format!(
                 "No speed of the outer race is named; if it turned in overrun, sprags would keep contact up to {searched_to_rpm:.0} rpm of it \

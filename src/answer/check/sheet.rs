@@ -50,7 +50,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
 
 fn curves(page: &mut Page, design: &Design, check: &CheckAnswer) {
     let limits = &design.limits;
-    let asked = limits.peak_torque_nm.or(limits.nominal_torque_nm);
+    let asked = limits.largest_torque_nm();
     let up_to = asked.map_or(f64::INFINITY, |t| 1.5 * t);
     let points: Vec<StaticPoint> =
         check.state.curve.samples(up_to, PLOTTED).into_iter().map(|(p, _)| p).collect();

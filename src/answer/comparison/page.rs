@@ -106,7 +106,7 @@ fn profiles(page: &mut Page, compared: &Comparison<'_>) {
 /// One curve of each design: the first dashed, the second in the first colour.
 fn curves(compared: &Comparison<'_>, x: &str, y: &str, point: &dyn Fn(&StaticPoint) -> [f64; 2]) -> Plot {
     let mut plot = Plot::new(x, y);
-    let asked = |s: &Subject| s.design.limits.peak_torque_nm.or(s.design.limits.nominal_torque_nm);
+    let asked = |s: &Subject| s.design.limits.largest_torque_nm();
     let up_to = compared.subjects.iter().filter_map(asked).fold(0.0, f64::max);
     let up_to = if up_to > 0.0 { 1.5 * up_to } else { f64::INFINITY };
     for (i, s) in compared.subjects.iter().enumerate() {

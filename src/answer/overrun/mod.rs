@@ -6,7 +6,7 @@ mod words;
 
 use super::left_out::{LeftOut, left_out};
 use super::{Envelope, Provenance};
-use crate::clutch::{Clutch, Lubrication, ScenarioKind};
+use crate::clutch::{Clutch, Lubrication};
 use crate::design::Design;
 use crate::life::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
 use crate::margin::{
@@ -106,9 +106,14 @@ pub const EXAMPLE: &str = "[lubrication]\noil = \"ISO VG 32\"          # `sprag-
                            race_roughness_um = 0.25   # Rq\nsprag_roughness_um = 0.25  # Rq";
 
 /// Speeds where none are asked for, rev/min.
-const USUAL_RPM: [f64; 8] = [50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10_000.0];
+const USUAL_RPM: [f64; 10] = [5.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10_000.0];
 /// Speed of the track beyond which nobody runs such a clutch, m/s.
 const FASTEST_M_S: f64 = 50.0;
+
+/// Usual speeds at which a race slides, rad/s, ascending.
+pub(super) fn usual_speeds_rad_s() -> impl Iterator<Item = f64> {
+    USUAL_RPM.iter().map(|rpm| rpm * std::f64::consts::PI / 30.0)
+}
 
 impl Design {
     /// Overrun on the film that `[lubrication]` names.
@@ -126,16 +131,13 @@ impl Design {
         if question.speeds_rad_s.is_empty() {
             let track = self.clutch.races.inner_radius_m;
             let lift = lift_off.filter(|_| question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
-            let usual = USUAL_RPM.iter().map(|rpm| rpm * std::f64::consts::PI / 30.0);
-            let named = self.scenarios.iter().filter_map(|scene| match (scene.kind, question.race) {
-                (ScenarioKind::Overrun { speed_rad_s: 0.0, overrun_rad_s }, RunningRace::Inner) => {
-                    Some(overrun_rad_s)
-                }
-                (ScenarioKind::Overrun { speed_rad_s, .. }, RunningRace::Outer) if speed_rad_s > 0.0 => {
-                    Some(speed_rad_s)
-                }
-                _ => None,
-            });
+            let usual = usual_speeds_rad_s();
+            let named =
+                self.scenarios.iter().filter_map(|s| match (s.kind.overrun_rad_s()?, question.race) {
+                    ([ahead, 0.0], RunningRace::Inner) => Some(ahead),
+                    ([_, outer], RunningRace::Outer) => (outer > 0.0).then_some(outer),
+                    _ => None,
+                });
             let all = usual.chain(named).filter(|w| *w < lift && *w * track <= FASTEST_M_S);
             question.speeds_rad_s = all.collect();
             question.speeds_rad_s.sort_by(f64::total_cmp);

@@ -2,6 +2,7 @@
 //! new values, and what these were.
 
 use super::Story;
+use super::words::shown;
 use crate::answer::{VERSION, WRITTEN_BY};
 use crate::design::{Design, EditError, with_notes};
 use crate::optimise::Variable;
@@ -28,14 +29,13 @@ pub fn file_text(design: &Design, story: &Story, command: &str) -> Result<String
     };
     let (before, after) = story.objective();
     let head = format!(
-        "{WRITTEN_BY} optimize {VERSION} from {:?} (sha256 {})\n# by: {}\n# {} {:.6} -> {:.6} {}\n{not_real}{changes}{END}\n",
+        "{WRITTEN_BY} optimize {VERSION} from {:?} (sha256 {})\n# by: {}\n# {} {} -> {}\n{not_real}{changes}{END}\n",
         design.name,
         design.hash,
         command,
         found.aim.words(),
-        before,
-        after,
-        found.aim.unit(),
+        shown(found.aim, before),
+        shown(found.aim, after),
     );
     Ok(head + &body(design, story.file())?)
 }

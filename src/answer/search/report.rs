@@ -44,8 +44,8 @@ impl SearchReport<'_> {
         out += &story.notes_on_variables().iter().map(|line| format!("{line}\n")).collect::<String>();
         out += &format!("\nMargins\n{}", story.margin_table().to_text(screen));
         out += &format!(
-            "\nInfluence at the start: change of each margin over the whole range of a variable\n{}",
-            story.influence_table().to_text(screen)
+            "\nInfluence at the start: change of these margins over the whole range of a variable (of all: --report)\n{}",
+            story.deciding_influence().to_text(screen)
         );
         out += &format!("\nActive: {}\n", story.active().join(", "));
         for part in story.parts(&self.hints) {

@@ -6,6 +6,9 @@ use crate::margin::Margin;
 use crate::optimise::NO_INFLUENCE;
 use crate::report::{Cell, Column, Rows, Table, Unit};
 
+/// What stands behind the rows of the objective.
+const OF_OBJECTIVE: &str = " (objective)";
+
 impl Story {
     fn held_cell(&self, m: &Margin) -> Cell {
         let word = match (self.held(m), m.held()) {
@@ -16,14 +19,11 @@ impl Story {
         Cell::Verdict(self.held(m), word.to_owned())
     }
 
-    /// Margins before and after, as `check` shows them.
+    /// Margins before and after and what the optimum demands, as `check` shows them: what fits a terminal.
     pub fn margin_table(&self) -> Table {
         Rows::of(self.margins().iter().map(|b| (b, self.before(b))))
             .text("code", "Limit", |(b, _)| b.code())
-            .number("demand_before", "Demand before", Unit::One, 4, |(_, a)| {
-                a.map_or(Cell::Empty, demand_cell)
-            })
-            .number("demand_after", "Demand after", Unit::One, 4, |(b, _)| demand_cell(b))
+            .number("demand", "Demand", Unit::One, 4, |(b, _)| demand_cell(b))
             .number("allowable", "Allowable", Unit::One, 4, |(b, _)| allowable_cell(b))
             .text("unit", "Unit", |(b, _)| unit_cell(b))
             .number("margin_before", "Margin before", Unit::Percent, 3, |(_, a)| {
@@ -61,22 +61,34 @@ impl Story {
                 _ => None,
             };
             let note = match bound {
-                _ if v.dropped => "without influence, dropped".to_owned(),
-                Some(bound) if self.value(v) == v.best => format!("at its {bound} bound"),
-                Some(bound) => format!("a step from its {bound} bound"),
+                _ if v.dropped => "dropped: no influence".to_owned(),
+                Some(bound) if self.value(v) == v.best => format!("at {bound} bound"),
+                Some(bound) => format!("next to {bound} bound"),
                 None => String::new(),
             };
             (v, before, note)
         }))
         .text("variable", "Variable", |(v, _, _)| v.name.as_str())
-        .number("min", "From", Unit::One, 6, |(v, _, _)| v.min)
-        .number("max", "To", Unit::One, 6, |(v, _, _)| v.max)
+        .number("min", "From", Unit::One, 5, |(v, _, _)| v.min)
+        .number("max", "To", Unit::One, 5, |(v, _, _)| v.max)
         .number("before", "Before", Unit::One, 6, |(_, before, _)| {
             before.map_or(Cell::Empty, |f| f.start.into())
         })
         .number("after", "After", Unit::One, 6, |(v, _, _)| self.value(v))
         .text("note", "Note", |(_, _, note)| note.clone())
         .table()
+    }
+
+    /// Change of the objective and of the limits that hold the optimum over the whole range of each variable, at the start.
+    pub fn deciding_influence(&self) -> Table {
+        let active = self.active();
+        let decides = |row: &[Cell]| match row.first() {
+            Some(Cell::Text(name)) => name.ends_with(OF_OBJECTIVE) || active.contains(name),
+            _ => false,
+        };
+        let mut table = self.influence_table();
+        table.rows.retain(|row| decides(row));
+        table
     }
 
     /// Change of each margin over the whole range of each variable, at the start.
@@ -87,8 +99,11 @@ impl Story {
         }
         let mut table = Table::new(columns);
         let names = &self.found.names;
-        let rows =
-            names.objectives.iter().map(|n| format!("{n} (objective)")).zip(&self.found.influence.objectives);
+        let rows = names
+            .objectives
+            .iter()
+            .map(|n| format!("{n}{OF_OBJECTIVE}"))
+            .zip(&self.found.influence.objectives);
         let limits = names.limits.iter().cloned().zip(&self.found.influence.limits);
         for (name, slopes) in rows.chain(limits) {
             let mut row: Vec<Cell> = vec![name.into()];

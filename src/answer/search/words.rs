@@ -30,9 +30,15 @@ impl Default for Hints {
 /// A value of an objective with its unit.
 pub(crate) fn shown(aim: Objective, value: f64) -> String {
     match aim.unit() {
-        "" => significant(value, SHOWN_DIGITS),
+        "" => format!("{} %", significant(100.0 * value, SHOWN_DIGITS)),
         unit => format!("{} {unit}", significant(value, SHOWN_DIGITS)),
     }
+}
+
+/// The error of a value of an objective beside it: in the same unit, or that it is below the digits shown.
+fn error_of(aim: Objective, value: f64, error: f64) -> String {
+    let (unit, scale) = if aim.unit().is_empty() { ("%", 100.0) } else { (aim.unit(), 1.0) };
+    error_beside(scale * value, SHOWN_DIGITS, scale * error, unit)
 }
 
 /// A gain of an objective, more being better, as it is spoken of.
@@ -120,7 +126,7 @@ impl Story {
                 format!("stopped at the evaluation limit of each climb{}", hints.evaluation_limit)
             }
             Status::Interrupted => hints.stopped.to_owned(),
-            Status::Stalled(cause) => format!("stalled ({cause:?})"),
+            Status::Stalled(cause) => format!("stalled: {}", cause.words()),
         };
         // A limit of 3 beside 122 evaluations is no contradiction.
         let counted = match self.status() {
@@ -134,7 +140,7 @@ impl Story {
                 found.aim.words(),
                 shown(found.aim, before),
                 shown(found.aim, after),
-                error_beside(after, SHOWN_DIGITS, self.objective_error()),
+                error_of(found.aim, after, self.objective_error()),
                 if reserve > 0.0 {
                     format!(" with {} % to spare", significant(100.0 * reserve, 2))
                 } else {

@@ -82,12 +82,7 @@ fn courses(scene: &Ran) -> [String; 2] {
     let span = |rows: &[[f64; 2]], unit: Unit| {
         let fold = |f: fn(f64, f64) -> f64, from: f64| rows.iter().map(|r| r[1]).fold(from, f);
         let (low, high) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
-        format!(
-            "from a file, {} rows, {} to {}",
-            rows.len(),
-            unit.show_plain(low, 5),
-            unit.show_plain(high, 5)
-        )
+        format!("over time, {} rows, {} to {}", rows.len(), unit.show_plain(low, 5), unit.show_plain(high, 5))
     };
     let torque = match &scene.scenario.torque_history {
         Some(rows) => span(rows, Unit::NewtonMetre),

@@ -6,7 +6,7 @@
 //!
 //! - One sector of 360/n_s degrees; u_slave = R(2 pi/n_s) u_master on the cut faces is linear and exact at any
 //!   rotation, so plain equations serve where `*CYCLIC SYMMETRY MODEL` and contact do not go together.
-//! - The bore turns back and the rim forward, each by half the windup, both free to grow. Every node of a
+//! - The bore turns back and the rim forward, each by half the windup, both free to grow where the design does not hold them. Every node of a
 //!   driven circle may move along the tangent at a quarter of the windup ahead and perpendicular to it: linear, one
 //!   unknown per circle, and off by no more than that quarter, which leans the shear on the ring by
 //!   tan(omega) W/4 of the pressure (0.06 % at 1.7 degrees).

@@ -62,6 +62,38 @@ fn chords_follow_their_arc_in_the_mean() {
 }
 
 #[test]
+fn a_held_rim_keeps_its_radius_while_it_turns() {
+    let text = SINGLE.replace("[races]", "[races]\nouter_rim = \"held\"");
+    let (d, p, o) = design(&text);
+    let (m, text) = (
+        model(&d.clutch, &p, &o, &coarse(Variant::Layer, 16.8), &d.hash).unwrap(),
+        deck(&d.clutch, &p, &o, &coarse(Variant::Layer, 16.8), &d.hash).unwrap(),
+    );
+    let control = m.outer.first_node + m.outer.nodes() + 1;
+    assert!(!text.contains("ARC0") && text.contains(&format!("*BOUNDARY, AMPLITUDE=ARC1\n{control},2,2,1.")));
+    let end: f64 = text
+        .lines()
+        .filter_map(|l| l.strip_prefix(&format!("{control},1,1,")))
+        .map(|v| v.parse().unwrap())
+        .fold(0.0, f64::max);
+    // A node at the azimuth 0: the tangent ahead is (cos a, -sin a), across it (sin a, cos a).
+    let (radius, ahead): (f64, f64) = (m.facts.driven_mm[1], m.facts.ahead_rad[1]);
+    let course =
+        text.split("*AMPLITUDE, NAME=ARC1\n").nth(1).unwrap().lines().take_while(|l| !l.starts_with('*'));
+    let mut most = 0.0f64;
+    for row in course {
+        let (time, across): (f64, f64) =
+            row.split_once(',').map(|(a, b)| (a.parse().unwrap(), b.parse().unwrap())).unwrap();
+        let q = time * end;
+        let (x, y) = (q * ahead.cos() + across * ahead.sin(), across * ahead.cos() - q * ahead.sin());
+        assert!((x.hypot(radius + y) - radius).abs() < 1e-9, "{time}");
+        most = most.max(across);
+    }
+    // It bulges halfway by R (1 - cos a).
+    assert!((most / (radius * (1.0 - ahead.cos())) - 1.0).abs() < 1e-2);
+}
+
+#[test]
 fn every_node_number_in_the_deck_exists_and_every_element_has_volume() {
     let (d, p, o) = design(SINGLE);
     for variant in [Variant::PlaneStrain, Variant::PlaneStress, Variant::Layer, Variant::Solid { layers: 3 }]

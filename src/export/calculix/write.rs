@@ -2,7 +2,7 @@
 
 use super::mesh::Block;
 use super::{Model, Options, Variant};
-use crate::clutch::Clutch;
+use crate::clutch::{Clutch, Rim};
 use crate::material::Material;
 use std::fmt::Write;
 
@@ -10,6 +10,9 @@ use std::fmt::Write;
 const SPARE_COLUMNS: usize = 4;
 /// Weak springs that hold the sprag before it touches, N/mm each over the whole length: below 1 N in all.
 const SOFT_N_PER_MM: f64 = 0.1;
+
+/// Points of the course by which a held circle is led along its arc: 15 nm off at a windup of 5 degrees and 26 mm.
+const ARC_POINTS: usize = 20;
 
 /// Iterations of an increment after which `ccx` ends with a message; those that converge need a dozen.
 const MOST_ITERATIONS: usize = 40;
@@ -99,6 +102,7 @@ fn write_deck(out: &mut String, m: &Model, clutch: &Clutch, options: &Options) -
     writeln!(out, "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE\nSSPRAGIN,SINNER")?;
     writeln!(out, "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE\nSSPRAGOUT,SOUTER")?;
 
+    let rims = [clutch.races.inner_rim, clutch.races.outer_rim];
     let plane_strain = options.variant == Variant::PlaneStrain;
     if m.sprag.zs.len() == 2 {
         writeln!(out, "** One layer: its two faces move alike in the plane.\n*EQUATION")?;
@@ -109,11 +113,12 @@ fn write_deck(out: &mut String, m: &Model, clutch: &Clutch, options: &Options) -
             }
         }
     }
-    for (block, row, node, ahead) in
-        [(&m.inner, m.driven.0, control, f.ahead_rad[0]), (&m.outer, m.driven.1, control + 1, f.ahead_rad[1])]
-    {
+    for (block, row, node, ahead, rim) in [
+        (&m.inner, m.driven.0, control, f.ahead_rad[0], rims[0]),
+        (&m.outer, m.driven.1, control + 1, f.ahead_rad[1], rims[1]),
+    ] {
         cyclic(out, block, m.sector_rad, plane_strain)?;
-        driven(out, block, row, node, ahead)?;
+        driven(out, block, row, node, ahead, rim)?;
     }
 
     writeln!(out, "** Held along the axis: everywhere in plane strain, else at the middle of the length.")?;
@@ -133,13 +138,37 @@ fn write_deck(out: &mut String, m: &Model, clutch: &Clutch, options: &Options) -
         shift(f.driven_mm[0], -0.5 * m.turn_rad, f.ahead_rad[0]),
         shift(f.driven_mm[1], 0.5 * m.turn_rad, f.ahead_rad[1]),
     ];
+    for side in [0, 1] {
+        if rims[side] == Rim::Held {
+            arc(out, side, control + side, f.driven_mm[side], f.ahead_rad[side], ends[side])?;
+        }
+    }
     writeln!(out, "** Step 1: the overlap takes hold, in one increment.")?;
-    step(out, 1, control, [0.0, 0.0])?;
+    step(out, 1, control, [0.0, 0.0], [Rim::Free; 2])?;
     writeln!(out, "** Step 2: bore and rim turn, each by half.")?;
-    step(out, m.increments, control, ends)
+    step(out, m.increments, control, ends, rims)
 }
 
-fn step(out: &mut String, increments: usize, control: usize, shift: [f64; 2]) -> std::fmt::Result {
+/// The second component of a held circle's control as a course in the time of step 2: the circle leaves its tangent by its arc.
+fn arc(out: &mut String, side: usize, control: usize, radius: f64, ahead: f64, end: f64) -> std::fmt::Result {
+    writeln!(out, "** A held circle keeps its radius while it turns.")?;
+    writeln!(out, "*BOUNDARY\n{control},2,2\n*AMPLITUDE, NAME=ARC{side}")?;
+    for k in 0..=ARC_POINTS {
+        let time = k as f64 / ARC_POINTS as f64;
+        let sine = time * end / radius - ahead.sin();
+        writeln!(out, "{time},{:.12e}", radius * ((1.0 - sine * sine).sqrt() - ahead.cos()))?;
+    }
+    Ok(())
+}
+
+/// `rims`: which circles are led along their arc.
+fn step(
+    out: &mut String,
+    increments: usize,
+    control: usize,
+    shift: [f64; 2],
+    rims: [Rim; 2],
+) -> std::fmt::Result {
     let first = 1.0 / increments as f64;
     writeln!(out, "*STEP, NLGEOM, INC=2000")?;
     // Fixed increments, as by DIRECT, which would let face-to-face contact iterate for ever: no increment is smaller or
@@ -148,6 +177,11 @@ fn step(out: &mut String, increments: usize, control: usize, shift: [f64; 2]) ->
     writeln!(out, "*CONTROLS, PARAMETERS=TIME INCREMENTATION\n4,8,9,16,10,4,,0")?;
     writeln!(out, "*CONTROLS, PARAMETERS=CONTACT\n0.001,0.1,100,{MOST_ITERATIONS}")?;
     writeln!(out, "*BOUNDARY\n{control},1,1,{:.12e}\n{},1,1,{:.12e}", shift[0], control + 1, shift[1])?;
+    for side in [0, 1] {
+        if rims[side] == Rim::Held {
+            writeln!(out, "*BOUNDARY, AMPLITUDE=ARC{side}\n{},2,2,1.", control + side)?;
+        }
+    }
     writeln!(out, "*NODE PRINT, NSET=NCONTROL\nU,RF")?;
     writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGIN, MASTER=SINNER\nCF")?;
     writeln!(out, "*CONTACT PRINT, SLAVE=SSPRAGOUT, MASTER=SOUTER\nCF")?;
@@ -208,8 +242,16 @@ fn cyclic(out: &mut String, block: &Block, sector_rad: f64, plane_strain: bool) 
     Ok(())
 }
 
-/// Every node of row `j` moves by the control's component along its tangent, turned ahead.
-fn driven(out: &mut String, block: &Block, j: usize, control: usize, ahead: f64) -> std::fmt::Result {
+/// Every node of row `j` moves by the control's component along its tangent, turned ahead, and freely across that; where the
+/// circle is held, across it by the control's second component.
+fn driven(
+    out: &mut String,
+    block: &Block,
+    j: usize,
+    control: usize,
+    ahead: f64,
+    rim: Rim,
+) -> std::fmt::Result {
     writeln!(out, "*EQUATION")?;
     let planes = if block.zs.len() == 2 { 1 } else { block.zs.len() };
     for k in 0..planes {
@@ -218,6 +260,11 @@ fn driven(out: &mut String, block: &Block, j: usize, control: usize, ahead: f64)
             let azimuth = p[0].atan2(p[1]) + ahead;
             let (x, y) = (azimuth.cos(), -azimuth.sin());
             let node = block.node(i, j, k);
+            if rim == Rim::Held {
+                writeln!(out, "3\n{node},1,-1.,{control},1,{x:.12},{control},2,{:.12}", -y)?;
+                writeln!(out, "3\n{node},2,-1.,{control},1,{y:.12},{control},2,{x:.12}")?;
+                continue;
+            }
             // The dependent term comes first; the larger one, lest it vanish.
             let terms = if x.abs() > y.abs() { [(1, x), (2, y)] } else { [(2, y), (1, x)] };
             writeln!(

@@ -18,7 +18,7 @@ const CAPACITY: f64 = 1e-5;
 pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capacities: bool) -> Vec<Margin> {
     let end = ring.end.torque_nm;
     let mut rows = Vec::new();
-    let asked = limits.peak_torque_nm.or(limits.nominal_torque_nm);
+    let asked = limits.largest_torque_nm();
     if let Some(torque) = asked {
         rows.extend(end_row(ring, torque, end));
     }
@@ -26,7 +26,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
     let last = end * (1.0 - 1e-9);
     let surveys: Vec<Survey> =
         (1..=LOOKS).filter_map(|i| ring.survey(last * i as f64 / LOOKS as f64).ok()).collect();
-    if let Some(torque) = limits.nominal_torque_nm.or(limits.peak_torque_nm)
+    if let Some(torque) = limits.usual_torque_nm()
         && let Ok(survey) = ring.survey(torque.min(last))
     {
         rows.extend(share_row(limits, ring, &survey));
