@@ -82,8 +82,8 @@ fn tension(clutch: &Clutch, curve: &WedgeCurve, point: &StaticPoint) -> LeftOut 
         let patch = TrackPatch { count, normal_n, tan, half_width_m, peak_pa, friction: mu };
         let most = track_tension(race, &patch, |t| t.standing_pa.max(t.rolling_pa));
         format!(
-            "{track} track +{} (no rolling) to +{} (steady rolling); {} at most with the ring's own, {} behind a patch's middle, and {} \
-             midway between patches",
+            "{track} track +{} (no rolling) to +{} (steady rolling), with the ring's own {} at most, {} behind a patch's middle ({} \
+             between patches)",
             Unit::Megapascal.show(tension.standing_pa, 3),
             Unit::Megapascal.show(tension.rolling_pa, 3),
             Unit::Megapascal.show(most.largest_pa, 3),
@@ -94,7 +94,7 @@ fn tension(clutch: &Clutch, curve: &WedgeCurve, point: &StaticPoint) -> LeftOut 
     LeftOut::new(
         "tension of the traction behind the patches",
         "hoop stress is the ring's own; the tangential force adds tension at the trailing edge of a patch",
-        &format!("{}: {}; static friction {mu}, part of the patch slips", at(point), words.join("; ")),
+        &format!("{}, static friction {mu}: {}", at(point), words.join("; ")),
     )
 }
 
@@ -108,8 +108,7 @@ fn creep(clutch: &Clutch, curve: &WedgeCurve, point: &StaticPoint) -> Option<Lef
         "loss by creep of the rolling contacts",
         "the curve is that of a rising load; a falling one creeps on, while scenes go both ways on the curve",
         &format!(
-            "{} of the work of a rise and a fall {}: damping ratio {:.1e} of such a swing, where viscous damping of the \
-             races gives {:.1e}; windup back at no load {} more",
+            "{} of the work of a rise and a fall {}: damping ratio {:.1e} (viscous damping of the races {:.1e}); windup {} more back at no load",
             Unit::Percent.show(2.0 * loss.lost_j / loss.work_j, 2),
             at(point),
             loss.damping_ratio(),
