@@ -153,6 +153,12 @@ fn key(name: &str) -> Option<Explanation> {
     // Of an array of tables those of one row.
     let keys = [path.clone(), format!("{path}[0]")].iter().flat_map(|at| keys_of(at)).collect::<Vec<_>>();
     lines.push(if keys.is_empty() { ("allowed", allowed(schema)) } else { ("keys", keys.join(", ")) });
+    if path != name {
+        lines.push((
+            "try",
+            format!("`sprag-design check FILE --set {path}=VALUE`, or its slider in the studio"),
+        ));
+    }
     Some(Explanation {
         kind: if keys.is_empty() { "a key of the design file" } else { "a table of the design file" },
         lines,

@@ -187,8 +187,14 @@ impl<'a> ResonanceAnswer<'a> {
                 significant(self.friction, 3),
             )
         });
+        let ends = (self.count(MotionKind::Ends) > 0).then(|| {
+            "ends: no motion repeats there, the swing carries the sprag beyond the end of the curve, off its profile or over its highest \
+             point, or farther than is followed"
+                .to_owned()
+        });
         let list = [
             most,
+            ends,
             Some(
                 "Each state is a motion that repeats with the period of the excitation, its start forgotten; a start may slip where \
                  the state rolls: simulate tells of that"

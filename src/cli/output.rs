@@ -97,6 +97,9 @@ pub struct Outputs {
 /// Why a file is kept that somebody may have gone on with.
 const WORK: &str = "exists, and may hold work of yours; name another file, or replace it with --force";
 
+/// Why a folder is refused where a file is to be written.
+const FOLDER: &str = "is a folder; name a file in it";
+
 impl Outputs {
     /// Those of the command line.
     pub fn new(csv: Option<PathBuf>, report: Option<PathBuf>, force: bool) -> Self {
@@ -119,7 +122,7 @@ impl Outputs {
         let mut seen: Vec<PathBuf> = Vec::new();
         for (path, kind) in csv.chain(report).chain(others.iter().copied()) {
             if path.is_dir() {
-                return Err(Failure::of(path, "is a folder, a file is needed"));
+                return Err(Failure::of(path, FOLDER));
             }
             let folder = folder_of(path);
             if !folder.is_dir() {
@@ -165,6 +168,9 @@ impl Outputs {
     /// # Errors
     /// [`Failure::Malformed`] naming the path.
     pub fn refuse_work(&self, path: &Path) -> Result<(), Failure> {
+        if path.is_dir() {
+            return Err(Failure::of(path, FOLDER));
+        }
         let empty = fs::metadata(path).map_or(true, |m| m.len() == 0);
         if self.force || is_special(path) || empty {
             return Ok(());

@@ -17,6 +17,13 @@ pub(super) fn read(text: &str) -> Result<Drawn, NoImport> {
     if first.contains('=') {
         return Err(NoImport::new(at + 1, format!("{first:?}, a key as in a design file (TOML)"), HELP));
     }
+    if first.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
+        return Err(NoImport::new(
+            at + 1,
+            "an SVG or another XML file",
+            "save the outline as .dxf, or as a table of x, y in mm",
+        ));
+    }
     if first.starts_with("ISO-10303-21") {
         return Err(NoImport::new(1, "a STEP file", super::dxf::STEP_HELP));
     }

@@ -230,7 +230,12 @@ impl Requirements {
                 return Err(BadRequirement {
                     what,
                     found: format!("{}{space}{unit}", rounded(shown, 12)),
-                    allowed: format!("{} to {}{space}{unit}", rounded(least, 12), rounded(most, 12)),
+                    allowed: match what {
+                        "outside" => {
+                            format!("above the bore, {} mm, to {} mm", rounded(bore, 12), rounded(most, 12))
+                        }
+                        _ => format!("{} to {}{space}{unit}", rounded(least, 12), rounded(most, 12)),
+                    },
                 });
             }
         }

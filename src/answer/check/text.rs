@@ -2,6 +2,7 @@
 
 use super::{CheckAnswer, NONE_SUFFICES, OVERLOADED, people_table};
 use crate::design::Design;
+use crate::life::INDENTING_PA;
 use crate::margin::{Demand, Margin};
 use crate::report::{Screen, Unit, greek, significant};
 
@@ -27,7 +28,7 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
         out.push_str(&greek(&line));
         out.push('\n');
     }
-    if let Some(line) = two_pressures(&check.rows) {
+    for line in pressures(&check.rows) {
         out.push_str(&line);
         out.push('\n');
     }
@@ -50,17 +51,32 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
     out
 }
 
-/// Why one contact has two allowed pressures, where it has.
-pub(super) fn two_pressures(rows: &[Margin]) -> Option<String> {
+/// Why one contact has two allowed pressures, where it has; the pressure that leaves a dent.
+pub(super) fn pressures(rows: &[Margin]) -> Vec<String> {
     let of = |key: &str| rows.iter().find(|r| r.limit.key == Some(key)).map(Margin::shown_allowable);
-    let (nominal, peak) = (of("hertz_nominal_mpa")?, of("hertz_peak_mpa")?);
-    let [nominal, peak] = [nominal, peak].map(|mpa| significant(mpa, 4));
-    (nominal != peak).then(|| {
+    let allowables = of("hertz_nominal_mpa").zip(of("hertz_peak_mpa")).and_then(|(nominal, peak)| {
+        let [nominal, peak] = [nominal, peak].map(|mpa| significant(mpa, 4));
+        (nominal != peak).then(|| {
+            format!(
+                "Hertz pressure, two allowables: {nominal} MPa (hertz_nominal_mpa) at nominal torque, which comes again and again; {peak} MPa \
+                 (hertz_peak_mpa) at peak torque and in scenes, which come seldom"
+            )
+        })
+    });
+    let held = rows
+        .iter()
+        .filter(|r| r.required && r.held() && r.limit.key.is_some_and(|key| key.starts_with("hertz_")));
+    let largest = held.filter_map(|r| Some((r, r.demand.value()?))).max_by(|a, b| a.1.total_cmp(&b.1));
+    let dent = largest.filter(|(_, pa)| *pa > INDENTING_PA).map(|(row, pa)| {
         format!(
-            "Hertz pressure, two allowables: {nominal} MPa (hertz_nominal_mpa) at nominal torque, which comes again and again; {peak} MPa \
-             (hertz_peak_mpa) at peak torque and in scenes, which come seldom"
+            "{} of {} is held, and leaves a permanent dent of more than 1e-4 of the diameter (from {} on: ISO 76, line contacts, 58 HRC or \
+             more), which the command life counts as indentation",
+            row.code(),
+            Unit::Megapascal.show(pa, 4),
+            Unit::Megapascal.show(INDENTING_PA, 4)
         )
-    })
+    });
+    allowables.into_iter().chain(dent).collect()
 }
 
 /// Outside, width and mass in one line.

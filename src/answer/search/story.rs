@@ -19,6 +19,8 @@ pub struct Story {
     pub realised: Option<Realised>,
     /// Its lengths in steps.
     pub stepped: Option<Stepped>,
+    /// The step that its lengths were to have, mm, where the search was stopped before.
+    pub steps_missed_mm: Option<f64>,
     /// What would free an infeasible problem.
     pub relief: Option<Relief>,
     /// Single numbers let go in an infeasible problem, the variables with them.
@@ -58,6 +60,7 @@ pub(super) fn run(design: &Design, settings: &SearchSettings, desk: &Desk) -> Re
         found,
         realised: None,
         stepped: None,
+        steps_missed_mm: None,
         relief: None,
         loosened: Vec::new(),
         alone: Vec::new(),
@@ -101,8 +104,9 @@ impl Story {
         if !self.feasible() || !self.makeable() {
             return;
         }
-        if !desk.stopped() {
-            self.stepped = stepped(self.made(), task.step_mm, desk);
+        match desk.stopped() {
+            false => self.stepped = stepped(self.made(), task.step_mm, desk),
+            true => self.steps_missed_mm = Some(task.step_mm).filter(|step_mm| *step_mm > 0.0),
         }
         if !settings.front.is_empty() && !desk.stopped() {
             match front(self.made(), task, &settings.front, settings.front_steps, method, desk) {

@@ -148,9 +148,11 @@ impl Story {
                 },
                 self.start_not_held(),
                 self.evaluations(),
-                self.on_grid()
-                    .and(self.stepped.as_ref())
-                    .map_or(String::new(), |s| format!("; lengths in steps of {} mm", s.step_mm)),
+                match (self.on_grid().and(self.stepped.as_ref()), self.steps_missed_mm) {
+                    (Some(s), _) => format!("; lengths in steps of {} mm", s.step_mm),
+                    (None, Some(step_mm)) => format!("; lengths NOT yet in steps of {step_mm} mm"),
+                    (None, None) => String::new(),
+                },
                 if self.makeable() {
                     ""
                 } else {
