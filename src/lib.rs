@@ -32,6 +32,7 @@
 //! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
 //! | 4 | [`reengage`] | slip under load and the blow when the clutch grips again |
+//! | 4 | [`feed`] | strokes of an indexing drive: what each feeds, up to which frequency |
 //! | 4 | [`life`] | pitting, fatigue of rings, indentation and slip by chance in a life of loads |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
 //! | 4 | [`sweep`] | the box of the variables as a whole: points by their number, margins at each |
@@ -114,6 +115,7 @@ pub mod design;
 pub mod dynamics;
 pub mod element;
 pub mod export;
+pub mod feed;
 pub mod fidelity;
 pub mod follow;
 pub mod friction;

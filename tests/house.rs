@@ -54,6 +54,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ),
     // A motion of the element and the curve that it ends on.
     ("reengage", &["follow", "clutch", "wedge", "dynamics", "element"]),
+    // The same element, swung by a drive.
+    ("feed", &["follow", "clutch", "wedge", "dynamics", "element"]),
     // Loads of a life on the static curve; strengths are the file's.
     ("life", &["numeric", "lubrication", "clutch", "design", "friction", "wedge", "margin"]),
     // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
@@ -95,6 +97,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "life",
             "element",
             "reengage",
+            "feed",
             "optimise",
             "sweep",
             "identify",

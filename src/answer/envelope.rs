@@ -1,5 +1,6 @@
 //! What every answer says of itself beside its own figures: who computed it, from what, how long that took, what was left out.
 
+use super::feed::FeedAnswer;
 use super::finite_elements::{FiniteElementBody, FiniteElements};
 use super::left_out::LeftOut;
 use super::life::LifeAnswer;
@@ -144,6 +145,7 @@ answers! {
     LifeAnswer<'_>, Value, loads;
     OverrunAnswer<'_>, Value, all;
     ReengagementAnswer<'_>, Value, blows;
+    FeedAnswer<'_>, Value, frequencies;
     ResonanceAnswer<'_>, Value, table;
     SharingAnswer<'_>, Value, by_sprag;
 }

@@ -13,6 +13,7 @@ mod drawn;
 mod envelope;
 pub mod explanation;
 pub mod exported;
+pub mod feed;
 pub mod finite_elements;
 pub mod identification;
 pub mod imported;

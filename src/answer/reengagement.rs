@@ -87,6 +87,12 @@ impl fmt::Display for NoReengagement {
 
 impl std::error::Error for NoReengagement {}
 
+/// Peak torque that every limit bears, N m, and the limit that sets it.
+pub(super) fn peak_torque_borne(design: &Design, state: &LoadState) -> Option<(f64, String)> {
+    let rows = load_margins(design, &design.limits, true, state);
+    lowest_capacity(&rows, |r| r.limit.when != When::Nominal).map(|(r, nm)| (nm, r.code()))
+}
+
 impl Design {
     /// Slip under load and the blow when the clutch grips again, for each path of slip.
     ///
@@ -131,10 +137,7 @@ impl Design {
         let found = blows(&self.clutch, &case, &settings.follow).map_err(NoReengagement::NoStart)?;
         let lift_off = |state: &LoadState| lift_off_rad_s(self, state, LIFT_OFF_TO_RAD_S);
         let lift_off_rad_s = state.as_ref().and_then(lift_off);
-        let bears = state.and_then(|state| {
-            let rows = load_margins(self, &self.limits, true, &state);
-            lowest_capacity(&rows, |r| r.limit.when != When::Nominal).map(|(r, nm)| (nm, r.code()))
-        });
+        let bears = state.and_then(|state| peak_torque_borne(self, &state));
         Ok(ReengagementAnswer { design: self, case, found, bears, lift_off_rad_s })
     }
 }

@@ -15,6 +15,7 @@ mod evaluate_points;
 pub mod exit;
 mod explain;
 mod export;
+mod feed;
 mod histories;
 mod identify;
 mod import;
@@ -67,7 +68,7 @@ Examples:
 Exit codes:
   0 done, all margins held     1 a margin is not held, or no feasible design found
   2 malformed command line or design file     3 answer not computed or not written
-  130 stopped by Ctrl-C; what had been found is written by optimize, identify, simulate, accuracy, reengage and
+  130 stopped by Ctrl-C; what had been found is written by optimize, identify, simulate, accuracy, reengage, feed and
       resonance (amplitudes that are done), nothing by the others (studio: 0, Ctrl-C is how it ends)
   141 the reader of the answers of evaluate has gone before the last
 
@@ -150,6 +151,8 @@ commands! {
     Sharing(sharing::SharingArgs),
     /// Slip under load, and the blow when the clutch grips again
     Reengage(reengage::ReengageArgs),
+    /// Strokes of an indexing drive: what each feeds, up to which frequency
+    Feed(feed::FeedArgs),
     /// Periodic states of a torsional excitation: one, or a map over frequency and amplitude
     Resonance(resonance::ResonanceArgs),
     /// Overrun on a film of oil: film, drag, heat, temperatures, stability, wear, flash of a slip

@@ -1,0 +1,364 @@
+//! What an indexing drive feeds with each stroke, over frequency, and where it ends.
+
+use super::left_out::{LeftOut, left_out};
+use super::page::opened;
+use super::reengagement::peak_torque_borne;
+use super::{Envelope, Provenance};
+use crate::design::Design;
+use crate::dynamics::Stop;
+use crate::element::NoElement;
+use crate::feed::{Fed, Strokes, fed};
+use crate::follow::Follow;
+use crate::margin::load_state;
+use crate::report::plot::Curve;
+use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+use std::fmt;
+
+/// What a user may choose; what is `None` is taken from the design.
+#[derive(Debug, Clone)]
+pub struct FeedSettings {
+    /// Angle that the driving race turns by and back, rad.
+    pub stroke_rad: f64,
+    /// Strokes a second, Hz, rising.
+    pub frequencies_hz: Vec<f64>,
+    /// Torque of the brake on the fed race, N m; `None`: the nominal torque of `[limits]`.
+    pub brake_nm: Option<f64>,
+    /// What turns with the fed race, this included, kg m^2; `None`: the race alone.
+    pub inertia_kg_m2: Option<f64>,
+    /// Whether the inner race drives; else the outer one.
+    pub inner_drives: bool,
+    /// By how much a stroke may feed more or less than slow ones, rad.
+    pub allowed_rad: f64,
+    /// Followed and stopped by.
+    pub follow: Follow,
+}
+
+impl Default for FeedSettings {
+    fn default() -> Self {
+        Self {
+            stroke_rad: 30.0 * TAU / 360.0,
+            frequencies_hz: vec![1.0, 2.0, 5.0, 10.0, 20.0, 50.0],
+            brake_nm: None,
+            inertia_kg_m2: None,
+            inner_drives: false,
+            allowed_rad: 0.1 * TAU / 360.0,
+            follow: Follow::nobody(),
+        }
+    }
+}
+
+/// Strokes over frequency.
+#[derive(Debug, Clone)]
+pub struct FeedAnswer<'a> {
+    design: &'a Design,
+    /// What was asked, at the first of the frequencies.
+    pub case: Strokes,
+    /// By how much a stroke may feed more or less than slow ones, rad.
+    pub allowed_rad: f64,
+    /// What slow strokes feed less than the stroke by statics: the windup at the torque of the brake, rad.
+    pub windup_rad: f64,
+    /// Each frequency.
+    pub list: Vec<Fed>,
+    /// Frequencies that were asked for.
+    pub asked: usize,
+    /// Up to this frequency, Hz, it feeds as it should; where that ends within those asked for.
+    pub limit_hz: Option<f64>,
+    /// Peak torque that every limit bears, N m, and the limit that sets it.
+    pub bears: Option<(f64, String)>,
+}
+
+/// Why there is none.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoFeed {
+    /// The clutch cannot begin so.
+    NoStart(NoElement),
+    /// The torque of the brake is not on the curve: it ends at this one, N m.
+    Beyond(f64),
+    /// A setting makes no sense: what is allowed.
+    Refused(&'static str),
+}
+
+impl fmt::Display for NoFeed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoStart(why) => why.fmt(f),
+            Self::Beyond(end_nm) => {
+                let end = Unit::NewtonMetre.show(*end_nm, 4);
+                write!(f, "the clutch carries {end} at most: the brake must ask for less")
+            }
+            Self::Refused(allowed) => write!(f, "allowed: {allowed}"),
+        }
+    }
+}
+
+impl std::error::Error for NoFeed {}
+
+/// Halvings of a ratio of frequencies between one that is held and one that is not.
+const HALVINGS: usize = 7;
+
+impl Design {
+    /// What each stroke of an indexing drive feeds, at each frequency. Where it is stopped, the frequencies that were done.
+    ///
+    /// # Errors
+    /// [`NoFeed`].
+    pub fn feed(&self, settings: &FeedSettings) -> Result<FeedAnswer<'_>, NoFeed> {
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        let races = &self.clutch.races;
+        let own = if settings.inner_drives { races.outer_inertia_kg_m2 } else { races.inner_inertia_kg_m2 };
+        let list = &settings.frequencies_hz;
+        let case = Strokes {
+            stroke_rad: settings.stroke_rad,
+            frequency_hz: list.first().copied().unwrap_or(0.0),
+            brake_nm: settings.brake_nm.or(self.limits.nominal_torque_nm).unwrap_or(0.0),
+            inertia_kg_m2: settings.inertia_kg_m2.unwrap_or(own),
+            inner_drives: settings.inner_drives,
+        };
+        if !positive(case.stroke_rad) || case.stroke_rad > TAU {
+            return Err(NoFeed::Refused("a stroke above 0 and up to 360 deg"));
+        } else if !(case.brake_nm.is_finite() && case.brake_nm >= 0.0) {
+            return Err(NoFeed::Refused("a torque of the brake of 0 or more"));
+        } else if !positive(case.inertia_kg_m2) {
+            return Err(NoFeed::Refused("an inertia above 0"));
+        } else if !positive(settings.allowed_rad) {
+            return Err(NoFeed::Refused("an allowed difference above 0"));
+        } else if list.is_empty()
+            || !list.windows(2).all(|w| w[0] < w[1])
+            || !list.iter().all(|f| (1e-3..=1e4).contains(f))
+        {
+            return Err(NoFeed::Refused("frequencies of 0.001 to 10000 Hz, each above the one before"));
+        }
+        let state = load_state(self).ok();
+        let windup = |state: &crate::margin::LoadState| {
+            state.curve.at_torque(case.brake_nm).map(|p| p.windup_rad).ok_or(state.curve.end_torque_nm())
+        };
+        let windup_rad = state.as_ref().map_or(Ok(0.0), windup).map_err(NoFeed::Beyond)?;
+        let bears = state.and_then(|state| peak_torque_borne(self, &state));
+        let mut found = FeedAnswer {
+            design: self,
+            case,
+            allowed_rad: settings.allowed_rad,
+            windup_rad,
+            list: Vec::new(),
+            asked: list.len(),
+            limit_hz: None,
+            bears,
+        };
+        let follow = &settings.follow;
+        let at = |frequency_hz: f64| {
+            fed(&self.clutch, &Strokes { frequency_hz, ..case }, follow).map_err(NoFeed::NoStart)
+        };
+        for &frequency_hz in list {
+            let stroke = at(frequency_hz)?;
+            if stroke.ended == Some(Stop::Interrupted) {
+                return Ok(found);
+            }
+            found.list.push(stroke);
+        }
+        let lost = found.list.iter().position(|fed| !found.feeds(fed));
+        if let Some(k) = lost.filter(|k| *k > 0) {
+            let (mut held_hz, mut lost_hz) = (list[k - 1], list[k]);
+            for _ in 0..HALVINGS {
+                let middle_hz = (held_hz * lost_hz).sqrt();
+                let stroke = at(middle_hz)?;
+                if stroke.ended == Some(Stop::Interrupted) {
+                    return Ok(found);
+                }
+                if found.feeds(&stroke) { held_hz = middle_hz } else { lost_hz = middle_hz }
+            }
+            found.limit_hz = Some(held_hz);
+        }
+        Ok(found)
+    }
+}
+
+impl<'a> FeedAnswer<'a> {
+    /// Feed of a stroke less that of slow ones, rad.
+    fn off_rad(&self, fed: &Fed) -> f64 {
+        fed.error_rad + self.windup_rad
+    }
+
+    /// Whether a stroke feeds what slow ones do, and the clutch bears it.
+    fn feeds(&self, fed: &Fed) -> bool {
+        let most_nm = self.bears.as_ref().map_or(f64::INFINITY, |(torque_nm, _)| *torque_nm);
+        fed.ended.is_none()
+            && self.off_rad(fed).abs() <= self.allowed_rad
+            && fed.peak.is_some_and(|p| p.torque_nm <= most_nm)
+    }
+
+    /// Whether it feeds as it should at every frequency asked for.
+    pub fn held(&self) -> bool {
+        self.list.len() == self.asked && self.list.iter().all(|fed| self.feeds(fed))
+    }
+
+    /// Whether it was stopped before its end.
+    pub fn stopped(&self) -> bool {
+        self.list.len() < self.asked
+    }
+
+    fn word(&self, fed: &Fed) -> &'static str {
+        match fed.ended {
+            Some(Stop::FellAway) => "THROWN OUT",
+            Some(Stop::CurveEnd) => "OVERLOADED",
+            Some(_) => "NOT COMPUTED",
+            None if self.feeds(fed) => "held",
+            None if self.off_rad(fed).abs() > self.allowed_rad => "NOT HELD",
+            None => "OVERLOADED",
+        }
+    }
+
+    /// In a sentence.
+    pub fn verdict(&self) -> String {
+        let hertz = |hz: f64| Unit::Hertz.show(hz, 3);
+        let degrees = |rad: f64| Unit::Degree.show(rad, 3);
+        if self.stopped() {
+            return format!("stopped after {} of {} frequencies", self.list.len(), self.asked);
+        }
+        let (first, last) = (&self.list[0], &self.list[self.list.len() - 1]);
+        if self.held() {
+            return format!(
+                "HELD up to {}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake",
+                hertz(last.frequency_hz),
+                degrees(-last.error_rad),
+                degrees(self.case.stroke_rad),
+                degrees(self.windup_rad)
+            );
+        }
+        let why =
+            self.list.iter().find(|fed| !self.feeds(fed)).map_or(String::new(), |fed| match self.word(fed) {
+                "NOT HELD" => format!(
+                    "at {} a stroke feeds {} {} than slow ones, {} is allowed",
+                    hertz(fed.frequency_hz),
+                    degrees(self.off_rad(fed).abs()),
+                    if self.off_rad(fed) > 0.0 { "more" } else { "less" },
+                    degrees(self.allowed_rad)
+                ),
+                "THROWN OUT" => format!(
+                    "at {} the sprags are thrown out of reach of their spring",
+                    hertz(fed.frequency_hz)
+                ),
+                "OVERLOADED" => {
+                    format!("at {} the clutch is wound up beyond what it bears", hertz(fed.frequency_hz))
+                }
+                _ => format!("at {} the strokes were not followed to their end", hertz(fed.frequency_hz)),
+            });
+        match self.limit_hz {
+            Some(limit) => format!("NOT HELD: {why}; it feeds as it should up to {}", hertz(limit)),
+            None => {
+                format!("NOT HELD: {why}, the slowest that was asked for is {}", hertz(first.frequency_hz))
+            }
+        }
+    }
+
+    /// Each frequency.
+    pub fn frequencies(&self) -> Table {
+        Rows::of(&self.list)
+            .number("frequency_hz", "Strokes", Unit::Hertz, 4, |f| f.frequency_hz)
+            .number("feed_deg", "Feed", Unit::Degree, 6, |f| f.ended.is_none().then_some(f.feed_rad))
+            .number("error_deg", "Less stroke", Unit::Degree, 4, |f| f.ended.is_none().then_some(f.error_rad))
+            .number("off_deg", "Less slow strokes", Unit::Degree, 3, |f| {
+                f.ended.is_none().then_some(self.off_rad(f))
+            })
+            .number("runs_on_deg", "Runs on", Unit::Degree, 3, |f| f.ended.is_none().then_some(f.runs_on_rad))
+            .number("unlike_deg", "Unlike", Unit::Degree, 2, |f| f.ended.is_none().then_some(f.unlike_rad))
+            .number("peak_torque_nm", "Torque", Unit::NewtonMetre, 4, |f| f.peak.map(|p| p.torque_nm))
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |f| {
+                f.peak.map(|p| p.hertz_inner_pa)
+            })
+            .number("open_ms", "Open", Unit::Millisecond, 3, |f| f.open_s)
+            .text("verdict", "Verdict", |f| Cell::Verdict(self.feeds(f), self.word(f).to_owned()))
+            .table()
+    }
+
+    /// What was taken, in sentences.
+    fn remarks(&self) -> Vec<String> {
+        let case = &self.case;
+        let [driving, race] = if case.inner_drives { ["inner", "outer"] } else { ["outer", "inner"] };
+        vec![
+            format!(
+                "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m² with all that turns with it, stands under a brake of {}",
+                Unit::Degree.show(case.stroke_rad, 4),
+                significant(case.inertia_kg_m2, 4),
+                Unit::NewtonMetre.show(case.brake_nm, 4),
+            ),
+            format!(
+                "Slow strokes feed the stroke less the windup at that torque, {}; where the inertia asks for more than the brake, the fed race \
+                 runs on, from {} on",
+                Unit::Degree.show(self.windup_rad, 4),
+                Unit::Hertz.show(self.case.runs_on_from_hz(), 3)
+            ),
+            "Runs on: turn of the fed race after the driving one has turned back; unlike: last stroke against the one before; torque: largest, by \
+             the normal force; open: time of a stroke without contact at the inner race"
+                .to_owned(),
+        ]
+    }
+
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
+    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
+        let degrees = |rad: f64| Unit::Degree.from_si(rad);
+        let list = self.list.iter().map(|f| {
+            let known = |rad: f64| f.ended.is_none().then(|| degrees(rad));
+            json!({
+                "frequency_hz": f.frequency_hz, "feed_deg": known(f.feed_rad), "error_deg": known(f.error_rad),
+                "off_deg": known(self.off_rad(f)), "runs_on_deg": known(f.runs_on_rad), "unlike_deg": known(f.unlike_rad),
+                "peak_torque_nm": f.peak.map(|p| p.torque_nm),
+                "hertz_inner_mpa": f.peak.map(|p| Unit::Megapascal.from_si(p.hertz_inner_pa)),
+                "open_ms": 1e3 * f.open_s, "strokes": f.strokes, "held": self.feeds(f), "ended": f.ended.map(Stop::name),
+            })
+        });
+        let case = &self.case;
+        let body = json!({
+            "held": self.held(), "verdict": self.verdict(), "stroke_deg": degrees(case.stroke_rad), "brake_nm": case.brake_nm,
+            "inertia_kg_m2": case.inertia_kg_m2, "driver": if case.inner_drives { "inner" } else { "outer" },
+            "allowed_deg": degrees(self.allowed_rad), "windup_deg": degrees(self.windup_rad), "limit_hz": self.limit_hz,
+            "bears_nm": self.bears.as_ref().map(|b| b.0), "bears_by": self.bears.as_ref().map(|b| b.1.as_str()),
+            "frequencies": list.collect::<Vec<_>>(),
+        });
+        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
+    }
+
+    fn left_out(&self) -> Vec<LeftOut> {
+        let mut all = vec![LeftOut::new(
+            "shafts",
+            "the brake and its inertia are rigid with the fed race, the driving race is moved as given",
+            "a soft shaft feeds less by its own twist: put the drive into [[drivetrain]] and simulate a transient",
+        )];
+        all.extend(left_out(&self.design.clutch));
+        all
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        let hash = self.design.short_hash();
+        format!(
+            "{}  {hash}\n\n{}\n{}\n{}\n",
+            self.design.name,
+            self.frequencies().to_text(screen),
+            self.remarks().join("\n"),
+            self.verdict()
+        )
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, provenance: &Provenance) -> Page {
+        let mut page = opened("Feed of an indexing drive", self.design, &provenance.command, |page| {
+            page.verdict(self.held(), &self.verdict());
+        });
+        page.list(self.remarks());
+        let points = |of: &dyn Fn(&Fed) -> f64| -> Vec<[f64; 2]> {
+            let done = self.list.iter().filter(|f| f.ended.is_none());
+            done.map(|f| [f.frequency_hz, Unit::Degree.from_si(of(f))]).collect()
+        };
+        if self.list.iter().filter(|f| f.ended.is_none()).count() > 1 {
+            let mut plot = Plot::new("Strokes a second, Hz", "Feed less stroke, deg");
+            plot.log_x = true;
+            plot.curves.push(Curve::new("feed less stroke", points(&|f| f.error_rad)));
+            plot.curves.push(Curve::new("slow strokes: windup", points(&|_| -self.windup_rad)));
+            page.figure(&plot.to_figure(), "What a stroke feeds more or less than the driving race turns.");
+        }
+        page.table("Each frequency.", &self.frequencies());
+        self.envelope(provenance.run_time_s).close(&mut page);
+        page
+    }
+}
