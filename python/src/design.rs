@@ -306,7 +306,7 @@ impl Design {
         py: Python<'_>,
         torque_nm: Option<f64>,
         inertia_kg_m2: [Option<f64>; 2],
-        outer_held: bool,
+        outer_held: Option<bool>,
         friction: Option<f64>,
         speed_rpm: f64,
         paths_mm: Option<Vec<f64>>,

@@ -24,8 +24,9 @@ pub struct ReengagementSettings {
     pub torque_nm: Option<f64>,
     /// What turns with the inner and the outer race, these included, kg m^2; `None`: the races alone.
     pub inertia_kg_m2: [Option<f64>; 2],
-    /// Whether the outer race keeps its speed whatever acts on it.
-    pub outer_held: bool,
+    /// Whether the outer race keeps its speed whatever acts on it; `None`: where the design names no speed of it and no inertia is
+    /// given.
+    pub outer_held: Option<bool>,
     /// Friction while it slips; `None`: [`SHORT`] of what the torque needs.
     pub friction: Option<f64>,
     /// Speed of both races, rad/s.
@@ -41,7 +42,7 @@ impl Default for ReengagementSettings {
         Self {
             torque_nm: None,
             inertia_kg_m2: [None; 2],
-            outer_held: false,
+            outer_held: None,
             friction: None,
             speed_rad_s: 0.0,
             paths_m: vec![1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2],
@@ -109,7 +110,9 @@ impl Design {
             torque_nm: settings.torque_nm.or(self.limits.nominal_torque_nm).unwrap_or(0.0),
             speed_rad_s: settings.speed_rad_s,
             inertia_kg_m2: [0, 1].map(|race| settings.inertia_kg_m2[race].unwrap_or(own[race])),
-            outer_held: settings.outer_held,
+            outer_held: settings
+                .outer_held
+                .unwrap_or_else(|| settings.inertia_kg_m2[1].is_none() && !outer_turns(self)),
             friction: settings.friction.unwrap_or(0.0),
             paths_m: settings.paths_m.clone(),
         };
@@ -294,6 +297,8 @@ impl<'a> ReengagementAnswer<'a> {
             (false, Some(Stop::CurveEnd)) => "OVERLOADED",
             (false, Some(_)) => "NO GRIP",
         };
+        // Where no blow is known the races are driven apart as long as they were followed.
+        let told = |b: &Blow| b.peak.is_some() || b.peak_s.is_none();
         Rows::of(&self.found.list)
             .number("path_mm", "Slip", Unit::Millimetre, 3, |b| b.path_m)
             .number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4, |b| b.peak.map(|p| p.torque_nm))
@@ -303,9 +308,9 @@ impl<'a> ReengagementAnswer<'a> {
             .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |b| {
                 b.peak.map(|p| p.hertz_inner_pa)
             })
-            .number("speed_rpm", "Speed gained", Unit::Rpm, 3, |b| b.speed_rad_s)
+            .number("speed_rpm", "Speed gained", Unit::Rpm, 3, |b| told(b).then_some(b.speed_rad_s))
             .number("slip_ms", "Lasts", Unit::Millisecond, 3, |b| b.slip_s)
-            .number("peak_ms", "Blow at", Unit::Millisecond, 3, |b| b.peak_s)
+            .number("peak_ms", "Blow at", Unit::Millisecond, 3, |b| b.peak_s.filter(|_| b.peak.is_some()))
             .number("path_in_all_mm", "In all", Unit::Millimetre, 3, |b| b.path_in_all_m)
             .table()
     }
@@ -329,12 +334,11 @@ impl<'a> ReengagementAnswer<'a> {
                 .to_owned(),
             "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however short the slip".to_owned(),
         ];
-        if !case.outer_held && !outer_turns(self.design) {
-            all.push(
-                "The design names no speed of the outer race: here it is free to turn, with its own inertia unless another is given; one that is \
-                 fixed to a housing is asked for by --outer-held (outer_held=True)"
-                    .to_owned(),
-            );
+        if !outer_turns(self.design) {
+            all.push(format!(
+                "The design names no speed of the outer race: here it is {}; --outer-held and --outer-free say which",
+                if case.outer_held { "held, as in a housing" } else { "free to turn" }
+            ));
         }
         if let Some(end) = self.thrown() {
             all.push(format!(

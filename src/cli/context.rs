@@ -226,7 +226,12 @@ pub fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
 /// A path and a value, for `--set`.
 fn setting(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
-        Some((path, value)) if !path.trim().is_empty() => Ok((path.trim().to_owned(), value.to_owned())),
+        Some((path, value)) if !path.trim().is_empty() => match value.trim() {
+            "" => Err(format!("{path} has no value; {path}=none removes it")),
+            // The library takes an empty value for that.
+            "none" => Ok((path.trim().to_owned(), String::new())),
+            value => Ok((path.trim().to_owned(), value.to_owned())),
+        },
         _ => Err("KEY=VALUE is needed, such as sprags.inner_arcs[1].radius_mm=4.1 or r_i2_mm=4.1".to_owned()),
     }
 }

@@ -82,7 +82,8 @@ impl Run for NewArgs {
             let path = output::path_text(&output);
             context.answer(&format!(
                 "\nNext:\n  sprag-design studio {path}\n  sprag-design check {path}\n  sprag-design optimize {path} -o better.toml\n  \
-                 sprag-design sheet {path}\n"
+                 sprag-design sheet {path}\n{}",
+                self.engagements.map_or(String::new(), |_| format!("  sprag-design life {path}\n"))
             ))?;
         }
         Ok(exit)

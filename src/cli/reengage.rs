@@ -35,9 +35,12 @@ pub struct ReengageArgs {
     /// What turns with the outer race, kg m², the race included [default: races.outer_inertia_kg_m2 of the file, else the race alone]
     #[arg(long, value_name = "KG_M2", allow_hyphen_values = true, value_parser = positive)]
     pub outer_inertia: Option<f64>,
-    /// The outer race keeps its speed whatever acts on it: in a housing, say
+    /// The outer race keeps its speed whatever acts on it: in a housing, say [default: where the design names no speed of it]
     #[arg(long, conflicts_with = "outer_inertia")]
     pub outer_held: bool,
+    /// The outer race is free to turn
+    #[arg(long, conflicts_with = "outer_held")]
+    pub outer_free: bool,
     /// Friction of the contacts while they slip [default: 0.95 of what the torque needs]
     #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = positive)]
     pub friction: Option<f64>,
@@ -56,7 +59,7 @@ impl Run for ReengageArgs {
         let settings = ReengagementSettings {
             torque_nm: self.torque,
             inertia_kg_m2: [self.inner_inertia, self.outer_inertia],
-            outer_held: self.outer_held,
+            outer_held: (self.outer_held || self.outer_free).then_some(self.outer_held),
             friction: self.friction,
             speed_rad_s: self.speed * PI / 30.0,
             paths_m: paths_m.unwrap_or(usual.paths_m),

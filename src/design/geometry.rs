@@ -82,8 +82,19 @@ pub(super) fn sprags(
     })
 }
 
+/// Arcs of a profile at most: a curve is built arc by arc.
+const MOST_ARCS: usize = 200;
+
 fn arcs_in_order(file: &SpragsFile, out: &mut Findings) -> bool {
     let mut in_order = true;
+    if file.inner_arcs.len() > MOST_ARCS {
+        out.refuse(
+            &["sprags.inner_arcs"],
+            format!("at most {MOST_ARCS} arcs"),
+            "fit the outline by fewer: sprag-design import".to_owned(),
+        );
+        return false;
+    }
     for (k, pair) in file.inner_arcs.windows(2).enumerate() {
         if pair[1].until_rad <= pair[0].until_rad {
             in_order = false;

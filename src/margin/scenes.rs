@@ -5,6 +5,7 @@ use super::row::{Demand, Margin};
 use super::table::LIMITS;
 use crate::clutch::Scenario;
 use crate::design::Limits;
+use crate::dynamics::Stop;
 use crate::scenario::{self, AtRest, NoScenario, Prepared, Reduction, Settings, prepare_reduced};
 
 /// Rolling demand of one scenario, with the Hertz pressure that comes with it.
@@ -47,7 +48,10 @@ pub fn scene_demand(scene: &Scenario, known: Option<AtRest>, settings: &Settings
 
 pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool) -> Vec<Margin> {
     let found = d.demand.as_ref().ok();
-    let gave_up = found.and_then(|d| d.gave_up);
+    let gave_up = found.and_then(|d| match d.never_engages {
+        true => Some("the scene ends before the clutch engages: a longer duration_s"),
+        false => d.gave_up.map(Stop::name),
+    });
     let overload = match &d.demand {
         Err(why @ NoScenario::NotCarried { .. }) => Some(why.to_string()),
         Ok(d) if d.overloaded => Some("rolling goes beyond the end of the curve".to_owned()),
@@ -77,7 +81,7 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
         };
         let what = limit.name().replace("{scene}", name);
         let name_for_people = match (gave_up, &overload) {
-            (Some(stop), _) => format!("{what}: not computed, {}", stop.name()),
+            (Some(why), _) => format!("{what}: not computed, {why}"),
             (None, Some(why)) => format!("{what}: overloaded, {why}"),
             (None, None) => what,
         };

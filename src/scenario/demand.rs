@@ -24,10 +24,12 @@ pub struct RollingDemand {
     pub contact_margin: f64,
     /// Largest N_bi and N_be of the rolling run, N.
     pub normal_max_n: [f64; 2],
-    /// Whether the rolling run reached its end.
+    /// Whether the rolling run reached its end, engaged.
     pub finished: bool,
     /// Whether it went beyond the end of the curve instead: the sprag rolls over or leaves its profile.
     pub overloaded: bool,
+    /// Whether the scene begins in overrun and ends before the clutch engages: then nothing of it holds.
+    pub never_engages: bool,
     /// Where it met a limit of work instead, or ceased to be finite: then nothing of it holds.
     pub gave_up: Option<Stop>,
     /// Whether it was interrupted from outside; then nothing of it holds.
@@ -122,6 +124,7 @@ pub(super) fn demand_at(
             normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
             finished: true,
             overloaded: false,
+            never_engages: false,
             gave_up: None,
             interrupted: false,
             rhs_evaluations: 0,
@@ -158,9 +161,11 @@ pub(super) fn roll(
     let (mut state, mut place) = (prepared.state, prepared.mode.place);
     let mut before = 0;
     let mut model = std::borrow::Cow::Borrowed(&prepared.model);
+    let mut never_engages = false;
     if prepared.overrun.is_some() {
         let free = run(&prepared.model, prepared.state, prepared.mode, &s);
         before = free.counters.rhs_evaluations;
+        never_engages = free.stop == Stop::Finished && free.engaged.is_none();
         if let Some(start) = free.engaged {
             (state, place) = (start.state, start.place);
             s.duration_s -= start.t_s;
@@ -171,7 +176,7 @@ pub(super) fn roll(
         Some(tolerance) => rolling_quickly(&model, state, place, &s, tolerance),
         None => rolling(&model, state, place, &s),
     };
-    let finished = r.stop == Stop::Finished;
+    let finished = r.stop == Stop::Finished && !never_engages;
     let mut required = r.required_friction.filter(|_| finished);
     let mut interrupted = r.stop == Stop::Interrupted;
     let by_bisection = finished && required.is_none();
@@ -190,6 +195,7 @@ pub(super) fn roll(
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished,
         overloaded: r.stop == Stop::CurveEnd,
+        never_engages,
         gave_up: r.stop.gave_up().then_some(r.stop),
         interrupted,
         rhs_evaluations: before + r.run.counters.rhs_evaluations,

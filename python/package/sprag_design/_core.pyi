@@ -65,7 +65,7 @@ class Design:
         self,
         torque_nm: float | None,
         inertia_kg_m2: Sequence[float | None],
-        outer_held: bool,
+        outer_held: bool | None,
         friction: float | None,
         speed_rpm: float,
         paths_mm: Sequence[float] | None,

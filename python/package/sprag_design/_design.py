@@ -325,13 +325,13 @@ class Design:
         torque_nm: float | None = None,
         inertia_inner_kg_m2: float | None = None,
         inertia_outer_kg_m2: float | None = None,
-        outer_held: bool = False,
+        outer_held: bool | None = None,
         friction: float | None = None,
         speed_rpm: float = 0.0,
     ) -> Reengagement:
         """Slip under load and the blow when the clutch grips again, for each path of slip at the inner track (mm, rising; left
         out: 0.1 to 30). ``torque_nm``: carried when the slip begins, left out the nominal torque of ``[limits]``; inertias:
-        what turns with each race, the race included, left out the race alone; ``outer_held``: the outer race keeps its speed
+        what turns with each race, the race included, left out the race alone; ``outer_held``: the outer race keeps its speed (left out: where the design names none of it)
         whatever acts on it; ``friction`` while it slips, left out 0.95 of
         what the torque needs; ``speed_rpm``: of both races.
 

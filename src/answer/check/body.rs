@@ -221,6 +221,8 @@ impl CheckBody {
         let required: Vec<&CheckRow> = self.margins.iter().filter(|r| r.required).collect();
         let broken = required.iter().filter(|r| !r.held).count();
         let unknown = required.iter().filter(|r| !r.computed).count();
+        let why =
+            required.iter().find_map(|r| Some((r.code.as_str(), r.name.split_once("not computed, ")?.1)));
         match &self.deciding {
             None => format!("HELD: the design names no limit that could be broken{}", self.but_shown()),
             Some(d) if self.pass => format!(
@@ -231,8 +233,9 @@ impl CheckBody {
                 self.but_shown()
             ),
             Some(_) if unknown > 0 => format!(
-                "NOT COMPUTED: {unknown} of {} required rows, whose runs met their limit of work; {} others not held",
+                "NOT COMPUTED: {unknown} of {} required rows{}; {} others not held",
                 required.len(),
+                why.map_or(String::new(), |(code, why)| format!(", {code}: {why} (`simulate` tells more)")),
                 broken - unknown
             ),
             Some(d) => format!(

@@ -200,7 +200,12 @@ pub struct OverrunSection {
 
 /// What an equilibrium does not say: the fastest growth of the swing among the speeds looked at, up to `wanted_rpm` of the
 /// outer race where contact is to be kept.
-fn warning(points: &[OverrunRow], outer_turns: bool, wanted_rpm: Option<f64>) -> Option<String> {
+fn warning(
+    points: &[OverrunRow],
+    outer_turns: bool,
+    wanted_rpm: Option<f64>,
+    on_film: bool,
+) -> Option<String> {
     let wanted = |p: &OverrunRow| wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
     let within = |p: &&OverrunRow| p.race == "inner" || outer_turns && wanted(p);
     let growth = |p: &OverrunRow| p.growth_rate_per_s.unwrap_or(0.0);
@@ -210,11 +215,12 @@ fn warning(points: &[OverrunRow], outer_turns: bool, wanted_rpm: Option<f64>) ->
     Some(format!(
         "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}, {:.0} rpm of the {} race \
          (fastest of the speeds looked at; races at held speeds). Drag and forces are those of the equilibrium{held}; a \
-         transient scenario shows what the sprags do",
+         transient scenario shows what the sprags do{}",
         Unit::PerSecond.show(growth(p), 3),
         Unit::Hertz.show(p.swing_frequency_hz?, 3),
         p.speed_rpm,
         p.race,
+        if on_film { "" } else { ". A film of oil may damp it: add [lubrication]" },
     ))
 }
 
@@ -238,6 +244,7 @@ impl OverrunSection {
         let outer = curve.outer_race.iter().map(|p| row("outer", p));
         let points: Vec<OverrunRow> = outer.chain(curve.inner_race.iter().map(|p| row("inner", p))).collect();
         let wanted_rpm = limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
+        let on_film = curve.inner_race.iter().any(|p| p.lubricated.is_some());
         Self {
             centrifugal: match curve.gamma_rad {
                 g if g > 0.0 => "engaging",
@@ -246,8 +253,8 @@ impl OverrunSection {
             },
             gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
-            on_film: curve.inner_race.iter().any(|p| p.lubricated.is_some()),
-            warning: warning(&points, outer_turns(design), wanted_rpm),
+            on_film,
+            warning: warning(&points, outer_turns(design), wanted_rpm, on_film),
             outer_race_turns: outer_turns(design),
             named,
             points,

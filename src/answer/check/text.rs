@@ -1,6 +1,7 @@
 //! The margin check as text, and the sentences that its page has too.
 
 use super::{CheckAnswer, NONE_SUFFICES, OVERLOADED, people_table};
+use crate::answer::simulation::unfelt;
 use crate::design::Design;
 use crate::life::INDENTING_PA;
 use crate::margin::{Demand, Margin};
@@ -24,7 +25,7 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
     out.push('\n');
     out.push_str(&size_line(design));
     out.push('\n');
-    for line in body.remarks().into_iter().chain(overrunning(design)) {
+    for line in body.remarks().into_iter().chain(of_scenes(design, &check.rows)) {
         out.push_str(&greek(&line));
         out.push('\n');
     }
@@ -90,15 +91,19 @@ pub(in crate::answer) fn size_line(design: &Design) -> String {
     )
 }
 
-/// Why steady overruns have no rows, where the design has any.
-pub(super) fn overrunning(design: &Design) -> Option<String> {
+/// What the scenes that are held do not say: why steady overruns have no rows, steps and histories that come after the end.
+pub(super) fn of_scenes(design: &Design, rows: &[Margin]) -> Vec<String> {
     let steady = design.scenarios.iter().filter(|s| s.kind.is_overrun());
     let names: Vec<&str> = steady.map(|s| s.name.as_str()).collect();
-    (!names.is_empty()).then(|| {
+    let overrunning = (!names.is_empty()).then(|| {
         format!(
             "No slip or contact row for {}: in steady overrun the inner contact slides and nothing is to stick; limits \
              keep_contact_to_rpm and lift_off_by_rpm hold it",
             names.join(", ")
         )
-    })
+    });
+    let held = design.scenarios.iter().filter(|s| rows.iter().any(|r| r.scene.as_ref() == Some(&s.name)));
+    let unfelt =
+        held.flat_map(|s| unfelt::notes(s).into_iter().map(|note| format!("Note on {}: {note}", s.name)));
+    overrunning.into_iter().chain(unfelt).collect()
 }

@@ -47,7 +47,10 @@ impl SearchReport<'_> {
             "\nInfluence at the start: change of these margins over the whole range of a variable (of all: --report)\n{}",
             story.deciding_influence().to_text(screen)
         );
-        out += &format!("\nActive: {}\n", story.active().join(", "));
+        out += &format!(
+            "\nActive: {} (--reserve 0.05 would keep 5 % of every limit to spare)\n",
+            story.active().join(", ")
+        );
         for part in story.parts(&self.hints) {
             out += &format!("\n{}\n", part.heading);
             out += &part.lines.iter().map(|l| format!("- {l}\n")).collect::<String>();

@@ -14,7 +14,7 @@ mod settings;
 mod stretch;
 mod table;
 mod train;
-mod unfelt;
+pub(in crate::answer) mod unfelt;
 mod verdict;
 
 pub use body::{Energy, Equilibrium, Extreme, Extremes, Fast, SimulationBody, Slip, Slips};

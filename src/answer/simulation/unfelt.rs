@@ -3,7 +3,7 @@
 use crate::clutch::{Scenario, ScenarioKind};
 
 /// A sentence for the step and for each history of which the scene feels no change.
-pub(super) fn notes(scenario: &Scenario) -> Vec<String> {
+pub(in crate::answer) fn notes(scenario: &Scenario) -> Vec<String> {
     let ScenarioKind::Transient { torque_step_nm, step_time_s, duration_s, .. } = scenario.kind else {
         return Vec::new();
     };

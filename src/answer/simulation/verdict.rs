@@ -116,6 +116,13 @@ fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String 
         }
         Some(Verdict::Sticks) => on_the_way(s).map_or(margin.clone(), |way| format!("{way}; {margin}")),
         Some(Verdict::SlipsEngaging) if kind.is_at_rest() => margin,
+        // Sliding is what overrun does.
+        Some(Verdict::SlipsOverrunning) if s.demand.is_none() => {
+            format!(
+                "it overruns to its end at {}, the clutch has not engaged: is duration_s long enough?",
+                Unit::Second.show(s.t_s, 4)
+            )
+        }
         Some(Verdict::SlipsOverrunning | Verdict::SlipsEngaging) => format!("{}; {margin}", shifted(s)),
         Some(Verdict::Disengages) => {
             if s.peaks.normal_max_n <= 0.0 {
