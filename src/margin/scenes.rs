@@ -49,7 +49,7 @@ pub fn scene_demand(scene: &Scenario, known: Option<AtRest>, settings: &Settings
 pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool) -> Vec<Margin> {
     let found = d.demand.as_ref().ok();
     let gave_up = found.and_then(|d| match d.never_engages {
-        true => Some("the scene ends before the clutch engages: a longer duration_s"),
+        true => Some("the clutch does not engage within duration_s"),
         false => d.gave_up.map(Stop::name),
     });
     let overload = match &d.demand {

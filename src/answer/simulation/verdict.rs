@@ -119,7 +119,7 @@ fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String 
         // Sliding is what overrun does.
         Some(Verdict::SlipsOverrunning) if s.demand.is_none() => {
             format!(
-                "it overruns to its end at {}, the clutch has not engaged: is duration_s long enough?",
+                "it overruns to its end at {}: the clutch does not engage within duration_s",
                 Unit::Second.show(s.t_s, 4)
             )
         }
