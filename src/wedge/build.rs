@@ -102,6 +102,7 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = statics.elastic.local_only();
+        statics.bulk = None;
         Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
     }
 

@@ -1,6 +1,7 @@
 //! Static equilibrium of one sprag at a given inner normal force: the only static iteration of the project.
 
 use super::build::Effort;
+use super::bulk::Bulk;
 use super::elastic::{Elastic, NoElastic};
 use super::off_centre::turned;
 use super::patch::{InnerApproach, InnerCurvature};
@@ -8,6 +9,7 @@ use crate::clutch::{Carrier, Clutch};
 use crate::kinematics::{self, Deformations, Lengths, Radii};
 use crate::numeric::dual::Dual;
 use crate::profile::Profile;
+use std::sync::Arc;
 
 /// Smallest normal force at which a closure is evaluated, N: stands for first contact, where the roller law's
 /// slope is infinite.
@@ -54,7 +56,10 @@ pub struct Closure {
     pub deformations: Deformations,
     /// Effective curvature 1/R that the approach at A knows, 1/m; for a law that knows none, that of the arc.
     pub curvature_inner_per_m: f64,
-    /// beta, rad.
+    /// By how much the forces at A and at B lie ahead of the contact points in the sense of rising azimuth, m: on arcs of
+    /// unlike curvature, and near a flank. 0 for a law that keeps them there.
+    pub force_ahead_m: [f64; 2],
+    /// beta, rad, of the contact point.
     pub beta: Dual,
     /// gamma, rad, signed.
     pub gamma: Dual,
@@ -135,6 +140,48 @@ impl Closure {
     }
 }
 
+/// What bulk and flanks add to a closure while it settles.
+struct Yields {
+    /// Compression of the body beyond the disc, m.
+    give_m: Dual,
+    /// By how much the forces at A and at B lie ahead for it, m.
+    ahead_m: [Dual; 2],
+}
+
+impl Default for Yields {
+    fn default() -> Self {
+        let none = Dual::constant(0.0);
+        Self { give_m: none, ahead_m: [none; 2] }
+    }
+}
+
+/// The angles of an equilibrium: azimuth of the force at A ahead of that at B, of the force at B ahead of G, and the offset
+/// of the axes along and across the line to the force at B.
+struct Seen {
+    beta: Dual,
+    sin_b: Dual,
+    cos_b: Dual,
+    gamma: Dual,
+    along: Dual,
+    across: Dual,
+}
+
+impl Seen {
+    /// From the contact points to the forces, which stand these angles ahead of them.
+    fn from_forces(self, at_a: Dual, at_b: Dual) -> Self {
+        let lead = at_a - at_b;
+        let ((sin, cos), (sin_o, cos_o)) = (lead.sin_cos(), at_b.sin_cos());
+        Self {
+            beta: self.beta + lead,
+            sin_b: self.sin_b * cos + self.cos_b * sin,
+            cos_b: self.cos_b * cos - self.sin_b * sin,
+            gamma: self.gamma + at_b,
+            along: self.along * cos_o + self.across * sin_o,
+            across: self.across * cos_o - self.along * sin_o,
+        }
+    }
+}
+
 /// One clutch, ready for closures.
 #[derive(Debug, Clone)]
 pub struct Statics {
@@ -152,6 +199,8 @@ pub struct Statics {
     pub(super) offset_m: [f64; 2],
     /// The race that this stays with.
     pub(super) carrier: Carrier,
+    /// What the body gives beyond the law's disc; nothing for a law that takes no disc, or without an outline.
+    pub(super) bulk: Option<Arc<Bulk>>,
     /// What opens the gap at this sprag beside the law: inner track, outer track, and what it lacks in size, m.
     pub(super) opened_m: [f64; 3],
     pub(super) radii: Radii,
@@ -178,6 +227,7 @@ impl Statics {
             offset_m: [0.0; 2],
             carrier: Carrier::default(),
             opened_m: [0.0; 3],
+            bulk: super::bulk::of(clutch, &profile),
             elastic: Elastic::new(clutch)?,
             radii: Radii {
                 inner_race_m: r.inner_radius_m,
@@ -205,6 +255,18 @@ impl Statics {
     /// Centroid of the body frame, m.
     pub fn centroid_m(&self) -> [f64; 2] {
         self.centroid_m
+    }
+
+    /// What the body yields under `n_bi` and `n_be`, with the contact at A after `rolled` of the profile.
+    fn yields(&self, bulk: &Bulk, (n_bi, n_be): (Dual, Dual), rolled: Dual, curvature_per_m: Dual) -> Yields {
+        let at = bulk.at(rolled);
+        let [inner, outer] = at.slopes_per_n;
+        let outer_radius_m = self.elastic.outer_contact.effective_radius_m;
+        Yields {
+            give_m: n_bi * at.along_m_per_n,
+            // Engagement takes the contact at B backwards.
+            ahead_m: [n_bi * inner * -0.5 / curvature_per_m, n_be * outer * (0.5 * outer_radius_m)],
+        }
     }
 
     /// With what opens the gap at this sprag alone.
@@ -254,8 +316,10 @@ impl Statics {
         let mut residual = f64::INFINITY;
         let mut slope_residual = f64::INFINITY;
         let mut unsettled = f64::INFINITY;
+        let mut body = Yields::default();
         for round in 0..60 {
-            let d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
+            let mut d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
+            d.body = d.body + body.give_m;
             let mut l = kinematics::lengths(&radii, &d);
             if self.elastic.gives_along {
                 [l.oa, l.ob] = kinematics::pitch_points(&radii, &d, self.effective_radii_m(&inner));
@@ -267,22 +331,35 @@ impl Statics {
             let rotation =
                 (l.oc_i * sin_b + across).atan2(l.oc_i * cos_b - l.oc_e + along) + (shift_rad - azimuth);
             let g = kinematics::centroid(self.centroid_m, l.oc_e, rotation);
-            let to_b = l.ob - along;
-            let lever = to_b * cos_b - sin_b * across - l.oa;
-            let ratio = (to_b * sin_b + cos_b * across) / lever;
-            let (sin_g, cos_g) = g.gamma.sin_cos();
+            let ahead_m = [inner.ahead_m + body.ahead_m[0], body.ahead_m[1]];
+            let seen = match ahead_m.iter().all(|a| a.v == 0.0) {
+                true => Seen { beta, sin_b, cos_b, gamma: g.gamma, along, across },
+                false => Seen { beta, sin_b, cos_b, gamma: g.gamma, along, across }
+                    .from_forces(ahead_m[0] / l.oa, ahead_m[1] / l.ob),
+            };
+            let Seen { sin_b, cos_b, .. } = seen;
+            let to_b = l.ob - seen.along;
+            let lever = to_b * cos_b - sin_b * seen.across - l.oa;
+            let ratio = (to_b * sin_b + cos_b * seen.across) / lever;
+            let (sin_g, cos_g) = seen.gamma.sin_cos();
             let f_c = g.oc_g * (self.mass_kg * speed_rad_s * speed_rad_s);
             let offset = -(f_c * l.ob * sin_g / lever);
             let t_bi = n * ratio + offset;
-            let couple = (n * cos_b + t_bi * sin_b) * across - (n * sin_b - t_bi * cos_b) * along;
+            let couple = (n * cos_b + t_bi * sin_b) * seen.across - (n * sin_b - t_bi * cos_b) * seen.along;
             let t_be = (t_bi * l.oa + couple) / l.ob;
-            let (sin_bg, cos_bg) = (beta + g.gamma).sin_cos();
+            let (sin_bg, cos_bg) = (seen.beta + seen.gamma).sin_cos();
             let next = (n * cos_bg + t_bi * sin_bg - t_be * sin_g + f_c) / cos_g;
             // A sprag that centrifugal force presses off the inner race still never pulls on the outer one.
             let next = if next.v > FIRST_CONTACT_N { next } else { Dual::constant(FIRST_CONTACT_N) };
             let curvature = inner.curvature_per_m.v;
             let turn = rotation - (beta - self.profile.beta0_rad);
-            let moved = inner.update(self, arc, n, turn);
+            let mut moved = inner.update(self, arc, n, turn);
+            if let Some(bulk) = &self.bulk {
+                let now = self.yields(bulk, (n, n_be), self.rolled_m(arc, turn), inner.curvature_per_m);
+                moved.v = moved.v.max(((now.give_m.v - body.give_m.v) / inner.approach_m.v).abs());
+                moved.d = moved.d.max(((now.give_m.d - body.give_m.d) / inner.approach_m.d).abs());
+                body = now;
+            }
             // The offset turns with a race; without one there is nothing to turn.
             let on = if self.is_concentric() { carried } else { self.carried(arc, rotation, turn) };
             let rolled_on = on - carried;
@@ -319,6 +396,7 @@ impl Statics {
                     lengths: l,
                     deformations: d,
                     curvature_inner_per_m: curvature,
+                    force_ahead_m: ahead_m.map(|a| a.v),
                     beta,
                     gamma: g.gamma,
                     oc_g: g.oc_g,

@@ -9,6 +9,7 @@
 mod apart;
 mod axial;
 mod build;
+mod bulk;
 mod closure;
 #[cfg(test)]
 mod cost;

@@ -13,6 +13,7 @@ use super::curve::WedgeCurve;
 use crate::clutch::{Clutch, InnerArc};
 use crate::contact::{LineContact, step_peak_error};
 use crate::numeric::{dual::Dual, root};
+use crate::profile::PatchCurvature;
 
 /// The curvature that a law which knows the radius is given at A.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +51,8 @@ pub(super) struct InnerApproach {
     pub(super) approach_m: Dual,
     /// 1/R.
     pub(super) curvature_per_m: Dual,
+    /// By how much the force lies ahead of the contact point, m: 0 on one arc, and for a law that keeps it there.
+    pub(super) ahead_m: Dual,
     /// d delta_H/d(1/R), m^2; `None` for a law without radius or where the arc's own is wanted.
     by_curvature_m2: Option<f64>,
 }
@@ -60,6 +63,7 @@ impl InnerApproach {
         let pointwise = Self {
             approach_m: statics.elastic.pointwise_inner(arc, n),
             curvature_per_m: own,
+            ahead_m: Dual::constant(0.0),
             by_curvature_m2: None,
         };
         match statics.inner_curvature {
@@ -74,6 +78,7 @@ impl InnerApproach {
         Some(Self {
             approach_m: Dual { v: at.approach_m, d: slope },
             curvature_per_m: curvature,
+            ahead_m: Dual::constant(0.0),
             by_curvature_m2: Some(at.by_curvature_m2),
         })
     }
@@ -87,11 +92,22 @@ impl InnerApproach {
         // a ~ (N R)^(1/2)
         let half = at_curvature(contact, k.v).half_width_m(n.v);
         let half_slope = 0.5 * half * (n.d / n.v - k.d / k.v);
-        let under = statics.profile.approach_curvature(arc, turn.v, half);
+        let slope =
+            |mean: &PatchCurvature| mean.by_turn_per_m_rad * turn.d + mean.by_half_width_per_m2 * half_slope;
+        let profile = &statics.profile;
+        let (under, lead) = if statics.elastic.gives_along {
+            let [under, lead] = profile.approach_curvature_and_lead(arc, turn.v, half);
+            (under, Dual { v: lead.curvature_per_m, d: slope(&lead) })
+        } else {
+            (profile.approach_curvature(arc, turn.v, half), Dual::constant(0.0))
+        };
         let next = Dual {
-            v: 1.0 / contact.effective_radius_m
-                + (under.curvature_per_m - 1.0 / statics.profile.arcs[arc].radius_m),
-            d: under.by_turn_per_m_rad * turn.d + under.by_half_width_per_m2 * half_slope,
+            v: 1.0 / contact.effective_radius_m + (under.curvature_per_m - 1.0 / profile.arcs[arc].radius_m),
+            d: slope(&under),
+        };
+        self.ahead_m = match under.straddles {
+            true => lead * Dual { v: half, d: half_slope } / next,
+            false => Dual::constant(0.0),
         };
         if next == k {
             return Dual::constant(0.0);
@@ -101,7 +117,7 @@ impl InnerApproach {
             d: (by_curvature * (next.d - k.d) / self.approach_m.d).abs(),
         };
         if let Some(updated) = Self::curved(statics, arc, n, next) {
-            *self = updated;
+            *self = Self { ahead_m: self.ahead_m, ..updated };
         }
         change
     }
