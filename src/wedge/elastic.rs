@@ -222,8 +222,7 @@ fn law(approach: &Approach, n: Dual) -> Dual {
 ///
 /// Sprag: a disc of diameter h under opposite loads, h the sprag's height, has between rim and centre
 /// delta = 2q/(pi E') [ln(2h/a) - 1/2] (Johnson, *Contact Mechanics*, (5.57)), which in terms of a depth d with
-/// ln(2d/a) - t/2 is d = h exp(t/2 - 1/2). Flanks cut at 5 of 8.3 mm raise the bracket by 0.04 of 4.7 (a
-/// finite-element solution of the outline); that is left out. Ring: [`Race::effective_depth_m`].
+/// ln(2d/a) - t/2 is d = h exp(t/2 - 1/2). What the sprag's own outline gives beyond that is [`super::bulk`]'s. Ring: [`Race::effective_depth_m`].
 fn elastic_law(
     contact: &LineContact,
     clutch: &Clutch,
@@ -236,7 +235,11 @@ fn elastic_law(
         StressState::PlaneStrain => (PlaneState::Strain, [f64::INFINITY; 2]),
         StressState::PlaneStress => (PlaneState::Stress, [0.0; 2]),
         StressState::Layer => {
-            (PlaneState::Stress, [clutch.sprags.length_m, race.width_m()].map(layer_transition_m))
+            let transitions = [
+                layer_transition_m(clutch.sprags.length_m, sprag.poisson_ratio),
+                layer_transition_m(race.width_m(), race.material().poisson_ratio),
+            ];
+            (PlaneState::Stress, transitions)
         }
     };
     let disc_depth_m = height_m * (0.5 * far.transverse_ratio(sprag.poisson_ratio) - 0.5).exp();
