@@ -88,6 +88,7 @@ impl<'a> FiniteElements<'a> {
     pub fn compared(&self) -> String {
         let [inner, outer] = self.facts.driven_mm;
         let law = self.design.clutch.contact.facts();
+        let [windup, force] = self.design.clutch.law_error();
         format!(
             "Law over FE compares rim with rim: the law's windup, track against track, and the torsion of the races out to the \
              driven circles (radii {} and {}) against the windup of finite elements there. The law {} is stated with {} of windup, \
@@ -95,8 +96,8 @@ impl<'a> FiniteElements<'a> {
             Unit::Millimetre.show(1e-3 * inner, 4),
             Unit::Millimetre.show(1e-3 * outer, 4),
             law.key,
-            Unit::Percent.show(law.beside_fem[0], 2),
-            Unit::Percent.show(law.beside_fem[1], 2)
+            Unit::Percent.show(windup, 2),
+            Unit::Percent.show(force, 2)
         )
     }
 
@@ -151,7 +152,7 @@ impl<'a> FiniteElements<'a> {
                 law_tan_omega: l.map(|l| l.tan_omega),
             })
             .collect();
-        let [windup, force] = self.design.clutch.contact.facts().beside_fem;
+        let [windup, force] = self.design.clutch.law_error();
         FiniteElementBody {
             law_windup_error_percent: 100.0 * windup,
             law_force_error_percent: 100.0 * force,

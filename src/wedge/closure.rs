@@ -170,7 +170,7 @@ impl Seen {
     /// From the contact points to the forces, which stand these angles ahead of them.
     fn from_forces(self, at_a: Dual, at_b: Dual) -> Self {
         let lead = at_a - at_b;
-        let ((sin, cos), (sin_o, cos_o)) = (lead.sin_cos(), at_b.sin_cos());
+        let [(sin, cos), (sin_o, cos_o)] = [lead, at_b].map(Dual::sin_cos);
         Self {
             beta: self.beta + lead,
             sin_b: self.sin_b * cos + self.cos_b * sin,

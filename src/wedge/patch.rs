@@ -2,10 +2,10 @@
 //! radius is given there, and where the patch lies on two arcs.
 //!
 //! Left out: the pressure there is not that of one arc; its peak is off by [`straddling_error`] at most, 0.11 % for
-//! Table 1's radii. Left out as well: where a patch straddles a junction its pressure is not symmetric, so its resultant lies up to 0.4 um off the
-//! contact point for Table 1's radii (tests/patch_contact.rs), which is 5e-4 of the lever OB sin beta = 0.8 mm of N_bi
-//! about B. The wedge keeps the contact point; therefore dC/dN keeps its jump where that passes a junction, the kink of
-//! the torque curve. With the resultant's shift the jump would be spread over the patch's width.
+//! Table 1's radii. Its resultant lies off the contact point, towards what is curved less. Law `elastic` puts the force there
+//! ([`crate::profile::Profile::approach_curvature_and_lead`]), to first order in the step of curvature
+//! ([`shift_left_out`]): dC/dN then passes a junction without most of its jump. Other laws keep the force at the contact
+//! point, as the paper does, and the torque curve keeps its kink.
 
 use super::build::Effort;
 use super::closure::{Closure, Statics};
@@ -44,6 +44,27 @@ pub fn straddling_error(clutch: &Clutch) -> f64 {
     let junctions =
         clutch.sprags.inner_arcs.windows(2).map(|arcs| (curvature(&arcs[0]), curvature(&arcs[1])));
     junctions.map(|(a, b)| step_peak_error(a, b).max(step_peak_error(b, a))).fold(0.0, f64::max)
+}
+
+/// By what part of tan omega the force at A is misplaced at most where its patch straddles a junction of `curve`: by its
+/// whole distance from the contact point for a law that keeps it there, by what is of second order in the step of curvature,
+/// a quarter of the step's part of it (plane contact, steps to 12 %), for one that does not. 0 for a single arc.
+pub fn shift_left_out(curve: &WedgeCurve) -> f64 {
+    let statics = curve.statics();
+    let at = |k: usize| {
+        let (_, c) = curve.closure_at_normal(curve.arc_end_n(k))?;
+        let arc = curve.first_arc() + k;
+        let arcs = &statics.profile.arcs;
+        let (here, beyond) = (arcs.get(arc)?, arcs.get(arc + 1)?);
+        let contact = at_curvature(&statics.elastic.inner_contact[arc], c.curvature_inner_per_m);
+        let half_m = contact.half_width_m(c.n_bi);
+        let [_, lead] = statics.profile.approach_curvature_and_lead(arc, here.until_rad, half_m);
+        let off_m = lead.curvature_per_m * half_m / c.curvature_inner_per_m;
+        let step = (1.0 / beyond.radius_m - 1.0 / here.radius_m) / c.curvature_inner_per_m;
+        let left_m = if statics.elastic.gives_along { 0.25 * step * off_m } else { off_m };
+        Some((left_m / (c.lengths.ob.v * c.beta.v.sin())).abs())
+    };
+    (0..curve.arc_count()).filter_map(at).fold(0.0, f64::max)
 }
 
 /// delta_H at A with the curvature behind it, while the closure settles.
