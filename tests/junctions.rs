@@ -93,7 +93,11 @@ fn the_tangent_stiffness_jumps_at_the_junctions_and_nowhere_else() {
         for n in junctions {
             let (value, slope) = jumps(n, 1e-4);
             println!("{law:?}: K jumps by {value:.1e} at {n:.0} N, N K'/K by {slope:.1e}");
-            assert!(value > 5e-3 && slope > 1e-2, "{law:?}: {value} {slope}");
+            // A force that moves within the patch as the junction does takes the jump away, to first order in the step.
+            match law {
+                ContactLaw::Elastic { .. } => assert!(value < 1e-3, "{law:?}: {value}"),
+                _ => assert!(value > 5e-3 && slope > 1e-2, "{law:?}: {value} {slope}"),
+            }
         }
         // At the edges what is seen of a jump of slope falls with the root of the distance: there is none.
         for s in curve.straddles() {

@@ -66,7 +66,7 @@ fn torque_and_windup_do_not_know_the_centroid() {
 
 /// C dtheta = n_s (N_bi d delta_i + N_be d delta_e) at rest; with a mean speed
 /// C_Omega (rho_i + rho_e)/n_s = N_bi delta_i' + N_be delta_e' - F_c OC_g' (per d alpha). Contacts that give along the
-/// tracks add T_bi s_i' + T_be s_e'.
+/// tracks add T_bi s_i' + T_be s_e', forces that stand ahead of their contact points the work of their moments on the turn.
 #[test]
 fn energy_identity_at_rest_and_at_speed() {
     let laws = [
@@ -88,7 +88,18 @@ fn energy_identity_at_rest_and_at_speed() {
                 let outer = d.race_outer.d + 0.5 * d.body.d + d.contact_outer.d;
                 let f_c = 1.8e-3 * c.oc_g.v * speed * speed;
                 let along = c.t_bi.v * c.give_m_per_n[0] + c.t_be.v * c.give_m_per_n[1];
-                let work = c.n_bi * inner + c.n_be.v * outer + along - f_c * c.oc_g.d;
+                // Forces that stand ahead of their contact points, against the lines to the centres of the arcs.
+                let (lead_i, lead_e) =
+                    (c.force_ahead_m[0] / c.lengths.oa.v, c.force_ahead_m[1] / c.lengths.ob.v);
+                let turned = |normal: f64, tangential: f64, lead: f64| {
+                    let (sin, cos) = lead.sin_cos();
+                    (normal * cos + tangential * sin, normal * sin - tangential * cos + tangential)
+                };
+                let (across_i, turns_i) = turned(c.n_bi, c.t_bi.v, lead_i);
+                let (across_e, turns_e) = turned(c.n_be.v, c.t_be.v, lead_e);
+                let turning = turns_i * c.lengths.oc_i.v * (c.rotation.d - c.beta.d)
+                    - turns_e * c.lengths.oc_e.v * c.rotation.d;
+                let work = across_i * inner + across_e * outer + turning + along - f_c * c.oc_g.d;
                 let torque = c.torque_nm(12).v * (rho_i + rho_e) / 12.0 * c.alpha.d;
                 let scale = work.abs().max(c.n_bi * inner);
                 assert!((work - torque).abs() < 1e-8 * scale, "{law:?} {rpm} rpm {n} N: {work:e} {torque:e}");

@@ -148,7 +148,7 @@ pub const LAWS: [LawFacts; 5] = [
         whole_bodies: true,
         overlaps_body: false,
         // Thirteen clutches: one of 24 sprags of 12 mm, with a mesh of half the patch's half width; unlike bodies have a row below.
-        beside_fem: [0.006, 0.003],
+        beside_fem: [0.006, 0.004],
         words: |law, _| {
             format!(
                 "elastic, {}: exact plane elasticity of each ring under its contacts and of the sprag's outline, \
