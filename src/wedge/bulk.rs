@@ -15,7 +15,7 @@
 //! (Flamant). What flanks and curved sides change is regular: phi and psi as polynomials about the middle, their
 //! coefficients by least squares of f on points that crowd towards the corners. The compliance C is the approach of A
 //! and B along e, without what each force does at its own place, less the same of the disc whose diameter is the height:
-//! [(kappa + 1) ln 2 - kappa]/pi. Seven terms have it to 0.01, some 0.03 % of windup (test
+//! [(kappa + 1) ln 2 - kappa]/pi. Ten terms have it to 0.01, some 0.03 % of windup (test
 //! `more_terms_and_points_change_little`).
 //!
 //! # Where the force lies
@@ -39,9 +39,9 @@ use crate::profile::{Flanks, Outline, Profile, ProfileArc, Segment};
 type Point = Complex<f64>;
 
 /// Terms of phi and of psi, points on each of the four sides, places along the profile: choices.
-const TERMS: usize = 7;
-const POINTS: usize = 12;
-const PLACES: usize = 5;
+const TERMS: usize = 10;
+const POINTS: usize = 20;
+const PLACES: usize = 6;
 /// How far before first contact the places begin, in parts of the profile: contacts of sprags that stand apart.
 const BEFORE: f64 = 0.05;
 
