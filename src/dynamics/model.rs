@@ -112,6 +112,12 @@ pub(super) struct Loose {
     press: f64,
 }
 
+impl Forces {
+    /// None at all.
+    pub(super) const NONE: Self =
+        Self { acceleration: [0.0; 4], t_bi: 0.0, t_be: 0.0, n_bi: 0.0, n_be: 0.0, v_a: 0.0, v_b: 0.0 };
+}
+
 impl Loose {
     /// N_be by the radial equation, N; 0 where that is left out.
     #[inline(always)]
@@ -162,6 +168,11 @@ impl Model {
             damping_nm_s_per_rad: clutch.races.viscous_damping_nm_s_per_rad,
             hunt_crossley_s_per_m: clutch.hunt_crossley_s_per_m,
         }
+    }
+
+    /// The same for `count` of its sprags alone, on their own curve and with their own friction.
+    pub fn of_sprags(&self, count: usize, curve: WedgeCurve, friction: Stribeck) -> Self {
+        Self { curve, friction, count: count as f64, ..self.clone() }
     }
 
     /// Geometry and normal force at `alpha` with the functions of `place`.

@@ -6,7 +6,7 @@ use crate::dynamics::change::moving;
 use crate::dynamics::choose::{Known, choose_by};
 use crate::dynamics::crossing::cross_between;
 use crate::dynamics::events::{INNER, LOWER, OUTER, UPPER};
-use crate::dynamics::model::{Grip, Mode, Place};
+use crate::dynamics::model::{Forces, Grip, Mode, Place};
 use crate::dynamics::run::Stop;
 use crate::ode::rhs::RightHandSide;
 use crate::wedge::WedgePoint;
@@ -118,10 +118,7 @@ impl<const N: usize> Going<'_, N> {
         let choice = choose_by(model, p, place, inner, outer, |mode| {
             rhs.motions[g].mode = *mode;
             rhs.look::<true, N>(t, &y);
-            match &rhs.seen[g] {
-                Some(seen) => (seen.rates[0], seen.forces),
-                None => unreachable!("a sprag that waits has no grip to choose"),
-            }
+            rhs.seen[g].as_ref().map_or((0.0, Forces::NONE), |seen| (seen.rates[0], seen.forces))
         });
         rhs.motions[g].mode = before;
         self.out.inconsistent_choices += u64::from(!choice.consistent);
