@@ -8,6 +8,7 @@ use super::page::draw_inputs;
 use super::reengagement::ReengagementAnswer;
 use super::resonance::ResonanceAnswer;
 use super::sharing::SharingAnswer;
+use super::sharing_scene::SharingSceneAnswer;
 use crate::design::Design;
 use crate::report::{Page, Rows, Screen, Table};
 use serde::Serialize;
@@ -146,6 +147,7 @@ answers! {
     ReengagementAnswer<'_>, Value, blows;
     ResonanceAnswer<'_>, Value, table;
     SharingAnswer<'_>, Value, by_sprag;
+    SharingSceneAnswer<'_>, Value, by_sprag;
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run, positive};
 use crate::answer::sharing::NoSharing;
+use crate::scenario::Settings;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -27,11 +28,21 @@ pub struct SharingArgs {
     /// Torque, Nm [default: limits.nominal_torque_nm]
     #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = positive)]
     pub torque: Option<f64>,
+    /// A scenario of the design, run with its sprags one by one: who catches, who slips, shares over time
+    #[arg(long, value_name = "NAME", conflicts_with = "torque")]
+    pub scenario: Option<String>,
 }
 
 impl Run for SharingArgs {
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         context.each(&self.files, |file, design| {
+            if let Some(name) = &self.scenario {
+                let settings = Settings { follow: context.follow.clone(), ..Settings::default() };
+                let (found, run_time_s) = timed(|| design.sharing_in_scene(name, &settings));
+                let found = found.map_err(|why| Failure::of(file, why))?;
+                context.deliver(&found, run_time_s)?;
+                return Ok(Exit::of(found.held()));
+            }
             let (found, run_time_s) = timed(|| design.sharing(self.torque));
             let found = found.map_err(|why| match why {
                 NoSharing::NoClutch(why) => Failure::no_clutch(file, &why),

@@ -171,7 +171,7 @@ impl Many {
             None => {
                 let torque_nm = alike.model.drive.torque_at(0.0).max(0.0) - alike.model.loads.inner_nm;
                 let spring = scenario.start == Start::Settled;
-                settled_together(&groups, torque_nm, spring).ok_or(NoEachSprag::NotCarried(torque_nm))?.into()
+                Some(settled_together(&groups, torque_nm, spring).ok_or(NoEachSprag::NotCarried(torque_nm))?)
             }
         };
         let start = start.ok_or(NoEachSprag::NoneCarries)?;

@@ -286,6 +286,13 @@ impl<'a, const N: usize> Going<'a, N> {
             }
             match cut {
                 Some((g, which)) if step.h <= AT_ONCE_S => {
+                    if std::env::var("DBG").is_ok() {
+                        eprintln!(
+                            "atonce t={t:e} g{g} which{which} {:?} e={:?}",
+                            self.rhs.motions[g].mode,
+                            (0..PROBES).map(|j| self.rhs.probes[j][g].events[which]).collect::<Vec<_>>()
+                        );
+                    }
                     // Nothing has moved.
                     let mut now = [1.0; EVENTS];
                     now[which] = -1.0;
@@ -296,6 +303,12 @@ impl<'a, const N: usize> Going<'a, N> {
                 }
                 Some(_) if step.h == h && h < tried => {}
                 Some((g, which)) => {
+                    if std::env::var("DBG").is_ok() {
+                        eprintln!(
+                            "land t={:e} h={:e} g{g} which{which} {:?}",
+                            t, step.h, self.rhs.motions[g].mode
+                        );
+                    }
                     if self.accept(&step).is_err() {
                         return self.stop(Stop::NotFinite, None);
                     }
