@@ -166,14 +166,15 @@ fn a_torque_that_rises_slowly_is_shared_as_statics_shares_it() {
         let torque = 1.0 + 78.0 * late;
         let expected = still.catches_nm(0.0)[3].unwrap();
         println!("catches at {torque} {expected} Nm");
-        assert!((torque / expected - 1.0).abs() < 0.05, "{torque} {expected}");
+        // The ramp sets in at once: the torque swings by its rate over the clutch's own frequency, some 500 rad/s.
+        assert!((torque - expected).abs() < 78.0 / 500.0, "{torque} {expected}");
         assert!(all.residual_j.abs() < 1e-6 * all.through_j, "{:e}", all.residual_j / all.through_j);
     }
 }
 
 #[test]
 fn twelve_sprags_cost_at_most_one_and_a_half_times_twelve_times_one() {
-    let scene = scene("huang2017-multi-arc", "high-10");
+    let scene = scene("huang2017-multi-arc", "high-6");
     let mut found = Vec::new();
     for apart in [false, true] {
         let many = Many::new(&scene, &alike(), apart).unwrap();

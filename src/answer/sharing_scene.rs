@@ -6,7 +6,7 @@ use super::page::{half, opened};
 use super::sharing::NoSharing;
 use super::{Envelope, Provenance};
 use crate::design::Design;
-use crate::dynamics::{Course, ManySample, Stop};
+use crate::dynamics::{ManySample, SpragCourse, Stop};
 use crate::report::{Page, Plot, Rows, Screen, Table, Unit, significant};
 use crate::scenario::Settings;
 use crate::sprags::{EachSprag, NoEachSprag, each_sprag};
@@ -76,12 +76,12 @@ impl Design {
 }
 
 impl<'a> SharingSceneAnswer<'a> {
-    fn course(&self, sprag: usize) -> Option<&Course> {
+    fn course(&self, sprag: usize) -> Option<&SpragCourse> {
         Some(&self.found.run.courses[self.found.group[sprag]?])
     }
 
     /// Index of the sprag of which `of` is largest, and that; `None` where none carries.
-    fn most(&self, of: impl Fn(&Course) -> f64) -> Option<(usize, f64)> {
+    fn most(&self, of: impl Fn(&SpragCourse) -> f64) -> Option<(usize, f64)> {
         let each = (0..self.found.sprags.len()).filter_map(|i| Some((i, of(self.course(i)?))));
         each.reduce(|best, next| if next.1 > best.1 { next } else { best })
     }

@@ -7,7 +7,7 @@
 //! cage holds all), drawn and given as for statics. Races turn about one axis and stay round, so its azimuth does not matter.
 
 use crate::clutch::{Scenario, ScenarioKind, Sharing, Start};
-use crate::dynamics::{Group, ManyRun, ManyStart, RunSettings, run_many, settled_together};
+use crate::dynamics::{ManyRun, ManyStart, RunSettings, SpragGroup, run_many, settled_together};
 use crate::friction::Stribeck;
 use crate::scenario::{NoScenario, Prepared, Settings, prepare};
 use crate::sharing::{Asked, Idle, OneSprag, Unlike};
@@ -47,7 +47,7 @@ impl std::fmt::Display for NoEachSprag {
                 "nothing moves in a static scenario or an overrun: allowed are torsional-excitation, engagement and transient",
             ),
             Self::SpeedCourse => f.write_str(
-                "sprags one by one need a constant mean speed: leave speed_history_rpm out of the scenario",
+                "sprags one by one need a constant mean speed: leave its history out of the scenario",
             ),
             Self::Drivetrain => {
                 f.write_str("sprags one by one move no drivetrain: give the scenario drivetrain = []")
@@ -91,7 +91,7 @@ pub struct EachSprag {
 #[derive(Debug, Clone)]
 pub struct Many {
     /// Sprags alike.
-    pub groups: Vec<Group>,
+    pub groups: Vec<SpragGroup>,
     /// Where they begin.
     pub start: ManyStart,
     /// The group of each sprag; `None`: idle.
@@ -136,9 +136,10 @@ impl Many {
             return Err(NoEachSprag::NoneCarries);
         }
         let lag = |i: usize| unlike.lag_rad[i].map(|lag| lag - first).filter(|lag| *lag > TOGETHER_RAD);
+        // A deviation of -0 is none.
         let key = |i: usize| {
             let s = &unlike.sprags[i];
-            (s.size_m.to_bits(), s.friction.to_bits(), lag(i).map(f64::to_bits), apart.then_some(i))
+            ((s.size_m + 0.0).to_bits(), s.friction.to_bits(), lag(i).map(f64::to_bits), apart.then_some(i))
         };
         let able: Vec<usize> = (0..unlike.sprags.len()).filter(|&i| unlike.lag_rad[i].is_some()).collect();
         let mut kinds: Vec<usize> = Vec::new();
@@ -160,12 +161,13 @@ impl Many {
             let kinetic = law.kinetic * (sprag.friction / law.static_);
             let friction = Stribeck { static_: sprag.friction, kinetic, ..law };
             let count = group.iter().filter(|of| **of == Some(g)).count();
-            Ok(Group { model: alike.model.of_sprags(count, own, friction), lag_rad: lag(i) })
+            Ok(SpragGroup { model: alike.model.of_sprags(count, own, friction), lag_rad: lag(i) })
         };
         let groups = kinds.iter().enumerate().map(of).collect::<Result<Vec<_>, _>>()?;
         let start = match alike.free_run {
             Some(_) => {
-                let touch = |g: &Group| if g.lag_rad.is_some() { None } else { alike.overrun_of(&g.model) };
+                let touch =
+                    |g: &SpragGroup| if g.lag_rad.is_some() { None } else { alike.overrun_of(&g.model) };
                 ManyStart::of(&groups.iter().map(touch).collect::<Vec<_>>())
             }
             None => {

@@ -1,6 +1,7 @@
 //! One sprag changes what its contacts do, the others stay as they are.
 
-use super::run::{FirstSlip, Going, is_end};
+use super::found::FirstSlip;
+use super::run::{Going, is_end};
 use super::{EACH, EVENTS, HEAD, state_of};
 use crate::dynamics::change::moving;
 use crate::dynamics::choose::{Known, choose_by};
@@ -25,7 +26,7 @@ impl<const N: usize> Going<'_, N> {
         }
     }
 
-    /// Group `g` at event `which`. False: the run has ended.
+    /// SpragGroup `g` at event `which`. False: the run has ended.
     pub(super) fn change(&mut self, g: usize, which: usize) -> bool {
         if self.rhs.motions[g].waits {
             return self.touches(g);

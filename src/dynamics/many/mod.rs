@@ -19,10 +19,12 @@
 //! State: theta_bi, theta_be, their rates, five works, then of each group alpha, phi, their rates and the slips at A and B.
 
 mod change;
+mod found;
 mod run;
 mod start;
 
-pub use run::{Course, FirstSlip, ManyRun, ManySample, run_many};
+pub use found::{FirstSlip, ManyRun, ManySample, SpragCourse};
+pub use run::run_many;
 pub use start::settled_together;
 
 use super::events::{EVENTS, Probe, probe_of};
@@ -44,7 +46,7 @@ const PROBES: usize = crate::ode::dop853::PROBES.len();
 
 /// Sprags that are alike, as many as `model` counts.
 #[derive(Debug, Clone)]
-pub struct Group {
+pub struct SpragGroup {
     /// Their own curve, friction and spring; races and loads of the first group count for all.
     pub model: Model,
     /// Windup of the races from which on they touch, rad; `None`: they touch at the start.
@@ -121,7 +123,7 @@ impl Part {
 
 /// The right-hand side while every group is in one mode, with what it sees on its way.
 struct Rhs<'a> {
-    groups: &'a [Group],
+    groups: &'a [SpragGroup],
     motions: Vec<Motion>,
     /// theta_be - theta_bi from which the windup counts that a waiting group waits for, rad.
     reference_rad: f64,
@@ -137,7 +139,7 @@ fn state_of<const N: usize>(y: &[f64; N], g: usize) -> State {
 }
 
 impl<'a> Rhs<'a> {
-    fn new(groups: &'a [Group], motions: Vec<Motion>, reference_rad: f64) -> Self {
+    fn new(groups: &'a [SpragGroup], motions: Vec<Motion>, reference_rad: f64) -> Self {
         let n = groups.len();
         Self {
             groups,

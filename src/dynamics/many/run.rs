@@ -1,6 +1,7 @@
 //! Steps up to the first event of any sprag.
 
-use super::{EACH, EVENTS, FIRST_WORK, Group, HEAD, ManyStart, Motion, PROBES, Rhs, WORKS, state_of};
+use super::found::{ManyRun, ManySample, SpragCourse};
+use super::{EACH, EVENTS, FIRST_WORK, HEAD, ManyStart, Motion, PROBES, Rhs, SpragGroup, WORKS, state_of};
 use crate::dynamics::cusp::towards_the_cusp_s;
 use crate::dynamics::events::{INNER, LOWER, N_BI, OUTER, UPPER};
 use crate::dynamics::model::{Grip, N_STATE, Place};
@@ -18,89 +19,9 @@ const AT_ONCE_S: f64 = 1e-13;
 /// How exactly an event is located, as a part of its step.
 const WIDTH: f64 = 1e-13;
 
-/// The first slip of a sprag under load after it has caught.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FirstSlip {
-    /// When, s.
-    pub t_s: f64,
-    /// Whether it was the inner contact.
-    pub inner: bool,
-    /// N_bi then, N.
-    pub normal_n: f64,
-}
-
-/// What became of one group; forces are those of one of its sprags.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Course {
-    /// When A first carried without overrunning, s; `None`: never.
-    pub catches_s: Option<f64>,
-    /// Its first slip.
-    pub slips: Option<FirstSlip>,
-    /// Signed slip and path of slip at A and B, m.
-    pub net_m: [f64; 2],
-    /// Path of it, m.
-    pub path_m: [f64; 2],
-    /// Largest N_bi, N, and when, s.
-    pub normal_max_n: f64,
-    /// When, s.
-    pub normal_max_s: f64,
-    /// Largest |T|/N at A and B while loaded.
-    pub tan: [f64; 2],
-    /// Largest share of the load, 1: the mean of all sprags, from the settings' load on; 0: never loaded.
-    pub share: f64,
-    /// When, s.
-    pub share_s: f64,
-    /// Time without contact after it has caught, s.
-    pub open_s: f64,
-}
-
-/// All groups at one time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ManySample {
-    /// s.
-    pub t_s: f64,
-    /// theta_bi, theta_be, rad, and their rates.
-    pub races: [f64; 4],
-    /// N_bi of a sprag of each group, N.
-    pub normal_n: Vec<f64>,
-    /// |T|/N at A and B.
-    pub tan: Vec<[f64; 2]>,
-    /// What each does.
-    pub motions: Vec<Motion>,
-}
-
-/// A finished run.
-#[derive(Debug, Clone)]
-pub struct ManyRun {
-    /// Why it ended.
-    pub stop: Stop,
-    /// The group at which it did, where one is to blame.
-    pub at_group: Option<usize>,
-    /// Time reached, s.
-    pub t_s: f64,
-    /// Angles and rates of the races there, as in [`ManyStart`].
-    pub races: [f64; 4],
-    /// alpha, phi of each group there, rad.
-    pub sprags: Vec<[f64; 2]>,
-    /// By group.
-    pub courses: Vec<Course>,
-    /// Equidistant.
-    pub samples: Vec<ManySample>,
-    /// Located changes.
-    pub events: u64,
-    /// Choices of a mode that contradicted themselves.
-    pub inconsistent_choices: u64,
-    /// Work of the integrator, one evaluation for all sprags.
-    pub counters: Counters,
-    /// What works and changes of energy leave over, J.
-    pub residual_j: f64,
-    /// Energy that went through, J.
-    pub through_j: f64,
-}
-
 /// Integrate `groups` from `start`; `settings` as of one sprag, of which samples and history beyond equidistant ones, energy, jumps
 /// and pure rolling mean nothing here. Up to 64 groups.
-pub fn run_many(groups: &[Group], start: &ManyStart, settings: &RunSettings) -> ManyRun {
+pub fn run_many(groups: &[SpragGroup], start: &ManyStart, settings: &RunSettings) -> ManyRun {
     const fn length(groups: usize) -> usize {
         HEAD + EACH * groups
     }
@@ -117,7 +38,7 @@ pub fn run_many(groups: &[Group], start: &ManyStart, settings: &RunSettings) -> 
 
 /// A run on its way.
 pub(super) struct Going<'a, const N: usize> {
-    pub(super) groups: &'a [Group],
+    pub(super) groups: &'a [SpragGroup],
     settings: &'a RunSettings,
     pub(super) rhs: Rhs<'a>,
     pub(super) t_s: f64,
@@ -140,7 +61,7 @@ enum First {
 }
 
 impl<'a, const N: usize> Going<'a, N> {
-    fn new(groups: &'a [Group], start: &ManyStart, settings: &'a RunSettings) -> Self {
+    fn new(groups: &'a [SpragGroup], start: &ManyStart, settings: &'a RunSettings) -> Self {
         let mut y = [0.0; N];
         y[..4].copy_from_slice(&start.races);
         for (g, s) in start.sprags.iter().enumerate() {
@@ -154,7 +75,7 @@ impl<'a, const N: usize> Going<'a, N> {
             t_s: 0.0,
             races: start.races,
             sprags: Vec::new(),
-            courses: vec![Course::default(); n],
+            courses: vec![SpragCourse::default(); n],
             samples: Vec::with_capacity(settings.samples),
             events: 0,
             inconsistent_choices: 0,
@@ -286,13 +207,6 @@ impl<'a, const N: usize> Going<'a, N> {
             }
             match cut {
                 Some((g, which)) if step.h <= AT_ONCE_S => {
-                    if std::env::var("DBG").is_ok() {
-                        eprintln!(
-                            "atonce t={t:e} g{g} which{which} {:?} e={:?}",
-                            self.rhs.motions[g].mode,
-                            (0..PROBES).map(|j| self.rhs.probes[j][g].events[which]).collect::<Vec<_>>()
-                        );
-                    }
                     // Nothing has moved.
                     let mut now = [1.0; EVENTS];
                     now[which] = -1.0;
@@ -303,12 +217,6 @@ impl<'a, const N: usize> Going<'a, N> {
                 }
                 Some(_) if step.h == h && h < tried => {}
                 Some((g, which)) => {
-                    if std::env::var("DBG").is_ok() {
-                        eprintln!(
-                            "land t={:e} h={:e} g{g} which{which} {:?}",
-                            t, step.h, self.rhs.motions[g].mode
-                        );
-                    }
                     if self.accept(&step).is_err() {
                         return self.stop(Stop::NotFinite, None);
                     }

@@ -1,6 +1,6 @@
 //! Where a run of many sprags begins.
 
-use super::{Group, ManyStart, Motion};
+use super::{ManyStart, Motion, SpragGroup};
 use crate::dynamics::model::{Grip, Mode, Place, State};
 use crate::numeric::root;
 use crate::wedge::WedgeCurve;
@@ -35,13 +35,13 @@ impl ManyStart {
 
 /// Rest under `torque_nm` >= 0, both races in balance: every group at its own alpha of one windup, `spring`s at work or left out.
 /// `None` where it is not carried before one comes to its end.
-pub fn settled_together(groups: &[Group], torque_nm: f64, spring: bool) -> Option<ManyStart> {
-    let own = |group: &Group, windup: f64| -> Option<(f64, Place)> {
+pub fn settled_together(groups: &[SpragGroup], torque_nm: f64, spring: bool) -> Option<ManyStart> {
+    let own = |group: &SpragGroup, windup: f64| -> Option<(f64, Place)> {
         let windup = windup - group.lag_rad.unwrap_or(0.0);
         (windup >= 0.0).then(|| alpha_at_windup(&group.model.curve, windup)).flatten()
     };
     let carried = |windup: f64| -> f64 {
-        let one = |group: &Group| {
+        let one = |group: &SpragGroup| {
             let model = &group.model;
             let Some((alpha, place)) = own(group, windup) else { return 0.0 };
             let p = model.point(place, alpha);
@@ -50,7 +50,7 @@ pub fn settled_together(groups: &[Group], torque_nm: f64, spring: bool) -> Optio
         };
         groups.iter().map(one).sum()
     };
-    let end = |group: &Group| {
+    let end = |group: &SpragGroup| {
         let curve = &group.model.curve;
         curve.windup_rad(curve.end().1) + group.lag_rad.unwrap_or(0.0)
     };
@@ -62,7 +62,7 @@ pub fn settled_together(groups: &[Group], torque_nm: f64, spring: bool) -> Optio
     let model = &groups.first()?.model;
     let abutment = model.loads.abutment_nm_per_rad;
     let outer = if abutment > 0.0 && torque_nm > 0.0 { -torque_nm / abutment } else { 0.0 };
-    let each = |group: &Group| {
+    let each = |group: &SpragGroup| {
         let (alpha, place) = own(group, windup)?;
         let place = if loaded { place } else { Place::Open };
         let mut y = [0.0; super::N_STATE];
