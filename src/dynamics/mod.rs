@@ -38,7 +38,8 @@ mod zeno;
 pub use drive::{Drive, FlangeDrive, Loads, Ramp};
 pub use energy::EnergyBalance;
 pub use many::{
-    FirstSlip, ManyRun, ManySample, ManyStart, Motion, SpragCourse, SpragGroup, run_many, settled_together,
+    FirstSlip, ManyRun, ManySample, ManyStart, SpragCourse, SpragGroup, SpragMotion, run_many,
+    settled_together,
 };
 pub use memory::{Memory, go_on};
 pub use model::{Forces, Grip, Mode, Model, N_STATE, Place, State};

@@ -1,6 +1,6 @@
 //! What a run of many sprags comes to.
 
-use super::Motion;
+use super::SpragMotion;
 use crate::dynamics::run::Stop;
 use crate::ode::step::Counters;
 
@@ -52,7 +52,7 @@ pub struct ManySample {
     /// |T|/N at A and B.
     pub tan: Vec<[f64; 2]>,
     /// What each does.
-    pub motions: Vec<Motion>,
+    pub motions: Vec<SpragMotion>,
 }
 
 /// A finished run.

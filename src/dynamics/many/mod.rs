@@ -55,7 +55,7 @@ pub struct SpragGroup {
 
 /// Where a group is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct SpragMotion {
     /// What its contacts do; means nothing while it waits.
     pub mode: Mode,
     /// Whether it does not touch yet.
@@ -72,7 +72,7 @@ pub struct ManyStart {
     /// alpha and its rate, phi and its rate of each group.
     pub sprags: Vec<[f64; 4]>,
     /// What each does.
-    pub motions: Vec<Motion>,
+    pub motions: Vec<SpragMotion>,
 }
 
 /// One group at one instant.
@@ -124,7 +124,7 @@ impl Part {
 /// The right-hand side while every group is in one mode, with what it sees on its way.
 struct Rhs<'a> {
     groups: &'a [SpragGroup],
-    motions: Vec<Motion>,
+    motions: Vec<SpragMotion>,
     /// theta_be - theta_bi from which the windup counts that a waiting group waits for, rad.
     reference_rad: f64,
     parts: Vec<Option<Part>>,
@@ -139,7 +139,7 @@ fn state_of<const N: usize>(y: &[f64; N], g: usize) -> State {
 }
 
 impl<'a> Rhs<'a> {
-    fn new(groups: &'a [SpragGroup], motions: Vec<Motion>, reference_rad: f64) -> Self {
+    fn new(groups: &'a [SpragGroup], motions: Vec<SpragMotion>, reference_rad: f64) -> Self {
         let n = groups.len();
         Self {
             groups,

@@ -1,7 +1,9 @@
 //! Steps up to the first event of any sprag.
 
 use super::found::{ManyRun, ManySample, SpragCourse};
-use super::{EACH, EVENTS, FIRST_WORK, HEAD, ManyStart, Motion, PROBES, Rhs, SpragGroup, WORKS, state_of};
+use super::{
+    EACH, EVENTS, FIRST_WORK, HEAD, ManyStart, PROBES, Rhs, SpragGroup, SpragMotion, WORKS, state_of,
+};
 use crate::dynamics::cusp::towards_the_cusp_s;
 use crate::dynamics::events::{INNER, LOWER, N_BI, OUTER, UPPER};
 use crate::dynamics::model::{Grip, N_STATE, Place};
@@ -292,7 +294,7 @@ impl<'a, const N: usize> Going<'a, N> {
     }
 
     fn towards_a_cusp_s(&self) -> f64 {
-        let one = |(g, motion): (usize, &Motion)| {
+        let one = |(g, motion): (usize, &SpragMotion)| {
             if motion.waits {
                 return f64::INFINITY;
             }

@@ -1,11 +1,11 @@
 //! Where a run of many sprags begins.
 
-use super::{ManyStart, Motion, SpragGroup};
+use super::{ManyStart, SpragGroup, SpragMotion};
 use crate::dynamics::model::{Grip, Mode, Place, State};
 use crate::numeric::root;
 use crate::wedge::WedgeCurve;
 
-impl Motion {
+impl SpragMotion {
     /// In `mode`, touching.
     pub fn touching(mode: Mode) -> Self {
         Self { mode, waits: false, phase: None }
@@ -23,8 +23,9 @@ impl ManyStart {
     pub fn of(each: &[Option<(State, Mode)>]) -> Option<Self> {
         let (first, _) = each.iter().flatten().next()?;
         let sprag = |of: &Option<(State, Mode)>| of.map_or([0.0; 4], |(y, _)| [y[0], y[4], y[1], y[5]]);
-        let motion =
-            |of: &Option<(State, Mode)>| of.map_or(Motion::waiting(), |(_, mode)| Motion::touching(mode));
+        let motion = |of: &Option<(State, Mode)>| {
+            of.map_or(SpragMotion::waiting(), |(_, mode)| SpragMotion::touching(mode))
+        };
         Some(Self {
             races: [first[2], first[3], first[6], first[7]],
             sprags: each.iter().map(sprag).collect(),
