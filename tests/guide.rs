@@ -86,9 +86,23 @@ fn with_input(line: &str) -> (&str, &str) {
     line.strip_prefix("echo '").and_then(|rest| rest.split_once("' | ")).unwrap_or(("", line))
 }
 
+/// Words of a command line as a shell has them: blanks between, what stands in single quotes as it is.
+fn words(line: &str) -> Vec<String> {
+    let (mut all, mut quoted) = (vec![String::new()], false);
+    for c in line.chars() {
+        match c {
+            '\'' => quoted = !quoted,
+            c if c.is_whitespace() && !quoted => all.push(String::new()),
+            c => all.last_mut().unwrap().push(c),
+        }
+    }
+    all.retain(|word| !word.is_empty());
+    all
+}
+
 fn run(args: &str, input: &str, here: &Path) -> Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_sprag-design"))
-        .args(args.split_whitespace().map(|a| a.trim_matches('\'')))
+        .args(words(args))
         .arg("--quiet")
         .current_dir(here)
         .env("NO_COLOR", "1")
