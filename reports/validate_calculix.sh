@@ -9,22 +9,9 @@
 # Writes reports/calculix-single-arc.csv and .md. Exit code 1 where a windup is more than 1 % off, 3 without ccx.
 set -eu
 cd "$(dirname "$0")/.."
-if ! command -v ccx >/dev/null 2>&1; then
-    echo "ccx is not installed. Debian, Ubuntu: apt-get install calculix-ccx" >&2
-    exit 3
-fi
-tool=${SPRAG_DESIGN:-target/release/sprag-design}
-[ -x "$tool" ] || cargo build --release
+. reports/ccx.sh
 design=designs/huang2017-single-arc.toml
 reference=tests/reference/fem_single_arc.csv
-if [ -n "${WORK:-}" ]; then
-    mkdir -p "$WORK"
-    work=$(cd "$WORK" && pwd)
-else
-    work=$(mktemp -d "${TMPDIR:-/tmp}/sprag-ccx.XXXXXX")
-    trap 'rm -rf "$work"' EXIT
-fi
-export OMP_NUM_THREADS="${OMP_NUM_THREADS:-1}"
 
 # Name, variant, torque reached, spacing in mm, torques read, words that name its rows in the reference.
 cases="layer|layer|26.8|0.025|3.34,10,16.8,26.8|2-D, 6 mm layer

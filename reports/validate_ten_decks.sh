@@ -11,25 +11,12 @@
 # further off than it states, 3 without ccx.
 set -eu
 cd "$(dirname "$0")/.."
-if ! command -v ccx >/dev/null 2>&1; then
-    echo "ccx is not installed. Debian, Ubuntu: apt-get install calculix-ccx" >&2
-    exit 3
-fi
-tool=${SPRAG_DESIGN:-target/release/sprag-design}
-[ -x "$tool" ] || cargo build --release
+. reports/ccx.sh
 solve=yes
 if [ "${1:-}" = --read ]; then
     solve=no
     shift
 fi
-if [ -n "${WORK:-}" ]; then
-    mkdir -p "$WORK"
-    work=$(cd "$WORK" && pwd)
-else
-    work=$(mktemp -d "${TMPDIR:-/tmp}/sprag-ten.XXXXXX")
-    trap 'rm -rf "$work"' EXIT
-fi
-export OMP_NUM_THREADS="${OMP_NUM_THREADS:-1}"
 
 steel='{ name = "100Cr6" }'
 soft='{ youngs_modulus_gpa = 110.0, poisson_ratio = 0.28, density_kg_m3 = 7100.0 }'
