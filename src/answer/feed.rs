@@ -95,6 +95,11 @@ impl fmt::Display for NoFeed {
 
 impl std::error::Error for NoFeed {}
 
+/// A figure of strokes that came to their end.
+fn known(fed: &Fed, rad: f64) -> Option<f64> {
+    fed.ended.is_none().then_some(rad)
+}
+
 /// Halvings of a ratio of frequencies between one that is held and one that is not.
 const HALVINGS: usize = 7;
 
@@ -255,13 +260,11 @@ impl<'a> FeedAnswer<'a> {
     pub fn frequencies(&self) -> Table {
         Rows::of(&self.list)
             .number("frequency_hz", "Strokes", Unit::Hertz, 4, |f| f.frequency_hz)
-            .number("feed_deg", "Feed", Unit::Degree, 6, |f| f.ended.is_none().then_some(f.feed_rad))
-            .number("error_deg", "Less stroke", Unit::Degree, 4, |f| f.ended.is_none().then_some(f.error_rad))
-            .number("off_deg", "Less slow strokes", Unit::Degree, 3, |f| {
-                f.ended.is_none().then_some(self.off_rad(f))
-            })
-            .number("runs_on_deg", "Runs on", Unit::Degree, 3, |f| f.ended.is_none().then_some(f.runs_on_rad))
-            .number("unlike_deg", "Unlike", Unit::Degree, 2, |f| f.ended.is_none().then_some(f.unlike_rad))
+            .number("feed_deg", "Feed", Unit::Degree, 6, |f| known(f, f.feed_rad))
+            .number("error_deg", "Less stroke", Unit::Degree, 4, |f| known(f, f.error_rad))
+            .number("off_deg", "Less slow strokes", Unit::Degree, 3, |f| known(f, self.off_rad(f)))
+            .number("runs_on_deg", "Runs on", Unit::Degree, 3, |f| known(f, f.runs_on_rad))
+            .number("unlike_deg", "Unlike", Unit::Degree, 2, |f| known(f, f.unlike_rad))
             .number("peak_torque_nm", "Torque", Unit::NewtonMetre, 4, |f| f.peak.map(|p| p.torque_nm))
             .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |f| {
                 f.peak.map(|p| p.hertz_inner_pa)
@@ -298,7 +301,7 @@ impl<'a> FeedAnswer<'a> {
     pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
         let degrees = |rad: f64| Unit::Degree.from_si(rad);
         let list = self.list.iter().map(|f| {
-            let known = |rad: f64| f.ended.is_none().then(|| degrees(rad));
+            let known = |rad: f64| known(f, rad).map(degrees);
             json!({
                 "frequency_hz": f.frequency_hz, "feed_deg": known(f.feed_rad), "error_deg": known(f.error_rad),
                 "off_deg": known(self.off_rad(f)), "runs_on_deg": known(f.runs_on_rad), "unlike_deg": known(f.unlike_rad),

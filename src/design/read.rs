@@ -119,8 +119,9 @@ impl Design {
             let at = error.span().map_or(0, |s| s.start);
             one_problem(name_for_errors, source, at, error.message().to_owned(), WHAT, "mend this value")
         };
-        let file: DesignFile = toml::from_str(source).map_err(odd)?;
         let document: toml::Table = toml::from_str(source).map_err(odd)?;
+        // By way of the table, as a scenario's clutch is read: serde's code for the types of a file stands once in the program.
+        let file: DesignFile = document.clone().try_into().map_err(odd)?;
 
         let mut out = Findings::new(&doc);
         let clutch = check::clutch(&file, &mut out);

@@ -88,8 +88,8 @@ pub enum Demand {
         /// that at the end, without a jump where the end passes the torque, as a search needs it.
         shortfall: Option<f64>,
     },
-    /// Not known: a run met its limit of work.
-    NotComputed,
+    /// Not known, and why: a run met its limit of work, or the clutch does not engage in the scene.
+    NotComputed(&'static str),
 }
 
 impl Demand {
@@ -98,7 +98,7 @@ impl Demand {
         match self {
             Self::Value(value) | Self::MoreThan(value) => Some(value),
             Self::Overloaded { at_end, .. } => at_end,
-            Self::NoneSuffices | Self::NotComputed => None,
+            Self::NoneSuffices | Self::NotComputed(_) => None,
         }
     }
 }
@@ -162,7 +162,7 @@ impl Margin {
             Demand::Overloaded { at_end, shortfall } => {
                 at_end.map_or(LOST, by_rule).min(shortfall.unwrap_or(f64::INFINITY))
             }
-            Demand::MoreThan(_) | Demand::NoneSuffices | Demand::NotComputed => LOST,
+            Demand::MoreThan(_) | Demand::NoneSuffices | Demand::NotComputed(_) => LOST,
         }
     }
 
@@ -207,7 +207,7 @@ impl Margin {
 
     /// Whether a run met its limit of work, so that nothing is known.
     pub fn computed(&self) -> bool {
-        self.demand != Demand::NotComputed
+        !matches!(self.demand, Demand::NotComputed(_))
     }
 
     /// Whether its scene or its torque goes beyond the end of the curve.

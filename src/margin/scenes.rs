@@ -48,7 +48,7 @@ pub fn scene_demand(scene: &Scenario, known: Option<AtRest>, settings: &Settings
 
 pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool) -> Vec<Margin> {
     let found = d.demand.as_ref().ok();
-    let gave_up = found.and_then(|d| match d.never_engages {
+    let not_computed = found.and_then(|d| match d.never_engages {
         true => Some("the clutch does not engage within duration_s"),
         false => d.gave_up.map(Stop::name),
     });
@@ -58,8 +58,8 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
         _ => None,
     };
     // What is demanded unless the run or the curve came to its end before.
-    let demand = |known: Demand| match (gave_up, &overload) {
-        (Some(_), _) => Demand::NotComputed,
+    let demand = |known: Demand| match (not_computed, &overload) {
+        (Some(why), _) => Demand::NotComputed(why),
         (None, Some(_)) => Demand::Overloaded { at_end: known.value(), shortfall: Some(-1.0) },
         (None, None) => known,
     };
@@ -80,7 +80,7 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
             _ => return None,
         };
         let what = limit.name().replace("{scene}", name);
-        let name_for_people = match (gave_up, &overload) {
+        let name_for_people = match (not_computed, &overload) {
             (Some(why), _) => format!("{what}: not computed, {why}"),
             (None, Some(why)) => format!("{what}: overloaded, {why}"),
             (None, None) => what,

@@ -43,8 +43,11 @@ pub struct CheckRow {
     pub capacity_beyond_end: bool,
     /// Whether it counts for the verdict; the others are shown only.
     pub required: bool,
-    /// False where a run met its limit of work: neither held nor broken.
+    /// False where a run met its limit of work or the clutch does not engage: neither held nor broken.
     pub computed: bool,
+    /// Why it was not computed.
+    #[serde(skip)]
+    pub not_computed: Option<&'static str>,
     /// Whether the row's scene or torque goes beyond the end of the curve.
     pub overloaded: bool,
     /// Whether the limit is held.
@@ -221,8 +224,7 @@ impl CheckBody {
         let required: Vec<&CheckRow> = self.margins.iter().filter(|r| r.required).collect();
         let broken = required.iter().filter(|r| !r.held).count();
         let unknown = required.iter().filter(|r| !r.computed).count();
-        let why =
-            required.iter().find_map(|r| Some((r.code.as_str(), r.name.split_once("not computed, ")?.1)));
+        let why = required.iter().find_map(|r| Some((r.code.as_str(), r.not_computed?)));
         match &self.deciding {
             None => format!("HELD: the design names no limit that could be broken{}", self.but_shown()),
             Some(d) if self.pass => format!(
@@ -309,6 +311,10 @@ fn row(r: &Margin, end_torque_nm: f64) -> CheckRow {
         capacity_beyond_end: ends_first(r, end_torque_nm),
         required: r.required,
         computed: r.computed(),
+        not_computed: match r.demand {
+            Demand::NotComputed(why) => Some(why),
+            _ => None,
+        },
         overloaded: r.overloaded(),
         held: r.held(),
         slip_margin: r.slip_margin(),
@@ -344,7 +350,7 @@ pub fn demand_cell(r: &Margin) -> Cell {
         Demand::Overloaded { at_end: Some(_), .. } => NOT_REACHED.into(),
         Demand::Overloaded { at_end: None, .. } => OVERLOADED.into(),
         Demand::NoneSuffices => NONE_SUFFICES.into(),
-        Demand::NotComputed => NOT_COMPUTED.into(),
+        Demand::NotComputed(_) => NOT_COMPUTED.into(),
     }
 }
 
@@ -364,7 +370,7 @@ pub fn in_place_of_margin(r: &Margin) -> Option<&'static str> {
     match r.demand {
         Demand::NoneSuffices => Some(NONE),
         Demand::Overloaded { .. } if r.margin() <= -1.0 => Some(OVERLOADED),
-        Demand::NotComputed => Some(NOT_COMPUTED),
+        Demand::NotComputed(_) => Some(NOT_COMPUTED),
         _ => None,
     }
 }

@@ -70,9 +70,11 @@ fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
     let overloaded = Demand::Overloaded { at_end: None, shortfall: Some(-1.0) };
     let beyond = [Margin { demand: overloaded, ..rows[0].clone() }];
     assert!(text(&beyond).contains(OVERLOADED) && !text(&beyond).contains(NONE_SUFFICES));
-    let unknown = [Margin { demand: Demand::NotComputed, ..rows[0].clone() }];
+    let unknown = [Margin { demand: Demand::NotComputed("step limit"), ..rows[0].clone() }];
     assert!(text(&unknown).contains(NOT_COMPUTED));
-    assert_eq!(CheckBody::new(&unknown, source(None)).held(), None);
+    let unknown = CheckBody::new(&unknown, source(None));
+    assert_eq!(unknown.held(), None);
+    assert!(unknown.verdict().contains("slip:x: step limit"), "{}", unknown.verdict());
     let csv = String::from_utf8(csv_table(&rows, 200.0).to_csv().unwrap()).unwrap();
     assert!(csv.contains("slip:x,limit slip:x,,0,1,-1,,true,false,false,-1"), "{csv}");
 }
@@ -108,7 +110,7 @@ fn what_the_curve_never_reaches_sets_no_capacity() {
 #[test]
 fn a_row_that_was_not_computed_is_neither_held_nor_broken() {
     let held = margin("grip-inner", 0.2, None);
-    let unknown = row("slip:x", Demand::NotComputed, 0.1, None);
+    let unknown = row("slip:x", Demand::NotComputed("step limit"), 0.1, None);
     let body = CheckBody::new(&[held.clone(), unknown.clone()], source(None));
     assert_eq!(body.held(), None);
     assert!(body.verdict().starts_with("NOT COMPUTED: 1 of 2 required rows"), "{}", body.verdict());
