@@ -287,3 +287,35 @@ fn a_file_that_is_all_faults_is_told_of_the_first() {
         assert_eq!(said(&output).contains("more"), name == "keys.toml", "{}", said(&output));
     }
 }
+
+#[test]
+fn a_number_with_a_comma_and_a_text_in_utf_16_are_called_so() {
+    let folder = Folder::new();
+    let comma = folder.path("comma.toml");
+    std::fs::write(&comma, "schema = 1\n[races]\nwidth_mm = 12,5\n").unwrap();
+    let refused = run(&["check", &comma]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(said(&refused).contains("with a point"), "{}", said(&refused));
+    let wide = folder.path("wide.toml");
+    let utf16: Vec<u8> = "\u{feff}schema = 1\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    std::fs::write(&wide, utf16).unwrap();
+    assert!(said(&run(&["check", &wide])).contains("UTF-16"));
+}
+
+#[test]
+fn a_key_of_a_scene_without_its_scene_names_those_that_have_it() {
+    let design = "designs/huang2017-multi-arc.toml";
+    for (key, meant, not) in [
+        ("amplitude_nm=3", "scenarios[high-10].amplitude_nm", "scenarios[rated-static].amplitude_nm"),
+        (
+            "scenarios.high-10.amplitude_nm=3",
+            "scenarios[high-10].amplitude_nm",
+            "scenarios[high-6].amplitude_nm",
+        ),
+    ] {
+        let refused = run(&["check", design, "--set", key]);
+        assert_eq!(refused.status.code(), Some(2));
+        let words = said(&refused);
+        assert!(words.contains(meant) && !words.contains(not), "{key}: {words}");
+    }
+}

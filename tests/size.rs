@@ -7,11 +7,12 @@ use program::*;
 
 use std::f64::consts::PI;
 
+use sprag_design::clutch::{Scenario, ScenarioKind};
 use sprag_design::design::Design;
 use sprag_design::margin::{load_margins, load_state, margins};
 use sprag_design::material::steel;
-use sprag_design::scenario::Settings;
-use sprag_design::size::{NoSize, PURPOSES, Requirements, Sized, Wish, size};
+use sprag_design::scenario::{Settings, prepare};
+use sprag_design::size::{NoSize, PURPOSES, Requirements, Sized, Tried, Wish, purpose, size};
 
 fn stderr(output: &std::process::Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
@@ -265,4 +266,64 @@ fn new_names_what_it_needs_where_nobody_can_be_asked() {
         assert_eq!(refused.status.code(), Some(2), "{args:?}");
         assert!(stderr(&refused).contains(words), "{}", stderr(&refused));
     }
+}
+
+#[test]
+fn a_torque_that_swings_as_asked_is_a_scene_of_the_file() {
+    let helicopter = purpose("helicopter");
+    let asked =
+        Wish { purpose: helicopter, swing_nm: Some(135.0), swing_hz: Some(400.0), ..wish(55.0, 900.0) };
+    let design = sized(&asked.requirements()).unwrap().made.design;
+    let swing = design.scenarios.iter().find(|s| s.name == "swing").unwrap();
+    let ScenarioKind::TorsionalExcitation { preload_nm, amplitude_nm, frequency_hz, duration_s, .. } =
+        swing.kind
+    else {
+        panic!("{:?}", swing.kind);
+    };
+    assert_eq!((preload_nm, amplitude_nm, frequency_hz, duration_s), (765.0, 135.0, 400.0, 0.02));
+    // None, and more than would leave the torque its sign.
+    let still = Wish { swing_nm: Some(0.0), ..asked };
+    assert_eq!(still.requirements().swing, None);
+    let too_much = Wish { swing_nm: Some(451.0), ..asked }.requirements().check().unwrap_err();
+    assert_eq!((too_much.what, too_much.found.as_str()), ("swing", "451 Nm"));
+}
+
+#[test]
+fn the_race_that_runs_ahead_is_the_one_that_was_asked_for() {
+    for (inner, outer) in [(0.0, 900.0), (300.0, 900.0), (900.0, 300.0)] {
+        let rad_s = |rpm: f64| Some(rpm * PI / 30.0);
+        let asked = Wish {
+            inner_rad_s: rad_s(inner),
+            outer_rad_s: rad_s(outer),
+            purpose: purpose("starter"),
+            ..wish(40.0, 600.0)
+        };
+        let design = sized(&asked.requirements()).unwrap().made.design;
+        let overrun = design.scenarios.iter().find(|s| s.name == "overrun").unwrap();
+        let ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } = overrun.kind else { panic!() };
+        let speeds = [speed_rad_s + overrun_rad_s, speed_rad_s].map(|w| w * 30.0 / PI);
+        assert!((speeds[0] - inner).abs() < 1e-9 && (speeds[1] - outer).abs() < 1e-9, "{speeds:?}");
+        // The sprags ride with the outer race and feel the speed of sliding alone: either way round the same forces.
+        let drag = |ahead: f64| {
+            let kind = ScenarioKind::Overrun { speed_rad_s, overrun_rad_s: ahead };
+            let prepared = prepare(&Scenario { kind, ..overrun.clone() }).unwrap();
+            prepared.overrun.map(|o| (o.drag_torque_nm, o.normal_inner_n))
+        };
+        assert_eq!(drag(overrun_rad_s), drag(-overrun_rad_s));
+    }
+}
+
+#[test]
+fn an_outer_diameter_that_is_too_small_names_the_one_that_would_do() {
+    let asked = Wish { outside_m: Some(0.06), ..wish(40.0, 600.0) };
+    let Err(NoSize::None { tried }) = sized(&asked.requirements()) else { panic!("60 mm do") };
+    let barred: Vec<&Tried> = tried.iter().filter(|t| t.decided_by == "outside").collect();
+    assert!(!barred.is_empty() && barred.iter().all(|t| t.outside_m > 0.06 + 1e-6));
+    let wider = Wish { outside_m: Some(barred[0].outside_m + 1e-6), ..asked };
+    let again = match sized(&wider.requirements()) {
+        Ok(Sized { tried, .. }) | Err(NoSize::None { tried }) => tried,
+        Err(why) => panic!("{why}"),
+    };
+    let same = again.iter().find(|t| t.space_m == barred[0].space_m).unwrap();
+    assert_ne!(same.decided_by, "outside");
 }

@@ -2,8 +2,8 @@
 
 use crate::clutch::LAWS;
 use crate::design::{
-    Objective, SCENARIO_KINDS, VARIABLES, allowed, keys_of, nearest, paths_of, shape_of, unit_of_key,
-    variable_path,
+    LIMIT_KEYS, Objective, SCENARIO_KINDS, VARIABLES, allowed, keys_of, nearest, paths_of, shape_of,
+    unit_of_key, variable_path,
 };
 use crate::margin::{LIMITS, limit_of};
 use crate::size::PURPOSES;
@@ -46,7 +46,8 @@ pub fn listed(kinds: &[&str]) -> String {
 
 /// What `name` is, if anything.
 pub fn explain(name: &str) -> Option<Explanation> {
-    let of: [fn(&str) -> Option<Explanation>; 7] = [limit, objective, law, scenario_kind, purpose, key, bare];
+    let of: [fn(&str) -> Option<Explanation>; 8] =
+        [limit, objective, law, scenario_kind, purpose, key, bare, word];
     of.into_iter().find_map(|kind_of_name| kind_of_name(name))
 }
 
@@ -105,6 +106,32 @@ fn purpose(name: &str) -> Option<Explanation> {
     Some(Explanation { kind: "what a clutch is for, `new --for`", lines: vec![("is", is)] })
 }
 
+/// The guide's page of words and symbols: the one place that has them.
+const WORDS: &str = include_str!("../../docs/src/words.md");
+
+/// A word or a symbol of that page: its row, the sense in the last column.
+fn word(name: &str) -> Option<Explanation> {
+    let plain = |text: &str| text.replace(['`', '*'], "").trim().to_owned();
+    let wanted = plain(name).to_lowercase();
+    let rows = WORDS.lines().filter_map(|line| {
+        let cells: Vec<&str> = line.trim().strip_prefix('|')?.strip_suffix('|')?.split(" | ").collect();
+        Some((plain(cells.first()?), cells.iter().skip(1).map(|cell| plain(cell)).collect::<Vec<_>>()))
+    });
+    let is = |heading: &str| {
+        let heading = heading.to_lowercase();
+        heading == wanted
+            || heading.split(", ").any(|one| one == wanted || one.split(' ').next_back() == Some(&wanted))
+    };
+    let lines: Vec<(&'static str, String)> = rows
+        .filter(|(heading, _)| is(heading))
+        .flat_map(|(heading, cells)| {
+            let file = (cells.len() > 1 && cells[0] != "–").then(|| ("in the file", cells[0].clone()));
+            file.into_iter().chain(cells.last().map(|sense| ("is", format!("{heading}: {sense}"))))
+        })
+        .collect();
+    (!lines.is_empty()).then_some(Explanation { kind: "a word of this tool", lines })
+}
+
 /// A key without the tables that it stands in.
 fn bare(name: &str) -> Option<Explanation> {
     match paths_of(name).as_slice() {
@@ -142,7 +169,8 @@ fn key(name: &str) -> Option<Explanation> {
     lines.push(("is", in_micrometres(&text("description"))));
     lines.extend(of_arc(name).map(|words| ("here", words)));
     let key = path.rsplit('.').next()?;
-    if let Some(unit) = unit_of_key(key).filter(|unit| !unit.is_empty()) {
+    let of_limit = || LIMIT_KEYS.iter().find(|l| path == format!("limits.{}", l.name)).map(|l| l.unit);
+    if let Some(unit) = unit_of_key(key).or_else(of_limit).filter(|unit| !unit.is_empty()) {
         lines.push(("unit", unit.to_owned()));
     }
     let at_it: Vec<&str> =
@@ -219,6 +247,18 @@ mod tests {
         let paths: Vec<&str> = start.lines.iter().filter_map(|l| l.1.split(':').next()).collect();
         assert_eq!(paths, ["scenarios[0].start", "sharing.start"]);
         assert_eq!(explain("flanks").unwrap().lines[0].1, "sprags.flanks");
+        for (name, sense) in [
+            ("γ", "azimuth"),
+            ("gamma", "azimuth"),
+            ("p₀", "largest"),
+            ("shown only", "information"),
+            ("(12)", "paper"),
+        ] {
+            let found = explain(name).unwrap_or_else(|| panic!("{name}"));
+            assert!(found.lines.iter().any(|(_, line)| line.contains(sense)), "{name}: {:?}", found.lines);
+        }
+        let unit = |name: &str| explain(name).unwrap().lines.into_iter().find(|l| l.0 == "unit").unwrap().1;
+        assert_eq!((unit("keep_contact_to_rpm").as_str(), unit("gap_peak_mm").as_str()), ("rpm", "mm"));
         assert!(explain("limits.hertz_peak_mpa").is_some() && explain("nothing").is_none());
         assert!(unknown("hoop-iner").contains("did you mean hoop-inner?"));
     }

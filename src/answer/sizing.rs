@@ -36,7 +36,12 @@ impl<'a> Sizing<'a> {
         Self {
             sized,
             end_nm,
-            warnings: overruns.and_then(|(section, _)| section.warning).into_iter().chain(far).collect(),
+            warnings: overruns
+                .and_then(|(section, _)| section.warning)
+                .into_iter()
+                .chain(far)
+                .chain(no_shaft(2.0 * design.clutch.races.inner_bore_radius_m, asked_nm))
+                .collect(),
         }
     }
 
@@ -87,6 +92,23 @@ impl<'a> Sizing<'a> {
         self.envelope(provenance.run_time_s, written).close(&mut page);
         page
     }
+}
+
+/// Shear stress that no shaft bears, Pa: hardened steel yields at some 700 MPa.
+const SHAFT_PA: f64 = 500e6;
+
+/// A warning where the shaft that fills the bore, diameter in m, could not bring the torque, N m: tau = 16 T/(pi d^3).
+fn no_shaft(bore_m: f64, torque_nm: f64) -> Option<String> {
+    let shear_pa = 16.0 * torque_nm / (std::f64::consts::PI * bore_m.powi(3));
+    (shear_pa > SHAFT_PA).then(|| {
+        format!(
+            "Warning: a solid shaft that fills the bore of {} would be sheared by {} at {}; is the bore in millimetres and the torque \
+             in Nm?",
+            Unit::Millimetre.show_plain(bore_m, 4),
+            Unit::Megapascal.show(shear_pa, 3),
+            Unit::NewtonMetre.show(torque_nm, 4)
+        )
+    })
 }
 
 /// Size, mass, drag and heat, a line each.

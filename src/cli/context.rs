@@ -150,7 +150,11 @@ impl Context {
     /// # Errors
     /// [`Failure::Failed`] where standard output cannot be written.
     pub fn answer(&self, text: &str) -> Result<(), Failure> {
-        if self.json || self.outputs.csv_is_answer() { Ok(()) } else { output::print(text) }
+        match self.screen.columns {
+            _ if self.json || self.outputs.csv_is_answer() => Ok(()),
+            Some(columns) => output::print(&output::folded(text, columns)),
+            None => output::print(text),
+        }
     }
 
     /// The checked design in `path`, with what `--set` sets.

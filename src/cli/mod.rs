@@ -224,7 +224,7 @@ fn ended(args: Vec<String>) -> Exit {
             return Exit::Held;
         }
     };
-    let json = cli.common.json && !of_command(&name).0.1.contains(&"json");
+    let json = cli.common.json;
     exit::keep_names_whole();
     match dispatch(cli, &name, &args) {
         Ok(exit) => exit,

@@ -38,6 +38,12 @@ pub struct NewArgs {
     /// What it shall do.
     #[command(flatten)]
     pub wish: WishArgs,
+    /// Amplitude by which the torque swings, Nm, up to nominal torque; 0: it does not [default: that of the purpose]
+    #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = number)]
+    pub swing: Option<f64>,
+    /// How often it swings, Hz: strokes a second, blades passing, orders of an engine [default: that of the purpose]
+    #[arg(long = "swing-hz", value_name = "HZ", allow_hyphen_values = true, value_parser = number)]
+    pub swing_hz: Option<f64>,
     /// Engagements in its life, at nominal torque: written into [life], for the command life
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number)]
     pub engagements: Option<f64>,
@@ -65,6 +71,9 @@ impl Run for NewArgs {
         args.wish.check_safety()?;
         let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
         let wanted = args.requirements();
+        if wanted.swing.is_none() && args.swing.is_some_and(|nm| nm != 0.0) {
+            return Err(Failure::malformed("--swing: how often it swings is not said; add --swing-hz"));
+        }
         made::refuse(&wanted)?;
         may_write(&output, context)?;
         let exit = made::answer(&wanted, &output, "New clutch", context)?;
@@ -78,13 +87,16 @@ impl Run for NewArgs {
                 "\nTaken where nothing was said (an option of `new --help` says otherwise):\n{lines}"
             ))?;
         }
-        if exit == Exit::Held {
+        if exit == Exit::Held && context.outputs.unwritten().is_empty() {
             let path = output::path_text(&output);
-            context.answer(&format!(
-                "\nNext:\n  sprag-design studio {path}\n  sprag-design check {path}\n  sprag-design optimize {path} -o better.toml\n  \
-                 sprag-design sheet {path}\n{}",
-                self.engagements.map_or(String::new(), |_| format!("  sprag-design life {path}\n"))
-            ))?;
+            let further = self.purpose().map_or(&[][..], |p| p.ask).iter().copied();
+            let asked = self.engagements.map(|_| "life {}");
+            let next = ["studio {}", "check {}", "optimize {} -o better.toml", "sheet {}"].into_iter();
+            let lines = next
+                .chain(further)
+                .chain(asked)
+                .map(|c| format!("  sprag-design {}\n", c.replace("{}", &path)));
+            context.answer(&format!("\nNext:\n{}", lines.collect::<String>()))?;
         }
         Ok(exit)
     }
@@ -108,7 +120,9 @@ impl NewArgs {
     }
 
     fn requirements(&self) -> Requirements {
-        Wish { purpose: self.purpose(), engagements: self.engagements, ..self.wish.wish() }.requirements()
+        let Self { swing, swing_hz, engagements, .. } = *self;
+        Wish { purpose: self.purpose(), swing_nm: swing, swing_hz, engagements, ..self.wish.wish() }
+            .requirements()
     }
 }
 
@@ -139,7 +153,7 @@ fn rpm(rad_s: f64) -> f64 {
     rad_s * 30.0 / std::f64::consts::PI
 }
 
-const NUMBERS: [Number; 11] = [
+const NUMBERS: [Number; 13] = [
     Number {
         question: "Bore of the inner race, diameter, mm",
         what: "bore",
@@ -201,6 +215,20 @@ const NUMBERS: [Number; 11] = [
         what: "lift-off-rpm",
         at: |a| &mut a.wish.lift_off,
         without: |wanted| Some(rpm(wanted.lift_off_rad_s.unwrap_or(0.0))),
+        needed: false,
+    },
+    Number {
+        question: "Amplitude by which the torque swings, up to nominal torque, Nm (0: it does not)",
+        what: "swing",
+        at: |a| &mut a.swing,
+        without: |wanted| Some(wanted.swing.map_or(0.0, |s| s.amplitude_nm)),
+        needed: false,
+    },
+    Number {
+        question: "How often it swings, Hz: strokes a second, blades passing (none: it does not)",
+        what: "swing-hz",
+        at: |a| &mut a.swing_hz,
+        without: |wanted| wanted.swing.map(|s| s.frequency_hz),
         needed: false,
     },
     Number {

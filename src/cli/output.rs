@@ -21,6 +21,25 @@ pub fn print(text: &str) -> Result<(), Failure> {
     heard(text).map(|_| ())
 }
 
+/// The text with lines of more than `columns` characters folded at blanks, what goes on set in by two more than they are.
+pub fn folded(text: &str, columns: usize) -> String {
+    let fold = |line: &str| {
+        let bare = line.trim_end_matches('\n');
+        if textwrap::core::display_width(bare) <= columns {
+            return line.to_owned();
+        }
+        let first = " ".repeat(bare.len() - bare.trim_start().len());
+        let further = format!("{first}  ");
+        let options = textwrap::Options::new(columns)
+            .initial_indent(&first)
+            .subsequent_indent(&further)
+            .break_words(false)
+            .word_splitter(textwrap::WordSplitter::NoHyphenation);
+        textwrap::fill(bare.trim_start(), options) + &line[bare.len()..]
+    };
+    text.split_inclusive('\n').map(fold).collect()
+}
+
 /// As [`print()`]; `false` where the reader has gone, so that nothing more need be computed.
 ///
 /// # Errors

@@ -84,7 +84,6 @@ impl WishArgs {
         let m = |mm: Option<f64>| mm.map(|mm| mm / 1e3);
         let rad_s = |rpm: Option<f64>| rpm.map(|rpm| rpm * PI / 30.0);
         Wish {
-            purpose: None,
             bore_m: m(self.bore),
             torque_nm: self.torque,
             peak_nm: self.peak,
@@ -97,7 +96,7 @@ impl WishArgs {
             lift_off_rad_s: rad_s(self.lift_off),
             friction: self.friction,
             steel: self.material,
-            engagements: None,
+            ..Wish::default()
         }
     }
 

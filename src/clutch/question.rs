@@ -65,7 +65,7 @@ pub enum ScenarioKind {
     Overrun {
         /// Speed of the outer race, rad/s.
         speed_rad_s: f64,
-        /// Inner race faster than outer by this, rad/s, positive.
+        /// Inner race faster than outer by this, rad/s; below 0 the outer race is the faster one.
         overrun_rad_s: f64,
     },
 }
@@ -269,8 +269,11 @@ impl Scenario {
             ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => vec![
                 Words("Outer race at "),
                 Speed(speed_rad_s),
-                Words(", the inner race ahead of it by "),
-                Speed(overrun_rad_s),
+                Words(match overrun_rad_s > 0.0 {
+                    true => ", the inner race ahead of it by ",
+                    false => ", the inner race behind it by ",
+                }),
+                Speed(overrun_rad_s.abs()),
                 Words("."),
             ],
         }

@@ -129,6 +129,8 @@ fn syntax_problem(source: &str, error: &toml::de::Error) -> Problem {
     };
     let help = if what.contains("duplicate") {
         "keep one of the two: a key may stand only once in a table".to_owned()
+    } else if has_decimal_comma(source.lines().nth(place.line.saturating_sub(1)).unwrap_or("")) {
+        "write the number with a point: 135.5, not 135,5".to_owned()
     } else {
         format!(
             "write line {} as TOML: key = value, text in \"quotes\", a table's name in [brackets]",
@@ -143,6 +145,14 @@ fn syntax_problem(source: &str, error: &toml::de::Error) -> Problem {
         help,
         also: Vec::new(),
     }
+}
+
+/// Whether a line gives a key a number with a comma between its digits.
+fn has_decimal_comma(line: &str) -> bool {
+    let Some((_, value)) = line.split_once('=') else { return false };
+    let value = value.split('#').next().unwrap_or(value).trim();
+    let digits = |s: &str| !s.is_empty() && s.chars().all(|c| c.is_ascii_digit());
+    value.split_once(',').is_some_and(|(a, b)| digits(a.trim_start_matches('-')) && digits(b))
 }
 
 /// The key that a reader sees at `at`, read from the text because there is no tree: last header, then what

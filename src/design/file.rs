@@ -272,7 +272,8 @@ pub(super) struct SpringFile {
     /// Stiffness K_r per sprag, N m/rad; 0: no spring.
     #[schemars(extend("minimum" = 0))]
     pub stiffness_nm_per_rad: f64,
-    /// Drag torque C_f of the whole clutch in slow overrun, N m; fixes the spring's free angle.
+    /// Drag torque C_f of the whole clutch in slow overrun at a sliding friction of 0.1, N m; fixes the spring's free
+    /// angle. Drag that is computed is at the design's own friction over speed.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub drag_torque_nm: f64,
 }

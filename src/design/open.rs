@@ -58,6 +58,10 @@ pub fn read_text(path: &Path, most: u64) -> Result<String, Unread> {
     if bytes.len() as u64 > most {
         return Err(unread(format!("a file of more than {} MB", most >> 20), "name a smaller file"));
     }
+    if [[0xff, 0xfe], [0xfe, 0xff]].iter().any(|mark| bytes.starts_with(mark)) {
+        let help = "save the file as UTF-8 (\"UTF-8\" in the editor's dialog for saving, not \"Unicode\")";
+        return Err(unread("a text in UTF-16".to_owned(), help));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         Unread {

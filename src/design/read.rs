@@ -58,8 +58,9 @@ impl Design {
                     EditError::UnknownName { known, .. } => {
                         let near: Vec<&str> = known.iter().map(String::as_str).collect();
                         let there = || Some(shape::paths_that_end_in(key)).filter(|paths| !paths.is_empty());
-                        let like =
-                            shape::nearest(key, &near).map(str::to_owned).or_else(|| Some(there()?.join(" or ")));
+                        let meant = || Some(known.join(" or ")).filter(|_| known[0].starts_with("scenarios["));
+                        let near = || shape::nearest(key, &near).map(str::to_owned);
+                        let like = meant().or_else(near).or_else(|| Some(there()?.join(" or ")));
                         let help = like.unwrap_or_else(|| {
                             "`sprag-design explain` lists every name, `explain sprags` the keys of a table".to_owned()
                         });
@@ -101,7 +102,7 @@ impl Design {
     pub fn parse_in(folder: &Path, source: &str, name_for_errors: &str) -> Result<Self, DesignError> {
         let refuse = |problems| DesignError::in_source(name_for_errors, source, problems);
         if source.trim_start_matches('\u{feff}').trim().is_empty() {
-            let help = "start from one of the files in designs/";
+            let help = "let `sprag-design new` make one";
             return Err(one_problem(name_for_errors, source, 0, "an empty file".to_owned(), WHAT, help));
         }
         if let Some(kind) = foreign(source) {

@@ -72,10 +72,10 @@ pub(super) struct ScenarioFile {
     /// speed, straight between the rows.
     #[schemars(length(min = 1))]
     pub speed_history_csv: Option<String>,
-    /// overrun and transient: by how much the inner race is faster than the outer, in a transient at the start,
-    /// rev/min. Such a transient starts at the sprags' equilibrium of the statics, whose forces lie 0.1 to 0.6 % beside those
+    /// overrun and transient: by how much the inner race is faster than the outer, rev/min; in an overrun below 0
+    /// where the outer race is the faster one, as an engine that runs away from its starter; in a transient at the start,
+    /// above 0. Such a transient starts at the sprags' equilibrium of the statics, whose forces lie 0.1 to 0.6 % beside those
     /// that the equations of motion then settle at.
-    #[schemars(extend("exclusiveMinimum" = 0))]
     pub overrun_rpm: Option<f64>,
     /// static, torsional-excitation and transient: the equilibrium at the start: settled (with the energizing spring,
     /// absent: this one) or without-spring (of the torque alone, as in the paper).

@@ -327,6 +327,24 @@ fn kind(s: &ScenarioFile, path: &str, joined: bool, out: &mut Findings) -> Optio
             out.refuse(&[&key], "only with torque_step_nm".to_owned(), "remove step_time_s".to_owned());
         }
     }
+    let ahead_key = format!("{path}.overrun_rpm");
+    match (s.kind, s.overrun_rpm) {
+        (KindFile::Transient, Some(ahead)) if ahead <= 0.0 => {
+            let help = "give the speed by which the inner race runs ahead at the start, or leave the key out";
+            out.refuse(&[&ahead_key], "a finite number above 0 in a transient".to_owned(), help.to_owned());
+            return None;
+        }
+        (KindFile::Overrun, Some(ahead)) if ahead == 0.0 || ahead < -s.speed_rpm.unwrap_or(0.0) => {
+            out.refuse(
+                &[&ahead_key, &format!("{path}.speed_rpm")],
+                "above 0 where the inner race runs ahead; below 0, but not below -speed_rpm, where the outer race does"
+                    .to_owned(),
+                "give by how much the one race is faster than the other".to_owned(),
+            );
+            return None;
+        }
+        _ => {}
+    }
     Some(match s.kind {
         KindFile::Static => ScenarioKind::Static { torque_nm: s.torque_nm? },
         KindFile::TorsionalExcitation => ScenarioKind::TorsionalExcitation {

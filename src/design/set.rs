@@ -20,7 +20,7 @@ pub fn with_setting(source: &str, path: &str, value: &str) -> Result<String, Edi
     let mut document = parse(source)?;
     let arcs = arcs(&document);
     let path = variable_path(path, arcs).unwrap_or_else(|| path.to_owned());
-    known(&path, arcs)?;
+    known(&path, arcs, document.as_item())?;
     let typed = value.trim();
     let new = typed.parse::<Value>().unwrap_or_else(|_| Value::from(typed));
     let (before, last) = path.rsplit_once('.').map_or((None, path.as_str()), |(b, l)| (Some(b), l));
@@ -47,9 +47,13 @@ fn law_of(path: &str, typed: &str) -> Option<&'static LawFacts> {
 }
 
 /// Refuse a path that no design file has.
-fn known(path: &str, arcs: usize) -> Result<(), EditError> {
+fn known(path: &str, arcs: usize, document: &Item) -> Result<(), EditError> {
     if shape::is_known(path) {
         return Ok(());
+    }
+    let meant = in_scenes(path, document);
+    if !meant.is_empty() {
+        return Err(EditError::UnknownName { name: path.to_owned(), known: meant });
     }
     // The keys beside it, of the deepest table that is there.
     let mut table = path;
@@ -64,6 +68,24 @@ fn known(path: &str, arcs: usize) -> Result<(), EditError> {
     let mut known = variable_names(arcs);
     known.extend(shape::keys_of("").iter().map(|table| format!("{table}...")));
     Err(EditError::UnknownName { name: path.to_owned(), known })
+}
+
+/// What may be meant by a key of a scene without the scene, or with its name in another form (`scenarios.swing.frequency_hz`): the
+/// path in each scene of the file that has the key.
+fn in_scenes(path: &str, document: &Item) -> Vec<String> {
+    let mut steps: Vec<&str> = path.split('.').collect();
+    if steps.first() == Some(&"scenarios") {
+        steps.remove(0);
+    }
+    let Some(key) = steps.pop() else { return Vec::new() };
+    if !shape::keys_of("scenarios[0]").contains(&key) {
+        return Vec::new();
+    }
+    let rows = document.get("scenarios").and_then(Item::as_array_of_tables);
+    let rows = rows.into_iter().flatten().filter(|row| row.contains_key(key));
+    let names = rows.filter_map(|row| row.get("name").and_then(Item::as_str));
+    let meant = names.filter(|name| steps.iter().all(|step| step == name));
+    meant.map(|name| format!("scenarios[{name}].{key}")).collect()
 }
 
 /// The item that one step of a path names; a table that is absent is made.

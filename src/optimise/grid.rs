@@ -107,27 +107,29 @@ pub(super) fn made(name: &str) -> bool {
 /// The optimum of `search` with its lengths in steps of `step_mm`; `None` where no variable is a length that is made.
 pub fn stepped(search: &Search, step_mm: f64, desk: &Desk) -> Option<Stepped> {
     let (lo, hi) = search.bounds();
-    let ladders: Vec<Ladder> = (0..search.searched.len())
-        .filter(|&i| step_mm > 0.0 && made(&search.searched[i]))
-        .map(|at| {
-            let share = |v: f64| v / step_mm;
-            let ends = ((share(lo[at]) - 1e-9).ceil() as i64, (share(hi[at]) + 1e-9).floor() as i64);
-            Ladder { at, step: step_mm, ends }
-        })
-        .filter(|ladder| ladder.ends.0 <= ladder.ends.1)
-        .collect();
-    if ladders.is_empty() {
-        return None;
-    }
-    desk.begins("steps that can be made");
     let problem = search.problem.with_links_in_steps(step_mm);
-    let mut grid =
-        Grid { problem: &problem, base: search.outcome.x.clone(), ladders, seen: Vec::new(), evaluations: 0 };
+    let mut grid = Grid::about(&problem, &search.searched, &search.outcome.x, (&lo, &hi), step_mm)?;
+    desk.begins("steps that can be made");
     grid.look_around(desk);
-    grid.fit_the_rest((&lo, &hi), search, desk);
+    grid.fit_the_rest((&lo, &hi), &search.searched, desk);
     let variables = grid.ladders.iter().map(|l| search.searched[l.at].clone()).collect();
     let found = grid.best();
     Some(Stepped { step_mm, variables, evaluations: grid.evaluations, found })
+}
+
+/// Points about `x` at which the lengths among the variables `names` are multiples of `step_mm`, the best for `problem` first,
+/// and the evaluations that it took to find them; `None` where no variable is a length that is made.
+pub(super) fn points_near(
+    problem: &ClutchProblem,
+    names: &[String],
+    x: &[f64],
+    bounds: (&[f64], &[f64]),
+    step_mm: f64,
+    desk: &Desk,
+) -> Option<(Vec<Vec<f64>>, usize)> {
+    let mut grid = Grid::about(problem, names, x, bounds, step_mm)?;
+    grid.look_around(desk);
+    Some((grid.seen.into_iter().take(FULL).map(|(x, _)| x).collect(), grid.evaluations))
 }
 
 struct Grid<'s> {
@@ -140,7 +142,27 @@ struct Grid<'s> {
     evaluations: usize,
 }
 
-impl Grid<'_> {
+impl<'s> Grid<'s> {
+    fn about(
+        problem: &'s ClutchProblem,
+        names: &[String],
+        x: &[f64],
+        (lo, hi): (&[f64], &[f64]),
+        step_mm: f64,
+    ) -> Option<Self> {
+        let ladders: Vec<Ladder> = (0..names.len())
+            .filter(|&i| step_mm > 0.0 && made(&names[i]))
+            .map(|at| {
+                let share = |v: f64| v / step_mm;
+                let ends = ((share(lo[at]) - 1e-9).ceil() as i64, (share(hi[at]) + 1e-9).floor() as i64);
+                Ladder { at, step: step_mm, ends }
+            })
+            .filter(|ladder| ladder.ends.0 <= ladder.ends.1)
+            .collect();
+        let grid = Self { problem, base: x.to_vec(), ladders, seen: Vec::new(), evaluations: 0 };
+        (!grid.ladders.is_empty()).then_some(grid)
+    }
+
     fn tolerance() -> f64 {
         Settings::default().violation_tolerance
     }
@@ -220,14 +242,14 @@ impl Grid<'_> {
     }
 
     /// With the lengths of the best point held, what has no step is chosen anew.
-    fn fit_the_rest(&mut self, (lo, hi): (&[f64], &[f64]), search: &Search, desk: &Desk) {
+    fn fit_the_rest(&mut self, (lo, hi): (&[f64], &[f64]), searched: &[String], desk: &Desk) {
         let rest: Vec<usize> =
             (0..self.base.len()).filter(|i| self.ladders.iter().all(|l| l.at != *i)).collect();
         let Some((x, _)) = self.seen.first().filter(|_| !rest.is_empty() && !desk.stopped()) else { return };
         let mut x = x.clone();
         let Ok(text) = self.problem.file_at(&x) else { return };
         let pick = |list: &[f64]| -> Vec<f64> { rest.iter().map(|&i| list[i]).collect() };
-        let names = rest.iter().map(|&i| search.searched[i].clone()).collect();
+        let names = rest.iter().map(|&i| searched[i].clone()).collect();
         let problem = self.problem.on(text).over(names);
         let settings = Settings { max_evaluations: REST, first_radius: 0.1, ..Settings::default() };
         let Ok(outcome) = desk.climb(&problem, &pick(&x), (&pick(lo), &pick(hi)), &settings) else { return };

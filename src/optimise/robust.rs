@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::corner::{Corner, corners, half_ranges};
 use super::desk::Desk;
 use super::evaluate::{Evaluation, NoEvaluation};
+use super::grid::points_near;
 use super::journal::Memo;
 use super::near_corners::{NearCorners, climb_on_slopes};
 use super::outcome::{Cause, Status};
@@ -88,6 +89,8 @@ pub struct RobustSearch {
     pub made: Robust,
     /// Climbs.
     pub rounds: usize,
+    /// Step of its lengths, in their unit, where a point in such steps was found that holds as much; else they lie where the climb ended.
+    pub step: Option<f64>,
     /// Design file.
     pub file: String,
     /// Evaluations of the clutch, each of all corners of a set counted as one per corner.
@@ -220,15 +223,17 @@ fn percentiles(sorted: &[f64]) -> [f64; 3] {
     })
 }
 
-/// The best worst corner from `x0` on: every limit of the climb held at every corner, and what `check` demands looked at in
-/// the end.
+/// The best worst corner from `x0` on, values of the variables `names`: every limit of the climb held at every corner, and what
+/// `check` demands looked at in the end; with lengths in steps of `step` (0: none) where such a point near holds every corner.
 ///
 /// # Errors
 /// [`NoSearch`] where a climb is refused.
 pub fn robust(
     problem: &ClutchProblem,
+    names: &[String],
     x0: &[f64],
     (lo, hi): (&[f64], &[f64]),
+    step: f64,
     of: &Tolerances,
     (draws, seed): (usize, u64),
     method: &SearchMethod,
@@ -262,6 +267,19 @@ pub fn robust(
             break;
         }
     }
+    let stepped = problem.with_links_in_steps(step);
+    let on_steps = points_near(&stepped.at_corners(set.clone()), names, &x, (lo, hi), step, desk);
+    let (points, looked) = on_steps.filter(|_| !desk.stopped()).unwrap_or_default();
+    evaluations += looked * set.len();
+    // Of the points that the set's corners like best the first that every corner holds.
+    let holds = |x: &Vec<f64>| {
+        at_each(&stepped, x, &all, desk).iter().all(|e| e.as_ref().is_ok_and(|e| e.violation() <= RESOLUTION))
+    };
+    let tried = points.iter().position(holds);
+    evaluations += all.len() * tried.map_or(points.len(), |at| at + 1);
+    let step = tried.map(|_| step);
+    let problem = tried.map_or(problem, |_| &stepped);
+    x = tried.map_or(x, |at| points[at].clone());
     let made = spread(problem, &x, of, (draws, seed), desk)?;
     let file =
         problem.finished_file(&x).map_err(|e| NoSearch::Start(NoEvaluation::Refused(e.to_string())))?;
@@ -272,6 +290,7 @@ pub fn robust(
         evaluations: evaluations + made.evaluations,
         made,
         rounds,
+        step,
         file,
     })
 }

@@ -79,7 +79,7 @@ pub fn overrun_swing(scenario: &Scenario, prepared: &Prepared) -> Option<Swing> 
         &model.curve,
         model.alpha_max_rad,
         steady,
-        overrun_rad_s,
+        overrun_rad_s.abs(),
         model.film.as_ref(),
     )
 }

@@ -289,7 +289,8 @@ fn at_start(
         }
         ScenarioKind::Overrun { speed_rad_s, overrun_rad_s } => {
             let curve = build(speed_rad_s)?;
-            let sliding = sliding(clutch, &curve, alpha_max, overrun_rad_s);
+            // Which race runs ahead is no matter to the sprags: they ride with the outer one, and slide on the inner one as fast.
+            let sliding = sliding(clutch, &curve, alpha_max, overrun_rad_s.abs());
             let steady = sliding.state;
             let mut model = Model::new(clutch, curve, still, alpha_max, 0.0);
             model.film = sliding.lubricated.map(|l| l.law);

@@ -87,8 +87,12 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
         let stiffness = nominal.k_secant_nm_per_rad;
         // The drive on the inner race swings against the clutch.
         let inertia = stiffness / (TAU * DRIVE_HZ).powi(2);
-        draft.inner_inertia_kg_m2 =
-            Some((inertia, format!("guess: ring and drive, which swings on the clutch at {DRIVE_HZ} Hz")));
+        draft.inner_inertia_kg_m2 = Some((
+            inertia,
+            format!(
+                "guess: ring and drive; with the outer race held it would swing on the clutch at {DRIVE_HZ} Hz"
+            ),
+        ));
         draft.step_duration_s = CREST_S;
         draft.abutment_nm_per_rad = STOP * stiffness;
         draft.name = format!(

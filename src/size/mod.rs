@@ -13,5 +13,7 @@ mod search;
 
 pub use finish::{Drag, Made, NOT_OPTIMISED};
 pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
-pub use requirements::{BadRequirement, FRICTION, PEAK_OVER_NOMINAL, Requirements, Wish, torques_nm};
+pub use requirements::{
+    BadRequirement, FRICTION, PEAK_OVER_NOMINAL, Requirements, TorqueSwing, Wish, torques_nm,
+};
 pub use search::{NoSize, Sized, Tried, size};

@@ -1,6 +1,6 @@
 //! What clutches are for, and what is taken of each where nobody says: every number once, with its source or "guess".
 
-use super::Requirements;
+use super::{Requirements, TorqueSwing};
 use crate::design::DraftScene;
 use crate::numeric::rounded;
 use std::f64::consts::{PI, TAU};
@@ -46,6 +46,8 @@ pub struct Purpose {
     pub free_run_rpm: Given,
     /// Torque that reverses it, over nominal torque.
     pub reversing_share: Given,
+    /// Commands that such a drive asks next, beside those of every clutch; {} stands for the file.
+    pub ask: &'static [&'static str],
 }
 
 const fn guess(value: f64) -> Given {
@@ -73,6 +75,7 @@ pub const PURPOSES: [Purpose; 5] = [
         }),
         free_run_rpm: guess(50.0),
         reversing_share: guess(0.1),
+        ask: &["simulate {} --scenario engage"],
     },
     Purpose {
         name: "backstop",
@@ -88,6 +91,7 @@ pub const PURPOSES: [Purpose; 5] = [
         excitation: None,
         free_run_rpm: Given { value: 5.0, from: "guess: the shaft comes to rest first" },
         reversing_share: guess(0.2),
+        ask: &["reengage {}"],
     },
     Purpose {
         name: "indexing",
@@ -109,6 +113,7 @@ pub const PURPOSES: [Purpose; 5] = [
         }),
         free_run_rpm: Given { value: 20.0, from: "guess: about the turning point" },
         reversing_share: guess(0.1),
+        ask: &["feed {} --stroke DEGREES --brake NM --inertia KGM2 --frequency HZ"],
     },
     Purpose {
         name: "helicopter",
@@ -127,6 +132,7 @@ pub const PURPOSES: [Purpose; 5] = [
         }),
         free_run_rpm: guess(100.0),
         reversing_share: guess(0.05),
+        ask: &["resonance {}", "reengage {}"],
     },
     Purpose {
         name: "two-speed",
@@ -145,6 +151,7 @@ pub const PURPOSES: [Purpose; 5] = [
         }),
         free_run_rpm: Given { value: 300.0, from: "guess, as designs/huang2017-bench.toml" },
         reversing_share: guess(0.1),
+        ask: &["resonance {}"],
     },
 ];
 
@@ -155,6 +162,8 @@ pub fn purpose(name: &str) -> Option<&'static Purpose> {
 
 /// Periods of a swing that are computed.
 const PERIODS: f64 = 2.0;
+/// The same in time at least, s: a fast swing begins with the ringing of the races on the clutch.
+const SWINGS_S: f64 = 0.02;
 
 /// Abutment and stop over the clutch's own stiffness: a guess.
 pub(super) const STOP: f64 = 10.0;
@@ -180,11 +189,10 @@ impl Purpose {
         let rpm = |rad_s: f64| rad_s * 30.0 / PI;
         let [inner, outer] = wanted.overrun_rad_s.map(rpm);
         let mut scenes = Vec::new();
-        if let Some(Excitation { share, frequency_hz }) = self.excitation {
-            let amplitude = share.value * wanted.torque_nm;
+        if let Some(TorqueSwing { amplitude_nm: amplitude, frequency_hz, from }) = wanted.swing {
             // The outer race is light: its torque C_be goes through the clutch into the drive's inertia J but for what the
             // abutment takes, C_be = T (1 + k_ab/K - k_ab/(J omega^2)).
-            let omega = TAU * frequency_hz.value;
+            let omega = TAU * frequency_hz;
             let abutment = SOFT * stiffness_nm_per_rad.min(inner_inertia_kg_m2 * omega * omega);
             scenes.push(DraftScene {
                 name: "swing",
@@ -192,10 +200,10 @@ impl Purpose {
                 why: "The torque on the outer race swings, up to nominal torque.".to_owned(),
                 keys: vec![
                     ("preload_nm", wanted.torque_nm - amplitude, "nominal torque less the amplitude"),
-                    ("amplitude_nm", amplitude, share.from),
-                    ("frequency_hz", frequency_hz.value, frequency_hz.from),
+                    ("amplitude_nm", amplitude, from[0]),
+                    ("frequency_hz", frequency_hz, from[1]),
                     ("abutment_stiffness_nm_per_rad", abutment, "soft: it holds the mean torque alone"),
-                    ("duration_s", PERIODS / frequency_hz.value, "two periods"),
+                    ("duration_s", (PERIODS / frequency_hz).max(SWINGS_S), "two periods, 20 ms at least"),
                     ("speed_rpm", rpm(wanted.keep_contact_rad_s.unwrap_or(0.0)), ""),
                 ],
                 held: true,
@@ -234,7 +242,11 @@ impl Purpose {
                 ),
                 keys: vec![
                     ("speed_rpm", outer, "outer race"),
-                    ("overrun_rpm", (inner - outer).abs(), "by how much the races slide past one another"),
+                    (
+                        "overrun_rpm",
+                        inner - outer,
+                        "by how much the inner race is faster; below 0 the outer one is",
+                    ),
                 ],
                 held: false,
             });

@@ -6,6 +6,17 @@ use crate::numeric::rounded;
 use std::f64::consts::PI;
 use std::fmt;
 
+/// A torque that swings, its crest the nominal torque.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TorqueSwing {
+    /// Amplitude, N m.
+    pub amplitude_nm: f64,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Where amplitude and frequency come from, for the file's comments.
+    pub from: [&'static str; 2],
+}
+
 /// What a new clutch shall do, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Requirements {
@@ -37,6 +48,8 @@ pub struct Requirements {
     pub steel: &'static Steel,
     /// What the clutch is for: the scenes that its file has beside the two of every first design.
     pub purpose: Option<&'static Purpose>,
+    /// How the torque swings, where it does: a scene of its file.
+    pub swing: Option<TorqueSwing>,
     /// Engagements in its life at nominal torque, for `[life]` of the file: the size does not follow from them.
     pub engagements: Option<f64>,
 }
@@ -76,6 +89,10 @@ pub struct Wish {
     pub friction: Option<f64>,
     /// See [`Requirements::steel`].
     pub steel: Option<&'static Steel>,
+    /// Amplitude of [`Requirements::swing`], N m; 0: it does not swing.
+    pub swing_nm: Option<f64>,
+    /// Its frequency, Hz.
+    pub swing_hz: Option<f64>,
     /// See [`Requirements::engagements`].
     pub engagements: Option<f64>,
 }
@@ -92,6 +109,17 @@ impl Wish {
         let outer = self.outer_rad_s.or(of(|p| p.overrun_rpm[1].value).map(rad_s)).or(keep);
         let inner = self.inner_rad_s.or(of(|p| p.overrun_rpm[0].value).map(rad_s));
         let said = |value: Option<f64>, other: &'static str| value.map_or(other, |_| "asked for");
+        let usual = self.purpose.and_then(|p| p.excitation);
+        let amplitude_nm = self.swing_nm.or(usual.map(|e| e.share.value * torque_nm)).filter(|nm| *nm != 0.0);
+        let frequency_hz = self.swing_hz.or(usual.map(|e| e.frequency_hz.value));
+        let swing = amplitude_nm.zip(frequency_hz).map(|(amplitude_nm, frequency_hz)| TorqueSwing {
+            amplitude_nm,
+            frequency_hz,
+            from: [
+                said(self.swing_nm, usual.map_or("", |e| e.share.from)),
+                said(self.swing_hz, usual.map_or("", |e| e.frequency_hz.from)),
+            ],
+        });
         let by_ratio = match (self.peak_over_nominal, self.purpose) {
             (None, Some(p)) => p.peak_over_nominal.from,
             (None, None) => "1.3 of nominal torque: guess",
@@ -125,6 +153,7 @@ impl Wish {
             ],
             steel: self.steel.unwrap_or(&STEELS[0]),
             purpose: self.purpose,
+            swing,
             engagements: self.engagements,
         }
     }
@@ -167,7 +196,9 @@ impl Requirements {
 
     /// What nobody has said and the purpose has answered: words, value with its unit, where it comes from.
     pub fn taken(&self) -> Vec<(&'static str, String, &'static str)> {
-        let Some(purpose) = self.purpose else { return Vec::new() };
+        if self.purpose.is_none() {
+            return Vec::new();
+        }
         let of = |value: f64, unit: &str| format!("{} {unit}", rounded(value, 6));
         let rpm = |rad_s: f64| of(rad_s * 30.0 / PI, "rpm");
         let mut rows = vec![
@@ -179,9 +210,9 @@ impl Requirements {
             ("contact kept up to", rpm(self.keep_contact_rad_s.unwrap_or(0.0)), self.contact_from[0]),
         ];
         rows.extend(self.lift_off_rad_s.map(|w| ("sprags off by", rpm(w), self.contact_from[1])));
-        if let Some(swing) = purpose.excitation {
-            rows.push(("torque swings by", of(swing.share.value * self.torque_nm, "Nm"), swing.share.from));
-            rows.push(("that often", of(swing.frequency_hz.value, "Hz"), swing.frequency_hz.from));
+        if let Some(swing) = self.swing {
+            rows.push(("torque swings by", of(swing.amplitude_nm, "Nm"), swing.from[0]));
+            rows.push(("that often", of(swing.frequency_hz, "Hz"), swing.from[1]));
         }
         rows.retain(|(.., from)| *from != "asked for");
         rows
@@ -219,6 +250,8 @@ impl Requirements {
             ("inner-rpm", Some(inner), rpm, "rpm", 0.0, 60_000.0),
             ("outer-rpm", Some(outer), rpm, "rpm", 0.0, 60_000.0),
             ("friction", Some(self.friction), 1.0, "", 0.03, 0.5),
+            ("swing", self.swing.map(|s| s.amplitude_nm), 1.0, "Nm", 0.0, 0.5 * self.torque_nm),
+            ("swing-hz", self.swing.map(|s| s.frequency_hz), 1.0, "Hz", 0.1, 10_000.0),
             ("engagements", self.engagements, 1.0, "", 1.0, 1e15),
         ];
         for (what, value, per_si, unit, least, most) in rows {
@@ -234,6 +267,10 @@ impl Requirements {
                         "outside" => {
                             format!("above the bore, {} mm, to {} mm", rounded(bore, 12), rounded(most, 12))
                         }
+                        "swing" => format!(
+                            "0 to {} {unit}, half the nominal torque: it swings up to nominal torque and must not turn round",
+                            rounded(most, 12)
+                        ),
                         _ => format!("{} to {}{space}{unit}", rounded(least, 12), rounded(most, 12)),
                     },
                 });

@@ -7,6 +7,7 @@ use super::proportions::{COUNTS, LENGTHS, OUTSIDES, SPACES_M, THICKER, draft, le
 use super::requirements::{BadRequirement, Requirements};
 use crate::design::Draft;
 use crate::margin::{When, load_margins};
+use crate::numeric::rounded;
 use crate::scenario::Settings;
 
 /// Thinnest outer race over the race space, where an outer diameter is asked for: a choice.
@@ -28,6 +29,8 @@ pub struct Tried {
     /// Code of the limit with the least margin; what else stands in the way otherwise: `width` and `outside` are those asked
     /// for, `count` is a number of sprags outside the family's.
     pub decided_by: String,
+    /// Least outer diameter that its walls ask for, m.
+    pub outside_m: f64,
     /// Whether it carries what is asked.
     pub held: bool,
     /// The design, where it does.
@@ -66,9 +69,9 @@ impl fmt::Display for NoSize {
                 match best.filter(|b| b.carries_nm > 0.0) {
                     Some(b) => write!(
                         f,
-                        "no clutch of this family does it; the nearest carries {:.4} Nm with {} sprags of {:.1} mm in a race space of \
+                        "no clutch of this family does it; the nearest carries {} Nm with {} sprags of {:.1} mm in a race space of \
                          {:.2} mm, held up by {}",
-                        b.carries_nm,
+                        rounded(b.carries_nm, 4),
                         b.count,
                         b.length_m * 1e3,
                         b.space_m * 1e3,
@@ -88,7 +91,10 @@ fn first_reason(tried: &[Tried]) -> String {
         "width" => {
             format!("sprags as long as the race space are wider than --width leaves ({} sprags)", t.count)
         }
-        "outside" => "the outer race would be too thin within --outside".to_owned(),
+        "outside" => format!(
+            "the outer race would be too thin within --outside; from {:.1} mm on it would not",
+            (t.outside_m * 1e4).ceil() / 10.0
+        ),
         "flanks" => "no flanks (the sides of the body between the profiles) fit".to_owned(),
         "lift-off" => "neither a softer spring nor a heavier front side (flank) of the body lets the sprags off by that speed".to_owned(),
         "keep-contact" => {
@@ -189,6 +195,7 @@ fn width(wanted: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
         volume_m3: 0.0,
         carries_nm: 0.0,
         decided_by: String::new(),
+        outside_m: 2.0 * (draft.races_m[2] + WALL * space_m),
         held: false,
         made: None,
     };

@@ -94,7 +94,7 @@ pub fn scene_view(
         (prepared.overrun, scenario.kind)
     {
         let normal = Unit::Newton.show(free.normal_inner_n, 3);
-        let heat = Unit::Watt.show(free.drag_torque_nm * overrun_rad_s, 3);
+        let heat = Unit::Watt.show(free.drag_torque_nm * overrun_rad_s.abs(), 3);
         let on = free.normal_inner_n > 0.0;
         return Ok(SceneView {
             name: scenario.name.clone(),

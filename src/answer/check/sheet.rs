@@ -1,7 +1,7 @@
 //! The design sheet: the answer and a dimensioned drawing first, then margins, scenes and all inputs, to print on A4.
 
 use super::page::answered;
-use super::text::{of_scenes, pressures};
+use super::text::{asides, pressures};
 use super::{CheckAnswer, people_table};
 use crate::answer::Provenance;
 use crate::answer::page::{draw_inputs, half};
@@ -24,7 +24,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
          would be reached; >: not before the curve ends.",
         &people_table(statics, end_nm),
     );
-    page.list(remarks.into_iter().chain(pressures(&check.rows)).chain(of_scenes(design, &check.rows)));
+    page.list(remarks.into_iter().chain(pressures(&check.rows)).chain(asides(design, &check.rows)));
     if !check.scenes.is_empty() {
         page.heading("Scenes").table(
             "Friction from which on a scene sticks, against its static friction; smallest normal force over the static one.",

@@ -25,7 +25,7 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
     out.push('\n');
     out.push_str(&size_line(design));
     out.push('\n');
-    for line in body.remarks().into_iter().chain(of_scenes(design, &check.rows)) {
+    for line in body.remarks().into_iter().chain(asides(design, &check.rows)) {
         out.push_str(&greek(&line));
         out.push('\n');
     }
@@ -91,8 +91,12 @@ pub(in crate::answer) fn size_line(design: &Design) -> String {
     )
 }
 
-/// What the scenes that are held do not say: why steady overruns have no rows, steps and histories that come after the end.
-pub(super) fn of_scenes(design: &Design, rows: &[Margin]) -> Vec<String> {
+/// Largest static friction of steel on steel that anybody reckons a clutch with: dry, clean.
+const MOST_FRICTION: f64 = 0.5;
+
+/// What the rows do not say: a friction beyond any known, why steady overruns have no rows, steps and histories that come after
+/// the end of their scene.
+pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
     let steady = design.scenarios.iter().filter(|s| s.kind.is_overrun());
     let names: Vec<&str> = steady.map(|s| s.name.as_str()).collect();
     let overrunning = (!names.is_empty()).then(|| {
@@ -105,5 +109,12 @@ pub(super) fn of_scenes(design: &Design, rows: &[Margin]) -> Vec<String> {
     let held = design.scenarios.iter().filter(|s| rows.iter().any(|r| r.scene.as_ref() == Some(&s.name)));
     let unfelt =
         held.flat_map(|s| unfelt::notes(s).into_iter().map(|note| format!("Note on {}: {note}", s.name)));
-    overrunning.into_iter().chain(unfelt).collect()
+    let mu = design.clutch.friction.static_;
+    let friction = (mu > MOST_FRICTION).then(|| {
+        format!(
+            "Warning: friction.static {mu} is more than steel on steel has even dry ({MOST_FRICTION}); lubricated sprags are reckoned with \
+             0.05 to 0.15"
+        )
+    });
+    friction.into_iter().chain(overrunning).chain(unfelt).collect()
 }

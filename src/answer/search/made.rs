@@ -78,6 +78,8 @@ pub struct RobustFound {
     pub held_at: Vec<String>,
     /// Rounds of the search.
     pub rounds: usize,
+    /// Step of its lengths, mm; null where they are in none.
+    pub step_mm: Option<f64>,
     /// Evaluations of the clutch.
     pub evaluations: usize,
     /// As it may be made.
@@ -117,6 +119,7 @@ impl RobustFound {
             ended: story.robust_status(r).name(),
             held_at: r.held_at.clone(),
             rounds: r.rounds,
+            step_mm: r.step,
             evaluations: r.evaluations,
             made: MadeBody::of(&r.made),
         }

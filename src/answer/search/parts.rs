@@ -161,6 +161,7 @@ impl Story {
                 self.robust_status(robust).name(),
                 robust.held_at.len()
             ));
+            lines.extend(robust.step.map(|step| format!("its lengths are multiples of {step} mm")));
             if !robust.made.not_held.is_empty() {
                 lines.push(format!(
                     "no design was found that holds every limit at every corner; of this one is not held: {}",

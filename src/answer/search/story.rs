@@ -122,7 +122,8 @@ impl Story {
                 Err(why) => self.why.push(why.to_string()),
             }
             let (lo, hi) = self.made().bounds();
-            match robust(&problem, &x, (&lo, &hi), of, draws, method, desk) {
+            let names = &self.made().searched;
+            match robust(&problem, names, &x, (&lo, &hi), task.step_mm, of, draws, method, desk) {
                 Ok(robust) => self.robust = Some(robust),
                 Err(why) => self.why.push(format!("no robust design: {why}")),
             }

@@ -87,12 +87,12 @@ pub(super) fn optima_line(optima: &Optima, hints: &Hints) -> String {
     match optima.expected() {
         Some(e) if optima.enough() => {
             format!(
-                "{met}: others are not to be expected ({} in all; Boender and Rinnooy Kan 1987)",
+                "{met}; an estimate (Boender and Rinnooy Kan 1987) has {} in all: there are hardly others",
                 significant(e, 2)
             )
         }
         Some(e) => format!(
-            "{met}: {} in all are to be expected (Boender and Rinnooy Kan 1987), {more}",
+            "{met}; an estimate (Boender and Rinnooy Kan 1987) has {} in all: for others {more}",
             significant(e, 2)
         ),
         None => format!("{met}: too few to tell whether there are others, {more}"),
@@ -123,7 +123,7 @@ impl Story {
                 );
             }
             Status::EvaluationLimit => {
-                format!("stopped at the evaluation limit of each climb{}", hints.evaluation_limit)
+                format!("its climb stopped at the evaluation limit{}", hints.evaluation_limit)
             }
             Status::Interrupted => hints.stopped.to_owned(),
             Status::Stalled(cause) => format!("stalled: {}", cause.words()),
