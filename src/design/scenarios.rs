@@ -55,7 +55,7 @@ pub const SCENARIO_KINDS: [KindKeys; 5] = [
     KindKeys {
         kind: KindFile::TorsionalExcitation,
         name: "torsional-excitation",
-        words: "a torque swings about a mean one on the inner race; an abutment holds the outer race",
+        words: "a torque on the outer race swings, beside a mean one on the inner race; an abutment holds the outer race",
         required: &[
             "preload_nm",
             "amplitude_nm",

@@ -223,14 +223,13 @@ fn percentiles(sorted: &[f64]) -> [f64; 3] {
     })
 }
 
-/// The best worst corner from `x0` on, values of the variables `names`: every limit of the climb held at every corner, and what
+/// The best worst corner from `x0` on: every limit of the climb held at every corner, and what
 /// `check` demands looked at in the end; with lengths in steps of `step` (0: none) where such a point near holds every corner.
 ///
 /// # Errors
 /// [`NoSearch`] where a climb is refused.
 pub fn robust(
     problem: &ClutchProblem,
-    names: &[String],
     x0: &[f64],
     (lo, hi): (&[f64], &[f64]),
     step: f64,
@@ -268,7 +267,8 @@ pub fn robust(
         }
     }
     let stepped = problem.with_links_in_steps(step);
-    let on_steps = points_near(&stepped.at_corners(set.clone()), names, &x, (lo, hi), step, desk);
+    let on_steps =
+        points_near(&stepped.at_corners(set.clone()), problem.variables(), &x, (lo, hi), step, desk);
     let (points, looked) = on_steps.filter(|_| !desk.stopped()).unwrap_or_default();
     evaluations += looked * set.len();
     // Of the points that the set's corners like best the first that every corner holds.

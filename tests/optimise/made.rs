@@ -112,12 +112,18 @@ fn a_robust_design_holds_at_every_corner() {
     let again = spread(&found.problem, &found.outcome.x, &of, (60, 7), &desk).unwrap();
     assert_eq!(made, again);
     let (lo, hi) = found.bounds();
-    let best = robust(&found.problem, &found.outcome.x, (&lo, &hi), &of, (60, 7), &method, &desk).unwrap();
+    let best =
+        robust(&found.problem, &found.outcome.x, (&lo, &hi), 0.005, &of, (60, 7), &method, &desk).unwrap();
     println!(
         "nominal {:?}; robust {:?}, {} rounds, {} evaluations, at {:?}",
         made.objective, best.made.objective, best.rounds, best.evaluations, best.held_at
     );
     assert!(best.made.held(), "{:#?}", best.made.spreads);
+    // Its lengths can be made, and every corner was held there.
+    assert_eq!(best.step, Some(0.005));
+    for (name, x) in found.searched.iter().zip(&best.x).filter(|(name, _)| name.starts_with("r_")) {
+        assert!((x / 0.005 - (x / 0.005).round()).abs() < 1e-6, "{name} {x}");
+    }
     assert!(best.made.objective.0 < made.objective.0, "robust costs something at the nominal values");
     assert!(best.made.yield_share > made.yield_share);
 }

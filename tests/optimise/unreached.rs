@@ -92,9 +92,17 @@ fn the_wanted_slip_margin_counts_within_the_tolerances() {
     // Some draws have enough friction, and some have not.
     assert!(made.yield_share > 0.0 && made.yield_share < 1.0, "{}", made.yield_share);
     let (lo, hi) = found.bounds();
-    let best =
-        robust(&found.problem, &found.outcome.x, (&lo, &hi), &of, (20, 1), &SearchMethod::default(), &desk)
-            .unwrap();
+    let best = robust(
+        &found.problem,
+        &found.outcome.x,
+        (&lo, &hi),
+        0.0,
+        &of,
+        (20, 1),
+        &SearchMethod::default(),
+        &desk,
+    )
+    .unwrap();
     assert!(!best.made.held(), "the largest slip margin is 0.4079 at mu_s 0.12, and 0.29 at 0.11");
 }
 

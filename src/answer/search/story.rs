@@ -122,8 +122,7 @@ impl Story {
                 Err(why) => self.why.push(why.to_string()),
             }
             let (lo, hi) = self.made().bounds();
-            let names = &self.made().searched;
-            match robust(&problem, names, &x, (&lo, &hi), task.step_mm, of, draws, method, desk) {
+            match robust(&problem, &x, (&lo, &hi), task.step_mm, of, draws, method, desk) {
                 Ok(robust) => self.robust = Some(robust),
                 Err(why) => self.why.push(format!("no robust design: {why}")),
             }
