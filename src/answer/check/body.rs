@@ -3,7 +3,7 @@
 use super::overrun::OverrunSection;
 use super::{run_out, running};
 use crate::answer::stiffness::CurveEnd;
-use crate::margin::{Demand, Margin, When, lowest_capacity};
+use crate::margin::{Demand, Margin, Rule, When, lowest_capacity};
 use crate::report::{Cell, Rows, Table, Unit, greek, significant};
 use crate::wedge::EndReason;
 use serde::Serialize;
@@ -342,9 +342,15 @@ pub fn people_table(rows: &[Margin], end_torque_nm: f64) -> Table {
         .table()
 }
 
-/// The demand as people read it.
+/// Whether the row's figure is what is left, and is to lie above 0: its demand is 0, and the figure its allowable.
+fn is_what_is_left(r: &Margin) -> bool {
+    matches!(r.limit.rule, Rule::Itself | Rule::Clearance) && r.demand == Demand::Value(0.0)
+}
+
+/// The demand as people read it; of what is left that.
 pub fn demand_cell(r: &Margin) -> Cell {
     match r.demand {
+        _ if is_what_is_left(r) => r.shown_allowable().into(),
         Demand::Value(_) | Demand::MoreThan(_) => r.demand_in_unit().into(),
         // Friction has no demand at all then, a torque one at the end of the curve.
         Demand::Overloaded { at_end: Some(_), .. } => NOT_REACHED.into(),
@@ -356,7 +362,11 @@ pub fn demand_cell(r: &Margin) -> Cell {
 
 /// The allowable as people read it; of slip the margin that is wanted.
 pub fn allowable_cell(r: &Margin) -> Cell {
-    if r.is_slip() { wanted_text(r).into() } else { r.shown_allowable().into() }
+    match (r.is_slip(), is_what_is_left(r)) {
+        (true, _) => wanted_text(r).into(),
+        (_, true) => "above 0".into(),
+        _ => r.shown_allowable().into(),
+    }
 }
 
 /// The unit of demand and allowable as people read it.
