@@ -27,6 +27,7 @@
 //! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |
 //! | 4 | [`sharing`] | sprags one by one: what each carries where they are unlike, races bend, run out and give way |
 //! | 4 | [`scenario`] | a named scene in, history and verdict out |
+//! | 4 | [`sprags`] | a scene with its sprags one by one: who catches, who slips, what each carries |
 //! | 4 | [`element`] | a clutch between two flanges, step by step under torques or at speeds from outside |
 //! | 4 | [`fidelity`] | what a scene can leave out, and what that costs |
 //! | 4 | [`accuracy`] | error against work of every method, and where runs come to an end |
@@ -137,6 +138,7 @@ pub mod report;
 pub mod scenario;
 pub mod sharing;
 pub mod size;
+pub mod sprags;
 #[cfg(feature = "report")]
 pub mod studio;
 pub mod sweep;

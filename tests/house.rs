@@ -31,6 +31,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // A scenario may be given another friction law, so it names that law.
     // What slides on a film is at the temperature of its heat balance.
     ("scenario", &["follow", "numeric", "lubrication", "clutch", "profile", "friction", "wedge", "dynamics"]),
+    // A scene of unlike sprags begins as a scene does, and draws its sprags as statics does.
+    ("sprags", &["clutch", "friction", "wedge", "dynamics", "sharing", "scenario"]),
     // Begins as a scene does.
     ("element", &["follow", "clutch", "dynamics", "scenario"]),
     ("fidelity", &["numeric", "clutch", "profile", "contact", "wedge", "dynamics", "scenario"]),
@@ -94,6 +96,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "accuracy",
             "margin",
             "sharing",
+            "sprags",
             "life",
             "element",
             "reengage",

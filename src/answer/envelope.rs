@@ -9,6 +9,7 @@ use super::page::draw_inputs;
 use super::reengagement::ReengagementAnswer;
 use super::resonance::ResonanceAnswer;
 use super::sharing::SharingAnswer;
+use super::sharing_scene::SharingSceneAnswer;
 use crate::design::Design;
 use crate::report::{Page, Rows, Screen, Table};
 use serde::Serialize;
@@ -148,6 +149,7 @@ answers! {
     FeedAnswer<'_>, Value, frequencies;
     ResonanceAnswer<'_>, Value, table;
     SharingAnswer<'_>, Value, by_sprag;
+    SharingSceneAnswer<'_>, Value, by_sprag;
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ pub mod reengagement;
 pub mod resonance;
 pub mod search;
 pub mod sharing;
+pub mod sharing_scene;
 pub mod simulation;
 pub mod sizing;
 pub mod steels;

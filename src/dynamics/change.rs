@@ -226,6 +226,6 @@ where
     }
 }
 
-fn moving(v: f64) -> Known {
+pub(super) fn moving(v: f64) -> Known {
     if v == 0.0 { Known::Still } else { Known::Slips(v.signum()) }
 }

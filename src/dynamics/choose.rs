@@ -46,6 +46,9 @@ pub(super) struct Choice {
 /// Violation up to which a candidate counts as consistent: rounding of forces that all but cancel.
 const CONSISTENT: f64 = 1e-9;
 
+/// What a stick may ask for beyond its limit, as a part of that: rounding.
+pub(super) const EXCESS: f64 = 1e-9;
+
 /// What keeps a slip behind a stick that is as consistent.
 const LATER: f64 = 1e-300;
 /// Violation up to which nothing contradicts itself at all: no later candidate is better.
@@ -65,10 +68,22 @@ pub(super) fn choose<const N: usize>(
     inner: Known,
     outer: Known,
 ) -> Choice {
+    choose_by(model, p, place, inner, outer, alone(model, t, y, p))
+}
+
+/// The same where `forces` says what a mode comes to: the rate of alpha (rad/s) and the forces.
+pub(super) fn choose_by(
+    model: &Model,
+    p: &WedgePoint,
+    place: Place,
+    inner: Known,
+    outer: Known,
+    forces: impl FnMut(&Mode) -> (f64, Forces),
+) -> Choice {
     let mode = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
     let mut best = Choice { mode, forces: None, consistent: false };
     let mut least = f64::INFINITY;
-    weigh(model, t, y, p, place, inner, outer, &mut |mode, forces, violation| {
+    weigh(model, p, place, inner, outer, forces, &mut |mode, forces, violation| {
         if violation < least {
             (best.mode, best.forces, least) = (mode, Some(forces), violation);
         }
@@ -78,24 +93,35 @@ pub(super) fn choose<const N: usize>(
     best
 }
 
-/// Every candidate with how far it is from consistent, while `go_on` says so.
-fn weigh<const N: usize>(
+/// What a mode comes to where all sprags are in it.
+fn alone<const N: usize>(
     model: &Model,
     t: f64,
     y: &[f64; N],
     p: &WedgePoint,
+) -> impl Fn(&Mode) -> (f64, Forces) {
+    move |mode| {
+        let rates = model.rates(mode, p, y);
+        (rates[0], model.forces_at(mode, t, y, p, &rates))
+    }
+}
+
+/// Every candidate with how far it is from consistent, while `go_on` says so.
+fn weigh(
+    model: &Model,
+    p: &WedgePoint,
     place: Place,
     inner: Known,
     outer: Known,
+    mut forces: impl FnMut(&Mode) -> (f64, Forces),
     go_on: &mut impl FnMut(Mode, Forces, f64) -> bool,
 ) {
     for &a in candidates(if place == Place::Open { Known::Slips(1.0) } else { inner }).iter().flatten() {
         let at_b = if model.outer_holds { [Some(Grip::Stick), None, None] } else { candidates(outer) };
         for &b in at_b.iter().flatten() {
             let mode = Mode { place, inner: a, outer: b };
-            let rates = model.rates(&mode, p, y);
-            let f = model.forces_at(&mode, t, y, p, &rates);
-            let (da, db) = slip_accelerations(p, rates[0], &f);
+            let (alpha_rate, f) = forces(&mode);
+            let (da, db) = slip_accelerations(p, alpha_rate, &f);
             let mu = model.friction.static_;
             let mut violation = 0.0;
             if place != Place::Open {
@@ -124,7 +150,7 @@ fn violation_of(grip: Grip, known: Known, tangential: f64, limit: f64, (rate, sc
         (_, Known::Slips(_) | Known::Released(_)) => 0.0,
         (Grip::Stick, _) => {
             let excess = tangential.abs() - limit;
-            if excess <= 1e-9 * limit { 0.0 } else { excess / (tangential.abs() + limit) }
+            if excess <= EXCESS * limit { 0.0 } else { excess / (tangential.abs() + limit) }
         }
         (Grip::Slip(s), _) => (-s * rate).max(0.0) / scale + LATER,
     }
@@ -241,7 +267,8 @@ mod tests {
             let kappa = mu * p.beta_gamma.sin().abs() / (p.gamma.cos() - mu * p.gamma.sin().abs());
             room = room.min(g[(0, 0)] / (g[(0, 1)].abs() * p.ob / p.oa * kappa));
             let mut consistent = Vec::new();
-            weigh(&model, 0.01, &y, &p, place, Known::Still, Known::Still, &mut |mode, _, violation| {
+            let forces = alone(&model, 0.01, &y, &p);
+            weigh(&model, &p, place, Known::Still, Known::Still, forces, &mut |mode, _, violation| {
                 if violation < CONSISTENT {
                     consistent.push(mode);
                 }

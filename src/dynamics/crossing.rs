@@ -12,7 +12,7 @@
 //! m = n_s (I_g (1 + s)^2 + m_g OC_g^2 s^2), and r^2 times the inertia of the other race where that rolls along. Where
 //! both races are moved and roll nothing is left to alpha: alpha' = (u_e - u_i)/r.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector3};
 
 use super::model::{Grip, Mode, Model, Place};
 use crate::wedge::WedgePoint;
@@ -25,21 +25,40 @@ pub(super) fn cross(
     after: &WedgePoint,
     rates: [f64; 4],
 ) -> [f64; 4] {
-    let inner = mode_after.inner == Grip::Stick && mode_after.place != Place::Open;
-    let outer = mode_after.outer == Grip::Stick;
-    if !inner && !outer {
-        return rates;
-    }
+    let [inner, outer] = rolling(mode_after);
     let [held_i, held_e] = model.held_rad_s2().map(|held| held.is_some());
     if (held_i && inner) || (held_e && outer) {
         return tied(model, before, after, rates, [inner, outer], [held_i, held_e]);
     }
-    let (m_before, _, _) = reduced(model, before, inner, outer);
-    let (m_after, coupling_after, rest) = reduced(model, after, inner, outer);
+    let races = Matrix2::new(model.inner_inertia_kg_m2, 0.0, 0.0, model.outer_inertia_kg_m2);
+    cross_between(model, 1.0, mode_after, before, after, rates, &races)
+}
+
+/// Which contacts roll in `mode`: inner, outer.
+fn rolling(mode: &Mode) -> [bool; 2] {
+    [mode.inner == Grip::Stick && mode.place != Place::Open, mode.outer == Grip::Stick]
+}
+
+/// The same of `times` as many sprags between races that move freely and whose inertia is `races`, kg m^2, with what turns
+/// along with them.
+pub(super) fn cross_between(
+    model: &Model,
+    times: f64,
+    mode_after: &Mode,
+    before: &WedgePoint,
+    after: &WedgePoint,
+    rates: [f64; 4],
+    races: &Matrix2<f64>,
+) -> [f64; 4] {
+    let [inner, outer] = rolling(mode_after);
+    if !inner && !outer {
+        return rates;
+    }
+    let (m_before, coupling_before, _) = reduced(model, times, before, inner, outer, races);
+    let (m_after, coupling_after, rest) = reduced(model, times, after, inner, outer, races);
     let Some(rest_inverse) = rest.try_inverse() else { return rates };
     let alpha_rate = scaled(rates[0], m_before, m_after);
     // Momenta of (phi, free races) are kept: M_rr w_r + M_ra alpha' = const.
-    let (_, coupling_before, _) = reduced(model, before, inner, outer);
     let w = Vector3::new(rates[1], if inner { 0.0 } else { rates[2] }, if outer { 0.0 } else { rates[3] });
     let momentum = rest * w + coupling_before * rates[0];
     let w = rest_inverse * (momentum - coupling_after * alpha_rate);
@@ -95,13 +114,21 @@ pub(super) fn scaled(rate: f64, before: f64, after: f64) -> f64 {
 
 /// (effective mass of alpha, coupling of alpha to (phi, theta_bi, theta_be), mass of those), kg m^2; a race that
 /// rolls is folded into alpha and phi, its own slot holds a unit mass that nothing moves.
-fn reduced(model: &Model, p: &WedgePoint, inner: bool, outer: bool) -> (f64, Vector3<f64>, Matrix3<f64>) {
-    let n = model.count;
+fn reduced(
+    model: &Model,
+    times: f64,
+    p: &WedgePoint,
+    inner: bool,
+    outer: bool,
+    races: &Matrix2<f64>,
+) -> (f64, Vector3<f64>, Matrix3<f64>) {
+    let n = times * model.count;
     let i_g = n * model.inertia_kg_m2;
     let orbit = n * model.mass_kg * p.oc_g * p.oc_g;
-    let (i_i, i_e) = (model.inner_inertia_kg_m2, model.outer_inertia_kg_m2);
+    let (i_i, i_e, both) = (races[(0, 0)], races[(1, 1)], races[(0, 1)]);
     let (mut aa, mut ap, mut pp) = (i_g, i_g, i_g + orbit);
     let mut rest = Matrix3::from_diagonal(&Vector3::new(0.0, i_i, i_e));
+    let mut coupling = Vector3::zeros();
     if inner {
         aa += i_i * p.rho_i * p.rho_i;
         ap -= i_i * p.rho_i;
@@ -114,8 +141,30 @@ fn reduced(model: &Model, p: &WedgePoint, inner: bool, outer: bool) -> (f64, Vec
         pp += i_e;
         rest[(2, 2)] = 1.0;
     }
-    rest[(0, 0)] = pp;
-    (aa - ap * ap / pp, Vector3::new(ap, 0.0, 0.0), rest)
+    // What turns along with both races ties them.
+    match (inner, outer) {
+        (true, true) => {
+            aa -= 2.0 * both * p.rho_i * p.rho_e;
+            ap += both * (p.rho_e - p.rho_i);
+            pp += 2.0 * both;
+        }
+        (true, false) => {
+            coupling[2] = -both * p.rho_i;
+            (rest[(0, 2)], rest[(2, 0)]) = (both, both);
+        }
+        (false, true) => {
+            coupling[1] = both * p.rho_e;
+            (rest[(0, 1)], rest[(1, 0)]) = (both, both);
+        }
+        (false, false) => (rest[(1, 2)], rest[(2, 1)]) = (both, both),
+    }
+    (coupling[0], rest[(0, 0)]) = (ap, pp);
+    let alone = coupling[1] == 0.0 && coupling[2] == 0.0;
+    let carried = match rest.try_inverse() {
+        Some(inverse) if !alone => coupling.dot(&(inverse * coupling)),
+        _ => ap * ap / pp,
+    };
+    (aa - carried, coupling, rest)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::driver::{Driver, Found};
 use super::events::{LOWER, UPPER, probe};
-use super::model::{Grip, Place};
+use super::model::{Grip, Mode, Model, Place};
 use super::probes::Probes;
 use crate::ode::adaptive::Size;
 use crate::ode::step::{Dense, Step};
@@ -23,6 +23,16 @@ pub(super) fn cusp(place: Place) -> Option<usize> {
     }
 }
 
+/// [`Driver::towards_the_cusp_s`] at `alpha` (rad) that goes at `rate` (rad/s).
+pub(super) fn towards_the_cusp_s(model: &Model, mode: &Mode, alpha: f64, rate: f64) -> f64 {
+    let one_holds = (mode.inner == Grip::Stick) != (mode.outer == Grip::Stick);
+    let x = alpha - model.curve.first_contact_rad();
+    if mode.place == Place::Arc(0) && one_holds && rate < 0.0 && x > NEAR_RAD {
+        return PART * x / -rate;
+    }
+    f64::INFINITY
+}
+
 impl<const N: usize> Driver<'_, N>
 where
     Const<N>: Size,
@@ -31,13 +41,8 @@ where
     /// alpha'' holds rho' alpha'^2 ~ x^(-8/9): of a step that begins at x and ends at the cusp the estimate sees nothing,
     /// however short, and three runs that do the same agree and are wrong together.
     pub(super) fn towards_the_cusp_s(&self) -> f64 {
-        let (mode, y) = (self.run.mode, &self.run.state);
-        let one_holds = (mode.inner == Grip::Stick) != (mode.outer == Grip::Stick);
-        let x = y[0] - self.model.curve.first_contact_rad();
-        if mode.place == Place::Arc(0) && one_holds && y[4] < 0.0 && x > NEAR_RAD {
-            return PART * x / -y[4];
-        }
-        f64::INFINITY
+        let y = &self.run.state;
+        towards_the_cusp_s(self.model, &self.run.mode, y[0], y[4])
     }
 
     /// The first event before the cusp at first contact, which lies at `theta`, that shows only near it: what rolling demands

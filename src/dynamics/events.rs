@@ -144,16 +144,26 @@ pub(super) fn event<const N: usize>(
     grips: bool,
     i: usize,
 ) -> f64 {
-    let slips = |grip: Grip| if let Grip::Slip(s) = grip { Some(s) } else { None };
+    let known = if grips || i == LOWER || i == UPPER { without_forces(model, mode, y, i) } else { None };
+    known.unwrap_or_else(|| probe(model, mode, t, y, grips).events[i])
+}
+
+/// Event function `i` of [`Probe::events`] where that needs no forces.
+pub(super) fn without_forces<const N: usize>(
+    model: &Model,
+    mode: &Mode,
+    y: &[f64; N],
+    i: usize,
+) -> Option<f64> {
     let velocities = || {
         let p = model.point(mode.place, y[0]);
         model.slip_velocities(&p, &model.rates(mode, &p, y))
     };
-    match (i, slips(mode.inner), slips(mode.outer)) {
-        (LOWER, ..) => within(model, mode.place, y[0]).0,
-        (UPPER, ..) => within(model, mode.place, y[0]).1,
-        (INNER, Some(s), _) if grips && mode.place != Place::Open => s * velocities().0,
-        (OUTER, _, Some(s)) if grips => s * velocities().1,
-        _ => probe(model, mode, t, y, grips).events[i],
+    match (i, mode.inner, mode.outer) {
+        (LOWER, ..) => Some(within(model, mode.place, y[0]).0),
+        (UPPER, ..) => Some(within(model, mode.place, y[0]).1),
+        (INNER, Grip::Slip(s), _) if mode.place != Place::Open => Some(s * velocities().0),
+        (OUTER, _, Grip::Slip(s)) => Some(s * velocities().1),
+        _ => None,
     }
 }

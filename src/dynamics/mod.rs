@@ -16,6 +16,7 @@ mod drive;
 mod driver;
 mod energy;
 mod events;
+mod many;
 mod memory;
 mod model;
 mod outside;
@@ -36,6 +37,10 @@ mod zeno;
 
 pub use drive::{Drive, FlangeDrive, Loads, Ramp};
 pub use energy::EnergyBalance;
+pub use many::{
+    FirstSlip, ManyRun, ManySample, ManyStart, SpragCourse, SpragGroup, SpragMotion, run_many,
+    settled_together,
+};
 pub use memory::{Memory, go_on};
 pub use model::{Forces, Grip, Mode, Model, N_STATE, Place, State};
 pub use outside::{events, next_mode};

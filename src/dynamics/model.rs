@@ -92,6 +92,55 @@ pub struct Forces {
     pub v_b: f64,
 }
 
+/// A sprag between races whose motion is left open: what [`Model::loose`] says.
+pub(super) struct Loose {
+    /// (alpha'', phi'') without T_bi and T_be, rad/s^2.
+    free: Vector2<f64>,
+    /// What one newton of T_bi on each sprag does to them.
+    column_i: Vector2<f64>,
+    /// The same of T_be.
+    column_e: Vector2<f64>,
+    n_bi: f64,
+    v_a: f64,
+    v_b: f64,
+    /// Whether what follows of the radial equation is known.
+    radial: bool,
+    sin_bg: f64,
+    sin_g: f64,
+    cos_g: f64,
+    /// What presses the sprag outward without T_bi and T_be, N.
+    press: f64,
+}
+
+impl Forces {
+    /// None at all.
+    pub(super) const NONE: Self =
+        Self { acceleration: [0.0; 4], t_bi: 0.0, t_be: 0.0, n_bi: 0.0, n_be: 0.0, v_a: 0.0, v_b: 0.0 };
+}
+
+impl Loose {
+    /// N_be by the radial equation, N; 0 where that is left out.
+    #[inline(always)]
+    pub(super) fn outer_n(&self, t_bi: f64, t_be: f64) -> f64 {
+        if self.radial { (self.press + t_bi * self.sin_bg - t_be * self.sin_g) / self.cos_g } else { 0.0 }
+    }
+
+    /// All of it under `t` = (T_bi, T_be) with the races at `races` (rad/s^2).
+    #[inline(always)]
+    pub(super) fn forces(&self, [t_bi, t_be]: [f64; 2], n_be: f64, races: [f64; 2]) -> Forces {
+        let sprag = self.free + self.column_i * t_bi + self.column_e * t_be;
+        Forces {
+            acceleration: [sprag[0], sprag[1], races[0], races[1]],
+            t_bi,
+            t_be,
+            n_bi: self.n_bi,
+            n_be,
+            v_a: self.v_a,
+            v_b: self.v_b,
+        }
+    }
+}
+
 impl Model {
     /// Put a clutch under loads. `bench_inertia_kg_m2` is added to the inner race.
     pub fn new(
@@ -119,6 +168,11 @@ impl Model {
             damping_nm_s_per_rad: clutch.races.viscous_damping_nm_s_per_rad,
             hunt_crossley_s_per_m: clutch.hunt_crossley_s_per_m,
         }
+    }
+
+    /// The same for `count` of its sprags alone, on their own curve and with their own friction.
+    pub fn of_sprags(&self, count: usize, curve: WedgeCurve, friction: Stribeck) -> Self {
+        Self { curve, friction, count: count as f64, ..self.clone() }
     }
 
     /// Geometry and normal force at `alpha` with the functions of `place`.
@@ -246,7 +300,51 @@ impl Model {
         p: &WedgePoint,
         rates: &[f64; 4],
     ) -> Forces {
-        let [da, dp, di, de] = *rates;
+        let [_, _, di, de] = *rates;
+        let n = self.count;
+        let spin = self.mean_speed(t).1;
+        let loose = self.loose::<RADIAL, N>(mode, t, y, p, rates);
+        let drag = self.damping_nm_s_per_rad * (di - de);
+        let [torque_i, torque_e] = self.torques_on_nm(t, y);
+        let f_i = torque_i - drag - self.inner_inertia_kg_m2 * spin;
+        let f_e = torque_e + drag - self.loads.abutment_nm_per_rad * y[3] - self.outer_inertia_kg_m2 * spin;
+        let (mut free_i, mut free_e) = (f_i / self.inner_inertia_kg_m2, f_e / self.outer_inertia_kg_m2);
+        let mut race_i = n * p.oa / self.inner_inertia_kg_m2;
+        let mut race_e = -n * p.ob / self.outer_inertia_kg_m2;
+        let [held_i, held_e] = self.held_rad_s2();
+        if let Some(given) = held_i {
+            (free_i, race_i) = (given, 0.0);
+        }
+        if let Some(given) = held_e {
+            (free_e, race_e) = (given, 0.0);
+        }
+        let (a, b) = self.grips(mode, p, rates, &loose, [free_i, free_e], [race_i, race_e]);
+        let determinant = a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)];
+        let mut t_bi = (b[0] * a[(1, 1)] - b[1] * a[(0, 1)]) / determinant;
+        let mut t_be = (a[(0, 0)] * b[1] - a[(1, 0)] * b[0]) / determinant;
+        let mut n_be = loose.outer_n(t_bi, t_be);
+        if n_be < 0.0 && mode.outer != Grip::Stick {
+            // B has let go: no force there.
+            n_be = 0.0;
+            t_be = 0.0;
+            if mode.inner == Grip::Stick && mode.place != Place::Open {
+                t_bi = b[0] / a[(0, 0)];
+            }
+        }
+        loose.forces([t_bi, t_be], n_be, [free_i + race_i * t_bi, free_e + race_e * t_be])
+    }
+
+    /// One sprag of the `count` by itself: what it does without T_bi and T_be, and what these do to it.
+    #[inline(always)]
+    pub(super) fn loose<const RADIAL: bool, const N: usize>(
+        &self,
+        mode: &Mode,
+        t: f64,
+        y: &[f64; N],
+        p: &WedgePoint,
+        rates: &[f64; 4],
+    ) -> Loose {
+        let [da, dp, _, _] = *rates;
         let n = self.count;
         let (speed, spin) = self.mean_speed(t);
         let phi_rate = speed + dp;
@@ -268,84 +366,71 @@ impl Model {
         }
         let orbit = self.inertia_kg_m2 + self.mass_kg * p.oc_g * p.oc_g;
         let f_phi = -n * (2.0 * swing * da * phi_rate + orbit * spin);
-        let drag = self.damping_nm_s_per_rad * (di - de);
-        let [torque_i, torque_e] = self.torques_on_nm(t, y);
-        let f_i = torque_i - drag - self.inner_inertia_kg_m2 * spin;
-        let f_e = torque_e + drag - self.loads.abutment_nm_per_rad * y[3] - self.outer_inertia_kg_m2 * spin;
         let inverse = self.sprag_inverse(p.oc_g);
-        let free = inverse * Vector2::new(f_alpha, f_phi);
-        let (mut free_i, mut free_e) = (f_i / self.inner_inertia_kg_m2, f_e / self.outer_inertia_kg_m2);
-        // Columns: what one newton of T_bi (T_be) on each sprag does to (alpha'', phi'').
-        let column_i = inverse * Vector2::new(n * p.rho_i * p.oa, -n * p.oa);
-        let column_e = inverse * Vector2::new(n * p.rho_e * p.ob, n * p.ob);
-        let mut race_i = n * p.oa / self.inner_inertia_kg_m2;
-        let mut race_e = -n * p.ob / self.outer_inertia_kg_m2;
-        let [held_i, held_e] = self.held_rad_s2();
-        if let Some(given) = held_i {
-            (free_i, race_i) = (given, 0.0);
+        let radial = RADIAL || mode.outer != Grip::Stick;
+        let of = |angle: f64| if radial { angle.sin_cos() } else { (0.0, 1.0) };
+        let ((sin_bg, cos_bg), (sin_g, cos_g)) = (of(p.beta_gamma), of(p.gamma));
+        Loose {
+            free: inverse * Vector2::new(f_alpha, f_phi),
+            column_i: inverse * Vector2::new(n * p.rho_i * p.oa, -n * p.oa),
+            column_e: inverse * Vector2::new(n * p.rho_e * p.ob, n * p.ob),
+            n_bi,
+            v_a,
+            v_b,
+            radial,
+            sin_bg,
+            sin_g,
+            cos_g,
+            press: n_bi * cos_bg + self.mass_kg * p.oc_g * phi_rate * phi_rate,
         }
-        if let Some(given) = held_e {
-            (free_e, race_e) = (given, 0.0);
-        }
+    }
+
+    /// A x = b for x = (T_bi, T_be): rolling where a contact holds, friction where it slips. The races go at `free` (rad/s^2)
+    /// without x, and at `race` more for a newton of T_bi (T_be) on each sprag.
+    #[inline(always)]
+    pub(super) fn grips(
+        &self,
+        mode: &Mode,
+        p: &WedgePoint,
+        rates: &[f64; 4],
+        of: &Loose,
+        [free_i, free_e]: [f64; 2],
+        [race_i, race_e]: [f64; 2],
+    ) -> (Matrix2<f64>, Vector2<f64>) {
+        let da = rates[0];
+        let open = mode.place == Place::Open;
         // Rows of the constraints: theta_bi'' - phi'' + rho_i alpha'' + rho_i' alpha'^2 = 0 at A,
         // theta_be'' - phi'' - rho_e alpha'' - rho_e' alpha'^2 = 0 at B.
         let row_i = |v: &Vector2<f64>, race: f64| race - v[1] + p.rho_i * v[0];
         let row_e = |v: &Vector2<f64>, race: f64| race - v[1] - p.rho_e * v[0];
-        let radial = RADIAL || mode.outer != Grip::Stick;
-        let of = |angle: f64| if radial { angle.sin_cos() } else { (0.0, 1.0) };
-        let ((sin_bg, cos_bg), (sin_g, cos_g)) = (of(p.beta_gamma), of(p.gamma));
-        let press = n_bi * cos_bg + self.mass_kg * p.oc_g * phi_rate * phi_rate;
-        // A x = b for x = (T_bi, T_be).
         let (mut a, mut b) = (Matrix2::zeros(), Vector2::zeros());
-        let inner_sticks = mode.inner == Grip::Stick && !open;
-        if inner_sticks {
-            a[(0, 0)] = row_i(&column_i, race_i);
-            a[(0, 1)] = row_i(&column_e, 0.0);
-            b[0] = -(row_i(&free, free_i) + p.rho_i_slope * da * da);
+        if mode.inner == Grip::Stick && !open {
+            a[(0, 0)] = row_i(&of.column_i, race_i);
+            a[(0, 1)] = row_i(&of.column_e, 0.0);
+            b[0] = -(row_i(&of.free, free_i) + p.rho_i_slope * da * da);
         } else {
             a[(0, 0)] = 1.0;
             b[0] = match mode.inner {
-                Grip::Slip(s) if !open => -s * self.sliding_inner((s * v_a).max(0.0), n_bi) * n_bi,
+                Grip::Slip(s) if !open => -s * self.sliding_inner((s * of.v_a).max(0.0), of.n_bi) * of.n_bi,
                 _ => 0.0,
             };
         }
         match mode.outer {
             Grip::Stick => {
-                a[(1, 0)] = row_e(&column_i, 0.0);
-                a[(1, 1)] = row_e(&column_e, race_e);
-                b[1] = -(row_e(&free, free_e) - p.rho_e_slope * da * da);
+                a[(1, 0)] = row_e(&of.column_i, 0.0);
+                a[(1, 1)] = row_e(&of.column_e, race_e);
+                b[1] = -(row_e(&of.free, free_e) - p.rho_e_slope * da * da);
             }
             Grip::Slip(s) => {
                 // T_be = s mu N_be and the radial equation together.
-                let mu = s * self.friction.coefficient((s * v_b).max(0.0));
-                let share = mu / (cos_g + mu * sin_g);
-                a[(1, 0)] = -share * sin_bg;
+                let mu = s * self.friction.coefficient((s * of.v_b).max(0.0));
+                let share = mu / (of.cos_g + mu * of.sin_g);
+                a[(1, 0)] = -share * of.sin_bg;
                 a[(1, 1)] = 1.0;
-                b[1] = share * press;
+                b[1] = share * of.press;
             }
         }
-        let determinant = a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)];
-        let mut t_bi = (b[0] * a[(1, 1)] - b[1] * a[(0, 1)]) / determinant;
-        let mut t_be = (a[(0, 0)] * b[1] - a[(1, 0)] * b[0]) / determinant;
-        let mut n_be = if radial { (press + t_bi * sin_bg - t_be * sin_g) / cos_g } else { 0.0 };
-        if n_be < 0.0 && mode.outer != Grip::Stick {
-            // B has let go: no force there.
-            n_be = 0.0;
-            t_be = 0.0;
-            if inner_sticks {
-                t_bi = b[0] / a[(0, 0)];
-            }
-        }
-        let sprag = free + column_i * t_bi + column_e * t_be;
-        Forces {
-            acceleration: [sprag[0], sprag[1], free_i + race_i * t_bi, free_e + race_e * t_be],
-            t_bi,
-            t_be,
-            n_bi,
-            n_be,
-            v_a,
-            v_b,
-        }
+        (a, b)
     }
 
     /// Normal force at A with Hunt and Crossley's damping (N), and the generalized force of the damping of both

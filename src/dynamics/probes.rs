@@ -124,6 +124,15 @@ impl Probes {
         Self { at: [0.0; MOST], probed: [Probe::NOTHING; MOST], count: 0 }
     }
 
+    /// `count` places and what is `seen` there.
+    pub(super) fn of(seen: impl Fn(usize) -> (f64, Probe), count: usize) -> Self {
+        let mut probes = Self::new();
+        for (at, seen) in (0..count).map(seen) {
+            probes.push(at, seen);
+        }
+        probes
+    }
+
     /// At an accepted step in `mode` which has left `trail`.
     pub(super) fn take<const N: usize>(
         &mut self,

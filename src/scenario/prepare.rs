@@ -101,6 +101,12 @@ impl Prepared {
         })
     }
 
+    /// Start in overrun of the sprags of another `model` of the scene; `None` where it does not begin so.
+    pub fn overrun_of(&self, model: &Model) -> Option<(State, Mode)> {
+        let free = self.free_run.as_ref()?;
+        Some(overrunning(&free.steady(model, &model.friction), &model.curve, free.speed_rad_s))
+    }
+
     /// The equilibrium at the start of a static scenario, exact; `None` without a load.
     pub fn at_rest(&self) -> Option<StaticPoint> {
         let (curve, torque_nm) = (&self.model.curve, -self.model.loads.inner_nm);

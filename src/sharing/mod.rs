@@ -323,6 +323,15 @@ impl<'a> Unlike<'a> {
         rotated(axis_m, -(self.sprags[i].azimuth_rad + self.turned_rad[i]))
     }
 
+    /// The same between races that do not bend unevenly: each sprag yields as one of sprags alike.
+    pub fn unbent(&self) -> Self {
+        let mut stiff = self.clone();
+        for entry in stiff.bending.iter_mut().flat_map(|b| &mut b.matrix).flatten() {
+            *entry = [[0.0; 2]; 2];
+        }
+        stiff
+    }
+
     /// The clutch without sprag `i`.
     pub fn without(&self, i: usize) -> Self {
         let mut left = self.clone();

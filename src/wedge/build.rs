@@ -1,5 +1,6 @@
 //! From a clutch to its wedge curve: arc after arc, each handed over at a junction by the paper's Figure 5.
 
+use super::apart::SpragDeviation;
 use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
 use super::patch::InnerCurvature;
@@ -91,6 +92,20 @@ impl WedgeCurve {
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         (statics.offset_m, statics.carrier) = (offset_m, carrier);
         Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+    }
+
+    /// This curve, its speed and effort kept, of a sprag that measures `size_m` (m) more across its contacts, half of it at each. The
+    /// windup counts from that sprag's own first contact.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn of_size(&self, size_m: f64) -> Result<Self, NoCurve> {
+        if size_m == 0.0 {
+            return Ok(self.clone());
+        }
+        let mut statics = self.statics.clone();
+        statics.set_apart(SpragDeviation { size_m, ..SpragDeviation::default() });
+        Self::march(statics, self.exponent, self.speed_rad_s, None, self.effort)
     }
 
     /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).

@@ -1,0 +1,377 @@
+//! A scene with its sprags one by one: who catches, who slips, what each carries over time.
+
+use super::drawn::drawn_words;
+use super::left_out::{LeftOut, left_out, one_by_one};
+use super::page::{half, opened};
+use super::sharing::NoSharing;
+use super::{Envelope, Provenance};
+use crate::design::Design;
+use crate::dynamics::{ManySample, SpragCourse, Stop};
+use crate::report::{Page, Plot, Rows, Screen, Table, Unit, significant};
+use crate::scenario::Settings;
+use crate::sprags::{EachSprag, NoEachSprag, each_sprag};
+use serde_json::{Value, json};
+use std::fmt;
+
+/// Samples of the shares over time where nobody asks for another number.
+const SAMPLES: usize = 401;
+
+/// What became of each sprag of a design in one of its scenes.
+#[derive(Debug, Clone)]
+pub struct SharingSceneAnswer<'a> {
+    design: &'a Design,
+    /// Name of the scene.
+    pub scene: String,
+    /// What was found.
+    pub found: EachSprag,
+}
+
+/// Why there is no answer.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoSharingScene {
+    /// There is nothing to share.
+    NoSharing(NoSharing),
+    /// No scenario of this name; those that there are.
+    NoSuchScene(String, Vec<String>),
+    /// The scene cannot be run with its sprags one by one.
+    NoRun(NoEachSprag),
+}
+
+impl fmt::Display for NoSharingScene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSharing(why) => why.fmt(f),
+            Self::NoSuchScene(name, there) if there.is_empty() => {
+                write!(f, "no scenario \"{name}\": the design has no [[scenarios]]")
+            }
+            Self::NoSuchScene(name, there) => {
+                write!(f, "no scenario \"{name}\"; allowed: {}", there.join(", "))
+            }
+            Self::NoRun(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NoSharingScene {}
+
+impl Design {
+    /// The scene `name` with its sprags as `[sharing]` has them; [`Settings::samples`] of 0: as many as a page shows.
+    ///
+    /// # Errors
+    /// [`NoSharingScene`].
+    pub fn sharing_in_scene(
+        &self,
+        name: &str,
+        settings: &Settings,
+    ) -> Result<SharingSceneAnswer<'_>, NoSharingScene> {
+        let sharing = self.sharing.as_ref().ok_or(NoSharingScene::NoSharing(NoSharing::NoTable))?;
+        let there = || self.scenarios.iter().map(|s| s.name.clone()).collect();
+        let scene =
+            self.scenario(name).ok_or_else(|| NoSharingScene::NoSuchScene(name.to_owned(), there()))?;
+        let samples = if settings.samples == 0 { SAMPLES } else { settings.samples };
+        let settings = Settings { samples, ..settings.clone() };
+        let found = each_sprag(scene, sharing, &settings).map_err(NoSharingScene::NoRun)?;
+        Ok(SharingSceneAnswer { design: self, scene: name.to_owned(), found })
+    }
+}
+
+impl<'a> SharingSceneAnswer<'a> {
+    fn course(&self, sprag: usize) -> Option<&SpragCourse> {
+        Some(&self.found.run.courses[self.found.group[sprag]?])
+    }
+
+    /// Index of the sprag of which `of` is largest, and that; `None` where none carries.
+    fn most(&self, of: impl Fn(&SpragCourse) -> f64) -> Option<(usize, f64)> {
+        let each = (0..self.found.sprags.len()).filter_map(|i| Some((i, of(self.course(i)?))));
+        each.reduce(|best, next| if next.1 > best.1 { next } else { best })
+    }
+
+    /// The largest share of the load, whose, and when, s.
+    pub fn largest_share(&self) -> Option<(usize, f64, f64)> {
+        let (i, share) = self.most(|c| c.share)?;
+        Some((i, share, self.course(i)?.share_s))
+    }
+
+    /// Sprags in the order in which they catch; those of one time in that of their numbers.
+    pub fn catching(&self) -> Vec<usize> {
+        let at = |i: usize| self.course(i).and_then(|c| c.catches_s);
+        let mut order: Vec<usize> = (0..self.found.sprags.len()).filter(|&i| at(i).is_some()).collect();
+        order.sort_by(|a, b| at(*a).partial_cmp(&at(*b)).unwrap_or(std::cmp::Ordering::Equal));
+        order
+    }
+
+    /// The sprag that slips first under load, and when, s.
+    pub fn first_slip(&self) -> Option<(usize, f64)> {
+        let each = (0..self.found.sprags.len()).filter_map(|i| Some((i, self.course(i)?.slips?.t_s)));
+        each.reduce(|best, next| if next.1 < best.1 { next } else { best })
+    }
+
+    /// How many sprags slip under load after they have caught.
+    pub fn slipping(&self) -> usize {
+        (0..self.found.sprags.len()).filter(|&i| self.course(i).is_some_and(|c| c.slips.is_some())).count()
+    }
+
+    /// Why the run did not come to its end, and what would let it; `None`: it did, or what happened is an answer.
+    pub fn given_up(&self) -> Option<String> {
+        let (run, [steps, changes]) = (&self.found.run, self.found.limits);
+        let at = Unit::Second.show(run.t_s, 4);
+        let done = run.counters.steps + run.counters.rejections;
+        match run.stop {
+            Stop::StepLimit if done >= steps => Some(format!(
+                "the run met its limit of {steps} steps at {at}; --max-steps with a larger number would take it further"
+            )),
+            Stop::StepLimit => Some(format!("steps became too short at {at}")),
+            Stop::EventLimit => Some(format!(
+                "the run met its limit of {changes} changes at {at}; --max-steps with a larger number would take it further"
+            )),
+            Stop::NotFinite => Some(format!("the equations ceased to be finite at {at}")),
+            Stop::Interrupted => Some(format!("stopped by Ctrl-C at {at} of the scene")),
+            _ => None,
+        }
+    }
+
+    /// Whether the scene came to its end and no sprag slipped after it had caught.
+    pub fn held(&self) -> bool {
+        self.found.run.stop == Stop::Finished && self.first_slip().is_none()
+    }
+
+    /// In a sentence.
+    pub fn verdict(&self) -> String {
+        let run = &self.found.run;
+        let mut said = if self.held() { "HELD: " } else { "NOT HELD: " }.to_owned();
+        if let Some(why) = self.given_up() {
+            said += &format!("{why}; until then ");
+        } else if run.stop != Stop::Finished {
+            let at = run.at_group.and_then(|g| self.found.group.iter().position(|of| *of == Some(g)));
+            let whose = at.map_or(String::new(), |i| format!(" of sprag {}", i + 1));
+            said += &format!("{}{whose} at {}; ", run.stop.name(), Unit::Second.show(run.t_s, 4));
+        }
+        said += &match self.largest_share() {
+            Some((i, share, t_s)) if share > 0.0 => format!(
+                "the largest share is {} of the mean, sprag {} at {}",
+                significant(share, 4),
+                i + 1,
+                Unit::Millisecond.show(t_s, 4)
+            ),
+            _ => "no sprag was loaded".to_owned(),
+        };
+        if let Some((i, needs)) = self.most(|c| c.tan[0].max(c.tan[1])).filter(|(_, needs)| *needs > 0.0) {
+            said += &format!("; friction is used most by sprag {}, {}", i + 1, significant(needs, 3));
+        }
+        let order = self.catching();
+        let at = |i: &usize| self.course(*i).and_then(|c| c.catches_s);
+        if let [first, .., last] = order.as_slice()
+            && let (Some(from), Some(until)) = (at(first), at(last))
+            && until > from
+        {
+            said += &format!(
+                "; {} of {} sprags catch, the first, {}, at {}, the last, {}, at {}",
+                order.len(),
+                self.found.sprags.len(),
+                first + 1,
+                Unit::Millisecond.show(from, 4),
+                last + 1,
+                Unit::Millisecond.show(until, 4)
+            );
+        }
+        let late: Vec<String> = (0..self.found.sprags.len())
+            .filter(|&i| self.course(i).is_some_and(|c| c.catches_s.is_none()))
+            .map(|i| (i + 1).to_string())
+            .collect();
+        match late.as_slice() {
+            [] => {}
+            [one] => said += &format!("; sprag {one} never catches"),
+            several => said += &format!("; sprags {} never catch", several.join(", ")),
+        }
+        said += &match self.first_slip() {
+            Some((i, t_s)) => format!(
+                "; once caught, {} slip{}, sprag {} first, at {}",
+                self.slipping(),
+                if self.slipping() == 1 { "s" } else { "" },
+                i + 1,
+                Unit::Millisecond.show(t_s, 4)
+            ),
+            None => "; none slips once it has caught".to_owned(),
+        };
+        said
+    }
+
+    /// One row a sprag.
+    pub fn by_sprag(&self) -> Table {
+        let order = self.catching();
+        let rows = self.found.sprags.iter().enumerate().map(|(i, s)| (i, s, self.course(i)));
+        Rows::of(rows)
+            .number("number", "Sprag", Unit::One, 3, |(i, ..)| i + 1)
+            .number("size_um", "Larger by", Unit::Micrometre, 3, |(_, s, _)| s.size_m)
+            .number("gap_um", "Gap", Unit::Micrometre, 3, |(_, s, _)| s.gap_m)
+            .number("friction", "μs", Unit::One, 3, |(_, s, _)| s.friction)
+            .number("catches_ms", "Catches at", Unit::Millisecond, 4, |(_, _, c)| c.and_then(|c| c.catches_s))
+            .number("order", "Order", Unit::One, 3, |(i, ..)| {
+                order.iter().position(|of| of == i).map(|k| k + 1)
+            })
+            .number("normal_max_n", "Largest N", Unit::Newton, 4, |(_, _, c)| c.map(|c| c.normal_max_n))
+            .number("share", "Largest share", Unit::One, 4, |(_, _, c)| c.map(|c| c.share))
+            .number("share_ms", "At", Unit::Millisecond, 4, |(_, _, c)| {
+                c.filter(|c| c.share > 0.0).map(|c| c.share_s)
+            })
+            .number("used_friction", "Uses μ", Unit::One, 3, |(_, _, c)| c.map(|c| c.tan[0].max(c.tan[1])))
+            .number("slips_ms", "Slips at", Unit::Millisecond, 4, |(_, _, c)| {
+                c.and_then(|c| c.slips).map(|s| s.t_s)
+            })
+            .number("slip_um", "Slip", Unit::Micrometre, 3, |(_, _, c)| c.map(|c| c.net_m[0]))
+            .text("state", "State", |(i, _, c)| match (self.found.idle[*i], c) {
+                (Some(idle), _) => idle.words(),
+                (None, Some(c)) if c.catches_s.is_none() => "never catches",
+                (None, Some(c)) if c.slips.is_some() => "slips",
+                _ => "holds",
+            })
+            .table()
+    }
+
+    /// Normal forces over the mean of all places at `sample`, by sprag; 0 while that is not loaded.
+    fn shares(&self, sample: &ManySample) -> Vec<f64> {
+        let normal = |i: usize| self.found.group[i].map_or(0.0, |g| sample.normal_n[g]);
+        let all: Vec<f64> = (0..self.found.sprags.len()).map(normal).collect();
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        let loaded = mean > 0.0 && mean >= self.found.loaded_n;
+        all.iter().map(|n| if loaded { n / mean } else { 0.0 }).collect()
+    }
+
+    fn left_out(&self) -> Vec<LeftOut> {
+        let cost = match self.found.shares_at_rest {
+            [Some(bent), Some(round)] => format!(
+                "at rest under {} the largest share is {} with it, {} without",
+                Unit::NewtonMetre.show(self.found.largest_nm, 4),
+                significant(bent, 4),
+                significant(round, 4)
+            ),
+            _ => "not estimated: statics does not carry the largest torque".to_owned(),
+        };
+        let instead = [
+            LeftOut::new(
+                "races that bend and give way",
+                "in a scene the races stay round and turn about one axis: uneven bending, run-out and the shift on bearings are those of statics alone",
+                &cost,
+            ),
+            LeftOut::new(
+                "a sprag before it touches",
+                "one that lacks something to touch is turned along without a force, and joins rolling",
+                "its inertia, below 1e-4 of a race's",
+            ),
+        ];
+        one_by_one(left_out(&self.design.clutch), &instead)
+    }
+
+    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
+    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
+        let run = &self.found.run;
+        let um = |m: f64| Unit::Micrometre.from_si(m);
+        let sprags = self.found.sprags.iter().enumerate().map(|(i, s)| {
+            let c = self.course(i);
+            json!({
+                "number": i + 1, "azimuth_deg": Unit::Degree.from_si(s.azimuth_rad), "size_um": um(s.size_m), "gap_um": um(s.gap_m),
+                "friction": s.friction, "idle": self.found.idle[i].map(|idle| idle.words()),
+                "catches_s": c.and_then(|c| c.catches_s), "normal_max_n": c.map(|c| c.normal_max_n),
+                "normal_max_at_s": c.map(|c| c.normal_max_s), "largest_share": c.map(|c| c.share),
+                "largest_share_at_s": c.map(|c| c.share_s), "used_friction_inner": c.map(|c| c.tan[0]),
+                "used_friction_outer": c.map(|c| c.tan[1]), "slips_at_s": c.and_then(|c| c.slips).map(|s| s.t_s),
+                "slips_inner": c.and_then(|c| c.slips).map(|s| s.inner),
+                "slips_normal_n": c.and_then(|c| c.slips).map(|s| s.normal_n), "slip_inner_um": c.map(|c| um(c.net_m[0])),
+                "slip_path_inner_um": c.map(|c| um(c.path_m[0])), "slip_path_outer_um": c.map(|c| um(c.path_m[1])),
+                "slip_outer_um": c.map(|c| um(c.net_m[1])), "contact_lost_s": c.map(|c| c.open_s),
+            })
+        });
+        let history = run.samples.iter().map(|s| {
+            json!({
+                "t_s": s.t_s, "theta_inner_rad": s.races[0], "theta_outer_rad": s.races[1], "shares": self.shares(s),
+                "normal_inner_n": self.found.group.iter().map(|g| g.map_or(0.0, |g| s.normal_n[g])).collect::<Vec<_>>(),
+            })
+        });
+        let order: Vec<usize> = self.catching().iter().map(|i| i + 1).collect();
+        let most = self.largest_share();
+        let body = json!({
+            "held": self.held(), "verdict": self.verdict(), "scenario": self.scene, "stop": run.stop.name(), "end_s": run.t_s,
+            "largest_share": most.map(|m| m.1), "largest_share_sprag": most.map(|m| m.0 + 1), "largest_share_at_s": most.map(|m| m.2),
+            "seed": self.design.sharing.as_ref().map(|sharing| sharing.seed), "given_up": self.given_up(),
+            "catching": order, "slipping": self.slipping(), "first_slip_sprag": self.first_slip().map(|(i, _)| i + 1), "first_slip_at_s": self.first_slip().map(|(_, t)| t),
+            "theta_inner_rad": run.races[0], "theta_outer_rad": run.races[1],
+            "theta_inner_error_rad": self.found.error.map(|e| e[0]), "normal_max_error": self.found.error.map(|e| e[1]),
+            "energy_residual_j": run.residual_j, "energy_through_j": run.through_j, "kinds": self.found.counts.len(),
+            "events": run.events, "steps": run.counters.steps, "rhs_evaluations": run.counters.rhs_evaluations,
+            "sprags": sprags.collect::<Vec<_>>(), "history": history.collect::<Vec<_>>(),
+        });
+        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let mut all = self.design.sharing.as_ref().map(drawn_words).unwrap_or_default();
+        let run = &self.found.run;
+        let kinds = self.found.counts.len();
+        if kinds == 1 {
+            all.push("Those that carry are alike: one is computed for all, as `simulate` does".to_owned());
+        }
+        let left = if run.through_j > 0.0 { run.residual_j.abs() / run.through_j } else { 0.0 };
+        let error = self.found.error.map_or("no second run was finished".to_owned(), |[theta, normal]| {
+            format!(
+                "two runs differ by {} rad in θ and {} of the largest N",
+                significant(theta, 2),
+                significant(normal, 2)
+            )
+        });
+        all.push(format!(
+            "{kinds} {} computed, {} changes, {} steps; {error}; the energy balance leaves {} of what went through",
+            if kinds == 1 { "kind of sprags is" } else { "kinds of sprags are" },
+            run.events,
+            run.counters.steps,
+            significant(left, 2)
+        ));
+        let terms = self.left_out();
+        let bent = terms.iter().find(|t| t.term.starts_with("races that bend"));
+        all.extend(bent.map(|t| format!("Left out: {}; {}", t.term, t.cost)));
+        all
+    }
+
+    /// The answer on a terminal.
+    pub fn text(&self, screen: Screen) -> String {
+        format!(
+            "{}  {}  {}\n\n{}\n{}\n{}\n",
+            self.design.name,
+            self.design.short_hash(),
+            self.scene,
+            self.by_sprag().to_text(screen),
+            self.remarks().join("\n"),
+            self.verdict()
+        )
+    }
+
+    /// The answer as a page.
+    pub fn page(&self, provenance: &Provenance) -> Page {
+        let mut page = opened("Sharing in a scene", self.design, &provenance.command, |page| {
+            page.verdict(self.held(), &self.verdict());
+        });
+        page.list(self.remarks());
+        page.figures(&[
+            (half(self.over_time(true)), "Normal force of each kind of sprag over the mean of all places."),
+            (half(self.over_time(false)), "Normal force of each kind of sprag at the inner race."),
+        ]);
+        page.heading("Sprags")
+            .table("Forces and friction at their largest over the scene.", &self.by_sprag());
+        self.envelope(provenance.run_time_s).close(&mut page);
+        page
+    }
+
+    /// Shares, or forces, over time; one curve for sprags alike.
+    fn over_time(&self, shares: bool) -> Plot {
+        let mut plot = Plot::new("Time, ms", if shares { "Share of the mean" } else { "N inner, N" });
+        for g in 0..self.found.counts.len() {
+            let Some(i) = self.found.group.iter().position(|of| *of == Some(g)) else { continue };
+            let point = |s: &ManySample| {
+                let value = if shares { self.shares(s)[i] } else { s.normal_n[g] };
+                [Unit::Millisecond.from_si(s.t_s), value]
+            };
+            let points = self.found.run.samples.iter().map(point).collect();
+            plot = plot.curve(&format!("sprag {}", i + 1), points);
+        }
+        plot
+    }
+}

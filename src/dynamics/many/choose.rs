@@ -1,0 +1,124 @@
+//! The modes of all sprags at once where some of them have zero slip velocity.
+//!
+//! Under given accelerations x = (theta_bi'', theta_be'') of the races each sprag is by itself: its two contacts have one
+//! consistent mode (see `dynamics::choose`: the races only add to a matrix that is positive definite by alpha and phi
+//! alone), and with it its T(x), piecewise linear and falling with x. What is left is
+//!
+//!   F(x) = I x - f - sum n R T(x) = 0,   I = diag(I_bi, I_be),   R = diag(OA, -OB):
+//!
+//! two equations, monotone and piecewise linear, whatever number of sprags changes together. With fixed limits mu N, F is the
+//! slope of a strictly convex function: one solution, and Newton's method finds it, its steps halved where F would not become
+//! less. None of the sprags comes first, so sprags alike in the same state choose the same.
+
+use super::rhs::Rhs;
+use crate::dynamics::choose::{Known, choose_by};
+use crate::dynamics::model::{Grip, Mode};
+use nalgebra::Vector2;
+
+/// Steps of Newton's method, halvings included: two or three are needed.
+const MOST: u32 = 60;
+
+/// What is known of both contacts of a group.
+pub(super) type BothKnown = [Known; 2];
+
+/// Of a group that has come to no event.
+pub(super) fn as_it_is(mode: &Mode) -> BothKnown {
+    [mode.inner, mode.outer].map(|grip| match grip {
+        Grip::Stick => Known::Still,
+        Grip::Slip(s) => Known::Slips(s),
+    })
+}
+
+impl Rhs<'_> {
+    /// Bring all groups into their consistent modes at (t, y), their places as they are. False: one contradicts itself.
+    pub(super) fn choose<const N: usize>(&mut self, t: f64, y: &[f64; N], known: &[BothKnown]) -> bool {
+        for (motion, known) in self.motions.iter_mut().zip(known) {
+            // Where a contact has been released it slips, whatever comes of the others.
+            motion.mode.inner = released(known[0], motion.mode.inner);
+            motion.mode.outer = released(known[1], motion.mode.outer);
+        }
+        let races = &self.groups[0].model;
+        let inertia = Vector2::new(races.inner_inertia_kg_m2, races.outer_inertia_kg_m2);
+        let size = |miss: &Vector2<f64>| miss[0] * miss[0] / inertia[0] + miss[1] * miss[1] / inertia[1];
+        let mut x = self.look::<true, N>(t, y);
+        let mut choice = self.choose_under(t, y, known, &x);
+        let mut left = size(&choice.miss);
+        for _ in 0..MOST {
+            if choice.modes.iter().zip(&self.motions).all(|(mode, motion)| *mode == motion.mode) {
+                return choice.consistent;
+            }
+            self.set(&choice.modes);
+            let to = self.look::<true, N>(t, y);
+            let mut part = 1.0;
+            loop {
+                let there = x + (to - x) * part;
+                let found = self.choose_under(t, y, known, &there);
+                // The modes that have led there are those of there: nothing is left over but rounding.
+                if part == 1.0 && found.modes == choice.modes {
+                    return found.consistent;
+                }
+                let miss = size(&found.miss);
+                if miss < left || part < 1e-3 {
+                    (x, left, choice) = (there, miss, found);
+                    break;
+                }
+                part *= 0.5;
+            }
+        }
+        self.set(&choice.modes);
+        false
+    }
+
+    fn set(&mut self, modes: &[Mode]) {
+        for (motion, mode) in self.motions.iter_mut().zip(modes) {
+            motion.mode = *mode;
+        }
+    }
+
+    /// Each group's own mode while the races go at `x`, rad/s^2.
+    fn choose_under<const N: usize>(
+        &self,
+        t: f64,
+        y: &[f64; N],
+        known: &[BothKnown],
+        x: &Vector2<f64>,
+    ) -> Chosen {
+        let races = &self.groups[0].model;
+        let mut miss = Vector2::new(races.inner_inertia_kg_m2 * x[0], races.outer_inertia_kg_m2 * x[1])
+            - self.torques_nm(t, y);
+        let mut consistent = true;
+        let mut modes = Vec::with_capacity(self.groups.len());
+        for (g, (group, motion)) in self.groups.iter().zip(&self.motions).enumerate() {
+            if motion.waits {
+                modes.push(motion.mode);
+                continue;
+            }
+            let model = &group.model;
+            let p = model.point(motion.mode.place, y[super::HEAD + super::EACH * g]);
+            let [inner, outer] = known[g];
+            let found =
+                choose_by(model, &p, motion.mode.place, inner, outer, |mode| self.between(g, mode, t, y, x));
+            let [arm_i, arm_e] = super::rhs::arms(model, &p);
+            let forces = found.forces.unwrap_or(crate::dynamics::model::Forces::NONE);
+            miss -= Vector2::new(arm_i * forces.t_bi, arm_e * forces.t_be);
+            consistent = consistent && found.consistent;
+            // What a contact does means nothing without one.
+            modes.push(found.mode);
+        }
+        Chosen { modes, miss, consistent }
+    }
+}
+
+fn released(known: Known, grip: Grip) -> Grip {
+    match known {
+        Known::Slips(s) | Known::Released(s) => Grip::Slip(s),
+        Known::Still => grip,
+    }
+}
+
+/// Modes under accelerations of the races, and what these then miss, N m.
+struct Chosen {
+    modes: Vec<Mode>,
+    miss: Vector2<f64>,
+    consistent: bool,
+}

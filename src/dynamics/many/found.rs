@@ -1,0 +1,86 @@
+//! What a run of many sprags comes to.
+
+use super::SpragMotion;
+use crate::dynamics::run::Stop;
+use crate::ode::step::Counters;
+
+/// The first slip of a sprag after it has caught under N_bi of [`crate::dynamics::Model::loaded_n`] or more: where it begins, or where one that began
+/// unloaded comes to that load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstSlip {
+    /// When, s.
+    pub t_s: f64,
+    /// Whether it was the inner contact.
+    pub inner: bool,
+    /// N_bi then, N.
+    pub normal_n: f64,
+}
+
+/// What became of one group; forces are those of one of its sprags.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SpragCourse {
+    /// When A first carried without overrunning, s; `None`: never.
+    pub catches_s: Option<f64>,
+    /// Its first slip.
+    pub slips: Option<FirstSlip>,
+    /// Signed slip at A and B, m.
+    pub net_m: [f64; 2],
+    /// Path of it, m.
+    pub path_m: [f64; 2],
+    /// Largest N_bi, N.
+    pub normal_max_n: f64,
+    /// When, s.
+    pub normal_max_s: f64,
+    /// Largest |T|/N at A and B while loaded.
+    pub tan: [f64; 2],
+    /// Largest share of the load, 1: the mean of all sprags, from the settings' load on; 0: never loaded.
+    pub share: f64,
+    /// When, s.
+    pub share_s: f64,
+    /// Time without contact after it has caught, s.
+    pub open_s: f64,
+}
+
+/// All groups at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ManySample {
+    /// s.
+    pub t_s: f64,
+    /// theta_bi, theta_be, rad, and their rates.
+    pub races: [f64; 4],
+    /// N_bi of a sprag of each group, N.
+    pub normal_n: Vec<f64>,
+    /// |T|/N at A and B.
+    pub tan: Vec<[f64; 2]>,
+    /// What each does.
+    pub motions: Vec<SpragMotion>,
+}
+
+/// A finished run.
+#[derive(Debug, Clone)]
+pub struct ManyRun {
+    /// Why it ended.
+    pub stop: Stop,
+    /// The group at which it did, where one is to blame.
+    pub at_group: Option<usize>,
+    /// Time reached, s.
+    pub t_s: f64,
+    /// Angles and rates of the races there, as in [`super::ManyStart`].
+    pub races: [f64; 4],
+    /// alpha, phi of each group there, rad.
+    pub sprags: Vec<[f64; 2]>,
+    /// By group.
+    pub courses: Vec<SpragCourse>,
+    /// Equidistant.
+    pub samples: Vec<ManySample>,
+    /// Located changes.
+    pub events: u64,
+    /// Choices of a mode that contradicted themselves.
+    pub inconsistent_choices: u64,
+    /// Work of the integrator, one evaluation for all sprags.
+    pub counters: Counters,
+    /// What works and changes of energy leave over, J.
+    pub residual_j: f64,
+    /// Energy that went through, J.
+    pub through_j: f64,
+}
