@@ -122,7 +122,7 @@ fn the_library_refuses_what_no_drive_does() {
         FeedSettings { allowed_rad: f64::INFINITY, ..usual() },
         FeedSettings { brake_nm: Some(-1.0), ..usual() },
     ] {
-        assert!(matches!(refused(settings.clone()), NoFeed::Refused(_)), "{settings:?}");
+        assert!(matches!(refused(settings.clone()), NoFeed::Refused { .. }), "{settings:?}");
     }
     assert!(matches!(refused(FeedSettings { brake_nm: Some(1e5), ..usual() }), NoFeed::Beyond(_)));
 }
