@@ -985,6 +985,10 @@ class Life(_Common):
     """Whether the largest load indents a contact."""
     not_known: tuple[str, ...]
     """Codes of the places whose life is not known."""
+    swings: tuple[dict[str, Any], ...]
+    """Each scenario that goes on for hours: ``scenario``, ``hours``, ``frequency_hz``, ``from_nm``, ``torque_nm``, ``engagements``."""
+    swings_not_counted: tuple[str, ...]
+    """Scenarios that swing and that the service does not name."""
     slips_allowed: float | None
     """Slips by chance that the file allows."""
     engagements: float
