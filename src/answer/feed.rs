@@ -329,10 +329,10 @@ impl<'a> FeedAnswer<'a> {
         let case = &self.case;
         let [driving, race] = if case.inner_drives { ["inner", "outer"] } else { ["outer", "inner"] };
         let whose = match self.inertia_given {
-            true => "with all that turns with it",
-            false => {
-                "with what the file lets turn with it (its inertia in [races], else that of the ring alone; --inertia says another)"
-            }
+            true => "with all that turns with it".to_owned(),
+            false => format!(
+                "by the file (races.{race}_inertia_kg_m2, which new writes as a guess; absent: the ring alone; --inertia says another)"
+            ),
         };
         vec![
             format!(

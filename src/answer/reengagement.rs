@@ -515,7 +515,7 @@ impl<'a> ReengagementAnswer<'a> {
     fn short(&self) -> String {
         let (friction, needs) = (self.case.friction, self.found.needs);
         let share = needs.is_finite().then(|| {
-            format!(" ({} of the {} that it needs)", significant(friction / needs, 3), significant(needs, 3))
+            format!(" ({} of the {} that it needs)", significant(friction / needs, 2), significant(needs, 3))
         });
         significant(friction, 3) + &share.unwrap_or_default()
     }
