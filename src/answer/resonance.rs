@@ -188,7 +188,8 @@ impl<'a> ResonanceAnswer<'a> {
             parts.push(format!("{unstable} {} unstable", if unstable == 1 { "is" } else { "are" }));
         }
         if untold > 0 {
-            parts.push(format!("of {untold} it cannot be told whether they are stable"));
+            let they = if untold == 1 { "it is" } else { "they are" };
+            parts.push(format!("of {untold} it cannot be told whether {they} stable"));
         }
         parts.join("; ")
     }

@@ -35,8 +35,13 @@ const CLOSE: f64 = 0.01;
 const SERVES: f64 = 0.05;
 /// Newton step, by range, up to which the Jacobian taken before it is that of the motion.
 const NEAR: f64 = 1e-3;
-/// Longest Newton step by range.
+/// Longest Newton step by range, at first.
 const LONGEST: f64 = 0.5;
+/// By how much longer one may be after one that was shortened and did what the Jacobian said, to [`LINEAR`] of it: races that swing
+/// together on a soft abutment are far from where they end, and nothing of it is curved.
+const LONGER: f64 = 4.0;
+/// How far, by what a shortened step was to change, what it leaves may be from what the Jacobian said.
+const LINEAR: f64 = 0.1;
 /// Samples by which the ranges are taken.
 const SAMPLES: usize = 65;
 
@@ -191,10 +196,13 @@ impl Search<'_> {
         let ranges = ranges(&first);
         let mut known: Option<DMatrix<f64>> = None;
         let mut before = f64::INFINITY;
+        let mut longest = LONGEST;
+        // What the Jacobian says that a shortened step leaves, and how far that may be off.
+        let mut said: Option<(DVector<f64>, f64)> = None;
         for _ in 0..MOST_STEPS {
             if !same_kind(&here.mode, &end.mode) {
                 // A period on, it may begin as it ends.
-                (here, known, before) = (end, None, f64::INFINITY);
+                (here, known, before, said) = (end, None, f64::INFINITY, None);
                 end = self.period(&here, 0)?.0;
                 continue;
             }
@@ -209,6 +217,9 @@ impl Search<'_> {
             let left = DVector::from_fn(free.len(), |i, _| {
                 (end.state[free[i]] - here.state[free[i]]) / ranges[free[i]]
             });
+            if said.take().is_some_and(|(rest, within)| (&left - rest).amax() <= within) {
+                longest *= LONGER;
+            }
             let matrix = DMatrix::identity(free.len(), free.len()) - &jacobian;
             let Some(step) = matrix.lu().solve(&left) else { return Ok(None) };
             let size = step.amax();
@@ -231,7 +242,11 @@ impl Search<'_> {
                 known = Some(jacobian);
             }
             before = size;
-            here = self.moved(&here, &free, &ranges, &step, (LONGEST / size).min(1.0));
+            let share = (longest / size).min(1.0);
+            if share < 1.0 {
+                said = Some((&left * (1.0 - share), LINEAR * share * left.amax()));
+            }
+            here = self.moved(&here, &free, &ranges, &step, share);
             end = self.period(&here, 0)?.0;
         }
         Ok(None)
