@@ -227,8 +227,8 @@ pub(in crate::answer) fn passing_words(rate: f64, which: &str) -> Option<String>
     let tenfold_s = std::f64::consts::LN_10 / rate;
     (tenfold_s <= PASSING_S).then(|| {
         format!(
-            "Note: {which} a small swing of the sprags grows, tenfold in {} where it grows fastest: passing faster than that matters not, \
-             running there does",
+            "Note: {which} a small swing of the sprags grows tenfold in {} or more: it matters where the clutch stays there that long, not \
+             where it passes",
             Unit::Millisecond.show(tenfold_s, 2)
         )
     })
