@@ -91,6 +91,15 @@ fn fast_strokes_feed_what_sprags_without_inertia_feed() {
     }
 }
 
+/// A race that stands when the driving one turns back has not moved: no rounding is shown.
+#[test]
+fn a_race_that_stands_does_not_run_on() {
+    for hz in [1.0, 3.0, 4.0, 5.0] {
+        let runs_on = found(&case(hz)).runs_on_rad;
+        assert!(runs_on == 0.0 || runs_on.abs() > 1e-10 * case(hz).stroke_rad, "{hz}: {runs_on:e}");
+    }
+}
+
 #[test]
 fn nothing_is_fed_without_a_brake_that_lets_go() {
     // More than the stroke winds the clutch up to: the fed race never moves.
@@ -121,8 +130,9 @@ fn the_library_refuses_what_no_drive_does() {
         FeedSettings { inertia_kg_m2: Some(-1.0), ..usual() },
         FeedSettings { allowed_rad: f64::INFINITY, ..usual() },
         FeedSettings { brake_nm: Some(-1.0), ..usual() },
+        FeedSettings { brake_nm: Some(0.0), ..usual() },
     ] {
-        assert!(matches!(refused(settings.clone()), NoFeed::Refused(_)), "{settings:?}");
+        assert!(matches!(refused(settings.clone()), NoFeed::Refused { .. }), "{settings:?}");
     }
     assert!(matches!(refused(FeedSettings { brake_nm: Some(1e5), ..usual() }), NoFeed::Beyond(_)));
 }
@@ -139,7 +149,22 @@ fn the_command_answers_and_refuses() {
     assert_eq!(answer["frequencies"][1]["held"], false);
     let limit_hz = answer["limit_hz"].as_f64().unwrap();
     assert!(limit_hz > 1.0 && limit_hz < 10.0, "{limit_hz}");
-    for bad in [&["--stroke", "0"][..], &["--stroke", "400"], &["--stroke", "30", "--frequency", "5,2"]] {
-        assert_eq!(feed(bad).status.code(), Some(2), "{bad:?}");
+    let said = answer["verdict"].as_str().unwrap();
+    assert!(said.contains("first fails beyond") && !said.contains("as it should"), "{said}");
+    // What was found, and what is allowed.
+    for (bad, found, allowed) in [
+        (&["--stroke", "0"][..], "0", "above zero"),
+        (&["--stroke", "400"], "400 deg", "360 deg"),
+        (&["--stroke", "30", "--frequency", "5,2"], "5, 2 Hz", "each above"),
+        (&["--stroke", "30", "--brake", "0"], "0 Nm", "above 0"),
+        (&["--stroke", "30", "--brake", "1e5"], "100000 Nm", "up to"),
+    ] {
+        let refused = feed(bad);
+        let words = String::from_utf8_lossy(&refused.stderr).replace("\n  │ ", " ");
+        assert_eq!(refused.status.code(), Some(2), "{bad:?}");
+        assert!(words.contains(found) && words.contains(allowed), "{bad:?}: {words}");
     }
+    // The inertia of the file is named as such.
+    let by_file = stdout(&feed(&["--stroke", "30", "--brake", "100", "--frequency", "1"]));
+    assert!(by_file.contains("races.inner_inertia_kg_m2"), "{by_file}");
 }

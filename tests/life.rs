@@ -191,6 +191,46 @@ fn loads_add_up_and_a_history_is_its_peaks() {
     assert_eq!(of(&same, LifePlace::InnerTrack), of(&same, LifePlace::SpragInside));
 }
 
+/// A scenario that goes on for hours is a load from the least to the largest torque that the clutch carries in it, once a period.
+#[test]
+fn a_swing_is_an_engagement_in_each_period() {
+    const LOADS: &str = "loads = [ { torque_nm = 600.0, engagements = 2e3 } ]            # a jam\n";
+    let scene = "\n[[scenarios]]\nname = \"hum\"\nkind = \"torsional-excitation\"\npreload_nm = 300.0\namplitude_nm = 30.0\n\
+                 frequency_hz = 20.0\nabutment_stiffness_nm_per_rad = 50.0\nduration_s = 0.1\n";
+    let with = |loads: &str, scene: &str| {
+        let text = std::fs::read_to_string(FILE).unwrap().replace(HISTORY, "").replace(LOADS, loads);
+        Design::parse(&format!("{text}{scene}"), FILE)
+    };
+    let swings = with("swings = [ { scenario = \"hum\", hours = 50.0 } ]\n", scene).unwrap();
+    let answer = swings.life().unwrap();
+    let [swung] = answer.swung.as_slice() else { panic!("{:?}", answer.swung) };
+    let [load] = answer.life.loads.as_slice() else { panic!("{:?}", answer.life.loads) };
+    assert_eq!((load.torque_nm, load.engagements), (swung.load.torque_nm, 20.0 * 50.0 * 3600.0));
+    // On a soft abutment the swing of the torque goes through the clutch, more or less of it by what the races do.
+    let (low, high) = (swung.load.from_nm, swung.load.torque_nm);
+    assert!(low > 200.0 && low < 299.0 && high > 301.0 && high < 400.0, "{low} {high}");
+    assert!((0.5 * (low + high) - 300.0).abs() < 1.0, "{low} {high}");
+    // The rings swing between both, so that they bear more than from nothing.
+    let same = format!("loads = [ {{ torque_nm = {high:?}, engagements = {:?} }} ]\n", load.engagements);
+    let from_nothing = with(&same, scene).unwrap();
+    let from_nothing = from_nothing.life().unwrap();
+    for place in LifePlace::ALL {
+        let [swing, whole] = [&answer, &from_nothing].map(|a| of(&a.life, place));
+        assert!(
+            if place.race().is_some() { swing < whole } else { swing == whole },
+            "{place:?} {swing} {whole}"
+        );
+    }
+    let text = |answer: &sprag_design::answer::life::LifeAnswer<'_>| answer.text(Default::default());
+    assert!(!text(&answer).contains("Not counted") && text(&from_nothing).contains("Not counted: hum"));
+    // What does not swing is refused with what does, what does not roll on by name.
+    let said = with("swings = [ { scenario = \"hum-\", hours = 1.0 } ]\n", scene).unwrap_err().to_string();
+    assert!(said.contains("allowed: hum"), "{said}");
+    let wild = scene.replace("amplitude_nm = 30.0", "amplitude_nm = 30000.0");
+    let wild = with("swings = [ { scenario = \"hum\", hours = 1.0 } ]\n", &wild).unwrap();
+    assert!(wild.life().unwrap_err().to_string().contains("hum does not roll on and on"));
+}
+
 #[test]
 fn goodman_at_its_limits() {
     let ring = RingStrength { amplitude_pa: 300e6, cycles: 1e7, exponent: 8.0, ultimate_pa: 2e9 };

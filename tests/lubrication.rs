@@ -397,6 +397,23 @@ fn the_commands_answer_and_refuse() {
     assert!(String::from_utf8_lossy(&out.stderr).contains("[lubrication]"));
     assert_eq!(run(&["overrun", FILE, "--temperatures", "900"]).status.code(), Some(2));
     assert_eq!(run(&["overrun", FILE, "--speeds", "0"]).status.code(), Some(2));
+    // With the outer race the limits of the file name speeds too.
+    let outer = json(&run(&["overrun", FILE, "--race", "outer", "--json"]));
+    let speeds: Vec<f64> =
+        outer["lines"].as_array().unwrap().iter().filter_map(|l| l["speed_rpm"].as_f64()).collect();
+    assert!(speeds.iter().any(|rpm| (rpm - 4500.0).abs() < 1e-6), "{speeds:?}");
+    // A speed that was asked for is warned of; a usual one is passed.
+    let slow = stdout(&run(&["overrun", FILE, "--speeds", "5"]));
+    let usual = stdout(&run(&["overrun", FILE]));
+    assert!(slow.contains("Warning: steady overrun does not stay"), "{slow}");
+    assert!(!usual.contains("does not stay") && usual.contains("tenfold"), "{usual}");
+    // What a row is stands in each part of a table that is folded.
+    let answer = changed(&[]);
+    let answer = answer.overrun(&OverrunQuestion::default()).unwrap();
+    let folded = answer.films().to_text(sprag_design::report::Screen { colour: false, columns: Some(60) });
+    for part in folded.split("\n\n") {
+        assert!(part.contains("Oil,") && part.contains("Speed,"), "{folded}");
+    }
     let refused = |change: (&str, &str), key: &str, says: &str| {
         let text = std::fs::read_to_string(FILE).unwrap();
         assert!(text.contains(change.0));
@@ -409,6 +426,7 @@ fn the_commands_answer_and_refuse() {
     };
     refused(("\"ISO VG 32\"", "\"ISO VG 33\""), "lubrication.oil", "did you mean ISO VG 32?");
     refused(("\"ISO VG 32\"", "\"butter\""), "lubrication.oil", "sprag-design oils");
+    refused(("\"ISO VG 32\"", "\"butter\""), "lubrication.oil", "; grease, PAO VG 32");
     refused(("temperature_c = 60.0", "temperature_c = 600.0"), "lubrication.temperature_c", "250");
     refused(
         ("temperature_c = 60.0", "temperature_c = 60.0\nnu40_mm2_s = 4.0"),

@@ -169,26 +169,70 @@ fn simulate_says_whether_a_steady_overrun_stays() {
     assert!(value["growth_rate_per_s"].as_f64().unwrap().abs() < 1e-3 && !warned(&value), "{value}");
 }
 
+/// What `check` says of a clutch of Table 1 with that kinetic friction: JSON, terminal, and the table of overrun.
+fn checked(folder: &Folder, friction: &str, scene: &str) -> (serde_json::Value, String, String) {
+    let text = std::fs::read_to_string(MULTI).unwrap();
+    let head = text.split_once("[check]").unwrap().0.replace("kinetic = 0.09", friction);
+    let path = folder.path("check.toml");
+    std::fs::write(&path, head + scene).unwrap();
+    let csv = folder.path("overrun.csv");
+    let output = run(&["check", &path, "--json", "--quiet", "--overrun-csv", &csv]);
+    let csv = std::fs::read_to_string(csv).unwrap();
+    (json(&output), stdout(&run(&["check", &path, "--quiet"])), csv)
+}
+
+/// At its own speeds a swing grows: a warning. On the way there only: a note, which says how fast to pass.
 #[test]
-fn check_warns_that_keep_contact_is_static_where_the_swing_grows() {
+fn check_warns_of_the_speeds_that_the_design_names() {
     let folder = Folder::new();
-    let checked = |friction: &str| {
-        let text = std::fs::read_to_string(MULTI).unwrap();
-        let head = text.split_once("[check]").unwrap().0.replace("kinetic = 0.09", friction);
-        let path = folder.path("check.toml");
-        std::fs::write(&path, head).unwrap();
-        let csv = folder.path("overrun.csv");
-        let output = run(&["check", &path, "--json", "--quiet", "--overrun-csv", &csv]);
-        assert!(std::fs::read_to_string(csv).unwrap().contains("growth_rate_per_s"));
-        (json(&output), stdout(&run(&["check", &path, "--quiet"])))
-    };
-    let (value, text) = checked("kinetic = 0.09");
+    let slow =
+        "\n[[scenarios]]\nname = \"creeps\"\nkind = \"overrun\"\nspeed_rpm = 0.0\noverrun_rpm = 20.0\n";
+    let (value, text, _) = checked(&folder, "kinetic = 0.09", slow);
     let row = value["margins"].as_array().unwrap().iter().find(|r| r["code"] == "keep-contact").unwrap();
     let warning = value["overrun"]["warning"].as_str().unwrap();
     assert!(row["held"] == true && warning.contains("keep-contact"), "{row} {warning}");
-    assert!(text.contains(warning), "{text}");
+    assert!(
+        warning.contains("at 20 rpm of the inner race (creeps)") && text.contains(warning),
+        "{warning} {text}"
+    );
+    assert!(value["overrun"]["passing"].is_null());
+    let named = value["overrun"]["named"].as_array().unwrap();
+    let creeps = named.iter().find(|n| n["by"] == "creeps").unwrap();
+    assert!(creeps["growth_rate_per_s"].as_f64().is_some_and(|g| g > 1.0), "{creeps}");
+    // keep_contact_to_rpm alone, far above where friction falls with speed.
+    let (value, text, _) = checked(&folder, "kinetic = 0.09", "");
+    let (warning, passing) = (&value["overrun"]["warning"], &value["overrun"]["passing"]);
+    assert!(warning.is_null() && !text.contains("does not stay"), "{warning}");
+    let passing = passing.as_str().unwrap();
+    assert!(
+        passing.starts_with("Note: up to ") && passing.contains("tenfold in") && text.contains(passing),
+        "{text}"
+    );
+    // The criterion: tenfold within a second where it grows fastest among the speeds looked at.
     let points = value["overrun"]["points"].as_array().unwrap();
-    assert!(points.iter().any(|p| p["growth_rate_per_s"].as_f64().is_some_and(|g| g > 1.0)));
-    let (value, text) = checked("kinetic = 0.12");
-    assert!(value["overrun"]["warning"].is_null() && !text.contains("does not stay"), "{text}");
+    let growth = |p: &serde_json::Value| p["growth_rate_per_s"].as_f64().unwrap_or(0.0);
+    let most = points.iter().filter(|p| p["race"] == "inner" || p["speed_rpm"].as_f64() <= Some(4500.0));
+    let most = most.map(growth).fold(0.0, f64::max);
+    assert!(most > std::f64::consts::LN_10, "{most}");
+    let tenfold = format!("tenfold in {:.0} ms", 1e3 * std::f64::consts::LN_10 / most);
+    assert!(passing.contains(&tenfold), "{passing} {tenfold}");
+    let (value, text, _) = checked(&folder, "kinetic = 0.12", "");
+    assert!(value["overrun"]["warning"].is_null() && value["overrun"]["passing"].is_null());
+    assert!(!text.contains("does not stay") && !text.contains("tenfold"), "{text}");
+}
+
+/// What differences cannot tell from nothing is nothing, and speeds that show the same are one row to people.
+#[test]
+fn rounding_is_no_growth() {
+    let folder = Folder::new();
+    let (value, _, csv) = checked(&folder, "kinetic = 0.12", "");
+    let points = value["overrun"]["points"].as_array().unwrap();
+    let growths: Vec<f64> = points.iter().filter_map(|p| p["growth_rate_per_s"].as_f64()).collect();
+    assert!(growths.len() > 20 && growths.iter().all(|g| *g == 0.0), "{growths:?}");
+    let page = folder.path("page.html");
+    run(&["check", &folder.path("check.toml"), "--quiet", "--report", &page]);
+    let page = std::fs::read_to_string(page).unwrap();
+    let shown = page.matches("<td>inner</td>").count();
+    let all = csv.lines().filter(|line| line.starts_with("inner,")).count();
+    assert!(all > 25 && (2..10).contains(&shown), "{shown} of {all}");
 }

@@ -61,7 +61,7 @@ fn a_rolling_state_is_that_of_scipy() {
         let size = |k: usize| orbit.multipliers[k][0].hypot(orbit.multipliers[k][1]);
         close(size(0), v[8], 1e-4, "largest multiplier");
         close(size(3), v[9], 1e-4, "smallest multiplier");
-        assert!(orbit.is_stable());
+        assert_eq!((orbit.is_stable(), orbit.neutral_multiplier()), (Some(true), None));
     }
 }
 
@@ -177,6 +177,52 @@ fn a_small_amplitude_is_the_linear_forced_response() {
     }
 }
 
+/// Both races together on a soft abutment: a swing that nothing damps is no instability; what decides is the clutch's own.
+///
+/// The damper sits between the races. Of the swing of both on the abutment they take r = k_ab J_i/(k J) of it against one
+/// another, J = J_i + J_e, so its multipliers have the magnitude exp(-c r^2 T/(2 J)).
+#[test]
+fn races_that_swing_together_are_no_instability() {
+    let hertz = 100.0;
+    let found = |abutment: f64| {
+        let scene = scene(SINGLE, "low-6", 1.0, hertz, abutment);
+        let (prepared, found) = steady(&scene);
+        let races = &scene.clutch.races;
+        let ScenarioKind::TorsionalExcitation { preload_nm, .. } = scene.kind else { panic!() };
+        let share = abutment / prepared.model.curve.at_torque(preload_nm).unwrap().k_tangent_nm_per_rad;
+        let inertia = races.inner_inertia_kg_m2 + races.outer_inertia_kg_m2;
+        let share = share * races.inner_inertia_kg_m2 / inertia;
+        let lost = races.viscous_damping_nm_s_per_rad * share * share / (2.0 * inertia * hertz);
+        let orbit = found.motion.unwrap();
+        println!("{abutment}: {:?} ± {:.1e}, lost {lost:.1e}", orbit.multipliers, orbit.multiplier_error);
+        (orbit, lost)
+    };
+    // So much is lost that it can be told: no neutral pair, and that swing decides.
+    let (stiffer, lost) = found(20.0);
+    assert!(lost > 3.0 * stiffer.multiplier_error && stiffer.neutral_multiplier().is_none(), "{lost}");
+    let off = (1.0 - stiffer.deciding_multiplier()) / lost - 1.0;
+    assert!(off.abs() < 0.05 && stiffer.is_stable() == Some(true), "{off}");
+    let (orbit, lost) = found(5.0);
+    let neutral = orbit.neutral_multiplier().unwrap();
+    assert!((1.0 - neutral - lost).abs() < 0.2 * lost && lost < orbit.multiplier_error, "{neutral} {lost}");
+    assert!((1e-7..1e-3).contains(&orbit.multiplier_error), "{}", orbit.multiplier_error);
+    assert!(orbit.is_stable() == Some(true) && orbit.deciding_multiplier() < 0.99, "{:?}", orbit.multipliers);
+    // Farther from where the start leads to than a Newton step may be long at first.
+    assert!(found(1.0).0.neutral_multiplier().is_some());
+    // A pair beyond its error grows; one number at 1 is a border of which nothing can be told.
+    let with = |first: [[f64; 2]; 2]| {
+        let rest = orbit.multipliers[2..].iter().copied();
+        let multipliers = first.into_iter().chain(rest).collect();
+        dynamics::Orbit { multipliers, ..orbit.clone() }
+    };
+    let grows = 1.0 + 10.0 * orbit.multiplier_error;
+    let (re, im) = (grows * 0.3_f64.cos(), grows * 0.3_f64.sin());
+    let unstable = with([[re, im], [re, -im]]);
+    assert_eq!((unstable.is_stable(), unstable.neutral_multiplier()), (Some(false), None));
+    assert!((unstable.deciding_multiplier() - grows).abs() < 1e-12);
+    assert_eq!(with([[1.0, 0.0], [0.5, 0.0]]).is_stable(), None);
+}
+
 #[test]
 fn what_has_no_periodic_state_says_so() {
     let loose = scene(MULTI, "high-6", 6.0, 100.0, 5000.0);
@@ -225,7 +271,7 @@ fn a_map_is_the_same_on_one_thread_and_on_two() {
             s.kind,
             s.required_friction,
             s.is_stable(),
-            s.motion.as_ref().map(|o| (o.run.inner.distance_m, o.largest_multiplier())),
+            s.motion.as_ref().map(|o| (o.run.inner.distance_m, o.deciding_multiplier())),
             s.periods,
             c.other.as_ref().map(|o| o.kind)
         );
@@ -296,10 +342,30 @@ fn the_command_in_every_form() {
     assert!(stdout(&map).contains("of 6 states roll"), "{}", stdout(&map));
     assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 7);
     assert!(is_self_contained(page).contains("What the clutch does"));
+    // One row; and a state is told line by line, by the words of simulate.
+    let row =
+        [&args[..], &["--frequency", "60:120", "--amplitude", "2", "--points", "3x1", "--json"]].concat();
+    assert_eq!(json(&run(&row))["states"].as_array().unwrap().len(), 3);
+    let beyond = run(&[&args[..], &["--amplitude", "4000", "--quiet"]].concat());
+    let last = stdout(&beyond).lines().last().unwrap().to_owned();
+    assert!(beyond.status.code() == Some(0) && !stdout(&beyond).contains("State      ends"), "{beyond:?}");
+    assert!(
+        ["overloaded: ", "disengages: ", "lifts off"].iter().any(|word| last.starts_with(word)),
+        "{last}"
+    );
+    // A drivetrain has motions of its own.
+    let train = folder.changed(
+        MULTI,
+        &[("[check]", "[[drivetrain]]\nname = \"rotor\"\nto = \"outer-race\"\ninertia_kg_m2 = 1.0\nstiffness_nm_per_rad = 1e5\n\n[check]")],
+    );
+    let refused = run(&["resonance", &train, "--scenario", "high-6"]);
+    let said = String::from_utf8_lossy(&refused.stderr).replace("\n  │ ", " ");
+    assert!(refused.status.code() == Some(2) && said.contains("motions of their own"), "{said}");
     for (wrong, word) in [
         (["--frequency", "9:3"], "rises"),
         (["--amplitude", "0"], "above zero"),
         (["--points", "0x3"], "NxM"),
+        (["--frequency=60:120", "--points=1x1"], "--frequency asks for 60:120"),
         (["--tolerance", "1"], "1e-9"),
         (["--scenario", "rated"], "did you mean"),
     ] {

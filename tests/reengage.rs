@@ -4,8 +4,9 @@
 mod program;
 
 use program::*;
+use sprag_design::answer::reengagement::ReengagementSettings;
 use sprag_design::dynamics::Stop;
-use sprag_design::reengage::{Blow, Blows, SlipUnderLoad, blows, by_energy_nm};
+use sprag_design::reengage::{Blow, Blows, SlipUnderLoad, blows, by_energy_nm, taken_up_j};
 use sprag_design::{Design, Follow, WedgeCurve};
 
 const FILE: &str = "designs/starter.toml";
@@ -49,6 +50,68 @@ fn the_torque_by_energy_holds_that_energy() {
         assert!((work / energy_j - 1.0).abs() < 1e-3, "{torque_nm} {energy_j}: {work}");
     }
     assert_eq!(by_energy_nm(&curve, 50.0, 1e6), None);
+    for until_nm in [60.0, 400.0, 1500.0] {
+        let energy_j = taken_up_j(&curve, 50.0, until_nm).unwrap();
+        let back_nm = by_energy_nm(&curve, 50.0, energy_j).unwrap();
+        assert!((back_nm / until_nm - 1.0).abs() < 1e-9, "{until_nm} {back_nm}");
+    }
+    let end_j = taken_up_j(&curve, 50.0, f64::INFINITY).unwrap();
+    assert!(by_energy_nm(&curve, 50.0, 0.999 * end_j).is_some());
+    assert!(by_energy_nm(&curve, 50.0, 1.001 * end_j).is_none());
+}
+
+fn settings(friction: f64, paths_m: &[f64]) -> ReengagementSettings {
+    ReengagementSettings {
+        torque_nm: Some(50.0),
+        inertia_kg_m2: [Some(0.05); 2],
+        friction: Some(friction),
+        paths_m: paths_m.to_vec(),
+        ..ReengagementSettings::default()
+    }
+}
+
+/// Where a blow is not borne, what would be: a little less is borne, a little more is not.
+#[test]
+fn what_is_borne_is_the_border() {
+    let design = Design::read(FILE.as_ref()).unwrap();
+    let answer = design.reengagement(&settings(0.06, &[1e-3, 0.1])).unwrap();
+    let borne = answer.borne.unwrap();
+    let path_m = borne.path_m.unwrap();
+    let held =
+        |friction: f64, path_m: f64| design.reengagement(&settings(friction, &[path_m])).unwrap().held();
+    assert!((1e-3..0.1).contains(&path_m) && borne.friction == Some(0.06), "{borne:?}");
+    assert!(held(0.06, path_m) && !held(0.06, 1.01 * path_m), "{path_m}");
+    // So little friction that the sprags are thrown out, however short the slip.
+    let light = |friction: f64| ReengagementSettings {
+        inertia_kg_m2: [Some(5.55e-4), Some(4.31e-3)],
+        ..settings(friction, &[1e-3])
+    };
+    let thrown = design.reengagement(&light(0.03)).unwrap();
+    let from = thrown.borne.unwrap().friction.unwrap();
+    let holds = |friction: f64| design.reengagement(&light(friction)).unwrap().held();
+    assert!(!thrown.held() && from < thrown.found.needs && holds(from) && !holds(0.995 * from), "{from}");
+    // Held: nothing more is asked.
+    assert!(design.reengagement(&settings(0.06, &[1e-3])).unwrap().borne.is_none());
+    // The energy is that of the motion, and its share that of the windup up to the limit.
+    let body = answer.envelope(0.0).body;
+    let blow = &body["blows"][0];
+    let speed = blow["speed_rpm"].as_f64().unwrap() * std::f64::consts::PI / 30.0;
+    assert!((blow["energy_j"].as_f64().unwrap() / (0.5 * 0.025 * speed * speed) - 1.0).abs() < 1e-12);
+    assert!(body["bears_j"].as_f64().unwrap() < body["end_of_curve_j"].as_f64().unwrap(), "{body}");
+}
+
+/// The races run as the file lets them where they carry torque; overrun does not count.
+#[test]
+fn the_speed_is_that_of_the_file() {
+    let speed = |file: &str, given: Option<f64>| {
+        let design = Design::read(file.as_ref()).unwrap();
+        let asked = ReengagementSettings { speed_rad_s: given, ..ReengagementSettings::default() };
+        let body = design.reengagement(&asked).unwrap().envelope(0.0).body;
+        (body["speed_rpm"].as_f64().unwrap().round(), body["speed_of"].is_string())
+    };
+    assert_eq!(speed(FILE, None), (0.0, false));
+    assert_eq!(speed("designs/two-speed-rotor.toml", None), (3000.0, true));
+    assert_eq!(speed("designs/two-speed-rotor.toml", Some(0.0)), (0.0, false));
 }
 
 /// Nothing comes from nowhere: slip while the load rises takes a little, the sprags' own motion brings a little.

@@ -270,7 +270,7 @@ impl Design {
         })?;
         answer.unwrap_or_else(|why| match why {
             NoLife::NoClutch(why) => Err(errors::no_clutch(py, &why)),
-            NoLife::NoService { .. } => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
+            NoLife::NoService { .. } | NoLife::NoSwing { .. } => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
         })
     }
 
@@ -308,7 +308,7 @@ impl Design {
         inertia_kg_m2: [Option<f64>; 2],
         outer_held: Option<bool>,
         friction: Option<f64>,
-        speed_rpm: f64,
+        speed_rpm: Option<f64>,
         paths_mm: Option<Vec<f64>>,
     ) -> PyResult<(String, String)> {
         let (design, stop) = (Arc::clone(&self.design), Follow::new());
@@ -318,7 +318,7 @@ impl Design {
             inertia_kg_m2,
             outer_held,
             friction,
-            speed_rad_s: speed_rpm * PI / 30.0,
+            speed_rad_s: speed_rpm.map(|rpm| rpm * PI / 30.0),
             paths_m: paths_mm.map_or(usual.paths_m, |list| list.iter().map(|mm| 1e-3 * mm).collect()),
             follow: stop.clone(),
         };

@@ -11,7 +11,7 @@ use crate::feed::{Fed, Strokes, fed};
 use crate::follow::Follow;
 use crate::margin::load_state;
 use crate::report::plot::Curve;
-use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
+use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, plain, significant};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::fmt;
@@ -25,7 +25,7 @@ pub struct FeedSettings {
     pub frequencies_hz: Vec<f64>,
     /// Torque of the brake on the fed race, N m; `None`: the nominal torque of `[limits]`.
     pub brake_nm: Option<f64>,
-    /// What turns with the fed race, this included, kg m^2; `None`: the race alone.
+    /// What turns with the fed race, this included, kg m^2; `None`: the inertia of that race in the design.
     pub inertia_kg_m2: Option<f64>,
     /// Whether the inner race drives; else the outer one.
     pub inner_drives: bool,
@@ -55,6 +55,8 @@ pub struct FeedAnswer<'a> {
     design: &'a Design,
     /// What was asked, at the first of the frequencies.
     pub case: Strokes,
+    /// Whether its inertia was given; else it is that of the file.
+    pub inertia_given: bool,
     /// By how much a stroke may feed more or less than slow ones, rad.
     pub allowed_rad: f64,
     /// What slow strokes feed less than the stroke by statics: the windup at the torque of the brake, rad.
@@ -63,7 +65,8 @@ pub struct FeedAnswer<'a> {
     pub list: Vec<Fed>,
     /// Frequencies that were asked for.
     pub asked: usize,
-    /// Up to this frequency, Hz, it feeds as it should; where that ends within those asked for.
+    /// The frequency, Hz, at which it first ceases to feed as it should on the way up, where that lies between two that were asked for; it
+    /// may do so again beyond.
     pub limit_hz: Option<f64>,
     /// Peak torque that every limit bears, N m, and the limit that sets it.
     pub bears: Option<(f64, String)>,
@@ -74,21 +77,29 @@ pub struct FeedAnswer<'a> {
 pub enum NoFeed {
     /// The clutch cannot begin so.
     NoStart(NoElement),
-    /// The torque of the brake is not on the curve: it ends at this one, N m.
-    Beyond(f64),
-    /// A setting makes no sense: what is allowed.
-    Refused(&'static str),
+    /// The torque of the brake, N m, is not on the curve, which ends at the second one.
+    Beyond([f64; 2]),
+    /// A setting makes no sense: what was found, and what is allowed.
+    Refused {
+        /// The setting, its value and unit.
+        found: String,
+        /// What is allowed.
+        allowed: &'static str,
+    },
 }
 
 impl fmt::Display for NoFeed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoStart(why) => why.fmt(f),
-            Self::Beyond(end_nm) => {
-                let end = Unit::NewtonMetre.show(*end_nm, 4);
-                write!(f, "the clutch carries {end} at most: the brake must ask for less")
+            Self::Beyond(both) => {
+                let [found, end] = both.map(|nm| Unit::NewtonMetre.show(nm, 4));
+                write!(
+                    f,
+                    "found a brake of {found}; allowed: above 0 and up to {end}, the most that the clutch carries"
+                )
             }
-            Self::Refused(allowed) => write!(f, "allowed: {allowed}"),
+            Self::Refused { found, allowed } => write!(f, "found {found}; allowed: {allowed}"),
         }
     }
 }
@@ -98,6 +109,11 @@ impl std::error::Error for NoFeed {}
 /// A figure of strokes that came to their end.
 fn known(fed: &Fed, rad: f64) -> Option<f64> {
     fed.ended.is_none().then_some(rad)
+}
+
+/// A number as it may have been typed.
+fn typed(value: f64) -> String {
+    plain(value, 9)
 }
 
 /// Halvings of a ratio of frequencies between one that is held and one that is not.
@@ -120,29 +136,48 @@ impl Design {
             inertia_kg_m2: settings.inertia_kg_m2.unwrap_or(own),
             inner_drives: settings.inner_drives,
         };
+        let refused = |found: String, allowed: &'static str| Err(NoFeed::Refused { found, allowed });
         if !positive(case.stroke_rad) || case.stroke_rad > TAU {
-            return Err(NoFeed::Refused("a stroke above 0 and up to 360 deg"));
-        } else if !(case.brake_nm.is_finite() && case.brake_nm >= 0.0) {
-            return Err(NoFeed::Refused("a torque of the brake of 0 or more"));
+            let found = format!("a stroke of {} deg", typed(Unit::Degree.from_si(case.stroke_rad)));
+            return refused(found, "above 0 and up to 360 deg");
+        } else if !positive(case.brake_nm) {
+            let found = format!("a brake of {} Nm", typed(case.brake_nm));
+            return refused(
+                found,
+                "above 0, given or as nominal_torque_nm in [limits]: without a brake nothing stops the fed race",
+            );
         } else if !positive(case.inertia_kg_m2) {
-            return Err(NoFeed::Refused("an inertia above 0"));
+            return refused(format!("an inertia of {} kg m²", typed(case.inertia_kg_m2)), "above 0");
         } else if !positive(settings.allowed_rad) {
-            return Err(NoFeed::Refused("an allowed difference above 0"));
+            let found =
+                format!("an allowed difference of {} deg", typed(Unit::Degree.from_si(settings.allowed_rad)));
+            return refused(found, "above 0");
         } else if list.is_empty()
             || !list.windows(2).all(|w| w[0] < w[1])
             || !list.iter().all(|f| (1e-3..=1e4).contains(f))
         {
-            return Err(NoFeed::Refused("frequencies of 0.001 to 10000 Hz, each above the one before"));
+            let each: Vec<String> = list.iter().map(|hz| typed(*hz)).collect();
+            let found = if each.is_empty() {
+                "no frequency".to_owned()
+            } else {
+                format!("frequencies of {} Hz", each.join(", "))
+            };
+            return refused(found, "0.001 to 10000 Hz, each above the one before");
         }
         let state = load_state(self).ok();
         let windup = |state: &crate::margin::LoadState| {
-            state.curve.at_torque(case.brake_nm).map(|p| p.windup_rad).ok_or(state.curve.end_torque_nm())
+            state
+                .curve
+                .at_torque(case.brake_nm)
+                .map(|p| p.windup_rad)
+                .ok_or([case.brake_nm, state.curve.end_torque_nm()])
         };
         let windup_rad = state.as_ref().map_or(Ok(0.0), windup).map_err(NoFeed::Beyond)?;
         let bears = state.and_then(|state| peak_torque_borne(self, &state));
         let mut found = FeedAnswer {
             design: self,
             case,
+            inertia_given: settings.inertia_kg_m2.is_some(),
             allowed_rad: settings.allowed_rad,
             windup_rad,
             list: Vec::new(),
@@ -248,11 +283,26 @@ impl<'a> FeedAnswer<'a> {
                 }
                 _ => format!("at {} the strokes were not followed to their end", hertz(fed.frequency_hz)),
             });
+        let lost = self.list.iter().position(|fed| !self.feeds(fed)).unwrap_or(0);
+        let held: Vec<String> = self.list[lost..]
+            .iter()
+            .filter(|fed| self.feeds(fed))
+            .map(|fed| hertz(fed.frequency_hz))
+            .collect();
+        let again = if held.is_empty() {
+            String::new()
+        } else {
+            format!(", and is held again at {}", held.join(", "))
+        };
         match self.limit_hz {
-            Some(limit) => format!("NOT HELD: {why}; it feeds as it should up to {}", hertz(limit)),
-            None => {
-                format!("NOT HELD: {why}, the slowest that was asked for is {}", hertz(first.frequency_hz))
+            Some(limit) => {
+                format!(
+                    "NOT HELD: {why}; on the way up from {} it first fails beyond {}{again}",
+                    hertz(first.frequency_hz),
+                    hertz(limit)
+                )
             }
+            None => format!("NOT HELD: {why}, already at the slowest that was asked for{again}"),
         }
     }
 
@@ -261,8 +311,8 @@ impl<'a> FeedAnswer<'a> {
         Rows::of(&self.list)
             .number("frequency_hz", "Strokes", Unit::Hertz, 4, |f| f.frequency_hz)
             .number("feed_deg", "Feed", Unit::Degree, 6, |f| known(f, f.feed_rad))
-            .number("error_deg", "Less stroke", Unit::Degree, 4, |f| known(f, f.error_rad))
-            .number("off_deg", "Less slow strokes", Unit::Degree, 3, |f| known(f, self.off_rad(f)))
+            .number("error_deg", "Feed − stroke", Unit::Degree, 4, |f| known(f, f.error_rad))
+            .number("off_deg", "Against slow ones", Unit::Degree, 3, |f| known(f, self.off_rad(f)))
             .number("runs_on_deg", "Runs on", Unit::Degree, 3, |f| known(f, f.runs_on_rad))
             .number("unlike_deg", "Unlike", Unit::Degree, 2, |f| known(f, f.unlike_rad))
             .number("peak_torque_nm", "Torque", Unit::NewtonMetre, 4, |f| f.peak.map(|p| p.torque_nm))
@@ -278,9 +328,15 @@ impl<'a> FeedAnswer<'a> {
     fn remarks(&self) -> Vec<String> {
         let case = &self.case;
         let [driving, race] = if case.inner_drives { ["inner", "outer"] } else { ["outer", "inner"] };
+        let whose = match self.inertia_given {
+            true => "with all that turns with it".to_owned(),
+            false => format!(
+                "by the file (races.{race}_inertia_kg_m2, which new writes as a guess; absent: the ring alone; --inertia says another)"
+            ),
+        };
         vec![
             format!(
-                "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m² with all that turns with it, stands under a brake of {}",
+                "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m² {whose}, stands under a brake of {}",
                 Unit::Degree.show(case.stroke_rad, 4),
                 significant(case.inertia_kg_m2, 4),
                 Unit::NewtonMetre.show(case.brake_nm, 4),
@@ -291,7 +347,7 @@ impl<'a> FeedAnswer<'a> {
                 Unit::Degree.show(self.windup_rad, 4),
                 Unit::Hertz.show(self.case.runs_on_from_hz(), 3)
             ),
-            "Runs on: turn of the fed race after the driving one has turned back; unlike: last stroke against the one before; torque: largest, by \
+            "Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (negative: less); runs on: turn of the fed race after the driving one has turned back; unlike: last stroke against the one before; torque: largest, by \
              the normal force; open: time of a stroke without contact at the inner race"
                 .to_owned(),
         ]
@@ -354,13 +410,13 @@ impl<'a> FeedAnswer<'a> {
             done.map(|f| [f.frequency_hz, Unit::Degree.from_si(of(f))]).collect()
         };
         if self.list.iter().filter(|f| f.ended.is_none()).count() > 1 {
-            let mut plot = Plot::new("Strokes a second, Hz", "Feed less stroke, deg");
+            let mut plot = Plot::new("Strokes a second, Hz", "Feed − stroke, deg");
             plot.log_x = true;
-            plot.curves.push(Curve::new("feed less stroke", points(&|f| f.error_rad)));
+            plot.curves.push(Curve::new("feed − stroke", points(&|f| f.error_rad)));
             plot.curves.push(Curve::new("slow strokes: windup", points(&|_| -self.windup_rad)));
             page.figure(&plot.to_figure(), "What a stroke feeds more or less than the driving race turns.");
         }
-        page.table("Each frequency.", &self.frequencies());
+        page.table("Each frequency. Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (both negative: less).", &self.frequencies());
         self.envelope(provenance.run_time_s).close(&mut page);
         page
     }

@@ -2,21 +2,38 @@
 
 use super::left_out::{LeftOut, left_out};
 use super::page::opened;
+use super::resonance::NoResonance;
 use super::{Envelope, Provenance};
-use crate::clutch::Service;
+use crate::clutch::{RepeatedLoad, RepeatedSwing, Service};
 use crate::design::Design;
 use crate::life::{INDENTING_PA, Life, LifePlace, Used, life, part_at};
 use crate::margin::{NoMargins, load_state};
 use crate::report::plot::Curve;
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Tone, Unit, significant};
+use crate::scenario::{MotionKind, Settings, prepare, steady_motion};
 use serde_json::{Value, json};
 use std::fmt;
+
+/// A scenario that goes on for some time, as a load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Swung {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// How long in the life, s.
+    pub duration_s: f64,
+    /// Hz.
+    pub frequency_hz: f64,
+    /// Torques between which the clutch swings, N m, and how often.
+    pub load: RepeatedLoad,
+}
 
 /// The life of a design.
 #[derive(Debug, Clone)]
 pub struct LifeAnswer<'a> {
     design: &'a Design,
     service: &'a Service,
+    /// The scenarios of the service.
+    pub swung: Vec<Swung>,
     /// The figures.
     pub life: Life,
 }
@@ -31,6 +48,13 @@ pub enum NoLife {
     },
     /// There is no clutch to speak of.
     NoClutch(NoMargins),
+    /// A scenario of the service has no motion that repeats and rolls.
+    NoSwing {
+        /// Its name.
+        scenario: String,
+        /// Why.
+        why: String,
+    },
 }
 
 impl fmt::Display for NoLife {
@@ -43,6 +67,11 @@ impl fmt::Display for NoLife {
                 example(*torque_nm)
             ),
             Self::NoClutch(why) => why.fmt(f),
+            Self::NoSwing { scenario, why } => write!(
+                f,
+                "life.swings: {scenario} does not roll on and on ({why}), so its peaks are no engagements that can be counted; \
+                 `sprag-design resonance` says more of it"
+            ),
         }
     }
 }
@@ -67,8 +96,41 @@ impl Design {
             .service
             .as_ref()
             .ok_or_else(|| NoLife::NoService { torque_nm: super::example_torque_nm(self) })?;
-        let life = life(self, service).map_err(NoLife::NoClutch)?;
-        Ok(LifeAnswer { design: self, service, life })
+        let swung: Vec<Swung> = service.swings.iter().map(|s| self.swung(s)).collect::<Result<_, _>>()?;
+        let loads = service.loads.iter().copied().chain(swung.iter().map(|s| s.load)).collect();
+        let life = life(self, &Service { loads, ..service.clone() }).map_err(NoLife::NoClutch)?;
+        Ok(LifeAnswer { design: self, service, swung, life })
+    }
+
+    /// The torques that the clutch carries in a scenario that swings, once its start is forgotten, and how often in the time given.
+    fn swung(&self, swing: &RepeatedSwing) -> Result<Swung, NoLife> {
+        let not = |why: String| NoLife::NoSwing { scenario: swing.scenario.clone(), why };
+        let scenario = self.scenario(&swing.scenario).ok_or_else(|| not("no such scenario".to_owned()))?;
+        let frequency_hz =
+            scenario.kind.frequency_hz().ok_or_else(|| not("it is no torsional excitation".to_owned()))?;
+        if !scenario.drivetrain.is_empty() {
+            return Err(not(NoResonance::Drivetrain.to_string()));
+        }
+        let prepared = prepare(scenario).map_err(|why| not(why.to_string()))?;
+        let found = steady_motion(&prepared, &Settings::default(), None);
+        let found = found.ok_or_else(|| not("it is no torsional excitation".to_owned()))?;
+        let torque_nm = |normal_n: f64| prepared.model.curve.at_normal(normal_n).map(|p| p.torque_nm);
+        match found.motion {
+            Ok(motion) if found.kind == MotionKind::Rolls => {
+                let peaks = motion.run.peaks;
+                let ends = torque_nm(peaks.normal_min_n).zip(torque_nm(peaks.normal_max_n));
+                let (from_nm, torque_nm) =
+                    ends.ok_or_else(|| not(MotionKind::Overloaded.name().to_owned()))?;
+                let engagements = frequency_hz * swing.duration_s;
+                Ok(Swung {
+                    scenario: swing.scenario.clone(),
+                    duration_s: swing.duration_s,
+                    frequency_hz,
+                    load: RepeatedLoad { from_nm, torque_nm, engagements },
+                })
+            }
+            _ => Err(not(found.kind.name().to_owned())),
+        }
     }
 }
 
@@ -106,7 +168,14 @@ impl<'a> LifeAnswer<'a> {
                 "lives": u.lives().filter(|l| l.is_finite()), "mostly_at_nm": u.mostly_nm,
             })
         });
+        let swings = self.swung.iter().map(|s| {
+            json!({
+                "scenario": s.scenario, "hours": s.duration_s / 3600.0, "frequency_hz": s.frequency_hz,
+                "from_nm": s.load.from_nm, "torque_nm": s.load.torque_nm, "engagements": s.load.engagements,
+            })
+        });
         let body = json!({
+            "swings": swings.collect::<Vec<_>>(), "swings_not_counted": self.not_counted().collect::<Vec<_>>(),
             "held": life.held(), "verdict": self.verdict(), "engagements": life.engagements,
             "largest_torque_nm": life.largest_nm, "expected_slips": life.slips, "slips_allowed": life.slips_allowed,
             "indents": life.indents(), "not_known": life.not_known().map(|place| place.names().0).collect::<Vec<_>>(),
@@ -126,7 +195,7 @@ impl<'a> LifeAnswer<'a> {
             ),
             LeftOut::new(
                 "dynamics",
-                "torques are taken as they are given, each engagement as slow",
+                "torques of loads and histories are taken as they are given, each engagement as slow; swings have the torques that the clutch carries",
                 "what `simulate` finds beyond the torque given: put its peak here",
             ),
             LeftOut::new(
@@ -264,6 +333,12 @@ impl<'a> LifeAnswer<'a> {
             .table()
     }
 
+    /// Scenarios that swing and that the service does not name.
+    fn not_counted(&self) -> impl Iterator<Item = &str> {
+        let swing = self.design.scenarios.iter().filter(|s| s.kind.frequency_hz().is_some());
+        swing.map(|s| s.name.as_str()).filter(|name| self.swung.iter().all(|s| s.scenario != *name))
+    }
+
     /// What the tables do not say.
     fn remarks(&self) -> Vec<String> {
         let life = &self.life;
@@ -306,6 +381,26 @@ impl<'a> LifeAnswer<'a> {
                 } else {
                     "where a sprag happens to stand"
                 }
+            ));
+        }
+        for s in &self.swung {
+            all.push(format!(
+                "{}: {} h at {} are {} engagements at {}, its peak as the clutch carries it (peaks above half of the largest: Tsubakimoto); the rings \
+                 swing up from {}",
+                s.scenario,
+                significant(s.duration_s / 3600.0, 4),
+                Unit::Hertz.show(s.frequency_hz, 4),
+                significant(s.load.engagements, 4),
+                Unit::NewtonMetre.show(s.load.torque_nm, 4),
+                Unit::NewtonMetre.show(s.load.from_nm, 4),
+            ));
+        }
+        let not_counted: Vec<&str> = self.not_counted().collect();
+        if let Some(first) = not_counted.first() {
+            all.push(format!(
+                "Not counted: {}, which would be an engagement in each period: swings = [{{ scenario = \"{first}\", hours = ... }}] in [life] counts \
+                 it, or a history",
+                not_counted.join(", ")
             ));
         }
         for history in &self.service.histories {

@@ -11,7 +11,7 @@ use crate::follow::Follow;
 use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state, lowest_capacity,
 };
-use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows};
+use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
 use crate::report::plot::Curve;
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use serde_json::{Value, json};
@@ -29,8 +29,8 @@ pub struct ReengagementSettings {
     pub outer_held: Option<bool>,
     /// Friction while it slips; `None`: [`SHORT`] of what the torque needs.
     pub friction: Option<f64>,
-    /// Speed of both races, rad/s.
-    pub speed_rad_s: f64,
+    /// Speed of both races, rad/s; `None`: the largest at which a scenario of the design carries torque.
+    pub speed_rad_s: Option<f64>,
     /// Paths of slip at the inner track, m.
     pub paths_m: Vec<f64>,
     /// Followed and stopped by.
@@ -44,7 +44,7 @@ impl Default for ReengagementSettings {
             inertia_kg_m2: [None; 2],
             outer_held: None,
             friction: None,
-            speed_rad_s: 0.0,
+            speed_rad_s: None,
             paths_m: vec![1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2],
             follow: Follow::nobody(),
         }
@@ -53,6 +53,22 @@ impl Default for ReengagementSettings {
 
 /// Share of the friction that a torque needs which a slip has where nothing is said.
 pub const SHORT: f64 = 0.95;
+
+/// What would be borne where a blow is not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Borne {
+    /// Longest path of slip at the friction given, m; `None`: not even [`SHORTEST_M`].
+    pub path_m: Option<f64>,
+    /// Friction from which on the shortest path asked for is borne; `None`: none below what the torque needs.
+    pub friction: Option<f64>,
+}
+
+/// Shortest path of slip that is tried, m.
+const SHORTEST_M: f64 = 1e-6;
+/// Halvings of a path, by its logarithm, and of a friction between what is borne and what is not.
+const HALVINGS: usize = 10;
+/// Share of the friction needed that is the largest tried: nearer to it a slip begins too slowly to be followed.
+const NEAREST: f64 = 0.999;
 
 /// A slip and its blows.
 #[derive(Debug, Clone)]
@@ -64,6 +80,12 @@ pub struct ReengagementAnswer<'a> {
     pub found: Blows,
     /// Peak torque that every limit bears, N m, and the limit that sets it.
     pub bears: Option<(f64, String)>,
+    /// Energy that the windup takes up from the torque carried to that one and to the end of the curve, J.
+    pub takes_up_j: Option<[f64; 2]>,
+    /// What would be borne, where a blow is not.
+    pub borne: Option<Borne>,
+    /// The scenario whose speed was taken; `None`: the speed was given, or the design names none.
+    pub speed_of: Option<&'a str>,
     /// Speed of the outer race, rad/s, at which the sprags lift off in overrun; `None`: they do not.
     pub lift_off_rad_s: Option<f64>,
 }
@@ -94,6 +116,18 @@ pub(super) fn peak_torque_borne(design: &Design, state: &LoadState) -> Option<(f
     lowest_capacity(&rows, |r| r.limit.when != When::Nominal).map(|(r, nm)| (nm, r.code()))
 }
 
+/// The scenario that carries torque at the largest speed, and that speed, rad/s; `None`: no such scenario turns.
+fn running(design: &Design) -> Option<(&str, f64)> {
+    let carries = design.scenarios.iter().filter(|s| !s.kind.is_overrun());
+    // An infinite mean speed stands for a history.
+    let speeds = carries.map(|s| (s.name.as_str(), s.mean_speed_rad_s()));
+    let known = speeds.filter(|(_, speed)| speed.is_finite() && *speed != 0.0);
+    known.fold(None, |most: Option<(&str, f64)>, one| match most {
+        Some(most) if most.1.abs() >= one.1.abs() => Some(most),
+        _ => Some(one),
+    })
+}
+
 impl Design {
     /// Slip under load and the blow when the clutch grips again, for each path of slip.
     ///
@@ -106,9 +140,10 @@ impl Design {
         let positive = |x: f64| x.is_finite() && x > 0.0;
         let races = &self.clutch.races;
         let own = [races.inner_inertia_kg_m2, races.outer_inertia_kg_m2];
+        let running = running(self).filter(|_| settings.speed_rad_s.is_none());
         let mut case = SlipUnderLoad {
             torque_nm: settings.torque_nm.or(self.limits.nominal_torque_nm).unwrap_or(0.0),
-            speed_rad_s: settings.speed_rad_s,
+            speed_rad_s: settings.speed_rad_s.or(running.map(|r| r.1)).unwrap_or(0.0),
             inertia_kg_m2: [0, 1].map(|race| settings.inertia_kg_m2[race].unwrap_or(own[race])),
             outer_held: settings
                 .outer_held
@@ -140,8 +175,28 @@ impl Design {
         let found = blows(&self.clutch, &case, &settings.follow).map_err(NoReengagement::NoStart)?;
         let lift_off = |state: &LoadState| lift_off_rad_s(self, state, LIFT_OFF_TO_RAD_S);
         let lift_off_rad_s = state.as_ref().and_then(lift_off);
-        let bears = state.and_then(|state| peak_torque_borne(self, &state));
-        Ok(ReengagementAnswer { design: self, case, found, bears, lift_off_rad_s })
+        let bears = state.as_ref().and_then(|state| peak_torque_borne(self, state));
+        let takes_up_j = state.and_then(|state| {
+            let up_to = |nm: f64| taken_up_j(&state.curve, case.torque_nm, nm);
+            let end_nm = state.curve.end_torque_nm();
+            let most_nm = bears.as_ref().map_or(end_nm, |(nm, _)| nm.min(end_nm)).max(case.torque_nm);
+            Some([up_to(most_nm)?, up_to(end_nm)?])
+        });
+        let speed_of = running.map(|r| r.0);
+        let mut answer = ReengagementAnswer {
+            design: self,
+            case,
+            found,
+            bears,
+            takes_up_j,
+            borne: None,
+            speed_of,
+            lift_off_rad_s,
+        };
+        if !answer.held() && !settings.follow.stopped() {
+            answer.borne = answer.borne(&settings.follow).map_err(NoReengagement::NoStart)?;
+        }
+        Ok(answer)
     }
 }
 
@@ -156,6 +211,86 @@ impl<'a> ReengagementAnswer<'a> {
         blow.peak.is_some_and(|p| p.torque_nm <= most_nm)
     }
 
+    /// Whether a slip of `path_m` at `friction` is borne; `None`: stopped.
+    fn one_is_borne(&self, friction: f64, path_m: f64, follow: &Follow) -> Result<Option<bool>, NoElement> {
+        let case = SlipUnderLoad { friction, paths_m: vec![path_m], ..self.case.clone() };
+        let found = blows(&self.design.clutch, &case, follow)?;
+        let borne = found.ended.is_none() && found.list.iter().all(|blow| self.bears_it(blow));
+        Ok((!follow.stopped()).then_some(borne))
+    }
+
+    /// What would be borne beside what was asked; `None`: nothing was found to vary, or it was stopped.
+    fn borne(&self, follow: &Follow) -> Result<Option<Borne>, NoElement> {
+        let (Some(&shortest_m), needs) = (self.case.paths_m.first(), self.found.needs) else {
+            return Ok(None);
+        };
+        if !needs.is_finite() {
+            return Ok(None);
+        }
+        let lost = self.found.list.iter().position(|blow| !self.bears_it(blow));
+        let lost = lost.unwrap_or(self.found.list.len()).min(self.case.paths_m.len() - 1);
+        let held_m = if lost > 0 { Some(self.case.paths_m[lost - 1]) } else { None };
+        let mut path_m = held_m;
+        if held_m.is_none() {
+            match self.one_is_borne(self.case.friction, SHORTEST_M, follow)? {
+                Some(true) => path_m = Some(SHORTEST_M),
+                Some(false) => {}
+                None => return Ok(None),
+            }
+        }
+        if let Some(mut borne_m) = path_m {
+            let mut lost_m = self.case.paths_m[lost];
+            for _ in 0..HALVINGS {
+                let middle_m = (borne_m * lost_m).sqrt();
+                match self.one_is_borne(self.case.friction, middle_m, follow)? {
+                    Some(true) => borne_m = middle_m,
+                    Some(false) => lost_m = middle_m,
+                    None => return Ok(None),
+                }
+            }
+            path_m = Some(borne_m);
+        }
+        let mut friction = None;
+        let [mut lost, mut borne] = [self.case.friction, NEAREST * needs];
+        // Where the shortest path asked for is borne, so is the friction given.
+        if held_m.is_none() && lost < borne {
+            match self.one_is_borne(borne, shortest_m, follow)? {
+                Some(true) => {
+                    for _ in 0..HALVINGS {
+                        let middle = 0.5 * (lost + borne);
+                        match self.one_is_borne(middle, shortest_m, follow)? {
+                            Some(true) => borne = middle,
+                            Some(false) => lost = middle,
+                            None => return Ok(None),
+                        }
+                    }
+                    friction = Some(borne);
+                }
+                Some(false) => {}
+                None => return Ok(None),
+            }
+        } else if held_m.is_some() {
+            friction = Some(self.case.friction);
+        }
+        Ok(Some(Borne { path_m, friction }))
+    }
+
+    /// Energy of the races against one another that a blow has to take up, J, where it is known, and its share of what is borne.
+    fn energy(&self, blow: &Blow) -> Option<(f64, Option<f64>)> {
+        let energy_j = self.case.energy_j(self.told(blow)?);
+        Some((
+            energy_j,
+            self.takes_up_j.map(|[most_j, _]| energy_j / most_j).filter(|share| share.is_finite()),
+        ))
+    }
+
+    /// Speed of the races against one another, rad/s. Where sprags are thrown out once the friction is back, the races are driven apart
+    /// as long as they were followed, which is no figure.
+    fn told(&self, blow: &Blow) -> Option<f64> {
+        let known = blow.peak.is_some() || blow.peak_s.is_none() || blow.ended == Some(Stop::CurveEnd);
+        known.then_some(blow.speed_rad_s)
+    }
+
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
     pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
         let case = &self.case;
@@ -164,7 +299,7 @@ impl<'a> ReengagementAnswer<'a> {
                 "path_mm": 1e3 * b.path_m, "slip_ms": 1e3 * b.slip_s, "peak_ms": b.peak_s.map(|s| 1e3 * s),
                 "path_in_all_mm": b.path_in_all_m.map(|m| 1e3 * m),
                 "speed_rpm": Unit::Rpm.from_si(b.speed_rad_s), "peak_torque_nm": b.peak.map(|p| p.torque_nm),
-                "peak_by_energy_nm": b.by_energy_nm,
+                "peak_by_energy_nm": b.by_energy_nm, "energy_j": self.energy(b).map(|e| e.0),
                 "hertz_inner_mpa": b.peak.map(|p| Unit::Megapascal.from_si(p.hertz_inner_pa)),
                 "held": self.bears_it(b), "ended": b.ended.map(Stop::name),
             })
@@ -175,6 +310,10 @@ impl<'a> ReengagementAnswer<'a> {
             "inertia_outer_kg_m2": (!case.outer_held).then_some(case.inertia_kg_m2[1]), "outer_held": case.outer_held,
             "bears_nm": self.bears.as_ref().map(|b| b.0),
             "bears_by": self.bears.as_ref().map(|b| b.1.as_str()), "blows": list.collect::<Vec<_>>(),
+            "bears_j": self.takes_up_j.map(|j| j[0]), "end_of_curve_j": self.takes_up_j.map(|j| j[1]),
+            "torque_needs_friction": Some(self.found.needs).filter(|mu| mu.is_finite()),
+            "borne": self.borne.map(|b| json!({ "path_mm": b.path_m.map(|m| 1e3 * m), "friction": b.friction })),
+            "speed_of": self.speed_of,
             "needs_friction": self.found.holds, "slip_ended": self.found.ended.map(|end| end.stop.name()),
             "lift_off_rpm": self.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)),
             "thrown": self.thrown().map(|end| json!({
@@ -297,18 +436,18 @@ impl<'a> ReengagementAnswer<'a> {
             (false, Some(Stop::CurveEnd)) => "OVERLOADED",
             (false, Some(_)) => "NO GRIP",
         };
-        // Where no blow is known the races are driven apart as long as they were followed.
-        let told = |b: &Blow| b.peak.is_some() || b.peak_s.is_none();
         Rows::of(&self.found.list)
             .number("path_mm", "Slip", Unit::Millimetre, 3, |b| b.path_m)
             .number("peak_torque_nm", "Blow", Unit::NewtonMetre, 4, |b| b.peak.map(|p| p.torque_nm))
             .text("verdict", "Verdict", |b| Cell::Verdict(self.bears_it(b), word(b).to_owned()))
             .number("times", "Times", Unit::One, 3, |b| b.peak.map(|p| p.torque_nm / self.case.torque_nm))
             .number("peak_by_energy_nm", "By energy", Unit::NewtonMetre, 4, |b| b.by_energy_nm)
+            .number("energy_j", "Energy", Unit::Joule, 3, |b| self.energy(b).map(|e| e.0))
+            .number("of_borne", "Of borne", Unit::One, 3, |b| self.energy(b).and_then(|e| e.1))
             .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |b| {
                 b.peak.map(|p| p.hertz_inner_pa)
             })
-            .number("speed_rpm", "Speed gained", Unit::Rpm, 3, |b| told(b).then_some(b.speed_rad_s))
+            .number("speed_rpm", "Speed gained", Unit::Rpm, 3, |b| self.told(b))
             .number("slip_ms", "Lasts", Unit::Millisecond, 3, |b| b.slip_s)
             .number("peak_ms", "Blow at", Unit::Millisecond, 3, |b| b.peak_s.filter(|_| b.peak.is_some()))
             .number("path_in_all_mm", "In all", Unit::Millimetre, 3, |b| b.path_in_all_m)
@@ -325,15 +464,30 @@ impl<'a> ReengagementAnswer<'a> {
         };
         let mut all = vec![
             format!(
-                "{} carried when the friction falls to {}; {inner} kg m² turn with the inner race, {outer}",
+                "{} carried when the friction falls to {}; {inner} kg m² turn with the inner race, {outer}{}",
                 Unit::NewtonMetre.show(case.torque_nm, 4),
-                significant(case.friction, 3),
+                self.short(),
+                match self.speed_of {
+                    Some(scene) => format!(", at {} as in {scene}", Unit::Rpm.show(case.speed_rad_s, 4)),
+                    None => String::new(),
+                }
             ),
             "Slip, lasts: path at the inner track and time until the design's friction is back; times: blow over the torque carried; by energy: \
-             nothing lost; speed gained: largest speed of the races against one another; in all: path until these stand still against one another"
+             nothing lost; energy: of the races against one another, of borne: that over what the limits let the windup take up; speed gained: largest speed of the races against one another; in all: path until these stand still against one another"
                 .to_owned(),
             "A clutch that slips throws its sprags out: they must come back by their spring before they grip, however short the slip".to_owned(),
         ];
+        if let Some([most_j, end_j]) = self.takes_up_j {
+            let limit = self.bears.as_ref().map_or(String::new(), |(torque_nm, code)| {
+                format!(" up to {} ({code})", Unit::NewtonMetre.show(*torque_nm, 4))
+            });
+            all.push(format!(
+                "The windup takes up {} from the torque carried{limit}, {} to the end of its curve",
+                Unit::Joule.show(most_j, 3),
+                Unit::Joule.show(end_j, 3)
+            ));
+        }
+        all.extend(self.borne.map(|b| self.borne_words(&b)));
         if !outer_turns(self.design) {
             all.push(format!(
                 "The design names no speed of the outer race: here it is {}; --outer-held and --outer-free say which",
@@ -346,11 +500,6 @@ impl<'a> ReengagementAnswer<'a> {
                  the speed would come to if the sprags gripped there. Rows above that end so are thrown out once the friction is back",
                 Unit::Millimetre.show(end.path_m, 3)
             ));
-            all.push(format!(
-                "The torque needs a friction of {}, {} is there: nearer to it the sprags are thrown less",
-                significant(self.found.needs, 3),
-                significant(case.friction, 3)
-            ));
             if let Some(speed) = self.lift_off_rad_s.filter(|speed| *speed <= end.outer_rad_s.abs()) {
                 all.push(format!(
                     "The outer race runs at {}; in steady overrun its sprags lift off from {} on, slower they come back sooner",
@@ -360,6 +509,33 @@ impl<'a> ReengagementAnswer<'a> {
             }
         }
         all
+    }
+
+    /// The friction of the slip, and its share of what the torque needs.
+    fn short(&self) -> String {
+        let (friction, needs) = (self.case.friction, self.found.needs);
+        let share = needs.is_finite().then(|| {
+            format!(" ({} of the {} that it needs)", significant(friction / needs, 2), significant(needs, 3))
+        });
+        significant(friction, 3) + &share.unwrap_or_default()
+    }
+
+    fn borne_words(&self, borne: &Borne) -> String {
+        let path = |m: f64| Unit::Millimetre.show(m, 3);
+        let friction = significant(self.case.friction, 3);
+        let first = match borne.path_m {
+            Some(m) => format!("At a friction of {friction} slip up to {} is borne", path(m)),
+            None => format!("At a friction of {friction} no slip is borne, however short"),
+        };
+        let shortest = self.case.paths_m.first().map_or(String::new(), |m| path(*m));
+        let then = match borne.friction {
+            Some(mu) if mu > self.case.friction => {
+                format!("; {shortest} is borne from a friction of {} on", significant(mu, 4))
+            }
+            Some(_) => String::new(),
+            None => format!("; {shortest} is borne at none that slips"),
+        };
+        first + &then
     }
 
     /// The answer on a terminal.

@@ -45,6 +45,8 @@ pub enum NoResonance {
     NoStart(NoScenario),
     /// It is no torsional excitation.
     NoExcitation,
+    /// A drivetrain takes part, which has motions of its own.
+    Drivetrain,
     /// Stopped from outside.
     Stopped,
 }
@@ -56,6 +58,10 @@ impl std::fmt::Display for NoResonance {
             Self::NoExcitation => {
                 f.write_str("the scenario has no torsional excitation, so nothing that repeats")
             }
+            Self::Drivetrain => f.write_str(
+                "a [[drivetrain]] takes part in the scenario, and its rotors, shafts and orders have motions of their own, which resonance \
+                 does not look for: simulate runs the scenario with them; drivetrain = [] in the scenario leaves them out",
+            ),
             Self::Stopped => f.write_str("stopped"),
         }
     }
@@ -90,6 +96,9 @@ impl Design {
         let ScenarioKind::TorsionalExcitation { amplitude_nm, frequency_hz, .. } = scenario.kind else {
             return Err(NoResonance::NoExcitation);
         };
+        if !scenario.drivetrain.is_empty() {
+            return Err(NoResonance::Drivetrain);
+        }
         let or_own = |asked: &[f64], own: f64| if asked.is_empty() { vec![own] } else { asked.to_vec() };
         let frequencies = or_own(&question.frequencies_hz, frequency_hz);
         let amplitudes = or_own(&question.amplitudes_nm, amplitude_nm);
@@ -152,9 +161,14 @@ impl<'a> ResonanceAnswer<'a> {
             (MotionKind::Slips, "slips in each period", "slip in each period"),
             (MotionKind::LiftsOff, "lifts off", "lift off"),
             (
-                MotionKind::Ends,
-                "goes beyond the end of the curve or of reach",
-                "go beyond the end of the curve or of reach",
+                MotionKind::Overloaded,
+                "is overloaded, beyond the end of the curve",
+                "are overloaded, beyond the end of the curve",
+            ),
+            (
+                MotionKind::Disengages,
+                "disengages, its sprags thrown out of reach",
+                "disengage, their sprags thrown out of reach",
             ),
             (MotionKind::NotFound, "does not repeat, or was not found", "do not repeat, or were not found"),
         ] {
@@ -166,11 +180,16 @@ impl<'a> ResonanceAnswer<'a> {
         }
         let two = self.cells().filter(|c| c.other.is_some()).count();
         let unstable = self.cells().filter(|c| c.state.is_stable() == Some(false)).count();
+        let untold = self.cells().filter(|c| c.state.motion.is_ok() && c.state.is_stable().is_none()).count();
         if two > 0 {
             parts.push(format!("at {two} two states were found"));
         }
         if unstable > 0 {
             parts.push(format!("{unstable} {} unstable", if unstable == 1 { "is" } else { "are" }));
+        }
+        if untold > 0 {
+            let they = if untold == 1 { "it is" } else { "they are" };
+            parts.push(format!("of {untold} it cannot be told whether {they} stable"));
         }
         parts.join("; ")
     }
@@ -187,14 +206,29 @@ impl<'a> ResonanceAnswer<'a> {
                 significant(self.friction, 3),
             )
         });
-        let ends = (self.count(MotionKind::Ends) > 0).then(|| {
-            "ends: no motion repeats there, the swing carries the sprag beyond the end of the curve, off its profile or over its highest \
-             point, or farther than is followed"
+        let ends = self.count(MotionKind::Overloaded) + self.count(MotionKind::Disengages) > 0;
+        let ends = ends.then(|| {
+            "overloaded, disengages: no motion repeats there, the swing carries the sprag beyond the end of the curve, off its profile or over \
+             its highest point, or farther from the race than is followed"
                 .to_owned()
+        });
+        let neutral = self.cells().filter_map(|c| {
+            let motion = c.state.motion.as_ref().ok()?;
+            motion.neutral_multiplier().map(|_| motion.multiplier_error)
+        });
+        let neutral =
+            neutral.fold(None, |most: Option<f64>, error| Some(most.map_or(error, |m| m.max(error))));
+        let neutral = neutral.map(|error| {
+            format!(
+                "Multiplier: the largest beside a pair that is 1 within its error of {}: a swing that neither grows nor dies away, such as \
+                 that of both races together on an abutment, which has no damper; it counts for no instability",
+                significant(error, 2)
+            )
         });
         let list = [
             most,
             ends,
+            neutral,
             Some(
                 "Each state is a motion that repeats with the period of the excitation, its start forgotten; a start may slip where \
                  the state rolls: simulate tells of that"
@@ -212,8 +246,10 @@ impl<'a> ResonanceAnswer<'a> {
             .text("state", "State", |(_, s, _)| {
                 Cell::Verdict(s.kind == MotionKind::Rolls, s.kind.name().to_owned())
             })
-            .text("stable", "Stable", |(_, s, _)| {
-                s.is_stable().map_or(Cell::Empty, |stable| if stable { "yes" } else { "NO" }.into())
+            .text("stable", "Stable", |(_, s, _)| match (s.is_stable(), s.motion.is_ok()) {
+                (Some(stable), _) => if stable { "yes" } else { "NO" }.into(),
+                (None, true) => "?".into(),
+                (None, false) => Cell::Empty,
             })
             .number("required_static_friction", "μ needed", Unit::One, 5, |(_, s, _)| s.required_friction)
             .number("slip_margin_percent", "Slip margin", Unit::Percent, 4, |(_, s, _)| {
@@ -240,14 +276,49 @@ impl<'a> ResonanceAnswer<'a> {
                     if s.kind == MotionKind::Rolls { 0.0 } else { o.drift_rad()[0] - o.drift_rad()[1] }
                 })
             })
-            .number("multiplier", "Multiplier", Unit::One, 4, |(_, _, motion)| {
-                motion.map(|o| o.largest_multiplier())
+            .number("multiplier", "Multiplier", Unit::One, 6, |(_, _, motion)| {
+                motion.map(|o| o.deciding_multiplier())
+            })
+            .number("neutral_multiplier", "Neutral one", Unit::One, 6, |(_, _, motion)| {
+                motion.and_then(|o| o.neutral_multiplier())
             })
             .text("other_state", "Other state", |(c, _, _)| {
                 c.other.as_ref().map_or(Cell::Empty, |other| other.kind.name().into())
             })
             .table();
         Table { lead: 2, ..table }
+    }
+
+    /// For a terminal: of a single state each figure in a line, of several the columns that tell them apart.
+    fn short_table(&self) -> Table {
+        let all = self.table();
+        let is_zero = |cell: &Cell| matches!(cell, Cell::Empty) || *cell == Cell::Si(0.0);
+        let tells = |k: usize| all.rows.iter().any(|row| !is_zero(&row[k]));
+        if let [row] = all.rows.as_slice() {
+            let mut facts = Table::facts();
+            for (k, column) in all.columns.iter().enumerate().filter(|(k, _)| tells(*k)) {
+                let cell = match row[k] {
+                    Cell::Si(si) => Cell::In(si, column.unit),
+                    ref other => other.clone(),
+                };
+                facts.row(vec![column.heading.as_str().into(), cell]);
+            }
+            return facts;
+        }
+        let shown = |k: usize| match all.columns[k].key.as_str() {
+            // The slip margin tells the first, the contact margin the second.
+            "required_static_friction" | "normal_min_n" | "neutral_multiplier" => false,
+            "stable" => self.cells().any(|c| c.state.motion.is_ok() && c.state.is_stable() != Some(true)),
+            _ => tells(k),
+        };
+        let kept: Vec<usize> = (0..all.columns.len()).filter(|k| *k < all.lead || shown(*k)).collect();
+        let of = |k: &usize| all.columns[*k].clone();
+        let cells = |row: &Vec<Cell>| kept.iter().map(|k| row[*k].clone()).collect();
+        Table {
+            columns: kept.iter().map(of).collect(),
+            rows: all.rows.iter().map(cells).collect(),
+            lead: all.lead,
+        }
     }
 
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
@@ -298,9 +369,14 @@ impl<'a> ResonanceAnswer<'a> {
     pub fn text(&self, screen: Screen) -> String {
         let hash = self.design.short_hash();
         let few = self.cells().nth(40).is_none();
-        let table = if few { format!("{}\n", self.table().to_text(screen)) } else { String::new() };
+        let table = if few { format!("{}\n", self.short_table().to_text(screen)) } else { String::new() };
+        let more = if few && self.cells().nth(1).is_some() {
+            "All columns: --csv, --json or --report\n"
+        } else {
+            ""
+        };
         format!(
-            "{}, {}  {hash}\n\n{table}{}\n{}\n",
+            "{}, {}  {hash}\n\n{table}{}\n{more}{}\n",
             self.design.name,
             self.scenario.name,
             self.remarks().join("\n"),
@@ -421,17 +497,19 @@ impl<'a> ResonanceAnswer<'a> {
             MotionKind::Rolls => 0,
             MotionKind::Slips => 1,
             MotionKind::LiftsOff => 2,
-            MotionKind::Ends => 3,
+            MotionKind::Overloaded => 3,
             MotionKind::NotFound => 4,
+            MotionKind::Disengages => 7,
         };
-        const NAMES: [&str; 7] = [
+        const NAMES: [&str; 8] = [
             "rolls",
             "slips each period",
             "lifts off",
-            "goes beyond the curve",
+            "overloaded",
             "does not repeat",
             "two states",
             "unstable",
+            "disengages",
         ];
         // Colours go to those that are there: there are fewer than kinds.
         let there: Vec<usize> = (0..NAMES.len()).filter(|k| self.cells().any(|c| kind(c) == *k)).collect();
@@ -448,9 +526,11 @@ fn one_verdict(c: &ResonanceCell) -> String {
     let s = &c.state;
     let motion = s.motion.as_ref().ok();
     let slip = motion.map_or(0.0, |o| o.run.inner.distance_m);
-    let needs = s.required_friction.map_or("rolling would open the contact".to_owned(), |mu| {
-        format!("rolling needs a friction of {}", significant(mu, 4))
-    });
+    let needs = match s.required_friction {
+        Some(mu) => format!("rolling needs a friction of {}", significant(mu, 4)),
+        None if s.rolling.is_ok() => "rolling would open the contact".to_owned(),
+        None => "no rolling motion that repeats was found".to_owned(),
+    };
     let what = match s.kind {
         MotionKind::Rolls => "rolls in each period".to_owned(),
         MotionKind::Slips => format!("slips {} in each period", Unit::Micrometre.show(slip, 4)),
@@ -458,11 +538,15 @@ fn one_verdict(c: &ResonanceCell) -> String {
             "lifts off for {} in each period",
             Unit::Millisecond.show(motion.map_or(0.0, |o| o.run.open_s), 3)
         ),
-        MotionKind::Ends => "the motion goes beyond the end of the curve, or of reach".to_owned(),
+        MotionKind::Overloaded => "overloaded: the swing goes beyond the end of the curve".to_owned(),
+        MotionKind::Disengages => "disengages: the swing throws the sprags out of reach".to_owned(),
         MotionKind::NotFound => "no motion that repeats was found; simulate runs the transient".to_owned(),
     };
     let stable = match s.is_stable() {
         Some(false) => "; unstable: it leaves that state by itself",
+        None if motion.is_some() => {
+            "; whether it is stable cannot be told: its multiplier is 1 within its error"
+        }
         _ => "",
     };
     let other = c.other.as_ref().map_or(String::new(), |o| format!("; another state: {}", o.kind.name()));
@@ -475,7 +559,9 @@ fn object(s: &Steady) -> Value {
     json!({
         "state": s.kind.name(), "stable": s.is_stable(), "required_static_friction": s.required_friction,
         "slip_margin": s.slip_margin, "contact_margin": s.contact_margin,
-        "multipliers": motion.map(|o| o.multipliers.clone()),
+        "multipliers": motion.map(|o| o.multipliers.clone()), "multiplier_error": motion.map(|o| o.multiplier_error),
+        "deciding_multiplier": motion.map(|o| o.deciding_multiplier()),
+        "neutral_multiplier": motion.and_then(|o| o.neutral_multiplier()),
         "normal_min_n": motion.map(|o| o.run.peaks.normal_min_n), "normal_max_n": motion.map(|o| o.run.peaks.normal_max_n),
         "tan_inner": motion.map(|o| o.run.peaks.tan_inner), "tan_outer": motion.map(|o| o.run.peaks.tan_outer),
         "slip_inner_mm": motion.map(|o| 1e3 * o.run.inner.distance_m), "slip_outer_mm": motion.map(|o| 1e3 * o.run.outer.distance_m),

@@ -32,7 +32,7 @@ impl Run for LifeArgs {
             let (found, run_time_s) = timed(|| design.life());
             let found = found.map_err(|why| match why {
                 NoLife::NoClutch(why) => Failure::no_clutch(file, &why),
-                NoLife::NoService { .. } => Failure::of(file, why),
+                NoLife::NoService { .. } | NoLife::NoSwing { .. } => Failure::of(file, why),
             })?;
             context.deliver(&found, run_time_s)?;
             Ok(match found.known() {

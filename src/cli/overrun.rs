@@ -26,7 +26,7 @@ pub struct OverrunArgs {
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     /// Speeds of the race that runs, rpm, comma separated [default: 50, 100, 200, 500 ... up to lift-off and 50 m/s, and those of the
-    /// file's overruns]
+    /// file's overruns, with --race outer those of its limits too]
     #[arg(long, value_name = "RPM,...", allow_hyphen_values = true, value_parser = speed, value_delimiter = ',')]
     pub speeds: Vec<f64>,
     /// Temperatures of the oil, C, comma separated [default: lubrication.temperature_c]

@@ -44,9 +44,9 @@ pub struct ReengageArgs {
     /// Friction of the contacts while they slip [default: 0.95 of what the torque needs]
     #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = positive)]
     pub friction: Option<f64>,
-    /// Speed of both races when the slip begins, rpm
-    #[arg(long, value_name = "RPM", allow_hyphen_values = true, default_value_t = 0.0)]
-    pub speed: f64,
+    /// Speed of both races when the slip begins, rpm [default: the largest at which a scenario of the file carries torque, else 0]
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true)]
+    pub speed: Option<f64>,
     /// Paths of slip at the inner track after which the friction is back, mm, rising [default: 0.1,0.3,1,3,10,30]
     #[arg(long, value_name = "MM,...", allow_hyphen_values = true, value_parser = positive, value_delimiter = ',')]
     pub paths: Option<Vec<f64>>,
@@ -61,7 +61,7 @@ impl Run for ReengageArgs {
             inertia_kg_m2: [self.inner_inertia, self.outer_inertia],
             outer_held: (self.outer_held || self.outer_free).then_some(self.outer_held),
             friction: self.friction,
-            speed_rad_s: self.speed * PI / 30.0,
+            speed_rad_s: self.speed.map(|rpm| rpm * PI / 30.0),
             paths_m: paths_m.unwrap_or(usual.paths_m),
             follow: context.follow.clone(),
         };

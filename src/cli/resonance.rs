@@ -20,8 +20,9 @@ Examples:
   sprag-design resonance designs/huang2017-multi-arc.toml --scenario low-10-mu082 --frequency 50:150 --points 21 --csv row.csv
 
 The motion that repeats with the excitation, its start forgotten: found by shooting, with its stability. Without ranges that of
-the scenario; with them a map of the friction that rolling needs and of what the clutch does. Ctrl-C: the amplitudes that are done
-are written.";
+the scenario; with them a map of the friction that rolling needs and of what the clutch does. The state is the answer: rolls, slips,
+lifts-off, overloaded, disengages and not-found all exit with 0. Exit code 2: a scenario that is no torsional excitation, or in which a
+drivetrain takes part; 130: Ctrl-C, the amplitudes that are done are written.";
 
 /// Arguments of `resonance`.
 #[derive(Debug, Clone, Args)]
@@ -39,7 +40,8 @@ pub struct ResonanceArgs {
     /// Amplitudes, Nm: from and to, or one [default: the scenario's]
     #[arg(long, value_name = "FROM:TO", value_parser = span)]
     pub amplitude: Option<[f64; 2]>,
-    /// Frequencies and amplitudes of the map, ends included, 2 to 1000 each; one number for both [default: 50x50]
+    /// Frequencies and amplitudes of the map, ends included, up to 1000 each, 1 where one is asked for; one number for both [default:
+    /// 50x50]
     #[arg(long, value_name = "NxM", value_parser = points)]
     pub points: Option<[usize; 2]>,
     /// Error allowed of every figure relative to its natural size, 1e-9 to 1e-3
@@ -58,11 +60,11 @@ fn span(text: &str) -> Result<[f64; 2], String> {
 fn points(text: &str) -> Result<[usize; 2], String> {
     const MOST: usize = 1000;
     let (x, y) = text.split_once('x').unwrap_or((text, text));
-    let count = |n: &str| n.trim().parse().ok().filter(|n| (2..=MOST).contains(n));
+    let count = |n: &str| n.trim().parse().ok().filter(|n| (1..=MOST).contains(n));
     count(x)
         .zip(count(y))
         .map(|(x, y)| [x, y])
-        .ok_or_else(|| format!("NxM is needed, such as 50x50, 2 to {MOST} each"))
+        .ok_or_else(|| format!("NxM is needed, such as 50x50, 1 to {MOST} each"))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -70,12 +72,15 @@ fn tolerance(text: &str) -> Result<f64, String> {
     if (1e-9..=1e-3).contains(&value) { Ok(value) } else { Err("1e-9 to 1e-3".to_owned()) }
 }
 
-/// `n` values over the range, ends included; one where it has no width.
-fn values(range: Option<[f64; 2]>, n: usize) -> Vec<f64> {
+/// `n` values over the range of `flag`, ends included; one where it has no width.
+fn values(flag: &str, range: Option<[f64; 2]>, n: usize) -> Result<Vec<f64>, Failure> {
     match range {
-        None => Vec::new(),
-        Some([from, to]) if from == to => vec![from],
-        Some([from, to]) => (0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect(),
+        None => Ok(Vec::new()),
+        Some([from, to]) if from == to => Ok(vec![from]),
+        Some([from, to]) if n == 1 => Err(Failure::malformed(format!(
+            "--points: 1 where {flag} asks for {from}:{to}; give one of them, or 2 points"
+        ))),
+        Some([from, to]) => Ok((0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect()),
     }
 }
 
@@ -89,8 +94,8 @@ impl Run for ResonanceArgs {
         }
         let [frequencies, amplitudes] = self.points.unwrap_or([50, 50]);
         let question = ResonanceQuestion {
-            frequencies_hz: values(self.frequency, frequencies),
-            amplitudes_nm: values(self.amplitude, amplitudes),
+            frequencies_hz: values("--frequency", self.frequency, frequencies)?,
+            amplitudes_nm: values("--amplitude", self.amplitude, amplitudes)?,
         };
         let settings =
             Settings { tolerance: self.tolerance, follow: context.follow.unseen(), ..Settings::default() };
@@ -105,7 +110,7 @@ impl Run for ResonanceArgs {
             let named = |why: &NoResonance| format!("{}: {}: {why}", path_text(file), scenario.name);
             let found = found.map_err(|why| match why {
                 NoResonance::Stopped => Failure::Interrupted,
-                NoResonance::NoExcitation => Failure::malformed(named(&why)),
+                NoResonance::NoExcitation | NoResonance::Drivetrain => Failure::malformed(named(&why)),
                 NoResonance::NoStart(_) => Failure::NoClutch(named(&why)),
             })?;
             context.deliver(&found, run_time_s)?;

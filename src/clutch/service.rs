@@ -7,6 +7,8 @@
 pub struct Service {
     /// Engagements by torque.
     pub loads: Vec<RepeatedLoad>,
+    /// Scenarios that swing, by the hour.
+    pub swings: Vec<RepeatedSwing>,
     /// Torques over time.
     pub histories: Vec<RepeatedHistory>,
     /// What the contacts bear; `None`: not known, so no life until pitting.
@@ -23,13 +25,24 @@ pub struct Service {
     pub slips_allowed: Option<f64>,
 }
 
-/// A torque that is carried again and again, from nothing to it and back.
+/// A torque that is carried again and again, from the lesser to the larger and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RepeatedLoad {
-    /// N m.
+    /// The lesser, N m: 0, or where a swing of the torque turns.
+    pub from_nm: f64,
+    /// The larger, N m.
     pub torque_nm: f64,
     /// How often in the life.
     pub engagements: f64,
+}
+
+/// A torsional excitation of the design that goes on for some time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RepeatedSwing {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// How long in the life, s.
+    pub duration_s: f64,
 }
 
 /// A measured or computed torque over time that recurs.

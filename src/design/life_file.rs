@@ -3,10 +3,12 @@
 //! In: TOML text, histories. Out: [`Service`]. Absent: what comes of it (`life`). Equations: none. The doc comments are the
 //! schema's descriptions.
 
+use super::file::DesignFile;
 use super::findings::Findings;
 use super::history::HistoryKind;
-use super::scenarios::{Load, refuse_history};
-use crate::clutch::{PittingStrength, RepeatedHistory, RepeatedLoad, RingStrength, Service};
+use super::scenario_file::ScenarioFile;
+use super::scenarios::{KindFile, Load, refuse_history};
+use crate::clutch::{PittingStrength, RepeatedHistory, RepeatedLoad, RepeatedSwing, RingStrength, Service};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -17,6 +19,10 @@ pub(super) struct LifeFile {
     /// Engagements by torque.
     #[serde(default)]
     pub loads: Vec<LoadFile>,
+    /// Scenarios of kind torsional-excitation that go on for hours: each period is an engagement at the peak torque that the clutch then
+    /// carries, and a swing of the rings down to the least.
+    #[serde(default)]
+    pub swings: Vec<SwingFile>,
     /// Torques over time, counted: peaks above half of the largest are an engagement each, rings by rainflow.
     #[serde(default)]
     pub histories: Vec<RepeatedFile>,
@@ -51,6 +57,18 @@ pub(super) struct LoadFile {
     /// Engagements at it in the life.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub engagements: f64,
+}
+
+/// A scenario that goes on for some time.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SwingFile {
+    /// Name of the scenario.
+    #[schemars(length(min = 1))]
+    pub scenario: String,
+    /// How long in the life, hours.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub hours: f64,
 }
 
 /// A torque over time that recurs.
@@ -105,11 +123,29 @@ pub(super) struct RingFile {
 }
 
 /// `[life]` in SI; `None` with the reasons in `out`.
-pub(super) fn service(file: &LifeFile, load: Load<'_>, out: &mut Findings) -> Option<Service> {
-    if file.loads.is_empty() && file.histories.is_empty() {
-        let help = "add loads = [ { torque_nm = ..., engagements = ... } ], or histories".to_owned();
-        out.refuse(&["life"], "a table with loads or histories".to_owned(), help);
+pub(super) fn service(
+    whole: &DesignFile,
+    file: &LifeFile,
+    load: Load<'_>,
+    out: &mut Findings,
+) -> Option<Service> {
+    if file.loads.is_empty() && file.swings.is_empty() && file.histories.is_empty() {
+        let help = "add loads = [ { torque_nm = ..., engagements = ... } ], swings or histories".to_owned();
+        out.refuse(&["life"], "a table with loads, swings or histories".to_owned(), help);
         return None;
+    }
+    for (i, swing) in file.swings.iter().enumerate() {
+        let swings = |s: &&ScenarioFile| s.kind == KindFile::TorsionalExcitation;
+        if !whole.scenarios.iter().filter(swings).any(|s| s.name == swing.scenario) {
+            let known: Vec<&str> = whole.scenarios.iter().filter(swings).map(|s| s.name.as_str()).collect();
+            let allowed = match known.as_slice() {
+                [] => "none, because the file has no torsional-excitation".to_owned(),
+                _ => known.join(", "),
+            };
+            let help = "name a torsional-excitation of this file, or add one of this name".to_owned();
+            out.refuse(&[&format!("life.swings[{i}].scenario")], allowed, help);
+            return None;
+        }
     }
     if file.torque_scatter > 0.0 && file.friction_scatter == 0.0 {
         let help = "say how far the friction scatters, 0.10 or so; a catalogue's factor of safety hides it"
@@ -145,7 +181,12 @@ pub(super) fn service(file: &LifeFile, load: Load<'_>, out: &mut Findings) -> Op
         loads: file
             .loads
             .iter()
-            .map(|l| RepeatedLoad { torque_nm: l.torque_nm, engagements: l.engagements })
+            .map(|l| RepeatedLoad { from_nm: 0.0, torque_nm: l.torque_nm, engagements: l.engagements })
+            .collect(),
+        swings: file
+            .swings
+            .iter()
+            .map(|s| RepeatedSwing { scenario: s.scenario.clone(), duration_s: 3600.0 * s.hours })
             .collect(),
         histories: histories?,
         pitting: file.pitting.map(|p| PittingStrength {

@@ -100,7 +100,8 @@ pub(super) fn lubrication(file: &DesignFile, out: &mut Findings) -> Option<Optio
         let help = format!(
             "{like}`sprag-design oils` lists them; nu40_mm2_s and nu100_mm2_s say of another what it has"
         );
-        out.refuse(&["lubrication.oil"], names.join(", "), help);
+        // Some have commas.
+        out.refuse(&["lubrication.oil"], names.join("; "), help);
         return None;
     };
     let m2_s = |mm2_s: f64| mm2_s / 1e6;

@@ -146,7 +146,7 @@ impl Design {
             rows
         };
         let scenarios = scenarios::scenarios(&file, &document, clutch.as_ref(), &mut load, &mut out);
-        let service = file.life.as_ref().map(|life| life_file::service(life, &mut load, &mut out));
+        let service = file.life.as_ref().map(|life| life_file::service(&file, life, &mut load, &mut out));
         let sharing = file.sharing.as_ref().map(|s| sharing_file::si(&file, s, clutch.as_ref(), &mut out));
         let check_scenarios = task::check_scenarios(&file, &mut out);
         let optimize = file.optimize.as_ref().map(|t| task::optimize(&file, t, limits, &mut out));

@@ -8,9 +8,10 @@
 //!   (1 - DP) dz = P(z) - z,
 //!
 //! DP by central differences. Its eigenvalues are the Floquet multipliers: a small disturbance is multiplied by them in each
-//! period, so the motion comes back where all lie within the unit circle. What is not smooth (a change of mode that a
-//! disturbance adds or removes) shows as a Newton that does not converge; then the motion is followed for some periods
-//! and Newton begins anew. Source of the method: Nayfeh and Balachandran, *Applied Nonlinear Dynamics* (1995), 3.2, 5.5.
+//! period, so the motion comes back where all lie within the unit circle. A pair on it within the error of the multipliers neither
+//! grows nor dies away: races that swing together on an abutment, which has no damper, come so near to it. What is not smooth (a change
+//! of mode that a disturbance adds or removes) shows as a Newton that does not converge; then the motion is followed for some
+//! periods and Newton begins anew. Source of the method: Nayfeh and Balachandran, *Applied Nonlinear Dynamics* (1995), 3.2, 5.5.
 
 use super::model::{Grip, Mode, Model, N_STATE, Place, State};
 use super::run::{Run, RunSettings, Stop, run};
@@ -28,12 +29,19 @@ const SETTLE: [u64; 2] = [8, 3];
 /// Disturbance of a difference, as a part of what the number varies by over the period: a choice between rounding, some
 /// tolerance over this, and the third order of the map.
 const BESIDE: f64 = 1e-3;
+/// Where a multiplier is nearer than this to the unit circle, all are taken once more, by differences twice as wide.
+const CLOSE: f64 = 0.01;
 /// Ratio of a Newton step to the one before up to which the old Jacobian serves.
 const SERVES: f64 = 0.05;
 /// Newton step, by range, up to which the Jacobian taken before it is that of the motion.
 const NEAR: f64 = 1e-3;
-/// Longest Newton step by range.
+/// Longest Newton step by range, at first.
 const LONGEST: f64 = 0.5;
+/// By how much longer one may be after one that was shortened and did what the Jacobian said, to [`LINEAR`] of it: races that swing
+/// together on a soft abutment are far from where they end, and nothing of it is curved.
+const LONGER: f64 = 4.0;
+/// How far, by what a shortened step was to change, what it leaves may be from what the Jacobian said.
+const LINEAR: f64 = 0.1;
 /// Samples by which the ranges are taken.
 const SAMPLES: usize = 65;
 
@@ -48,6 +56,9 @@ pub struct Orbit {
     pub run: Run,
     /// Floquet multipliers, real and imaginary part, the largest first; those of what runs on, 1, left out.
     pub multipliers: Vec<[f64; 2]>,
+    /// What a multiplier near the unit circle may be wrong by: tolerance of the steps over the disturbance, and by how much they
+    /// move where that is twice as large.
+    pub multiplier_error: f64,
     /// The last Newton step by what each number varies by over the period: what the state is wrong by but for the steps of
     /// integration.
     pub error: f64,
@@ -56,14 +67,31 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// Largest magnitude of a multiplier.
-    pub fn largest_multiplier(&self) -> f64 {
-        self.multipliers.first().map_or(0.0, |m| m[0].hypot(m[1]))
+    /// The magnitude of the pair of multipliers that is neutral, 1 within [`Self::multiplier_error`]: a swing that neither grows nor
+    /// dies away as far as can be told.
+    pub fn neutral_multiplier(&self) -> Option<f64> {
+        self.neutral().map(|k| magnitude(&self.multipliers[k]))
     }
 
-    /// Whether small disturbances die away.
-    pub fn is_stable(&self) -> bool {
-        self.largest_multiplier() < 1.0
+    /// The first of the neutral pair.
+    fn neutral(&self) -> Option<usize> {
+        let neutral = |m: &[f64; 2]| m[1] != 0.0 && (magnitude(m) - 1.0).abs() <= self.multiplier_error;
+        self.multipliers.iter().position(neutral)
+    }
+
+    /// What decides whether the motion is stable: the largest magnitude of a multiplier, of those beside a neutral pair where there is
+    /// one.
+    pub fn deciding_multiplier(&self) -> f64 {
+        let neutral = self.neutral().map_or(0..0, |k| k..k + 2);
+        let others = self.multipliers.iter().enumerate().filter(|(k, _)| !neutral.contains(k));
+        others.map(|(_, m)| magnitude(m)).fold(0.0, f64::max)
+    }
+
+    /// Whether small disturbances die away, those of a neutral pair, which stay, left out; `None`: the multipliers are not known well
+    /// enough to tell.
+    pub fn is_stable(&self) -> Option<bool> {
+        let beyond = self.deciding_multiplier() - 1.0;
+        (beyond.abs() > self.multiplier_error).then_some(beyond < 0.0)
     }
 
     /// What theta_bi and theta_be gain in a period, rad.
@@ -168,10 +196,13 @@ impl Search<'_> {
         let ranges = ranges(&first);
         let mut known: Option<DMatrix<f64>> = None;
         let mut before = f64::INFINITY;
+        let mut longest = LONGEST;
+        // What the Jacobian says that a shortened step leaves, and how far that may be off.
+        let mut said: Option<(DVector<f64>, f64)> = None;
         for _ in 0..MOST_STEPS {
             if !same_kind(&here.mode, &end.mode) {
                 // A period on, it may begin as it ends.
-                (here, known, before) = (end, None, f64::INFINITY);
+                (here, known, before, said) = (end, None, f64::INFINITY, None);
                 end = self.period(&here, 0)?.0;
                 continue;
             }
@@ -179,13 +210,16 @@ impl Search<'_> {
             let fresh = known.is_none();
             let Some(jacobian) = (match known.take() {
                 Some(old) => Some(old),
-                None => self.jacobian(&here, &free, &ranges)?,
+                None => self.jacobian(&here, &free, &ranges, BESIDE)?,
             }) else {
                 return Ok(None);
             };
             let left = DVector::from_fn(free.len(), |i, _| {
                 (end.state[free[i]] - here.state[free[i]]) / ranges[free[i]]
             });
+            if said.take().is_some_and(|(rest, within)| (&left - rest).amax() <= within) {
+                longest *= LONGER;
+            }
             let matrix = DMatrix::identity(free.len(), free.len()) - &jacobian;
             let Some(step) = matrix.lu().solve(&left) else { return Ok(None) };
             let size = step.amax();
@@ -196,10 +230,10 @@ impl Search<'_> {
             if size <= self.shooting.accuracy {
                 let jacobian = match fresh || before <= NEAR {
                     true => Some(jacobian),
-                    false => self.jacobian(&here, &free, &ranges)?,
+                    false => self.jacobian(&here, &free, &ranges, BESIDE)?,
                 };
                 let there = self.moved(&here, &free, &ranges, &step, 1.0);
-                return self.found(&there, jacobian, size);
+                return self.found(&there, jacobian, &ranges, size);
             }
             if size > 2.0 * before {
                 return Ok(None);
@@ -208,7 +242,11 @@ impl Search<'_> {
                 known = Some(jacobian);
             }
             before = size;
-            here = self.moved(&here, &free, &ranges, &step, (LONGEST / size).min(1.0));
+            let share = (longest / size).min(1.0);
+            if share < 1.0 {
+                said = Some((&left * (1.0 - share), LINEAR * share * left.amax()));
+            }
+            here = self.moved(&here, &free, &ranges, &step, share);
             end = self.period(&here, 0)?.0;
         }
         Ok(None)
@@ -218,12 +256,36 @@ impl Search<'_> {
         &mut self,
         there: &Section,
         jacobian: Option<DMatrix<f64>>,
+        ranges: &State,
         error: f64,
     ) -> Result<Option<Orbit>, NoOrbit> {
         let (_, run) = self.period(there, self.shooting.period.samples)?;
         let Some(multipliers) = jacobian.and_then(multipliers) else { return Ok(None) };
+        let multiplier_error = self.multiplier_error(there, &multipliers, ranges)?;
         let Section { state, mode } = *there;
-        Ok(Some(Orbit { state, mode, run, multipliers, error, periods: self.periods }))
+        let periods = self.periods;
+        Ok(Some(Orbit { state, mode, run, multipliers, multiplier_error, error, periods }))
+    }
+
+    /// What multipliers near the unit circle may be wrong by: rounding, and the third order of the map where any is near.
+    fn multiplier_error(
+        &mut self,
+        there: &Section,
+        found: &[[f64; 2]],
+        ranges: &State,
+    ) -> Result<f64, NoOrbit> {
+        let rounding = self.shooting.period.tolerance / BESIDE;
+        let near = |m: &&[f64; 2]| (magnitude(m) - 1.0).abs() < CLOSE;
+        if found.iter().all(|m| !near(&m)) {
+            return Ok(rounding);
+        }
+        let wider = self.jacobian(there, &free(&there.mode), ranges, 2.0 * BESIDE)?.and_then(multipliers);
+        let Some(wider) = wider else { return Ok(rounding) };
+        let off = |m: &[f64; 2]| {
+            let each = wider.iter().map(|w| (w[0] - m[0]).hypot(w[1] - m[1]));
+            each.fold(f64::INFINITY, f64::min)
+        };
+        Ok(rounding + found.iter().filter(near).map(off).fold(0.0, f64::max))
     }
 
     /// `from` moved by `share` of `step` in units of the ranges; rates that rolling determines follow, as at the start of any run.
@@ -248,21 +310,22 @@ impl Search<'_> {
         to
     }
 
-    /// DP in units of the ranges; `None` where a disturbed period ends in another mode.
+    /// DP in units of the ranges by disturbances of `beside`; `None` where a disturbed period ends in another mode.
     fn jacobian(
         &mut self,
         here: &Section,
         free: &[usize],
         ranges: &State,
+        beside: f64,
     ) -> Result<Option<DMatrix<f64>>, NoOrbit> {
         let n = free.len();
         let mut jacobian = DMatrix::zeros(n, n);
         for k in 0..n {
             let mut ends = [[0.0; MOST]; 2];
             for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
-                let step = DVector::from_fn(n, |i, _| if i == k { sign * BESIDE } else { 0.0 });
-                let beside = self.moved(here, free, ranges, &step, 1.0);
-                let (there, _) = self.period(&beside, 0)?;
+                let step = DVector::from_fn(n, |i, _| if i == k { sign * beside } else { 0.0 });
+                let moved = self.moved(here, free, ranges, &step, 1.0);
+                let (there, _) = self.period(&moved, 0)?;
                 if !same_kind(&there.mode, &here.mode) {
                     return Ok(None);
                 }
@@ -271,7 +334,7 @@ impl Search<'_> {
                 }
             }
             for i in 0..n {
-                jacobian[(i, k)] = (ends[0][i] - ends[1][i]) / (2.0 * BESIDE);
+                jacobian[(i, k)] = (ends[0][i] - ends[1][i]) / (2.0 * beside);
             }
         }
         Ok(Some(jacobian))
@@ -307,9 +370,13 @@ fn ranges(run: &Run) -> State {
     std::array::from_fn(|i| all[i].max(if i < 4 { angle } else { rate }))
 }
 
+fn magnitude(multiplier: &[f64; 2]) -> f64 {
+    multiplier[0].hypot(multiplier[1])
+}
+
 /// Eigenvalues, the largest first; `None` where they are not found.
 fn multipliers(jacobian: DMatrix<f64>) -> Option<Vec<[f64; 2]>> {
     let mut all: Vec<[f64; 2]> = eigenvalues(jacobian)?.iter().map(|z| [z.re, z.im]).collect();
-    all.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])).then(b[1].total_cmp(&a[1])));
+    all.sort_by(|a, b| magnitude(b).total_cmp(&magnitude(a)).then(b[1].total_cmp(&a[1])));
     Some(all)
 }

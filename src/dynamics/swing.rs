@@ -14,7 +14,7 @@ use crate::wedge::{WedgeCurve, WedgePoint};
 /// A small swing of the sprag about steady overrun, alpha - alpha_0 ~ exp(growth t) cos(2 pi frequency t).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swing {
-    /// Growth rate, 1/s; negative: the swing dies away, 0: it stays.
+    /// Growth rate, 1/s; negative: the swing dies away, 0: it stays, or what it does is less than differences can tell.
     pub growth_rate_per_s: f64,
     /// Frequency, Hz; 0: it creeps and does not swing.
     pub frequency_hz: f64,
@@ -27,9 +27,19 @@ pub struct Swing {
 const RESOLVED: f64 = 1e-7;
 
 impl Swing {
+    /// Of the eigenvalue with the largest real part; a growth that is not resolved is none.
+    fn of(growth_rate_per_s: f64, rad_s: f64, normal_inner_n: f64) -> Self {
+        let resolved = growth_rate_per_s.abs() > RESOLVED * rad_s;
+        Self {
+            growth_rate_per_s: if resolved { growth_rate_per_s } else { 0.0 },
+            frequency_hz: rad_s / std::f64::consts::TAU,
+            normal_inner_n,
+        }
+    }
+
     /// Whether the sprags leave the equilibrium by themselves.
     pub fn grows(&self) -> bool {
-        self.growth_rate_per_s > RESOLVED * std::f64::consts::TAU * self.frequency_hz
+        self.growth_rate_per_s > 0.0
     }
 }
 
@@ -119,11 +129,8 @@ pub fn swing_on_film(
         rate[0],         rate[1],        rate[2],
     ];
     let eigenvalues = eigenvalues(DMatrix::from_row_slice(3, 3, &matrix))?;
-    Some(Swing {
-        growth_rate_per_s: eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max),
-        frequency_hz: eigenvalues.iter().map(|l| l.im).fold(0.0, f64::max) / std::f64::consts::TAU,
-        normal_inner_n: p.n_bi,
-    })
+    let growth = eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max);
+    Some(Swing::of(growth, eigenvalues.iter().map(|l| l.im).fold(0.0, f64::max), p.n_bi))
 }
 
 /// The equilibrium of the equations of motion and how they change beside it.
@@ -180,10 +187,7 @@ impl Beside {
 
     fn swing(&self) -> Swing {
         let eigenvalues = Matrix2::new(0.0, 1.0, self.by_alpha, self.by_rate).complex_eigenvalues();
-        Swing {
-            growth_rate_per_s: eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max),
-            frequency_hz: eigenvalues[0].im.abs() / std::f64::consts::TAU,
-            normal_inner_n: self.point.n_bi,
-        }
+        let growth = eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max);
+        Swing::of(growth, eigenvalues[0].im.abs(), self.point.n_bi)
     }
 }

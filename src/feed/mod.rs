@@ -84,6 +84,8 @@ const HALVINGS: u32 = 16;
 /// Strokes at least and at most; they end where one is like the one before to [`ALIKE`] of the stroke.
 const STROKES: [u32; 2] = [3, 12];
 const ALIKE: f64 = 1e-6;
+/// Share of the stroke below which a race that stands has moved by rounding only.
+const ROUNDING: f64 = 1e-10;
 
 /// The fed race on its brake.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -215,7 +217,9 @@ pub fn fed(clutch: &Clutch, case: &Strokes, follow: &Follow) -> Result<Fed, NoEl
         let feed_rad = back_rad - from_rad;
         found.unlike_rad = if found.strokes == 0 { f64::INFINITY } else { (feed_rad - found.feed_rad).abs() };
         found.error_rad += feed_rad;
-        (found.feed_rad, found.runs_on_rad) = (feed_rad, back_rad - there_rad);
+        let runs_on_rad = back_rad - there_rad;
+        found.feed_rad = feed_rad;
+        found.runs_on_rad = if runs_on_rad.abs() > ROUNDING * case.stroke_rad { runs_on_rad } else { 0.0 };
         found.peak = drive.element.model().curve.at_normal(drive.most_n);
         found.open_s = drive.open_s;
         found.strokes += 1;

@@ -197,7 +197,7 @@ impl Life {
     }
 }
 
-/// The life of `design` in the service that its file names.
+/// The life of `design` in `service`; its swings left out, which are loads once the torques between which they swing are known.
 ///
 /// # Errors
 /// [`NoMargins`] where there is no clutch to speak of.
@@ -232,7 +232,7 @@ fn counted(service: &Service) -> Counted {
     let mut cycles: Vec<[f64; 3]> = Vec::new();
     for load in &service.loads {
         loads.push((load.torque_nm, load.engagements));
-        cycles.push([0.0, load.torque_nm, load.engagements]);
+        cycles.push([load.from_nm, load.torque_nm, load.engagements]);
     }
     for history in &service.histories {
         let points = turning_points(&history.rows);

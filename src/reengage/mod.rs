@@ -39,6 +39,11 @@ pub struct SlipUnderLoad {
 }
 
 impl SlipUnderLoad {
+    /// Energy of this speed of the races against one another, J.
+    pub fn energy_j(&self, speed_rad_s: f64) -> f64 {
+        0.5 * self.reduced_kg_m2() * speed_rad_s * speed_rad_s
+    }
+
     /// Inertia of the races against one another, kg m^2.
     pub fn reduced_kg_m2(&self) -> f64 {
         let [inner, outer] = self.inertia_kg_m2;
@@ -106,24 +111,49 @@ const PERIODS: f64 = 3.0;
 /// Advances at most until the clutch has gripped.
 const MOST: usize = 200_000;
 
-/// Torque up to which `energy_j` winds the clutch up from `torque_nm` on, that torque doing its part; `None`: not on the curve.
-pub fn by_energy_nm(curve: &WedgeCurve, torque_nm: f64, energy_j: f64) -> Option<f64> {
-    const PANELS: u32 = 4096;
+/// Panels of the integrals below.
+const PANELS: u32 = 4096;
+
+/// The windup from `torque_nm` to the end of the curve in panels: torques at its ends, and the work that goes into it beside that of
+/// the torque that acts, J.
+fn panels(curve: &WedgeCurve, torque_nm: f64) -> Option<impl Iterator<Item = ([f64; 2], f64)> + '_> {
     let end_nm = curve.end_torque_nm() * (1.0 - 1e-12);
-    let (mut left_j, mut before) = (energy_j, [torque_nm, curve.at_torque(torque_nm)?.windup_rad]);
-    for k in 1..=PANELS {
+    let mut before = [torque_nm, curve.at_torque(torque_nm)?.windup_rad];
+    Some((1..=PANELS).map_while(move |k| {
         let here_nm = torque_nm + (end_nm - torque_nm) * f64::from(k) / f64::from(PANELS);
         let windup_rad = curve.at_torque(here_nm)?.windup_rad;
         let work_j = (0.5 * (before[0] + here_nm) - torque_nm) * (windup_rad - before[1]);
+        let ends = [before[0], here_nm];
+        before = [here_nm, windup_rad];
+        Some((ends, work_j))
+    }))
+}
+
+/// Torque up to which `energy_j` winds the clutch up from `torque_nm` on, that torque doing its part; `None`: not on the curve.
+pub fn by_energy_nm(curve: &WedgeCurve, torque_nm: f64, energy_j: f64) -> Option<f64> {
+    let mut left_j = energy_j;
+    for ([from_nm, until_nm], work_j) in panels(curve, torque_nm)? {
         if work_j >= left_j {
             // Work rises with the square of the torque where the panel begins at the torque that acts.
-            let [from, until] = [before[0] - torque_nm, here_nm - torque_nm];
+            let [from, until] = [from_nm - torque_nm, until_nm - torque_nm];
             return Some(torque_nm + (from * from + (until * until - from * from) * left_j / work_j).sqrt());
         }
         left_j -= work_j;
-        before = [here_nm, windup_rad];
     }
     None
+}
+
+/// Energy that winds the clutch up from `torque_nm` to `until_nm`, at most to the end of its curve, J: [`by_energy_nm`] turned round.
+pub fn taken_up_j(curve: &WedgeCurve, torque_nm: f64, until_nm: f64) -> Option<f64> {
+    let mut taken_j = 0.0;
+    for ([from_nm, to_nm], work_j) in panels(curve, torque_nm)? {
+        if to_nm >= until_nm {
+            let [from, to, until] = [from_nm, to_nm, until_nm].map(|nm| nm - torque_nm);
+            return Some(taken_j + work_j * (until * until - from * from) / (to * to - from * from));
+        }
+        taken_j += work_j;
+    }
+    Some(taken_j)
 }
 
 /// How far a slip comes.
@@ -236,8 +266,7 @@ impl Drive<'_> {
 
     /// Largest torque that the energy of this speed of the races against one another comes to.
     fn by_energy_nm(&self, curve: &WedgeCurve, speed_rad_s: f64) -> Option<f64> {
-        let energy_j = 0.5 * self.case.reduced_kg_m2() * speed_rad_s * speed_rad_s;
-        by_energy_nm(curve, self.case.torque_nm, energy_j)
+        by_energy_nm(curve, self.case.torque_nm, self.case.energy_j(speed_rad_s))
     }
 
     /// `path_m` with nothing between the races from `end` on: the torque alone drives them apart.

@@ -52,6 +52,8 @@ pub enum Unit {
     KilogramSquareMetre,
     /// Watt.
     Watt,
+    /// Joule.
+    Joule,
 }
 
 impl Unit {
@@ -80,6 +82,7 @@ impl Unit {
             Self::Gram => "g",
             Self::KilogramSquareMetre => "kg m²",
             Self::Watt => "W",
+            Self::Joule => "J",
         }
     }
 
@@ -105,7 +108,8 @@ impl Unit {
             | Self::PerSecond
             | Self::MetrePerSecond
             | Self::KilogramSquareMetre
-            | Self::Watt => si,
+            | Self::Watt
+            | Self::Joule => si,
         }
     }
 

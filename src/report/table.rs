@@ -82,7 +82,8 @@ impl From<usize> for Cell {
 }
 
 impl Cell {
-    fn shown(&self, column: &Column) -> String {
+    /// As people read it.
+    pub(crate) fn shown(&self, column: &Column) -> String {
         match self {
             Self::Text(text) | Self::Verdict(_, text) => text.clone(),
             Self::Si(si) => significant(column.unit.from_si(*si), column.digits),

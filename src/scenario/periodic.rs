@@ -6,7 +6,9 @@
 use super::demand::STEPS_PER_PERIOD_OF_DEMAND;
 use super::prepare::Prepared;
 use super::simulate::Settings;
-use crate::dynamics::{Grip, Mode, NoOrbit, Orbit, Place, Rolling, RunSettings, Shooting, State, orbit};
+use crate::dynamics::{
+    Grip, Mode, NoOrbit, Orbit, Place, Rolling, RunSettings, Shooting, State, Stop, orbit,
+};
 
 /// What the clutch does in each period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,20 +19,23 @@ pub enum MotionKind {
     Slips,
     /// A opens.
     LiftsOff,
-    /// The motion leaves the curve or its reach: the sprag rolls over, leaves its profile or falls away.
-    Ends,
+    /// It ends: the load goes beyond the end of the curve, off the profile or over its highest point.
+    Overloaded,
+    /// It ends: the sprags are thrown farther from the race than is followed.
+    Disengages,
     /// No periodic motion was found.
     NotFound,
 }
 
 impl MotionKind {
-    /// Name in reports and JSON.
+    /// Name in reports and JSON; what ends goes by the words of a [`super::Verdict`].
     pub fn name(self) -> &'static str {
         match self {
             Self::Rolls => "rolls",
             Self::Slips => "slips",
             Self::LiftsOff => "lifts-off",
-            Self::Ends => "ends",
+            Self::Overloaded => super::Verdict::Overloaded.name(),
+            Self::Disengages => super::Verdict::Disengages.name(),
             Self::NotFound => "not-found",
         }
     }
@@ -60,9 +65,9 @@ pub struct Steady {
 const APART: f64 = 1e-3;
 
 impl Steady {
-    /// Whether the motion comes back from small disturbances; `None`: there is none.
+    /// Whether the motion comes back from small disturbances; `None`: there is none, or [`Orbit::is_stable`] cannot tell.
     pub fn is_stable(&self) -> Option<bool> {
-        self.motion.as_ref().ok().map(Orbit::is_stable)
+        self.motion.as_ref().ok().and_then(Orbit::is_stable)
     }
 
     /// Whether it is another motion than `other`.
@@ -148,7 +153,8 @@ pub fn steady_motion(prepared: &Prepared, settings: &Settings, near: Option<&Ste
     };
     let kind = match &motion {
         Ok(found) => kind(found),
-        Err(NoOrbit::Ends(stop)) if !stop.gave_up() => MotionKind::Ends,
+        Err(NoOrbit::Ends(Stop::CurveEnd)) => MotionKind::Overloaded,
+        Err(NoOrbit::Ends(Stop::FellAway)) => MotionKind::Disengages,
         Err(_) => MotionKind::NotFound,
     };
     let of = |orbit: &Result<Orbit, NoOrbit>| orbit.as_ref().map_or(0, |o| o.periods);

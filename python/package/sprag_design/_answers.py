@@ -234,7 +234,9 @@ class Overrun:
     named: tuple[dict[str, Any], ...]
     """The overruns that the design names."""
     warning: str | None
-    """A warning where the equilibrium does not stay; ``None`` where it does."""
+    """A warning where the equilibrium does not stay at a speed that the design names; ``None`` where it does."""
+    passing: str | None
+    """A note where that is so at other speeds only, on the way through them."""
 
 
 @dataclass(frozen=True)
@@ -983,6 +985,10 @@ class Life(_Common):
     """Whether the largest load indents a contact."""
     not_known: tuple[str, ...]
     """Codes of the places whose life is not known."""
+    swings: tuple[dict[str, Any], ...]
+    """Each scenario that goes on for hours: ``scenario``, ``hours``, ``frequency_hz``, ``from_nm``, ``torque_nm``, ``engagements``."""
+    swings_not_counted: tuple[str, ...]
+    """Scenarios that swing and that the service does not name."""
     slips_allowed: float | None
     """Slips by chance that the file allows."""
     engagements: float
@@ -1145,6 +1151,8 @@ class Blow:
     """The blow, N m; ``None``: beyond the end of the curve."""
     peak_by_energy_nm: float | None
     """The same where nothing is lost, N m."""
+    energy_j: float | None
+    """Energy of the races against one another at that speed, J."""
     hertz_inner_mpa: float | None
     """Largest Hertz pressure at the inner contact, MPa."""
     held: bool
@@ -1179,6 +1187,16 @@ class Reengagement(_Common):
     """The limit that sets it."""
     blows: tuple[Blow, ...]
     """Each path of slip with its blow."""
+    bears_j: float | None
+    """Energy that the windup takes up from the torque carried to ``bears_nm``, J."""
+    end_of_curve_j: float | None
+    """The same to the end of the curve, J."""
+    torque_needs_friction: float | None
+    """Friction that holds the torque."""
+    borne: dict[str, Any] | None
+    """Where a blow is not borne: ``path_mm``, up to which slip would be, and ``friction``, from which on the shortest path is."""
+    speed_of: str | None
+    """The scenario whose speed was taken."""
     needs_friction: float | None
     """Where it does not slip: the friction that the torque needs."""
     slip_ended: str | None

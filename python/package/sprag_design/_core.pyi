@@ -67,7 +67,7 @@ class Design:
         inertia_kg_m2: Sequence[float | None],
         outer_held: bool | None,
         friction: float | None,
-        speed_rpm: float,
+        speed_rpm: float | None,
         paths_mm: Sequence[float] | None,
     ) -> tuple[str, str]: ...
     def problem(self, full: bool) -> Problem: ...

@@ -327,13 +327,13 @@ class Design:
         inertia_outer_kg_m2: float | None = None,
         outer_held: bool | None = None,
         friction: float | None = None,
-        speed_rpm: float = 0.0,
+        speed_rpm: float | None = None,
     ) -> Reengagement:
         """Slip under load and the blow when the clutch grips again, for each path of slip at the inner track (mm, rising; left
         out: 0.1 to 30). ``torque_nm``: carried when the slip begins, left out the nominal torque of ``[limits]``; inertias:
         what turns with each race, the race included, left out the race alone; ``outer_held``: the outer race keeps its speed (left out: where the design names none of it)
         whatever acts on it; ``friction`` while it slips, left out 0.95 of
-        what the torque needs; ``speed_rpm``: of both races.
+        what the torque needs; ``speed_rpm``: of both races, left out the largest at which a scenario of the design carries torque.
 
         Raises ``ValueError`` for what makes no sense, :class:`NoClutch` where the clutch cannot carry the torque.
         """
@@ -346,7 +346,7 @@ class Design:
         for name, value in given.items():
             if value is not None:
                 _positive(name, [value])
-        if not math.isfinite(speed_rpm):
+        if speed_rpm is not None and not math.isfinite(speed_rpm):
             raise ValueError(f"speed_rpm {speed_rpm}: allowed: a finite number")
         paths = None if paths_mm is None else _positive("paths_mm", paths_mm)
         inertias = (inertia_inner_kg_m2, inertia_outer_kg_m2)

@@ -90,15 +90,22 @@ fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
         let speed = speed.filter(|speed| *speed > 0.0)?;
         Some((key.to_owned(), [-speed, speed]))
     });
-    let by_scene = design.scenarios.iter().filter_map(|s| Some((s.name.clone(), s.kind.overrun_rad_s()?)));
-    let one = |(by, [ahead, outer]): (String, [f64; 2])| {
+    let by_limit = by_limit.map(|(by, speeds)| (by, speeds, true));
+    let by_scene = design
+        .scenarios
+        .iter()
+        .filter_map(|s| Some((s.name.clone(), s.kind.overrun_rad_s()?, s.kind.is_overrun())));
+    let one = |(by, [ahead, outer], lasts): (String, [f64; 2], bool)| {
         let point = overrun_at(design, state, outer, ahead.abs()).ok()?;
         Some(NamedOverrun {
             by,
             outer_rpm: Unit::Rpm.from_si(outer),
             inner_rpm: Unit::Rpm.from_si(outer + ahead),
             drag_torque_nm: point.state.drag_torque_nm,
+            growth_rate_per_s: point.swing.map(|s| s.growth_rate_per_s),
+            swing_frequency_hz: point.swing.map(|s| s.frequency_hz),
             lifted_off: point.state.normal_inner_n <= 0.0,
+            lasts,
         })
     };
     by_limit.chain(by_scene).filter_map(one).collect()
@@ -132,8 +139,6 @@ pub struct OverrunRow {
     pub growth_rate_per_s: Option<f64>,
     /// Frequency of that swing, Hz.
     pub swing_frequency_hz: Option<f64>,
-    #[serde(skip)]
-    grows: bool,
     /// Whether the sprags are off the inner race.
     pub lifted_off: bool,
     /// Growth of the outer track by rotation, um.
@@ -153,8 +158,15 @@ pub struct NamedOverrun {
     pub inner_rpm: f64,
     /// Drag of the whole clutch, N m.
     pub drag_torque_nm: f64,
+    /// Growth of a small swing of the sprags, 1/s, as of [`OverrunRow`].
+    pub growth_rate_per_s: Option<f64>,
+    /// Frequency of that swing, Hz.
+    pub swing_frequency_hz: Option<f64>,
     /// Whether the sprags are off the inner race.
     pub lifted_off: bool,
+    /// Whether it is steady; an engagement only begins so.
+    #[serde(skip)]
+    lasts: bool,
 }
 
 impl NamedOverrun {
@@ -163,12 +175,17 @@ impl NamedOverrun {
             true => "none (the sprags are off)".to_owned(),
             false => Unit::NewtonMetre.show(self.drag_torque_nm, 3),
         };
+        format!("{drag} at {}", self.speeds())
+    }
+
+    /// Speeds, and who names them.
+    fn speeds(&self) -> String {
         let speeds = match (self.outer_rpm, self.inner_rpm) {
             (outer, 0.0) => format!("{outer:.0} rpm of the outer race"),
             (0.0, inner) => format!("{inner:.0} rpm of the inner race"),
             (outer, inner) => format!("{outer:.0} rpm of the outer and {inner:.0} rpm of the inner race"),
         };
-        format!("{drag} at {speeds} ({})", self.by)
+        format!("{speeds} ({})", self.by)
     }
 }
 
@@ -194,34 +211,62 @@ pub struct OverrunSection {
     /// Whether the sliding contact is on a film of oil.
     #[serde(skip)]
     pub on_film: bool,
-    /// A warning where the equilibrium does not stay; null where it does.
+    /// A warning where the equilibrium does not stay at a speed that the design names, or, where it names none, at any; null where it
+    /// does.
     pub warning: Option<String>,
+    /// A note where that is so at other speeds only, on the way through them.
+    pub passing: Option<String>,
 }
 
-/// What an equilibrium does not say: the fastest growth of the swing among the speeds looked at, up to `wanted_rpm` of the
-/// outer race where contact is to be kept.
-fn warning(
-    points: &[OverrunRow],
-    outer_turns: bool,
-    wanted_rpm: Option<f64>,
-    on_film: bool,
-) -> Option<String> {
-    let wanted = |p: &OverrunRow| wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
-    let within = |p: &&OverrunRow| p.race == "inner" || outer_turns && wanted(p);
-    let growth = |p: &OverrunRow| p.growth_rate_per_s.unwrap_or(0.0);
-    let p =
-        points.iter().filter(|p| p.grows).filter(within).max_by(|a, b| growth(a).total_cmp(&growth(b)))?;
-    let held = if wanted_rpm.is_some() { ", and so is keep-contact" } else { "" };
+/// Time in which a swing must grow tenfold for a speed that is only passed to be spoken of, s: a choice, no clutch passes more slowly.
+pub(in crate::answer) const PASSING_S: f64 = 1.0;
+
+/// What passing through speeds at which a swing grows by `rate` at most (1/s), said to be `which`, means; `None` where it takes
+/// longer than [`PASSING_S`] to grow tenfold.
+pub(in crate::answer) fn passing_words(rate: f64, which: &str) -> Option<String> {
+    let tenfold_s = std::f64::consts::LN_10 / rate;
+    (tenfold_s <= PASSING_S).then(|| {
+        format!(
+            "Note: {which} a small swing of the sprags grows tenfold in {} or more: it matters where the clutch stays there that long, not \
+             where it passes",
+            Unit::Millisecond.show(tenfold_s, 2)
+        )
+    })
+}
+
+/// What an equilibrium does not say: the fastest growth of the swing at the steady overruns that the design names, or, where it
+/// names none, among the speeds looked at.
+fn warning(named: &[NamedOverrun], points: &[&OverrunRow], limits: &Limits, on_film: bool) -> Option<String> {
+    let steady = || named.iter().filter(|n| n.lasts);
+    let of_named = steady().map(|n| (n.growth_rate_per_s, n.swing_frequency_hz, n.speeds()));
+    let of_points = points.iter().map(|p| {
+        let at =
+            format!("{:.0} rpm of the {} race, the fastest of the speeds looked at", p.speed_rpm, p.race);
+        (p.growth_rate_per_s, p.swing_frequency_hz, at)
+    });
+    let all: Vec<_> = if steady().next().is_some() { of_named.collect() } else { of_points.collect() };
+    let grows =
+        all.into_iter().filter_map(|(rate, hertz, at)| Some((rate?, hertz?, at))).filter(|g| g.0 > 0.0);
+    let (rate, hertz, at) = grows.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let held = if limits.keep_contact_to_rad_s.is_some() { ", and so is keep-contact" } else { "" };
     Some(format!(
-        "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}, {:.0} rpm of the {} race \
-         (fastest of the speeds looked at; races at held speeds). Drag and forces are those of the equilibrium{held}; a \
-         transient scenario shows what the sprags do{}",
-        Unit::PerSecond.show(growth(p), 3),
-        Unit::Hertz.show(p.swing_frequency_hz?, 3),
-        p.speed_rpm,
-        p.race,
+        "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}, at {at}; races at held speeds. Drag and forces \
+         are those of the equilibrium{held}; a transient scenario shows what the sprags do{}",
+        Unit::PerSecond.show(rate, 3),
+        Unit::Hertz.show(hertz, 3),
         if on_film { "" } else { ". A film of oil may damp it: add [lubrication]" },
     ))
+}
+
+/// Where a swing grows at speeds that the clutch only passes.
+fn passing(points: &[&OverrunRow]) -> Option<String> {
+    let rate = |p: &OverrunRow| p.growth_rate_per_s.unwrap_or(0.0);
+    let fast = || points.iter().filter(|p| rate(p) * PASSING_S >= std::f64::consts::LN_10);
+    let most = fast().map(|p| rate(p)).fold(0.0, f64::max);
+    let up_to = |race: &str| fast().filter(|p| p.race == race).map(|p| p.speed_rpm).reduce(f64::max);
+    let races = ["inner", "outer"].into_iter().filter_map(|race| Some((race, up_to(race)?)));
+    let words: Vec<String> = races.map(|(race, rpm)| format!("{rpm:.0} rpm of the {race} race")).collect();
+    if words.is_empty() { None } else { passing_words(most, &format!("up to {}", words.join(" or "))) }
 }
 
 impl OverrunSection {
@@ -236,7 +281,6 @@ impl OverrunSection {
             friction: p.friction,
             growth_rate_per_s: p.swing.map(|s| s.growth_rate_per_s),
             swing_frequency_hz: p.swing.map(|s| s.frequency_hz),
-            grows: p.swing.is_some_and(|s| s.grows()),
             lifted_off: p.state.normal_inner_n <= 0.0,
             outer_race_growth_um: Unit::Micrometre.from_si(p.growth_m),
             rotation_hoop_outer_mpa: Unit::Megapascal.from_si(p.rotation_hoop_pa),
@@ -244,7 +288,12 @@ impl OverrunSection {
         let outer = curve.outer_race.iter().map(|p| row("outer", p));
         let points: Vec<OverrunRow> = outer.chain(curve.inner_race.iter().map(|p| row("inner", p))).collect();
         let wanted_rpm = limits.keep_contact_to_rad_s.map(|w| Unit::Rpm.from_si(w));
+        let turns = outer_turns(design);
+        let within =
+            |p: &&OverrunRow| p.race == "inner" || turns && wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
+        let looked_at: Vec<&OverrunRow> = points.iter().filter(within).collect();
         let on_film = curve.inner_race.iter().any(|p| p.lubricated.is_some());
+        let warning = warning(&named, &looked_at, limits, on_film);
         Self {
             centrifugal: match curve.gamma_rad {
                 g if g > 0.0 => "engaging",
@@ -254,8 +303,9 @@ impl OverrunSection {
             gamma_deg: Unit::Degree.from_si(curve.gamma_rad),
             drag_torque_slow_nm: curve.inner_race.first().map_or(0.0, |p| p.state.drag_torque_nm),
             on_film,
-            warning: warning(&points, outer_turns(design), wanted_rpm, on_film),
-            outer_race_turns: outer_turns(design),
+            passing: if warning.is_none() { passing(&looked_at) } else { None },
+            warning,
+            outer_race_turns: turns,
             named,
             points,
         }
@@ -263,7 +313,7 @@ impl OverrunSection {
 
     /// Drag, and whether the equilibrium stays, a line each.
     pub fn remarks(&self) -> impl Iterator<Item = String> {
-        std::iter::once(self.remark()).chain(self.warning.clone())
+        [Some(self.remark()), self.warning.clone(), self.passing.clone()].into_iter().flatten()
     }
 
     /// Drag in one line, at the speeds that the design names; lift-off has its own.
@@ -315,7 +365,25 @@ impl OverrunSection {
         }
     }
 
-    /// All speeds, for `--overrun-csv` and the page.
+    /// For people: as [`Self::table`], without rows that show what those on both sides of them do.
+    pub(super) fn short_table(&self) -> Table {
+        const SPEED: usize = 1;
+        let all = self.table();
+        let shown: Vec<Vec<String>> = all
+            .rows
+            .iter()
+            .map(|row| {
+                let cells = row.iter().zip(&all.columns).enumerate().filter(|(k, _)| *k != SPEED);
+                cells.map(|(_, (cell, column))| cell.shown(column)).collect()
+            })
+            .collect();
+        let like = |a: usize, b: usize| shown.get(a).is_some_and(|row| Some(row) == shown.get(b));
+        let between = |k: usize| k > 0 && like(k - 1, k) && like(k + 1, k);
+        let rows = all.rows.iter().enumerate().filter(|(k, _)| !between(*k)).map(|(_, row)| row.clone());
+        Table { rows: rows.collect(), ..all }
+    }
+
+    /// All speeds, for `--overrun-csv`.
     pub fn table(&self) -> Table {
         Rows::of(&self.points)
             .text("race", "Race that runs", |p| p.race)

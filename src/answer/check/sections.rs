@@ -4,6 +4,9 @@ use super::{overrun, run_out};
 use crate::answer::page::half;
 use crate::report::{Curve, Page, Plot, Unit, greek};
 
+/// What the table of overrun leaves out.
+const LEFT_OUT: &str = "Speeds between two that show the same are left out: --overrun-csv has them all.";
+
 /// Section of the page: overrun.
 pub(super) fn overrun(
     section: &overrun::OverrunSection,
@@ -44,7 +47,7 @@ pub(super) fn overrun(
     if !section.outer_race_turns {
         page.figures(&[(half(drag), drag_words)]);
         page.apart("Overrun over speed as a table", |page| {
-            page.table("", &section.table());
+            page.table(LEFT_OUT, &section.short_table());
         });
         return;
     }
@@ -55,7 +58,7 @@ pub(super) fn overrun(
     let growth = half(growth);
     page.apart("Growth of the outer track, and overrun over speed as a table", |page| {
         page.figure(&growth, "What the outer track grows by rotation alone; it opens the gap.");
-        page.table("", &section.table());
+        page.table(LEFT_OUT, &section.short_table());
     });
 }
 

@@ -41,7 +41,8 @@ impl RunningRace {
 pub struct OverrunQuestion {
     /// Race that runs.
     pub race: RunningRace,
-    /// Speeds, rad/s; none: 1, 2, 5 ... up to lift-off and 50 m/s, and those of the overruns that the design names.
+    /// Speeds, rad/s; none: 1, 2, 5 ... up to lift-off and 50 m/s, and those of the overruns and, of the outer race, of the limits
+    /// that the design names.
     pub speeds_rad_s: Vec<f64>,
     /// Temperatures of the oil, C; none: that of the file.
     pub temperatures_c: Vec<f64>,
@@ -70,6 +71,8 @@ pub struct OverrunAnswer<'a> {
     state: LoadState,
     /// What was asked.
     pub question: OverrunQuestion,
+    /// Those of its speeds that were asked for, or that the design names; the others are usual ones.
+    named_rad_s: Vec<f64>,
     /// Temperatures one after another, speeds in each.
     pub lines: Vec<OverrunLine>,
     /// Lift-off of the outer race, rad/s: it does not depend on friction, which ends with the force at A.
@@ -116,6 +119,20 @@ pub(super) fn usual_speeds_rad_s() -> impl Iterator<Item = f64> {
 }
 
 impl Design {
+    /// Speeds of `race` in steady overruns that the design names, in scenarios and, of the outer race, in limits, rad/s; those of
+    /// engagements, which only begin so, too.
+    fn named_speeds_rad_s(&self, race: RunningRace) -> Vec<f64> {
+        let of_scenes = self.scenarios.iter().filter_map(|s| match (s.kind.overrun_rad_s()?, race) {
+            ([ahead, 0.0], RunningRace::Inner) => Some(ahead),
+            ([_, outer], RunningRace::Outer) => (outer > 0.0).then_some(outer),
+            _ => None,
+        });
+        let limits = [self.limits.keep_contact_to_rad_s, self.limits.lift_off_by_rad_s];
+        let of_limits =
+            limits.into_iter().flatten().filter(|speed| race == RunningRace::Outer && *speed > 0.0);
+        of_scenes.chain(of_limits).collect()
+    }
+
     /// Overrun on the film that `[lubrication]` names.
     ///
     /// # Errors
@@ -125,6 +142,8 @@ impl Design {
         let state = load_state(self).map_err(NoOverrun::NoClutch)?;
         let lift_off = lift_off_rad_s(self, &state, LIFT_OFF_TO_RAD_S);
         let mut question = question.clone();
+        // Who asks for a speed names it.
+        let mut named = question.speeds_rad_s.clone();
         if question.temperatures_c.is_empty() {
             question.temperatures_c.push(lubrication.temperature_c);
         }
@@ -132,13 +151,8 @@ impl Design {
             let track = self.clutch.races.inner_radius_m;
             let lift = lift_off.filter(|_| question.race == RunningRace::Outer).unwrap_or(f64::INFINITY);
             let usual = usual_speeds_rad_s();
-            let named =
-                self.scenarios.iter().filter_map(|s| match (s.kind.overrun_rad_s()?, question.race) {
-                    ([ahead, 0.0], RunningRace::Inner) => Some(ahead),
-                    ([_, outer], RunningRace::Outer) => (outer > 0.0).then_some(outer),
-                    _ => None,
-                });
-            let all = usual.chain(named).filter(|w| *w < lift && *w * track <= FASTEST_M_S);
+            named = self.named_speeds_rad_s(question.race);
+            let all = usual.chain(named.iter().copied()).filter(|w| *w < lift && *w * track <= FASTEST_M_S);
             question.speeds_rad_s = all.collect();
             question.speeds_rad_s.sort_by(f64::total_cmp);
             question.speeds_rad_s.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * *b);
@@ -156,6 +170,7 @@ impl Design {
             lubrication,
             state,
             question,
+            named_rad_s: named,
             lines,
             lift_off_rad_s: lift_off,
             slip,

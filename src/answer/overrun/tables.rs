@@ -88,7 +88,8 @@ fn of_swing_and_wear() -> Vec<Kind> {
 
 fn table(answer: &OverrunAnswer<'_>, kinds: impl IntoIterator<Item = Kind>) -> Table {
     let (columns, cells): (Vec<Column>, Vec<Shown>) = kinds.into_iter().unzip();
-    let mut table = Table::new(columns);
+    // Oil and speed say what a row is.
+    let mut table = Table { lead: 2, ..Table::new(columns) };
     for line in &answer.lines {
         table.row(cells.iter().map(|cell| cell(line)).collect());
     }

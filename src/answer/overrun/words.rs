@@ -1,6 +1,7 @@
 //! What the tables of an overrun do not say.
 
 use super::{LeftOut, OverrunAnswer, OverrunLine};
+use crate::answer::check::overrun::passing_words;
 use crate::lubrication::Film;
 use crate::report::{Unit, significant};
 
@@ -91,14 +92,23 @@ impl OverrunAnswer<'_> {
         let place =
             |l: &OverrunLine| format!("{} C, {}", significant(l.oil_c, 3), Unit::Rpm.show(l.speed_rad_s, 4));
         let growth = |l: &OverrunLine| l.point.swing.filter(|s| s.grows()).map(|s| s.growth_rate_per_s);
-        let worst = self.lines.iter().filter(|l| growth(l).is_some());
-        if let Some((l, rate)) =
-            worst.filter_map(|l| Some((l, growth(l)?))).max_by(|a, b| a.1.total_cmp(&b.1))
-        {
+        let near = |l: &OverrunLine| {
+            self.named_rad_s.iter().any(|named| (l.speed_rad_s - named).abs() <= 1e-9 * named)
+        };
+        let worst = |named: bool| {
+            let lines = self.lines.iter().filter(|l| (near(l) || self.named_rad_s.is_empty()) == named);
+            lines.filter_map(|l| Some((l, growth(l)?))).max_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        if let Some((l, rate)) = worst(true) {
             all.push(format!(
                 "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}",
                 Unit::PerSecond.show(rate, 3),
                 place(l)
+            ));
+        } else if let Some((l, rate)) = worst(false) {
+            all.extend(passing_words(
+                rate,
+                &format!("at speeds that the file does not name, most at {},", place(l)),
             ));
         }
         let by_friction =
