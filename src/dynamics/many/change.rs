@@ -39,7 +39,7 @@ impl<const N: usize> Going<'_, N> {
         }
         self.hold();
         let (t, y) = (self.t_s, self.y);
-        self.rhs.look::<true, N>(t, &y);
+        self.rhs.look::<true>(t, &y);
         let before = self.rhs.motions.clone();
         let mut known: Vec<_> = before.iter().map(|motion| as_it_is(&motion.mode)).collect();
         for (g, fell) in falls.iter().enumerate() {

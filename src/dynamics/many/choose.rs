@@ -31,7 +31,7 @@ pub(super) fn as_it_is(mode: &Mode) -> BothKnown {
 
 impl Rhs<'_> {
     /// Bring all groups into their consistent modes at (t, y), their places as they are. False: one contradicts itself.
-    pub(super) fn choose<const N: usize>(&mut self, t: f64, y: &[f64; N], known: &[BothKnown]) -> bool {
+    pub(super) fn choose(&mut self, t: f64, y: &[f64], known: &[BothKnown]) -> bool {
         for (motion, known) in self.motions.iter_mut().zip(known) {
             // Where a contact has been released it slips, whatever comes of the others.
             motion.mode.inner = released(known[0], motion.mode.inner);
@@ -40,7 +40,7 @@ impl Rhs<'_> {
         let races = &self.groups[0].model;
         let inertia = Vector2::new(races.inner_inertia_kg_m2, races.outer_inertia_kg_m2);
         let size = |miss: &Vector2<f64>| miss[0] * miss[0] / inertia[0] + miss[1] * miss[1] / inertia[1];
-        let mut x = self.look::<true, N>(t, y);
+        let mut x = self.look::<true>(t, y);
         let mut choice = self.choose_under(t, y, known, &x);
         let mut left = size(&choice.miss);
         for _ in 0..MOST {
@@ -48,7 +48,7 @@ impl Rhs<'_> {
                 return choice.consistent;
             }
             self.set(&choice.modes);
-            let to = self.look::<true, N>(t, y);
+            let to = self.look::<true>(t, y);
             let mut part = 1.0;
             loop {
                 let there = x + (to - x) * part;
@@ -76,13 +76,7 @@ impl Rhs<'_> {
     }
 
     /// Each group's own mode while the races go at `x`, rad/s^2.
-    fn choose_under<const N: usize>(
-        &self,
-        t: f64,
-        y: &[f64; N],
-        known: &[BothKnown],
-        x: &Vector2<f64>,
-    ) -> Chosen {
+    fn choose_under(&self, t: f64, y: &[f64], known: &[BothKnown], x: &Vector2<f64>) -> Chosen {
         let races = &self.groups[0].model;
         let mut miss = Vector2::new(races.inner_inertia_kg_m2 * x[0], races.outer_inertia_kg_m2 * x[1])
             - self.torques_nm(t, y);

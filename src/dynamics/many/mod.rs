@@ -80,7 +80,7 @@ pub struct ManyStart {
 }
 
 /// The state of group `g` in the order of the one-sprag model.
-fn state_of<const N: usize>(y: &[f64; N], g: usize) -> State {
+fn state_of(y: &[f64], g: usize) -> State {
     let s = &y[HEAD + EACH * g..HEAD + EACH * (g + 1)];
     [s[0], s[1], y[0], y[1], s[2], s[3], y[2], y[3], s[4], s[5]]
 }

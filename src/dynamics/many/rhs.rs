@@ -115,7 +115,7 @@ impl<'a> Rhs<'a> {
     }
 
     /// Torques on the races but for those of the sprags, N m.
-    pub(super) fn torques_nm<const N: usize>(&self, t: f64, y: &[f64; N]) -> Vector2<f64> {
+    pub(super) fn torques_nm(&self, t: f64, y: &[f64]) -> Vector2<f64> {
         let races = &self.groups[0].model;
         let drag = races.damping_nm_s_per_rad * (y[2] - y[3]);
         let [torque_i, torque_e] = races.torques_nm(t);
@@ -123,7 +123,7 @@ impl<'a> Rhs<'a> {
     }
 
     /// All forces at (t, y), left in `seen`; the accelerations of the races, rad/s^2.
-    pub(super) fn look<const RADIAL: bool, const N: usize>(&mut self, t: f64, y: &[f64; N]) -> Vector2<f64> {
+    pub(super) fn look<const RADIAL: bool>(&mut self, t: f64, y: &[f64]) -> Vector2<f64> {
         let races = &self.groups[0].model;
         let f = self.torques_nm(t, y);
         for (g, (group, motion)) in self.groups.iter().zip(&self.motions).enumerate() {
@@ -170,12 +170,12 @@ impl<'a> Rhs<'a> {
     }
 
     /// Rate of alpha (rad/s) and forces of group `g` in `mode` while the races go at `x`, rad/s^2, whatever the others do.
-    pub(super) fn between<const N: usize>(
+    pub(super) fn between(
         &self,
         g: usize,
         mode: &Mode,
         t: f64,
-        y: &[f64; N],
+        y: &[f64],
         x: &Vector2<f64>,
     ) -> (f64, Forces) {
         let (model, own) = (&self.groups[g].model, state_of(y, g));
@@ -187,7 +187,7 @@ impl<'a> Rhs<'a> {
     }
 
     /// What is seen of group `g` after [`Self::look`] at y.
-    pub(super) fn probe<const N: usize>(&self, g: usize, y: &[f64; N]) -> Probe {
+    pub(super) fn probe(&self, g: usize, y: &[f64]) -> Probe {
         let motion = &self.motions[g];
         match (&self.seen[g], self.groups[g].lag_rad) {
             (Some(s), _) => {
@@ -211,13 +211,13 @@ impl<'a> Rhs<'a> {
     }
 
     /// Group `g` looked at in (t, y).
-    pub(super) fn sight<const N: usize>(&mut self, g: usize, t: f64, y: &[f64; N]) -> Probe {
-        self.look::<true, N>(t, y);
+    pub(super) fn sight(&mut self, g: usize, t: f64, y: &[f64]) -> Probe {
+        self.look::<true>(t, y);
         self.probe(g, y)
     }
 
     /// Event function `which` of group `g` at (t, y) alone: the ends of a place need no forces, a slip velocity no friction.
-    pub(super) fn event<const N: usize>(&mut self, g: usize, which: usize, t: f64, y: &[f64; N]) -> f64 {
+    pub(super) fn event(&mut self, g: usize, which: usize, t: f64, y: &[f64]) -> f64 {
         let (model, motion) = (&self.groups[g].model, &self.motions[g]);
         let own = state_of(y, g);
         let known = if motion.waits { None } else { without_forces(model, &motion.mode, &own, which) };
@@ -263,7 +263,7 @@ impl<'a> Rhs<'a> {
     }
 
     /// Rolling rates put in exactly, and the energy in motion and stored but for the contacts, J.
-    pub(super) fn energy_j<const N: usize>(&self, y: &[f64; N]) -> f64 {
+    pub(super) fn energy_j(&self, y: &[f64]) -> f64 {
         let races = &self.groups[0].model;
         let own = |g: usize| self.energy_of_j(g, y);
         (0..self.groups.len()).map(own).sum::<f64>()
@@ -273,7 +273,7 @@ impl<'a> Rhs<'a> {
     }
 
     /// Energy of group `g` from first contact on, J; none while it waits.
-    pub(super) fn energy_of_j<const N: usize>(&self, g: usize, y: &[f64; N]) -> f64 {
+    pub(super) fn energy_of_j(&self, g: usize, y: &[f64]) -> f64 {
         let (model, motion) = (&self.groups[g].model, &self.motions[g]);
         if motion.waits {
             return 0.0;
@@ -292,12 +292,12 @@ impl<const N: usize> RightHandSide<N> for Rhs<'_> {
     type Failure = ();
 
     fn slope(&mut self, t: f64, y: &[f64; N]) -> Result<[f64; N], ()> {
-        let x = self.look::<false, N>(t, y);
+        let x = self.look::<false>(t, y);
         self.slope_there(t, y, &x)
     }
 
     fn slope_at_probe(&mut self, probe: usize, t: f64, y: &[f64; N]) -> Result<[f64; N], ()> {
-        let x = self.look::<true, N>(t, y);
+        let x = self.look::<true>(t, y);
         for g in 0..self.groups.len() {
             self.probes[probe][g] = self.probe(g, y);
         }

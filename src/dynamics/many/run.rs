@@ -31,11 +31,8 @@ pub fn run_many(groups: &[SpragGroup], start: &ManyStart, settings: &RunSettings
     }
     match groups.len() {
         0..=1 => Going::<{ length(1) }>::new(groups, start, settings).run(),
-        2 => Going::<{ length(2) }>::new(groups, start, settings).run(),
-        3..=4 => Going::<{ length(4) }>::new(groups, start, settings).run(),
-        5..=8 => Going::<{ length(8) }>::new(groups, start, settings).run(),
-        9..=12 => Going::<{ length(12) }>::new(groups, start, settings).run(),
-        13..=24 => Going::<{ length(24) }>::new(groups, start, settings).run(),
+        2..=4 => Going::<{ length(4) }>::new(groups, start, settings).run(),
+        5..=24 => Going::<{ length(24) }>::new(groups, start, settings).run(),
         _ => Going::<{ length(64) }>::new(groups, start, settings).run(),
     }
 }
@@ -123,7 +120,7 @@ impl<'a, const N: usize> Going<'a, N> {
     fn run(mut self) -> ManyRun {
         self.settings.follow.begin_run();
         // A contact that cannot hold where the run begins lets go at once.
-        self.rhs.look::<true, N>(0.0, &self.y);
+        self.rhs.look::<true>(0.0, &self.y);
         let now = (0..self.groups.len()).map(|g| self.rhs.probe(g, &self.y).events);
         let grips = |i: usize| i == INNER || i == OUTER;
         let falls: Falls = now.map(|e| std::array::from_fn(|i| grips(i) && e[i] < 0.0)).collect();

@@ -174,7 +174,7 @@ impl<const N: usize> Going<'_, N> {
     }
 
     fn keep(&mut self, t: f64, y: &[f64; N]) {
-        self.rhs.look::<true, N>(t, y);
+        self.rhs.look::<true>(t, y);
         let probes: Vec<_> = (0..self.groups.len()).map(|g| self.rhs.probe(g, y)).collect();
         self.out.samples.push(ManySample {
             t_s: t,
