@@ -19,7 +19,8 @@ fn curve_of(design: &str, law: ContactLaw, change: impl Fn(&mut Clutch)) -> Wedg
     clutch.contact = law;
     change(&mut clutch);
     let profile = clutch.profile().unwrap();
-    WedgeCurve::build(&clutch, &profile, 0.0).unwrap()
+    // Of plane strain and plane stress this is the curve of the clutch.
+    WedgeCurve::build_as_deck(&clutch, &profile).unwrap()
 }
 
 /// Torque, normal force, windup (deg) and tan omega of the rows whose model is in the given state.
@@ -79,9 +80,7 @@ fn windup_and_forces_are_those_of_finite_elements_in_every_stress_state() {
     {
         let rows = rows(state);
         assert_eq!(rows.len(), count);
-        // Where plane strain gives way to plane stress is an estimate, good to half a percent.
-        let largest = if state == StressState::Layer { 0.0055 } else { 0.0035 };
-        within(&curve(ContactLaw::Elastic { state }, |_| {}), &rows, largest, &format!("{state:?}"));
+        within(&curve(ContactLaw::Elastic { state }, |_| {}), &rows, 0.0015, &format!("{state:?}"));
     }
 }
 
@@ -101,17 +100,62 @@ fn windup_and_forces_are_those_of_finite_elements_on_other_geometries() {
     let rows = rows_of(include_str!("reference/fem_multi_arc.csv"), StressState::Layer);
     assert_eq!(rows.len(), 5);
     let law = ContactLaw::Elastic { state: StressState::Layer };
-    within(&curve_of("huang2017-multi-arc", law, |_| {}), &rows, 0.0055, "three arcs");
+    within(&curve_of("huang2017-multi-arc", law, |_| {}), &rows, 0.0015, "three arcs");
+}
+
+/// Sprags 0.4 as wide as high that carry near a flank: as a disc the law was off by 2.1 % of windup and 0.8 % of tan omega.
+#[test]
+fn a_flank_beside_the_contacts_is_felt() {
+    let clutch = Design::read(Path::new("tests/reference/narrow_sprags.toml")).unwrap().clutch;
+    let curve = WedgeCurve::build_as_deck(&clutch, &clutch.profile().unwrap()).unwrap();
+    let table = include_str!("../reports/calculix-ten-decks.csv");
+    let rows: Vec<[f64; 4]> = table
+        .lines()
+        .filter_map(|line| line.strip_prefix("\"bore of 100 mm, 9000 Nm\","))
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            [1, 6, 4, 8].map(|i| cells[i].parse().unwrap())
+        })
+        .collect();
+    assert_eq!(rows.len(), 3);
+    within(&curve, &rows, 0.004, "narrow sprags");
+}
+
+/// The outline's compliance is an energy: what torque does on windup is what contacts and rings take, per force and way, and
+/// d(n^2 C/2). That holds because the force stands where the slope of C puts it.
+#[test]
+fn the_outline_stores_what_it_takes() {
+    let curve = {
+        let clutch = Design::read(Path::new("tests/reference/narrow_sprags.toml")).unwrap().clutch;
+        WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap()
+    };
+    let count = curve.statics().count;
+    let mut moment: f64 = 0.0;
+    for share in [0.01, 0.1, 0.3, 0.5, 0.7] {
+        let (_, c) = curve.closure_at_normal(share * curve.arc_end_n(0)).unwrap();
+        let d = &c.deformations;
+        let taken =
+            c.n_bi * (d.race_inner.d + d.contact_inner.d) + c.n_be.v * (d.race_outer.d + d.contact_outer.d);
+        let along = c.t_bi.v * c.give_m_per_n[0] + c.t_be.v * c.give_m_per_n[1];
+        let stored = 0.5 * (c.n_bi * d.bulk.d + d.bulk.v);
+        let work = c.torque_nm(count).v / count as f64 * c.windup_slope();
+        let off = (taken + along + stored) / work - 1.0;
+        let without = (taken + along + c.n_bi * d.bulk.d) / work - 1.0;
+        println!("{share}: off by {off:.1e}, by {without:.1e} with the force at the contact point");
+        assert!(off.abs() < 2e-5, "{share}: {off:e}");
+        moment = moment.max(without);
+    }
+    assert!(moment > 3e-3, "{moment:e}");
 }
 
 /// Races 12 mm wide on the same 6 mm sprags (same source).
 #[test]
-fn windup_within_one_and_a_half_per_cent_for_races_twice_as_wide() {
+fn windup_within_half_a_per_cent_for_races_twice_as_wide() {
     let curve = curve(ContactLaw::Elastic { state: StressState::Layer }, |c| c.races.width_m = 12e-3);
     for (torque, windup) in [(3.34, 0.302), (10.0, 0.822), (16.8, 1.316)] {
         let error = with_torsion_deg(&curve, torque) / windup - 1.0;
         println!("wide races, {torque} Nm: windup {:+.2} %", 100.0 * error);
-        assert!(error.abs() < 0.015, "{torque} Nm: {error:+.4}");
+        assert!(error.abs() < 0.005, "{torque} Nm: {error:+.4}");
     }
 }
 

@@ -93,20 +93,25 @@ fn the_tangent_stiffness_jumps_at_the_junctions_and_nowhere_else() {
         for n in junctions {
             let (value, slope) = jumps(n, 1e-4);
             println!("{law:?}: K jumps by {value:.1e} at {n:.0} N, N K'/K by {slope:.1e}");
-            assert!(value > 5e-3 && slope > 1e-2, "{law:?}: {value} {slope}");
+            // A force that moves within the patch as the junction does takes the jump away, to first order in the step.
+            match law {
+                ContactLaw::Elastic { .. } => assert!(value < 1e-3, "{law:?}: {value}"),
+                _ => assert!(value > 5e-3 && slope > 1e-2, "{law:?}: {value} {slope}"),
+            }
         }
-        // At the edges what is seen of a jump of slope falls with the root of the distance: there is none.
+        // At the edges what is seen of a jump of slope falls with the root of the distance: there is none. A force that moves
+        // within the patch has more of that root than its approach.
         for s in curve.straddles() {
             for n in [Some(s.from_n), s.until_n].into_iter().flatten() {
-                let (value, slope) = jumps(n, 1e-4);
-                let nearer = jumps(n, 1e-6).1;
-                println!("{law:?}: edge at {n:.0} N: {value:.1e}, {slope:.1e}, nearer {nearer:.1e}");
-                assert!(value < 1e-8 && slope < 1e-4 && nearer < 0.2 * slope, "{law:?} {n}");
+                let farther = jumps(n, 4e-4).1;
+                let (value, slope) = jumps(n, 2e-6);
+                println!("{law:?}: edge at {n:.0} N: {value:.1e}, {slope:.1e}, farther off {farther:.1e}");
+                assert!(value < 1e-8 && slope < 1e-4 && slope < 0.2 * farther, "{law:?} {n}");
             }
         }
         // The whole curve, without a gap between the stencils.
         let (first, last) = (50.0f64, 0.98 * curve.arc_end_n(2));
-        let h = 2e-3;
+        let h = 1e-4;
         let count = ((last / first).ln() / (5.0 * h)) as usize;
         for i in 0..count {
             let n = first * (last / first).powf(i as f64 / count as f64);
@@ -154,6 +159,10 @@ fn the_table_is_as_exact_as_without_junctions() {
         for i in 0..3000 {
             let n = 200.0 + 2.0 * f64::from(i);
             let Some((k, c)) = curve.closure_at_normal(n) else { continue };
+            // rho' has a step at a junction: no difference across one.
+            if (0..curve.arc_count()).any(|j| (n / curve.arc_end_n(j) - 1.0).abs() < 2e-5) {
+                continue;
+            }
             let p = curve.in_arc(k, c.alpha.v);
             let side = |m: f64| curve.statics().closure(k, m, 0.0, curve.shift_rad(k)).unwrap();
             let (a, b) = (side(n * (1.0 - 1e-5)), side(n * (1.0 + 1e-5)));

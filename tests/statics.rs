@@ -66,7 +66,7 @@ fn torque_and_windup_do_not_know_the_centroid() {
 
 /// C dtheta = n_s (N_bi d delta_i + N_be d delta_e) at rest; with a mean speed
 /// C_Omega (rho_i + rho_e)/n_s = N_bi delta_i' + N_be delta_e' - F_c OC_g' (per d alpha). Contacts that give along the
-/// tracks add T_bi s_i' + T_be s_e'.
+/// tracks add T_bi s_i' + T_be s_e', a force that stands ahead of its contact point the work of its moment on the turn.
 #[test]
 fn energy_identity_at_rest_and_at_speed() {
     let laws = [
@@ -84,11 +84,16 @@ fn energy_identity_at_rest_and_at_speed() {
                 let (_, c) = curve.closure_at_normal(n).unwrap();
                 let (rho_i, rho_e) = c.rolling_ratios();
                 let d = &c.deformations;
-                let inner = d.race_inner.d + 0.5 * d.body.d + d.contact_inner.d;
+                let inner = d.race_inner.d + 0.5 * d.body.d + d.contact_inner.d + d.bulk.d;
                 let outer = d.race_outer.d + 0.5 * d.body.d + d.contact_outer.d;
                 let f_c = 1.8e-3 * c.oc_g.v * speed * speed;
                 let along = c.t_bi.v * c.give_m_per_n[0] + c.t_be.v * c.give_m_per_n[1];
-                let work = c.n_bi * inner + c.n_be.v * outer + along - f_c * c.oc_g.d;
+                // A force that stands ahead of its contact point, against the line to the centre of the arc.
+                let (sin, cos) = (c.force_ahead_m / c.lengths.oa.v).sin_cos();
+                let across = c.n_bi * cos + c.t_bi.v * sin;
+                let turns = c.n_bi * sin - c.t_bi.v * cos + c.t_bi.v;
+                let turning = turns * c.lengths.oc_i.v * (c.rotation.d - c.beta.d);
+                let work = across * inner + c.n_be.v * outer + turning + along - f_c * c.oc_g.d;
                 let torque = c.torque_nm(12).v * (rho_i + rho_e) / 12.0 * c.alpha.d;
                 let scale = work.abs().max(c.n_bi * inner);
                 assert!((work - torque).abs() < 1e-8 * scale, "{law:?} {rpm} rpm {n} N: {work:e} {torque:e}");

@@ -1,5 +1,5 @@
 //! Terms left out whose cost grows with the load, at the pressure at which other costs are named too: torsion of the
-//! races, tension behind the patches, creep, a coefficient that is steel's.
+//! races, tension behind the patches, creep, a coefficient that is steel's; and the force at junctions.
 
 use super::left_out::LeftOut;
 use crate::clutch::Clutch;
@@ -7,7 +7,7 @@ use crate::contact::edge_tension;
 use crate::margin::{TrackPatch, track_tension};
 use crate::material::{Material, PlaneState};
 use crate::report::Unit;
-use crate::wedge::{StaticPoint, WedgeCurve};
+use crate::wedge::{StaticPoint, WedgeCurve, shift_left_out};
 use std::f64::consts::PI;
 
 /// Pressure at A at which the costs are named, Pa.
@@ -23,6 +23,7 @@ pub(super) fn left_out_under_load(clutch: &Clutch) -> Vec<LeftOut> {
     let mut list: Vec<LeftOut> = other_bodies(clutch).into_iter().collect();
     let curve = clutch.profile().ok().and_then(|p| WedgeCurve::build(clutch, &p, 0.0).ok());
     if let Some((curve, point)) = curve.as_ref().and_then(|c| Some((c, at_pressure(c)?))) {
+        list.extend(shift(clutch, curve));
         list.extend([torsion(curve, &point), tension(clutch, curve, &point)]);
         list.extend(creep(clutch, curve, &point));
     }
@@ -43,6 +44,28 @@ fn at(point: &StaticPoint) -> String {
         Unit::NewtonMetre.show(point.torque_nm, 3),
         Unit::Megapascal.show(point.hertz_inner_pa, 3)
     )
+}
+
+/// The force of a contact that straddles a junction, for a law that knows the radius.
+fn shift(clutch: &Clutch, curve: &WedgeCurve) -> Option<LeftOut> {
+    let law = clutch.contact.facts();
+    let off = Some(shift_left_out(curve)).filter(|&off| off > 0.0 && law.knows_radius)?;
+    Some(LeftOut::new(
+        "shift of the force within a contact that straddles a junction",
+        match law.whole_bodies {
+            true => {
+                "the force lies where a small step of curvature puts it; what is of second order in the step is left out"
+            }
+            false => {
+                "approach and Hertz pressure take the mean curvature under the contact; the force stays at the contact \
+                 point, whose passing from arc to arc keeps its jump of the tangent stiffness"
+            }
+        },
+        &format!(
+            "{} of tan omega at most, where a junction lies at the contact point (plane contact of these arcs), 0 elsewhere",
+            Unit::Percent.show(off, 2)
+        ),
+    ))
 }
 
 fn torsion(curve: &WedgeCurve, point: &StaticPoint) -> LeftOut {

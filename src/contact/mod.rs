@@ -22,7 +22,7 @@ mod traction;
 
 pub use approach::{
     Approach, CurvedApproach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, LayerBody, RollerLaw, SliceLaw,
-    layer_transition_m,
+    element_transition_m, layer_transition_m,
 };
 pub use axial::{AxialFit, ContactEnd, Flank};
 pub use edge::{Edge, Peak};

@@ -279,7 +279,7 @@ pub fn identify(
     let bounds: Vec<(f64, f64)> = unknowns.iter().map(|u| (u.min, u.max)).collect();
     let given = problem.groups.iter().flatten().all(|o| o.sigma.is_some());
     let mut knowledge = knowledge(&jacobian, &residuals, &problem.values(&t), &bounds, given);
-    let law = covariance(&design.clutch.contact, &problem.groups.concat());
+    let law = covariance(design.clutch.law_error(), &problem.groups.concat());
     let silent = knowledge.without_influence();
     let felt: Vec<usize> = (0..unknowns.len()).filter(|j| !silent.contains(j)).collect();
     let by_law = moved_by(&jacobian.select_columns(&felt), &law);

@@ -5,7 +5,6 @@
 //! of 3 apart share a third of it. That factor is a choice.
 
 use super::observation::{Observation, ObservedQuantity};
-use crate::clutch::ContactLaw;
 use nalgebra::DMatrix;
 
 /// Factor of torque over which an error of the law changes.
@@ -39,9 +38,8 @@ fn class(kind: ObservedQuantity) -> Option<usize> {
     }
 }
 
-/// Covariance of the scaled residuals of `seen` by the error of `law`.
-pub(super) fn covariance(law: &ContactLaw, seen: &[&Observation]) -> DMatrix<f64> {
-    let errors = law.facts().beside_fem;
+/// Covariance of the scaled residuals of `seen` by the law's `errors`, of windup and of forces, relative.
+pub(super) fn covariance(errors: [f64; 2], seen: &[&Observation]) -> DMatrix<f64> {
     // A quantity without a torque of its own lies at its own value, or anywhere.
     let at = |o: &Observation| o.torque_nm.unwrap_or(o.value).max(f64::MIN_POSITIVE).ln();
     let size = |o: &Observation| class(o.kind).map(|c| (c, errors[c] * o.value.abs() / o.scale()));

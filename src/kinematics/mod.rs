@@ -47,6 +47,9 @@ pub struct Deformations {
     pub contact_outer: Dual,
     /// delta_g, body compression.
     pub body: Dual,
+    /// What the sprag's outline gives under the force at A beyond the body that the law of its contacts holds
+    /// (`src/wedge/bulk.rs`); 0 for laws that add none.
+    pub bulk: Dual,
     /// delta_ce, centrifugal growth of the outer race.
     pub growth_m: f64,
 }
@@ -58,7 +61,7 @@ pub fn lengths(r: &Radii, d: &Deformations) -> Lengths {
     Lengths {
         oa: -(d.race_inner + d.contact_inner * 0.5) + r.inner_race_m,
         ob: d.race_outer + d.contact_outer * 0.5 + (r.outer_race_m + d.growth_m),
-        oc_i: -(d.race_inner + d.body * 0.5 + d.contact_inner) + (r.inner_race_m + r.inner_arc_m),
+        oc_i: -(d.race_inner + d.body * 0.5 + d.contact_inner + d.bulk) + (r.inner_race_m + r.inner_arc_m),
         oc_e: d.race_outer + d.body * 0.5 + d.contact_outer + (r.outer_race_m - r.outer_arc_m + d.growth_m),
     }
 }

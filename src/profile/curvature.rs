@@ -1,6 +1,6 @@
 //! Curvature of the inner profile as a contact of finite width feels it.
 //!
-//! Two means, because width and approach weigh the profile differently. For a profile h(x) = h''(0) x^2/2 + dh(x)
+//! Three means, because width, approach and place of the force weigh the profile differently. For a profile h(x) = h''(0) x^2/2 + dh(x)
 //! pressed into a half-plane over |x| < a, to first order in dh:
 //!
 //! * The load is q = (E*/2) int x h'(x)/sqrt(a^2 - x^2) dx (Johnson, *Contact Mechanics*, 5.2), by parts
@@ -12,6 +12,10 @@
 //!   (1/pi) int [sqrt(a^2 - x^2) - |x| acos|u|] dh''(x) dx; a change dk of a cylinder's curvature gives (a^2/4) dk.
 //!   So the approach is that of a cylinder whose curvature is the mean of h'' with the weight
 //!   sqrt(1 - u^2) - |u| acos|u|.
+//! * The force lies where its moment works on the turn of the profile: dh under Hertz's pressure. Curvature that differs
+//!   ahead and behind takes it away from the contact point by (a/k) int m'(u) h''(u a) du,
+//!   m = [sqrt(1 - u^2) - |u| acos|u| - (1 - u^2)^(3/2)/3]/pi, k the curvature of the gap: towards what is curved less.
+//!   The plane contact of a step d of curvature has it at -d a m(c/a) (tests/patch_contact.rs).
 //!
 //! What a patch's edge meets it feels as (1 - u)^(3/2) in its width but as (1 - u)^(5/2) in its approach, so a
 //! junction that comes under the edge leaves no kink in the tangent stiffness.
@@ -37,19 +41,38 @@ impl Profile {
     /// Curvature that decides the width of a patch of half width `half_width_m` around the contact at turn `turn_rad`
     /// on arc `arc`: weight sqrt(1 - u^2). The first and the last arc are continued beyond the profile.
     pub fn patch_curvature(&self, arc: usize, turn_rad: f64, half_width_m: f64) -> PatchCurvature {
-        self.mean_curvature(arc, turn_rad, half_width_m, |u| {
+        let [mean] = self.mean_curvatures(arc, turn_rad, half_width_m, [1.0], |u, _| {
             let root = (1.0 - u * u).sqrt();
-            (0.5 + (u * root + u.asin()) / PI, 2.0 / PI * root)
-        })
+            [(0.5 + (u * root + u.asin()) / PI, 2.0 / PI * root)]
+        });
+        mean
     }
 
     /// Curvature that decides the approach, for the same patch: weight sqrt(1 - u^2) - |u| acos|u|.
     pub fn approach_curvature(&self, arc: usize, turn_rad: f64, half_width_m: f64) -> PatchCurvature {
-        self.mean_curvature(arc, turn_rad, half_width_m, |u| {
+        let [mean] = self.mean_curvatures(arc, turn_rad, half_width_m, [1.0], |u, _| {
+            let (v, root) = (u.abs(), (1.0 - u * u).sqrt());
+            [approach_share(u, v, root, v.acos())]
+        });
+        mean
+    }
+
+    /// The same, and the difference of curvature ahead and behind that carries the force off the contact point: times a/k,
+    /// k the curvature of the gap, by how much it lies ahead, m.
+    pub fn approach_curvature_and_lead(
+        &self,
+        arc: usize,
+        turn_rad: f64,
+        half_width_m: f64,
+    ) -> [PatchCurvature; 2] {
+        self.mean_curvatures(arc, turn_rad, half_width_m, [1.0, 0.0], |u, side| {
             let (v, root) = (u.abs(), (1.0 - u * u).sqrt());
             let acos = v.acos();
-            let half = (3.0 * v * root + v.asin() - 2.0 * v * v * acos) / PI;
-            (0.5 + half.copysign(u), 4.0 / PI * (root - v * acos))
+            // As on the side where the junction belongs, smoothly past the contact point: an arc goes on beyond its ends.
+            let w = side * u;
+            let angle = if w < 0.0 { PI - acos } else { acos };
+            let lead = (root - w * angle - root * root * root / 3.0) / PI;
+            [approach_share(u, v, root, acos), (lead, -side * (angle - w * root) / PI)]
         })
     }
 
@@ -72,50 +95,53 @@ impl Profile {
         arc.radius_m * (arc.until_rad - arc.from_rad)
     }
 
-    /// Mean with the weight whose share to the left of x = u a, and its slope by u, `share` gives for |u| <= 1.
-    fn mean_curvature(
+    /// Means with weights whose shares to the left of x = u a, and their slopes by u, `shares` gives for |u| <= 1 and the side
+    /// of the contact, 1 ahead and -1 behind, where the junction at x belongs; `all` has those of the whole patch.
+    fn mean_curvatures<const K: usize>(
         &self,
         arc: usize,
         turn_rad: f64,
         half_width_m: f64,
-        share: impl Fn(f64) -> (f64, f64),
-    ) -> PatchCurvature {
+        all: [f64; K],
+        shares: impl Fn(f64, f64) -> [(f64, f64); K],
+    ) -> [PatchCurvature; K] {
         let a = half_width_m.max(f64::MIN_POSITIVE);
         let here_m = self.arcs[arc].radius_m;
         let last = self.arcs.len() - 1;
-        let mut mean = PatchCurvature {
+        let mut means = [PatchCurvature {
             curvature_per_m: 0.0,
             by_turn_per_m_rad: 0.0,
             by_half_width_per_m2: 0.0,
             straddles: false,
-        };
-        // Share up to the junction at x, with its derivatives: x falls by the radius in contact per turn.
-        let up_to = |x: f64| {
+        }; K];
+        // Shares up to the junction at x, with their derivatives: x falls by the radius in contact per turn.
+        let up_to = |x: f64, side: f64| {
             let u = (x / a).clamp(-1.0, 1.0);
-            let (part, slope) = share(u);
-            (part, -slope * here_m / a, -slope * u / a)
+            shares(u, side).map(|(part, slope)| (part, -slope * here_m / a, -slope * u / a))
         };
-        let mut add = |k: usize, start: (f64, f64, f64), end: (f64, f64, f64)| {
+        let mut add = |k: usize, starts: [(f64, f64, f64); K], ends: [(f64, f64, f64); K]| {
             let radius_m = self.arcs[k].radius_m;
-            let part = end.0 - start.0;
-            mean.curvature_per_m += part / radius_m;
-            mean.by_turn_per_m_rad += (end.1 - start.1) / radius_m;
-            mean.by_half_width_per_m2 += (end.2 - start.2) / radius_m;
-            mean.straddles |= k != arc && part > 0.0;
+            for ((mean, start), end) in means.iter_mut().zip(starts).zip(ends) {
+                let part = end.0 - start.0;
+                mean.curvature_per_m += part / radius_m;
+                mean.by_turn_per_m_rad += (end.1 - start.1) / radius_m;
+                mean.by_half_width_per_m2 += (end.2 - start.2) / radius_m;
+                mean.straddles |= k != arc && part > 0.0;
+            }
         };
         // From the arc in contact outwards, no further than the patch.
-        let (nothing, all) = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0));
+        let (nothing, all) = ([(0.0, 0.0, 0.0); K], all.map(|whole| (whole, 0.0, 0.0)));
         let mut ahead_m = self.junction_distance_m(arc, turn_rad, arc);
         let mut behind_m = self.arcs[arc].radius_m * (self.arcs[arc].from_rad - turn_rad);
-        let mut until = if arc == last { all } else { up_to(ahead_m) };
-        let mut from = if arc == 0 { nothing } else { up_to(behind_m) };
+        let mut until = if arc == last { all } else { up_to(ahead_m, 1.0) };
+        let mut from = if arc == 0 { nothing } else { up_to(behind_m, -1.0) };
         add(arc, from, until);
         for k in arc + 1..=last {
             if ahead_m >= a {
                 break;
             }
             ahead_m += self.length_m(k);
-            let end = if k == last { all } else { up_to(ahead_m) };
+            let end = if k == last { all } else { up_to(ahead_m, 1.0) };
             add(k, until, end);
             until = end;
         }
@@ -124,12 +150,18 @@ impl Profile {
                 break;
             }
             behind_m -= self.length_m(k);
-            let start = if k == 0 { nothing } else { up_to(behind_m) };
+            let start = if k == 0 { nothing } else { up_to(behind_m, -1.0) };
             add(k, start, from);
             from = start;
         }
-        mean
+        means
     }
+}
+
+/// Share of the approach's weight to the left of u, and its slope; v = |u|, root = sqrt(1 - u^2), acos = acos v.
+fn approach_share(u: f64, v: f64, root: f64, acos: f64) -> (f64, f64) {
+    let half = (3.0 * v * root + v.asin() - 2.0 * v * v * acos) / PI;
+    (0.5 + half.copysign(u), 4.0 / PI * (root - v * acos))
 }
 
 #[cfg(test)]
@@ -158,12 +190,12 @@ mod tests {
                 (1..=arcs).map(|k| (4e-3 + 1e-6 * k as f64, 0.01 * k as f64)).collect();
             let p = Profile::new(4.68e-3, 0.62e-3, &each, 11.11e-3, 19.44e-3).unwrap();
             let count = std::cell::Cell::new(0);
-            let share = |u: f64| {
+            let share = |u: f64, _: f64| {
                 count.set(count.get() + 1);
-                (0.5 + 0.5 * u, 0.5)
+                [(0.5 + 0.5 * u, 0.5)]
             };
             // A half width of 2.5 arcs of 0.04 mm: junctions at 0.02, 0.06 and 0.10 mm either way.
-            p.mean_curvature(arc, p.arcs[arc].from_rad + 0.005, 1e-4, share);
+            p.mean_curvatures(arc, p.arcs[arc].from_rad + 0.005, 1e-4, [1.0], share);
             count.get()
         };
         assert_eq!((asked(11, 5), asked(81, 40)), (6, 6));
@@ -185,7 +217,9 @@ mod tests {
     fn derivatives_are_those_of_the_means() {
         let p = multi();
         for (arc, turn, a) in [(0, 0.05, 2e-4), (1, 0.07, 1e-4), (1, 0.11, 3e-4), (2, 0.13, 4e-4)] {
-            for of in [Profile::patch_curvature, Profile::approach_curvature] {
+            let lead =
+                |p: &Profile, arc: usize, turn: f64, a: f64| p.approach_curvature_and_lead(arc, turn, a)[1];
+            for of in [Profile::patch_curvature, Profile::approach_curvature, lead] {
                 let at = |turn: f64, a: f64| of(&p, arc, turn, a).curvature_per_m;
                 let got = of(&p, arc, turn, a);
                 let (h, w) = (1e-5, 1e-8);

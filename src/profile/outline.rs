@@ -183,7 +183,7 @@ impl Outline {
 
         let front_azimuth = outer_azimuth(&front)?;
         let rear_azimuth = outer_azimuth(&rear)?;
-        let end_azimuth = outer_contact_azimuth(profile, profile.end_turn_rad());
+        let end_azimuth = profile.outer_contact_azimuth(profile.end_turn_rad());
         if end_azimuth < rear_azimuth {
             let needed_m = rear.need(r_e * along(end_azimuth));
             let lost_rad = rear_azimuth - end_azimuth;
@@ -232,8 +232,7 @@ impl Outline {
             return Err(OutlineError::NoArcs);
         };
         let strut = Strut::new(profile, first);
-        let outer_end =
-            profile.outer_radius_m * along(outer_contact_azimuth(profile, profile.end_turn_rad()));
+        let outer_end = profile.outer_radius_m * along(profile.outer_contact_azimuth(profile.end_turn_rad()));
         let side = |side: FlankSide, end: Vector2<f64>, arc: &ProfileArc| -> Result<[f64; 2], OutlineError> {
             let flank = Flank::new(&strut, side, flanks)?;
             let given = flank.given_m();
@@ -286,8 +285,7 @@ impl Outline {
             let inner = flank.reach(arc.centre_m, arc.radius_m);
             [flank.need(end), inner.min(flank.reach(Vector2::zeros(), profile.outer_radius_m))]
         };
-        let outer_end =
-            profile.outer_radius_m * along(outer_contact_azimuth(profile, profile.end_turn_rad()));
+        let outer_end = profile.outer_radius_m * along(profile.outer_contact_azimuth(profile.end_turn_rad()));
         Ok([window(&rear, outer_end, first), window(&front, inner_end(profile, last), last)])
     }
 
@@ -314,18 +312,20 @@ fn inner_end(profile: &Profile, last: &ProfileArc) -> Vector2<f64> {
     last.centre_m + last.radius_m * profile.contact_direction(profile.end_turn_rad())
 }
 
-/// Azimuth of the outer contact in the body when the inner contact has turned by `turn` between rigid
-/// races: O lies R_i + r_k from C_k along the contact direction, B on the far side of C_e from O.
-fn outer_contact_azimuth(profile: &Profile, turn: f64) -> f64 {
-    let (Some(first), Some(arc)) =
-        (profile.arcs.first(), profile.arcs.iter().find(|a| turn <= a.until_rad).or(profile.arcs.last()))
-    else {
-        return 0.0;
-    };
-    let inner_race =
-        (first.centre_m + Vector2::new(0.0, profile.outer_centre_distance_m)).norm() - first.radius_m;
-    let axis = arc.centre_m + (inner_race + arc.radius_m) * profile.contact_direction(turn);
-    (-axis.x).atan2(-axis.y)
+impl Profile {
+    /// Azimuth of the outer contact in the body, rad, when the inner contact has turned by `turn` between rigid
+    /// races: O lies R_i + r_k from C_k along the contact direction, B on the far side of C_e from O.
+    pub(crate) fn outer_contact_azimuth(&self, turn: f64) -> f64 {
+        let (Some(first), Some(arc)) =
+            (self.arcs.first(), self.arcs.iter().find(|a| turn <= a.until_rad).or(self.arcs.last()))
+        else {
+            return 0.0;
+        };
+        let inner_race =
+            (first.centre_m + Vector2::new(0.0, self.outer_centre_distance_m)).norm() - first.radius_m;
+        let axis = arc.centre_m + (inner_race + arc.radius_m) * self.contact_direction(turn);
+        (-axis.x).atan2(-axis.y)
+    }
 }
 
 #[cfg(test)]

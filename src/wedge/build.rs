@@ -3,10 +3,12 @@
 use super::apart::SpragDeviation;
 use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
+use super::elastic::Elastic;
 use super::patch::InnerCurvature;
 use super::quick::TRUSTED;
 use super::table::{ArcBuilder, ArcTable};
 use crate::clutch::{Carrier, Clutch};
+use crate::contact::element_transition_m;
 use crate::numeric::root;
 use crate::profile::Profile;
 
@@ -117,6 +119,19 @@ impl WedgeCurve {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
         statics.elastic = statics.elastic.local_only();
+        statics.bulk = None;
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+    }
+
+    /// The curve at rest of a clutch whose bodies are layers of one linear element through half their length, as a deck for
+    /// CalculiX has them ([`element_transition_m`]): what law `elastic` is held against there.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_as_deck(clutch: &Clutch, profile: &Profile) -> Result<Self, NoCurve> {
+        let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
+        let mut statics = whole.map_err(NoCurve::NoElastic)?;
+        statics.elastic = Elastic::with_layers(clutch, element_transition_m).map_err(NoCurve::NoElastic)?;
         Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
     }
 

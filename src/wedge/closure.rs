@@ -1,6 +1,7 @@
 //! Static equilibrium of one sprag at a given inner normal force: the only static iteration of the project.
 
 use super::build::Effort;
+use super::bulk::Bulk;
 use super::elastic::{Elastic, NoElastic};
 use super::off_centre::turned;
 use super::patch::{InnerApproach, InnerCurvature};
@@ -8,6 +9,7 @@ use crate::clutch::{Carrier, Clutch};
 use crate::kinematics::{self, Deformations, Lengths, Radii};
 use crate::numeric::dual::Dual;
 use crate::profile::Profile;
+use std::sync::Arc;
 
 /// Smallest normal force at which a closure is evaluated, N: stands for first contact, where the roller law's
 /// slope is infinite.
@@ -54,7 +56,10 @@ pub struct Closure {
     pub deformations: Deformations,
     /// Effective curvature 1/R that the approach at A knows, 1/m; for a law that knows none, that of the arc.
     pub curvature_inner_per_m: f64,
-    /// beta, rad.
+    /// By how much the force at A lies ahead of the contact point in the sense of rising azimuth, m: on arcs of unlike
+    /// curvature, and near a flank. 0 for a law that keeps it there.
+    pub force_ahead_m: f64,
+    /// beta, rad, of the contact point.
     pub beta: Dual,
     /// gamma, rad, signed.
     pub gamma: Dual,
@@ -135,6 +140,21 @@ impl Closure {
     }
 }
 
+/// What the bulk adds to a closure while it settles.
+struct Yields {
+    /// Compression of the body beyond the disc, m.
+    bulk_m: Dual,
+    /// By how much the force at A lies ahead for it, m.
+    ahead_m: Dual,
+}
+
+impl Default for Yields {
+    fn default() -> Self {
+        let none = Dual::constant(0.0);
+        Self { bulk_m: none, ahead_m: none }
+    }
+}
+
 /// One clutch, ready for closures.
 #[derive(Debug, Clone)]
 pub struct Statics {
@@ -152,6 +172,8 @@ pub struct Statics {
     pub(super) offset_m: [f64; 2],
     /// The race that this stays with.
     pub(super) carrier: Carrier,
+    /// What the body gives beyond the law's disc; nothing for a law that takes no disc, or without an outline.
+    pub(super) bulk: Option<Arc<Bulk>>,
     /// What opens the gap at this sprag beside the law: inner track, outer track, and what it lacks in size, m.
     pub(super) opened_m: [f64; 3],
     pub(super) radii: Radii,
@@ -178,6 +200,7 @@ impl Statics {
             offset_m: [0.0; 2],
             carrier: Carrier::default(),
             opened_m: [0.0; 3],
+            bulk: super::bulk::of(clutch, &profile),
             elastic: Elastic::new(clutch)?,
             radii: Radii {
                 inner_race_m: r.inner_radius_m,
@@ -205,6 +228,17 @@ impl Statics {
     /// Centroid of the body frame, m.
     pub fn centroid_m(&self) -> [f64; 2] {
         self.centroid_m
+    }
+
+    /// What the body yields under `n`, the force at A, after `rolled` of the profile and with 1/R of the contact there: what the
+    /// energy n^2 C(s)/2 asks for.
+    fn yields(bulk: &Bulk, n: Dual, rolled: Dual, curvature: Dual) -> Yields {
+        let at = bulk.at(rolled);
+        Yields {
+            bulk_m: n * at.give_m_per_n,
+            // The moment n ahead works on the turn ds/R of the surfaces against each other.
+            ahead_m: n * at.slope_per_n * -0.5 / curvature,
+        }
     }
 
     /// With what opens the gap at this sprag alone.
@@ -254,8 +288,10 @@ impl Statics {
         let mut residual = f64::INFINITY;
         let mut slope_residual = f64::INFINITY;
         let mut unsettled = f64::INFINITY;
+        let mut body = Yields::default();
         for round in 0..60 {
-            let d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
+            let mut d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
+            d.bulk = body.bulk_m;
             let mut l = kinematics::lengths(&radii, &d);
             if self.elastic.gives_along {
                 [l.oa, l.ob] = kinematics::pitch_points(&radii, &d, self.effective_radii_m(&inner));
@@ -267,6 +303,15 @@ impl Statics {
             let rotation =
                 (l.oc_i * sin_b + across).atan2(l.oc_i * cos_b - l.oc_e + along) + (shift_rad - azimuth);
             let g = kinematics::centroid(self.centroid_m, l.oc_e, rotation);
+            // From the contact point at A to the force.
+            let ahead = (inner.ahead_m + body.ahead_m) / l.oa;
+            let (seen, sin_b, cos_b) = match ahead.v == 0.0 {
+                true => (beta, sin_b, cos_b),
+                false => {
+                    let (sin, cos) = ahead.sin_cos();
+                    (beta + ahead, sin_b * cos + cos_b * sin, cos_b * cos - sin_b * sin)
+                }
+            };
             let to_b = l.ob - along;
             let lever = to_b * cos_b - sin_b * across - l.oa;
             let ratio = (to_b * sin_b + cos_b * across) / lever;
@@ -276,13 +321,19 @@ impl Statics {
             let t_bi = n * ratio + offset;
             let couple = (n * cos_b + t_bi * sin_b) * across - (n * sin_b - t_bi * cos_b) * along;
             let t_be = (t_bi * l.oa + couple) / l.ob;
-            let (sin_bg, cos_bg) = (beta + g.gamma).sin_cos();
+            let (sin_bg, cos_bg) = (seen + g.gamma).sin_cos();
             let next = (n * cos_bg + t_bi * sin_bg - t_be * sin_g + f_c) / cos_g;
             // A sprag that centrifugal force presses off the inner race still never pulls on the outer one.
             let next = if next.v > FIRST_CONTACT_N { next } else { Dual::constant(FIRST_CONTACT_N) };
             let curvature = inner.curvature_per_m.v;
             let turn = rotation - (beta - self.profile.beta0_rad);
-            let moved = inner.update(self, arc, n, turn);
+            let mut moved = inner.update(self, arc, n, turn);
+            if let Some(bulk) = &self.bulk {
+                let now = Self::yields(bulk, n, self.rolled_m(arc, turn), inner.curvature_per_m);
+                moved.v = moved.v.max(((now.bulk_m.v - body.bulk_m.v) / inner.approach_m.v).abs());
+                moved.d = moved.d.max(((now.bulk_m.d - body.bulk_m.d) / inner.approach_m.d).abs());
+                body = now;
+            }
             // The offset turns with a race; without one there is nothing to turn.
             let on = if self.is_concentric() { carried } else { self.carried(arc, rotation, turn) };
             let rolled_on = on - carried;
@@ -319,6 +370,7 @@ impl Statics {
                     lengths: l,
                     deformations: d,
                     curvature_inner_per_m: curvature,
+                    force_ahead_m: ahead.v * l.oa.v,
                     beta,
                     gamma: g.gamma,
                     oc_g: g.oc_g,

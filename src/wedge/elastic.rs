@@ -51,6 +51,9 @@ impl From<RaceError> for NoElastic {
     }
 }
 
+/// Depth at which a layer passes from plane strain to plane stress, m, of its thickness, m, and Poisson's ratio.
+pub(super) type Transition = fn(f64, f64) -> f64;
+
 /// Compliances of one clutch. Race growths are per normal force of one sprag, all sprags loaded alike.
 #[derive(Debug, Clone)]
 pub struct Elastic {
@@ -79,6 +82,12 @@ impl Elastic {
     /// The logarithmic law counts the compression of the sprag down to half its height and of a race down to
     /// its wall (a solid shaft: its radius); the rings' mean growth is (5), on top.
     pub fn new(clutch: &Clutch) -> Result<Self, NoElastic> {
+        Self::with_layers(clutch, layer_transition_m)
+    }
+
+    /// The same with layers that pass from plane strain to plane stress at the depth `transition_m` of thickness (m) and
+    /// Poisson's ratio.
+    pub(super) fn with_layers(clutch: &Clutch, transition_m: Transition) -> Result<Self, NoElastic> {
         let (s, r, m) = (&clutch.sprags, &clutch.races, &clutch.materials);
         let near = match clutch.contact {
             ContactLaw::Elastic { state: StressState::PlaneStress } => PlaneState::Stress,
@@ -113,7 +122,9 @@ impl Elastic {
         let half = [race(true, m.inner_race)?, race(false, m.outer_race)?];
         let law = |contact: &LineContact, side: &Race, wall_m: f64| -> Result<Approach, NoElastic> {
             Ok(match clutch.contact {
-                ContactLaw::Elastic { state } => return elastic_law(contact, clutch, side, state),
+                ContactLaw::Elastic { state } => {
+                    return elastic_law(contact, clutch, side, state, transition_m);
+                }
                 ContactLaw::Roller { coefficient } => Approach::roller(contact, coefficient),
                 ContactLaw::Slice { coefficient } => {
                     Approach::slice(contact, coefficient, SliceRatio::shared(clutch.axial.slices)?)
@@ -207,6 +218,7 @@ impl Elastic {
             contact_inner,
             contact_outer: law(&self.outer, n_be),
             body: n_bi * self.body_m_per_n,
+            bulk: Dual::constant(0.0),
             growth_m: self.outer_race.centrifugal_bore_growth_m(speed_rad_s),
         }
     }
@@ -222,13 +234,13 @@ fn law(approach: &Approach, n: Dual) -> Dual {
 ///
 /// Sprag: a disc of diameter h under opposite loads, h the sprag's height, has between rim and centre
 /// delta = 2q/(pi E') [ln(2h/a) - 1/2] (Johnson, *Contact Mechanics*, (5.57)), which in terms of a depth d with
-/// ln(2d/a) - t/2 is d = h exp(t/2 - 1/2). Flanks cut at 5 of 8.3 mm raise the bracket by 0.04 of 4.7 (a
-/// finite-element solution of the outline); that is left out. Ring: [`Race::effective_depth_m`].
+/// ln(2d/a) - t/2 is d = h exp(t/2 - 1/2). What the sprag's own outline gives beyond that is [`super::bulk`]'s. Ring: [`Race::effective_depth_m`].
 fn elastic_law(
     contact: &LineContact,
     clutch: &Clutch,
     race: &Race,
     state: StressState,
+    transition_m: Transition,
 ) -> Result<Approach, NoElastic> {
     let sprag = clutch.materials.sprag;
     let height_m = clutch.races.outer_radius_m - clutch.races.inner_radius_m;
@@ -236,7 +248,11 @@ fn elastic_law(
         StressState::PlaneStrain => (PlaneState::Strain, [f64::INFINITY; 2]),
         StressState::PlaneStress => (PlaneState::Stress, [0.0; 2]),
         StressState::Layer => {
-            (PlaneState::Stress, [clutch.sprags.length_m, race.width_m()].map(layer_transition_m))
+            let transitions = [
+                transition_m(clutch.sprags.length_m, sprag.poisson_ratio),
+                transition_m(race.width_m(), race.material().poisson_ratio),
+            ];
+            (PlaneState::Stress, transitions)
         }
     };
     let disc_depth_m = height_m * (0.5 * far.transverse_ratio(sprag.poisson_ratio) - 0.5).exp();

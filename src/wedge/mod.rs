@@ -9,6 +9,7 @@
 mod apart;
 mod axial;
 mod build;
+mod bulk;
 mod closure;
 #[cfg(test)]
 mod cost;
@@ -29,7 +30,7 @@ pub use build::Effort;
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};
 pub use elastic::{Elastic, NoElastic};
-pub use patch::{InnerCurvature, Straddle, straddling_error};
+pub use patch::{InnerCurvature, Straddle, shift_left_out, straddling_error};
 pub use rolling::CreepLoss;
 pub use samples::PLOTTED;
 pub use stiffness::{SMALLEST_TORQUE_NM, StaticPoint};

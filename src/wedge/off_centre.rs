@@ -20,7 +20,7 @@ impl Statics {
     }
 
     /// Length of the inner profile rolled over on arc `arc` at `turn`, m.
-    fn rolled_m(&self, arc: usize, turn: Dual) -> Dual {
+    pub(super) fn rolled_m(&self, arc: usize, turn: Dual) -> Dual {
         let arcs = &self.profile.arcs;
         let before: f64 = arcs[..arc].iter().map(|a| a.radius_m * (a.until_rad - a.from_rad)).sum();
         (turn - arcs[arc].from_rad) * arcs[arc].radius_m + before
@@ -105,6 +105,7 @@ const UNLOADED: Deformations = {
         contact_inner: none,
         contact_outer: none,
         body: none,
+        bulk: none,
         growth_m: 0.0,
     }
 };

@@ -2,10 +2,10 @@
 //! radius is given there, and where the patch lies on two arcs.
 //!
 //! Left out: the pressure there is not that of one arc; its peak is off by [`straddling_error`] at most, 0.11 % for
-//! Table 1's radii. Left out as well: where a patch straddles a junction its pressure is not symmetric, so its resultant lies up to 0.4 um off the
-//! contact point for Table 1's radii (tests/patch_contact.rs), which is 5e-4 of the lever OB sin beta = 0.8 mm of N_bi
-//! about B. The wedge keeps the contact point; therefore dC/dN keeps its jump where that passes a junction, the kink of
-//! the torque curve. With the resultant's shift the jump would be spread over the patch's width.
+//! Table 1's radii. Its resultant lies off the contact point, towards what is curved less. Law `elastic` puts the force there
+//! ([`crate::profile::Profile::approach_curvature_and_lead`]), to first order in the step of curvature
+//! ([`shift_left_out`]): dC/dN then passes a junction without most of its jump. Other laws keep the force at the contact
+//! point, as the paper does, and the torque curve keeps its kink.
 
 use super::build::Effort;
 use super::closure::{Closure, Statics};
@@ -13,6 +13,7 @@ use super::curve::WedgeCurve;
 use crate::clutch::{Clutch, InnerArc};
 use crate::contact::{LineContact, step_peak_error};
 use crate::numeric::{dual::Dual, root};
+use crate::profile::PatchCurvature;
 
 /// The curvature that a law which knows the radius is given at A.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +22,7 @@ pub enum InnerCurvature {
     /// junction without a jump.
     Patch,
     /// That of the arc in contact, as the paper takes it: delta_H jumps at a junction and alpha is shifted there to
-    /// keep N (the paper's Figure 5). For comparison.
+    /// keep N (the paper's Figure 5). For comparison. Law `elastic` moves the force within the patch all the same.
     Pointwise,
 }
 
@@ -45,11 +46,34 @@ pub fn straddling_error(clutch: &Clutch) -> f64 {
     junctions.map(|(a, b)| step_peak_error(a, b).max(step_peak_error(b, a))).fold(0.0, f64::max)
 }
 
+/// By what part of tan omega the force at A is misplaced at most where its patch straddles a junction of `curve`: by its
+/// whole distance from the contact point for a law that keeps it there, by what is of second order in the step of curvature,
+/// a quarter of the step's part of it (plane contact, steps to 12 %), for one that does not. 0 for a single arc.
+pub fn shift_left_out(curve: &WedgeCurve) -> f64 {
+    let statics = curve.statics();
+    let at = |k: usize| {
+        let (_, c) = curve.closure_at_normal(curve.arc_end_n(k))?;
+        let arc = curve.first_arc() + k;
+        let arcs = &statics.profile.arcs;
+        let (here, beyond) = (arcs.get(arc)?, arcs.get(arc + 1)?);
+        let contact = at_curvature(&statics.elastic.inner_contact[arc], c.curvature_inner_per_m);
+        let half_m = contact.half_width_m(c.n_bi);
+        let [_, lead] = statics.profile.approach_curvature_and_lead(arc, here.until_rad, half_m);
+        let off_m = lead.curvature_per_m * half_m / c.curvature_inner_per_m;
+        let step = (1.0 / beyond.radius_m - 1.0 / here.radius_m) / c.curvature_inner_per_m;
+        let left_m = if statics.elastic.gives_along { 0.25 * step * off_m } else { off_m };
+        Some((left_m / (c.lengths.ob.v * c.beta.v.sin())).abs())
+    };
+    (0..curve.arc_count()).filter_map(at).fold(0.0, f64::max)
+}
+
 /// delta_H at A with the curvature behind it, while the closure settles.
 pub(super) struct InnerApproach {
     pub(super) approach_m: Dual,
     /// 1/R.
     pub(super) curvature_per_m: Dual,
+    /// By how much the force lies ahead of the contact point, m: 0 on one arc, and for a law that keeps it there.
+    pub(super) ahead_m: Dual,
     /// d delta_H/d(1/R), m^2; `None` for a law without radius or where the arc's own is wanted.
     by_curvature_m2: Option<f64>,
 }
@@ -60,6 +84,7 @@ impl InnerApproach {
         let pointwise = Self {
             approach_m: statics.elastic.pointwise_inner(arc, n),
             curvature_per_m: own,
+            ahead_m: Dual::constant(0.0),
             by_curvature_m2: None,
         };
         match statics.inner_curvature {
@@ -74,6 +99,7 @@ impl InnerApproach {
         Some(Self {
             approach_m: Dual { v: at.approach_m, d: slope },
             curvature_per_m: curvature,
+            ahead_m: Dual::constant(0.0),
             by_curvature_m2: Some(at.by_curvature_m2),
         })
     }
@@ -81,18 +107,33 @@ impl InnerApproach {
     /// Take the curvature at the turn that the last one led to. Returns the relative changes of delta_H and of its
     /// slope.
     pub(super) fn update(&mut self, statics: &Statics, arc: usize, n: Dual, turn: Dual) -> Dual {
-        let Some(by_curvature) = self.by_curvature_m2 else { return Dual::constant(0.0) };
+        let moves = statics.elastic.gives_along;
+        if self.by_curvature_m2.is_none() && !moves {
+            return Dual::constant(0.0);
+        }
         let contact = &statics.elastic.inner_contact[arc];
         let k = self.curvature_per_m;
         // a ~ (N R)^(1/2)
         let half = at_curvature(contact, k.v).half_width_m(n.v);
         let half_slope = 0.5 * half * (n.d / n.v - k.d / k.v);
-        let under = statics.profile.approach_curvature(arc, turn.v, half);
-        let next = Dual {
-            v: 1.0 / contact.effective_radius_m
-                + (under.curvature_per_m - 1.0 / statics.profile.arcs[arc].radius_m),
-            d: under.by_turn_per_m_rad * turn.d + under.by_half_width_per_m2 * half_slope,
+        let slope =
+            |mean: &PatchCurvature| mean.by_turn_per_m_rad * turn.d + mean.by_half_width_per_m2 * half_slope;
+        let profile = &statics.profile;
+        let (under, lead) = if moves {
+            let [under, lead] = profile.approach_curvature_and_lead(arc, turn.v, half);
+            (under, Dual { v: lead.curvature_per_m, d: slope(&lead) })
+        } else {
+            (profile.approach_curvature(arc, turn.v, half), Dual::constant(0.0))
         };
+        let next = Dual {
+            v: 1.0 / contact.effective_radius_m + (under.curvature_per_m - 1.0 / profile.arcs[arc].radius_m),
+            d: slope(&under),
+        };
+        self.ahead_m = match moves && under.straddles {
+            true => lead * Dual { v: half, d: half_slope } / next,
+            false => Dual::constant(0.0),
+        };
+        let Some(by_curvature) = self.by_curvature_m2 else { return Dual::constant(0.0) };
         if next == k {
             return Dual::constant(0.0);
         }
@@ -101,7 +142,7 @@ impl InnerApproach {
             d: (by_curvature * (next.d - k.d) / self.approach_m.d).abs(),
         };
         if let Some(updated) = Self::curved(statics, arc, n, next) {
-            *self = updated;
+            *self = Self { ahead_m: self.ahead_m, ..updated };
         }
         change
     }
@@ -133,10 +174,12 @@ impl Statics {
         (contact, straddles)
     }
 
-    /// Whether the approach at A feels the curvature beyond the arc in contact.
+    /// Whether the approach at A, or the place of the force, feels the curvature beyond the arc in contact.
     pub(super) fn feels_junctions(&self) -> bool {
         let own = 1.0 / self.elastic.inner_contact[0].effective_radius_m;
-        self.inner_curvature == InnerCurvature::Patch && self.elastic.curved_inner(0, 1.0, own).is_some()
+        let by_approach =
+            self.inner_curvature == InnerCurvature::Patch && self.elastic.curved_inner(0, 1.0, own).is_some();
+        by_approach || self.elastic.gives_along
     }
 
     /// Normal forces between `n_from` and `n_until` (N) on arc `arc` at which an edge of the patch passes a junction,

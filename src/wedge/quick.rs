@@ -16,6 +16,8 @@ const BREAKS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
 /// The same for a logarithmic law: there z d alpha/dN ~ z ln z is not smooth at first contact, and what the lowest panel makes of it
 /// goes on into alpha beyond it, less by the tenth power of their ratio.
 const LOGARITHMIC_BREAKS: [f64; 5] = [0.0, 0.1, 0.3, 0.6, 1.0];
+/// The same with the bulk of a sprag, a polynomial of fifth degree in the way rolled, which goes with z^9.
+const BULK_BREAKS: [f64; 5] = [0.0, 0.12, 0.4, 0.8, 1.0];
 /// q of logarithmic laws.
 const LOGARITHMIC: f64 = 10.0;
 /// Largest truncation of a quick curve that is taken as it is: three tenths of what it may be off.
@@ -62,6 +64,7 @@ impl ArcBuilder<'_> {
         let edges: Vec<Edge> = edges.iter().map(|e| Edge { at: e.at.powf(0.1), ..*e }).collect();
         let breaks: &[f64] = match self.exponent {
             _ if self.statics.elastic.is_shaped() => &SHAPED_BREAKS,
+            _ if self.statics.bulk.is_some() => &BULK_BREAKS,
             LOGARITHMIC => &LOGARITHMIC_BREAKS,
             _ => &BREAKS,
         };

@@ -42,13 +42,19 @@ pub(super) fn held(x: f64) -> (f64, f64) {
 /// Panels of the first arc in s, as fractions of its end. The lowest two hold N below 1e-10 of the end's and
 /// matter only for continuity.
 const FIRST_BREAKS: [f64; 6] = [0.0, 0.02, 0.1, 0.3, 0.6, 1.0];
+/// The same with the bulk of a sprag, a polynomial in the turn, which goes with s to the power of q.
+const BULK_BREAKS: [f64; 7] = [0.0, 0.02, 0.1, 0.3, 0.6, 0.8, 1.0];
 /// The same for contacts that are shaped along the axis, which open and close along their length.
 pub(super) const SHAPED_BREAKS: [f64; 14] =
     [0.0, 0.02, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.7, 0.8, 1.0];
 
 /// Breaks of the first arc up to `end`.
 fn first_breaks(statics: &Statics, end: f64) -> Vec<f64> {
-    let breaks: &[f64] = if statics.elastic.is_shaped() { &SHAPED_BREAKS } else { &FIRST_BREAKS };
+    let breaks: &[f64] = match (statics.elastic.is_shaped(), statics.bulk.is_some()) {
+        (true, _) => &SHAPED_BREAKS,
+        (false, true) => &BULK_BREAKS,
+        (false, false) => &FIRST_BREAKS,
+    };
     breaks.iter().map(|b| b * end).collect()
 }
 

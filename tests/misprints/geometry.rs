@@ -17,6 +17,7 @@ fn eq_8_the_sprag_follows_the_grown_race() {
         contact_inner: none,
         contact_outer: none,
         body: none,
+        bulk: none,
         growth_m,
     };
     let radii =

@@ -9,13 +9,12 @@ const MULTI: [(f64, f64); 3] = [(4.02e-3, 0.06), (4.08e-3, 0.12), (4.15e-3, 0.45
 #[test]
 fn outer_contact_starts_at_b_and_moves_to_the_rear() {
     let profile = table_1(&MULTI);
-    assert!(outer_contact_azimuth(&profile, 0.0).abs() < 1e-15);
+    assert!(profile.outer_contact_azimuth(0.0).abs() < 1e-15);
     // Body rotation = turn + change of beta, and beta is at most asin(e/OC_e) = 0.042.
-    let rotation = -outer_contact_azimuth(&profile, 0.45);
+    let rotation = -profile.outer_contact_azimuth(0.45);
     assert!((0.44..0.47).contains(&rotation), "{rotation}");
     // Continuous across junctions.
-    let (before, after) =
-        (outer_contact_azimuth(&profile, 0.06), outer_contact_azimuth(&profile, 0.06 + 1e-12));
+    let (before, after) = (profile.outer_contact_azimuth(0.06), profile.outer_contact_azimuth(0.06 + 1e-12));
     assert!((before - after).abs() < 2e-12);
 }
 

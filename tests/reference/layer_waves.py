@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Depth y* at which an elastic layer passes from plane strain to plane stress under a line load on its edge, by finite elements over its
+section: where the figures of layer_transition_m and element_transition_m (src/contact/approach.rs) come from. Prints layer_waves.csv.
+Needs numpy and scipy.
+
+Thickness l = 1, |z| < 1/2, free faces, edge y = 0, wave cos kx along the edge, E = 1. Displacements u(y, z) sin kx, v cos kx, w cos kx; nine-node
+quadrilaterals on 0 < z < 1/2. f = displacement of the edge over 2p/(E k), p the mean pressure: with pressure even over the thickness, and
+with displacement even over it. S = [f - (1 - nu^2)]/nu^2 falls from 1 to 0; ln y* = -gamma - lim (int_eps^inf S dk/k + ln eps).
+"element": the same of one element whose thickness strain is even, with the shear factor 3/4.
+"""
+import numpy as np
+import scipy.sparse as sp
+import scipy.sparse.linalg as sl
+
+EULER = 0.5772156649015329
+GAUSS = [(-0.6**0.5, 5 / 9), (0.0, 8 / 9), (0.6**0.5, 5 / 9)]
+
+
+def lagrange(t):
+    return np.array([t * (t - 1) / 2, 1 - t * t, t * (t + 1) / 2]), np.array([t - 0.5, -2 * t, t + 0.5])
+
+
+def edges(first, end, n):
+    low, high = 1.0000001, 3.0
+    for _ in range(100):
+        q = 0.5 * (low + high)
+        low, high = (q, high) if first * (q**n - 1) / (q - 1) < end else (low, q)
+    return np.concatenate([[0], np.cumsum(first * q ** np.arange(n))])
+
+
+def wave(k, nu, even, ny=24, nz=10):
+    """f of the wave k with `even` pressure or displacement."""
+    mu = 0.5 / (1 + nu)
+    D = np.diag([2 * mu] * 3 + [mu] * 3)
+    D[:3, :3] += nu / ((1 + nu) * (1 - 2 * nu))
+    ys = edges(min(0.02, 0.05 / k), 14 / k, ny)
+    w = 1.5 ** -np.arange(nz)
+    zs = np.concatenate([[0], np.cumsum(w) / w.sum()]) * 0.5
+    width = 2 * nz + 1
+    index = lambda i, j: i * width + j
+    count = 3 * (2 * ny + 1) * width
+    rows, cols, values, load = [], [], [], np.zeros(count)
+    for i in range(ny):
+        for j in range(nz):
+            hy, hz = ys[i + 1] - ys[i], zs[j + 1] - zs[j]
+            nodes = [index(2 * i + a, 2 * j + b) for a in range(3) for b in range(3)]
+            K = np.zeros((27, 27))
+            for y, wy in GAUSS:
+                for z, wz in GAUSS:
+                    (a, da), (b, db) = lagrange(y), lagrange(z)
+                    n, dy, dz = (np.outer(*p).ravel() for p in ((a, b), (da * 2 / hy, b), (a, db * 2 / hz)))
+                    B = np.zeros((6, 27))
+                    B[0, 0::3], B[1, 1::3], B[2, 2::3] = k * n, dy, dz
+                    B[3, 0::3], B[3, 1::3] = dy, -k * n
+                    B[4, 1::3], B[4, 2::3] = dz, dy
+                    B[5, 0::3], B[5, 2::3] = dz, -k * n
+                    K += B.T @ D @ B * (wy * wz * hy * hz / 4)
+            dof = np.array([3 * q + c for q in nodes for c in range(3)])
+            rows.append(np.repeat(dof, 27)), cols.append(np.tile(dof, 27)), values.append(K.ravel())
+            if i == 0:
+                for z, wz in GAUSS:
+                    load[[3 * q + 1 for q in nodes[:3]]] += lagrange(z)[0] * wz * hz / 2
+    K = sp.csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(cols))))
+    held = {3 * index(i, 0) + 2 for i in range(2 * ny + 1)} | {3 * index(2 * ny, j) + c for j in range(width) for c in range(3)}
+    free = np.array(sorted(set(range(count)) - held))
+    if even == "pressure":
+        return load[free] @ sl.spsolve(K[free][:, free].tocsc(), load[free]) * k
+    top = np.array([3 * index(0, j) + 1 for j in range(width)])
+    rest = np.setdiff1d(free, top)
+    u = np.zeros(count)
+    u[top] = 1
+    u[rest] = sl.spsolve(K[rest][:, rest].tocsc(), -K[rest][:, top] @ np.ones(width))
+    return k / 4 / (K @ u)[top].sum()
+
+
+def element(k, nu):
+    m = (32 / (1 - nu)) ** 0.5
+    s = np.hypot(k, m)
+    return 1 / (1 + nu * nu / (1 - nu * nu) * 2 * k * k * (s - k) / (s * m * m))
+
+
+def depth(f, nu):
+    low, high = np.log(0.05), np.log(300.0)
+    x, w = np.polynomial.legendre.leggauss(28)
+    share = lambda k: (f(k) - (1 - nu * nu)) / nu**2
+    # S ~ 1/k beyond.
+    total = sum(share(np.exp(low + (high - low) * (t + 1) / 2)) * v for t, v in zip(x, w)) * (high - low) / 2 + share(300.0)
+    return np.exp(-EULER - low - total)
+
+
+if __name__ == "__main__":
+    print("poisson,even_displacement,even_pressure,element")
+    for nu in (0.2, 0.25, 0.3, 0.35, 0.4):
+        of = [depth(lambda k: wave(k, nu, even), nu) for even in ("displacement", "pressure")]
+        print(",".join(f"{v:.4g}" for v in (nu, *of, depth(lambda k: element(k, nu), nu))))
