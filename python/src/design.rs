@@ -270,7 +270,9 @@ impl Design {
         })?;
         answer.unwrap_or_else(|why| match why {
             NoLife::NoClutch(why) => Err(errors::no_clutch(py, &why)),
-            NoLife::NoService { .. } | NoLife::NoSwing { .. } => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
+            NoLife::NoService { .. } | NoLife::NoSwing { .. } => {
+                Err(PyValueError::new_err(format!("{}: {why}", self.file)))
+            }
         })
     }
 

@@ -56,7 +56,7 @@ pub const SHORT: f64 = 0.95;
 
 /// What would be borne where a blow is not.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Borne {
+pub struct BorneSlip {
     /// Longest path of slip at the friction given, m; `None`: not even [`SHORTEST_M`].
     pub path_m: Option<f64>,
     /// Friction from which on the shortest path asked for is borne; `None`: none below what the torque needs.
@@ -83,7 +83,7 @@ pub struct ReengagementAnswer<'a> {
     /// Energy that the windup takes up from the torque carried to that one and to the end of the curve, J.
     pub takes_up_j: Option<[f64; 2]>,
     /// What would be borne, where a blow is not.
-    pub borne: Option<Borne>,
+    pub borne: Option<BorneSlip>,
     /// The scenario whose speed was taken; `None`: the speed was given, or the design names none.
     pub speed_of: Option<&'a str>,
     /// Speed of the outer race, rad/s, at which the sprags lift off in overrun; `None`: they do not.
@@ -220,7 +220,7 @@ impl<'a> ReengagementAnswer<'a> {
     }
 
     /// What would be borne beside what was asked; `None`: nothing was found to vary, or it was stopped.
-    fn borne(&self, follow: &Follow) -> Result<Option<Borne>, NoElement> {
+    fn borne(&self, follow: &Follow) -> Result<Option<BorneSlip>, NoElement> {
         let (Some(&shortest_m), needs) = (self.case.paths_m.first(), self.found.needs) else {
             return Ok(None);
         };
@@ -272,7 +272,7 @@ impl<'a> ReengagementAnswer<'a> {
         } else if held_m.is_some() {
             friction = Some(self.case.friction);
         }
-        Ok(Some(Borne { path_m, friction }))
+        Ok(Some(BorneSlip { path_m, friction }))
     }
 
     /// Energy of the races against one another that a blow has to take up, J, where it is known, and its share of what is borne.
@@ -520,7 +520,7 @@ impl<'a> ReengagementAnswer<'a> {
         significant(friction, 3) + &share.unwrap_or_default()
     }
 
-    fn borne_words(&self, borne: &Borne) -> String {
+    fn borne_words(&self, borne: &BorneSlip) -> String {
         let path = |m: f64| Unit::Millimetre.show(m, 3);
         let friction = significant(self.case.friction, 3);
         let first = match borne.path_m {
