@@ -30,9 +30,7 @@ pub fn run_many(groups: &[SpragGroup], start: &ManyStart, settings: &RunSettings
         HEAD + EACH * groups
     }
     match groups.len() {
-        0..=1 => Going::<{ length(1) }>::new(groups, start, settings).run(),
-        2..=4 => Going::<{ length(4) }>::new(groups, start, settings).run(),
-        5..=24 => Going::<{ length(24) }>::new(groups, start, settings).run(),
+        0..=4 => Going::<{ length(4) }>::new(groups, start, settings).run(),
         _ => Going::<{ length(64) }>::new(groups, start, settings).run(),
     }
 }
