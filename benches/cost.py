@@ -1,5 +1,6 @@
 """Reads what callgrind wrote of one binary (cost.sh): instructions per evaluation, by phase."""
 import collections
+import json
 import re
 import sys
 
@@ -30,35 +31,47 @@ def read(path):
     return total, inclusive, calls
 
 
-binary, points, nothing = sys.argv[1:]
-total, inclusive, calls = read(points)
-idle, idle_inclusive, _ = read(nothing)
-whole = (total - idle) / POINTS
+def measured(points, nothing):
+    """Of two such files, one of an evaluation of POINTS points and one of none, per evaluation."""
+    total, inclusive, calls = read(points)
+    idle, idle_inclusive, _ = read(nothing)
+    whole = (total - idle) / POINTS
+
+    def of(*names):
+        """What the first of these functions that is there (others are inlined) took."""
+        for name in names:
+            found = [n for n in inclusive if re.search(name, n)]
+            if found:
+                return max(inclusive[n] - idle_inclusive[n] for n in found) / POINTS
+        return 0.0
+
+    curves = of(r"WedgeCurve>::march$")
+    at_rest = of(r"margin::curve_at_rest$", r"margin::load::load_state_at$", r"margin::load::load_state$")
+    phases = {
+        "the file: values put in, read": of(r"design::edit::with_values$") + of(r"design::Design>::parse_in$"),
+        "curves": curves,
+        "rows of the load state": of(r"smooth::load_rows$", r"margin::load_margins$"),
+        "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - (curves - at_rest), 0.0),
+        "pure-rolling runs": of(r"demand::roll$", r"demand::demand_at$"),
+    }
+    if not any(phases.values()):
+        sys.exit("cost.py: no function of this program by name: build with CARGO_PROFILE_RELEASE_STRIP=none")
+    phases["all else"] = whole - sum(phases.values())
+    closures = sum(n for function, n in calls.items() if function.endswith("Statics::closure")) / POINTS
+    each = of(r"Statics::closure$") / closures if closures else 0.0
+    return {"whole": whole, "phases": phases, "closures": closures, "closure": each}
 
 
-def of(*names):
-    """What the first of these functions that is there (others are inlined) took, per evaluation."""
-    for name in names:
-        found = [n for n in inclusive if re.search(name, n)]
-        if found:
-            return max(inclusive[n] - idle_inclusive[n] for n in found) / POINTS
-    return 0.0
+def told(binary, found):
+    whole = found["whole"]
+    print(f"\n{binary}: {whole / 1e6:.2f} M instructions per evaluation")
+    for phase, cost in found["phases"].items():
+        print(f"  {phase:<36}{cost / 1e6:>8.2f} M {100 * cost / whole:>6.1f} %")
+    if found["closures"]:
+        print(f"  closures: {found['closures']:.0f}, of {found['closure'] / 1e3:.1f} k each")
 
 
-curves = of(r"WedgeCurve>::march$")
-at_rest = of(r"margin::curve_at_rest$", r"margin::load::load_state_at$", r"margin::load::load_state$")
-phases = {
-    "the file: values put in, read": of(r"design::edit::with_values$") + of(r"design::Design>::parse_in$"),
-    "curves": curves,
-    "rows of the load state": of(r"smooth::load_rows$", r"margin::load_margins$"),
-    "scenes made ready, without curves": max(of(r"plan::plan_at$", r"plan::plan$") - (curves - at_rest), 0.0),
-    "pure-rolling runs": of(r"demand::roll$", r"demand::demand_at$"),
-}
-phases["all else"] = whole - sum(phases.values())
-print(f"\n{binary}: {whole / 1e6:.2f} M instructions per evaluation")
-for phase, cost in phases.items():
-    print(f"  {phase:<36}{cost / 1e6:>8.2f} M {100 * cost / whole:>6.1f} %")
-closures = sum(n for function, n in calls.items() if function.endswith("Statics::closure"))
-if closures:
-    took = of(r"Statics::closure$") * POINTS / closures
-    print(f"  closures: {closures / POINTS:.0f}, of {took / 1e3:.1f} k each")
+if __name__ == "__main__":
+    how, binary, points, nothing = sys.argv[1:]
+    found = measured(points, nothing)
+    print(json.dumps(found)) if how == "--json" else told(binary, found)

@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # Where an evaluation's instructions go, by phase: callgrind counts them, the same on every run and under any load.
 #
-#   benches/cost.sh FILE.toml BINARY...
-#   benches/cost.sh designs/huang2017-multi-arc.toml before target/release/sprag-design
+#   benches/cost.sh [--json] FILE.toml BINARY...
+#   benches/cost.sh designs/huang2017-multi-arc.toml before target/cost/release/sprag-design
 #
 # Each binary evaluates the start of FILE's [optimize] and three points beside it; what it does without a point is taken off.
-# Installs valgrind where it is absent; needs python3.
+# Functions are known by name: CARGO_PROFILE_RELEASE_STRIP=none CARGO_TARGET_DIR=target/cost cargo build --release --locked
+# --json: one line for each binary. Installs valgrind where it is absent; needs python3.
 set -eu
-[ $# -ge 2 ] || { sed -n '2,8p' "$0"; exit 2; }
+how=--text
+[ "${1:-}" != --json ] || { how=--json; shift; }
+[ $# -ge 2 ] || { sed -n '2,9p' "$0"; exit 2; }
 . "$(dirname "$0")/../tests/install.sh"
 need valgrind valgrind
 design=$1
@@ -29,5 +32,5 @@ for binary in "$@"; do
         valgrind --tool=callgrind --callgrind-out-file="$work/of-$what" \
             "$binary" evaluate "$design" --threads 1 <"$work/$what" >/dev/null 2>"$work/log"
     done
-    python3 "$(dirname "$0")/cost.py" "$binary" "$work/of-points" "$work/of-nothing"
+    python3 "$(dirname "$0")/cost.py" "$how" "$binary" "$work/of-points" "$work/of-nothing"
 done

@@ -23,6 +23,8 @@ TOOL, OUT, COMMAND, *DESIGNS = sys.argv[1:]
 OURS = "sprag-design optimize, 1 thread"
 PAIR = "sprag-design optimize, 2 threads"
 GLOBAL = "scipy differential evolution"
+# Column that is known here alone, by the courses: read by reports/cost.py.
+NEAR = "until_within_0.1_percent"
 # That of the pages of all commands; numbers are on the right, ours are marked, and pictures stay dark on light.
 with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "src", "report", "page.css")) as style:
     STYLE = style.read() + """td, th { text-align: right; }
@@ -49,9 +51,10 @@ def table(rows, best):
     for r in rows:
         found = r["objective"]
         cells = ([f"{float(found):.7f}", f"{100 * gap(best, float(found)):.2g}"] if found else ["none feasible", "–"])
-        near = next((n for n, v in r["course"] if gap(best, v) <= 1e-3), None)
+        near = next((n for n, v in r["course"] if gap(best, v) <= 1e-3), "never" if r["course"] else "")
+        r[NEAR] = near
         out.append(f"<tr{' class=ours' if r['method'] in (OURS, PAIR) else ''}><td>{html.escape(r['method'])}</td>"
-                   f"<td>{r['evaluations']}</td><td>{near if near else ('–' if r['course'] else '')}</td>"
+                   f"<td>{r['evaluations']}</td><td>{'–' if near == 'never' else near}</td>"
                    f"<td>{cells[0]}</td><td>{cells[1]}</td><td>{float(r['time_s']):.0f}</td></tr>")
     return "".join(out) + "</table></div>"
 
@@ -135,7 +138,7 @@ def main():
                 continue  # a method's own complaint
             name, method, course = json.loads(text)
             courses[name, method] = course
-    parts, verdicts, hashes, distances, spent, opening = [], [], [], [], [], ""
+    parts, verdicts, hashes, distances, spent, measured, opening = [], [], [], [], [], [], ""
     for design in DESIGNS:
         name = os.path.splitext(os.path.basename(design))[0]
         problem = about(design)
@@ -145,6 +148,7 @@ def main():
         ours = next(r for r in rows if r["method"] == OURS)
         other = next(r for r in rows if r["method"] == GLOBAL)
         off = 100 * gap(float(other["objective"]), float(ours["objective"])) if other["objective"] else float("-inf")
+        measured += rows
         verdicts.append(f"<li>{html.escape(problem['design'])}: ours {float(ours['objective']):.6f} in "
                         f"{ours['evaluations']} evaluations; {GLOBAL} {float(other['objective']):.6f} in "
                         f"{other['evaluations']}: ours is {abs(off):.2g} % {'below' if off > 0 else 'above'} it.</li>")
@@ -214,6 +218,12 @@ for all five; differences of SLSQP 1e-5 of the range, simplex 0.1 to 1e-6 of the
     with open(OUT + ".html.new", "w") as f:
         f.write(page)
     os.replace(OUT + ".html.new", OUT + ".html")
+    columns = [c for c in found[0] if c != NEAR] + [NEAR]
+    with open(OUT + ".csv.new", "w", newline="") as f:
+        w = csv.DictWriter(f, columns, extrasaction="ignore", restval="", lineterminator="\n")
+        w.writeheader()
+        w.writerows(measured)
+    os.replace(OUT + ".csv.new", OUT + ".csv")
 
 
 main()
