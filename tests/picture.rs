@@ -110,6 +110,7 @@ const TYPICAL: &[(&str, &str)] = &[
     ("sharing.sprags[].friction", "0.05 … 0.12"),
     ("flanks.front_tilt_rad", "-0.1 … 0.1"),
     ("flanks.rear_tilt_rad", "-0.1 … 0.1"),
+    ("swings[].hours", "100 … 10000"),
     ("thermal.reference_c", "20"),
     ("tolerances.expansion_per_k", "1.15e-5"),
     ("tolerances.friction", "0.005 … 0.02"),

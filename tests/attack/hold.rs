@@ -10,6 +10,8 @@ use std::path::Path;
 const MAY_BE_NULL: &[&str] = &[
     // Race spaces that `size` tried and that hold no clutch.
     "outside_mm",
+    // Slow overruns that last too short to matter.
+    "passing",
     "width_mm",
     "mass_g",
     "at_moved_s",
