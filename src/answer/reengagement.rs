@@ -57,7 +57,7 @@ pub const SHORT: f64 = 0.95;
 /// What would be borne where a blow is not.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BorneSlip {
-    /// Longest path of slip at the friction given, m; `None`: not even [`SHORTEST_M`].
+    /// Longest path of slip at the friction given, m; `None`: not even the shortest that is tried, 1 µm.
     pub path_m: Option<f64>,
     /// Friction from which on the shortest path asked for is borne; `None`: none below what the torque needs.
     pub friction: Option<f64>,
