@@ -45,8 +45,10 @@ const short = (x, digits = 4) => (x === 0 ? "0" : Number(x.toPrecision(digits)).
 
 /* Looks ------------------------------------------------------------------------------------------------------------ */
 async function look() {
-  const found = await newest("check", (signal) => engine.ask("check", { text: state.text, pinned: state.pinned }, signal));
-  if (found) show(found);
+  const text = state.text;
+  const found = await newest("check", (signal) => engine.ask("check", { text, pinned: state.pinned }, signal));
+  // A change may have come in between: its answer is newer, but may not know what has been pinned.
+  if (found) return text === state.text ? show(found) : look();
 }
 
 /* One change at a time is on its way; of those made meanwhile the last one follows. An undo overtakes them all. */

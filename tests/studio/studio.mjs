@@ -62,6 +62,19 @@ try {
   assert.ok(await page.locator("#live .ghost").count(), "the pinned design is drawn");
   assert.match(await page.innerHTML("#windup"), /pinned/);
 
+  step("an answer that comes late does not undo a move");
+  await page.click("#unpin");
+  await page.route("**/ask/check", async (route) => { await new Promise((done) => setTimeout(done, 400)); await route.continue(); });
+  await page.click("#pin");
+  await set(number(page), 4.25);
+  await page.waitForFunction((path) => Number(document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[type=number]`).value) === 4.25, path);
+  await page.waitForTimeout(900);
+  close(await margin(page, "hertz-nominal-inner"), checked(`${path}=4.25`)["hertz-nominal-inner"]);
+  await page.unroute("**/ask/check");
+  await page.click("#unpin");
+  await set(number(page), 4.2);
+  await page.waitForFunction((path) => Number(document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[type=number]`).value) === 4.2, path);
+
   step("moves are answered in time");
   const times = await page.evaluate(async (path) => {
     const out = [];
