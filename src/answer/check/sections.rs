@@ -80,10 +80,10 @@ pub(super) fn run_out(section: &run_out::RunOutSection, page: &mut Page) {
         plot.curves.push(Curve { dots: true, ..Curve::new(&name, points) });
     }
     if !section.at.is_empty() {
-        page.figure(
-            &plot.to_figure(),
+        page.figures(&[(
+            half(plot),
             "Load of each sprag over the mean, by where it stands; of a clutch that turns against the offset, in the \
              position with the largest share.",
-        );
+        )]);
     }
 }
