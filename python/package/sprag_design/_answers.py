@@ -144,7 +144,7 @@ class Margin:
     required: bool
     """Whether it counts for the verdict; the others are shown only."""
     computed: bool
-    """False where a run met its limit of work: neither held nor broken."""
+    """False where a run met its limit of work or the clutch does not engage: neither held nor broken."""
     overloaded: bool
     """Whether the row's scene or torque goes beyond the end of the curve."""
     held: bool
@@ -234,7 +234,8 @@ class Overrun:
     named: tuple[dict[str, Any], ...]
     """The overruns that the design names."""
     warning: str | None
-    """A warning where the equilibrium does not stay at a speed that the design names; ``None`` where it does."""
+    """A warning where the equilibrium does not stay at a speed that the design names, or, where it names none, at any;
+    ``None`` where it does."""
     passing: str | None
     """A note where that is so at other speeds only, on the way through them."""
 
