@@ -58,7 +58,8 @@ impl Design {
                     EditError::UnknownName { known, .. } => {
                         let near: Vec<&str> = known.iter().map(String::as_str).collect();
                         let there = || Some(shape::paths_that_end_in(key)).filter(|paths| !paths.is_empty());
-                        let meant = || Some(known.join(" or ")).filter(|_| known[0].starts_with("scenarios["));
+                        let in_scenes = known.first().is_some_and(|first| first.starts_with("scenarios["));
+                        let meant = || in_scenes.then(|| known.join(" or "));
                         let near = || shape::nearest(key, &near).map(str::to_owned);
                         let like = meant().or_else(near).or_else(|| Some(there()?.join(" or ")));
                         let help = like.unwrap_or_else(|| {
