@@ -1,6 +1,6 @@
 //! What an indexing drive feeds with each stroke, over frequency, and where it ends.
 
-use super::left_out::{LeftOut, left_out};
+use super::left_out::{LeftOut, left_out_of};
 use super::page::opened;
 use super::reengagement::peak_torque_borne;
 use super::{Envelope, Provenance};
@@ -383,7 +383,7 @@ impl<'a> FeedAnswer<'a> {
             "the brake and its inertia are rigid with the fed race, the driving race is moved as given",
             "a soft shaft feeds less by its own twist: put the drive into [[drivetrain]] and simulate a transient",
         )];
-        all.extend(left_out(&self.design.clutch));
+        all.extend(left_out_of(self.design));
         all
     }
 

@@ -2,6 +2,7 @@
 
 use super::under_load::left_out_under_load;
 use crate::clutch::{Clutch, ContactLaw};
+use crate::design::Design;
 use crate::report::Unit;
 use crate::wedge::{even_load_error, straddling_error};
 use serde::Serialize;
@@ -24,9 +25,14 @@ impl LeftOut {
     }
 }
 
+/// What every answer about `design` leaves out, at the largest torque of its limits.
+pub fn left_out_of(design: &Design) -> Vec<LeftOut> {
+    left_out(&design.clutch, design.limits.largest_torque_nm())
+}
+
 /// What every answer leaves out: the paper's three standing assumptions, then the terms of the bodies and of
-/// the contact law of `clutch`.
-pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
+/// the contact law of `clutch`; what grows with the load is named at `asked_nm`, N m, of the whole clutch.
+pub fn left_out(clutch: &Clutch, asked_nm: Option<f64>) -> Vec<LeftOut> {
     let mut list = vec![
         LeftOut::new(
             TOGETHER,
@@ -85,7 +91,7 @@ pub fn left_out(clutch: &Clutch) -> Vec<LeftOut> {
             "windup up to 2 % too small, tan omega 0.8 % too large (finite elements, sprags 0.4 as wide as high)",
         ));
     }
-    list.extend(left_out_under_load(clutch));
+    list.extend(left_out_under_load(clutch, asked_nm));
     list
 }
 
@@ -160,13 +166,13 @@ mod tests {
     fn the_standing_assumptions_come_first_and_slices_only_without_slices() {
         let text = include_str!("../../designs/huang2017-multi-arc.toml");
         let mut clutch = Design::parse(text, "multi-arc").unwrap().clutch;
-        let list = left_out(&clutch);
+        let list = left_out(&clutch, None);
         for (entry, word) in list.iter().zip(["simultaneously", "same force", "concentric"]) {
             assert!(entry.why.contains(word), "{entry:?}");
         }
         assert!(list.iter().all(|e| !e.cost.is_empty()) && list.iter().any(|e| e.term == "slices"));
         clutch.contact = ContactLaw::Slice { coefficient: 3.944e-5 };
-        assert!(left_out(&clutch).iter().all(|e| e.term != "slices"));
+        assert!(left_out(&clutch, None).iter().all(|e| e.term != "slices"));
         // Of Table 1's clutch slices are some 2 % nearer.
         let cost = crate::wedge::even_load_error(&clutch).unwrap();
         assert!((0.015..0.026).contains(&cost), "{cost}");

@@ -1,6 +1,6 @@
 //! What a life of loads does to a clutch: loads, places, verdict, curves of life.
 
-use super::left_out::{LeftOut, left_out};
+use super::left_out::{LeftOut, left_out_of};
 use super::page::opened;
 use super::resonance::NoResonance;
 use super::{Envelope, Provenance};
@@ -204,7 +204,7 @@ impl<'a> LifeAnswer<'a> {
                 "unknown; pitting strengths hold for the lubricant and surface that they were found with",
             ),
         ];
-        all.extend(left_out(&self.design.clutch));
+        all.extend(left_out_of(self.design));
         all
     }
 

@@ -1,7 +1,7 @@
 //! What a slip under load and the blow after it do to a clutch: each path of slip, verdict, curve.
 
 use super::check::overrun::outer_turns;
-use super::left_out::{LeftOut, left_out};
+use super::left_out::{LeftOut, left_out_of};
 use super::page::opened;
 use super::{Envelope, Provenance};
 use crate::design::Design;
@@ -351,7 +351,7 @@ impl<'a> ReengagementAnswer<'a> {
                 "a cage brings it back sooner: less speed, a smaller blow",
             ),
         ];
-        all.extend(left_out(&self.design.clutch));
+        all.extend(left_out_of(self.design));
         all
     }
 

@@ -1,6 +1,6 @@
 //! Periodic states of a torsional excitation, one or a map over frequency and amplitude, as text, table, JSON and page.
 
-use super::left_out::{LeftOut, left_out};
+use super::left_out::{LeftOut, left_out_of};
 use super::page::{half, opened};
 use super::{Envelope, Provenance};
 use crate::clutch::{Scenario, ScenarioKind};
@@ -334,7 +334,7 @@ impl<'a> ResonanceAnswer<'a> {
             "scenario": self.scenario.name, "amplitudes_left": self.amplitudes_left(), "verdict": self.verdict(), "static_friction": self.friction,
             "rolls": self.rolls(), "states": states.collect::<Vec<_>>(),
         });
-        let mut list = left_out(&self.design.clutch);
+        let mut list = left_out_of(self.design);
         list.push(LeftOut::new(
             "motions with two or more periods of the excitation",
             "the state is looked for among motions that repeat with its period",

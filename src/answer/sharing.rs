@@ -1,7 +1,7 @@
 //! Sprags one by one: what each carries, over a turn, through an engagement, after losses; races out of round.
 
 use super::drawn::drawn_words;
-use super::left_out::{LeftOut, left_out, one_by_one};
+use super::left_out::{LeftOut, left_out_of, one_by_one};
 use super::page::{half, opened};
 use super::{Envelope, Provenance};
 use crate::clutch::Rim;
@@ -269,7 +269,7 @@ impl<'a> SharingAnswer<'a> {
                 "not estimated: races do not wait for a late sprag",
             ),
         ];
-        one_by_one(left_out(clutch), &instead)
+        one_by_one(left_out_of(self.design), &instead)
     }
 
     /// In a sentence.

@@ -1,7 +1,7 @@
 //! A scene with its sprags one by one: who catches, who slips, what each carries over time.
 
 use super::drawn::drawn_words;
-use super::left_out::{LeftOut, left_out, one_by_one};
+use super::left_out::{LeftOut, left_out_of, one_by_one};
 use super::page::{half, opened};
 use super::sharing::NoSharing;
 use super::{Envelope, Provenance};
@@ -259,7 +259,7 @@ impl<'a> SharingSceneAnswer<'a> {
                 "its inertia, below 1e-4 of a race's",
             ),
         ];
-        one_by_one(left_out(&self.design.clutch), &instead)
+        one_by_one(left_out_of(self.design), &instead)
     }
 
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s.

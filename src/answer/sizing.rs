@@ -1,7 +1,7 @@
 //! What a first design answers: the design, its figures, and the alternatives.
 
 use super::check::{REACHED_AT, ends_first, far_more_than_asked, margin_words, people_table, size_line};
-use super::left_out::left_out;
+use super::left_out::left_out_of;
 use super::page::opened;
 use super::{Envelope, Provenance};
 use crate::design::shown;
@@ -62,7 +62,7 @@ impl<'a> Sizing<'a> {
             "warnings": self.warnings,
             "margins": made.margins.iter().map(|r| margin_json(r, self.end_nm)).collect::<Vec<_>>(),
         });
-        Envelope { design, run_time_s, left_out: left_out(&design.clutch), error_estimate: None, body }
+        Envelope { design, run_time_s, left_out: left_out_of(design), error_estimate: None, body }
     }
 
     /// Every race space tried.

@@ -1,5 +1,5 @@
-//! Terms left out whose cost grows with the load, at the pressure at which other costs are named too: torsion of the
-//! races, tension behind the patches, creep, a coefficient that is steel's; and the force at junctions.
+//! Terms left out whose cost grows with the load, at the largest torque of the limits, without one at a pressure: torsion of
+//! the races, tension behind the patches, creep, a coefficient that is steel's; and the force at junctions.
 
 use super::left_out::LeftOut;
 use crate::clutch::Clutch;
@@ -10,7 +10,7 @@ use crate::report::Unit;
 use crate::wedge::{StaticPoint, WedgeCurve, shift_left_out};
 use std::f64::consts::PI;
 
-/// Pressure at A at which the costs are named, Pa.
+/// Pressure at A at which the costs are named where no torque is asked for, Pa.
 const PRESSURE_PA: f64 = 2e9;
 /// The steel of the roller law's coefficient (Lundberg and Palmgren 1947; section 6 of the model).
 const ROLLER_STEEL: Material =
@@ -18,11 +18,11 @@ const ROLLER_STEEL: Material =
 /// Difference of E* from which it is named; a choice, the scatter of E among steels.
 const SAME_STEEL: f64 = 0.02;
 
-/// What every answer about `clutch` leaves out of a loaded clutch; fewer terms where it has no curve.
-pub(super) fn left_out_under_load(clutch: &Clutch) -> Vec<LeftOut> {
+/// What every answer about `clutch` leaves out of a loaded clutch, at `asked_nm`, N m; fewer terms where it has no curve.
+pub(super) fn left_out_under_load(clutch: &Clutch, asked_nm: Option<f64>) -> Vec<LeftOut> {
     let mut list: Vec<LeftOut> = other_bodies(clutch).into_iter().collect();
     let curve = clutch.profile().ok().and_then(|p| WedgeCurve::build(clutch, &p, 0.0).ok());
-    if let Some((curve, point)) = curve.as_ref().and_then(|c| Some((c, at_pressure(c)?))) {
+    if let Some((curve, point)) = curve.as_ref().and_then(|c| Some((c, loaded(c, asked_nm)?))) {
         list.extend(shift(clutch, curve));
         list.extend([torsion(curve, &point), tension(clutch, curve, &point)]);
         list.extend(creep(clutch, curve, &point));
@@ -30,12 +30,13 @@ pub(super) fn left_out_under_load(clutch: &Clutch) -> Vec<LeftOut> {
     list
 }
 
-/// The static state at [`PRESSURE_PA`], or at the end of a curve that ends below it.
-fn at_pressure(curve: &WedgeCurve) -> Option<StaticPoint> {
+/// The static state at `asked_nm`, else at [`PRESSURE_PA`]; at the end of a curve that ends below it.
+fn loaded(curve: &WedgeCurve, asked_nm: Option<f64>) -> Option<StaticPoint> {
     let contact = &curve.statics().elastic.inner_contact[curve.first_arc()];
     // p_0 goes with the root of N.
     let normal_n = (PRESSURE_PA / contact.peak_pressure_pa(1.0)).powi(2);
-    curve.at_normal(normal_n).or_else(|| curve.at_torque(curve.end_torque_nm()))
+    let found = asked_nm.map_or_else(|| curve.at_normal(normal_n), |nm| curve.at_torque(nm));
+    found.or_else(|| curve.at_torque(curve.end_torque_nm()))
 }
 
 fn at(point: &StaticPoint) -> String {
@@ -171,7 +172,7 @@ mod tests {
     fn a_solid_shaft_of_another_steel_is_named_with_its_figures() {
         let text = include_str!("../../tests/reference/soft_shaft.toml");
         let mut clutch = Design::parse(text, "soft").unwrap().clutch;
-        let list = left_out_under_load(&clutch);
+        let list = left_out_under_load(&clutch, None);
         let cost = |word: &str, list: &[LeftOut]| {
             list.iter().find(|t| t.term.contains(word)).map(|t| t.cost.clone())
         };
@@ -181,7 +182,7 @@ mod tests {
         // The law elastic has no coefficient.
         assert_eq!(cost("elastic constants", &list), None);
         clutch.contact = ContactLaw::Roller { coefficient: 3.84e-5 };
-        let list = left_out_under_load(&clutch);
+        let list = left_out_under_load(&clutch, None);
         assert!(cost("elastic constants", &list).is_some() && cost("creep", &list).is_none());
     }
 

@@ -129,7 +129,8 @@ fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<StiffnessS
         _ => None,
     };
     let run_time_s = started.elapsed().as_secs_f64();
-    Ok(StiffnessStudy { design, profile, found: StiffnessAnswer::of(laws), fem, pressure, run_time_s })
+    let found = StiffnessAnswer::of(laws, design.limits.largest_torque_nm());
+    Ok(StiffnessStudy { design, profile, found, fem, pressure, run_time_s })
 }
 
 /// Finite elements of `--fem`.

@@ -21,10 +21,10 @@ pub struct Input {
 }
 
 impl Input {
-    /// Whether both say the same: numbers by their value, however they are typed.
+    /// Whether both say the same: numbers by their value, however they are typed, apart from roundings of 1e-12 of it.
     pub fn says_the_same(&self, other: &Self) -> bool {
         match (self.number, other.number) {
-            (Some(a), Some(b)) => a == b,
+            (Some(a), Some(b)) => (a - b).abs() <= 1e-12 * a.abs().max(b.abs()),
             _ => self.text == other.text,
         }
     }
@@ -143,6 +143,8 @@ mod tests {
         let of = |text: &str| inputs(text).remove(0);
         assert!(of("a = 1.8e-3").says_the_same(&of("a = 0.0018")));
         assert!(of("a = 12").says_the_same(&of("a = 12.0")));
+        assert!(of("a = 0.3").says_the_same(&of("a = 0.30000000000000004")));
+        assert!(!of("a = 0.3").says_the_same(&of("a = 0.3000000001")));
         assert!(!of("a = \"b\"").says_the_same(&of("a = \"c\"")));
         assert!(inputs("no toml at all [").is_empty());
     }

@@ -170,6 +170,15 @@ pub fn beside_the_name(source: &str) -> Vec<String> {
     names.filter_map(told).collect()
 }
 
+/// Names of the materials of sprag, inner race and outer race as `source` gives them; none of one that is given by numbers
+/// alone.
+pub fn names_of_bodies(source: &str) -> [Option<String>; 3] {
+    let all = inputs(source);
+    let named =
+        |path: String| all.iter().find(|i| i.path == path).map(|i| i.text.trim_matches('"').to_owned());
+    BODIES.map(|body| named(format!("material.{body}.name")).or_else(|| named("material.name".to_owned())))
+}
+
 /// `base` with the limits that the library allows the named materials: the lower Hertz pressure of sprag and races where
 /// the torque at which it is held is known, and the race stress as mean hoop stress. Nothing where the material has no
 /// name: that is refused.

@@ -168,7 +168,7 @@ pub fn error_beside(value: f64, digits: usize, error: f64, unit: &str) -> String
     let exponent = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
     let last = 10.0_f64.powi(exponent + 1 - digits.max(1) as i32);
     if error.abs() < 0.5 * last {
-        "exact to the digits shown".to_owned()
+        "computed to the digits shown".to_owned()
     } else {
         format!("\u{b1} {} {unit}", significant(error.abs(), 1)).trim_end().to_owned()
     }
@@ -201,11 +201,11 @@ mod tests {
     #[test]
     fn an_error_below_the_digits_shown_is_a_word() {
         for (value, error, want) in [
-            (144.83, 1e-16, "exact to the digits shown"),
-            (144.83, 4.9e-3, "exact to the digits shown"),
+            (144.83, 1e-16, "computed to the digits shown"),
+            (144.83, 4.9e-3, "computed to the digits shown"),
             (144.83, 5.1e-3, "\u{b1} 0.005"),
             (-0.246, 2e-4, "\u{b1} 0.0002"),
-            (0.0, 1e-9, "exact to the digits shown"),
+            (0.0, 1e-9, "computed to the digits shown"),
         ] {
             assert_eq!(error_beside(value, 5, error, ""), want, "{value}");
         }

@@ -8,7 +8,7 @@ mod verdict;
 
 pub use body::AccuracyBody;
 
-use super::left_out::left_out;
+use super::left_out::left_out_of;
 use super::{Envelope, Provenance};
 use crate::accuracy::{
     Judged, Precision, PrecisionSettings, WorkLimit, cases, map as stability_map, precision,
@@ -105,7 +105,7 @@ impl AccuracyStudy {
         Envelope {
             design,
             run_time_s,
-            left_out: left_out(&design.clutch),
+            left_out: left_out_of(design),
             error_estimate: Some(json!(worst)),
             body: AccuracyBody::of(self),
         }

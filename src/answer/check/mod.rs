@@ -20,7 +20,7 @@ pub use body::{
 
 pub(super) use text::{REACHED_AT, size_line};
 
-use super::left_out::{LeftOut, left_out, off_centre};
+use super::left_out::{LeftOut, left_out_of, off_centre};
 use super::{Envelope, Provenance};
 use crate::clutch::Scenario;
 use crate::design::{Design, beside_the_name};
@@ -180,7 +180,7 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
         running: running::RunningSection::new(design, &state),
         run_out: ring.as_ref().map(|ring| run_out::RunOutSection::new(design, &state, ring)),
     };
-    let list = left_out(&design.clutch);
+    let list = left_out_of(design);
     let left_out = match &source.run_out {
         Some(section) => off_centre(list, section.left_out()),
         None => list,

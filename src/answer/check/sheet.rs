@@ -5,7 +5,7 @@ use super::text::{asides, pressures};
 use super::{CheckAnswer, people_table};
 use crate::answer::Provenance;
 use crate::answer::page::{draw_inputs, half};
-use crate::design::Design;
+use crate::design::{Design, names_of_bodies};
 use crate::margin::{Margin, SceneDemand};
 use crate::material::Material;
 use crate::report::{Cell, Column, Page, Plot, Table, Unit, greek};
@@ -114,6 +114,7 @@ fn friction(found: &SceneDemand) -> Cell {
 fn materials(design: &Design) -> Table {
     let mut table = Table::new(vec![
         Column::text("body", "Body"),
+        Column::text("material", "Material"),
         Column::number("youngs_modulus_gpa", "E", Unit::Gigapascal, 4),
         Column::number("poisson_ratio", "Poisson ratio", Unit::One, 3),
         Column::number("density_kg_m3", "Density, kg/m³", Unit::One, 5),
@@ -126,9 +127,10 @@ fn materials(design: &Design) -> Table {
         ("inner race".into(), &m.inner_race),
         ("outer race".into(), &m.outer_race),
     ];
-    for ((name, m), mass) in bodies.into_iter().zip(design.clutch.masses_kg()) {
+    let named = names_of_bodies(&design.source);
+    for (((name, m), mass), named) in bodies.into_iter().zip(design.clutch.masses_kg()).zip(named) {
         let row = [m.youngs_modulus_pa, m.poisson_ratio, m.density_kg_m3, mass];
-        let mut cells: Vec<Cell> = vec![name.into()];
+        let mut cells: Vec<Cell> = vec![name.into(), named.unwrap_or_else(|| "by its numbers".into()).into()];
         cells.extend(row.map(Cell::Si));
         table.row(cells);
     }

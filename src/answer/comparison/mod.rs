@@ -5,7 +5,7 @@ mod page;
 mod tables;
 
 use super::check::{fine, margin_text};
-use super::left_out::left_out;
+use super::left_out::left_out_of;
 use super::{Envelope, Provenance};
 use crate::compare::{Scene, SideBySide, Subject, inputs_that_differ, margins, proud_m, scenes};
 use crate::design::{Design, Input};
@@ -90,7 +90,7 @@ impl<'a> Comparison<'a> {
     /// None of no designs.
     pub fn envelope(&self, run_time_s: f64) -> Option<Envelope<'a, Value>> {
         let design = &self.subjects.first()?.design;
-        let left_out = left_out(&design.clutch);
+        let left_out = left_out_of(design);
         Some(Envelope { design, run_time_s, left_out, error_estimate: None, body: self.json() })
     }
 

@@ -6,7 +6,7 @@ mod tables;
 
 pub use stopped::StoppedIdentification;
 
-use super::left_out::left_out;
+use super::left_out::left_out_of;
 use super::{Envelope, Provenance, VERSION, WRITTEN_BY};
 use crate::design::Design;
 use crate::identify::Identified;
@@ -105,7 +105,7 @@ impl<'a> Identification<'a> {
         Envelope {
             design: self.design,
             run_time_s,
-            left_out: left_out(&self.design.clutch),
+            left_out: left_out_of(self.design),
             error_estimate: Some(json!({ "residual_sigma": self.found.knowledge.residual_sigma })),
             body: IdentificationBody::new(self.found, written),
         }

@@ -2,7 +2,7 @@
 
 use super::head;
 use crate::answer::Envelope;
-use crate::answer::left_out::left_out;
+use crate::answer::left_out::left_out_of;
 use crate::design::Design;
 use crate::identify::{SoFar, Unknown};
 use serde_json::{Value, json};
@@ -57,7 +57,7 @@ impl<'a> StoppedIdentification<'a> {
             "interrupted": true, "converged": false, "unknowns": unknowns, "sum_of_squares": self.so_far.sum,
             "evaluations": self.so_far.evaluations, "written": written,
         });
-        let left_out = left_out(&self.design.clutch);
+        let left_out = left_out_of(self.design);
         Envelope { design: self.design, run_time_s, left_out, error_estimate: None, body }
     }
 }

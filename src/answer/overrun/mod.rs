@@ -4,7 +4,7 @@ mod page;
 mod tables;
 mod words;
 
-use super::left_out::{LeftOut, left_out};
+use super::left_out::{LeftOut, left_out_of};
 use super::{Envelope, Provenance};
 use crate::clutch::{Clutch, Lubrication};
 use crate::design::Design;
@@ -258,7 +258,7 @@ impl<'a> OverrunAnswer<'a> {
     /// What overrun leaves out beside what statics do.
     fn left_out(&self) -> Vec<LeftOut> {
         let mut all = words::left_out();
-        all.extend(left_out(&self.design.clutch));
+        all.extend(left_out_of(self.design));
         all
     }
 

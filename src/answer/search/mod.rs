@@ -25,7 +25,7 @@ pub use steps::{Bound, Steps};
 pub use story::Story;
 pub use words::Hints;
 
-use super::left_out::{LeftOut, left_out};
+use super::left_out::{LeftOut, left_out_of};
 use crate::design::{Design, DesignError, Objective};
 use crate::follow::Follow;
 use crate::optimise::{Desk, Forgetful, NoSearch, Record, Settings};
@@ -169,6 +169,6 @@ impl Design {
     ) -> Result<SearchAnswer, NoSearch> {
         let story = story::run(self, settings, &Desk::new(&settings.follow, record))?;
         let body = SearchBody::of(&story);
-        Ok(SearchAnswer { story, left_out: left_out(&self.clutch), body })
+        Ok(SearchAnswer { story, left_out: left_out_of(self), body })
     }
 }

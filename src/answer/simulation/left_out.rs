@@ -1,7 +1,7 @@
 //! What a scene leaves out beside what every answer leaves out, with the cost where the run itself shows it.
 
 use super::{Effect, Ran};
-use crate::answer::left_out::{LeftOut, left_out};
+use crate::answer::left_out::{LeftOut, left_out_of};
 use crate::clutch::{ContactLaw, ScenarioKind};
 use crate::dynamics::Neglected;
 use crate::report::Unit;
@@ -10,7 +10,7 @@ use crate::wedge::WedgeCurve;
 
 /// The list for `scene`; `damping`: what contact damping would change.
 pub(super) fn of(scene: &Ran, damping: Option<&Effect>) -> Vec<LeftOut> {
-    let mut list = left_out(&scene.design.clutch);
+    let mut list = left_out_of(&scene.design);
     list.extend(scene.planned.iter().map(|t| LeftOut::new(t.term, &t.why, &t.cost)));
     let mut add = |term: &str, why: &str, cost: &str| list.push(LeftOut::new(term, why, cost));
     let kind = &scene.scenario.kind;

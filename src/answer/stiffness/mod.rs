@@ -152,16 +152,16 @@ impl Design {
     pub fn stiffness(&self, settings: &StiffnessSettings) -> Result<StiffnessAnswer, NoStiffness> {
         settings.validate()?;
         let profile = self.clutch.profile().map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
-        Ok(StiffnessAnswer::of(curves(self, &profile, settings, &|| ())?))
+        Ok(StiffnessAnswer::of(curves(self, &profile, settings, &|| ())?, self.limits.largest_torque_nm()))
     }
 }
 
 impl StiffnessAnswer {
-    /// All that is said of curves.
-    pub fn of(laws: Vec<LawCurve>) -> Self {
+    /// All that is said of curves; what the model leaves out at `asked_nm`, N m.
+    pub fn of(laws: Vec<LawCurve>, asked_nm: Option<f64>) -> Self {
         // A term that one of the laws compared does hold is left out by the others all the same.
         let mut terms: Vec<LeftOut> = Vec::new();
-        for term in laws.iter().flat_map(|l| left_out(&l.clutch)) {
+        for term in laws.iter().flat_map(|l| left_out(&l.clutch, asked_nm)) {
             if terms.iter().all(|t| t.term != term.term) {
                 terms.push(term);
             }
