@@ -23,7 +23,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         search::SearchSettings { starts: Some(1), evaluations: 20, ..search::SearchSettings::default() };
     let better = design.optimise(&ask)?;
     let found = &better.body;
-    let (before, after) = (found.start.objective, found.best.objective);
-    println!("{}: {before:.4}, after {} evaluations {after:.4}", found.aim, found.evaluations);
+    println!(
+        "{}: {:?} -> {:?}, {} evaluations",
+        found.aim, found.start.objective, found.best.objective, found.evaluations
+    );
     Ok(())
 }

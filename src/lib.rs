@@ -75,14 +75,13 @@
 //! # From a file to an answer
 //!
 //! ```
-//! use sprag_design::{Design, Settings, Verdict, WedgeCurve, margins, simulate};
+//! use sprag_design::{Design, Settings, Verdict, margins, simulate};
 //!
 //! let path = concat!(env!("CARGO_MANIFEST_DIR"), "/designs/huang2017-multi-arc.toml");
 //! let design = Design::read(path.as_ref())?;
 //!
 //! // Statics: the curve at rest, read at 16.8 Nm.
-//! let profile = design.clutch.profile()?;
-//! let curve = WedgeCurve::build(&design.clutch, &profile, 0.0)?;
+//! let curve = design.clutch.curve()?;
 //! let point = curve.at_torque(16.8).ok_or("not carried")?;
 //! assert!((point.windup_rad.to_degrees() - 1.975).abs() < 0.03);
 //!

@@ -206,7 +206,7 @@ duration_s = 0.02
     let end = |text: &str| {
         let design = parse(text);
         let s = simulate(&design.scenarios[0], &Settings { tolerance: 1e-9, ..Settings::default() }).unwrap();
-        (s.theta_inner_rad, s.demand.unwrap().slip_margin)
+        (s.theta_inner_rad, s.demand.unwrap().slip_margin.unwrap())
     };
     let lumped = end(&base.replace("inner_inertia_kg_m2 = 1.41e-3", "inner_inertia_kg_m2 = 3.66e-3"));
     let joined = |stiffness: &str| {

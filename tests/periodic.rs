@@ -237,7 +237,7 @@ fn what_has_no_periodic_state_says_so() {
         found.kind,
         found.motion.as_ref().map(|o| (o.run.open_s, o.run.inner, o.multipliers.clone()))
     );
-    assert_eq!((found.kind, found.required_friction, found.slip_margin), (MotionKind::LiftsOff, None, -1.0));
+    assert_eq!((found.kind, found.required_friction, found.slip_margin), (MotionKind::LiftsOff, None, None));
     assert!(found.rolling.is_err() && found.motion.unwrap().run.open_s > 0.0);
     let still = Design::read(Path::new(MULTI)).unwrap();
     let held = still.scenario("rated-45").unwrap();

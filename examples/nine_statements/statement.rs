@@ -54,11 +54,12 @@ pub fn remark(s: &Simulation, mu_static: f64) -> Option<String> {
     let demand = s.demand?;
     let needed = demand.required_friction?;
     let net_um = 1e6 * s.inner.net_m;
-    (demand.slip_margin.abs() < NEAR).then(|| {
+    let margin = demand.slip_margin?;
+    (margin.abs() < NEAR).then(|| {
         format!(
             "within {:.3} % of its threshold: to stick takes {needed:.7}, there is {mu_static}; net slip {net_um:.3} µm, \
              where 1 µm is called slip",
-            100.0 * demand.slip_margin.abs()
+            100.0 * margin.abs()
         )
     })
 }

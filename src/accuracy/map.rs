@@ -221,7 +221,7 @@ fn not_finite(s: &Simulation) -> Option<&'static str> {
         ("hertz", s.hertz_peak_pa + s.hertz_static_pa + s.hertz_least_pa),
         ("static_normal_n", s.static_normal_n),
         ("demand.required_friction", demand(|d| d.required_friction.unwrap_or(0.0))),
-        ("demand.slip_margin", demand(|d| d.slip_margin)),
+        ("demand.slip_margin", demand(|d| d.slip_margin.unwrap_or(0.0))),
         ("demand.contact_margin", demand(|d| d.contact_margin)),
         ("demand.normal_max_n", demand(|d| d.normal_max_n[0] + d.normal_max_n[1])),
         ("spread_rad", s.spread_rad[1] - s.spread_rad[0]),

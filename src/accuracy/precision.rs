@@ -109,8 +109,8 @@ pub struct Precision {
     pub scene: String,
     /// theta_bi at the end by the reference run, rad.
     pub theta_inner_rad: f64,
-    /// Slip margin by the reference run.
-    pub slip_margin: f64,
+    /// Slip margin by the reference run; `None` where no friction suffices.
+    pub slip_margin: Option<f64>,
     /// What the reference moves by at ten times its tolerance and twice its longest step: theta_bi (rad), margin.
     pub reference_error: [f64; 2],
     /// Changes of mode of the reference run.
@@ -172,7 +172,10 @@ pub fn precision(
         scene: scenario.name.clone(),
         theta_inner_rad: reference.0,
         slip_margin: reference.1,
-        reference_error: [(coarse.0.state[2] - reference.0).abs(), (coarse.1 - reference.1).abs()],
+        reference_error: [
+            (coarse.0.state[2] - reference.0).abs(),
+            apart(coarse.1, reference.1).unwrap_or(0.0),
+        ],
         events: fine.0.events,
         prepare_s: [whole_s, planned_s],
         left_out: left_out.iter().map(|t| t.term).chain(law).collect(),
@@ -210,7 +213,7 @@ impl Bench<'_> {
     }
 
     /// A run and the slip margin at one tolerance.
-    fn reference(&self, tolerance: f64, per_period: f64) -> (Run, f64) {
+    fn reference(&self, tolerance: f64, per_period: f64) -> (Run, Option<f64>) {
         let s = Settings {
             // `demand` runs at a tenth.
             tolerance: 10.0 * tolerance,
@@ -227,7 +230,7 @@ impl Bench<'_> {
         simulate_prepared(prepared, &s, reduced)
     }
 
-    fn point(&self, method: Scheme, setting: f64, reference: (f64, f64)) -> WorkPoint {
+    fn point(&self, method: Scheme, setting: f64, reference: (f64, Option<f64>)) -> WorkPoint {
         let bare = |run: &Run, seconds: f64| {
             let error = (run.state[2] - reference.0).abs();
             WorkPoint {
@@ -243,7 +246,7 @@ impl Bench<'_> {
         let whole = |(s, seconds): (Simulation, f64)| WorkPoint {
             setting,
             theta_error_rad: (s.stop == Stop::Finished).then(|| (s.theta_inner_rad - reference.0).abs()),
-            margin_error: s.demand.map(|d| (d.slip_margin - reference.1).abs()),
+            margin_error: s.demand.and_then(|d| apart(d.slip_margin, reference.1)),
             stated_rad: s.error.map(|e| e.theta_inner_rad),
             rhs_evaluations: s.rhs_evaluations,
             seconds,
@@ -280,4 +283,9 @@ fn timed<T>(settings: &PrecisionSettings, mut go: impl FnMut() -> T) -> (T, f64)
             return (found, times[times.len() / 2]);
         }
     }
+}
+
+/// By how much two numbers differ, where both are.
+fn apart(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    a.zip(b).map(|(a, b)| (a - b).abs())
 }

@@ -6,6 +6,7 @@ use super::{Envelope, Provenance};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::dynamics::Run;
+use crate::numeric::setting::{BadSetting, all_in_range, in_range};
 use crate::report::heat::SHADES;
 use crate::report::{Cell, HeatMap, Page, Plot, Rows, Screen, Shade, Table, Tone, Unit, significant};
 use crate::scenario::{MotionKind, NoScenario, ResonanceCell, Settings, Steady, closely, resonance};
@@ -47,8 +48,24 @@ pub enum NoResonance {
     NoExcitation,
     /// A drivetrain takes part, which has motions of its own.
     Drivetrain,
+    /// A frequency, an amplitude or the tolerance is out of its range.
+    Setting(BadSetting),
     /// Stopped from outside.
     Stopped,
+}
+
+/// Tolerances that a periodic state is found at.
+pub const RESONANCE_TOLERANCES: [f64; 2] = [1e-9, 1e-3];
+
+impl ResonanceQuestion {
+    /// Refuse frequencies and amplitudes that no shaft swings with.
+    ///
+    /// # Errors
+    /// [`BadSetting`].
+    pub fn validate(&self) -> Result<(), BadSetting> {
+        all_in_range("frequency (Hz)", &self.frequencies_hz, [f64::MIN_POSITIVE, 1e9])?;
+        all_in_range("amplitude (Nm)", &self.amplitudes_nm, [f64::MIN_POSITIVE, 1e9])
+    }
 }
 
 impl std::fmt::Display for NoResonance {
@@ -62,6 +79,7 @@ impl std::fmt::Display for NoResonance {
                 "a [[drivetrain]] takes part in the scenario, and its rotors, shafts and orders have motions of their own, which resonance \
                  does not look for: simulate runs the scenario with them; drivetrain = [] in the scenario leaves them out",
             ),
+            Self::Setting(bad) => bad.fmt(f),
             Self::Stopped => f.write_str("stopped"),
         }
     }
@@ -99,6 +117,8 @@ impl Design {
         if !scenario.drivetrain.is_empty() {
             return Err(NoResonance::Drivetrain);
         }
+        question.validate().map_err(NoResonance::Setting)?;
+        in_range("tolerance", settings.tolerance, RESONANCE_TOLERANCES).map_err(NoResonance::Setting)?;
         let or_own = |asked: &[f64], own: f64| if asked.is_empty() { vec![own] } else { asked.to_vec() };
         let frequencies = or_own(&question.frequencies_hz, frequency_hz);
         let amplitudes = or_own(&question.amplitudes_nm, amplitude_nm);
@@ -252,9 +272,7 @@ impl<'a> ResonanceAnswer<'a> {
                 (None, false) => Cell::Empty,
             })
             .number("required_static_friction", "μ needed", Unit::One, 5, |(_, s, _)| s.required_friction)
-            .number("slip_margin_percent", "Slip margin", Unit::Percent, 4, |(_, s, _)| {
-                s.required_friction.map(|_| s.slip_margin)
-            })
+            .number("slip_margin_percent", "Slip margin", Unit::Percent, 4, |(_, s, _)| s.slip_margin)
             .number("contact_margin_percent", "Contact margin", Unit::Percent, 4, |(_, s, _)| {
                 s.contact_margin
             })
@@ -453,9 +471,7 @@ impl<'a> ResonanceAnswer<'a> {
     /// What rolling needs.
     fn needed(&self) -> HeatMap {
         let range = |held: bool| {
-            let known =
-                self.cells().filter(|c| c.state.required_friction.is_some()).map(|c| c.state.slip_margin);
-            let side = known.filter(|m| (*m >= 0.0) == held);
+            let side = self.cells().filter_map(|c| c.state.slip_margin).filter(|m| (*m >= 0.0) == held);
             side.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], m| [low.min(m), high.max(m)])
         };
         let (held, broken) = (range(true), range(false));
@@ -463,11 +479,11 @@ impl<'a> ResonanceAnswer<'a> {
             let share = if to == from { 1.0 } else { (value - from) / (to - from) };
             (share * f64::from(SHADES)).clamp(0.0, f64::from(SHADES - 1)) as u8
         };
-        let tile = |c: &ResonanceCell| match (c.state.required_friction, c.state.slip_margin) {
-            (None, _) if c.state.rolling.is_err() => (Shade::Missing, None),
-            (None, _) => (Shade::Void, Some(false)),
-            (Some(_), m) if m >= 0.0 => (Shade::Held(shade(m, held[0], held[1])), Some(true)),
-            (Some(_), m) => (Shade::Broken(shade(m, broken[1], broken[0])), Some(false)),
+        let tile = |c: &ResonanceCell| match c.state.slip_margin {
+            None if c.state.rolling.is_err() => (Shade::Missing, None),
+            None => (Shade::Void, Some(false)),
+            Some(m) if m >= 0.0 => (Shade::Held(shade(m, held[0], held[1])), Some(true)),
+            Some(m) => (Shade::Broken(shade(m, broken[1], broken[0])), Some(false)),
         };
         let tiles: Vec<(Shade, Option<bool>)> = self.cells().map(tile).collect();
         let needs = |margin: f64| significant(self.friction / (1.0 + margin), 4);

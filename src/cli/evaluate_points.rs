@@ -6,6 +6,7 @@ use super::exit::{Exit, Failure};
 use super::sweep::{Emit, Sink, Sunk, opened_again};
 use crate::answer::sweep::{SweepHead, SweepLines, Vectors};
 use crate::design::Design;
+use crate::sweep::SweepSettings;
 use crate::sweep::{BoxSample, Sweep};
 use rayon::prelude::*;
 use std::fs::File;
@@ -38,7 +39,8 @@ struct Tally {
 /// # Errors
 /// [`Failure`].
 pub fn run(args: &EvaluateArgs, design: &Design, context: &Context) -> Result<Exit, Failure> {
-    let sweep = design.sweep(args.at_rest, args.full).map_err(|why| Failure::of(&args.file, why))?;
+    let settings = SweepSettings { at_rest: args.at_rest, full: args.full };
+    let sweep = design.sweep(&settings).map_err(|why| Failure::of(&args.file, why))?;
     let (source, points, all) = match (&args.vectors, args.points.sampling()) {
         (Some(path), _) => {
             let inputs = [args.file.as_path(), path];
@@ -54,7 +56,7 @@ pub fn run(args: &EvaluateArgs, design: &Design, context: &Context) -> Result<Ex
         (None, None) => return Err(Failure::malformed("no points asked for")),
     };
     let range = args.points.range(all)?;
-    let head = SweepHead::margins(design, &points, args.at_rest, args.full);
+    let head = SweepHead::margins(design, &points, &settings);
     let lines = SweepLines::new(head, &sweep, &args.columns)
         .map_err(|why| Failure::malformed(format!("--columns: {why}")))?;
     let started = Instant::now();

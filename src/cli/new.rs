@@ -4,6 +4,7 @@ use super::exit::{Exit, Failure};
 use super::output;
 use super::size::{WishArgs, a_steel, may_write};
 use super::{Context, Run, Without, made, number};
+use crate::design::rpm;
 use crate::follow::Follow;
 use crate::material::STEELS;
 use crate::report::plain;
@@ -147,10 +148,6 @@ struct Number {
     at: fn(&mut NewArgs) -> &mut Option<f64>,
     without: fn(&Requirements) -> Option<f64>,
     needed: bool,
-}
-
-fn rpm(rad_s: f64) -> f64 {
-    rad_s * 30.0 / std::f64::consts::PI
 }
 
 const NUMBERS: [Number; 13] = [

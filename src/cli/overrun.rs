@@ -3,9 +3,11 @@
 use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run, number, positive};
-use crate::answer::overrun::{NoOverrun, OverrunQuestion, RunningRace};
+use crate::answer::overrun::{
+    NoOverrun, OIL_TEMPERATURES_C, OVERRUN_SPEEDS_RAD_S, OverrunQuestion, RunningRace,
+};
+use crate::design::{rad_s, rpm};
 use clap::{Args, ValueEnum};
-use std::f64::consts::PI;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -48,18 +50,20 @@ pub enum RaceName {
 
 /// A speed at which such a clutch may run.
 fn speed(text: &str) -> Result<f64, String> {
+    let most = rpm(OVERRUN_SPEEDS_RAD_S[1]).round();
     match positive(text)? {
-        rpm if rpm <= 100_000.0 => Ok(rpm),
-        _ => Err("a speed of at most 100000 rpm is needed".to_owned()),
+        rpm if rpm <= most => Ok(rpm),
+        _ => Err(format!("a speed of at most {most} rpm is needed")),
     }
 }
 
 /// A temperature within the range of `lubrication.temperature_c`.
 fn oil_temperature(text: &str) -> Result<f64, String> {
     let celsius = number(text)?;
-    match (-60.0..=250.0).contains(&celsius) {
+    let [low, high] = OIL_TEMPERATURES_C;
+    match (low..=high).contains(&celsius) {
         true => Ok(celsius),
-        false => Err("a temperature from -60 to 250 C is needed".to_owned()),
+        false => Err(format!("a temperature from {low} to {high} C is needed")),
     }
 }
 
@@ -70,14 +74,14 @@ impl Run for OverrunArgs {
                 RaceName::Inner => RunningRace::Inner,
                 RaceName::Outer => RunningRace::Outer,
             },
-            speeds_rad_s: self.speeds.iter().map(|rpm| rpm * PI / 30.0).collect(),
+            speeds_rad_s: self.speeds.iter().map(|&rpm| rad_s(rpm)).collect(),
             temperatures_c: self.temperatures.clone(),
         };
         context.each(&self.files, |file, design| {
             let (found, run_time_s) = timed(|| design.overrun(&question));
             let found = found.map_err(|why| match why {
                 NoOverrun::NoClutch(why) => Failure::no_clutch(file, &why),
-                NoOverrun::NoLubrication => Failure::of(file, why),
+                NoOverrun::NoLubrication | NoOverrun::Setting(_) => Failure::of(file, why),
             })?;
             context.deliver(&found, run_time_s)?;
             Ok(Exit::Held)

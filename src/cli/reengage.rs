@@ -4,9 +4,9 @@ use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run, positive};
 use crate::answer::reengagement::{NoReengagement, ReengagementSettings};
+use crate::design::rad_s;
 use crate::dynamics::Stop;
 use clap::Args;
-use std::f64::consts::PI;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -61,7 +61,7 @@ impl Run for ReengageArgs {
             inertia_kg_m2: [self.inner_inertia, self.outer_inertia],
             outer_held: (self.outer_held || self.outer_free).then_some(self.outer_held),
             friction: self.friction,
-            speed_rad_s: self.speed.map(|rpm| rpm * PI / 30.0),
+            speed_rad_s: self.speed.map(rad_s),
             paths_m: paths_m.unwrap_or(usual.paths_m),
             follow: context.follow.clone(),
         };

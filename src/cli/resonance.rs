@@ -6,7 +6,7 @@ use super::output::path_text;
 use super::simulate::chosen;
 use super::{Context, Run, positive};
 use crate::answer::example_torque_nm;
-use crate::answer::resonance::{NoResonance, ResonanceQuestion, example};
+use crate::answer::resonance::{NoResonance, RESONANCE_TOLERANCES, ResonanceQuestion, example};
 use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::scenario::Settings;
@@ -69,7 +69,8 @@ fn points(text: &str) -> Result<[usize; 2], String> {
 
 fn tolerance(text: &str) -> Result<f64, String> {
     let value = positive(text)?;
-    if (1e-9..=1e-3).contains(&value) { Ok(value) } else { Err("1e-9 to 1e-3".to_owned()) }
+    let [low, high] = RESONANCE_TOLERANCES;
+    if (low..=high).contains(&value) { Ok(value) } else { Err(format!("{low:e} to {high:e}")) }
 }
 
 /// `n` values over the range of `flag`, ends included; one where it has no width.
@@ -110,7 +111,9 @@ impl Run for ResonanceArgs {
             let named = |why: &NoResonance| format!("{}: {}: {why}", path_text(file), scenario.name);
             let found = found.map_err(|why| match why {
                 NoResonance::Stopped => Failure::Interrupted,
-                NoResonance::NoExcitation | NoResonance::Drivetrain => Failure::malformed(named(&why)),
+                NoResonance::NoExcitation | NoResonance::Drivetrain | NoResonance::Setting(_) => {
+                    Failure::malformed(named(&why))
+                }
                 NoResonance::NoStart(_) => Failure::NoClutch(named(&why)),
             })?;
             context.deliver(&found, run_time_s)?;

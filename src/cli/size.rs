@@ -3,11 +3,10 @@
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::{Context, Run, Without, made, number};
-use crate::design::nearest;
+use crate::design::{nearest, rad_s};
 use crate::material::{STEELS, Steel, steel};
 use crate::size::Wish;
 use clap::Args;
-use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -82,7 +81,7 @@ impl WishArgs {
     /// The same in SI; nothing but the unit changes.
     pub fn wish(&self) -> Wish {
         let m = |mm: Option<f64>| mm.map(|mm| mm / 1e3);
-        let rad_s = |rpm: Option<f64>| rpm.map(|rpm| rpm * PI / 30.0);
+        let rad_s = |rpm: Option<f64>| rpm.map(rad_s);
         Wish {
             bore_m: m(self.bore),
             torque_nm: self.torque,

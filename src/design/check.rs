@@ -22,8 +22,13 @@ pub(super) fn m(mm: f64) -> f64 {
 }
 
 /// rev/min to rad/s.
-pub(super) fn rad_s(rpm: f64) -> f64 {
+pub fn rad_s(rpm: f64) -> f64 {
     rpm * std::f64::consts::PI / 30.0
+}
+
+/// rad/s to rev/min.
+pub fn rpm(rad_s: f64) -> f64 {
+    rad_s * 30.0 / std::f64::consts::PI
 }
 
 /// MPa to Pa.

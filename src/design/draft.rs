@@ -3,7 +3,7 @@
 //! In: [`Draft`], SI. Out: the text of a complete design file, in the file's units, each value with its source. Absent:
 //! how the lengths were found, whether they make a clutch (parse it). Equations: none.
 
-use std::f64::consts::PI;
+use super::check;
 
 use crate::material::Steel;
 use crate::numeric::rounded;
@@ -122,7 +122,7 @@ impl Draft {
         // Without damping the step is felt twice, so that the crest is at nominal torque: 0.6 + 2 * 0.2.
         let (preload, torque_step) =
             (digits(0.6 * self.torques_nm[0], 6), digits(0.2 * self.torques_nm[0], 6));
-        let rpm = |rad_s: f64| digits(rad_s * 30.0 / PI, 8);
+        let rpm = |rad_s: f64| digits(check::rpm(rad_s), 8);
         let contact = ["keep_contact_to_rpm", "lift_off_by_rpm"];
         let asked = contact.into_iter().zip(self.contact_rad_s);
         let contact: String = asked

@@ -39,6 +39,7 @@ mod task_file;
 mod tolerances_file;
 mod variables;
 
+pub use check::{rad_s, rpm};
 pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
 pub use draft::{BOX, Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{

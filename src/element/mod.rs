@@ -17,6 +17,7 @@ pub use motion::{Contact, Flange, Motion};
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{Drive, FlangeDrive, Memory, Model, Ramp, Run, RunSettings, SlipRecord, Stop, go_on};
+use crate::numeric::setting::in_range;
 use crate::scenario::{NoScenario, prepare};
 use serde::{Deserialize, Serialize};
 
@@ -187,17 +188,8 @@ pub struct Element {
 const FULL_TURN_RAD: f64 = 1.0;
 
 /// Refuse what is outside of a range, in which nothing overflows.
-fn check(name: &str, value: f64, [least, most]: [f64; 2]) -> Result<(), Malformed> {
-    if (least..=most).contains(&value) {
-        return Ok(());
-    }
-    let allowed = if least == -most {
-        format!("at most {most:e} either way")
-    } else {
-        // Zero without a power of ten.
-        format!("{} to {most:e}", if least == 0.0 { "0".to_owned() } else { format!("{least:e}") })
-    };
-    Err(Malformed { what: format!("{name}: found {value}, {allowed} is allowed") })
+fn check(name: &'static str, value: f64, range: [f64; 2]) -> Result<(), Malformed> {
+    in_range(name, value, range).map_err(|bad| Malformed { what: bad.to_string() })
 }
 
 /// Largest torque of a flange either way, N m.

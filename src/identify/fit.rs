@@ -15,6 +15,7 @@ use super::predict::{NoPrediction, Prediction, design_with, predict};
 use super::statistics::{Doubt, INSEPARABLE, Knowledge, correlation, knowledge, moved_by};
 use crate::design::{Design, inputs, is_whole, nearest, value_at, variable_names, variable_path};
 use crate::follow::Follow;
+use crate::numeric::setting::{BadSetting, in_range};
 
 /// A parameter to be found, between bounds in the unit of its name.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +42,17 @@ pub struct FitSettings {
 impl Default for FitSettings {
     fn default() -> Self {
         Self { starts: 4, seed: 1, evaluations: 200 }
+    }
+}
+
+impl FitSettings {
+    /// Refuse a search without a start or an evaluation.
+    ///
+    /// # Errors
+    /// [`BadSetting`].
+    pub fn validate(&self) -> Result<(), BadSetting> {
+        in_range("starts", self.starts as f64, [1.0, 1e4])?;
+        in_range("evaluations", self.evaluations as f64, [1.0, 1e9])
     }
 }
 
@@ -240,6 +252,7 @@ pub fn identify(
     settings: &FitSettings,
     follow: &Follow,
 ) -> Result<Identified, NoFit> {
+    settings.validate().map_err(NoFit::Setting)?;
     let stopped = || follow.stopped();
     let (paths, before) = paths(design, unknowns)?;
     let fitted = observations.iter().filter(|o| o.purpose == Use::Fit);

@@ -1,5 +1,6 @@
 //! Why a fit came to no end.
 
+use crate::numeric::setting::BadSetting;
 use std::fmt;
 
 /// Why nothing can be fitted.
@@ -14,6 +15,8 @@ pub enum NoFit {
         /// What is wrong.
         why: String,
     },
+    /// A setting out of its range.
+    Setting(BadSetting),
     /// No observation takes part in the fit.
     NothingToFit,
     /// No design between the bounds answers every observation.
@@ -45,6 +48,7 @@ impl fmt::Display for NoFit {
         match self {
             Self::Unknowns(why) => f.write_str(why),
             Self::Unknown { name, why } => write!(f, "unknown {name:?}: {why}"),
+            Self::Setting(bad) => bad.fmt(f),
             Self::NothingToFit => f.write_str("no row of the data is there for the fit"),
             Self::Nowhere { tried, why } => write!(
                 f,

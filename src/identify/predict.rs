@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::observation::{Observation, ObservedQuantity};
-use crate::design::{Design, EditError, with_keys};
+use crate::design::{Design, EditError, rpm, with_keys};
 use crate::margin::{LIFT_OFF_TO_RAD_S, LoadState, lift_off_rad_s, load_state, nominal_capacity};
 use crate::wedge::StaticPoint;
 
@@ -105,7 +105,7 @@ fn one(design: &Design, state: &LoadState, o: &Observation) -> Result<Prediction
         ObservedQuantity::Tangent => at(|p| p.k_tangent_nm_per_rad),
         ObservedQuantity::EndTorque => plain(state.curve.end_torque_nm()),
         ObservedQuantity::LiftOff => lift_off_rad_s(design, state, LIFT_OFF_TO_RAD_S)
-            .map_or(Err(NoPrediction::NoLiftOff), |speed| plain(speed * 30.0 / std::f64::consts::PI)),
+            .map_or(Err(NoPrediction::NoLiftOff), |speed| plain(rpm(speed))),
         ObservedQuantity::NominalTorque => nominal_capacity(design, &design.limits, state)
             .map(|(value, code)| Prediction { value, decided_by: Some(code.to_owned()) })
             .ok_or(NoPrediction::NoLimit),

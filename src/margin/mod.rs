@@ -25,6 +25,7 @@ pub use load::{LoadState, load_state, load_state_at};
 pub use overrun::{
     LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
 };
+pub(crate) use row::LOST;
 pub use row::{Demand, Margin, RESOLUTION, Rule, lowest_capacity};
 pub use run_out::{OffCentreEnd, Round, RunOut, Seat, SpragLoad, Survey, run_out_margins};
 pub use scenes::{SceneDemand, scene_demand};
@@ -32,7 +33,7 @@ pub use table::{CONTACT, END_OF_PROFILE, FILM, KEEP_CONTACT, LIFT_OFF, LIMITS, S
 pub use track_tension::{TrackPatch, TrackTension, track_tension};
 pub use unlike::unlike_margins;
 
-use crate::clutch::Scenario;
+use crate::clutch::{Clutch, Scenario};
 use crate::design::{Design, Limits};
 use crate::scenario::{AtRest, Settings};
 use crate::wedge::{Effort, NoCurve, WedgeCurve};
@@ -59,6 +60,17 @@ impl std::fmt::Display for NoMargins {
 }
 
 impl std::error::Error for NoMargins {}
+
+impl Clutch {
+    /// Its wedge curve at rest.
+    ///
+    /// # Errors
+    /// [`NoMargins`] where there is none.
+    pub fn curve(&self) -> Result<WedgeCurve, NoMargins> {
+        let profile = self.profile().map_err(NoMargins::Profile)?;
+        WedgeCurve::build(self, &profile, 0.0).map_err(NoMargins::Curve)
+    }
+}
 
 /// All margins of `design`: first those of the load state, each with its torque capacity, then those of the scenarios named in
 /// `scenes`, as a rule [`Design::check_scenarios`].

@@ -11,7 +11,7 @@ pub const RESOLUTION: f64 = 1e-8;
 const NOTHING_DEMANDED: f64 = 1e6;
 
 /// Margin as a number where a limit is not held whatever is demanded: no friction suffices, or what is demanded is not known.
-const LOST: f64 = -1.0;
+pub(crate) const LOST: f64 = -1.0;
 
 /// How a margin comes of demand and allowable; 0 or more is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -154,7 +154,8 @@ impl Margin {
         format!("{off_centre}{}{scene}{corner}", self.limit.code)
     }
 
-    /// Margin as a number, for every state of the demand; 0 or more is held.
+    /// Margin as a number for every state of the demand, as a search needs it; 0 or more is held, -1 whatever is demanded
+    /// where the demand is no number.
     pub fn margin(&self) -> f64 {
         let by_rule = |demand| self.limit.rule.margin(demand, self.allowable, self.reference);
         match self.demand {
@@ -176,8 +177,14 @@ impl Margin {
         self.margin() >= -RESOLUTION
     }
 
-    /// mu_s over the friction that the scene needs, less 1; -1 where no friction suffices. `None` of other limits.
+    /// mu_s over the friction that the scene needs, less 1. `None` of other limits, and where no friction suffices or none
+    /// is known.
     pub fn slip_margin(&self) -> Option<f64> {
+        matches!(self.demand, Demand::Value(_)).then(|| self.slip_measure()).flatten()
+    }
+
+    /// The same as a number for every state of the demand, as a search needs it; `None` of other limits.
+    pub fn slip_measure(&self) -> Option<f64> {
         let margin = self.margin();
         let wanted = if margin > LOST { self.reference } else { 0.0 };
         self.is_slip().then_some((1.0 + margin) * (1.0 + wanted) - 1.0)
@@ -225,15 +232,20 @@ impl Margin {
         self.allowable * self.limit.per_si
     }
 
-    /// Allowable as it is shown: in the limit's unit, of slip the wanted slip margin.
-    pub fn shown_allowable(&self) -> f64 {
-        if self.is_slip() { self.reference } else { self.allowable_in_unit() }
+    /// Allowable as it is shown: in the limit's unit, of slip the wanted slip margin. `None` where it is what the scene leaves and
+    /// the scene says nothing.
+    pub fn shown_allowable(&self) -> Option<f64> {
+        match self.limit.rule {
+            Rule::Slip => Some(self.reference),
+            Rule::Itself if self.demand.value().is_none() => None,
+            _ => Some(self.allowable_in_unit()),
+        }
     }
 
     /// Margin as it is shown to people: of slip the slip margin itself, of all others [`Margin::margin`]. `None` where
     /// nothing is demanded.
     pub fn shown_margin(&self) -> Option<f64> {
-        let margin = self.slip_margin().unwrap_or(self.margin());
+        let margin = self.slip_measure().unwrap_or(self.margin());
         (!self.asks_nothing()).then_some(if margin.abs() < RESOLUTION { 0.0 } else { margin })
     }
 }

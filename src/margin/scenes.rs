@@ -1,7 +1,7 @@
 //! Limits that follow from the scenarios: slip margin, contact margin, Hertz pressure.
 
 use super::limits::{Limit, Of};
-use super::row::{Demand, Margin};
+use super::row::{Demand, LOST, Margin};
 use super::table::LIMITS;
 use crate::clutch::Scenario;
 use crate::design::Limits;
@@ -27,13 +27,17 @@ impl SceneDemand {
         Self { demand: Ok(found), static_friction, hertz_peak_pa: peak.map_or(0.0, |r| r.hertz_inner_pa) }
     }
 
-    /// Slip margin; -1 where there is none.
-    pub fn slip_margin(&self) -> f64 {
-        self.demand.as_ref().map_or(-1.0, |d| if d.finished { d.slip_margin } else { -1.0 })
+    /// What rolling demands, where that ran to its end.
+    fn whole(&self) -> Option<&scenario::RollingDemand> {
+        self.demand.as_ref().ok().filter(|d| d.finished)
     }
-    /// Contact margin; -1 where the scenario does not start or run.
-    pub fn contact_margin(&self) -> f64 {
-        self.demand.as_ref().map_or(-1.0, |d| if d.finished { d.contact_margin } else { -1.0 })
+    /// Slip margin; `None` where no friction suffices, or the scenario does not start or run.
+    pub fn slip_margin(&self) -> Option<f64> {
+        self.whole()?.slip_margin
+    }
+    /// Contact margin; `None` where the scenario does not start or run.
+    pub fn contact_margin(&self) -> Option<f64> {
+        Some(self.whole()?.contact_margin)
     }
 }
 
@@ -60,7 +64,7 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
     // What is demanded unless the run or the curve came to its end before.
     let demand = |known: Demand| match (not_computed, &overload) {
         (Some(why), _) => Demand::NotComputed(why),
-        (None, Some(_)) => Demand::Overloaded { at_end: known.value(), shortfall: Some(-1.0) },
+        (None, Some(_)) => Demand::Overloaded { at_end: known.value(), shortfall: Some(LOST) },
         (None, None) => known,
     };
     let row = |limit: &&'static Limit| {
@@ -71,7 +75,10 @@ pub(super) fn rows(name: &str, d: &SceneDemand, limits: &Limits, required: bool)
                 let known = need.map_or(Demand::NoneSuffices, Demand::Value);
                 (known, d.static_friction / (1.0 + wanted), wanted)
             }
-            Of::Contact => (Demand::Value(0.0), d.contact_margin(), 0.0),
+            Of::Contact => match d.contact_margin() {
+                Some(left) => (Demand::Value(0.0), left, 0.0),
+                None => (Demand::NoneSuffices, 0.0, 0.0),
+            },
             Of::ScenePressure => {
                 let to_the_end = found.is_some_and(|d| d.finished);
                 let known = if to_the_end { Demand::Value } else { Demand::MoreThan };

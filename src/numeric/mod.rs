@@ -1,5 +1,5 @@
 //! Numerical tools that never heard of a machine part: duals, bracketed roots, quadrature, Chebyshev curves,
-//! Toeplitz systems, eigenvalues, courses over time, quantiles, decimals, points that fill a box evenly.
+//! Toeplitz systems, eigenvalues, courses over time, quantiles, decimals, points that fill a box evenly, ranges of settings.
 //!
 //! In: functions of one variable, rows of matrices. Out: roots, integrals, approximations with a stated error.
 //! Absent: physics, units. Equations: none of the paper's.
@@ -12,6 +12,7 @@ pub mod panels;
 pub mod pieces;
 pub mod quadrature;
 pub mod root;
+pub mod setting;
 pub mod sobol;
 pub mod student;
 pub mod toeplitz;

@@ -82,7 +82,7 @@ pub(super) fn measures(
         Objective::Width => less(races.width_m),
         Objective::OutsideDiameter => less(2.0 * races.outer_outside_radius_m),
         Objective::SlipMargin => {
-            rows.iter().filter_map(|m| Some(measure(m.code(), m.slip_margin()?))).collect()
+            rows.iter().filter_map(|m| Some(measure(m.code(), m.slip_measure()?))).collect()
         }
         // Peak and nominal torque grow in proportion.
         Objective::TorqueCapacity => {

@@ -55,7 +55,7 @@ pub use realise::{Nearest, Realised, is_centroid, realise};
 pub use relief::{Freed, Relief, relief};
 pub use robust::{Robust, RobustSearch, Spread, robust, spread};
 pub use search::{NoSearch, Search, Variable, search, search_problem};
-pub use settings::{BadSetting, Noise, Settings};
+pub use settings::{Noise, Settings};
 pub use starts::{ClimbRecord, Optima, SearchMethod};
 pub use swarm::{Swarmed, swarm};
 pub use view::Phase;

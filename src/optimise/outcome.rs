@@ -2,8 +2,8 @@
 
 use super::evaluate::{Evaluation, NoEvaluation};
 use super::journal::Journal;
-use super::settings::BadSetting;
 use super::view::Phase;
+use crate::numeric::setting::BadSetting;
 
 /// How the run ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -249,9 +249,7 @@ impl std::fmt::Display for Refusal {
             }
             Refusal::StartFails(failure) => write!(f, "the start cannot be evaluated: {failure}"),
             Refusal::StoppedAtStart => write!(f, "stopped before the start was evaluated"),
-            Refusal::Setting(bad) => {
-                write!(f, "{} = {} is not in {} .. {}", bad.name, bad.value, bad.least, bad.most)
-            }
+            Refusal::Setting(bad) => bad.fmt(f),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Settings of a run, each with what it means, its default and the range in which it makes sense.
 
+use crate::numeric::setting::{BadSetting, in_range};
+
 /// Level of noise in the evaluator, which sets how short a difference step may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Noise {
@@ -67,19 +69,6 @@ impl Default for Settings {
     }
 }
 
-/// A setting outside the range in which it makes sense.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BadSetting {
-    /// Field of [`Settings`].
-    pub name: &'static str,
-    /// Value given.
-    pub value: f64,
-    /// Least value allowed.
-    pub least: f64,
-    /// Greatest value allowed.
-    pub most: f64,
-}
-
 /// How far below its optimum a climb of several may end, as [`Settings::gain_tolerance`]: a fiftieth of what tells two optima
 /// apart.
 const LOOSE: f64 = 2e-5;
@@ -118,11 +107,6 @@ impl Settings {
             ("plateau", self.plateau, tiny, 1e-2),
             ("tie_break_gain", self.tie_break_gain, tiny, 1.0),
         ];
-        for (name, value, least, most) in rules {
-            if !(least..=most).contains(&value) {
-                return Err(BadSetting { name, value, least, most });
-            }
-        }
-        Ok(())
+        rules.into_iter().try_for_each(|(name, value, least, most)| in_range(name, value, [least, most]))
     }
 }

@@ -17,8 +17,8 @@ pub struct RollingDemand {
     pub required_friction: Option<f64>,
     /// Whether mu_req was bisected by runs with slip, because the contact of the rolling run all but opens.
     pub by_bisection: bool,
-    /// mu_s/mu_req - 1; -1 where no friction suffices.
-    pub slip_margin: f64,
+    /// mu_s/mu_req - 1; `None` where no friction suffices.
+    pub slip_margin: Option<f64>,
     /// N_min/N_static of the rolling run, below zero by the tension that rolling would need; without a static load
     /// N_min/N_max.
     pub contact_margin: f64,
@@ -119,7 +119,7 @@ pub(super) fn demand_at(
         return RollingDemand {
             required_friction: required,
             by_bisection: false,
-            slip_margin: required.map_or(-1.0, |r| mu / r - 1.0),
+            slip_margin: required.map(|r| mu / r - 1.0),
             contact_margin: 1.0,
             normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
             finished: true,
@@ -190,7 +190,7 @@ pub(super) fn roll(
     let demand = RollingDemand {
         required_friction: required,
         by_bisection,
-        slip_margin: required.map_or(-1.0, |q| prepared.model.friction.static_ / q - 1.0),
+        slip_margin: required.map(|q| prepared.model.friction.static_ / q - 1.0),
         contact_margin: r.contact_margin(prepared.static_normal_n),
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished,

@@ -21,7 +21,7 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
     let verdict = match prepared.overrun {
         Some(o) if o.normal_inner_n > 0.0 => Verdict::SlipsOverrunning,
         Some(_) => Verdict::Disengages,
-        None if demand.is_some_and(|d| d.slip_margin >= 0.0) => Verdict::Sticks,
+        None if demand.is_some_and(|d| d.slip_margin >= Some(0.0)) => Verdict::Sticks,
         // A sprag whose demand exceeds mu_s is squeezed out backwards under torque.
         None => Verdict::SlipsEngaging,
     };

@@ -168,7 +168,7 @@ figures! {
         line(Group::Demand, 0, "static friction needed to stick"), |s| s.demand?.required_friction;
     /// Slip margin.
     slip_margin, "slip_margin", Margin, "slip margin",
-        line(Group::Demand, 1, "slip margin"), |s| Some(s.demand?.slip_margin);
+        line(Group::Demand, 1, "slip margin"), |s| s.demand?.slip_margin;
     /// Contact margin.
     contact_margin, "contact_margin", ContactMargin, "contact margin",
         line(Group::Demand, 2, "contact margin"), |s| Some(s.demand?.contact_margin);

@@ -52,8 +52,8 @@ pub struct Steady {
     pub kind: MotionKind,
     /// Static friction that rolling needs, its peak of |T|/N; `None`: rolling unloads A or needs tension, or was not found.
     pub required_friction: Option<f64>,
-    /// mu_s/mu_req - 1; -1 where no mu_req is.
-    pub slip_margin: f64,
+    /// mu_s/mu_req - 1; `None` where no mu_req is.
+    pub slip_margin: Option<f64>,
     /// Smallest N_bi of the rolling motion over the static one, or over the largest where nothing is static; `None`: not
     /// found.
     pub contact_margin: Option<f64>,
@@ -163,7 +163,7 @@ pub fn steady_motion(prepared: &Prepared, settings: &Settings, near: Option<&Ste
         periods: of(&rolling) + of(&motion),
         kind,
         required_friction,
-        slip_margin: required_friction.map_or(-1.0, |mu| model.friction.static_ / mu - 1.0),
+        slip_margin: required_friction.map(|mu| model.friction.static_ / mu - 1.0),
         contact_margin: demand.map(|d| d.contact_margin(static_n)),
         rolling,
         motion,

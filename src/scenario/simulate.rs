@@ -245,8 +245,9 @@ fn attempt(
         return Try::new(prepared, go(), answered, || demand_at(prepared, settings, fineness, near));
     }
     let (rolling, demand) = roll(prepared, settings, fineness, samples, STEPS_PER_PERIOD, near);
-    let suffices =
-        demand.finished && !demand.by_bisection && demand.slip_margin > RESERVE * settings.tolerance;
+    let suffices = demand.finished
+        && !demand.by_bisection
+        && demand.slip_margin.is_some_and(|m| m > RESERVE * settings.tolerance);
     if suffices || demand.interrupted {
         return Try { run: rolling, demand: Some(demand), rolled: true };
     }

@@ -4,14 +4,14 @@ use super::Requirements;
 use super::proportions::{COUNTS, lengthen, longest_m, spring};
 use super::purpose::{CREST_S, DRIVE_HZ, STOP};
 use crate::clutch::Clutch;
-use crate::design::{BOX, Design, Draft};
+use crate::design::{BOX, Design, Draft, rpm};
 use crate::margin::{
     KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state, margins, overrun_at,
 };
 use crate::numeric::rounded;
 use crate::profile::Outline;
 use crate::scenario::Settings;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Margin that a first design keeps on every limit: a choice, so that rounding and the optimiser find room.
 pub(super) const KEPT: f64 = 0.02;
@@ -255,7 +255,7 @@ fn short(value: f64) -> f64 {
 }
 
 fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Vec<String> {
-    let rpm = |rad_s: f64| short(rad_s * 30.0 / PI);
+    let rpm = |rad_s: f64| short(rpm(rad_s));
     let mut asked = vec![
         format!("a bore of {} mm", short(wanted.bore_m * 1e3)),
         format!("{} Nm nominal, {} Nm peak", short(wanted.torque_nm), short(wanted.peak_nm)),

@@ -1,9 +1,9 @@
 //! What clutches are for, and what is taken of each where nobody says: every number once, with its source or "guess".
 
 use super::{Requirements, TorqueSwing};
-use crate::design::DraftScene;
+use crate::design::{DraftScene, rad_s, rpm};
 use crate::numeric::rounded;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// A number and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -186,7 +186,6 @@ impl Purpose {
         stiffness_nm_per_rad: f64,
         inner_inertia_kg_m2: f64,
     ) -> Vec<DraftScene> {
-        let rpm = |rad_s: f64| rad_s * 30.0 / PI;
         let [inner, outer] = wanted.overrun_rad_s.map(rpm);
         let mut scenes = Vec::new();
         if let Some(TorqueSwing { amplitude_nm: amplitude, frequency_hz, from }) = wanted.swing {
@@ -211,7 +210,7 @@ impl Purpose {
         }
         let reversing = self.reversing_share.value * wanted.torque_nm;
         // Until the reversed drive has come to rest, then past the crest.
-        let stopping_s = inner_inertia_kg_m2 * self.free_run_rpm.value * PI / 30.0 / reversing;
+        let stopping_s = inner_inertia_kg_m2 * rad_s(self.free_run_rpm.value) / reversing;
         scenes.push(DraftScene {
             name: "engage",
             kind: "engagement",

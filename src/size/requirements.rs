@@ -1,6 +1,7 @@
 //! What is asked of a new clutch.
 
 use super::purpose::Purpose;
+use crate::design::{rad_s, rpm};
 use crate::material::{STEELS, Steel};
 use crate::numeric::rounded;
 use std::f64::consts::PI;
@@ -101,7 +102,6 @@ impl Wish {
     /// The whole question. Bore and torques that nobody has said are no numbers, which [`Requirements::check`] refuses.
     pub fn requirements(&self) -> Requirements {
         let of = |value: fn(&Purpose) -> f64| self.purpose.map(value);
-        let rad_s = |rpm: f64| rpm * PI / 30.0;
         let ratio = self.peak_over_nominal.or(of(|p| p.peak_over_nominal.value)).unwrap_or(PEAK_OVER_NOMINAL);
         let [torque_nm, peak_nm] = torques_nm(self.torque_nm, self.peak_nm, ratio).unwrap_or([f64::NAN; 2]);
         let keep = self.keep_contact_rad_s.or(of(|p| p.keep_contact_rpm.value).map(rad_s));
@@ -200,7 +200,7 @@ impl Requirements {
             return Vec::new();
         }
         let of = |value: f64, unit: &str| format!("{} {unit}", rounded(value, 6));
-        let rpm = |rad_s: f64| of(rad_s * 30.0 / PI, "rpm");
+        let rpm = |rad_s: f64| of(rpm(rad_s), "rpm");
         let mut rows = vec![
             ("friction", rounded(self.friction, 6).to_string(), self.from[0]),
             ("nominal torque", of(self.torque_nm, "Nm"), self.from[1]),

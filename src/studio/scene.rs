@@ -122,7 +122,7 @@ pub fn scene_view(
             "required friction μ",
             d.required_friction.map_or("none suffices".into(), |f| significant(f, 4)),
         );
-        fact("slip margin", Unit::Percent.show(d.slip_margin, 3));
+        fact("slip margin", d.slip_margin.map_or("none".into(), |m| Unit::Percent.show(m, 3)));
         fact("contact margin", Unit::Percent.show(d.contact_margin, 3));
     }
     fact("net slip, inner", Unit::Micrometre.show(s.inner.net_m, 3));

@@ -318,7 +318,7 @@ pub(super) fn row(r: &Margin) -> MarginRow {
 fn against(r: &Margin) -> String {
     let unit = if r.limit.unit == "1" { String::new() } else { format!(" {}", r.limit.unit) };
     if r.is_slip() {
-        let wanted = Unit::Percent.show(r.shown_allowable(), 3);
+        let wanted = Unit::Percent.show(r.reference, 3);
         return r
             .demand_in_unit()
             .map_or(format!("{wanted} wanted"), |mu| format!("μ {}, {wanted} wanted", significant(mu, 3)));

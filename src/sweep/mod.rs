@@ -9,5 +9,5 @@ mod row;
 mod sampling;
 
 pub use parts::SweepPart;
-pub use row::{NoSweep, Sweep, SweepRow};
+pub use row::{NoSweep, Sweep, SweepRow, SweepSettings};
 pub use sampling::{BoxSample, NoSample, Sampling};

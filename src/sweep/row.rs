@@ -6,6 +6,15 @@ use crate::margin::RESOLUTION;
 use crate::optimise::{ClutchProblem, Evaluate, Evaluation, Names};
 use std::fmt;
 
+/// What is looked at at each point of a sweep.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct SweepSettings {
+    /// Statics alone, without scenes.
+    pub at_rest: bool,
+    /// Everything, also what a scene cannot feel.
+    pub full: bool,
+}
+
 /// A problem and the names of its rows, which are the same at every point.
 #[derive(Debug, Clone)]
 pub struct Sweep {
@@ -71,10 +80,10 @@ impl Sweep {
     ///
     /// # Errors
     /// [`NoSweep`].
-    pub fn of(design: &Design, at_rest: bool, full: bool) -> Result<Self, NoSweep> {
+    pub fn of(design: &Design, settings: &SweepSettings) -> Result<Self, NoSweep> {
         let task = design.optimize.clone().ok_or(NoSweep::NoTask)?;
-        let problem = ClutchProblem::of_task(design, &task, full);
-        let problem = if at_rest { problem.at_rest() } else { problem };
+        let problem = ClutchProblem::of_task(design, &task, settings.full);
+        let problem = if settings.at_rest { problem.at_rest() } else { problem };
         let names = |x: &[f64]| problem.assess_at(x).map(|assessed| problem.names(&assessed));
         let start: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
         let elsewhere = || {

@@ -107,7 +107,7 @@ fn reference(s: &Precision) -> String {
          longest step it moves by {theta:.1e} rad and {margin:.1e}. The planned model leaves out: {without}. It is built in \
          {} ms, the full one in {} ms.",
         s.theta_inner_rad,
-        significant(s.slip_margin, 9),
+        s.slip_margin.map_or("none".to_owned(), |m| significant(m, 9)),
         s.events,
         significant(1e3 * s.prepare_s[1], 3),
         significant(1e3 * s.prepare_s[0], 3),

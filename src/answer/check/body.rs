@@ -32,7 +32,7 @@ pub struct CheckRow {
     /// torque.
     pub demand: Option<f64>,
     /// Allowable, in `unit`; of slip the wanted slip margin.
-    pub allowable: f64,
+    pub allowable: Option<f64>,
     /// Unit of demand and allowable; `1` of a pure number.
     pub unit: &'static str,
     /// Margin as a number; 0 or more is held.
@@ -463,5 +463,5 @@ pub fn margin_words(row: &Margin) -> String {
 
 /// The slip margin that is wanted of a row.
 fn wanted_text(row: &Margin) -> String {
-    format!("{} wanted", Unit::Percent.show(row.shown_allowable(), 3))
+    format!("{} wanted", Unit::Percent.show(row.reference, 3))
 }

@@ -94,7 +94,7 @@ fn scenes(design: &Design, check: &CheckAnswer) -> Table {
             friction(found),
             found.static_friction.into(),
             // Where no friction suffices there is none, as the column before says.
-            found.demand.as_ref().ok().and_then(|d| d.required_friction).map(|_| found.slip_margin()).into(),
+            found.slip_margin().into(),
             found.contact_margin().into(),
             verdict,
         ]);

@@ -54,7 +54,7 @@ pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> Stri
 
 /// Why one contact has two allowed pressures, where it has; the pressure that leaves a dent.
 pub(super) fn pressures(rows: &[Margin]) -> Vec<String> {
-    let of = |key: &str| rows.iter().find(|r| r.limit.key == Some(key)).map(Margin::shown_allowable);
+    let of = |key: &str| rows.iter().find(|r| r.limit.key == Some(key)).and_then(Margin::shown_allowable);
     let allowables = of("hertz_nominal_mpa").zip(of("hertz_peak_mpa")).and_then(|(nominal, peak)| {
         let [nominal, peak] = [nominal, peak].map(|mpa| significant(mpa, 4));
         (nominal != peak).then(|| {

@@ -132,11 +132,7 @@ pub(super) fn scenes(compared: &Comparison<'_>) -> Table {
             (None, _) => "does not run".into(),
         };
         cells.extend(row.values.iter().map(|s| s.map_or(Cell::Empty, friction)));
-        cells.extend(
-            row.values.iter().map(|s| {
-                s.map_or(Cell::Empty, |s| required_friction(s).map(|_| s.found.slip_margin()).into())
-            }),
-        );
+        cells.extend(row.values.iter().map(|s| s.map_or(Cell::Empty, |s| s.found.slip_margin().into())));
         table.row(cells);
     }
     table
@@ -177,7 +173,7 @@ pub(super) fn csv(compared: &Comparison<'_>) -> Table {
     for r in &compared.scenes {
         let friction = r.values.iter().map(|s| Cell::from(s.and_then(required_friction))).collect();
         row("required_friction", &r.key, "", friction);
-        let slip = r.values.iter().map(|s| Cell::from(s.map(|s| s.found.slip_margin()))).collect();
+        let slip = r.values.iter().map(|s| Cell::from(s.and_then(|s| s.found.slip_margin()))).collect();
         row("slip_margin", &r.key, "", slip);
     }
     table

@@ -7,11 +7,12 @@ mod words;
 use super::left_out::{LeftOut, left_out_of};
 use super::{Envelope, Provenance};
 use crate::clutch::{Clutch, Lubrication};
-use crate::design::Design;
+use crate::design::{Design, rad_s};
 use crate::life::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
 use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, NoMargins, OverrunPoint, lift_off_rad_s, load_state, overrun_at,
 };
+use crate::numeric::setting::{BadSetting, all_in_range};
 use crate::report::{Screen, Unit};
 use serde_json::{Value, json};
 use std::fmt;
@@ -88,6 +89,8 @@ pub enum NoOverrun {
     NoLubrication,
     /// There is no clutch to speak of.
     NoClutch(NoMargins),
+    /// A speed or a temperature out of its range.
+    Setting(BadSetting),
 }
 
 impl fmt::Display for NoOverrun {
@@ -98,11 +101,28 @@ impl fmt::Display for NoOverrun {
                 "the design has no [lubrication] table; add one, such as\n\n{EXAMPLE}\n\n`sprag-design explain lubrication` lists its keys"
             ),
             Self::NoClutch(why) => why.fmt(f),
+            Self::Setting(bad) => bad.fmt(f),
         }
     }
 }
 
 impl std::error::Error for NoOverrun {}
+
+/// Temperatures of the oil that may be asked for, C: those of `lubrication.temperature_c`.
+pub const OIL_TEMPERATURES_C: [f64; 2] = [-60.0, 250.0];
+/// Speeds of a race that may be asked for, rad/s: up to 100 000 rev/min; 0 is none.
+pub const OVERRUN_SPEEDS_RAD_S: [f64; 2] = [f64::MIN_POSITIVE, 1e5 * std::f64::consts::PI / 30.0];
+
+impl OverrunQuestion {
+    /// Refuse speeds and temperatures at which no clutch runs.
+    ///
+    /// # Errors
+    /// [`BadSetting`].
+    pub fn validate(&self) -> Result<(), BadSetting> {
+        all_in_range("speed (rad/s)", &self.speeds_rad_s, OVERRUN_SPEEDS_RAD_S)?;
+        all_in_range("temperature (C)", &self.temperatures_c, OIL_TEMPERATURES_C)
+    }
+}
 
 /// A table to begin with.
 pub const EXAMPLE: &str = "[lubrication]\noil = \"ISO VG 32\"          # `sprag-design oils`\ntemperature_c = 60.0\n\
@@ -115,7 +135,7 @@ const FASTEST_M_S: f64 = 50.0;
 
 /// Usual speeds at which a race slides, rad/s, ascending.
 pub(super) fn usual_speeds_rad_s() -> impl Iterator<Item = f64> {
-    USUAL_RPM.iter().map(|rpm| rpm * std::f64::consts::PI / 30.0)
+    USUAL_RPM.iter().map(|&rpm| rad_s(rpm))
 }
 
 impl Design {
@@ -138,6 +158,7 @@ impl Design {
     /// # Errors
     /// [`NoOverrun`].
     pub fn overrun(&self, question: &OverrunQuestion) -> Result<OverrunAnswer<'_>, NoOverrun> {
+        question.validate().map_err(NoOverrun::Setting)?;
         let lubrication = self.clutch.lubrication.as_ref().ok_or(NoOverrun::NoLubrication)?;
         let state = load_state(self).map_err(NoOverrun::NoClutch)?;
         let lift_off = lift_off_rad_s(self, &state, LIFT_OFF_TO_RAD_S);

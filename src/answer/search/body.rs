@@ -5,7 +5,7 @@ use super::made::{MadeBody, RobustFound};
 use super::realised::Flanked;
 use super::relief::ReliefBody;
 use super::steps::{Bound, Steps};
-use super::words::price_sentence;
+use super::words::{known, price_sentence};
 use crate::margin::Margin;
 use crate::optimise::{Branch, ClimbRecord, Front, Influence, Names, PriceKind, Search, Status, Variable};
 use serde::Serialize;
@@ -19,8 +19,8 @@ pub(super) type Named = BTreeMap<String, f64>;
 pub struct Found {
     /// Values of the variables, in the units of their names.
     pub variables: Named,
-    /// The objective, in its own unit.
-    pub objective: f64,
+    /// The objective, in its own unit; `None` of a least margin that some scene does not have.
+    pub objective: Option<f64>,
     /// Margins of that design.
     pub margins: Vec<SearchRow>,
 }
@@ -35,7 +35,7 @@ pub struct SearchRow {
     /// Unit of demand and allowable.
     pub unit: &'static str,
     /// Allowable, in `unit`; of slip the wanted slip margin.
-    pub allowable: f64,
+    pub allowable: Option<f64>,
     /// Margin as a number; 0 or more is held.
     pub margin: f64,
     /// Of slip rows static over required friction, less 1.
@@ -213,11 +213,15 @@ impl SearchBody {
             feasible: story.feasible(),
             makeable: story.makeable(),
             not_held: story.not_held(),
-            best: Found { variables: best(story), objective: after, margins: rows(story.margins()) },
+            best: Found {
+                variables: best(story),
+                objective: known(found.aim, after),
+                margins: rows(story.margins()),
+            },
             in_file: values(found, |v| v.given),
             start: Found {
                 variables: values(found, |v| v.start),
-                objective: before,
+                objective: known(found.aim, before),
                 margins: rows(&found.start),
             },
             objective_error: story.objective_error(),
@@ -297,7 +301,11 @@ fn pareto(story: &Story) -> Vec<FrontBody> {
     match &story.front {
         Some(front) => front.points.iter().map(|p| point(front, &p.x, &p.values)).collect(),
         None => {
-            vec![FrontBody { variables: best(story), objectives: None, objective: Some(story.objective().1) }]
+            vec![FrontBody {
+                variables: best(story),
+                objectives: None,
+                objective: known(story.found.aim, story.objective().1),
+            }]
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::Story;
 use crate::answer::check::margin_text;
 use crate::design::Objective;
-use crate::margin::Margin;
+use crate::margin::{LOST, Margin};
 use crate::optimise::{NO_INFLUENCE, Optima, Price, PriceKind, Status, Variable};
 use crate::report::{Unit, error_beside, significant};
 
@@ -27,9 +27,16 @@ impl Default for Hints {
     }
 }
 
+/// A value of an objective; `None` where a scene has no such margin, which the search counts as [`LOST`].
+pub(super) fn known(aim: Objective, value: f64) -> Option<f64> {
+    let of_scenes = matches!(aim, Objective::SlipMargin | Objective::ContactMargin);
+    (!of_scenes || value > LOST).then_some(value)
+}
+
 /// A value of an objective with its unit.
 pub(crate) fn shown(aim: Objective, value: f64) -> String {
     match aim.unit() {
+        _ if known(aim, value).is_none() => "none".to_owned(),
         "" => format!("{} %", significant(100.0 * value, SHOWN_DIGITS)),
         unit => format!("{} {unit}", significant(value, SHOWN_DIGITS)),
     }

@@ -3,6 +3,7 @@
 use super::train::{Eigenfrequency, eigenfrequencies};
 use super::{Ran, SimulationErrors};
 use crate::answer::left_out::LeftOut;
+use crate::design::rpm;
 use crate::dynamics::{EnergyBalance, SlipRecord, Stop};
 use crate::scenario::{Prepared, Simulation, overrun_swing};
 use serde::Serialize;
@@ -355,7 +356,7 @@ impl SimulationBody {
             required_static_friction_by: known
                 .filter(|d| d.finished)
                 .map(|d| if d.by_bisection { "bisection" } else { "rolling" }),
-            slip_margin: known.map(|d| d.slip_margin),
+            slip_margin: known.and_then(|d| d.slip_margin),
             contact_margin: known.filter(|d| d.finished || d.contact_margin < 0.0).map(|d| d.contact_margin),
             normal_min_n: Some(s.peaks.normal_min_n),
             normal_max_n: Some(s.peaks.normal_max_n),
@@ -394,7 +395,7 @@ impl SimulationBody {
             growth_rate_per_s: swing.map(|w| w.growth_rate_per_s),
             swing_frequency_hz: swing.map(|w| w.frequency_hz),
             swing_normal_inner_n: swing.map(|w| w.normal_inner_n),
-            lift_off_rpm: scene.lift_off_rad_s().map(|w| w * 30.0 / std::f64::consts::PI),
+            lift_off_rpm: scene.lift_off_rad_s().map(rpm),
             ..base
         }
     }

@@ -340,7 +340,7 @@ pub(super) fn beside_rolling(s: &Simulation) -> Option<Table> {
         "largest |T|/N, either contact".into(),
         Cell::In(s.peaks.tan_inner.max(s.peaks.tan_outer), Unit::One),
         d.required_friction.map_or("no friction suffices".into(), |r| Cell::In(r, Unit::One)),
-        d.required_friction.map(|_| d.slip_margin).into(),
+        d.slip_margin.into(),
     ]);
     table.row(vec![
         "smallest normal force, inner".into(),

@@ -84,17 +84,17 @@ impl Ran {
 }
 
 fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String {
-    let margin = match s.demand.map(|d| (d.required_friction, d.slip_margin)) {
-        Some((Some(needed), margin)) => {
+    let margin = match s.demand.map(|d| d.required_friction.zip(d.slip_margin)) {
+        Some(Some((needed, margin))) => {
             format!("slip margin {} (needs {})", Unit::Percent.show(margin, 3), Unit::One.show(needed, 4))
         }
         _ if s.demand.is_some_and(|d| d.gave_up.is_some()) => {
             "what friction would suffice is not known".to_owned()
         }
-        Some((None, _)) if s.demand.is_some_and(|d| d.contact_margin < 0.0) => {
+        Some(None) if s.demand.is_some_and(|d| d.contact_margin < 0.0) => {
             "no friction would suffice to stick, the contact would open".to_owned()
         }
-        Some((None, _)) => "no friction up to 1 would suffice to stick".to_owned(),
+        Some(None) => "no friction up to 1 would suffice to stick".to_owned(),
         None => String::new(),
     };
     let overruns = kind.is_overrun();
@@ -111,7 +111,7 @@ fn meaning(s: &Simulation, kind: &ScenarioKind, swing: Option<Swing>) -> String 
                 format!("drag torque {}{stays}", Unit::NewtonMetre.show(drag, 4))
             }
         }
-        Some(Verdict::Sticks) if s.demand.is_some_and(|d| d.slip_margin < 0.0) => {
+        Some(Verdict::Sticks) if s.demand.is_some_and(|d| d.slip_margin.is_none_or(|m| m < 0.0)) => {
             format!("slips by less than 1 um, which counts as sticking; {margin}")
         }
         Some(Verdict::Sticks) => on_the_way(s).map_or(margin.clone(), |way| format!("{way}; {margin}")),

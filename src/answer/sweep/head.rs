@@ -2,6 +2,7 @@
 
 use crate::answer::{TOOL, VERSION};
 use crate::design::Design;
+use crate::sweep::SweepSettings;
 use std::fmt;
 use std::str::FromStr;
 
@@ -50,10 +51,11 @@ impl SweepHead {
     }
 
     /// Of a table of margins.
-    pub fn margins(design: &Design, points: &str, at_rest: bool, full: bool) -> Self {
+    pub fn margins(design: &Design, points: &str, settings: &SweepSettings) -> Self {
         let scenes = design.optimize.as_ref().map_or(&[][..], |task| &task.scenarios);
-        let scenes = if at_rest || scenes.is_empty() { "none".to_owned() } else { scenes.join(", ") };
-        let work = if full { "full" } else { "quick" }.to_owned();
+        let scenes =
+            if settings.at_rest || scenes.is_empty() { "none".to_owned() } else { scenes.join(", ") };
+        let work = if settings.full { "full" } else { "quick" }.to_owned();
         let holds = Holds::Margins { scenes: one_line(&scenes).replace(';', ","), work };
         Self { holds, ..Self::vectors(design, points) }
     }
@@ -144,8 +146,8 @@ mod tests {
             Design::parse(&text.replace("name = \"Huang 2017", "name = \"a; name b, c"), "a").unwrap();
         for head in [
             SweepHead::vectors(&design, "sobol 9 seed 1"),
-            SweepHead::margins(&design, "grid r_i2_mm=3", false, true),
-            SweepHead::margins(&design, "file 0123", true, false),
+            SweepHead::margins(&design, "grid r_i2_mm=3", &SweepSettings { at_rest: false, full: true }),
+            SweepHead::margins(&design, "file 0123", &SweepSettings { at_rest: true, full: false }),
         ] {
             let line = head.to_string();
             assert_eq!(line.lines().count(), 1);

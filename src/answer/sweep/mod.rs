@@ -16,7 +16,7 @@ pub use map::{Cells, MapPair, MapPoint, MapVariable, NoMap, SweepMap};
 pub use vectors::{NoVectors, Vectors};
 
 use crate::design::Design;
-use crate::sweep::{BoxSample, NoSample, NoSweep, Sampling, Sweep};
+use crate::sweep::{BoxSample, NoSample, NoSweep, Sampling, Sweep, SweepSettings};
 
 impl Design {
     /// The points of the `[optimize]` table's box that `sampling` means: [`BoxSample::point`] has them one by one.
@@ -25,11 +25,11 @@ impl Design {
     /// [`NoSample`].
     ///
     /// ```
-    /// use sprag_design::{Design, sweep::Sampling};
+    /// use sprag_design::{Design, sweep::{Sampling, SweepSettings}};
     ///
     /// let design = Design::read("designs/huang2017-multi-arc.toml".as_ref())?;
     /// let sample = design.sample(&Sampling::Sobol { count: 1000, seed: 1 })?;
-    /// let sweep = design.sweep(true, false)?;
+    /// let sweep = design.sweep(&SweepSettings { at_rest: true, ..SweepSettings::default() })?;
     /// let held = (0..20).filter(|&i| sweep.row(sample.point(i)).feasible()).count();
     /// assert!(held < 20);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -38,11 +38,11 @@ impl Design {
         BoxSample::of(self.optimize.as_ref().ok_or(NoSample::NoTask)?, sampling)
     }
 
-    /// Margins at points of the box; `at_rest`: without scenes, `full`: nothing is left out that a scene cannot feel.
+    /// Margins at points of the box.
     ///
     /// # Errors
     /// [`NoSweep`].
-    pub fn sweep(&self, at_rest: bool, full: bool) -> Result<Sweep, NoSweep> {
-        Sweep::of(self, at_rest, full)
+    pub fn sweep(&self, settings: &SweepSettings) -> Result<Sweep, NoSweep> {
+        Sweep::of(self, settings)
     }
 }

@@ -5,7 +5,7 @@ use crate::design::{Design, Limits};
 use crate::margin::limits::{Limit, Of};
 use crate::margin::load::{beyond, said};
 use crate::margin::table::{END_OF_PROFILE, LIMITS};
-use crate::margin::{Demand, Margin};
+use crate::margin::{Demand, LOST, Margin};
 use crate::numeric::root;
 
 /// Torques looked at between none and the end, for what is reached on the way: a choice.
@@ -68,7 +68,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
 fn nothing_found(torque: f64, end: f64) -> Demand {
     match end >= torque {
         true => Demand::MoreThan(0.0),
-        false => Demand::Overloaded { at_end: Some(0.0), shortfall: Some(-1.0) },
+        false => Demand::Overloaded { at_end: Some(0.0), shortfall: Some(LOST) },
     }
 }
 
