@@ -74,7 +74,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Units and drawings: a profile to draw, no physics.
     ("report", &["profile", "clutch"]),
     // A finite-element deck is a whole clutch, and its own curve says how far to turn it.
-    ("export", &["numeric", "material", "profile", "clutch", "design", "wedge"]),
+    ("export", &["numeric", "material", "profile", "clutch", "design", "wedge", "element"]),
     // An outline is a profile and flanks; races are two radii, so no design.
     ("import", &["profile"]),
     // What is computed is put into words, units and pages here: all but the command.

@@ -95,6 +95,20 @@ fn each_key_is_accepted_merged_and_written_back() {
     }
 }
 
+/// What is held at a torque needs that torque in the file.
+#[test]
+fn the_file_and_the_margins_agree_at_which_torque_a_limit_is_held() {
+    let mut seen = 0;
+    for limit in LIMITS {
+        let key = LIMIT_KEYS.iter().find(|key| Some(key.name) == limit.key);
+        if let (Some(key), Some(torque)) = (key, limit.when.key()) {
+            assert!(key.needs().any(|needed| needed == torque), "{} needs {torque}", key.name);
+            seen += 1;
+        }
+    }
+    assert!(seen >= 12, "{seen}");
+}
+
 #[test]
 fn a_value_out_of_range_and_a_slip_of_the_pen_are_refused_at_the_key() {
     for key in LIMIT_KEYS {

@@ -8,6 +8,7 @@
 #[cfg(feature = "validation")]
 pub mod accuracy;
 pub mod check;
+pub mod co_simulation;
 pub mod comparison;
 mod drawn;
 mod envelope;

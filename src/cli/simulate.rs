@@ -8,7 +8,7 @@ use crate::answer::simulation::{
     self as scene, Ran, RefusedSetting, Setting, SimulationAnswer, SimulationSettings,
 };
 use crate::clutch::Scenario;
-use crate::design::Design;
+use crate::design::{Design, nearest};
 use crate::dynamics::Stop;
 use crate::report::plain;
 use clap::{Args, ValueEnum};
@@ -238,14 +238,15 @@ pub(super) fn chosen<'d>(
 pub(super) fn unknown(name: &str, design: &Design, file: &Path) -> Failure {
     let file = file.display();
     let names: Vec<&str> = design.scenarios.iter().map(|s| s.name.as_str()).collect();
-    let likeness = |candidate: &str| strsim::jaro_winkler(candidate, name);
-    match names.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b))) {
-        None => Failure::malformed(format!(
+    if names.is_empty() {
+        return Failure::malformed(format!(
             "{file}: the design has no scenarios, --scenario {name} asks for one; add a [[scenarios]] table"
-        )),
-        Some(nearest) => Failure::malformed(format!(
-            "{file}: no scenario {name}, which --scenario asks for; did you mean {nearest}? The design has: {}",
-            names.join(", ")
-        )),
+        ));
     }
+    let meant = nearest(name, &names).map_or(String::new(), |near| format!("; did you mean {near}?"));
+    let end = if meant.is_empty() { "; the" } else { " The" };
+    Failure::malformed(format!(
+        "{file}: no scenario {name}, which --scenario asks for{meant}{end} design has: {}",
+        names.join(", ")
+    ))
 }

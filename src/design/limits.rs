@@ -53,6 +53,11 @@ impl LimitKey {
         changed
     }
 
+    /// Keys without which it means nothing.
+    pub fn needs(&self) -> impl Iterator<Item = &'static str> {
+        self.needs.iter().map(|need| need.0)
+    }
+
     /// Value that a table of the file gives, in the file's unit.
     pub(super) fn written(&self, file: &LimitsFile) -> Option<f64> {
         (self.written)(file)

@@ -86,6 +86,25 @@ impl Design {
         })
     }
 
+    /// This design with numbers set: (path or short name, value in the unit of that name).
+    ///
+    /// # Errors
+    /// As [`Design::read_with`].
+    ///
+    /// ```
+    /// use sprag_design::Design;
+    ///
+    /// let design = Design::read("designs/huang2017-multi-arc.toml".as_ref())?;
+    /// let flatter = design.with_values(&[("r_i2_mm", 4.2)])?;
+    /// assert!(flatter.clutch.sprags.inner_arcs[1].radius_m > design.clutch.sprags.inner_arcs[1].radius_m);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_values(&self, values: &[(&str, f64)]) -> Result<Self, DesignError> {
+        let typed: Vec<_> =
+            values.iter().map(|(path, value)| (path.to_string(), format!("{value:?}"))).collect();
+        self.with(&typed, &self.name)
+    }
+
     /// Check the text of a design file; `name_for_errors` stands for the file in messages, and histories are named
     /// from its folder.
     ///

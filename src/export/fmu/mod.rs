@@ -3,9 +3,13 @@
 //!
 //! Source: FMI specification 2.0.4, sections 2.2 and 4; 3.0.1, sections 2.4 and 4.
 
+#[cfg(feature = "report")]
+mod archive;
 mod description;
 mod units;
 
+#[cfg(feature = "report")]
+pub use archive::{NoUnit, UnitArchive, archive, inertias_beyond};
 pub use description::description;
 pub use units::{FmiUnit, UNITS, unit};
 
