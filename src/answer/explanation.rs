@@ -50,7 +50,8 @@ pub fn explain(name: &str) -> Option<Explanation> {
         [limit, objective, law, scenario_kind, purpose, key, bare, word];
     let found = of.into_iter().find_map(|kind_of_name| kind_of_name(name));
     // The first word of a kind, where that is a plural.
-    let of_kind = |(kind, _): &(&str, Vec<String>)| name.ends_with('s') && kind.split(' ').next() == Some(name);
+    let of_kind =
+        |(kind, _): &(&str, Vec<String>)| name.ends_with('s') && kind.split(' ').next() == Some(name);
     let Some((kind, names)) = groups().into_iter().find(of_kind) else { return found };
     let mut found = found.unwrap_or(Explanation { kind: "names that `explain` explains", lines: Vec::new() });
     found.lines.push(("lists", kind.to_owned()));

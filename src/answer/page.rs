@@ -53,8 +53,10 @@ pub fn draw(page: &mut Page, drawing: &Drawing) {
     } else {
         "One sprag between its races, to scale."
     };
-    page.figure(&drawing.detail_svg(), caption);
-    page.figures(&[(drawing.centres_svg(), "Arc centres and centroid in the body frame (origin Cₑ).")]);
+    page.drawings(&[
+        (drawing.detail(), caption),
+        (drawing.centres(), "Arc centres and centroid in the body frame (origin Cₑ)."),
+    ]);
 }
 
 /// A page that opens with `answer`, its banner and what belongs to that, and the dimensioned drawing: both in the first screen.
@@ -79,7 +81,7 @@ pub fn draw_sheet(page: &mut Page, design: &Design, whose: &str) {
         format!("inner race {}, outer race {}", gram(inner), gram(outer)),
     ];
     let rest = pose_at_rest("first contact, no load", design, &profile);
-    let svg = drawing(design, vec![rest]).sheet_svg([r.width_m, s.length_m], &notes);
+    let svg = drawing(design, vec![rest]).sheet([r.width_m, s.length_m], &notes);
     let said = "Radii as run; inner, outer: the tracks. ν, ω: angles of the strut AB to the radii at B and A; junctions by the turn of the contact; races as plain rings.";
     page.true_figure(&svg, &if whose.is_empty() { said.to_owned() } else { format!("{whose}. {said}") });
 }

@@ -177,20 +177,20 @@ impl Drawing {
         clutch::small(self, widest_m)
     }
 
-    /// One sprag large: outline, contacts, strut, centres, junctions, centroid, dimensions.
-    pub fn detail_svg(&self) -> String {
-        detail::svg(self)
+    /// One sprag large, as a page has it: outline, contacts, strut, centres, junctions, centroid, dimensions.
+    pub fn detail(&self) -> String {
+        detail::figure(self)
     }
 
-    /// Front view, section and one enlarged sprag with their dimensions, at scales of ISO 5455 on paper. `axial_m`: width of
-    /// the races and length of the sprags, m; `notes` stand below the front view.
-    pub fn sheet_svg(&self, axial_m: [f64; 2], notes: &[String]) -> String {
-        sheet::svg(self, axial_m, notes)
+    /// Front view, section and one enlarged sprag with their dimensions, at scales of ISO 5455 on paper, as a page has it.
+    /// `axial_m`: width of the races and length of the sprags, m; `notes` stand below the front view.
+    pub fn sheet(&self, axial_m: [f64; 2], notes: &[String]) -> String {
+        sheet::figure(self, axial_m, notes)
     }
 
-    /// C_e, the arc centres and the centroid, enlarged until they can be told apart.
-    pub fn centres_svg(&self) -> String {
-        centres::svg(self)
+    /// C_e, the arc centres and the centroid, as a page has it: enlarged until they can be told apart.
+    pub fn centres(&self) -> String {
+        centres::figure(self)
     }
 
     fn drawable(&self) -> Vec<&SpragPose> {

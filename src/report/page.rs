@@ -102,7 +102,25 @@ impl Page {
 
     /// A table with its caption (empty: none).
     pub fn table(&mut self, caption: &str, table: &Table) -> &mut Self {
-        self.body.push_str("<div class=\"table\">\n");
+        self.table_in("table", caption, table)
+    }
+
+    /// Tables side by side where the window is wide enough.
+    pub fn tables(&mut self, tables: &[(&str, Table)]) -> &mut Self {
+        self.body.push_str("<div class=\"row\">\n");
+        for (caption, table) in tables {
+            self.table(caption, table);
+        }
+        self.push("</div>\n")
+    }
+
+    /// A long and narrow table, printed in two columns.
+    pub fn narrow_table(&mut self, table: &Table) -> &mut Self {
+        self.table_in("table narrow", "", table)
+    }
+
+    fn table_in(&mut self, class: &str, caption: &str, table: &Table) -> &mut Self {
+        self.body.push_str(&format!("<div class=\"{class}\">\n"));
         if !caption.is_empty() {
             self.body.push_str(&format!("<p class=\"caption\">{}</p>\n", escape(caption)));
         }
@@ -122,11 +140,17 @@ impl Page {
 
     /// Figures side by side where the window is wide enough.
     pub fn figures(&mut self, figures: &[(String, &str)]) -> &mut Self {
-        self.body.push_str("<div class=\"row\">\n");
-        for (svg, caption) in figures {
-            self.body.push_str(&figure(svg, caption));
-        }
-        self.push("</div>\n")
+        self.row("row", figures)
+    }
+
+    /// Figures one below the other; printed side by side, as a phone has them.
+    pub fn drawings(&mut self, figures: &[(String, &str)]) -> &mut Self {
+        self.row("drawn", figures)
+    }
+
+    fn row(&mut self, class: &str, figures: &[(String, &str)]) -> &mut Self {
+        let figures: String = figures.iter().map(|(svg, caption)| figure(svg, caption)).collect();
+        self.push(&format!("<div class=\"{class}\">\n{figures}</div>\n"))
     }
 
     /// Short tables, each with its caption, in as many columns as there is room for.
@@ -154,10 +178,10 @@ impl Page {
         self.push("</details>\n")
     }
 
-    /// Text kept as typed, folded away: the design file.
+    /// Text kept as typed, folded away and not printed: the design file.
     pub fn source(&mut self, summary: &str, text: &str) -> &mut Self {
         let pre = format!("<pre>{}</pre>\n", escape(text));
-        self.apart(summary, |page| {
+        self.fold("source", summary, |page| {
             page.push(&pre);
         })
     }

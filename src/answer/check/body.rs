@@ -419,7 +419,7 @@ fn verdict(r: &Margin) -> Cell {
         (true, true) => Cell::Verdict(true, "held".into()),
         (true, false) => Cell::Verdict(false, "NOT HELD".into()),
         (false, true) => "shown".into(),
-        (false, false) => "shown, not held".into(),
+        (false, false) => "shown, broken".into(),
     }
 }
 

@@ -87,7 +87,7 @@ fn scenes(design: &Design, check: &CheckAnswer) -> Table {
             (true, true) => Cell::Verdict(true, "held".into()),
             (true, false) => Cell::Verdict(false, "NOT HELD".into()),
             (false, true) => "shown".into(),
-            (false, false) => "shown, not held".into(),
+            (false, false) => "shown, broken".into(),
         };
         table.row(vec![
             name.as_str().into(),
