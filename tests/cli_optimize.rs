@@ -147,7 +147,10 @@ fn an_objective_may_be_named_and_one_that_hardly_moves_says_so() {
     let lighter = text(search(&by_name, &["--objective", "mass"]));
     assert!(lighter.starts_with("mass of sprags and races 729.68 g -> 729."), "{lighter}");
     let said = "these variables hardly move the mass of sprags and races, by 0.0";
-    assert!(lighter.contains(said) && lighter.contains("`sprag-design explain variables` lists"), "{lighter}");
+    assert!(
+        lighter.contains(said) && lighter.contains("`sprag-design explain variables` lists"),
+        "{lighter}"
+    );
     search(&by_set, &["--set", "optimize.objective=mass"]);
     assert_eq!(body(by_name.as_ref()), body(by_set.as_ref()));
     assert!(body(by_name.as_ref()).contains("objective = \"mass\""));

@@ -177,19 +177,29 @@ impl Drawing {
         clutch::small(self, widest_m)
     }
 
-    /// One sprag large, as a page has it: outline, contacts, strut, centres, junctions, centroid, dimensions.
-    pub fn detail(&self) -> String {
+    /// One sprag large: outline, contacts, strut, centres, junctions, centroid, dimensions.
+    pub fn detail_svg(&self) -> String {
+        detail::in_window(self)
+    }
+
+    /// The same as a page has it.
+    pub fn detail_figure(&self) -> String {
         detail::figure(self)
     }
 
     /// Front view, section and one enlarged sprag with their dimensions, at scales of ISO 5455 on paper, as a page has it.
     /// `axial_m`: width of the races and length of the sprags, m; `notes` stand below the front view.
-    pub fn sheet(&self, axial_m: [f64; 2], notes: &[String]) -> String {
+    pub fn sheet_figure(&self, axial_m: [f64; 2], notes: &[String]) -> String {
         sheet::figure(self, axial_m, notes)
     }
 
-    /// C_e, the arc centres and the centroid, as a page has it: enlarged until they can be told apart.
-    pub fn centres(&self) -> String {
+    /// C_e, the arc centres and the centroid, enlarged until they can be told apart.
+    pub fn centres_svg(&self) -> String {
+        centres::svg(self, false)
+    }
+
+    /// The same as a page has it.
+    pub fn centres_figure(&self) -> String {
         centres::figure(self)
     }
 

@@ -144,6 +144,11 @@ impl Page {
         self.table_in("table narrow", "", table)
     }
 
+    /// What is left out, why, and what that costs.
+    pub fn omitted(&mut self, table: &Table) -> &mut Self {
+        self.table_in("table omitted", "", table)
+    }
+
     fn table_in(&mut self, class: &str, caption: &str, table: &Table) -> &mut Self {
         self.body.push_str(&format!("<div class=\"{class}\">\n"));
         if !caption.is_empty() {

@@ -32,7 +32,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
         );
     }
     page.heading("Inputs");
-    draw_inputs(&mut page, design);
+    draw_inputs(&mut page, design, None);
     page.heading("Materials").table("", &materials(design));
     page.heading("Radii to make");
     match &answer.body.running {

@@ -43,7 +43,7 @@ pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
         }
         poses(&mut page, scene, prepared);
     }
-    scene.envelope(provenance.run_time_s).close(&mut page);
+    scene.envelope(provenance.run_time_s).close_scene(&mut page, &scene.scenario.name);
     page
 }
 

@@ -48,7 +48,7 @@ pub fn figure(drawing: &Drawing) -> String {
 }
 
 /// With names and places beside the points; on a phone the names alone, and the places in lines below.
-fn svg(drawing: &Drawing, on_phone: bool) -> String {
+pub fn svg(drawing: &Drawing, on_phone: bool) -> String {
     // A sprag drawn in several positions has one body: its centres are shown once.
     let mut poses = drawing.drawable();
     poses.dedup_by(|b, a| a.arcs == b.arcs && a.centroid_m == b.centroid_m);

@@ -60,10 +60,13 @@ struct Note {
     wanted: f64,
 }
 
+pub fn in_window(drawing: &Drawing) -> String {
+    svg(drawing, SIZES[0], COLUMNS[0])
+}
+
 /// The drawing as a page has it.
 pub fn figure(drawing: &Drawing) -> String {
-    let [window, phone] = [0, 1].map(|k| svg(drawing, SIZES[k], COLUMNS[k]));
-    for_both(&window, &phone)
+    for_both(&in_window(drawing), &svg(drawing, SIZES[1], COLUMNS[1]))
 }
 
 fn svg(drawing: &Drawing, size: [f64; 2], columns: [f64; 2]) -> String {
