@@ -1,5 +1,6 @@
-// Pictures of pages and of the studio, in this folder: node pictures.mjs BINARY DESIGN PAGE.html[=HEADING:HEIGHT] ...
-// Of a page with a heading the part that begins there, else its first screen. Of the studio a changed number beside the pinned design.
+// Pictures of pages and of the studio, in this folder: node pictures.mjs BINARY DESIGN PAGE.html[=HEADING:FIGURES] ...
+// Of a page with a heading that and so many figures behind it, whole with their captions, else its first screen. Of the studio a changed
+// number beside the pinned design.
 import { spawn } from "node:child_process";
 import path from "node:path";
 import { chromium } from "playwright-core";
@@ -12,9 +13,22 @@ for (const asked of pages) {
   await page.goto("file://" + path.resolve(file));
   const to = { path: `${path.basename(file, ".html")}.png` };
   if (part) {
-    const [heading, height] = part.split(":");
-    const { y } = await page.locator("h2", { hasText: heading }).first().boundingBox();
-    Object.assign(to, { fullPage: true, clip: { x: 100, y: y - 10, width: 800, height: Number(height) } });
+    const [heading, count] = part.split(":");
+    const clip = await page.evaluate(
+      ([words, most]) => {
+        const all = [...document.querySelectorAll("h2, figure")];
+        const from = all.findIndex((one) => one.tagName === "H2" && one.textContent.includes(words));
+        const figures = all.slice(from).filter((one) => one.tagName === "FIGURE").slice(0, most);
+        // What of a figure is seen: its parts, not its place.
+        const parts = figures.flatMap((figure) => [...figure.children]).filter((one) => one.checkVisibility());
+        const boxes = [all[from], ...parts].map((one) => one.getBoundingClientRect());
+        const [x, y] = [Math.min(...boxes.map((b) => b.left)) - 12, boxes[0].top - 12 + scrollY];
+        const right = Math.max(...boxes.slice(1).map((b) => b.right)) + 12;
+        return { x, y, width: right - x, height: Math.max(...boxes.map((b) => b.bottom)) + scrollY + 12 - y };
+      },
+      [heading, Number(count)],
+    );
+    Object.assign(to, { fullPage: true, clip });
   }
   await page.screenshot(to);
 }

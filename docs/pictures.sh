@@ -20,7 +20,7 @@ tool check mine.toml --report check.html
 tool optimize mine.toml -o better.toml --report optimize.html
 tool compare mine.toml better.toml --report compare.html
 tool simulate designs/huang2017-multi-arc.toml --scenario high-10 --report simulate.html
-node pictures.mjs "$binary" mine.toml check.html optimize.html=Geometry:672 compare.html=Profiles:965 simulate.html=Histories:1475
+node pictures.mjs "$binary" mine.toml check.html optimize.html=Geometry:1 compare.html=Profiles:2 simulate.html=Histories:5
 for picture in check optimize compare simulate studio; do
     convert "$picture.png" +dither -colors 128 -define png:compression-level=9 "PNG8:$out/$picture.png"
     bytes=$(stat -c %s "$out/$picture.png")

@@ -132,6 +132,42 @@ fn the_end_of_a_search_says_what_it_began_with_and_what_would_carry_it_on() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
+/// The mass of a first design is in lengths that are none of its variables.
+#[test]
+fn an_objective_may_be_named_and_one_that_hardly_moves_says_so() {
+    let folder = folder("objective");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let (mine, by_name, by_set) = (path("mine.toml"), path("a.toml"), path("b.toml"));
+    let made = tool(&["new", "--for", "two-speed", "--bore", "40", "--torque", "1000", "-o", &mine]);
+    assert!(made.status.success());
+    let search = |new: &str, more: &[&str]| {
+        tool(&[&["optimize", &mine, "-o", new, "--starts", "1", "-q"], more].concat())
+    };
+    let text = |out: Output| String::from_utf8(out.stdout).unwrap();
+    let lighter = text(search(&by_name, &["--objective", "mass"]));
+    assert!(lighter.starts_with("mass of sprags and races 729.68 g -> 729."), "{lighter}");
+    let said = "these variables hardly move the mass of sprags and races, by 0.0";
+    assert!(
+        lighter.contains(said) && lighter.contains("`sprag-design explain variables` lists"),
+        "{lighter}"
+    );
+    search(&by_set, &["--set", "optimize.objective=mass"]);
+    assert_eq!(body(by_name.as_ref()), body(by_set.as_ref()));
+    assert!(body(by_name.as_ref()).contains("objective = \"mass\""));
+    // One more variable, and it moves.
+    let wider = "{ name = \"races.outer_outside_radius_mm\", min = 45.0, max = 48.0 }";
+    let source = std::fs::read_to_string(&mine).unwrap();
+    std::fs::write(&mine, source.replace("variables = [", &format!("variables = [{wider}, "))).unwrap();
+    assert!(!text(search(&path("c.toml"), &["--objective", "mass"])).contains("hardly move"));
+    // Nor is anything said of the slip margin, and a file without a task is refused as ever.
+    let none = tool(&["optimize", "designs/starter.toml", "--objective", "mass"]);
+    assert!(String::from_utf8(none.stderr).unwrap().contains("no [optimize] table"));
+    let help = text(tool(&["optimize", "--help"]));
+    let names = sprag_design::design::Objective::ALL.map(|o| o.name());
+    assert!(help.contains("--objective <NAME>") && names.iter().all(|name| help.contains(name)), "{help}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
 /// `flank_rear_mm` moves only the neighbours' clearance; with flanks named it is searched, and a variable that
 /// moves nothing is named and dropped: the width in (6) of a law that holds the bulk itself.
 #[test]
@@ -202,6 +238,7 @@ fn senseless_questions_exit_with_2_and_write_nothing() {
     let name = new.to_str().unwrap();
     for args in [
         vec!["optimize", single.to_str().unwrap(), "-o", name],
+        vec!["optimize", DESIGN, "-o", name, "--objective", "weight"],
         vec!["optimize", DESIGN, "-o", DESIGN],
         vec!["optimize", DESIGN, "-o", name, "--resume"],
         vec!["optimize", DESIGN, "-o", name, "--evaluations", "0"],

@@ -4,7 +4,7 @@ use std::error::Error;
 
 use rayon::prelude::*;
 use sprag_design::design::Design;
-use sprag_design::report::{Bar, Bars, Cell, Column, Page, Table, Tone, Unit, significant};
+use sprag_design::report::{Bar, Bars, Cell, Column, Page, Table, Tone, Unit, greek, significant};
 use sprag_design::scenario::{Settings, simulate};
 
 use crate::cells::label;
@@ -70,7 +70,7 @@ fn bars(unknowns: &[Unknown], flips: &Flips, title: &str, counts: impl Fn(usize)
                 Some((_, f)) if percent(f).abs() < 1.0 => Tone::Bad,
                 Some(_) => Tone::Plain,
             };
-            let label = format!("{} {}", unknown.symbol, if up { "up" } else { "down" });
+            let label = format!("{} {}", greek(unknown.symbol), if up { "up" } else { "down" });
             bars.bars.push(Bar { label, value, text, tone });
         }
     }
@@ -161,7 +161,7 @@ pub fn write(page: &mut Page, design: &Design, unknowns: &[Unknown]) -> Anyhow<(
             let without = told(u, nearest(side, |i| i != AT_THRESHOLD), up);
             let name = if up { "" } else { u.name };
             first.row(vec![
-                name.into(),
+                greek(name).into(),
                 if up { "".into() } else { value.into() },
                 all.clone().into(),
                 if all == without { "the same".into() } else { without.into() },
@@ -190,7 +190,8 @@ pub fn write(page: &mut Page, design: &Design, unknowns: &[Unknown]) -> Anyhow<(
     matrix.columns.extend(STATEMENTS.iter().map(|s| Column::text(s.scene, s.scene)));
     for (u, sides) in unknowns.iter().zip(&flips) {
         for (side, up) in sides.iter().zip([false, true]) {
-            let mut row: Vec<Cell> = vec![format!("{} {}", u.symbol, if up { "up" } else { "down" }).into()];
+            let mut row: Vec<Cell> =
+                vec![format!("{} {}", greek(u.symbol), if up { "up" } else { "down" }).into()];
             row.extend(side.iter().map(|f| match f {
                 None => Cell::Empty,
                 Some(None) => "holds".into(),

@@ -82,7 +82,13 @@ impl<B: Serialize> Envelope<'_, B> {
 
     /// End of a page: the inputs, then as [`Self::end`].
     pub fn close(&self, page: &mut Page) {
-        page.folded("Inputs", |page| draw_inputs(page, self.design));
+        page.folded("Inputs", |page| draw_inputs(page, self.design, None));
+        self.end(page);
+    }
+
+    /// The same of a page that is about one scene: of the scenes that one alone.
+    pub fn close_scene(&self, page: &mut Page, scene: &str) {
+        page.folded("Inputs", |page| draw_inputs(page, self.design, Some(scene)));
         self.end(page);
     }
 
@@ -94,7 +100,7 @@ impl<B: Serialize> Envelope<'_, B> {
             .text("cost", "What it costs", |entry| entry.cost.as_str())
             .table();
         page.folded("What the model leaves out", |page| {
-            page.table("", &table);
+            page.omitted(&table);
         });
         // Numbers that are none become null; the object holds nothing else that has no JSON form.
         page.results("results", &serde_json::to_value(self.object(Vec::new())).unwrap_or_default());

@@ -44,11 +44,19 @@ pub fn listed(kinds: &[&str]) -> String {
     text
 }
 
-/// What `name` is, if anything.
+/// What `name` is, if anything; of a kind of names, such as `variables`, those too.
 pub fn explain(name: &str) -> Option<Explanation> {
     let of: [fn(&str) -> Option<Explanation>; 8] =
         [limit, objective, law, scenario_kind, purpose, key, bare, word];
-    of.into_iter().find_map(|kind_of_name| kind_of_name(name))
+    let found = of.into_iter().find_map(|kind_of_name| kind_of_name(name));
+    // The first word of a kind, where that is a plural.
+    let of_kind =
+        |(kind, _): &(&str, Vec<String>)| name.ends_with('s') && kind.split(' ').next() == Some(name);
+    let Some((kind, names)) = groups().into_iter().find(of_kind) else { return found };
+    let mut found = found.unwrap_or(Explanation { kind: "names that `explain` explains", lines: Vec::new() });
+    found.lines.push(("lists", kind.to_owned()));
+    found.lines.extend(names.chunks(4).map(|row| ("names", row.join(", "))));
+    Some(found)
 }
 
 fn limit(code: &str) -> Option<Explanation> {
@@ -259,6 +267,14 @@ mod tests {
         }
         let unit = |name: &str| explain(name).unwrap().lines.into_iter().find(|l| l.0 == "unit").unwrap().1;
         assert_eq!((unit("keep_contact_to_rpm").as_str(), unit("gap_peak_mm").as_str()), ("rpm", "mm"));
+        // A kind of names lists them, beside what the word is in the file.
+        for (kind, names) in groups().into_iter().filter(|(kind, _)| !kind.starts_with(['c', 'w'])) {
+            let found = explain(kind.split(' ').next().unwrap()).unwrap();
+            let listed: Vec<&str> =
+                found.lines.iter().filter(|l| l.0 == "names").flat_map(|l| l.1.split(", ")).collect();
+            assert_eq!(listed, names, "{kind}");
+        }
+        assert!(keys("variables").contains("scales") && explain("contact").unwrap().lines.len() == 6);
         assert!(explain("limits.hertz_peak_mpa").is_some() && explain("nothing").is_none());
         assert!(unknown("hoop-iner").contains("did you mean hoop-inner?"));
     }

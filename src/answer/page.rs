@@ -53,8 +53,10 @@ pub fn draw(page: &mut Page, drawing: &Drawing) {
     } else {
         "One sprag between its races, to scale."
     };
-    page.figure(&drawing.detail_svg(), caption);
-    page.figures(&[(drawing.centres_svg(), "Arc centres and centroid in the body frame (origin Cₑ).")]);
+    page.drawings(&[
+        (drawing.detail_figure(), caption),
+        (drawing.centres_figure(), "Arc centres and centroid in the body frame (origin Cₑ)."),
+    ]);
 }
 
 /// A page that opens with `answer`, its banner and what belongs to that, and the dimensioned drawing: both in the first screen.
@@ -79,7 +81,7 @@ pub fn draw_sheet(page: &mut Page, design: &Design, whose: &str) {
         format!("inner race {}, outer race {}", gram(inner), gram(outer)),
     ];
     let rest = pose_at_rest("first contact, no load", design, &profile);
-    let svg = drawing(design, vec![rest]).sheet_svg([r.width_m, s.length_m], &notes);
+    let svg = drawing(design, vec![rest]).sheet_figure([r.width_m, s.length_m], &notes);
     let said = "Radii as run; inner, outer: the tracks. ν, ω: angles of the strut AB to the radii at B and A; junctions by the turn of the contact; races as plain rings.";
     page.true_figure(&svg, &if whose.is_empty() { said.to_owned() } else { format!("{whose}. {said}") });
 }
@@ -91,16 +93,23 @@ const SCENE_COLUMNS: usize = 8;
 const SCENES_ABREAST: usize = 11;
 
 /// Every value of the design file: a short table for each of its parts, one for the scenes, or one for each where there are too
-/// many of them.
-pub fn draw_inputs(page: &mut Page, design: &Design) {
+/// many of them. Of a page about one scene, by its name, that alone.
+pub fn draw_inputs(page: &mut Page, design: &Design, about: Option<&str>) {
     let all = inputs(&design.source);
     let (scenes, others): (Vec<&Input>, Vec<&Input>) =
         all.iter().partition(|i| i.path.starts_with("scenarios["));
-    page.columns(&short_tables(&others));
+    let mut tables = short_tables(&others);
+    let table = scene_table(&scenes);
+    let names = |row: &&Vec<Cell>| matches!((row.first(), about), (Some(Cell::Text(a)), Some(b)) if a == b);
+    if let Some(row) = table.rows.iter().find(names) {
+        tables.extend(each_scene(&Table { rows: vec![row.clone()], ..table.clone() }));
+        page.columns(&tables);
+        return;
+    }
+    page.columns(&tables);
     if scenes.is_empty() {
         return;
     }
-    let table = scene_table(&scenes);
     if table.columns.len() <= SCENE_COLUMNS {
         page.table("scenarios", &table);
     } else if table.rows.len() <= SCENES_ABREAST {

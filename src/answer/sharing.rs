@@ -346,7 +346,7 @@ impl<'a> SharingAnswer<'a> {
             .number("size_um", "Larger by", Unit::Micrometre, 3, |(_, r)| r.sprag.size_m)
             .number("gap_um", "Gap", Unit::Micrometre, 3, |(_, r)| r.sprag.gap_m)
             .number("friction", "μs", Unit::One, 3, |(_, r)| r.sprag.friction)
-            .number("catches_nm", "Catches at", Unit::NewtonMetre, 3, |(_, r)| r.catches_nm)
+            .number("catches_nm", "Bears from", Unit::NewtonMetre, 3, |(_, r)| r.catches_nm)
             .number("normal_inner_n", "N inner", Unit::Newton, 4, |(_, r)| carried(r, r.bears.normal_inner_n))
             .number("share", "Share", Unit::One, 4, |(_, r)| r.share)
             .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |(_, r)| {

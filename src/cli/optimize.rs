@@ -24,6 +24,7 @@ Examples:
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --report better.html
   sprag-design optimize designs/huang2017-multi-arc.toml -o better.toml --resume
   sprag-design optimize designs/huang2017-multi-arc.toml --json --quiet > best.json
+  sprag-design optimize designs/huang2017-multi-arc.toml --objective mass -o light.toml
   sprag-design optimize designs/huang2017-multi-arc.toml --reserve 0.05 --step-mm 0.01
   sprag-design optimize designs/huang2017-multi-arc.toml --starts 8 --global 2000 --journal search.csv
   sprag-design optimize designs/huang2017-multi-arc.toml --pareto slip-margin,torque-capacity --report front.html
@@ -56,6 +57,7 @@ const HINTS: Hints = Hints {
     evaluation_limit: ", which --evaluations raises,",
     more_starts: "try more --starts",
     stopped: "stopped by Ctrl-C",
+    further_variables: ", which `sprag-design explain variables` lists",
 };
 
 /// Arguments of `optimize`.
@@ -68,6 +70,9 @@ pub struct OptimizeArgs {
     /// Where to write the better design file [default: FILE's name with -optimized, in this folder]
     #[arg(long, short, value_name = "NEW.toml")]
     pub output: Option<PathBuf>,
+    /// What is made better in place of the file's objective, as `--set optimize.objective=NAME`: one of the objectives below
+    #[arg(long, value_name = "NAME")]
+    pub objective: Option<Objective>,
     /// Go on from the journal of an interrupted search; the result is the same as without the break
     #[arg(long)]
     pub resume: bool,
@@ -120,7 +125,7 @@ impl Run for OptimizeArgs {
         let new = output_path(self);
         let record = self.journal.clone().unwrap_or_else(|| journal::path_for(&new));
         context.outputs.check(&[&self.file], &[(&new, FileKind::Design), (&record, FileKind::Journal)])?;
-        let design = context.design(&self.file)?;
+        let design = with_objective(context.design(&self.file)?, self)?;
         let histories = Histories::beside(&design, &new)?;
         let at = |what: String| Failure::of(&self.file, what);
         let Some(task) = design.optimize.clone() else {
@@ -200,6 +205,13 @@ impl Run for OptimizeArgs {
         };
         finish(&design, &answer, (&new, &histories), (file, self.journal.is_some()), run_time_s, context)
     }
+}
+
+/// The design with the objective of `--objective`, where that and a task are given.
+fn with_objective(design: Design, args: &OptimizeArgs) -> Result<Design, Failure> {
+    let Some(objective) = args.objective.filter(|_| design.optimize.is_some()) else { return Ok(design) };
+    let setting = ("optimize.objective".to_owned(), objective.name().to_owned());
+    Ok(design.with(&[setting], &args.file.display().to_string())?)
 }
 
 /// A number from 0 to 1.

@@ -179,18 +179,28 @@ impl Drawing {
 
     /// One sprag large: outline, contacts, strut, centres, junctions, centroid, dimensions.
     pub fn detail_svg(&self) -> String {
-        detail::svg(self)
+        detail::in_window(self)
     }
 
-    /// Front view, section and one enlarged sprag with their dimensions, at scales of ISO 5455 on paper. `axial_m`: width of
-    /// the races and length of the sprags, m; `notes` stand below the front view.
-    pub fn sheet_svg(&self, axial_m: [f64; 2], notes: &[String]) -> String {
-        sheet::svg(self, axial_m, notes)
+    /// The same as a page has it.
+    pub fn detail_figure(&self) -> String {
+        detail::figure(self)
+    }
+
+    /// Front view, section and one enlarged sprag with their dimensions, at scales of ISO 5455 on paper, as a page has it.
+    /// `axial_m`: width of the races and length of the sprags, m; `notes` stand below the front view.
+    pub fn sheet_figure(&self, axial_m: [f64; 2], notes: &[String]) -> String {
+        sheet::figure(self, axial_m, notes)
     }
 
     /// C_e, the arc centres and the centroid, enlarged until they can be told apart.
     pub fn centres_svg(&self) -> String {
-        centres::svg(self)
+        centres::svg(self, false)
+    }
+
+    /// The same as a page has it.
+    pub fn centres_figure(&self) -> String {
+        centres::figure(self)
     }
 
     fn drawable(&self) -> Vec<&SpragPose> {

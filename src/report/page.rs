@@ -29,18 +29,43 @@ pub struct Page {
     body: String,
 }
 
-/// Names of symbols as people read them.
+/// Names of symbols as people read them; parts of longer names (`mu_s.toml`) stay.
 pub fn greek(text: &str) -> String {
-    const NAMES: [(&str, &str); 7] = [
+    const NAMES: [(&str, &str); 8] = [
         ("mu_s", "μs"),
         ("mu_c", "μc"),
+        ("gamma_b", "γb"),
         ("tan omega", "tan ω"),
         ("tan nu", "tan ν"),
         ("theta_bi", "θbi"),
         ("theta_be", "θbe"),
         ("(gamma ", "(γ "),
     ];
-    NAMES.iter().fold(text.to_owned(), |text, (name, letter)| text.replace(name, letter))
+    NAMES.iter().fold(text.to_owned(), |text, (name, letter)| with_letter(&text, name, letter))
+}
+
+fn with_letter(text: &str, name: &str, letter: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((before, behind)) = rest.split_once(name) {
+        out.push_str(before);
+        let joined = |c: char| c.is_alphanumeric() || "_-/\\".contains(c);
+        let mut next = behind.chars();
+        let goes_on = match next.next() {
+            Some('.') => next.next().is_some_and(joined),
+            Some(c) => joined(c) && !name.ends_with(' '),
+            None => false,
+        };
+        let is_part = goes_on || out.ends_with(joined) && !name.starts_with('(');
+        out.push_str(if is_part { name } else { letter });
+        rest = behind;
+    }
+    out + rest
+}
+
+/// Prose with its symbols as people read them, made safe.
+fn prose(text: &str) -> String {
+    escape(&greek(text))
 }
 
 /// Text made safe for HTML content and attributes.
@@ -78,22 +103,22 @@ impl Page {
             Tone::Soft => "mixed",
             Tone::Plain => "said",
         };
-        self.push(&format!("<p class=\"verdict {class}\">{}</p>\n", escape(text)))
+        self.push(&format!("<p class=\"verdict {class}\">{}</p>\n", prose(text)))
     }
 
     /// A section heading.
     pub fn heading(&mut self, text: &str) -> &mut Self {
-        self.push(&format!("<h2>{}</h2>\n", escape(text)))
+        self.push(&format!("<h2>{}</h2>\n", prose(text)))
     }
 
     /// A paragraph.
     pub fn paragraph(&mut self, text: &str) -> &mut Self {
-        self.push(&format!("<p>{}</p>\n", escape(text)))
+        self.push(&format!("<p>{}</p>\n", prose(text)))
     }
 
     /// A bulleted list; nothing where it is empty.
     pub fn list<S: AsRef<str>>(&mut self, items: impl IntoIterator<Item = S>) -> &mut Self {
-        let items = items.into_iter().map(|item| format!("<li>{}</li>\n", escape(item.as_ref())));
+        let items = items.into_iter().map(|item| format!("<li>{}</li>\n", prose(item.as_ref())));
         match items.collect::<String>() {
             items if items.is_empty() => self,
             items => self.push(&format!("<ul>\n{items}</ul>\n")),
@@ -102,9 +127,32 @@ impl Page {
 
     /// A table with its caption (empty: none).
     pub fn table(&mut self, caption: &str, table: &Table) -> &mut Self {
-        self.body.push_str("<div class=\"table\">\n");
+        self.table_in("table", caption, table)
+    }
+
+    /// Tables side by side where the window is wide enough.
+    pub fn tables(&mut self, tables: &[(&str, Table)]) -> &mut Self {
+        self.body.push_str("<div class=\"row\">\n");
+        for (caption, table) in tables {
+            self.table(caption, table);
+        }
+        self.push("</div>\n")
+    }
+
+    /// A long and narrow table, printed in two columns.
+    pub fn narrow_table(&mut self, table: &Table) -> &mut Self {
+        self.table_in("table narrow", "", table)
+    }
+
+    /// What is left out, why, and what that costs.
+    pub fn omitted(&mut self, table: &Table) -> &mut Self {
+        self.table_in("table omitted", "", table)
+    }
+
+    fn table_in(&mut self, class: &str, caption: &str, table: &Table) -> &mut Self {
+        self.body.push_str(&format!("<div class=\"{class}\">\n"));
         if !caption.is_empty() {
-            self.body.push_str(&format!("<p class=\"caption\">{}</p>\n", escape(caption)));
+            self.body.push_str(&format!("<p class=\"caption\">{}</p>\n", prose(caption)));
         }
         self.push(&format!("{}</div>\n", table.to_html()))
     }
@@ -122,11 +170,17 @@ impl Page {
 
     /// Figures side by side where the window is wide enough.
     pub fn figures(&mut self, figures: &[(String, &str)]) -> &mut Self {
-        self.body.push_str("<div class=\"row\">\n");
-        for (svg, caption) in figures {
-            self.body.push_str(&figure(svg, caption));
-        }
-        self.push("</div>\n")
+        self.row("row", figures)
+    }
+
+    /// Figures one below the other; printed side by side, as a phone has them.
+    pub fn drawings(&mut self, figures: &[(String, &str)]) -> &mut Self {
+        self.row("drawn", figures)
+    }
+
+    fn row(&mut self, class: &str, figures: &[(String, &str)]) -> &mut Self {
+        let figures: String = figures.iter().map(|(svg, caption)| figure(svg, caption)).collect();
+        self.push(&format!("<div class=\"{class}\">\n{figures}</div>\n"))
     }
 
     /// Short tables, each with its caption, in as many columns as there is room for.
@@ -149,15 +203,15 @@ impl Page {
     }
 
     fn fold(&mut self, class: &str, summary: &str, fill: impl FnOnce(&mut Self)) -> &mut Self {
-        self.body.push_str(&format!("<details class=\"{class}\"><summary>{}</summary>\n", escape(summary)));
+        self.body.push_str(&format!("<details class=\"{class}\"><summary>{}</summary>\n", prose(summary)));
         fill(self);
         self.push("</details>\n")
     }
 
-    /// Text kept as typed, folded away: the design file.
+    /// Text kept as typed, folded away and not printed: the design file.
     pub fn source(&mut self, summary: &str, text: &str) -> &mut Self {
         let pre = format!("<pre>{}</pre>\n", escape(text));
-        self.apart(summary, |page| {
+        self.fold("source", summary, |page| {
             page.push(&pre);
         })
     }
@@ -209,7 +263,7 @@ fn figure(svg: &str, caption: &str) -> String {
     let caption = if caption.is_empty() {
         String::new()
     } else {
-        format!("<figcaption>{}</figcaption>", escape(caption))
+        format!("<figcaption>{}</figcaption>", prose(caption))
     };
     format!("<figure>\n{svg}\n{caption}</figure>\n")
 }
@@ -233,7 +287,7 @@ mod tests {
     fn nothing_typed_by_a_user_becomes_markup() {
         let mut page = page();
         page.heading("<i>h</i>")
-            .paragraph("a < b & c")
+            .paragraph("a < b & c, tan omega")
             .list(["<li>"])
             .source("file <x>", "name = \"</pre><b>\"");
         page.verdict(false, "<b>").figure("<svg></svg>", "caption <i>");
@@ -245,7 +299,15 @@ mod tests {
         for bad in ["<script>alert", "<i>", "<b>", "</pre><b>", "a < b"] {
             assert!(!html.contains(bad), "{bad} in\n{html}");
         }
-        assert!(html.contains("Huang &amp; co. &lt;script&gt;"));
+        assert!(html.contains("Huang &amp; co. &lt;script&gt;") && html.contains("tan ω</p>"));
+    }
+
+    #[test]
+    fn symbols_are_letters_and_parts_of_names_are_not() {
+        assert_eq!(greek("mu_s = mu_c, theta_bi. tan omega (gamma 3 deg)"), "μs = μc, θbi. tan ω (γ 3 deg)");
+        for name in ["mu_s.toml", "low-mu_s", "mu_s-2", "designs/mu_c/x", "xmu_s", "theta_bi_rad"] {
+            assert_eq!(greek(name), name);
+        }
     }
 
     #[test]

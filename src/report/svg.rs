@@ -66,6 +66,11 @@ impl Svg {
         Self { width, height, title: title.to_owned(), body: String::new() }
     }
 
+    /// Make it so high, px.
+    pub fn reach(&mut self, height: f64) {
+        self.height = height;
+    }
+
     /// A path; `style` holds attributes (`fill="…" stroke="…"`).
     pub fn path(&mut self, d: &str, style: &str) {
         let _ = writeln!(self.body, "<path d=\"{d}\" {style}/>");

@@ -210,8 +210,8 @@ impl Table {
         row.get(index).unwrap_or(&Cell::Empty)
     }
 
-    /// Aligned columns for a terminal, units in the headings. Where they do not fit on the screen, headings take several lines; columns
-    /// that still do not fit follow below, beside those that lead.
+    /// Aligned columns for a terminal, units in the headings. Where they do not fit on the screen, headings take several lines; where
+    /// that is not enough, the columns move closer; those that still do not fit follow below, beside those that lead.
     pub fn to_text(&self, screen: Screen) -> String {
         let shown: Vec<Vec<String>> = self
             .rows
@@ -232,12 +232,17 @@ impl Table {
             lines.iter().map(|line| line.chars().count()).chain(cells(i)).max().unwrap_or(0)
         };
         let widths: Vec<usize> = headings.iter().enumerate().map(width).collect();
+        let fit = |between: &str| blocks(&widths, screen.columns, self.lead.max(1), between.len());
+        let (blocks, between) = match (fit(BETWEEN), fit(CLOSER)) {
+            (blocks, closer) if blocks.len() > 1 && closer.len() == 1 => (closer, CLOSER),
+            (blocks, _) => (blocks, BETWEEN),
+        };
         let mut out = String::new();
         let mut line = |block: &[usize], cells: &[String], paint: &dyn Fn(usize) -> Option<bool>| {
             let mut text = String::new();
             for (k, &i) in block.iter().enumerate() {
                 if k > 0 {
-                    text.push_str(BETWEEN);
+                    text.push_str(between);
                 }
                 let cell = &cells[i];
                 let padding = " ".repeat(widths[i] - cell.chars().count());
@@ -258,7 +263,7 @@ impl Table {
             out.push('\n');
         };
         let rule: Vec<String> = widths.iter().map(|&w| "─".repeat(w)).collect();
-        for (k, block) in blocks(&widths, screen.columns, self.lead.max(1)).iter().enumerate() {
+        for (k, block) in blocks.iter().enumerate() {
             if k > 0 {
                 line(&[], &[], &|_| None);
             }
@@ -301,7 +306,7 @@ impl Table {
         let mut out = format!("<table{wide}>\n<thead><tr>");
         for (i, column) in self.columns.iter().enumerate() {
             let class = if self.is_numeric(i) { " class=\"n\"" } else { "" };
-            out.push_str(&format!("<th{class}>{}", escape(&column.heading)));
+            out.push_str(&format!("<th{class}>{}", breakable(&escape(&column.heading))));
             if column.unit != Unit::One {
                 out.push_str(&format!(" <span class=\"unit\">{}</span>", escape(column.unit.symbol())));
             }
@@ -318,7 +323,9 @@ impl Table {
                     _ if self.is_numeric(i) => " class=\"n\"",
                     _ => "",
                 };
-                out.push_str(&format!("<td{class}>{}</td>", escape(&cell.shown(column))));
+                let text = escape(&cell.shown(column));
+                let text = if matches!(cell, Cell::Text(_)) { breakable(&text) } else { text };
+                out.push_str(&format!("<td{class}>{text}</td>"));
             }
             out.push_str("</tr>\n");
         }
@@ -327,8 +334,26 @@ impl Table {
     }
 }
 
-/// What stands between two columns.
+/// The text of a cell with places where the keys in it may be broken: behind `_`, and behind a point before a letter.
+fn breakable(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut letters = text.chars().peekable();
+    let mut last = ' ';
+    while let Some(c) = letters.next() {
+        out.push(c);
+        let behind = letters.peek().copied().unwrap_or(' ');
+        let ends_part = c == '_' || c == '.' && (last.is_alphanumeric() || last == ']');
+        if ends_part && behind.is_ascii_alphabetic() {
+            out.push_str("<wbr>");
+        }
+        last = c;
+    }
+    out
+}
+
+/// What stands between two columns, and where they would not fit otherwise.
 const BETWEEN: &str = "  ";
+const CLOSER: &str = " ";
 
 /// A heading in lines as wide as its longest word or `cells` at most.
 fn in_lines(heading: &str, cells: usize) -> Vec<String> {
@@ -347,11 +372,11 @@ fn in_lines(heading: &str, cells: usize) -> Vec<String> {
     lines
 }
 
-/// Which columns stand side by side: as many as fit into `most` characters, but one beside the `lead` ones at least.
-fn blocks(widths: &[usize], most: Option<usize>, lead: usize) -> Vec<Vec<usize>> {
+/// Which columns stand side by side, `between` apart: as many as fit into `most` characters, but one beside the `lead` ones at least.
+fn blocks(widths: &[usize], most: Option<usize>, lead: usize, between: usize) -> Vec<Vec<usize>> {
     let mut blocks: Vec<Vec<usize>> = Vec::new();
     for i in 0..widths.len() {
-        let taken = |block: &Vec<usize>| block.iter().map(|&j| widths[j] + BETWEEN.len()).sum::<usize>();
+        let taken = |block: &Vec<usize>| block.iter().map(|&j| widths[j] + between).sum::<usize>();
         match blocks.last_mut() {
             None => blocks.push(vec![i]),
             Some(block)
@@ -440,6 +465,16 @@ mod tests {
         assert!(["Demand", "Margin,", "Verdict", "broken"].iter().all(|word| narrow.contains(word)));
         assert_eq!(at(51), margins().to_text(Screen::default()));
         assert!(at(50) != at(51));
+        // Three characters less than they take with folded headings: closer.
+        let closer = at(46);
+        assert!(closer.contains("\nLimit                   Demand       % Verdict\n"), "{closer}");
+        assert_eq!(closer.matches("Limit").count(), 1);
+    }
+
+    #[test]
+    fn keys_break_between_their_parts_alone() {
+        assert_eq!(breakable("sprags.inner_arcs[0].r_mm"), "sprags.<wbr>inner_<wbr>arcs[0].<wbr>r_<wbr>mm");
+        assert_eq!(breakable("0.4076 rad, e. g. &amp;_"), "0.4076 rad, e. g. &amp;_");
     }
 
     #[test]

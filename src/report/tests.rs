@@ -14,8 +14,8 @@ fn full_page() -> String {
         design: "Table 1".into(),
         design_hash: "00".into(),
     });
-    page.figure(&drawing.detail_svg(), "One sprag").table("Facts", &table);
-    page.figures(&[(drawing.small_svg(0.03), "All"), (drawing.centres_svg(), "Centres")]);
+    page.figure(&drawing.detail_figure(), "One sprag").table("Facts", &table);
+    page.figures(&[(drawing.small_svg(0.03), "All"), (drawing.centres_figure(), "Centres")]);
     let plot = Plot::new("x", "y").curve("a", vec![[0.0, 1.0], [1.0, f64::NAN], [2.0, 1.5], [3.0, 2.0]]);
     page.figure(&plot.to_figure(), "").figure(&plot.to_figure(), "the same again");
     page.results("results", &serde_json::json!({ "x": 1 }));

@@ -1,5 +1,5 @@
 // Pictures of pages and of the studio: node pictures.mjs FOLDER BINARY DESIGN PAGE.html ... Ends with 1 where a page is wider than its
-// window, or has neither its answer nor the drawing in the first screen. STUDIES: names of pages that show no one clutch.
+// window, a figure is wider than a phone or has letters below 11 px there, or where neither its answer nor the drawing is in the first screen. STUDIES: names of pages that show no one clutch.
 import { spawn } from "node:child_process";
 import path from "node:path";
 import { chromium } from "playwright-core";
@@ -14,6 +14,16 @@ const say = (words) => {
   found = 1;
 };
 
+// Figures that are wider than the window, and the smallest text of one.
+function unfit() {
+  const seen = [...document.querySelectorAll("figure svg")].filter((svg) => svg.parentElement.tagName === "FIGURE" && svg.checkVisibility());
+  const name = (svg) => svg.querySelector("title")?.textContent ?? "a figure";
+  const wide = seen.filter((svg) => svg.getBoundingClientRect().right > innerWidth).map((svg) => `${name(svg)} does not fit`);
+  const px = (svg) => (12 * svg.getBoundingClientRect().width) / svg.viewBox.baseVal.width;
+  const small = seen.filter((svg) => px(svg) < 11).map((svg) => `${name(svg)} has letters of ${px(svg).toFixed(1)} px`);
+  return [...wide, ...small];
+}
+
 async function look(name, address, ready) {
   for (const width of [1280, 390]) {
     const page = await browser.newPage({ viewport: { width, height: HEIGHT[width] } });
@@ -21,6 +31,7 @@ async function look(name, address, ready) {
     await ready?.(page);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     if (wide > width) say(`${name}: ${wide} px wide in a window of ${width}`);
+    if (width === 390 && name !== "studio") for (const what of await page.evaluate(unfit)) say(`${name}: on a phone ${what}`);
     if (width === 1280 && name !== "studio") {
       const top = (pick) => page.evaluate((p) => document.querySelector(p)?.getBoundingClientRect().top ?? Infinity, pick);
       if ((await top(".verdict")) > 300) say(`${name}: no answer at the top`);
@@ -28,7 +39,7 @@ async function look(name, address, ready) {
       if (!studies.includes(name) && (await top("figure.true")) > HEIGHT[width] - 230) say(`${name}: no drawing in the first screen`);
     }
     // Of the many pages of `check` the sheets do.
-    if (!name.startsWith("check-")) await page.screenshot({ path: `${folder}/${name}-${width}.jpg`, fullPage: true, type: "jpeg", quality: 55 });
+    if (!name.startsWith("check-")) await page.screenshot({ path: `${folder}/${name}-${width}.png`, fullPage: true });
     if (width === 1280) await page.pdf({ path: `${folder}/${name}.pdf`, format: "A4", preferCSSPageSize: true });
     await page.close();
   }

@@ -415,11 +415,11 @@ pub fn ends_first(r: &Margin, end_torque_nm: f64) -> bool {
 fn verdict(r: &Margin) -> Cell {
     match (r.required, r.held()) {
         (true, _) if !r.computed() => Cell::Verdict(false, "NOT COMPUTED".into()),
-        (false, _) if !r.computed() => "shown only, not computed".into(),
+        (false, _) if !r.computed() => "shown, not computed".into(),
         (true, true) => Cell::Verdict(true, "held".into()),
         (true, false) => Cell::Verdict(false, "NOT HELD".into()),
-        (false, true) => "shown only".into(),
-        (false, false) => "shown only, would not hold".into(),
+        (false, true) => "shown".into(),
+        (false, false) => "shown, broken".into(),
     }
 }
 

@@ -67,7 +67,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
     });
     page.heading("Gripping");
     let rest = pose_at_rest("first contact, no load", design, &check.state.profile);
-    let centres = drawing(design, vec![rest]).centres_svg();
+    let centres = drawing(design, vec![rest]).centres_figure();
     let [tangents, angles, rise] = charts::gripping(design, check);
     page.figures(&[
         (half(tangents), "Static demand on friction at both contacts; grip is lost where it reaches μs."),

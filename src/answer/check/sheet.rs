@@ -32,7 +32,7 @@ pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance
         );
     }
     page.heading("Inputs");
-    draw_inputs(&mut page, design);
+    draw_inputs(&mut page, design, None);
     page.heading("Materials").table("", &materials(design));
     page.heading("Radii to make");
     match &answer.body.running {
@@ -86,8 +86,8 @@ fn scenes(design: &Design, check: &CheckAnswer) -> Table {
         let verdict = match (required, held) {
             (true, true) => Cell::Verdict(true, "held".into()),
             (true, false) => Cell::Verdict(false, "NOT HELD".into()),
-            (false, true) => "shown only".into(),
-            (false, false) => "shown only, would not hold".into(),
+            (false, true) => "shown".into(),
+            (false, false) => "shown, broken".into(),
         };
         table.row(vec![
             name.as_str().into(),

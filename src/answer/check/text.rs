@@ -14,7 +14,7 @@ pub(crate) const REACHED_AT: &str =
 const SLIP_MARGIN: &str = "Margin of slip rows: the slip margin, static over required friction less 1, held from the wanted one up\n";
 
 /// What a row that is not required is.
-const SHOWN_ONLY: &str = "Shown only: for information, without a say in the verdict; `explain` with the limit's name says which key makes it count\n";
+const SHOWN_ONLY: &str = "Shown: for information alone, without a say in the verdict; `explain` with the limit's name says which key makes it count\n";
 
 /// The answer on a terminal.
 pub(super) fn text(design: &Design, check: &CheckAnswer, screen: Screen) -> String {

@@ -79,7 +79,7 @@ fn profiles(page: &mut Page, compared: &Comparison<'_>) {
     poses.swap(0, 1);
     page.heading("Profiles");
     page.figure(
-        &Drawing::of(&now.design.clutch, poses).detail_svg(),
+        &Drawing::of(&now.design.clutch, poses).detail_figure(),
         "The sprag of B between its races, to scale, and the others dashed over it; dimensions are those of B.",
     );
     let mut plot = Plot::new("Turn of the contact since first contact, rad", "Outside the profile of A, µm");

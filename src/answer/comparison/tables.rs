@@ -103,7 +103,7 @@ pub(super) fn margins(compared: &Comparison<'_>) -> Table {
             .map(|&i| letter(i))
             .collect();
         cells.push(match (counted.as_slice(), lost.as_slice()) {
-            ([], _) => "shown only".into(),
+            ([], _) => "shown".into(),
             (_, []) => Cell::Verdict(true, "held".into()),
             (_, lost) => Cell::Verdict(false, format!("NOT HELD: {}", lost.join(", "))),
         });

@@ -41,7 +41,8 @@ impl SearchReport<'_> {
             story.verdict(&self.hints),
             story.variable_table().to_text(screen)
         );
-        out += &story.notes_on_variables().iter().map(|line| format!("{line}\n")).collect::<String>();
+        out +=
+            &story.notes_on_variables(&self.hints).iter().map(|line| format!("{line}\n")).collect::<String>();
         out += &format!("\nMargins\n{}", story.margin_table().to_text(screen));
         out += &format!(
             "\nInfluence at the start: change of these margins over the whole range of a variable (of all: --report)\n{}",
@@ -98,7 +99,7 @@ impl SearchReport<'_> {
         }
         self.before_and_after(&mut page);
         page.heading("Variables").table("Before and after, with their bounds", &story.variable_table());
-        story.notes_on_variables().iter().for_each(|line| {
+        story.notes_on_variables(&self.hints).iter().for_each(|line| {
             page.paragraph(line);
         });
         page.heading("Margins");

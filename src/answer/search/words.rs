@@ -10,6 +10,9 @@ use crate::report::{Unit, error_beside, significant};
 /// Digits to which an objective is shown.
 pub(crate) const SHOWN_DIGITS: usize = 5;
 
+/// An objective that gains less than this share of itself is hardly moved.
+const HARDLY: f64 = 0.01;
+
 /// What a reader can do about an end, in the words of where it is read: a command names its flags here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Hints {
@@ -19,11 +22,18 @@ pub struct Hints {
     pub more_starts: &'static str,
     /// How a search was stopped from outside.
     pub stopped: &'static str,
+    /// Behind "further variables", where these hardly move the objective: who names them.
+    pub further_variables: &'static str,
 }
 
 impl Default for Hints {
     fn default() -> Self {
-        Self { evaluation_limit: "", more_starts: "search from more starts", stopped: "stopped" }
+        Self {
+            evaluation_limit: "",
+            more_starts: "search from more starts",
+            stopped: "stopped",
+            further_variables: "",
+        }
     }
 }
 
@@ -229,8 +239,8 @@ impl Story {
     }
 
     /// Variables whose value in the file lies outside their bounds, numbers that went with one, and an objective that none of them
-    /// changes, a sentence each.
-    pub fn notes_on_variables(&self) -> Vec<String> {
+    /// changes, or hardly so, a sentence each.
+    pub fn notes_on_variables(&self, hints: &Hints) -> Vec<String> {
         let outside = self.found.variables.iter().filter(|v| v.start != v.given);
         let line = |v: &Variable| {
             format!(
@@ -249,8 +259,27 @@ impl Story {
                  numbers along (its keys moves and scales).",
                 self.found.aim.words()
             ));
+        } else {
+            lines.extend(self.hardly_moved(hints));
         }
         lines
+    }
+
+    /// What to say where the optimum of a start that held everything is better by less than [`HARDLY`]; of the slip margin, which
+    /// the first variables of a design are chosen for, nothing.
+    fn hardly_moved(&self, hints: &Hints) -> Option<String> {
+        let aim = self.found.aim;
+        let (before, after) = self.objective();
+        let gained = (after - before) * aim.sense() / before.abs();
+        let is_told = aim != Objective::SlipMargin && self.feasible() && self.found.start_feasible();
+        (is_told && (0.0..HARDLY).contains(&gained)).then(|| {
+            format!(
+                "Within their bounds and the limits these variables hardly move the {}, by {}: for more, name further variables{}.",
+                aim.words(),
+                Unit::Percent.show(gained, 2),
+                hints.further_variables
+            )
+        })
     }
 
     /// What went with a variable, a line each.

@@ -24,14 +24,14 @@ pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
     page.paragraph(&described(scene));
     page.list(&scene.body.notes);
     let (first, all) = facts::first_and_all(facts::table(scene));
-    page.table("", &first);
+    page.narrow_table(&first);
     if let Ok((prepared, simulation)) = &scene.outcome {
         if scene.method != "equilibrium" {
             histories(&mut page, scene, prepared, simulation);
         }
         if let Some(all) = all {
             page.folded("All figures of this scene, with their errors", |page| {
-                page.table("", &all);
+                page.narrow_table(&all);
             });
         }
         if let Some(table) = facts::beside_rolling(simulation).filter(|_| scene.method != "equilibrium") {
@@ -43,7 +43,7 @@ pub(super) fn page(scene: &SimulationAnswer, provenance: &Provenance) -> Page {
         }
         poses(&mut page, scene, prepared);
     }
-    scene.envelope(provenance.run_time_s).close(&mut page);
+    scene.envelope(provenance.run_time_s).close_scene(&mut page, &scene.scenario.name);
     page
 }
 
@@ -109,13 +109,21 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
     let least_at = whole.at(s.peaks.at_s[2]);
     page.heading("Histories");
     // The cause first.
-    page.figure(
-        &torque(&whole, prepared, &rows).to_figure(),
+    let mut figures = vec![(
+        half(torque(&whole, prepared, &rows)),
         "Torque from outside, on both races together, and what the clutch carries, positive in the sense in which it does; the rest \
-         speeds the races up.",
-    );
-    event(page, prepared, s, &rows);
-    train::figures(page, scene, &whole);
+         speeds the races up."
+            .to_owned(),
+    )];
+    figures.extend(friction(scene, prepared, s, &rows, &whole));
+    // At rest both forces differ by parts in a thousand: the second is dashed so that the first is seen.
+    let mut normal = plot("Normal force per sprag, N")
+        .curve("inner contact", curve(&|r| r.sample.forces.n_bi))
+        .marker(least_at, "smallest");
+    let outer = Curve::new("outer contact", curve(&|r| r.sample.forces.n_be));
+    normal.curves.push(Curve { dash: Dash::Dashed, ..outer });
+    figures.push((half(normal), format!("Normal forces; the smallest {}.", phase(scene, s.peaks.at_s[2]))));
+    figures.extend(slip(s, &rows, &whole));
     let turning = if rows.iter().any(|r| r.acting[1] != 0.0) { ", relative to the mean speed" } else { "" };
     let largest_rad = largest(&rows, &|r| r.sample.state[2].abs().max(r.sample.state[3].abs()));
     let (unit, per_rad) = if largest_rad < FOUR_DIGITS * 1e-3 { ("mrad", 1e3) } else { ("rad", 1.0) };
@@ -123,7 +131,7 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
         .curve("inner race", curve(&|r| r.sample.state[2] * per_rad))
         .curve("outer race", curve(&|r| r.sample.state[3] * per_rad));
     let caption = format!("Angles of the races{turning}; rolling would keep their distance at the windup.");
-    page.figure(&angles.to_figure(), &caption);
+    figures.push((half(angles), caption));
     // Under a torsional excitation the speeds only repeat what the angles show.
     if scene.scenario.kind.frequency_hz().is_none() {
         let rpm = |rad_s: f64| Unit::Rpm.from_si(rad_s);
@@ -132,22 +140,24 @@ fn histories(page: &mut Page, scene: &Ran, prepared: &Prepared, s: &Simulation) 
             .curve("outer race", curve(&|r| rpm(r.rates[3])));
         let caption =
             format!("Angular speeds of the races{turning}; + is the sense in which the inner race overruns.");
-        page.figure(&speeds.to_figure(), &caption);
+        figures.push((half(speeds), caption));
     }
-    // At rest both forces differ by parts in a thousand: the second is dashed so that the first is seen.
-    let mut normal = plot("Normal force per sprag, N")
-        .curve("inner contact", curve(&|r| r.sample.forces.n_bi))
-        .marker(least_at, "smallest");
-    let outer = Curve::new("outer contact", curve(&|r| r.sample.forces.n_be));
-    normal.curves.push(Curve { dash: Dash::Dashed, ..outer });
-    page.figure(
-        &normal.to_figure(),
-        &format!("Normal forces; the smallest {}.", phase(scene, s.peaks.at_s[2])),
-    );
-    friction(page, scene, prepared, s, &rows, &whole);
+    figures.push(pressures(scene, s, &rows, &whole));
+    figures.extend(along_length(scene, prepared, s));
+    figures.extend(train::figures(scene, &whole));
+    let shown: Vec<(String, &str)> =
+        figures.iter().map(|(svg, caption)| (svg.clone(), caption.as_str())).collect();
+    let (first, others) = shown.split_at(2);
+    page.figures(first);
+    event(page, prepared, s, &rows);
+    page.figures(others);
+    if let Some(why) = no_friction(&rows) {
+        page.paragraph(why);
+    }
+    if largest_slip_m(s, &rows) == 0.0 {
+        page.paragraph(&format!("Neither contact has slipped since {}.", engaged(s)));
+    }
     page.figure(&whole.strip(s).to_figure(), "What each contact does; each change is located in time.");
-    slip(page, s, &rows, &whole);
-    pressures(page, scene, prepared, s, &rows, &whole);
 }
 
 /// Torque from outside and in the clutch; what swings acts on the outer race.
@@ -220,22 +230,24 @@ fn largest(rows: &[HistoryRow], value: &dyn Fn(&HistoryRow) -> f64) -> f64 {
     rows.iter().map(value).fold(0.0, f64::max)
 }
 
+/// Why no friction over normal force is drawn, where that is so.
+fn no_friction(rows: &[HistoryRow]) -> Option<&'static str> {
+    let open = rows.iter().flat_map(|r| r.tan).flatten().next().is_none();
+    open.then_some("The inner contact is open throughout: there is no friction over normal force to draw.")
+}
+
 /// Friction over normal force with its sign (the paper's Figure 9c).
 fn friction(
-    page: &mut Page,
     scene: &Ran,
     prepared: &Prepared,
     s: &Simulation,
     rows: &[HistoryRow],
     whole: &Stretch,
-) {
-    let found = || rows.iter().flat_map(|r| r.tan).flatten();
-    if found().next().is_none() {
-        page.paragraph(
-            "The inner contact is open throughout: there is no friction over normal force to draw.",
-        );
-        return;
+) -> Option<(String, String)> {
+    if no_friction(rows).is_some() {
+        return None;
     }
+    let mut found = rows.iter().flat_map(|r| r.tan).flatten();
     let law = &prepared.model.friction;
     let number = |mu: f64| Unit::One.show(mu, 3);
     let most = DRAWN_FRICTION * law.static_;
@@ -245,7 +257,7 @@ fn friction(
     } else {
         format!("±{}", number(law.static_))
     };
-    let cut = if found().any(|q| q.abs() > most) {
+    let cut = if found.any(|q| q.abs() > most) {
         format!(" Beyond ±{} nothing is drawn.", number(most))
     } else {
         String::new()
@@ -255,45 +267,47 @@ fn friction(
          contact is open; a contact that slips is at {slipping}. |T|/N at the inner contact is largest {}.{cut}",
         phase(scene, s.peaks.at_s[0])
     );
-    page.figure(&plot.to_figure(), &caption);
+    Some((half(plot), caption))
 }
 
-/// Slip since the clutch engaged: the overrun before would hide it.
-fn slip(page: &mut Page, s: &Simulation, rows: &[HistoryRow], whole: &Stretch) {
+/// Slip of both contacts since the clutch engaged, m: the overrun before would hide it.
+fn slipped(s: &Simulation, r: &HistoryRow) -> [f64; 2] {
     let (from_s, base) = s.engaged.map_or((0.0, [0.0; 2]), |e| (e.t_s, [e.state[8], e.state[9]]));
-    let slipped = |r: &HistoryRow| -> [f64; 2] {
-        let y = &r.sample.state;
-        if r.sample.t < from_s { [0.0; 2] } else { [y[8] - base[0], y[9] - base[1]] }
-    };
-    let from = match s.engaged {
+    let y = &r.sample.state;
+    if r.sample.t < from_s { [0.0; 2] } else { [y[8] - base[0], y[9] - base[1]] }
+}
+
+fn largest_slip_m(s: &Simulation, rows: &[HistoryRow]) -> f64 {
+    largest(rows, &|r| slipped(s, r).map(f64::abs).into_iter().fold(0.0, f64::max))
+}
+
+/// From when on slip is counted, in words.
+fn engaged(s: &Simulation) -> String {
+    match s.engaged {
         Some(e) if e.t_s > 0.0 => format!("the clutch engaged {}", facts::at(e.t_s)),
         Some(_) => "the clutch engaged".to_owned(),
         None => "the start, as the clutch does not engage".to_owned(),
-    };
-    let largest_m = largest(rows, &|r| slipped(r).map(f64::abs).into_iter().fold(0.0, f64::max));
+    }
+}
+
+/// Slip since the clutch engaged, where there is any.
+fn slip(s: &Simulation, rows: &[HistoryRow], whole: &Stretch) -> Option<(String, String)> {
+    let largest_m = largest_slip_m(s, rows);
     if largest_m == 0.0 {
-        page.paragraph(&format!("Neither contact has slipped since {from}."));
-        return;
+        return None;
     }
     let (unit, per_m) = if largest_m < FOUR_DIGITS * 1e-6 { ("µm", 1e6) } else { ("mm", 1e3) };
     let plot = whole
         .plot(&format!("Net slip, {unit}"))
-        .curve("inner contact", whole.points(rows, &|r| slipped(r)[0] * per_m))
-        .curve("outer contact", whole.points(rows, &|r| slipped(r)[1] * per_m));
+        .curve("inner contact", whole.points(rows, &|r| slipped(s, r)[0] * per_m))
+        .curve("outer contact", whole.points(rows, &|r| slipped(s, r)[1] * per_m));
     let caption =
-        format!("Signed slip distance since {from}; at the inner contact + is towards overrunning.");
-    page.figure(&plot.to_figure(), &caption);
+        format!("Signed slip distance since {}; at the inner contact + is towards overrunning.", engaged(s));
+    Some((half(plot), caption))
 }
 
-/// Contact pressure over time (the paper's Figures 9 and 10) and, with slices, along the length.
-fn pressures(
-    page: &mut Page,
-    scene: &Ran,
-    prepared: &Prepared,
-    s: &Simulation,
-    rows: &[HistoryRow],
-    whole: &Stretch,
-) {
+/// Contact pressure over time (the paper's Figures 9 and 10).
+fn pressures(scene: &Ran, s: &Simulation, rows: &[HistoryRow], whole: &Stretch) -> (String, String) {
     let mega = |value: &dyn Fn(&HistoryRow) -> f64| whole.points(rows, &|r| value(r) / 1e6);
     let mut plot = whole
         .plot("Contact pressure, MPa")
@@ -313,10 +327,11 @@ fn pressures(
         }
         None => String::new(),
     };
-    page.figure(
-        &plot.to_figure(),
-        &format!("Hertz pressure p₀ at both contacts beside that of the static load.{rated}"),
-    );
+    (half(plot), format!("Hertz pressure p₀ at both contacts beside that of the static load.{rated}"))
+}
+
+/// Pressure along the length of the sprag, with slices.
+fn along_length(scene: &Ran, prepared: &Prepared, s: &Simulation) -> Option<(String, String)> {
     let curve = &prepared.model.curve;
     let elastic = &curve.statics().elastic;
     let clutch = &scene.design.clutch;
@@ -336,15 +351,14 @@ fn pressures(
         .filter(|l| l.1 > 0.0)
         .filter_map(|(name, n)| Some((name, over_length(n)?)))
         .collect();
-    let Some(slices) = curves.first().map(|c| c.1.len()) else { return };
-    let mut plot =
-        Plot::new("Place along the sprag, mm", "Pressure at the inner contact, MPa").sized(720.0, 300.0);
+    let slices = curves.first().map(|c| c.1.len())?;
+    let mut plot = Plot::new("Place along the sprag, mm", "Pressure at the inner contact, MPa");
     for (name, points) in curves {
         plot = plot.curve(name, points);
     }
     let caption =
         format!("Pressure along the sprag by {slices} slices; at a square end it grows with their number.");
-    page.figure(&plot.to_figure(), &caption);
+    Some((half(plot), caption))
 }
 
 /// When, and where in the excitation's period.

@@ -4,8 +4,9 @@ use super::Ran;
 use super::history::{SceneHistory, Values};
 use super::page::envelope;
 use super::stretch::Stretch;
+use crate::answer::page::half;
 use crate::dynamics::NodeMotion;
-use crate::report::{Page, Unit};
+use crate::report::Unit;
 use crate::scenario::{Prepared, Simulation};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -61,14 +62,15 @@ pub(super) fn add(history: &mut SceneHistory, prepared: &Prepared, s: &Simulatio
 }
 
 /// Figures of the page: torques of its shafts, speeds; none without a drivetrain.
-pub(super) fn figures(page: &mut Page, scene: &Ran, whole: &Stretch) {
-    let Some(run) = scene.simulation().and_then(|s| s.train.as_ref()) else { return };
+pub(super) fn figures(scene: &Ran, whole: &Stretch) -> Vec<(String, String)> {
+    let mut figures = Vec::new();
+    let Some(run) = scene.simulation().and_then(|s| s.train.as_ref()) else { return figures };
     let names: Vec<&str> = run.train.names().collect();
     if names.is_empty() {
-        return;
+        return figures;
     }
     let history = scene.history();
-    let Some(time) = history.numbers("time_s") else { return };
+    let Some(time) = history.numbers("time_s") else { return figures };
     for (column, axis, caption) in [
         (
             "shaft_nm",
@@ -85,6 +87,7 @@ pub(super) fn figures(page: &mut Page, scene: &Ran, whole: &Stretch) {
             let points = time.iter().zip(values).map(|(t, v)| [whole.at(*t), *v]).collect();
             drawn = drawn.curve(name, envelope(points));
         }
-        page.figure(&drawn.to_figure(), caption);
+        figures.push((half(drawn), caption.to_owned()));
     }
+    figures
 }

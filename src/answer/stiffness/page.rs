@@ -41,47 +41,47 @@ fn section(page: &mut Page, study: &StiffnessStudy) {
     }));
     let up_to = laws.iter().flat_map(|l| &l.rows).map(|r| r.0).fold(0.0, f64::max);
     let curves = Curves::new(laws, up_to);
-    page.heading("Torque and windup");
+    page.heading("Torque, windup, stiffness");
     let mut windup = curves.windup();
     if let Some(fem) = &study.fem {
         let points = fem.rows.iter().map(|r| [Unit::Degree.from_si(r.windup_rad), r.torque_nm]).collect();
         let fem = Curve::new("finite elements", points).coloured(laws.len());
         windup.curves.push(Curve { dots: true, ..fem });
     }
-    page.figure(
-        &windup.to_figure(),
-        "Torque over windup. Vertical lines: junctions of the first law's curve.",
-    );
-    if let Some(fem) = &study.fem {
-        page.figure(
-            &curves.against(fem).to_figure(),
+    let mut figures = vec![
+        (half(windup), "Torque over windup. Vertical lines: junctions of the first law's curve."),
+        (
+            half(curves.structure()),
+            "Local deformation alone (dashed) and with the growth of the rings (5) and the body (6): the paper's Figure 11.",
+        ),
+    ];
+    figures.extend(match &study.fem {
+        Some(fem) => Some((
+            half(curves.against(fem)),
             "Windup of each law against finite elements, at their torques. Dashed: local deformation alone.",
-        );
+        )),
+        None => (laws.len() > 1).then(|| {
+            (
+                half(curves.difference()),
+                "Windup of the other laws against that of the first, at the same torque.",
+            )
+        }),
+    });
+    if let [_] = laws {
+        figures.push((
+            half(curves.stiffness()),
+            "Secant: torque over windup. Tangent: its slope, which jumps where the radius of curvature does.",
+        ));
+    } else {
+        let stiff = Curves { laws, points: curves.loaded() };
+        let secant = stiff.plot("Secant stiffness, Nm/rad", &|p| p.k_secant_nm_per_rad);
+        let tangent = stiff.plot("Tangent stiffness, Nm/rad", &|p| p.k_tangent_nm_per_rad);
+        figures.extend([(half(secant), "Torque over windup."), (half(tangent), "Its slope.")]);
+    }
+    page.figures(&figures);
+    if let Some(fem) = &study.fem {
         page.list(findings(study, fem));
         page.table("Distance to finite elements; local only: without (5) and (6).", &fem::table(study, fem));
-    } else if laws.len() > 1 {
-        page.figure(
-            &curves.difference().to_figure(),
-            "Windup of the other laws against that of the first, at the same torque.",
-        );
-    }
-    page.figure(
-        &curves.structure().to_figure(),
-        "Local deformation alone (dashed) and with the growth of the rings (5) and the body (6): the paper's Figure 11.",
-    );
-    page.heading("Stiffness");
-    let caption =
-        "Secant: torque over windup. Tangent: its slope, which jumps where the radius of curvature does.";
-    match laws {
-        [_] => {
-            page.figure(&curves.stiffness().to_figure(), caption);
-        }
-        _ => {
-            let stiff = Curves { laws, points: curves.loaded() };
-            let secant = stiff.plot("Secant stiffness, Nm/rad", &|p| p.k_secant_nm_per_rad);
-            let tangent = stiff.plot("Tangent stiffness, Nm/rad", &|p| p.k_tangent_nm_per_rad);
-            page.figures(&[(half(secant), "Torque over windup."), (half(tangent), "Its slope.")]);
-        }
     }
     handovers(page, laws);
     page.heading("Contacts");
@@ -104,12 +104,20 @@ fn section(page: &mut Page, study: &StiffnessStudy) {
     }
     poses(page, design, profile, laws, up_to);
     page.heading("Tables");
-    if laws.len() > 1 {
-        page.table("Windup; diff.: against the first law.", &windups(laws));
-        page.table("Tangent stiffness.", &tangents(laws));
-    }
-    for law in laws {
-        page.table(&format!("Law: {}", law.name.facts().key), &full(law));
+    let each = |page: &mut Page| {
+        for law in laws {
+            page.table(&format!("Law: {}", law.name.facts().key), &full(law));
+        }
+    };
+    match laws {
+        [_] => each(page),
+        _ => {
+            page.tables(&[
+                ("Windup; diff.: against the first law.", windups(laws)),
+                ("Tangent stiffness.", tangents(laws)),
+            ]);
+            page.apart("Every column of each law", each);
+        }
     }
 }
 

@@ -167,7 +167,7 @@ impl SweepMap {
         if parallel.axes.len() > 1 {
             page.heading("Points across all variables");
             page.figure(
-                &parallel.to_svg(),
+                &parallel.to_figure(),
                 &format!(
                     "{} points, evenly taken from the table; green: every limit is held, red: one is not. Last axis: {}.",
                     parallel.lines.len(),

@@ -2,13 +2,17 @@
 
 use super::{Drawing, SpragPose, spread, subscript};
 use crate::report::number::Unit;
-use crate::report::svg::{Anchor, EDGE, INK, PAPER, RULE, SERIES, SOFT, Svg, polyline, text_width};
+use crate::report::svg::{
+    Anchor, EDGE, INK, PAPER, PHONE_PX, RULE, SERIES, SOFT, Svg, for_both, polyline, text_width,
+};
 
 /// Width of the picture itself, px; the texts stand to the right of it.
 const PICTURE: f64 = 350.0;
 const HEIGHT: f64 = 300.0;
 /// Least width of the texts, px.
 const COLUMN: f64 = 210.0;
+/// From one text to the next, px.
+const PITCH: f64 = 18.0;
 /// Room on either side of the texts, px.
 const BESIDE: f64 = 16.0;
 const MARGIN: f64 = 34.0;
@@ -37,7 +41,14 @@ fn named(pose: &SpragPose, index: usize, many: bool) -> Vec<Named> {
     points
 }
 
-pub fn svg(drawing: &Drawing) -> String {
+/// The drawing as a page has it.
+pub fn figure(drawing: &Drawing) -> String {
+    let [window, phone] = [false, true].map(|on_phone| svg(drawing, on_phone));
+    for_both(&window, &phone)
+}
+
+/// With names and places beside the points; on a phone the names alone, and the places in lines below.
+pub fn svg(drawing: &Drawing, on_phone: bool) -> String {
     // A sprag drawn in several positions has one body: its centres are shown once.
     let mut poses = drawing.drawable();
     poses.dedup_by(|b, a| a.arcs == b.arcs && a.centroid_m == b.centroid_m);
@@ -49,15 +60,21 @@ pub fn svg(drawing: &Drawing) -> String {
         let [mx, my] = point.at_m.map(|v| Unit::Millimetre.from_si(v));
         format!("{} ({mx:.4}, {my:.4}) mm", point.name).replace('-', "\u{2212}")
     };
-    let widest = points.iter().map(|p| text_width(&text(p), 12.0)).fold(0.0, f64::max);
-    let column = COLUMN.max(widest + 2.0 * BESIDE);
-    let mut svg = Svg::new(PICTURE + column, HEIGHT, "Arc centres and centroid in the body frame, enlarged");
+    let beside = |point: &Named| if on_phone { point.name.clone() } else { text(point) };
+    let widest = points.iter().map(|p| text_width(&beside(p), 12.0)).fold(0.0, f64::max);
+    let column = widest + 2.0 * BESIDE;
+    let (picture, size) = if on_phone {
+        (PHONE_PX - column, [PHONE_PX, HEIGHT + PITCH * points.len() as f64])
+    } else {
+        (PICTURE, [PICTURE + COLUMN.max(column), HEIGHT])
+    };
+    let mut svg = Svg::new(size[0], size[1], "Arc centres and centroid in the body frame, enlarged");
     let range = |axis: usize| {
         let values = points.iter().map(|p| p.at_m[axis]);
         (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
     };
     let ((left, right), (low, high)) = (range(0), range(1));
-    let width = PICTURE - 2.0 * MARGIN;
+    let width = picture - 2.0 * MARGIN;
     let scale = (width / (right - left)).min((HEIGHT - 2.0 * MARGIN) / (high - low));
     if !scale.is_finite() {
         return svg.finish();
@@ -69,13 +86,13 @@ pub fn svg(drawing: &Drawing) -> String {
     // Axes of the body frame through C_e.
     let rule = format!("fill=\"none\" stroke=\"{RULE}\" stroke-width=\"1\"");
     let origin = px([0.0, 0.0]);
-    svg.line([8.0, origin[1]], [PICTURE, origin[1]], &rule);
+    svg.line([8.0, origin[1]], [picture, origin[1]], &rule);
     svg.line([origin[0], 8.0], [origin[0], HEIGHT - 8.0], &rule);
-    svg.text([PICTURE - 4.0, origin[1] - 5.0], Anchor::End, SOFT, "x");
+    svg.text([picture - 4.0, origin[1] - 5.0], Anchor::End, SOFT, "x");
     svg.text([origin[0] + 6.0, 16.0], Anchor::Start, SOFT, "y, radially outward");
     let wanted: Vec<f64> = points.iter().map(|p| px(p.at_m)[1] + 4.0).collect();
-    let x = PICTURE + BESIDE;
-    for (point, y) in points.iter().zip(spread(&wanted, 18.0, 20.0, HEIGHT - 10.0)) {
+    let x = picture + BESIDE;
+    for (point, y) in points.iter().zip(spread(&wanted, PITCH, 20.0, HEIGHT - 10.0)) {
         let at = px(point.at_m);
         svg.path(
             &polyline(&[[x - 4.0, y - 4.0], [x - 14.0, y - 4.0], at], false),
@@ -83,7 +100,10 @@ pub fn svg(drawing: &Drawing) -> String {
         );
         let colour = point.series.map_or(EDGE, |i| SERIES[i % 6]);
         svg.dot(at, 3.4, &format!("fill=\"{colour}\" stroke=\"{PAPER}\" stroke-width=\"1\""));
-        svg.text([x, y], Anchor::Start, INK, &text(point));
+        svg.text([x, y], Anchor::Start, INK, &beside(point));
+    }
+    for (k, point) in points.iter().enumerate().filter(|_| on_phone) {
+        svg.bare_text([2.0, HEIGHT + PITCH * (k as f64 + 0.6)], Anchor::Start, INK, &text(point));
     }
     svg.finish()
 }

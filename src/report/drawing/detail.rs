@@ -3,12 +3,13 @@
 use super::{Drawing, DrawnArc, SpragPose, spread, subscript};
 use crate::report::number::{Unit, plain};
 use crate::report::svg::{
-    Anchor, BODY, EDGE, INK, PAPER, RACE, SERIES, SOFT, Svg, circle, polyline, text_width,
+    Anchor, BODY, EDGE, INK, PAPER, PHONE_PX, RACE, SERIES, SOFT, Svg, circle, for_both, polyline, text_width,
 };
 
-const SIZE: [f64; 2] = [720.0, 560.0];
+/// In a window, and on a phone.
+const SIZES: [[f64; 2]; 2] = [[720.0, 560.0], [PHONE_PX, 430.0]];
 /// Columns at both sides for labels.
-const COLUMNS: [f64; 2] = [178.0, 178.0];
+const COLUMNS: [[f64; 2]; 2] = [[178.0, 178.0], [132.0, 108.0]];
 const PITCH: f64 = 19.0;
 
 /// The map from the drawn frame (m, y up) to the figure (px, y down).
@@ -59,10 +60,19 @@ struct Note {
     wanted: f64,
 }
 
-pub fn svg(drawing: &Drawing) -> String {
-    let mut svg = Svg::new(SIZE[0], SIZE[1], "One sprag between its races, to scale");
+pub fn in_window(drawing: &Drawing) -> String {
+    svg(drawing, SIZES[0], COLUMNS[0])
+}
+
+/// The drawing as a page has it.
+pub fn figure(drawing: &Drawing) -> String {
+    for_both(&in_window(drawing), &svg(drawing, SIZES[1], COLUMNS[1]))
+}
+
+fn svg(drawing: &Drawing, size: [f64; 2], columns: [f64; 2]) -> String {
+    let mut svg = Svg::new(size[0], size[1], "One sprag between its races, to scale");
     let poses = drawing.drawable();
-    let (Some(view), Some((first, others))) = (View::of(drawing, &poses, SIZE, COLUMNS), poses.split_first())
+    let (Some(view), Some((first, others))) = (View::of(drawing, &poses, size, columns), poses.split_first())
     else {
         return svg.finish();
     };
@@ -116,7 +126,8 @@ pub(super) fn draw_races(svg: &mut Svg, drawing: &Drawing, view: &View) {
 /// Engagement lowers the inner race's angle against the outer's: anticlockwise on the page.
 fn draw_arrow(svg: &mut Svg, view: &View) {
     let [width, height] = view.size;
-    let y = height - 18.0;
+    // Above the scale bar where both find no room side by side.
+    let y = height - if width > PHONE_PX { 18.0 } else { 40.0 };
     let (tip, tail) = (width / 2.0 - 106.0, width / 2.0 - 50.0);
     let ink = format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.3\"");
     svg.line([tail, y], [tip, y], &ink);
@@ -216,7 +227,8 @@ fn draw_notes(svg: &mut Svg, view: &View, notes: &[Note]) {
         let bend = if left { 14.0 } else { -14.0 };
         for (note, y) in side.iter().zip(spread(&wanted, PITCH, 46.0, height - 50.0)) {
             // A name longer than its column leans into the drawing: nothing of it is cut.
-            let x = if left { column.max(text_width(&note.text, 12.0) + 2.0) } else { column };
+            let long = 0.9 * text_width(&note.text, 12.0) + 4.0;
+            let x = if left { column.max(long) } else { column.min(width - long) };
             let knee = [x + bend, y - 4.0];
             let start = [x + bend / 3.0, y - 4.0];
             svg.path(
@@ -224,7 +236,7 @@ fn draw_notes(svg: &mut Svg, view: &View, notes: &[Note]) {
                 &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""),
             );
             // On paper: the edge of a race would run through the words.
-            let wide = 0.9 * text_width(&note.text, 12.0);
+            let wide = long - 4.0;
             let [from, until] = if left { [x - wide, x + 2.0] } else { [x - 2.0, x + wide] };
             let ground = [[from, y - 11.0], [until, y - 11.0], [until, y + 4.0], [from, y + 4.0]];
             svg.path(&polyline(&ground, true), &format!("fill=\"{PAPER}\" fill-opacity=\"0.85\""));

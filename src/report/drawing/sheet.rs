@@ -2,13 +2,18 @@
 
 use super::{Drawing, SpragPose, clutch, detail};
 use crate::report::number::{Unit, plain};
-use crate::report::svg::{Anchor, BODY, EDGE, INK, PAPER, RACE, SOFT, Svg, polyline, text_width};
+use crate::report::svg::{
+    Anchor, BODY, EDGE, INK, PAPER, PHONE_PX, RACE, SOFT, Svg, for_both, polyline, text_width,
+};
 
 /// As wide as A4 between its margins, px.
 const WIDTH: f64 = 680.0;
 const HEIGHT: f64 = 440.0;
-/// Where the enlarged sprag begins.
+/// Where the enlarged sprag begins, beside the front view.
 const SPLIT: f64 = 278.0;
+/// Room for the sprag between its labels, px, and the part of the rest that those on the left have.
+const MIDDLE: f64 = 108.0;
+const LEFT: f64 = 0.53;
 /// Largest diameter of the front view.
 const WIDEST: f64 = 205.0;
 /// Pixels of a page per metre of paper: 96 an inch.
@@ -26,22 +31,32 @@ fn named(scale: f64) -> String {
     if scale >= 1.0 { format!("{}:1", plain(scale, 3)) } else { format!("1:{}", plain(1.0 / scale, 3)) }
 }
 
-pub fn svg(drawing: &Drawing, axial_m: [f64; 2], notes: &[String]) -> String {
-    let mut svg = Svg::new(WIDTH, HEIGHT, "The clutch and one sprag, with dimensions");
+/// The drawing as a page has it.
+pub fn figure(drawing: &Drawing, axial_m: [f64; 2], notes: &[String]) -> String {
+    let [window, phone] = [false, true].map(|on_phone| svg(drawing, axial_m, notes, on_phone));
+    for_both(&window, &phone)
+}
+
+/// Front view and sprag side by side, or on a phone one below the other.
+fn svg(drawing: &Drawing, axial_m: [f64; 2], notes: &[String], on_phone: bool) -> String {
+    let width = if on_phone { PHONE_PX } else { WIDTH };
+    let mut svg = Svg::new(width, HEIGHT, "The clutch and one sprag, with dimensions");
     let [bore, inner, outer, outside] = drawing.race_radii_m;
     let sound = [bore, inner, outer, outside].iter().chain(&axial_m).all(|r| r.is_finite());
-    let poses = drawing.drawable();
     let Some(scale) = scale_for(2.0 * outside, WIDEST).filter(|_| sound && outside > 0.0) else {
         return svg.finish();
     };
-    front(&mut svg, drawing, axial_m, scale, notes);
-    if let Some(first) = poses.first() {
-        enlarged(&mut svg, drawing, first);
+    let end = front(&mut svg, drawing, axial_m, scale, notes);
+    let at = if on_phone { [0.0, end + 12.0] } else { [SPLIT, 0.0] };
+    if let Some(first) = drawing.drawable().first() {
+        let end = enlarged(&mut svg, drawing, first, at, width - at[0]);
+        svg.reach(end);
     }
     svg.finish()
 }
 
-fn front(svg: &mut Svg, drawing: &Drawing, axial_m: [f64; 2], scale: f64, notes: &[String]) {
+/// The height at which it ends.
+fn front(svg: &mut Svg, drawing: &Drawing, axial_m: [f64; 2], scale: f64, notes: &[String]) -> f64 {
     let [bore, inner, outer, outside] = drawing.race_radii_m;
     let px_per_m = scale * PAPER_PX_PER_M;
     let size = |m: f64| m * px_per_m;
@@ -70,6 +85,7 @@ fn front(svg: &mut Svg, drawing: &Drawing, axial_m: [f64; 2], scale: f64, notes:
         svg.bare_text([8.0, y + 6.0], Anchor::Start, INK, note);
         y += 16.0;
     }
+    y
 }
 
 /// Races and sprag cut along the axis, both halves, right of the front view, where there is room.
@@ -167,15 +183,17 @@ fn centre_line(svg: &mut Svg, from: [f64; 2], to: [f64; 2]) {
     svg.line(from, to, &style);
 }
 
-/// One sprag with radii, centres, contacts, junctions; below it the lengths that no line shows.
-fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose) {
-    let size = [WIDTH - SPLIT, HEIGHT - 62.0];
-    let Some(mut view) = detail::View::of(drawing, &[pose], size, [166.0, 128.0]) else { return };
+/// One sprag with radii, centres, contacts, junctions, so wide from there on; below it the lengths that no line shows. The height at
+/// which it ends.
+fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f64; 2], width: f64) -> f64 {
+    let size = [width, HEIGHT - 62.0];
+    let columns = [LEFT, 1.0 - LEFT].map(|part| part * (width - MIDDLE));
+    let Some(mut view) = detail::View::of(drawing, &[pose], size, columns) else { return top };
     // The air beside the sprag in the other view is not needed here.
-    let Some(scale) = scale_for(1.0, 1.15 * view.scale) else { return };
+    let Some(scale) = scale_for(1.0, 1.15 * view.scale) else { return top };
     view.scale = scale * PAPER_PX_PER_M;
-    svg.title_text([SPLIT, 16.0], &format!("Sprag at first contact, no load, scale {}", named(scale)));
-    svg.open_part([SPLIT, 24.0], size);
+    svg.title_text([left, top + 16.0], &format!("Sprag at first contact, no load, scale {}", named(scale)));
+    svg.open_part([left, top + 24.0], size);
     detail::draw_races(svg, drawing, &view);
     detail::draw_sprags(svg, &view, pose, &[]);
     let up = view.px([0.0, pose.outer_centre_distance_m]);
@@ -192,7 +210,21 @@ fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose) {
     if let Some(first) = pose.arcs.first() {
         lengths.push(format!("e₁ = C₁Cₑ {}", mm(first.centre_m[0].hypot(first.centre_m[1]))));
     }
-    svg.bare_text([SPLIT, HEIGHT - 20.0], Anchor::Start, INK, &lengths.join(", "));
-    let paper = "at these scales where printed at 100 %";
-    svg.bare_text([SPLIT, HEIGHT - 4.0], Anchor::Start, SOFT, paper);
+    // In as many lines as they need.
+    let mut lines: Vec<String> = Vec::new();
+    for length in lengths {
+        match lines.last_mut() {
+            Some(line) if 0.9 * text_width(&format!("{line}, {length}"), 12.0) <= width => {
+                line.push_str(&format!(", {length}"));
+            }
+            _ => lines.push(length),
+        }
+    }
+    let mut y = top + size[1] + 42.0;
+    for line in lines {
+        svg.bare_text([left, y], Anchor::Start, INK, &line);
+        y += 16.0;
+    }
+    svg.bare_text([left, y], Anchor::Start, SOFT, "at these scales where printed at 100 %");
+    y + 4.0
 }

@@ -77,17 +77,17 @@ fn drawings_hold_no_nan_and_name_no_other_place() {
     (other.label, other.rotation_rad) = ("<after>".into(), 0.3);
     drawing.poses.push(other);
     drawing.poses.push(broken);
-    for svg in [drawing.small_svg(0.03), drawing.detail_svg(), drawing.centres_svg()] {
+    for svg in [drawing.small_svg(0.03), drawing.detail_figure(), drawing.centres_figure()] {
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(!svg.contains("<after>") && svg.matches("http").count() == 1 && !svg.contains(" id="));
     }
-    assert!(drawing.detail_svg().contains("&lt;after&gt;"));
+    assert!(drawing.detail_figure().contains("&lt;after&gt;"));
     assert_eq!(drawing.small_svg(0.03).matches("<path").count(), 2 + 2 * 12 + 2);
 }
 
 #[test]
 fn the_sheet_has_every_dimension_at_a_scale_that_it_states() {
-    let svg = table_1(0.0).sheet_svg([6e-3, 6e-3], &["12 sprags".into()]);
+    let svg = table_1(0.0).sheet_figure([6e-3, 6e-3], &["12 sprags".into()]);
     for word in [
         "⌀ 14.42 bore",
         "⌀ 22.22 inner track",
@@ -109,15 +109,15 @@ fn the_sheet_has_every_dimension_at_a_scale_that_it_states() {
     }
     // An outside of 1049 mm.
     let large = Drawing { race_radii_m: table_1(0.0).race_radii_m.map(|r| 20.0 * r), ..table_1(0.0) };
-    assert!(large.sheet_svg([0.1, 0.1], &[]).contains("Clutch, scale 1:20"));
+    assert!(large.sheet_figure([0.1, 0.1], &[]).contains("Clutch, scale 1:20"));
     let nothing = Drawing { race_radii_m: [0.0; 4], count: 0, poses: vec![] };
-    assert!(nothing.sheet_svg([0.0; 2], &[]).ends_with("</svg>"));
+    assert!(nothing.sheet_figure([0.0; 2], &[]).ends_with("</svg>"));
 }
 
 #[test]
 fn a_drawing_without_sprags_or_sense_is_empty_not_a_panic() {
     let nothing = Drawing { race_radii_m: [0.0; 4], count: 0, poses: vec![] };
-    for svg in [nothing.small_svg(0.0), nothing.detail_svg(), nothing.centres_svg()] {
+    for svg in [nothing.small_svg(0.0), nothing.detail_figure(), nothing.centres_figure()] {
         assert!(svg.starts_with("<svg") && !svg.contains("NaN"));
     }
 }
