@@ -66,7 +66,7 @@ pub struct JournalFile {
 }
 
 /// What a file is by its first line.
-enum Found {
+enum JournalText {
     /// Nothing yet, or the beginning of a first line that a kill cut short.
     Nothing,
     Journal,
@@ -75,7 +75,7 @@ enum Found {
     Foreign,
 }
 
-impl Found {
+impl JournalText {
     fn of(text: &[u8]) -> Self {
         let header = COLUMNS.join(",") + "\n";
         if header.as_bytes().starts_with(text) && text.len() < header.len() {
@@ -108,10 +108,10 @@ impl JournalFile {
     /// As [`Self::open`].
     pub fn begin(path: &Path, model: &str, design: &str) -> Result<(Self, Option<PathBuf>), Failure> {
         let (file, text) = locked(path)?;
-        let old = match Found::of(&text) {
-            Found::Journal => text.iter().filter(|b| **b == b'\n').count() > 1,
-            Found::Earlier => true,
-            Found::Nothing | Found::Foreign => false,
+        let old = match JournalText::of(&text) {
+            JournalText::Journal => text.iter().filter(|b| **b == b'\n').count() > 1,
+            JournalText::Earlier => true,
+            JournalText::Nothing | JournalText::Foreign => false,
         };
         if !old {
             return Ok((Self::around(path, file, &text, model, design)?, None));
@@ -170,15 +170,15 @@ impl JournalFile {
             damaged: 0,
             failed: None,
         };
-        let whole = match Found::of(text) {
-            Found::Nothing => 0,
-            Found::Journal => text.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1),
-            Found::Earlier => {
+        let whole = match JournalText::of(text) {
+            JournalText::Nothing => 0,
+            JournalText::Journal => text.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1),
+            JournalText::Earlier => {
                 return Err(refused(
                     "is a journal by an earlier version of the program, whose rows cannot be checked; name another file with --journal",
                 ));
             }
-            Found::Foreign => {
+            JournalText::Foreign => {
                 return Err(refused("is no journal of a search; name another file with --journal"));
             }
         };

@@ -28,7 +28,7 @@ pub(super) struct Zeno {
 
 /// Where a sequence leads.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Limit {
+pub(super) struct Accumulation {
     /// Time to it from the last change, s.
     pub(super) left_s: f64,
     /// Which event functions took part.
@@ -41,7 +41,7 @@ impl Zeno {
     }
 
     /// Note a change at `t` (s); the limit where they accumulate within `resolution` (s).
-    pub(super) fn note(&mut self, t: f64, fell: [bool; EVENTS], resolution_s: f64) -> Option<Limit> {
+    pub(super) fn note(&mut self, t: f64, fell: [bool; EVENTS], resolution_s: f64) -> Option<Accumulation> {
         self.last.rotate_left(1);
         self.last[KEPT - 1] = (t, fell);
         if self.last[0].0 == f64::NEG_INFINITY {
@@ -58,7 +58,7 @@ impl Zeno {
         let took_part =
             std::array::from_fn(|i| self.last[KEPT - 1 - CYCLE..].iter().any(|(_, fell)| fell[i]));
         *self = Self::new();
-        Some(Limit { left_s, took_part })
+        Some(Accumulation { left_s, took_part })
     }
 }
 
@@ -73,7 +73,7 @@ where
     }
 
     /// Go to the limit of accumulating changes.
-    pub(super) fn close(&mut self, limit: &Limit, t: f64, mut y: [f64; N]) {
+    pub(super) fn close(&mut self, limit: &Accumulation, t: f64, mut y: [f64; N]) {
         let (model, mode) = (self.model, self.run.mode);
         let took = |i: usize| limit.took_part[i];
         let t = t + limit.left_s;

@@ -95,7 +95,7 @@ enum Brake {
     Slides(f64),
 }
 
-struct Drive<'a> {
+struct FeedRun<'a> {
     case: &'a Strokes,
     element: Element,
     brake: Brake,
@@ -103,7 +103,7 @@ struct Drive<'a> {
     open_s: f64,
 }
 
-impl Drive<'_> {
+impl FeedRun<'_> {
     /// Angle of a race, rad, forward.
     fn angle_rad(&self, race: usize) -> f64 {
         self.case.sense() * self.element.motion().flanges[race].angle_rad
@@ -179,7 +179,7 @@ pub fn fed(clutch: &Clutch, case: &Strokes, follow: &Follow) -> Result<Fed, NoEl
         case.inertia_kg_m2;
     let element = Element::new(&clutch, &Beginning::default(), &Settings::default())?;
     let brake = if case.brake_nm > 0.0 { Brake::Holds } else { Brake::Slides(1.0) };
-    let mut drive = Drive { case, element, brake, most_n: 0.0, open_s: 0.0 };
+    let mut drive = FeedRun { case, element, brake, most_n: 0.0, open_s: 0.0 };
     let mut found = Fed {
         frequency_hz: case.frequency_hz,
         feed_rad: 0.0,

@@ -98,7 +98,7 @@ pub struct Identified {
 /// Sum that stands for a design that cannot be held against the data.
 const NO_DESIGN: f64 = 1e30;
 
-struct Problem<'a> {
+struct FitProblem<'a> {
     design: &'a Design,
     /// Observations of the fit, those with the same keys side by side.
     groups: Vec<Vec<&'a Observation>>,
@@ -123,7 +123,7 @@ fn grouped<'a>(all: impl Iterator<Item = &'a Observation>) -> Vec<Vec<&'a Observ
     groups
 }
 
-impl Problem<'_> {
+impl FitProblem<'_> {
     /// Values in the units of the names at shares `t` of the ranges.
     fn values(&self, t: &[f64]) -> Vec<f64> {
         t.iter().zip(&self.low).zip(&self.range).map(|((t, low), range)| low + t * range).collect()
@@ -229,7 +229,7 @@ fn share(u: &[f64]) -> Vec<f64> {
     u.iter().map(|u| 0.5 * (1.0 + u.sin())).collect()
 }
 
-struct Transformed<'p, 'a>(&'p Problem<'a>);
+struct Transformed<'p, 'a>(&'p FitProblem<'a>);
 
 impl CostFunction for Transformed<'_, '_> {
     type Param = Vec<f64>;
@@ -256,7 +256,7 @@ pub fn identify(
     let stopped = || follow.stopped();
     let (paths, before) = paths(design, unknowns)?;
     let fitted = observations.iter().filter(|o| o.purpose == Use::Fit);
-    let problem = Problem {
+    let problem = FitProblem {
         design,
         groups: grouped(fitted),
         paths,
@@ -324,7 +324,7 @@ pub fn identify(
 
 /// Which further quantity, seen at the torques of the fit and as well, would tell the two unknowns best apart that are known
 /// together only.
-fn apart(problem: &Problem, t: &[f64], jacobian: &DMatrix<f64>, knowledge: &Knowledge) -> Option<Apart> {
+fn apart(problem: &FitProblem, t: &[f64], jacobian: &DMatrix<f64>, knowledge: &Knowledge) -> Option<Apart> {
     let (first, second) = knowledge.undetermined().find_map(|(j, doubt)| match doubt {
         Doubt::Inseparable(other) => Some((j.min(other), j.max(other))),
         _ => None,
@@ -335,7 +335,7 @@ fn apart(problem: &Problem, t: &[f64], jacobian: &DMatrix<f64>, knowledge: &Know
             seen.iter().filter(|o| o.torque_nm.is_some()).map(|o| (*o).clone()).collect();
         at.dedup_by_key(|o| o.torque_nm.map(f64::to_bits));
         at.iter_mut().for_each(|o| (o.kind, o.value, o.sigma) = (kind, 1.0, Some(1.0)));
-        let more = Problem {
+        let more = FitProblem {
             groups: grouped(at.iter()),
             paths: problem.paths.clone(),
             low: problem.low.clone(),
@@ -413,7 +413,7 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
 /// Shares at which a search begins: the design's own values if they lie between the bounds, then random ones; each can
 /// be held against the data.
 fn starts(
-    problem: &Problem,
+    problem: &FitProblem,
     unknowns: &[Unknown],
     before: &[f64],
     settings: &FitSettings,
@@ -444,7 +444,7 @@ fn starts(
 }
 
 /// Nelder and Mead's simplex from the shares `start`.
-fn simplex_search(problem: &Problem, start: &[f64], evaluations: usize) -> Vec<f64> {
+fn simplex_search(problem: &FitProblem, start: &[f64], evaluations: usize) -> Vec<f64> {
     // Away from the bounds, where the transformation has no slope.
     let u: Vec<f64> = start.iter().map(|t| (2.0 * t.clamp(0.02, 0.98) - 1.0).asin()).collect();
     let mut simplex = vec![u.clone()];
@@ -464,7 +464,7 @@ fn simplex_search(problem: &Problem, start: &[f64], evaluations: usize) -> Vec<f
 }
 
 /// Levenberg and Marquardt from the shares `t`, kept between the bounds: shares, sum, converged.
-fn finish(problem: &Problem, mut t: Vec<f64>) -> (Vec<f64>, f64, bool) {
+fn finish(problem: &FitProblem, mut t: Vec<f64>) -> (Vec<f64>, f64, bool) {
     let mut sum = problem.sum(&t);
     let mut damping = 1e-3;
     for _ in 0..30 {

@@ -19,20 +19,20 @@ const MOST: usize = 200_000;
 type Point = Vector2<f64>;
 
 /// One curve: points from end to end, and its line in the file.
-struct Curve {
+struct DrawnCurve {
     line: usize,
     points: Vec<Point>,
     /// Centre of a true arc.
     centre: Option<Point>,
 }
 
-struct Group<'t> {
+struct GroupCode<'t> {
     line: usize,
     code: i32,
     value: &'t str,
 }
 
-fn groups(text: &str) -> Result<Vec<Group<'_>>, NoImport> {
+fn groups(text: &str) -> Result<Vec<GroupCode<'_>>, NoImport> {
     const HELP: &str = "save the drawing as DXF in text form; a DWG or a binary DXF is not read";
     if text.trim().is_empty() {
         return Err(NoImport::new(None, "an empty file", HELP));
@@ -50,13 +50,13 @@ fn groups(text: &str) -> Result<Vec<Group<'_>>, NoImport> {
             NoImport::new(line, format!("{shown:?} where a DXF has a group code"), HELP)
         })?;
         let value = pair.get(1).copied().unwrap_or("").trim();
-        all.push(Group { line: line + 1, code, value });
+        all.push(GroupCode { line: line + 1, code, value });
     }
     Ok(all)
 }
 
 /// Metres in one unit of the drawing.
-fn unit(groups: &[Group], remarks: &mut Vec<String>) -> Result<f64, NoImport> {
+fn unit(groups: &[GroupCode], remarks: &mut Vec<String>) -> Result<f64, NoImport> {
     let at = groups.windows(2).find(|g| g[0].code == 9 && g[0].value == "$INSUNITS");
     let (value, line) = at.map_or(("0", 0), |g| (g[1].value, g[1].line));
     match value {
@@ -93,12 +93,12 @@ pub(super) fn read(text: &str, layer: Option<&str>) -> Result<Drawn, NoImport> {
     };
     let until = groups[start..].iter().position(|g| g.code == 0 && g.value == "ENDSEC");
     let section = &groups[start + 1..until.map_or(groups.len(), |n| start + n)];
-    let mut entities: Vec<&[Group]> = Vec::new();
+    let mut entities: Vec<&[GroupCode]> = Vec::new();
     let heads: Vec<usize> = (0..section.len()).filter(|i| section[*i].code == 0).collect();
     for (n, from) in heads.iter().enumerate() {
         entities.push(&section[*from..heads.get(n + 1).copied().unwrap_or(section.len())]);
     }
-    let on = |e: &[Group], wanted: &str| {
+    let on = |e: &[GroupCode], wanted: &str| {
         e.iter().find(|g| g.code == 8).is_some_and(|g| g.value.eq_ignore_ascii_case(wanted))
     };
     let own = entities.iter().any(|e| on(e, "SPRAG"));
@@ -124,26 +124,26 @@ pub(super) fn read(text: &str, layer: Option<&str>) -> Result<Drawn, NoImport> {
 }
 
 /// First number of a code.
-fn one(entity: &[Group], code: i32) -> Result<Option<f64>, NoImport> {
+fn one(entity: &[GroupCode], code: i32) -> Result<Option<f64>, NoImport> {
     entity.iter().find(|g| g.code == code).map(|g| number(g.value, g.line)).transpose()
 }
 
-fn need(entity: &[Group], code: i32) -> Result<f64, NoImport> {
+fn need(entity: &[GroupCode], code: i32) -> Result<f64, NoImport> {
     one(entity, code)?.ok_or_else(|| {
         let found = format!("{} without group {code}", entity[0].value);
         NoImport::new(entity[0].line, found, "save the drawing again: this entity is not whole")
     })
 }
 
-fn all(entity: &[Group], code: i32) -> Result<Vec<f64>, NoImport> {
+fn all(entity: &[GroupCode], code: i32) -> Result<Vec<f64>, NoImport> {
     entity.iter().filter(|g| g.code == code).map(|g| number(g.value, g.line)).collect()
 }
 
 /// A polyline that is being read: its line, whether it is closed, its points with their bulges.
 type Open = (usize, bool, Vec<(Point, f64)>);
 
-fn curves(entities: &[&[Group]], scale: f64) -> Result<Vec<Curve>, NoImport> {
-    let mut curves: Vec<Curve> = Vec::new();
+fn curves(entities: &[&[GroupCode]], scale: f64) -> Result<Vec<DrawnCurve>, NoImport> {
+    let mut curves: Vec<DrawnCurve> = Vec::new();
     let mut vertices: Option<Open> = None;
     for e in entities {
         let line = e[0].line;
@@ -162,7 +162,9 @@ fn curves(entities: &[&[Group]], scale: f64) -> Result<Vec<Curve>, NoImport> {
             ));
         }
         match kind {
-            "LINE" => curves.push(Curve { line, points: vec![point(10, 20)?, point(11, 21)?], centre: None }),
+            "LINE" => {
+                curves.push(DrawnCurve { line, points: vec![point(10, 20)?, point(11, 21)?], centre: None })
+            }
             "ARC" => {
                 let (centre, radius) = (point(10, 20)?, scale * need(e, 40)?);
                 let [from, to] = [need(e, 50)?.to_radians(), need(e, 51)?.to_radians()];
@@ -192,7 +194,7 @@ fn curves(entities: &[&[Group]], scale: f64) -> Result<Vec<Curve>, NoImport> {
                 }
                 bulged(&mut curves, line, &list, closed);
             }
-            "SPLINE" => curves.push(Curve { line, points: spline(e, scale)?, centre: None }),
+            "SPLINE" => curves.push(DrawnCurve { line, points: spline(e, scale)?, centre: None }),
             "INSERT" => {
                 return Err(NoImport::new(line, "a block (INSERT)", "explode the block in the CAD program"));
             }
@@ -204,17 +206,17 @@ fn curves(entities: &[&[Group]], scale: f64) -> Result<Vec<Curve>, NoImport> {
     Ok(curves)
 }
 
-fn arc(line: usize, centre: Point, radius: f64, from: f64, turn: f64) -> Curve {
+fn arc(line: usize, centre: Point, radius: f64, from: f64, turn: f64) -> DrawnCurve {
     let steps = (turn.abs() / STEP_RAD).ceil().clamp(1.0, 4000.0);
     let at = |i: usize| {
         let (s, c) = (from + turn * i as f64 / steps).sin_cos();
         centre + radius * Point::new(c, s)
     };
-    Curve { line, points: (0..=steps as usize).map(at).collect(), centre: Some(centre) }
+    DrawnCurve { line, points: (0..=steps as usize).map(at).collect(), centre: Some(centre) }
 }
 
 /// Arcs and lines between vertices; lines in a row are one curve.
-fn bulged(curves: &mut Vec<Curve>, line: usize, list: &[(Point, f64)], closed: bool) {
+fn bulged(curves: &mut Vec<DrawnCurve>, line: usize, list: &[(Point, f64)], closed: bool) {
     let mut straight: Vec<Point> = Vec::new();
     let count = if closed { list.len() } else { list.len().saturating_sub(1) };
     for i in 0..count {
@@ -227,7 +229,7 @@ fn bulged(curves: &mut Vec<Curve>, line: usize, list: &[(Point, f64)], closed: b
             continue;
         }
         if straight.len() > 1 {
-            curves.push(Curve { line, points: std::mem::take(&mut straight), centre: None });
+            curves.push(DrawnCurve { line, points: std::mem::take(&mut straight), centre: None });
         }
         straight.clear();
         let turn = 4.0 * bulge.atan();
@@ -237,12 +239,12 @@ fn bulged(curves: &mut Vec<Curve>, line: usize, list: &[(Point, f64)], closed: b
         curves.push(arc(line, centre, out.norm(), out.y.atan2(out.x), turn));
     }
     if straight.len() > 1 {
-        curves.push(Curve { line, points: straight, centre: None });
+        curves.push(DrawnCurve { line, points: straight, centre: None });
     }
 }
 
 /// Points on a spline: its fit points where it has them and no control points, else de Boor's points.
-fn spline(e: &[Group], scale: f64) -> Result<Vec<Point>, NoImport> {
+fn spline(e: &[GroupCode], scale: f64) -> Result<Vec<Point>, NoImport> {
     let pairs = |x: i32, y: i32| -> Result<Vec<Point>, NoImport> {
         Ok(all(e, x)?.into_iter().zip(all(e, y)?).map(|(x, y)| scale * Point::new(x, y)).collect())
     };
@@ -284,7 +286,7 @@ fn spline(e: &[Group], scale: f64) -> Result<Vec<Point>, NoImport> {
 }
 
 /// One closed line from all curves.
-fn chained(mut left: Vec<Curve>, remarks: Vec<String>) -> Result<Drawn, NoImport> {
+fn chained(mut left: Vec<DrawnCurve>, remarks: Vec<String>) -> Result<Drawn, NoImport> {
     let mut points_m: Vec<Point> = Vec::new();
     let mut kinks = Vec::new();
     let mut current = left.remove(0);
@@ -305,7 +307,7 @@ fn chained(mut left: Vec<Curve>, remarks: Vec<String>) -> Result<Drawn, NoImport
                 (end, a.perp(&b).atan2(a.dot(&b)) - own, line)
             })
         };
-        let distance = |c: &Curve| {
+        let distance = |c: &DrawnCurve| {
             let ends = [c.points[0], c.points[c.points.len() - 1]];
             (ends[0] - end).norm().min((ends[1] - end).norm())
         };

@@ -2,7 +2,7 @@
 
 use super::Margin;
 use super::limits::{Limit, Of, When};
-use super::load::{Case, LoadState, clearance_at_m, profile_capacity};
+use super::load::{LoadCase, LoadState, clearance_at_m, profile_capacity};
 use super::sprag::grip;
 use super::table::{END_OF_PROFILE, GRIP_INNER, LIMITS};
 use crate::design::{Design, Limits};
@@ -17,8 +17,8 @@ struct Bounded<'a> {
 }
 
 /// The same of `limit`, where it depends on torque and `case` asks for it.
-fn bounded<'a>(case: Case<'a>, limit: &'static Limit) -> Option<Bounded<'a>> {
-    let Case { design, limits, state } = case;
+fn bounded<'a>(case: LoadCase<'a>, limit: &'static Limit) -> Option<Bounded<'a>> {
+    let LoadCase { design, limits, state } = case;
     match limit.of {
         Of::RollOver => Some(Bounded {
             limit,
@@ -41,7 +41,7 @@ fn bounded<'a>(case: Case<'a>, limit: &'static Limit) -> Option<Bounded<'a>> {
 
 /// Fill `torque_capacity_nm` of the rows that depend on torque.
 pub(super) fn fill(rows: &mut [Margin], design: &Design, limits: &Limits, state: &LoadState) {
-    let case = Case { design, limits, state };
+    let case = LoadCase { design, limits, state };
     for row in rows {
         row.torque_capacity_nm = match row.limit.of {
             Of::RollOver => Some(row.allowable),
@@ -70,7 +70,7 @@ pub fn courses(
     state: &LoadState,
     points: &[StaticPoint],
 ) -> Vec<DemandCourse> {
-    let case = Case { design, limits, state };
+    let case = LoadCase { design, limits, state };
     let course = |row: &Margin| {
         let b = bounded(case, row.limit).filter(|_| !row.off_centre && row.corner.is_none())?;
         let points = points.iter().map(|p| [p.torque_nm, (b.demand)(p) / b.allowed]).collect();
@@ -144,7 +144,7 @@ pub fn nominal_capacity(design: &Design, limits: &Limits, state: &LoadState) -> 
     if state.first_tan_omega >= design.clutch.friction.static_ {
         return Some((0.0, GRIP_INNER.code));
     }
-    let case = Case { design, limits, state };
+    let case = LoadCase { design, limits, state };
     let all = || LIMITS.iter().filter_map(|limit| bounded(case, limit));
     let nominal = |b: &Bounded| b.limit.when == When::Nominal;
     if !all().any(|b| nominal(&b)) {

@@ -1,6 +1,6 @@
 //! Hoop stress of the races: Lame's mean and with the bending between the sprags.
 
-use super::load::{Case, LoadState};
+use super::load::{LoadCase, LoadState};
 use crate::clutch::TrackRun;
 use crate::design::Design;
 use crate::race::{Race, Rim};
@@ -18,7 +18,7 @@ pub(super) enum Which {
 /// A fitted race is one piece with its partner, so the load's share is Lame's of that piece, at the race's joint and at
 /// its track, and the fit's own stress is added at each place. The larger magnitude counts, loaded or at rest: a shaft
 /// stretches the inner race most without load. Bending adds what it adds without a fit.
-pub(super) fn hoop_pa(case: &Case, p: &StaticPoint, which: Which, bending: bool) -> f64 {
+pub(super) fn hoop_pa(case: &LoadCase, p: &StaticPoint, which: Which, bending: bool) -> f64 {
     let (elastic, count) = (case.elastic(), case.count());
     let (race, normal_n) = match which {
         Which::Inner => (&elastic.inner_race, p.normal_inner_n),
@@ -52,7 +52,7 @@ pub(super) fn hoop_pa(case: &Case, p: &StaticPoint, which: Which, bending: bool)
 
 /// Hoop stress with bending between the sprags of the inner and the outer race in the static state `p`, Pa, magnitudes.
 pub fn rings_pa(design: &Design, state: &LoadState, p: &StaticPoint) -> [f64; 2] {
-    let case = Case { design, limits: &design.limits, state };
+    let case = LoadCase { design, limits: &design.limits, state };
     [Which::Inner, Which::Outer].map(|which| hoop_pa(&case, p, which, true))
 }
 
@@ -60,7 +60,7 @@ pub fn rings_pa(design: &Design, state: &LoadState, p: &StaticPoint) -> [f64; 2]
 /// where it may be worst: track and joint of a fitted race, else the worst place of the ring twice. `p`: the static state,
 /// none at rest, where the fit's own stress is left.
 pub fn ring_places_pa(design: &Design, state: &LoadState, race: usize, p: Option<&StaticPoint>) -> [f64; 2] {
-    let case = Case { design, limits: &design.limits, state };
+    let case = LoadCase { design, limits: &design.limits, state };
     let (elastic, count, running) = (case.elastic(), case.count(), design.clutch.running.as_ref());
     let (ring, normal_n, track) = match race {
         0 => (&elastic.inner_race, p.map_or(0.0, |p| p.normal_inner_n), running.map(|r| &r.inner)),

@@ -1,6 +1,6 @@
 //! What a limit is; the list of them is in `table`.
 
-use super::load::Case;
+use super::load::LoadCase;
 use super::row::Rule;
 use super::table::LIMITS;
 use crate::design::{Design, Limits};
@@ -61,12 +61,12 @@ pub(super) enum Of {
         allowed: Allowed,
         /// Allowable beside which the row is shown only, where its own is not given.
         beside: Option<fn(&Limits) -> Option<f64>>,
-        demand: fn(&Case, &StaticPoint) -> f64,
+        demand: fn(&LoadCase, &StaticPoint) -> f64,
     },
     /// Shear below a contact, Pa, and how deep it is largest, m.
     Shear {
         allowed: Allowed,
-        below: fn(&Case, &StaticPoint) -> (f64, f64),
+        below: fn(&LoadCase, &StaticPoint) -> (f64, f64),
     },
     // load.rs
     RollOver,
@@ -99,19 +99,19 @@ impl Of {
         Self::Sprag { allowed, demand, on_the_way }
     }
 
-    pub const fn clutch(allowed: Allowed, demand: fn(&Case, &StaticPoint) -> f64) -> Self {
+    pub const fn clutch(allowed: Allowed, demand: fn(&LoadCase, &StaticPoint) -> f64) -> Self {
         Self::Clutch { allowed, beside: None, demand }
     }
 
     pub const fn beside(
         other: fn(&Limits) -> Option<f64>,
         allowed: Allowed,
-        demand: fn(&Case, &StaticPoint) -> f64,
+        demand: fn(&LoadCase, &StaticPoint) -> f64,
     ) -> Self {
         Self::Clutch { allowed, beside: Some(other), demand }
     }
 
-    pub const fn shear(allowed: Allowed, below: fn(&Case, &StaticPoint) -> (f64, f64)) -> Self {
+    pub const fn shear(allowed: Allowed, below: fn(&LoadCase, &StaticPoint) -> (f64, f64)) -> Self {
         Self::Shear { allowed, below }
     }
 }
@@ -169,7 +169,7 @@ impl Limit {
     }
 
     /// Demand of a static state, SI.
-    pub(super) fn demand(&self, case: &Case, p: &StaticPoint) -> Option<f64> {
+    pub(super) fn demand(&self, case: &LoadCase, p: &StaticPoint) -> Option<f64> {
         match self.of {
             Of::Sprag { demand, .. } => Some(demand(case.design, case.limits, p)),
             Of::Clutch { demand, .. } => Some(demand(case, p)),
@@ -179,7 +179,7 @@ impl Limit {
     }
 
     /// The demand at `peak`, or at one of the states `below` where one of those is larger, SI.
-    pub(super) fn largest(&self, case: &Case, peak: &StaticPoint, below: &[StaticPoint]) -> Option<f64> {
+    pub(super) fn largest(&self, case: &LoadCase, peak: &StaticPoint, below: &[StaticPoint]) -> Option<f64> {
         let on_the_way = match self.of {
             Of::Sprag { on_the_way, .. } => on_the_way,
             _ => None,
@@ -189,7 +189,7 @@ impl Limit {
     }
 
     /// Name of its row at a static state.
-    pub(super) fn name_at(&self, case: &Case, required: bool, p: &StaticPoint) -> String {
+    pub(super) fn name_at(&self, case: &LoadCase, required: bool, p: &StaticPoint) -> String {
         let name = (self.name)(case.limits);
         match (self.of, required) {
             (_, false) => {

@@ -58,13 +58,13 @@ pub fn load_state_at(design: &Design, effort: Effort) -> Result<LoadState, NoMar
 
 /// A load state with what is asked of it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Case<'a> {
+pub(super) struct LoadCase<'a> {
     pub design: &'a Design,
     pub limits: &'a Limits,
     pub state: &'a LoadState,
 }
 
-impl<'a> Case<'a> {
+impl<'a> LoadCase<'a> {
     pub fn elastic(&self) -> &'a Elastic {
         &self.state.curve.statics().elastic
     }
@@ -85,7 +85,7 @@ struct Reached {
 }
 
 impl Reached {
-    fn new(case: &Case, torque_nm: f64) -> Self {
+    fn new(case: &LoadCase, torque_nm: f64) -> Self {
         let end_nm = case.state.curve.end_torque_nm();
         let p = at(&case.state.curve, carried(torque_nm, end_nm));
         Self { torque_nm, end_nm, p, below: below(case.state, &p) }
@@ -103,7 +103,7 @@ impl Reached {
 }
 
 pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<Margin> {
-    let case = Case { design, limits, state };
+    let case = LoadCase { design, limits, state };
     let reached = |when: When| when.torque_nm(limits).map(|torque_nm| Reached::new(&case, torque_nm));
     let (nominal, peak) = (reached(When::Nominal), reached(When::Peak));
     let row = |limit: &&'static Limit| match limit.when {
@@ -115,8 +115,8 @@ pub(super) fn rows(design: &Design, limits: &Limits, state: &LoadState) -> Vec<M
 }
 
 /// The row of a limit that is held at a torque.
-fn loaded_row(case: &Case, limit: &'static Limit, reached: &Reached) -> Option<Margin> {
-    let Case { design, limits, state } = *case;
+fn loaded_row(case: &LoadCase, limit: &'static Limit, reached: &Reached) -> Option<Margin> {
+    let LoadCase { design, limits, state } = *case;
     let Reached { torque_nm, end_nm, p, ref below } = *reached;
     let name = (limit.name)(limits);
     match limit.of {
@@ -144,8 +144,8 @@ fn loaded_row(case: &Case, limit: &'static Limit, reached: &Reached) -> Option<M
 }
 
 /// The row of a limit at first contact or in overrun.
-fn unloaded_row(case: &Case, limit: &'static Limit) -> Option<Margin> {
-    let Case { design, limits, state } = *case;
+fn unloaded_row(case: &LoadCase, limit: &'static Limit) -> Option<Margin> {
+    let LoadCase { design, limits, state } = *case;
     let (demand, allowable) = match limit.of {
         Of::ReEngagement => (state.first_tan_omega, design.clutch.friction.kinetic),
         Of::KeepContact => overrun_moments(design, state, limits.keep_contact_to_rad_s?),

@@ -3,7 +3,7 @@
 use super::body::body_stress_pa;
 use super::hoop::{Which, hoop_pa};
 use super::limits::{Limit, Of, When};
-use super::load::Case;
+use super::load::LoadCase;
 use super::row::Rule;
 use super::sprag::grip;
 use super::subsurface::{case_m, core_allowed, inner, outer, shear_below};
@@ -520,7 +520,7 @@ fn opening(gap_m: Option<f64>, design: &Design) -> Option<f64> {
     gap_m.map(|gap| gap - (r.outer_radius_m - r.inner_radius_m))
 }
 
-fn gap_opening_m(case: &Case, p: &StaticPoint) -> f64 {
+fn gap_opening_m(case: &LoadCase, p: &StaticPoint) -> f64 {
     case.elastic().gap_opening_m(p.normal_inner_n, p.normal_outer_n)
 }
 

@@ -14,7 +14,7 @@ pub enum Rim {
 
 /// Lame's plane field of a ring without rotation: sigma_r = even - odd/r^2, sigma_hoop = even + odd/r^2, Pa, Pa m^2.
 #[derive(Debug, Clone, Copy)]
-struct Field {
+struct WallField {
     even_pa: f64,
     odd_n: f64,
 }
@@ -35,22 +35,22 @@ impl Race {
     }
 
     /// The field under the pressure `pressure_pa` on the track of a race whose rim is held.
-    fn held_field(&self, pressure_pa: f64) -> Field {
+    fn held_field(&self, pressure_pa: f64) -> WallField {
         let (track, rim) = (self.track_m().powi(2), self.other_rim_m().powi(2));
         let even_pa = -pressure_pa / (1.0 + self.tie() * rim / track);
-        Field { even_pa, odd_n: -self.tie() * rim * even_pa }
+        WallField { even_pa, odd_n: -self.tie() * rim * even_pa }
     }
 
     /// Mean hoop stress at the radius `at_m` under the pressure `pressure_pa` on the track, rim held, Pa, tension positive.
     pub(super) fn held_hoop_pa(&self, pressure_pa: f64, at_m: f64) -> f64 {
-        let Field { even_pa, odd_n } = self.held_field(pressure_pa);
+        let WallField { even_pa, odd_n } = self.held_field(pressure_pa);
         even_pa + odd_n / at_m.powi(2)
     }
 
     /// Largest von Mises stress under the pressure `pressure_pa`, rim held, plane stress, Pa: sqrt(even^2 + 3 odd^2/r^4), largest
     /// at the smaller radius.
     pub(super) fn held_equivalent_pa(&self, pressure_pa: f64) -> f64 {
-        let Field { even_pa, odd_n } = self.held_field(pressure_pa);
+        let WallField { even_pa, odd_n } = self.held_field(pressure_pa);
         even_pa.hypot(3.0f64.sqrt() * odd_n / self.track_m().min(self.other_rim_m()).powi(2))
     }
 

@@ -77,7 +77,7 @@ struct Trial {
 
 /// Scales of torque and forces, and of the shift, so that all rows are pure numbers near 1.
 #[derive(Clone, Copy)]
-struct Scales {
+struct NewtonScales {
     windup_rad: f64,
     torque_nm: f64,
     normal_n: f64,
@@ -86,10 +86,10 @@ struct Scales {
 
 /// What is solved.
 #[derive(Clone, Copy)]
-struct Case {
+struct BalanceCase {
     asked: Asked,
     turned_rad: f64,
-    scales: Scales,
+    scales: NewtonScales,
     stiffness_n_per_m: f64,
 }
 
@@ -105,7 +105,7 @@ impl Unlike<'_> {
             return Err(NotShared::NoneCarries);
         }
         let (x, scales) = self.guess(asked, first)?;
-        let case = Case { asked, turned_rad, scales, stiffness_n_per_m: self.stiffness_n_per_m };
+        let case = BalanceCase { asked, turned_rad, scales, stiffness_n_per_m: self.stiffness_n_per_m };
         self.balanced(x, case).map_err(|why| self.reason(why, asked))
     }
 
@@ -129,7 +129,7 @@ impl Unlike<'_> {
         at.iter().zip(next).any(|(from, to)| to - from > PI)
     }
 
-    fn balanced(&self, x: DVector<f64>, case: Case) -> Result<Shared, NotShared> {
+    fn balanced(&self, x: DVector<f64>, case: BalanceCase) -> Result<Shared, NotShared> {
         let scales = case.scales;
         let direct = self.solved(&x, case);
         if direct.is_ok() || self.stiffness_n_per_m.is_infinite() {
@@ -139,13 +139,13 @@ impl Unlike<'_> {
         let mut x = x;
         let stiff = scales.normal_n / scales.shift_m;
         for part in (-2..=8).map(|k| 0.1_f64.powi(k) * stiff).filter(|k| *k > self.stiffness_n_per_m) {
-            x = self.solved(&x, Case { stiffness_n_per_m: part, ..case }).or(direct.clone())?.0;
+            x = self.solved(&x, BalanceCase { stiffness_n_per_m: part, ..case }).or(direct.clone())?.0;
         }
         self.solved(&x, case).or(direct).and_then(|(_, found)| self.finished(found))
     }
 
     /// Newton's method from `x`.
-    fn solved(&self, x: &DVector<f64>, case: Case) -> Result<(DVector<f64>, Shared), NotShared> {
+    fn solved(&self, x: &DVector<f64>, case: BalanceCase) -> Result<(DVector<f64>, Shared), NotShared> {
         let mut x = x.clone();
         let mut statics: Vec<Statics> = vec![self.statics().clone(); self.sprags.len()];
         let mut trial = self.trial(&mut statics, &x, case)?;
@@ -215,7 +215,7 @@ impl Unlike<'_> {
     }
 
     /// Windups at which sprags with their lags, races stiff and held, carry what is asked.
-    fn guess(&self, asked: Asked, first: f64) -> Result<(DVector<f64>, Scales), NotShared> {
+    fn guess(&self, asked: Asked, first: f64) -> Result<(DVector<f64>, NewtonScales), NotShared> {
         let end = self.curve.end_windup_rad();
         let own = |w: f64, lag: f64| (w - lag).min(end * (1.0 - 1e-9));
         let torque = |w: f64| -> f64 {
@@ -249,11 +249,16 @@ impl Unlike<'_> {
         let windup_rad = (windup_rad - first).max(1e-3);
         let normal_n = normal_n.max(1e-6);
         // A shift by that is about as much to a sprag as all the windup: OA tan omega.
-        Ok((x, Scales { windup_rad, torque_nm, normal_n, shift_m: windup_rad * torque_nm / normal_n }))
+        Ok((x, NewtonScales { windup_rad, torque_nm, normal_n, shift_m: windup_rad * torque_nm / normal_n }))
     }
 
-    fn trial(&self, statics: &mut [Statics], x: &DVector<f64>, case: Case) -> Result<Trial, NotShared> {
-        let Case { asked, turned_rad, scales, stiffness_n_per_m } = case;
+    fn trial(
+        &self,
+        statics: &mut [Statics],
+        x: &DVector<f64>,
+        case: BalanceCase,
+    ) -> Result<Trial, NotShared> {
+        let BalanceCase { asked, turned_rad, scales, stiffness_n_per_m } = case;
         let n = self.sprags.len();
         let windup_rad = x[n];
         let shift_m =
@@ -396,8 +401,8 @@ impl Unlike<'_> {
     }
 
     /// Slopes of the misses by y, W and the shift, each in its unit.
-    fn jacobian(&self, t: &Trial, case: Case) -> DMatrix<f64> {
-        let Case { asked, scales, stiffness_n_per_m, .. } = case;
+    fn jacobian(&self, t: &Trial, case: BalanceCase) -> DMatrix<f64> {
+        let BalanceCase { asked, scales, stiffness_n_per_m, .. } = case;
         let n = self.sprags.len();
         let (r_i, r_e) = self.tracks_m();
         let size = t.miss.len();

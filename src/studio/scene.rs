@@ -133,11 +133,13 @@ pub fn scene_view(
     let column = |f: &dyn Fn(&Sample) -> f64| samples.iter().map(f).collect::<Vec<_>>();
     let before = pinned.and_then(|pinned| {
         let prepared = prepare(pinned).ok()?;
-        Some(Course::new(pinned, &prepared, &simulate_prepared(&prepared, &settings, false).samples))
+        Some(ScenePlots::new(pinned, &prepared, &simulate_prepared(&prepared, &settings, false).samples))
     });
     let plots = match samples.is_empty() {
         true => Vec::new(),
-        false => Course::new(scenario, &prepared, samples).plots(before, scenario.clutch.friction.static_),
+        false => {
+            ScenePlots::new(scenario, &prepared, samples).plots(before, scenario.clutch.friction.static_)
+        }
     };
     let mode = |grip: Grip| match grip {
         Grip::Stick => 0,
@@ -168,14 +170,14 @@ pub fn scene_view(
 }
 
 /// A scene over time, ms.
-struct Course {
+struct ScenePlots {
     torque_nm: Vec<[f64; 2]>,
     ratio_inner: Vec<[f64; 2]>,
     ratio_outer: Vec<[f64; 2]>,
     windup_deg: Vec<[f64; 2]>,
 }
 
-impl Course {
+impl ScenePlots {
     fn new(scenario: &Scenario, prepared: &Prepared, samples: &[Sample]) -> Self {
         let over = |f: &dyn Fn(&Sample) -> f64| samples.iter().map(|p| [p.t * 1e3, f(p)]).collect();
         let count = scenario.clutch.sprags.count as f64;

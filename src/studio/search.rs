@@ -19,7 +19,7 @@ pub struct SearchProgress {
 }
 
 #[derive(Debug)]
-struct Shared {
+struct SearchState {
     follow: Follow,
     evaluations: AtomicUsize,
     done: Mutex<Option<SearchProgress>>,
@@ -27,12 +27,12 @@ struct Shared {
 
 /// A search that runs in a thread of its own.
 #[derive(Debug, Clone)]
-pub struct Searching(Arc<Shared>);
+pub struct Searching(Arc<SearchState>);
 
 impl Searching {
     /// Begin it.
     pub fn begin(design: Design) -> Self {
-        let mine = Self(Arc::new(Shared {
+        let mine = Self(Arc::new(SearchState {
             follow: Follow::new(),
             evaluations: AtomicUsize::new(0),
             done: Mutex::default(),
@@ -68,7 +68,7 @@ impl Record for Counter<'_> {
     }
 }
 
-fn tell(design: &Design, shared: &Shared) -> SearchProgress {
+fn tell(design: &Design, shared: &SearchState) -> SearchProgress {
     let ask = SearchSettings { follow: shared.follow.clone(), ..SearchSettings::default() };
     match design.optimise_recorded(&ask, &mut Counter(&shared.evaluations)) {
         Ok(answer) => {

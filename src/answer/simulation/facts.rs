@@ -18,13 +18,13 @@ const SHOWN: f64 = 1e-5;
 /// Where the tolerance is not reached, a figure with an error above this part of it is shown as the span that it may lie in.
 const SURE: f64 = 0.01;
 
-struct Facts {
+struct FactRows {
     table: Table,
     /// Whether figures may be shown as spans.
     spans: bool,
 }
 
-impl Facts {
+impl FactRows {
     fn new(spans: bool) -> Self {
         let columns = vec![
             Column::text("quantity", "Quantity"),
@@ -61,7 +61,7 @@ impl Facts {
 /// What happened, with error estimates.
 pub(super) fn table(scene: &Ran) -> Table {
     let unsure = |s: &Simulation| scene.method == "event" && s.error.is_some() && !s.tolerance_reached;
-    let mut facts = Facts::new(scene.simulation().is_some_and(unsure));
+    let mut facts = FactRows::new(scene.simulation().is_some_and(unsure));
     match &scene.outcome {
         Err(why) => facts.word("no start", &why.to_string()),
         Ok((prepared, s)) if scene.method == "equilibrium" => equilibrium(&mut facts, scene, prepared, s),
@@ -113,7 +113,7 @@ fn span(value: f64, error: f64, unit: Unit) -> String {
 }
 
 /// What an engagement takes for given: the paper publishes none of it for its Figure 8.
-fn assumed(f: &mut Facts, scene: &Ran) {
+fn assumed(f: &mut FactRows, scene: &Ran) {
     let ScenarioKind::Engagement {
         free_run_rad_s,
         reversing_torque_nm,
@@ -144,7 +144,7 @@ fn unit(quantity: Quantity) -> Unit {
 }
 
 /// The figures of `group` that the simulation has.
-fn figures(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation, group: Group) {
+fn figures(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulation, group: Group) {
     let exact = EXACT + prepared.model.curve.truncation();
     for figure in figures_of(group) {
         let (Some(line), Some(value)) = (figure.line, (figure.of)(s)) else { continue };
@@ -153,7 +153,7 @@ fn figures(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation, grou
     }
 }
 
-fn motion(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation) {
+fn motion(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulation) {
     figures(f, scene, prepared, s, Group::Motion);
     assumed(f, scene);
     for group in [Group::Reversal, Group::Lost, Group::Peaks, Group::Pressures] {
@@ -239,7 +239,7 @@ fn demand_is_steady(s: &Simulation, most: f64, error: f64, at_inner: bool) -> bo
         })
 }
 
-fn demand(f: &mut Facts, s: &Simulation) {
+fn demand(f: &mut FactRows, s: &Simulation) {
     let Some(d) = s.demand else { return };
     for figure in figures_of(Group::Demand) {
         let Some(label) = figure.line.map(|l| l.label) else { continue };
@@ -283,7 +283,7 @@ fn instead(quantity: Quantity, d: &RollingDemand) -> Option<String> {
     }
 }
 
-fn equilibrium(f: &mut Facts, scene: &Ran, prepared: &Prepared, s: &Simulation) {
+fn equilibrium(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulation) {
     let mut add = |name: &str, value: f64, unit: Unit| {
         f.add(name, value, unit, s.equilibrium_error.map(|e| e * value.abs()));
     };

@@ -23,7 +23,7 @@ pub(super) struct Seen {
 }
 
 /// One group while the races' accelerations are sought.
-pub(super) struct Part {
+pub(super) struct GroupRhs {
     of: Loose,
     a: Matrix2<f64>,
     b: Vector2<f64>,
@@ -34,7 +34,7 @@ pub(super) struct Part {
     let_go: bool,
 }
 
-impl Part {
+impl GroupRhs {
     /// Of a group of `model` in `mode`.
     fn new<const RADIAL: bool>(
         model: &Model,
@@ -91,7 +91,7 @@ pub(super) struct Rhs<'a> {
     pub(super) motions: Vec<SpragMotion>,
     /// theta_be - theta_bi from which the windup counts that a waiting group waits for, rad.
     pub(super) reference_rad: f64,
-    parts: Vec<Option<Part>>,
+    parts: Vec<Option<GroupRhs>>,
     pub(super) seen: Vec<Option<Seen>>,
     pub(super) probes: [Vec<Probe>; PROBES],
 }
@@ -135,7 +135,7 @@ impl<'a> Rhs<'a> {
             let own = state_of(y, g);
             let p = model.point(mode.place, own[0]);
             let rates = model.rates(mode, &p, &own);
-            self.parts[g] = Some(Part::new::<RADIAL>(model, mode, t, &own, &p, &rates));
+            self.parts[g] = Some(GroupRhs::new::<RADIAL>(model, mode, t, &own, &p, &rates));
             // Forces follow below.
             self.seen[g] = Some(Seen { point: p, rates, forces: Forces::NONE });
         }
@@ -181,7 +181,7 @@ impl<'a> Rhs<'a> {
         let (model, own) = (&self.groups[g].model, state_of(y, g));
         let p = model.point(mode.place, own[0]);
         let rates = model.rates(mode, &p, &own);
-        let mut part = Part::new::<true>(model, mode, t, &own, &p, &rates);
+        let mut part = GroupRhs::new::<true>(model, mode, t, &own, &p, &rates);
         let (forces, lets_go) = part.under(x);
         (rates[0], if lets_go { part.under(x).0 } else { forces })
     }

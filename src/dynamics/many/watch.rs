@@ -14,7 +14,7 @@ const FINE: f64 = 1e-3;
 
 /// A figure of one group whose largest value is kept.
 #[derive(Clone, Copy)]
-enum Figure {
+enum Watched {
     /// N_bi, N.
     Normal,
     /// |T|/N at this contact while A is loaded.
@@ -31,21 +31,21 @@ impl<const N: usize> Going<'_, N> {
             if self.rhs.motions[g].waits {
                 continue;
             }
-            for figure in [Figure::Normal, Figure::Tan(0), Figure::Tan(1), Figure::Share] {
+            for figure in [Watched::Normal, Watched::Tan(0), Watched::Tan(1), Watched::Share] {
                 let course = &self.out.courses[g];
                 let best = match figure {
-                    Figure::Normal => course.normal_max_n,
-                    Figure::Tan(contact) => course.tan[contact],
-                    Figure::Share => course.share,
+                    Watched::Normal => course.normal_max_n,
+                    Watched::Tan(contact) => course.tan[contact],
+                    Watched::Share => course.share,
                 };
                 let values: [f64; PROBES] = std::array::from_fn(|j| self.figure_at_probe(g, figure, j));
                 let found = self.most(step, &mut dense, g, figure, &values, best)?;
                 let Some((part, most)) = found else { continue };
                 let (t, course) = (step.t + part * step.h, &mut self.out.courses[g]);
                 match figure {
-                    Figure::Normal => (course.normal_max_n, course.normal_max_s) = (most, t),
-                    Figure::Tan(contact) => course.tan[contact] = most,
-                    Figure::Share => (course.share, course.share_s) = (most, t),
+                    Watched::Normal => (course.normal_max_n, course.normal_max_s) = (most, t),
+                    Watched::Tan(contact) => course.tan[contact] = most,
+                    Watched::Share => (course.share, course.share_s) = (most, t),
                 }
             }
         }
@@ -58,7 +58,7 @@ impl<const N: usize> Going<'_, N> {
         step: &Step<N>,
         dense: &mut Option<Dense<N>>,
         g: usize,
-        figure: Figure,
+        figure: Watched,
         values: &[f64; PROBES],
         record: f64,
     ) -> Result<Option<(f64, f64)>, ()> {
@@ -69,8 +69,8 @@ impl<const N: usize> Going<'_, N> {
             }
         }
         let bound = match figure {
-            Figure::Tan(_) => self.groups[g].model.friction.static_,
-            Figure::Normal | Figure::Share => f64::INFINITY,
+            Watched::Tan(_) => self.groups[g].model.friction.static_,
+            Watched::Normal | Watched::Share => f64::INFINITY,
         };
         let fine = FINE * self.settings.tolerance;
         for j in 0..PROBES {
@@ -104,24 +104,24 @@ impl<const N: usize> Going<'_, N> {
         Ok((best.1 > record).then_some(best))
     }
 
-    fn figure_at_probe(&self, g: usize, figure: Figure, j: usize) -> f64 {
+    fn figure_at_probe(&self, g: usize, figure: Watched, j: usize) -> f64 {
         let seen = &self.rhs.probes[j];
         let own = &seen[g].figures;
         let loaded_n = self.groups[g].model.loaded_n;
         match figure {
-            Figure::Normal => own[N_BI],
-            Figure::Tan(contact) if own[N_BI] >= loaded_n => own[contact],
-            Figure::Tan(_) => 0.0,
-            Figure::Share => self.share(own[N_BI], |g| seen[g].figures[N_BI], loaded_n),
+            Watched::Normal => own[N_BI],
+            Watched::Tan(contact) if own[N_BI] >= loaded_n => own[contact],
+            Watched::Tan(_) => 0.0,
+            Watched::Share => self.share(own[N_BI], |g| seen[g].figures[N_BI], loaded_n),
         }
     }
 
-    fn figure(&mut self, g: usize, figure: Figure, t: f64, y: &[f64; N]) -> f64 {
+    fn figure(&mut self, g: usize, figure: Watched, t: f64, y: &[f64; N]) -> f64 {
         let loaded_n = self.groups[g].model.loaded_n;
         match figure {
-            Figure::Normal => self.normal_n(g, y),
-            Figure::Tan(contact) => self.rhs.sight(g, t, y).figures[contact],
-            Figure::Share => self.share(self.normal_n(g, y), |g| self.normal_n(g, y), loaded_n),
+            Watched::Normal => self.normal_n(g, y),
+            Watched::Tan(contact) => self.rhs.sight(g, t, y).figures[contact],
+            Watched::Share => self.share(self.normal_n(g, y), |g| self.normal_n(g, y), loaded_n),
         }
     }
 

@@ -112,7 +112,7 @@ fn spring(matrix: &mut DMatrix<f64>, a: Option<usize>, b: Option<usize>, value: 
 }
 
 /// A mode by its freedoms.
-struct Found {
+struct Eigenmode {
     rate_rad_s: f64,
     damping_ratio: f64,
     shape: DVector<f64>,
@@ -125,7 +125,7 @@ fn eigen(
     damping: &DMatrix<f64>,
     stiffness: &DMatrix<f64>,
     turns: bool,
-) -> Option<Vec<Found>> {
+) -> Option<Vec<Eigenmode>> {
     if [mass, damping, stiffness].into_iter().flatten().any(|x| !x.is_finite()) {
         return None;
     }
@@ -159,12 +159,12 @@ fn eigen(
             if l.im == 0.0 { 1.0 } else { -l.re / l.norm() }
         });
         let shape = inverse.transpose() * own.eigenvectors.column(i);
-        Found { rate_rad_s: rate, damping_ratio, shape }
+        Eigenmode { rate_rad_s: rate, damping_ratio, shape }
     };
     Some(order.into_iter().map(mode).collect())
 }
 
-impl Found {
+impl Eigenmode {
     fn named(self, train: Option<&Train>, free: &[Option<usize>; BODIES], mass: &DMatrix<f64>) -> TrainMode {
         let races = [("inner race", 0, 1.0), ("outer race", 1, 1.0)];
         let nodes = train.iter().flat_map(|t| t.nodes.iter().filter(|n| n.shaft.is_some()));
