@@ -11,6 +11,14 @@ pub trait Evaluate: Sync {
     /// # Errors
     /// [`NoEvaluation::Refused`] where the problem has no answer at x (a geometry that does not close, say).
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation>;
+
+    /// By what every number of the evaluation at `x` (objectives, limits, tie break) changes on the way to each of the points
+    /// `beside` it, at most a millionth of the box away: to the first order, without the choices that two evaluations may make
+    /// differently. NaN: a number without such a change; an empty row: a point without an evaluation. `None`: this problem has
+    /// nothing better than the difference of two evaluations.
+    fn changes(&self, _x: &[f64], _beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        None
+    }
 }
 
 /// Margins at one point.

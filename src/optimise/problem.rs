@@ -5,16 +5,23 @@ use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use super::goal::{Goal, Measure, measures};
 use super::grid::made;
 use super::smooth;
+use crate::clutch::Scenario;
 use crate::design::{
     Blank, Design, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content, lean,
     with_limits, with_values,
 };
+use crate::dynamics::Track;
 use crate::fidelity::{self, Effort};
 use crate::margin::{
     Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
     unlike_margins,
 };
-use crate::scenario::{AtRest, Settings, demand, demand_quickly};
+use crate::scenario::{
+    AtRest, Prepared, RollingDemand, Settings, demand, demand_quickly, demand_retraced, demand_track,
+};
+use rayon::prelude::*;
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::sync::OnceLock;
 
 /// How an evaluation is computed.
@@ -314,6 +321,15 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
     pub fn assess(&self, design: &Design) -> Result<Assessment, NoEvaluation> {
+        self.assess_with(design, &|scenario, known| self.scene(scenario, known))
+    }
+
+    /// The same with the rows of scenes as `scene` has them.
+    fn assess_with(
+        &self,
+        design: &Design,
+        scene: &dyn Fn(&Scenario, AtRest) -> Vec<Margin>,
+    ) -> Result<Assessment, NoEvaluation> {
         let effort = self.effort();
         let state = load_state_at(design, effort).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
@@ -324,7 +340,7 @@ impl ClutchProblem {
         }
         let scenes = |rows: &mut Vec<Margin>, wanted: &dyn Fn(&String) -> bool| {
             for scenario in design.scenarios.iter().filter(|s| wanted(&s.name)) {
-                rows.extend(self.scene(scenario, state.at_rest(design)));
+                rows.extend(scene(scenario, state.at_rest(design)));
                 // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
                 if let Some(row) = rows.iter().find(|r| !r.computed()) {
                     return Err(NoEvaluation::Refused(row.name.clone()));
@@ -349,7 +365,7 @@ impl ClutchProblem {
         Ok(Assessment { rows, measures: measures_of_goals })
     }
 
-    fn scene(&self, scenario: &crate::clutch::Scenario, known: AtRest) -> Vec<Margin> {
+    fn scene(&self, scenario: &Scenario, known: AtRest) -> Vec<Margin> {
         let Fidelity { settings, reduced } = &self.fidelity;
         if !reduced {
             return scene_margins(scenario, &self.limits, true, Some(known), settings);
@@ -363,6 +379,20 @@ impl ClutchProblem {
         if !found.finished && plan.reduction.reach_nm.is_some() {
             return whole();
         }
+        scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true)
+    }
+
+    /// The rows of a scene, quickly, by the track that `track` has for it.
+    fn scene_beside(
+        &self,
+        scenario: &Scenario,
+        known: AtRest,
+        track: &dyn Fn(&Prepared) -> Option<Track>,
+    ) -> Vec<Margin> {
+        let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
+            return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
+        };
+        let found = demand_retraced(&prepared, track(&prepared).as_ref()).unwrap_or(RollingDemand::UNKNOWN);
         scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true)
     }
 
@@ -387,13 +417,24 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch at `x`.
     pub fn assess_at(&self, x: &[f64]) -> Result<Assessment, NoEvaluation> {
+        self.assess_at_with(x, &|_, scenario, known| self.scene(scenario, known))
+    }
+
+    /// The same with the rows of the scenes of each corner, by its number, as `scene` has them.
+    fn assess_at_with(
+        &self,
+        x: &[f64],
+        scene: &dyn Fn(usize, &Scenario, AtRest) -> Vec<Margin>,
+    ) -> Result<Assessment, NoEvaluation> {
         let design = self.asked_at(x)?;
         let mut all = Assessment { rows: Vec::new(), measures: Vec::new() };
-        for corner in &self.corners {
+        for (k, corner) in self.corners.iter().enumerate() {
+            let scene = |scenario: &Scenario, known: AtRest| scene(k, scenario, known);
             let mut found = if corner.is_nominal() {
-                self.assess(&design)?
+                self.assess_with(&design, &scene)?
             } else {
-                self.assess(&perturbed(&design, corner).map_err(|e| NoEvaluation::Refused(e.to_string()))?)?
+                let there = perturbed(&design, corner).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
+                self.assess_with(&there, &scene)?
             };
             if !corner.is_nominal() {
                 let name = corner.name();
@@ -483,9 +524,49 @@ impl ClutchProblem {
     }
 }
 
+/// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
+type Tracks = HashMap<(usize, String), Option<Track>>;
+
+impl ClutchProblem {
+    /// The evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is none.
+    fn retraced(&self, x: &[f64], tracks: &Tracks) -> Result<Evaluation, NoEvaluation> {
+        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
+            let track = tracks.get(&(k, scenario.name.clone())).and_then(Option::as_ref);
+            self.scene_beside(scenario, known, &|_| track.cloned())
+        };
+        self.assess_at_with(x, &scene).map(|assessed| self.evaluation(&assessed))
+    }
+}
+
 impl Evaluate for ClutchProblem {
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         self.assess_at(x).map(|assessed| self.evaluation(&assessed))
+    }
+
+    /// Of a search's quick evaluations. What a static state demands has its own equilibria at each point, to 1e-12, what a scene
+    /// demands its run taken again by the neighbour ([`demand_retraced`]). Without a change: demands that are bisected, because the
+    /// motion unloads the contact, and scenes that do more than roll; and everything where lengths go with a variable in steps.
+    fn changes(&self, x: &[f64], beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let in_steps = |(name, link): &(String, Link)| link.step.is_some() && self.variables.contains(name);
+        if !self.quick || self.links.iter().any(in_steps) {
+            return None;
+        }
+        let tracks = RefCell::new(Tracks::new());
+        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
+            self.scene_beside(scenario, known, &|prepared| {
+                let track = demand_track(prepared, &self.fidelity.settings);
+                tracks.borrow_mut().insert((k, scenario.name.clone()), track.clone());
+                track
+            })
+        };
+        let here = self.assess_at_with(x, &scene).ok()?;
+        let here = self.evaluation(&here).outputs();
+        let tracks = tracks.into_inner();
+        let change = |there: &Vec<f64>| match self.retraced(there, &tracks).map(|e| e.outputs()) {
+            Ok(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
+            _ => Vec::new(),
+        };
+        Some(beside.par_iter().map(change).collect())
     }
 }
 

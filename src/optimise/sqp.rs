@@ -10,7 +10,7 @@
 
 use nalgebra::DMatrix;
 
-use super::difference::{Steps, Table, table};
+use super::difference::{Steps, Table, own_table, table};
 use super::evaluate::Evaluation;
 use super::hessian;
 use super::journal::{Halt, Memo};
@@ -136,8 +136,8 @@ impl Climb<'_, '_> {
         // Once steps are as short as the difference step, the error f'' h/2 of a forward difference is as large as the
         // change of slope that the step is after.
         let coarse = settings.shortest_difference;
-        let believed = small && !settings.finish;
-        if !self.central && !believed && (small || plan.length <= coarse) {
+        let doubtful = if small { settings.finish } else { plan.length <= coarse && !self.table.exact };
+        if !self.central && doubtful {
             return Verdict::Sharpen;
         }
         let hopeless = !met && plan.elastic > HOPELESS * violation;
@@ -253,7 +253,10 @@ impl Climb<'_, '_> {
         let steps = self.steps.as_ref().unwrap_or(&shortest);
         let central = self.central || self.steps.is_none();
         let h = if central { steps.central.clone() } else { steps.forward.clone() };
-        let found = table(self.memo, self.space, &self.u, &outputs, &h, central)?;
+        let found = match self.central {
+            true => table(self.memo, self.space, &self.u, &outputs, &h, true)?,
+            false => own_table(self.memo, self.space, &self.u, &outputs, &h, central)?,
+        };
         if let Some(fitted) = Steps::fitted(&found, self.noise, self.settings) {
             *self.steps = Some(match self.steps.take() {
                 Some(known) => known.least(&fitted),
