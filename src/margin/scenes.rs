@@ -27,6 +27,12 @@ impl SceneDemand {
         Self { demand: Ok(found), static_friction, hertz_peak_pa: peak.map_or(0.0, |r| r.hertz_inner_pa) }
     }
 
+    /// Of a scene of which nothing is known but that it has a demand: no number of it is one.
+    pub fn unknown(scene: &Scenario) -> Self {
+        let static_friction = scene.clutch.friction.static_;
+        Self { demand: Ok(scenario::RollingDemand::UNKNOWN), static_friction, hertz_peak_pa: f64::NAN }
+    }
+
     /// Slip margin; -1 where there is none.
     pub fn slip_margin(&self) -> f64 {
         self.demand.as_ref().map_or(-1.0, |d| if d.finished { d.slip_margin } else { -1.0 })

@@ -16,12 +16,27 @@ pub(super) struct Table {
     pub held: Vec<usize>,
     /// Whether no slope is a difference of evaluations.
     pub exact: bool,
+    /// Steps over which the slopes were followed by secants since they were taken.
+    pub secants: usize,
 }
 
 impl Table {
     /// Before anything is known: every variable held.
     pub fn unknown(space: &Space) -> Self {
-        Table { slopes: Vec::new(), curvatures: None, held: (0..space.len()).collect(), exact: false }
+        Table { slopes: Vec::new(), curvatures: None, held: (0..space.len()).collect(), exact: false, secants: 0 }
+    }
+}
+
+impl Table {
+    /// Slopes followed over the step `s`: the least change of each row that makes its slope along the step that of the secant
+    /// (Broyden, *Math. Comp.* 19 (1965) 577).
+    pub fn follow(&mut self, s: &[f64], before: &[f64], after: &[f64]) {
+        let length: f64 = s.iter().map(|v| v * v).sum();
+        for (row, (a, b)) in self.slopes.iter_mut().zip(before.iter().zip(after)) {
+            let missed = b - a - row.iter().zip(s).map(|(g, v)| g * v).sum::<f64>();
+            row.iter_mut().zip(s).for_each(|(g, v)| *g += missed * v / length);
+        }
+        self.secants += 1;
     }
 }
 
@@ -107,7 +122,7 @@ pub(super) fn own_table(
     let known = |slope: &f64| slope.is_finite();
     let own = own_slopes(memo, space, u, outputs.len())?.unwrap_or_default();
     if !own.is_empty() && own.iter().flatten().all(known) {
-        return Ok(Table { slopes: own, curvatures: None, held: Vec::new(), exact: true });
+        return Ok(Table { slopes: own, curvatures: None, held: Vec::new(), exact: true, secants: 0 });
     }
     let mut found = table(memo, space, u, outputs, h, central)?;
     for (row, own) in found.slopes.iter_mut().zip(own) {
@@ -177,5 +192,5 @@ pub(super) fn table(
         }
     }
     held.sort_unstable();
-    Ok(Table { slopes, curvatures: central.then_some(curvatures), held, exact: false })
+    Ok(Table { slopes, curvatures: central.then_some(curvatures), held, exact: false, secants: 0 })
 }

@@ -48,6 +48,12 @@ impl Evaluation {
         self.limits.iter().filter(|c| **c < -tolerance).count()
     }
 
+    /// The same with every limit less by `clearance`.
+    pub(super) fn less(mut self, clearance: f64) -> Self {
+        self.limits.iter_mut().for_each(|limit| *limit -= clearance);
+        self
+    }
+
     /// All numbers in one row: objectives, limits, tie break.
     pub(super) fn outputs(&self) -> Vec<f64> {
         let mut row = self.objectives.clone();

@@ -94,12 +94,14 @@ pub(super) struct Memo<'a> {
     pub failures: usize,
     /// Derivatives along one variable that the problem itself gave.
     pub derivatives: usize,
+    /// What is taken from every limit that is handed out.
+    pub clearance: f64,
 }
 
 impl<'a> Memo<'a> {
     pub fn new(problem: &'a dyn Evaluate, run: SearchRun<'a>, limit: usize) -> Self {
         let given = run.journal.entries.len();
-        Memo { problem, run, given, shape: None, asked: HashSet::new(), limit, failures: 0, derivatives: 0 }
+        Memo { problem, run, given, shape: None, asked: HashSet::new(), limit, failures: 0, derivatives: 0, clearance: 0.0 }
     }
 
     /// Distinct points asked for so far in this run, computed or remembered.
@@ -178,7 +180,7 @@ impl<'a> Memo<'a> {
             if self.asked.insert(at) && outcome.is_err() {
                 self.failures += 1;
             }
-            outcomes.push(outcome);
+            outcomes.push(outcome.map(|e| e.less(self.clearance)));
         }
         Ok(outcomes)
     }

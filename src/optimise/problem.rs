@@ -17,7 +17,7 @@ use crate::margin::{
     unlike_margins,
 };
 use crate::scenario::{
-    AtRest, Prepared, RollingDemand, Settings, demand, demand_quickly, demand_retraced, demand_track,
+    AtRest, Prepared, Settings, demand, demand_quickly, demand_retraced, demand_track,
 };
 use rayon::prelude::*;
 use std::cell::RefCell;
@@ -392,8 +392,11 @@ impl ClutchProblem {
         let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
             return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
         };
-        let found = demand_retraced(&prepared, track(&prepared).as_ref()).unwrap_or(RollingDemand::UNKNOWN);
-        scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true)
+        let demand = match demand_retraced(&prepared, track(&prepared).as_ref()) {
+            Some(found) => SceneDemand::of(scenario, &prepared, found),
+            None => SceneDemand::unknown(scenario),
+        };
+        scene_rows(scenario, &demand, &self.limits, true)
     }
 
     /// The design at `x` without the scenarios that no margin is asked of; where that is refused, the whole one says why.
