@@ -3,11 +3,12 @@
 //! ```text
 //! cost counts FILE        right-hand sides of one evaluation, scene by scene; points on standard input as for `evaluate`
 //! cost curve FILE         error and time of the wedge curve at rest: both efforts, and tables of exact equilibria
+//! cost slopes FILE        time of an evaluation of a search and of its derivatives along all variables, at the start
 //! cost build FILE HOW N   N curves and nothing else, for a counter of instructions; HOW: full, search
 //! ```
 
 use sprag_design::margin::load_state_at;
-use sprag_design::optimise::ClutchProblem;
+use sprag_design::optimise::{ClutchProblem, Evaluate};
 use sprag_design::scenario::demand_quickly;
 use sprag_design::wedge::{Closure, Effort};
 use sprag_design::{Design, Profile, Settings, WedgeCurve, fidelity};
@@ -28,6 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     match words[..] {
         ["counts", file] => counts(&Design::read(Path::new(file))?),
         ["curve", file] => errors(&Design::read(Path::new(file))?),
+        ["slopes", file] => slopes(&Design::read(Path::new(file))?),
         ["build", file, how, times] => {
             let design = Design::read(Path::new(file))?;
             let profile = design.clutch.profile()?;
@@ -68,6 +70,31 @@ fn counts(design: &Design) -> Result<(), Box<dyn Error>> {
         }
         println!("{}", serde_json::Value::from(scenes));
     }
+    Ok(())
+}
+
+fn slopes(design: &Design) -> Result<(), Box<dyn Error>> {
+    let task = design.optimize.clone().ok_or("no table `optimize`")?;
+    let problem = ClutchProblem::of_task(design, &task, false);
+    let x: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
+    let moved = |i: usize| {
+        let mut x = x.clone();
+        x[i] += 1e-6 * (task.variables[i].max - task.variables[i].min);
+        x
+    };
+    let beside: Vec<Vec<f64>> = (0..x.len()).map(moved).collect();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let evaluation = timed(|| problem.evaluate(&x).is_ok());
+    let none = timed(|| pool.install(|| problem.changes(&x, &[]).is_some()));
+    let all = timed(|| pool.install(|| problem.changes(&x, &beside).is_some()));
+    let each = (all - none) / x.len() as f64 / evaluation;
+    println!(
+        "{}",
+        serde_json::json!({
+            "evaluation_s": evaluation, "once_in_evaluations": none / evaluation, "each_in_evaluations": each,
+            "variables": x.len(), "all_in_evaluations": all / evaluation
+        })
+    );
     Ok(())
 }
 

@@ -23,7 +23,13 @@ pub(super) struct Table {
 impl Table {
     /// Before anything is known: every variable held.
     pub fn unknown(space: &Space) -> Self {
-        Table { slopes: Vec::new(), curvatures: None, held: (0..space.len()).collect(), exact: false, secants: 0 }
+        Table {
+            slopes: Vec::new(),
+            curvatures: None,
+            held: (0..space.len()).collect(),
+            exact: false,
+            secants: 0,
+        }
     }
 }
 
@@ -86,7 +92,7 @@ impl Steps {
 const BESIDE: f64 = 1e-6;
 
 /// Slopes at u as the problem itself has them, `[output][variable]`, NaN where it has none; `None`: it has none at all.
-fn own_slopes(
+pub(super) fn own_slopes(
     memo: &mut Memo,
     space: &Space,
     u: &[f64],

@@ -203,6 +203,7 @@ impl Driver<'_, '_> {
             multipliers: (Vec::new(), Vec::new()),
             residuals: Residuals::default(),
             table: Table::unknown(&self.space),
+            taken: None,
             hessian: None,
             tally: Tally::default(),
         };

@@ -101,7 +101,17 @@ pub(super) struct Memo<'a> {
 impl<'a> Memo<'a> {
     pub fn new(problem: &'a dyn Evaluate, run: SearchRun<'a>, limit: usize) -> Self {
         let given = run.journal.entries.len();
-        Memo { problem, run, given, shape: None, asked: HashSet::new(), limit, failures: 0, derivatives: 0, clearance: 0.0 }
+        Memo {
+            problem,
+            run,
+            given,
+            shape: None,
+            asked: HashSet::new(),
+            limit,
+            failures: 0,
+            derivatives: 0,
+            clearance: 0.0,
+        }
     }
 
     /// Distinct points asked for so far in this run, computed or remembered.

@@ -16,9 +16,7 @@ use crate::margin::{
     Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
     unlike_margins,
 };
-use crate::scenario::{
-    AtRest, Prepared, Settings, demand, demand_quickly, demand_retraced, demand_track,
-};
+use crate::scenario::{AtRest, Prepared, Settings, demand, demand_quickly, demand_retraced, demand_track};
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::collections::HashMap;

@@ -79,8 +79,10 @@ pub(super) struct Climb<'a, 'm> {
     /// Multipliers of the phase's margins and limits at the last subproblem.
     pub multipliers: (Vec<f64>, Vec<f64>),
     pub residuals: Residuals,
-    /// Derivatives at `u`.
+    /// Derivatives at `u`, or followed there by secants.
     pub table: Table,
+    /// Where they were last taken, and what they were there.
+    pub taken: Option<(Vec<f64>, Table)>,
     /// B, once there is a first subproblem to take multipliers from.
     pub hessian: Option<DMatrix<f64>>,
     pub tally: Tally,
@@ -114,7 +116,7 @@ impl Climb<'_, '_> {
                 }
                 Verdict::Sharpen => self.sharpen(10.0)?,
                 Verdict::Forget => self.hessian = None,
-                Verdict::Refresh => self.derive()?,
+                Verdict::Refresh => self.renew()?,
                 Verdict::Try => match self.attempt(&plan)? {
                     Some(trial) if trial.ratio >= ACCEPTED => self.accept(&plan, trial)?,
                     refused => {
@@ -183,29 +185,35 @@ impl Climb<'_, '_> {
         }
         self.record(if trial.corrected { TrialOutcome::Corrected } else { TrialOutcome::Accepted });
         let s: Vec<f64> = trial.u.iter().zip(&self.u).map(|(a, b)| a - b).collect();
-        let weights = self.lagrangian_weights();
-        let before = combined(&weights, &self.table.slopes);
         let outputs = self.evaluation.outputs();
         (self.u, self.evaluation) = (trial.u, trial.evaluation);
         if self.table.exact && trial.ratio >= BELIEVED && self.table.secants < SECANTS {
             self.table.follow(&s, &outputs, &self.evaluation.outputs());
             return Ok(());
         }
-        self.derive()?;
-        let after = combined(&weights, &self.table.slopes);
-        let y: Vec<f64> = after.iter().zip(&before).map(|(a, b)| a - b).collect();
+        self.renew()?;
         let needed: f64 = self.multipliers.1.iter().sum();
         let wall = matches!(self.view.phase, Phase::TieBreak { .. });
         if !wall && self.tally.lowerings < LOWERINGS && needed > 0.0 && self.weight > 8.0 * needed {
             self.weight = (2.0 * needed).max(0.1 * self.weight);
             self.tally.lowerings += 1;
         }
-        if let Some(b) = &mut self.hessian {
-            if let Some(curvatures) = &self.table.curvatures {
-                hessian::rescale(b, &combined(&weights, curvatures));
-            }
-            hessian::update(b, &s, &y);
+        Ok(())
+    }
+
+    /// Derivatives here, and what they say of the Hessian on the way from where they were taken last.
+    fn renew(&mut self) -> Result<(), Halt> {
+        let weights = self.lagrangian_weights();
+        let before = self.taken.take();
+        self.derive()?;
+        let (Some(b), Some((from, before))) = (&mut self.hessian, before) else { return Ok(()) };
+        let s: Vec<f64> = self.u.iter().zip(&from).map(|(a, b)| a - b).collect();
+        let (before, after) = (combined(&weights, &before.slopes), combined(&weights, &self.table.slopes));
+        let y: Vec<f64> = after.iter().zip(&before).map(|(a, b)| a - b).collect();
+        if let Some(curvatures) = &self.table.curvatures {
+            hessian::rescale(b, &combined(&weights, curvatures));
         }
+        hessian::update(b, &s, &y);
         Ok(())
     }
 
@@ -219,7 +227,7 @@ impl Climb<'_, '_> {
         self.radius = shrink * plan.length;
         if self.table.secants > 0 {
             self.radius = 0.5 * plan.length;
-            self.derive()?;
+            self.renew()?;
             return Ok(None);
         }
         let coarse = self.settings.shortest_difference;
@@ -284,6 +292,7 @@ impl Climb<'_, '_> {
                 None => fitted,
             });
         }
+        self.taken = Some((self.u.clone(), found.clone()));
         self.table = found;
         Ok(())
     }
