@@ -3,7 +3,8 @@
 //! ```text
 //! cost counts FILE        right-hand sides of one evaluation, scene by scene; points on standard input as for `evaluate`
 //! cost curve FILE         error and time of the wedge curve at rest: both efforts, and tables of exact equilibria
-//! cost slopes FILE        time of an evaluation of a search and of its derivatives along all variables, at the start
+//! cost slopes FILE K N    N evaluations of a search at the start and as often derivatives along the first K variables, for a
+//!                         counter of instructions
 //! cost build FILE HOW N   N curves and nothing else, for a counter of instructions; HOW: full, search
 //! ```
 
@@ -29,7 +30,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     match words[..] {
         ["counts", file] => counts(&Design::read(Path::new(file))?),
         ["curve", file] => errors(&Design::read(Path::new(file))?),
-        ["slopes", file] => slopes(&Design::read(Path::new(file))?),
+        ["slopes", file, along, times] => {
+            slopes(&Design::read(Path::new(file))?, along.parse()?, times.parse()?)
+        }
         ["build", file, how, times] => {
             let design = Design::read(Path::new(file))?;
             let profile = design.clutch.profile()?;
@@ -73,7 +76,7 @@ fn counts(design: &Design) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn slopes(design: &Design) -> Result<(), Box<dyn Error>> {
+fn slopes(design: &Design, along: usize, times: usize) -> Result<(), Box<dyn Error>> {
     let task = design.optimize.clone().ok_or("no table `optimize`")?;
     let problem = ClutchProblem::of_task(design, &task, false);
     let x: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
@@ -82,19 +85,13 @@ fn slopes(design: &Design) -> Result<(), Box<dyn Error>> {
         x[i] += 1e-6 * (task.variables[i].max - task.variables[i].min);
         x
     };
-    let beside: Vec<Vec<f64>> = (0..x.len()).map(moved).collect();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let evaluation = timed(|| problem.evaluate(&x).is_ok());
-    let none = timed(|| pool.install(|| problem.changes(&x, &[]).is_some()));
-    let all = timed(|| pool.install(|| problem.changes(&x, &beside).is_some()));
-    let each = (all - none) / x.len() as f64 / evaluation;
-    println!(
-        "{}",
-        serde_json::json!({
-            "evaluation_s": evaluation, "once_in_evaluations": none / evaluation, "each_in_evaluations": each,
-            "variables": x.len(), "all_in_evaluations": all / evaluation
-        })
-    );
+    let beside: Vec<Vec<f64>> = (0..along.min(x.len())).map(moved).collect();
+    for _ in 0..times {
+        std::hint::black_box(problem.evaluate(&x).map_err(|e| e.to_string())?);
+        if along > 0 {
+            std::hint::black_box(problem.changes(&x, &beside));
+        }
+    }
     Ok(())
 }
 

@@ -16,11 +16,12 @@ use crate::margin::{
     Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
     unlike_margins,
 };
-use crate::scenario::{AtRest, Prepared, Settings, demand, demand_quickly, demand_retraced, demand_track};
+use crate::scenario::{AtRest, Settings, demand, demand_retraced, demand_tracked};
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::sync::OnceLock;
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// How an evaluation is computed.
 #[derive(Debug, Clone)]
@@ -95,6 +96,38 @@ pub struct ClutchProblem {
     checked: Vec<String>,
     /// Whether everything that `check` demands is a limit: see [`ClutchProblem::as_checked`].
     as_checked: bool,
+    /// Of the latest evaluations.
+    recent: Recent,
+}
+
+/// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
+type Tracks = HashMap<(usize, String), Option<Track>>;
+
+/// Tracks of the latest quick evaluations, so that slopes there need not integrate again; what is not there any more is
+/// integrated to the same bits. A problem that is another begins without.
+#[derive(Debug, Default)]
+struct Recent(Mutex<VecDeque<(Vec<f64>, Arc<Tracks>)>>);
+
+impl Recent {
+    /// As many as climbs side by side may ask for before one of them comes back to its own: 30 kB each.
+    const MOST: usize = 32;
+
+    fn of(&self, x: &[f64]) -> Option<Arc<Tracks>> {
+        let known = self.0.lock().unwrap_or_else(|e| e.into_inner());
+        known.iter().find(|(at, _)| at == x).map(|(_, tracks)| tracks.clone())
+    }
+
+    fn keep(&self, x: &[f64], tracks: &Arc<Tracks>) {
+        let mut known = self.0.lock().unwrap_or_else(|e| e.into_inner());
+        known.truncate(Self::MOST - 1);
+        known.push_front((x.to_vec(), tracks.clone()));
+    }
+}
+
+impl Clone for Recent {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 /// Everything known of one clutch.
@@ -139,6 +172,7 @@ impl ClutchProblem {
             quick: false,
             checked: design.check_scenarios.clone(),
             as_checked: false,
+            recent: Recent::default(),
         }
     }
 
@@ -319,7 +353,7 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
     pub fn assess(&self, design: &Design) -> Result<Assessment, NoEvaluation> {
-        self.assess_with(design, &|scenario, known| self.scene(scenario, known))
+        self.assess_with(design, &|scenario, known| self.scene(scenario, known).0)
     }
 
     /// The same with the rows of scenes as `scene` has them.
@@ -363,34 +397,33 @@ impl ClutchProblem {
         Ok(Assessment { rows, measures: measures_of_goals })
     }
 
-    fn scene(&self, scenario: &Scenario, known: AtRest) -> Vec<Margin> {
+    /// The rows of a scene, and what it integrated where that can be taken again.
+    fn scene(&self, scenario: &Scenario, known: AtRest) -> (Vec<Margin>, Option<Track>) {
         let Fidelity { settings, reduced } = &self.fidelity;
+        let whole = || (scene_margins(scenario, &self.limits, true, Some(known), settings), None);
         if !reduced {
-            return scene_margins(scenario, &self.limits, true, Some(known), settings);
+            return whole();
         }
-        let whole = || scene_margins(scenario, &self.limits, true, Some(known), settings);
         let Ok((plan, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
             return whole();
         };
-        let found = if self.quick { demand_quickly } else { demand }(&prepared, settings);
+        let (found, track) = match self.quick {
+            true => demand_tracked(&prepared, settings),
+            false => (demand(&prepared, settings), None),
+        };
         // A run that needs more of the curve than was built is repeated with all of it.
         if !found.finished && plan.reduction.reach_nm.is_some() {
             return whole();
         }
-        scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true)
+        (scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true), track)
     }
 
-    /// The rows of a scene, quickly, by the track that `track` has for it.
-    fn scene_beside(
-        &self,
-        scenario: &Scenario,
-        known: AtRest,
-        track: &dyn Fn(&Prepared) -> Option<Track>,
-    ) -> Vec<Margin> {
+    /// The rows of a scene as a neighbour of the one whose track is given.
+    fn scene_beside(&self, scenario: &Scenario, known: AtRest, track: Option<&Track>) -> Vec<Margin> {
         let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
             return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
         };
-        let demand = match demand_retraced(&prepared, track(&prepared).as_ref()) {
+        let demand = match demand_retraced(&prepared, track) {
             Some(found) => SceneDemand::of(scenario, &prepared, found),
             None => SceneDemand::unknown(scenario),
         };
@@ -418,7 +451,7 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch at `x`.
     pub fn assess_at(&self, x: &[f64]) -> Result<Assessment, NoEvaluation> {
-        self.assess_at_with(x, &|_, scenario, known| self.scene(scenario, known))
+        self.assess_at_with(x, &|_, scenario, known| self.scene(scenario, known).0)
     }
 
     /// The same with the rows of the scenes of each corner, by its number, as `scene` has them.
@@ -525,23 +558,37 @@ impl ClutchProblem {
     }
 }
 
-/// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
-type Tracks = HashMap<(usize, String), Option<Track>>;
-
 impl ClutchProblem {
-    /// The evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is none.
-    fn retraced(&self, x: &[f64], tracks: &Tracks) -> Result<Evaluation, NoEvaluation> {
+    /// The evaluation at `x`, and what its scenes integrated.
+    fn tracked(&self, x: &[f64]) -> Result<(Evaluation, Arc<Tracks>), NoEvaluation> {
+        let tracks = RefCell::new(Tracks::new());
+        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
+            let (rows, track) = self.scene(scenario, known);
+            tracks.borrow_mut().insert((k, scenario.name.clone()), track);
+            rows
+        };
+        let found = self.assess_at_with(x, &scene).map(|assessed| self.evaluation(&assessed))?;
+        Ok((found, Arc::new(tracks.into_inner())))
+    }
+
+    /// The numbers of the evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is
+    /// none.
+    fn retraced(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
         let scene = |k: usize, scenario: &Scenario, known: AtRest| {
             let track = tracks.get(&(k, scenario.name.clone())).and_then(Option::as_ref);
-            self.scene_beside(scenario, known, &|_| track.cloned())
+            self.scene_beside(scenario, known, track)
         };
-        self.assess_at_with(x, &scene).map(|assessed| self.evaluation(&assessed))
+        self.assess_at_with(x, &scene).ok().map(|assessed| self.evaluation(&assessed).outputs())
     }
 }
 
 impl Evaluate for ClutchProblem {
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
-        self.assess_at(x).map(|assessed| self.evaluation(&assessed))
+        let (found, tracks) = self.tracked(x)?;
+        if self.quick {
+            self.recent.keep(x, &tracks);
+        }
+        Ok(found)
     }
 
     /// Of a search's quick evaluations. What a static state demands has its own equilibria at each point, to 1e-12, what a scene
@@ -552,22 +599,18 @@ impl Evaluate for ClutchProblem {
         if !self.quick || self.links.iter().any(in_steps) {
             return None;
         }
-        let tracks = RefCell::new(Tracks::new());
-        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
-            self.scene_beside(scenario, known, &|prepared| {
-                let track = demand_track(prepared, &self.fidelity.settings);
-                tracks.borrow_mut().insert((k, scenario.name.clone()), track.clone());
-                track
-            })
+        let tracks = match self.recent.of(x) {
+            Some(known) => known,
+            None => self.tracked(x).ok()?.1,
         };
-        let here = self.assess_at_with(x, &scene).ok()?;
-        let here = self.evaluation(&here).outputs();
-        let tracks = tracks.into_inner();
-        let change = |there: &Vec<f64>| match self.retraced(there, &tracks).map(|e| e.outputs()) {
-            Ok(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
+        let points: Vec<&[f64]> = std::iter::once(x).chain(beside.iter().map(Vec::as_slice)).collect();
+        let mut found: Vec<_> = points.into_par_iter().map(|at| self.retraced(at, &tracks)).collect();
+        let here = found.remove(0)?;
+        let change = |there: Option<Vec<f64>>| match there {
+            Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
             _ => Vec::new(),
         };
-        Some(beside.par_iter().map(change).collect())
+        Some(found.into_iter().map(change).collect())
     }
 }
 

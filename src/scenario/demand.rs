@@ -157,18 +157,21 @@ fn at_rest(prepared: &Prepared) -> RollingDemand {
     }
 }
 
-/// What [`demand_quickly`] integrates, for [`demand_retraced`]; `None` where it integrates nothing, or not what rolls from
-/// start to end: an engagement, a motion that unloads its contact so that friction is bisected, one that meets the end of the curve.
-pub fn demand_track(prepared: &Prepared, settings: &Settings) -> Option<Track> {
-    if prepared.duration_s == 0.0 || prepared.overrun.is_some() {
-        return None;
-    }
-    let single = Fineness::single(0.1 * settings.tolerance);
-    let s = run_settings(prepared, &unaudited(settings), single, 0, STEPS_PER_PERIOD_OF_DEMAND);
-    let (model, state, place) = (&prepared.model, prepared.state, prepared.mode.place);
-    let (found, track) = rolling_tracked(model, state, place, &s, QUICK * settings.tolerance)?;
-    let by_peak = found.required_friction.is_some_and(|mu| mu <= MOST_FRICTION);
-    (by_peak && found.stop == Stop::Finished).then_some(track)
+/// The same with what it integrated, for [`demand_retraced`]; `None` where it integrated nothing, or not what rolls from start to
+/// end: an engagement, a motion that unloads its contact so that friction is bisected, one that meets the end of the curve.
+pub fn demand_tracked(prepared: &Prepared, settings: &Settings) -> (RollingDemand, Option<Track>) {
+    let by_peaks = || {
+        if prepared.duration_s == 0.0 || prepared.overrun.is_some() {
+            return None;
+        }
+        let single = Fineness::single(0.1 * settings.tolerance);
+        let s = run_settings(prepared, &unaudited(settings), single, 0, STEPS_PER_PERIOD_OF_DEMAND);
+        let (model, state, place) = (&prepared.model, prepared.state, prepared.mode.place);
+        let (found, track) = rolling_tracked(model, state, place, &s, QUICK * settings.tolerance)?;
+        let demand = of_peaks(prepared, &found);
+        (demand.finished && demand.required_friction.is_some()).then_some((demand, Some(track)))
+    };
+    by_peaks().unwrap_or_else(|| (demand_quickly(prepared, settings), None))
 }
 
 /// Demand of a scene like the one whose `track` is given, so near to it that the difference counts to the first order alone:
