@@ -60,8 +60,8 @@ pub struct Optima {
 impl Optima {
     /// Least margins that lie nearer together are one optimum: a part of the larger.
     const APART: f64 = 1e-3;
-    /// The same where they are near 0; they are scaled to be of order one, and climbs come within 1e-8 of their ends.
-    const NEAR_ZERO: f64 = 1e-6;
+    /// The same where they are near 0; they are scaled to be of order one, and climbs of several end some 2e-5 below their optimum.
+    const NEAR_ZERO: f64 = 1e-4;
 
     fn of(starts: &[ClimbRecord], tolerance: f64) -> Self {
         let within = starts.iter().filter(|s| s.ended == Ok(Status::Converged) && s.violation <= tolerance);
@@ -199,6 +199,8 @@ pub(super) fn climb_all(
             break;
         }
     }
+    // Before the best of them is finished: all have ended alike.
+    let optima = Optima::of(&found.starts, tolerance);
     if several && !desk.stopped() {
         desk.begins("finish");
         found.finish(|x| {
@@ -206,7 +208,6 @@ pub(super) fn climb_all(
         });
     }
     let Found { starts, best, refusal, .. } = found;
-    let optima = Optima::of(&starts, tolerance);
     let spent_on_points = from_box.spent + spent_on_swarm;
     let evaluations = spent_on_points + starts.iter().map(|s| s.evaluations).sum::<usize>();
     match (best, refusal) {
