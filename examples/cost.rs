@@ -3,11 +3,13 @@
 //! ```text
 //! cost counts FILE        right-hand sides of one evaluation, scene by scene; points on standard input as for `evaluate`
 //! cost curve FILE         error and time of the wedge curve at rest: both efforts, and tables of exact equilibria
+//! cost slopes FILE K N    N evaluations of a search at the start and as often derivatives along the first K variables, for a
+//!                         counter of instructions
 //! cost build FILE HOW N   N curves and nothing else, for a counter of instructions; HOW: full, search
 //! ```
 
 use sprag_design::margin::load_state_at;
-use sprag_design::optimise::ClutchProblem;
+use sprag_design::optimise::{ClutchProblem, Evaluate};
 use sprag_design::scenario::demand_quickly;
 use sprag_design::wedge::{Closure, Effort};
 use sprag_design::{Design, Profile, Settings, WedgeCurve, fidelity};
@@ -28,6 +30,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     match words[..] {
         ["counts", file] => counts(&Design::read(Path::new(file))?),
         ["curve", file] => errors(&Design::read(Path::new(file))?),
+        ["slopes", file, along, times] => {
+            slopes(&Design::read(Path::new(file))?, along.parse()?, times.parse()?)
+        }
         ["build", file, how, times] => {
             let design = Design::read(Path::new(file))?;
             let profile = design.clutch.profile()?;
@@ -67,6 +72,25 @@ fn counts(design: &Design) -> Result<(), Box<dyn Error>> {
             scenes.insert(scene.name.clone(), found.rhs_evaluations.into());
         }
         println!("{}", serde_json::Value::from(scenes));
+    }
+    Ok(())
+}
+
+fn slopes(design: &Design, along: usize, times: usize) -> Result<(), Box<dyn Error>> {
+    let task = design.optimize.clone().ok_or("no table `optimize`")?;
+    let problem = ClutchProblem::of_task(design, &task, false);
+    let x: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
+    let moved = |i: usize| {
+        let mut x = x.clone();
+        x[i] += 1e-6 * (task.variables[i].max - task.variables[i].min);
+        x
+    };
+    let beside: Vec<Vec<f64>> = (0..along.min(x.len())).map(moved).collect();
+    for _ in 0..times {
+        std::hint::black_box(problem.evaluate(&x).map_err(|e| e.to_string())?);
+        if along > 0 {
+            std::hint::black_box(problem.changes(&x, &beside));
+        }
     }
     Ok(())
 }

@@ -117,7 +117,7 @@ fn the_end_of_a_search_says_what_it_began_with_and_what_would_carry_it_on() {
         let out = tool(&[&["optimize", design, "-o", new.to_str().unwrap()], &flags[..]].concat());
         String::from_utf8(out.stdout).unwrap().lines().next().unwrap_or_default().to_owned()
     };
-    let short = line("designs/huang2017-single-arc.toml", "12");
+    let short = line("designs/huang2017-single-arc.toml", "2");
     assert!(
         short.starts_with("no feasible design found") && short.contains("--evaluations raises"),
         "{short}"

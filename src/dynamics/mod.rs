@@ -25,6 +25,7 @@ mod probes;
 #[cfg(feature = "validation")]
 mod published;
 mod repeat;
+mod retrace;
 mod rolling;
 mod run;
 mod start;
@@ -48,7 +49,8 @@ pub use periodic::{NoOrbit, Orbit, Shooting, orbit};
 #[cfg(feature = "validation")]
 pub use published::{PublishedSettings, published};
 pub use repeat::Jump;
-pub use rolling::{Rolling, rolling, rolling_quickly};
+pub use retrace::Track;
+pub use rolling::{Rolling, rolling, rolling_quickly, rolling_retraced, rolling_tracked};
 pub use run::{
     Engaged, FastMotion, History, Hold, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,
     run_while_it_sticks,

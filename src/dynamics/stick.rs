@@ -34,12 +34,16 @@ use crate::ode::rhs::RightHandSide;
 use crate::ode::step::{Counters, Tolerance};
 
 /// w, e, w', e'; rad, rad/s.
-type Pair = [f64; 4];
+pub(super) type Pair = [f64; 4];
 
 /// What comes of such a run.
 #[derive(Debug, Clone)]
 pub(super) struct Stuck {
     pub(super) peaks: Peaks,
+    /// Its steps.
+    pub(super) legs: Vec<Leg>,
+    /// Where each figure was largest.
+    pub(super) seen: [Seen; FIGURES],
     pub(super) counters: Counters,
     /// Junctions passed.
     pub(super) passed: u64,
@@ -49,21 +53,48 @@ pub(super) struct Stuck {
     pub(super) t_s: f64,
 }
 
+/// One step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Leg {
+    /// Time up to which it was taken, s.
+    pub(super) until_s: f64,
+    /// Whether it ends before that, at a junction.
+    pub(super) passes: bool,
+}
+
+/// Where a figure was largest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    /// Number of the step.
+    pub(super) leg: usize,
+    /// Time, s.
+    pub(super) t_s: f64,
+    /// Whether that is its very start or its very end.
+    pub(super) edge: Option<Edge>,
+}
+
+/// End of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Edge {
+    Start,
+    End,
+}
+
 /// What is seen at one instant.
 #[derive(Debug, Clone, Copy)]
-struct Sight {
+pub(super) struct Sight {
     t: f64,
     y: Pair,
     /// w'' and e''.
     rates: [f64; 2],
-    figures: [f64; FIGURES],
+    pub(super) figures: [f64; FIGURES],
 }
 
 /// The two equations on one arc.
-struct Rolls<'a> {
+pub(super) struct Rolls<'a> {
     model: &'a Model,
     table: Table<'a>,
-    probed: [Sight; PROBES.len()],
+    pub(super) probed: [Sight; PROBES.len()],
     beat: Beat,
 }
 
@@ -117,7 +148,23 @@ const SERIES: [[f64; 2]; 7] = [
     [1.0 / 6_227_020_800.0, 1.0 / 479_001_600.0],
 ];
 
-impl Rolls<'_> {
+impl<'a> Rolls<'a> {
+    /// On arc `arc`, with the start that `state` is.
+    pub(super) fn new(model: &'a Model, arc: usize, state: &State) -> (Self, Pair) {
+        let windup = model.curve.in_arc(arc, state[0]).windup;
+        let y: Pair = [windup, state[3], state[7] - state[6], state[7]];
+        let nothing = Sight { t: 0.0, y, rates: [f64::NAN; 2], figures: [f64::NAN; FIGURES] };
+        let beat = Beat::new(model.loads.omega_rad_s, model.loads.amplitude_nm, 0.0);
+        (Self { model, table: Table::new(model, arc), probed: [nothing; PROBES.len()], beat }, y)
+    }
+
+    /// Ready for a step from `now`, and the slope there.
+    pub(super) fn set_out(&mut self, now: Sight) -> Pair {
+        self.probed[0] = now;
+        self.beat = Beat::new(self.beat.omega, self.model.loads.amplitude_nm, now.t);
+        [now.y[2], now.y[3], now.rates[0], now.rates[1]]
+    }
+
     /// Accelerations (w'', e'') under the torques `outside` (C_bi, C_be).
     #[inline(always)]
     fn accelerations(model: &Model, m: &Motion, y: &Pair, [c_bi, c_be]: [f64; 2]) -> [f64; 2] {
@@ -163,7 +210,7 @@ impl Rolls<'_> {
 
     /// Everything at (t, y).
     #[inline(always)]
-    fn sight(&mut self, t: f64, y: &Pair) -> Sight {
+    pub(super) fn sight(&mut self, t: f64, y: &Pair) -> Sight {
         let outside = self.torques_nm(t);
         let piece = self.table.piece(y[0]);
         let (m, c) = (piece.motion(y[0]), piece.contacts(y[0]));
@@ -215,13 +262,16 @@ pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSe
     if !plain || settings.samples > 0 || settings.energy {
         return None;
     }
-    let windup = model.curve.in_arc(arc, state[0]).windup;
-    let y: Pair = [windup, state[3], state[7] - state[6], state[7]];
-    let nothing = Sight { t: 0.0, y, rates: [f64::NAN; 2], figures: [f64::NAN; FIGURES] };
-    let beat = Beat::new(model.loads.omega_rad_s, model.loads.amplitude_nm, 0.0);
-    let mut rolls = Rolls { model, table: Table::new(model, arc), probed: [nothing; PROBES.len()], beat };
-    let mut run =
-        Stuck { peaks: Peaks::NONE, counters: Counters::default(), passed: 0, interrupted: false, t_s: 0.0 };
+    let (mut rolls, y) = Rolls::new(model, arc, state);
+    let mut run = Stuck {
+        peaks: Peaks::NONE,
+        legs: Vec::new(),
+        seen: [Seen { leg: 0, t_s: 0.0, edge: Some(Edge::Start) }; FIGURES],
+        counters: Counters::default(),
+        passed: 0,
+        interrupted: false,
+        t_s: 0.0,
+    };
     integrate(&mut rolls, y, settings, &mut run).then_some(run)
 }
 
@@ -246,9 +296,7 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
         let rest = settings.duration_s - t;
         let ahead = rolls.table.junction_ahead_s(&y, now.rates[0]);
         let trial = h.min(longest).min(rest).min(BEYOND[0] * ahead + BEYOND[1] * longest);
-        rolls.probed[0] = now;
-        rolls.beat = Beat::new(rolls.beat.omega, rolls.model.loads.amplitude_nm, t);
-        let slope = [y[2], y[3], now.rates[0], now.rates[1]];
+        let slope = rolls.set_out(now);
         let taken = step.take(rolls, t, &y, &slope, trial, &tolerance, MOST, &mut run.counters);
         if taken.is_err() || step.error.is_nan() || trial < SHORTEST * longest.min(rest) {
             return false;
@@ -263,6 +311,8 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
         run.counters.steps += 1;
         let mut dense = None;
         let Some(end) = first_passage(rolls, &step, &mut dense, &mut run.counters) else { return false };
+        let until_s = if trial == rest { settings.duration_s } else { t + trial };
+        run.legs.push(Leg { until_s, passes: end.is_some() });
         if !watch(rolls, &step, end, &mut dense, settings, run) {
             return false;
         }
@@ -278,7 +328,7 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
                 run.counters.rhs_evaluations += 1;
             }
             _ => {
-                t = if trial == rest { settings.duration_s } else { t + trial };
+                t = until_s;
                 y = step.y1;
                 now = rolls.probed[PROBES.len() - 1];
             }
@@ -296,7 +346,7 @@ fn tolerance(settings: &RunSettings) -> Tolerance<4> {
 }
 
 /// Where, as a fraction of the step, w leaves its arc first; `Some(None)`: nowhere. `None`: the right-hand side failed.
-fn first_passage(
+pub(super) fn first_passage(
     rolls: &mut Rolls,
     step: &Step<4>,
     dense: &mut Option<Dense<4>>,
@@ -385,15 +435,17 @@ fn watch(
     let fine = 1e-3 * settings.tolerance;
     let may = may_hold_a_record(&seen[..count]);
     let mut peaks = run.peaks;
+    let leg = run.legs.len() - 1;
     for (i, mut best) in run.peaks.figures().into_iter().enumerate() {
         if !may[i] {
             continue;
         }
         let value = |j: usize| seen[j].figures[i];
-        for j in [0, count - 1] {
+        for (j, edge) in [(0, Edge::Start), (count - 1, Edge::End)] {
             if value(j) > best {
                 best = value(j);
                 peaks.keep(i, seen[j].t, best, seen[j].figures[super::events::N_BI]);
+                run.seen[i] = Seen { leg, t_s: seen[j].t, edge: Some(edge) };
             }
         }
         for j in 0..count {
@@ -417,7 +469,9 @@ fn watch(
                 highest(from, guess, until, enough, fine * value(j).abs(), |theta| figures(theta)[i]);
             if found > best {
                 best = found;
-                peaks.keep(i, step.t + theta * length, best, figures(theta)[super::events::N_BI]);
+                let t_s = step.t + theta * length;
+                peaks.keep(i, t_s, best, figures(theta)[super::events::N_BI]);
+                run.seen[i] = Seen { leg, t_s, edge: None };
             }
         }
     }
@@ -428,7 +482,7 @@ fn watch(
 impl Rolls<'_> {
     /// Over the junction at which `y` is, into the next arc: e's momentum and kinetic energy are kept, as [`super::crossing`]
     /// has it. False where there is none.
-    fn pass(&mut self, y: &mut Pair) -> bool {
+    pub(super) fn pass(&mut self, y: &mut Pair) -> bool {
         let [from, until] = self.table.ends();
         let up = y[0] - 0.5 * (from + until) > 0.0;
         let [_, _, u, v] = *y;

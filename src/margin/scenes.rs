@@ -27,6 +27,12 @@ impl SceneDemand {
         Self { demand: Ok(found), static_friction, hertz_peak_pa: peak.map_or(0.0, |r| r.hertz_inner_pa) }
     }
 
+    /// Of a scene of which nothing is known but that it has a demand: no number of it is one.
+    pub fn unknown(scene: &Scenario) -> Self {
+        let static_friction = scene.clutch.friction.static_;
+        Self { demand: Ok(scenario::RollingDemand::UNKNOWN), static_friction, hertz_peak_pa: f64::NAN }
+    }
+
     /// What rolling demands, where that ran to its end.
     fn whole(&self) -> Option<&scenario::RollingDemand> {
         self.demand.as_ref().ok().filter(|d| d.finished)

@@ -1,5 +1,5 @@
-//! Derivative tables by differences: forward while far from the solution, central near it, one-sided at a bound
-//! or beside a region in which evaluation fails.
+//! Derivative tables: those that the problem itself gives, and what it does not by differences: forward while far from the
+//! solution, central near it, one-sided at a bound or beside a region in which evaluation fails.
 
 use super::journal::{Halt, Memo};
 use super::settings::Settings;
@@ -14,12 +14,35 @@ pub(super) struct Table {
     pub curvatures: Option<Vec<Vec<f64>>>,
     /// Variables with no derivative, since every difference point failed.
     pub held: Vec<usize>,
+    /// Whether no slope is a difference of evaluations.
+    pub exact: bool,
+    /// Steps over which the slopes were followed by secants since they were taken.
+    pub secants: usize,
 }
 
 impl Table {
     /// Before anything is known: every variable held.
     pub fn unknown(space: &Space) -> Self {
-        Table { slopes: Vec::new(), curvatures: None, held: (0..space.len()).collect() }
+        Table {
+            slopes: Vec::new(),
+            curvatures: None,
+            held: (0..space.len()).collect(),
+            exact: false,
+            secants: 0,
+        }
+    }
+}
+
+impl Table {
+    /// Slopes followed over the step `s`: the least change of each row that makes its slope along the step that of the secant
+    /// (Broyden, *Math. Comp.* 19 (1965) 577).
+    pub fn follow(&mut self, s: &[f64], before: &[f64], after: &[f64]) {
+        let length: f64 = s.iter().map(|v| v * v).sum();
+        for (row, (a, b)) in self.slopes.iter_mut().zip(before.iter().zip(after)) {
+            let missed = b - a - row.iter().zip(s).map(|(g, v)| g * v).sum::<f64>();
+            row.iter_mut().zip(s).for_each(|(g, v)| *g += missed * v / length);
+        }
+        self.secants += 1;
     }
 }
 
@@ -62,6 +85,56 @@ impl Steps {
         let least = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a.min(*b)).collect();
         Steps { forward: least(&self.forward, &other.forward), central: least(&self.central, &other.central) }
     }
+}
+
+/// How far from a point the problem is asked for its changes, a fraction of the range: what they leave out of the first order goes
+/// with it, and the 1e-12 to which equilibria settle over it.
+const BESIDE: f64 = 1e-6;
+
+/// Slopes at u as the problem itself has them, `[output][variable]`, NaN where it has none; `None`: it has none at all.
+pub(super) fn own_slopes(
+    memo: &mut Memo,
+    space: &Space,
+    u: &[f64],
+    outputs: usize,
+) -> Result<Option<Vec<Vec<f64>>>, Halt> {
+    let free = space.free();
+    let offsets: Vec<f64> = free.iter().map(|&i| if u[i] > 0.5 { -BESIDE } else { BESIDE }).collect();
+    let beside = free.iter().zip(&offsets).map(|(&i, offset)| {
+        let mut v = u.to_vec();
+        v[i] += offset;
+        space.unscaled(&v)
+    });
+    let beside: Vec<Vec<f64>> = beside.collect();
+    let Some(changes) = memo.changes(&space.unscaled(u), &beside)? else { return Ok(None) };
+    let mut slopes = vec![vec![0.0; space.len()]; outputs];
+    for ((&i, offset), change) in free.iter().zip(offsets).zip(changes) {
+        for (k, row) in slopes.iter_mut().enumerate() {
+            row[i] = change.get(k).map_or(f64::NAN, |c| c / offset);
+        }
+    }
+    Ok(Some(slopes))
+}
+
+/// Derivative table at u, where the outputs are `outputs`: the problem's own slopes, and those of [`table`] where it has none.
+pub(super) fn own_table(
+    memo: &mut Memo,
+    space: &Space,
+    u: &[f64],
+    outputs: &[f64],
+    h: &[f64],
+    central: bool,
+) -> Result<Table, Halt> {
+    let known = |slope: &f64| slope.is_finite();
+    let own = own_slopes(memo, space, u, outputs.len())?.unwrap_or_default();
+    if !own.is_empty() && own.iter().flatten().all(known) {
+        return Ok(Table { slopes: own, curvatures: None, held: Vec::new(), exact: true, secants: 0 });
+    }
+    let mut found = table(memo, space, u, outputs, h, central)?;
+    for (row, own) in found.slopes.iter_mut().zip(own) {
+        row.iter_mut().zip(own).filter(|(_, own)| known(own)).for_each(|(slope, own)| *slope = own);
+    }
+    Ok(found)
 }
 
 /// Candidate offsets for one variable, best first, those outside [0, 1] left out.
@@ -125,5 +198,5 @@ pub(super) fn table(
         }
     }
     held.sort_unstable();
-    Ok(Table { slopes, curvatures: central.then_some(curvatures), held })
+    Ok(Table { slopes, curvatures: central.then_some(curvatures), held, exact: false, secants: 0 })
 }

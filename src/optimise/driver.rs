@@ -83,7 +83,11 @@ pub fn maximise_least_margin<'a>(
         table: Table::unknown(&driver.space),
     };
     let mut chosen = None;
-    let status = match driver.main_phase(&mut stand, &mut chosen) {
+    let mut found = driver.keeping(settings.clearance, &mut stand, &mut chosen);
+    if settings.clearance > 0.0 && found.as_ref().is_ok_and(|status| *status != Status::Converged) {
+        found = driver.keeping(0.0, &mut stand, &mut chosen);
+    }
+    let status = match found {
         Ok(status) => status,
         Err(Halt::Limit) => Status::EvaluationLimit,
         Err(Halt::Interrupted) => Status::Interrupted,
@@ -97,6 +101,23 @@ pub fn maximise_least_margin<'a>(
 }
 
 impl Driver<'_, '_> {
+    /// Every phase with `clearance` kept of every limit; what `stand` and `chosen` hold before and after is without.
+    fn keeping(
+        &mut self,
+        clearance: f64,
+        stand: &mut Stand,
+        chosen: &mut Option<Point>,
+    ) -> Result<Status, Halt> {
+        let shift = |point: &mut Point, by: f64| point.evaluation = point.evaluation.clone().less(by);
+        *chosen = None;
+        shift(&mut stand.point, clearance);
+        self.memo.clearance = clearance;
+        let found = self.main_phase(stand, chosen);
+        self.memo.clearance = 0.0;
+        [Some(&mut stand.point), chosen.as_mut()].into_iter().flatten().for_each(|p| shift(p, -clearance));
+        found
+    }
+
     /// Runs every phase; `stand` follows the main phase, `chosen` is set once a point is better than it.
     fn main_phase(&mut self, stand: &mut Stand, chosen: &mut Option<Point>) -> Result<Status, Halt> {
         let outputs = stand.point.evaluation.outputs();
@@ -182,6 +203,7 @@ impl Driver<'_, '_> {
             multipliers: (Vec::new(), Vec::new()),
             residuals: Residuals::default(),
             table: Table::unknown(&self.space),
+            taken: None,
             hessian: None,
             tally: Tally::default(),
         };
@@ -273,6 +295,7 @@ impl Driver<'_, '_> {
             active,
             residuals: stand.residuals,
             evaluations: self.memo.evaluations(),
+            derivatives: self.memo.derivatives,
             failures: self.memo.failures,
             history: self.history,
             journal: self.memo.run.journal,

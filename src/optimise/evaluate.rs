@@ -11,6 +11,14 @@ pub trait Evaluate: Sync {
     /// # Errors
     /// [`NoEvaluation::Refused`] where the problem has no answer at x (a geometry that does not close, say).
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation>;
+
+    /// By what every number of the evaluation at `x` (objectives, limits, tie break) changes on the way to each of the points
+    /// `beside` it, at most a millionth of the box away: to the first order, without the choices that two evaluations may make
+    /// differently. NaN: a number without such a change; an empty row: a point without an evaluation. `None`: this problem has
+    /// nothing better than the difference of two evaluations.
+    fn changes(&self, _x: &[f64], _beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        None
+    }
 }
 
 /// Margins at one point.
@@ -38,6 +46,12 @@ impl Evaluation {
     /// Limits violated by more than `tolerance`.
     pub fn violated(&self, tolerance: f64) -> usize {
         self.limits.iter().filter(|c| **c < -tolerance).count()
+    }
+
+    /// The same with every limit less by `clearance`.
+    pub(super) fn less(mut self, clearance: f64) -> Self {
+        self.limits.iter_mut().for_each(|limit| *limit -= clearance);
+        self
     }
 
     /// All numbers in one row: objectives, limits, tie break.

@@ -63,6 +63,8 @@ pub struct Stepped {
     pub variables: Vec<String>,
     /// Evaluations of the clutch.
     pub evaluations: usize,
+    /// Derivatives along one variable beside them.
+    pub derivatives: usize,
     /// The design, or why there is none.
     pub found: Result<OnGrid, OffGrid>,
 }
@@ -114,7 +116,8 @@ pub fn stepped(search: &Search, step_mm: f64, desk: &Desk) -> Option<Stepped> {
     grid.fit_the_rest((&lo, &hi), &search.searched, desk);
     let variables = grid.ladders.iter().map(|l| search.searched[l.at].clone()).collect();
     let found = grid.best();
-    Some(Stepped { step_mm, variables, evaluations: grid.evaluations, found })
+    let (evaluations, derivatives) = (grid.evaluations, grid.derivatives);
+    Some(Stepped { step_mm, variables, evaluations, derivatives, found })
 }
 
 /// Points about `x` at which the lengths among the variables `names` are multiples of `step_mm`, the best for `problem` first,
@@ -140,6 +143,7 @@ struct Grid<'s> {
     /// Points with margins, the best first once sorted.
     seen: Vec<(Vec<f64>, Evaluation)>,
     evaluations: usize,
+    derivatives: usize,
 }
 
 impl<'s> Grid<'s> {
@@ -159,7 +163,8 @@ impl<'s> Grid<'s> {
             })
             .filter(|ladder| ladder.ends.0 <= ladder.ends.1)
             .collect();
-        let grid = Self { problem, base: x.to_vec(), ladders, seen: Vec::new(), evaluations: 0 };
+        let grid =
+            Self { problem, base: x.to_vec(), ladders, seen: Vec::new(), evaluations: 0, derivatives: 0 };
         (!grid.ladders.is_empty()).then_some(grid)
     }
 
@@ -254,6 +259,7 @@ impl<'s> Grid<'s> {
         let settings = Settings { max_evaluations: REST, first_radius: 0.1, ..Settings::default() };
         let Ok(outcome) = desk.climb(&problem, &pick(&x), (&pick(lo), &pick(hi)), &settings) else { return };
         self.evaluations += outcome.evaluations;
+        self.derivatives += outcome.derivatives;
         rest.iter().zip(&outcome.x).for_each(|(&i, v)| x[i] = *v);
         self.seen.push((x, outcome.evaluation));
         self.sort();

@@ -1,6 +1,6 @@
 //! Which variable moves which margin.
 
-use super::difference::table;
+use super::difference::{own_slopes, table};
 use super::evaluate::Evaluate;
 use super::journal::{Memo, SearchRun};
 use super::outcome::Refusal;
@@ -24,9 +24,22 @@ pub struct Influence {
     pub unknown: Vec<usize>,
     /// Evaluations spent.
     pub evaluations: usize,
+    /// Derivatives along one variable that the problem gave itself.
+    pub derivatives: usize,
 }
 
+/// Slope per range from which on a variable is felt for certain: far above what a problem's own slopes are off by.
+const FELT: f64 = 1e-3;
+
 impl Influence {
+    /// Of `slopes` by output, those of `objectives` first, the tie break's last.
+    fn of(mut slopes: Vec<Vec<f64>>, objectives: usize, unknown: Vec<usize>, memo: &Memo) -> Self {
+        let tie_break = slopes.pop().unwrap_or_default();
+        let limits = slopes.split_off(objectives);
+        let (evaluations, derivatives) = (memo.evaluations(), memo.derivatives);
+        Self { objectives: slopes, limits, tie_break, unknown, evaluations, derivatives }
+    }
+
     /// Variables whose every slope is below [`NO_INFLUENCE`] in size, the tie break's included.
     pub fn without(&self) -> Vec<usize> {
         let rows = || self.objectives.iter().chain(&self.limits).chain([&self.tie_break]);
@@ -56,14 +69,28 @@ pub fn influence<'a>(
     let h = vec![settings.longest_difference; space.len()];
     let found = table(&mut memo, &space, &space.start(), &here.outputs(), &h, true)
         .map_err(|_| Refusal::StoppedAtStart)?;
-    let mut slopes = found.slopes;
-    let tie_break = slopes.pop().unwrap_or_default();
-    let limits = slopes.split_off(here.objectives.len());
-    Ok(Influence {
-        objectives: slopes,
-        limits,
-        tie_break,
-        unknown: found.held,
-        evaluations: memo.evaluations(),
-    })
+    Ok(Influence::of(found.slopes, here.objectives.len(), found.held, &memo))
+}
+
+/// The same by the slopes that the problem has itself; `None` where one is not known, or a variable is so little felt that these
+/// do not tell whether it is.
+///
+/// # Errors
+/// As [`influence`].
+pub(super) fn own_influence<'a>(
+    problem: &'a dyn Evaluate,
+    x0: &[f64],
+    lo: &[f64],
+    hi: &[f64],
+    run: SearchRun<'a>,
+) -> Result<Option<Influence>, Refusal> {
+    let space = Space::new(x0, lo, hi)?;
+    let mut memo = Memo::new(problem, run, usize::MAX);
+    let here = memo.one(x0.to_vec()).map_err(|_| Refusal::StoppedAtStart)?.map_err(Refusal::StartFails)?;
+    let found = own_slopes(&mut memo, &space, &space.start(), here.outputs().len());
+    let Some(slopes) = found.map_err(|_| Refusal::StoppedAtStart)? else { return Ok(None) };
+    let is_felt = |i: usize| slopes.iter().any(|row| row[i].abs() > FELT);
+    let known = slopes.iter().flatten().all(|slope| slope.is_finite());
+    let told = known && (0..space.len()).all(is_felt);
+    Ok(told.then(|| Influence::of(slopes, here.objectives.len(), Vec::new(), &memo)))
 }

@@ -92,12 +92,26 @@ pub(super) struct Memo<'a> {
     asked: HashSet<usize>,
     limit: usize,
     pub failures: usize,
+    /// Derivatives along one variable that the problem itself gave.
+    pub derivatives: usize,
+    /// What is taken from every limit that is handed out.
+    pub clearance: f64,
 }
 
 impl<'a> Memo<'a> {
     pub fn new(problem: &'a dyn Evaluate, run: SearchRun<'a>, limit: usize) -> Self {
         let given = run.journal.entries.len();
-        Memo { problem, run, given, shape: None, asked: HashSet::new(), limit, failures: 0 }
+        Memo {
+            problem,
+            run,
+            given,
+            shape: None,
+            asked: HashSet::new(),
+            limit,
+            failures: 0,
+            derivatives: 0,
+            clearance: 0.0,
+        }
     }
 
     /// Distinct points asked for so far in this run, computed or remembered.
@@ -176,9 +190,19 @@ impl<'a> Memo<'a> {
             if self.asked.insert(at) && outcome.is_err() {
                 self.failures += 1;
             }
-            outcomes.push(outcome);
+            outcomes.push(outcome.map(|e| e.less(self.clearance)));
         }
         Ok(outcomes)
+    }
+
+    /// What the problem itself says of the way from `x` to the points `beside` it ([`Evaluate::changes`]).
+    pub fn changes(&mut self, x: &[f64], beside: &[Vec<f64>]) -> Result<Option<Vec<Vec<f64>>>, Halt> {
+        if self.stopped() {
+            return Err(Halt::Interrupted);
+        }
+        let found = self.problem.changes(x, beside);
+        self.derivatives += found.as_ref().map_or(0, Vec::len);
+        Ok(found)
     }
 
     fn learn_shape(&mut self, outcome: &Result<Evaluation, NoEvaluation>) {

@@ -165,7 +165,10 @@ pub struct Outcome {
     pub residuals: Residuals,
     /// Distinct points asked for.
     pub evaluations: usize,
-    /// Of those, the failed ones.
+    /// Derivatives of all margins along one variable that the problem gave itself ([`Evaluate::changes`](super::Evaluate::changes)),
+    /// beside the evaluations.
+    pub derivatives: usize,
+    /// Evaluations that failed.
     pub failures: usize,
     /// Steps tried, in order.
     pub history: Vec<Iteration>,
@@ -185,6 +188,7 @@ impl Outcome {
             active: Active::default(),
             residuals: Residuals::default(),
             evaluations: 0,
+            derivatives: 0,
             failures: 0,
             history: Vec::new(),
             journal: Journal::default(),

@@ -192,6 +192,7 @@ fn standing(found: &Search, problem: &ClutchProblem, joint: &Optimize) -> Result
         file,
         problem: problem.clone(),
         evaluations: 2,
+        derivatives: 0,
         ..found.clone()
     })
 }

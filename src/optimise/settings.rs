@@ -39,6 +39,9 @@ pub struct Settings {
     /// Whether to finish: central differences before an end is believed, the poll, the choice on a plateau. Default true;
     /// without, a climb ends `gain_tolerance` or so below the optimum.
     pub finish: bool,
+    /// What a climb keeps of every limit, in its unit, until it ends: so its points are feasible long before limits are met to
+    /// `violation_tolerance`. Where there is no such way up it goes on without. Default 0; to 1e-2.
+    pub clearance: f64,
     /// Whether to finish by polling points a difference step away along the active margins. Default true.
     pub poll: bool,
     /// Least margin given up, relative to max(1, |t|), when the tie break chooses on a plateau. Default 1e-6;
@@ -62,6 +65,7 @@ impl Default for Settings {
             noise: Noise::Relative(1e-10),
             first_radius: 0.25,
             finish: true,
+            clearance: 0.0,
             poll: true,
             plateau: 1e-6,
             tie_break_gain: 1e-4,
@@ -75,11 +79,16 @@ const LOOSE: f64 = 2e-5;
 /// The same as [`Settings::optimality_tolerance`].
 const LOOSE_SLOPE: f64 = 1e-2;
 
+/// What such a climb keeps of every limit: less than tells two optima apart, where a limit costs the least margin no more than
+/// three times what it gives.
+const CLEARANCE: f64 = 3e-4;
+
 impl Settings {
     /// The same for one climb of several, of which the best alone is finished.
     pub(super) fn loosely(&self) -> Self {
         Settings {
             finish: false,
+            clearance: CLEARANCE,
             gain_tolerance: self.gain_tolerance.max(LOOSE),
             optimality_tolerance: self.optimality_tolerance.max(LOOSE_SLOPE),
             ..self.clone()
@@ -104,6 +113,7 @@ impl Settings {
             ("longest_difference", self.longest_difference, self.shortest_difference, 0.1),
             ("noise", noise, 1e-16, 1e-2),
             ("first_radius", self.first_radius, tiny, 1.0),
+            ("clearance", self.clearance, 0.0, 1e-2),
             ("plateau", self.plateau, tiny, 1e-2),
             ("tie_break_gain", self.tie_break_gain, tiny, 1.0),
         ];

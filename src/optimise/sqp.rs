@@ -10,7 +10,7 @@
 
 use nalgebra::DMatrix;
 
-use super::difference::{Steps, Table, table};
+use super::difference::{Steps, Table, own_table, table};
 use super::evaluate::Evaluation;
 use super::hessian;
 use super::journal::{Halt, Memo};
@@ -30,6 +30,11 @@ const LOWERINGS: usize = 8;
 const LOST: usize = 5;
 /// Times a climb may forget its Hessian.
 const RESETS: usize = 2;
+/// Accepted steps over which slopes are followed by secants before they are taken again. A choice, tried with 0 to 8 on the
+/// three problems of reports/optimiser-peers: fewer see the same top at less gain, more help no further.
+const SECANTS: usize = 4;
+/// Gain found over gain promised from which on a step's secants are believed.
+const BELIEVED: f64 = 0.5;
 /// Trust radius at which a climb gives up: a hundred-millionth of the range.
 const SHORTEST_RADIUS: f64 = 1e-8;
 
@@ -52,6 +57,8 @@ enum Verdict {
     Sharpen,
     /// Solve again without the Hessian's memory.
     Forget,
+    /// Look again with slopes that are not followed.
+    Refresh,
     End(End),
 }
 
@@ -72,8 +79,10 @@ pub(super) struct Climb<'a, 'm> {
     /// Multipliers of the phase's margins and limits at the last subproblem.
     pub multipliers: (Vec<f64>, Vec<f64>),
     pub residuals: Residuals,
-    /// Derivatives at `u`.
+    /// Derivatives at `u`, or followed there by secants.
     pub table: Table,
+    /// Where they were last taken, and what they were there.
+    pub taken: Option<(Vec<f64>, Table)>,
     /// B, once there is a first subproblem to take multipliers from.
     pub hessian: Option<DMatrix<f64>>,
     pub tally: Tally,
@@ -107,6 +116,7 @@ impl Climb<'_, '_> {
                 }
                 Verdict::Sharpen => self.sharpen(10.0)?,
                 Verdict::Forget => self.hessian = None,
+                Verdict::Refresh => self.renew()?,
                 Verdict::Try => match self.attempt(&plan)? {
                     Some(trial) if trial.ratio >= ACCEPTED => self.accept(&plan, trial)?,
                     refused => {
@@ -136,11 +146,14 @@ impl Climb<'_, '_> {
         // Once steps are as short as the difference step, the error f'' h/2 of a forward difference is as large as the
         // change of slope that the step is after.
         let coarse = settings.shortest_difference;
-        let believed = small && !settings.finish;
-        if !self.central && !believed && (small || plan.length <= coarse) {
+        let doubtful = if small { settings.finish } else { plan.length <= coarse && !self.table.exact };
+        let hopeless = !met && plan.elastic > HOPELESS * violation;
+        if self.table.secants > 0 && (small || hopeless) {
+            return Verdict::Refresh;
+        }
+        if !self.central && doubtful {
             return Verdict::Sharpen;
         }
-        let hopeless = !met && plan.elastic > HOPELESS * violation;
         if hopeless && self.radius >= 10.0 * coarse {
             return Verdict::End(End::Violated);
         }
@@ -172,24 +185,35 @@ impl Climb<'_, '_> {
         }
         self.record(if trial.corrected { TrialOutcome::Corrected } else { TrialOutcome::Accepted });
         let s: Vec<f64> = trial.u.iter().zip(&self.u).map(|(a, b)| a - b).collect();
-        let weights = self.lagrangian_weights();
-        let before = combined(&weights, &self.table.slopes);
+        let outputs = self.evaluation.outputs();
         (self.u, self.evaluation) = (trial.u, trial.evaluation);
-        self.derive()?;
-        let after = combined(&weights, &self.table.slopes);
-        let y: Vec<f64> = after.iter().zip(&before).map(|(a, b)| a - b).collect();
+        if self.table.exact && trial.ratio >= BELIEVED && self.table.secants < SECANTS {
+            self.table.follow(&s, &outputs, &self.evaluation.outputs());
+            return Ok(());
+        }
+        self.renew()?;
         let needed: f64 = self.multipliers.1.iter().sum();
         let wall = matches!(self.view.phase, Phase::TieBreak { .. });
         if !wall && self.tally.lowerings < LOWERINGS && needed > 0.0 && self.weight > 8.0 * needed {
             self.weight = (2.0 * needed).max(0.1 * self.weight);
             self.tally.lowerings += 1;
         }
-        if let Some(b) = &mut self.hessian {
-            if let Some(curvatures) = &self.table.curvatures {
-                hessian::rescale(b, &combined(&weights, curvatures));
-            }
-            hessian::update(b, &s, &y);
+        Ok(())
+    }
+
+    /// Derivatives here, and what they say of the Hessian on the way from where they were taken last.
+    fn renew(&mut self) -> Result<(), Halt> {
+        let weights = self.lagrangian_weights();
+        let before = self.taken.take();
+        self.derive()?;
+        let (Some(b), Some((from, before))) = (&mut self.hessian, before) else { return Ok(()) };
+        let s: Vec<f64> = self.u.iter().zip(&from).map(|(a, b)| a - b).collect();
+        let (before, after) = (combined(&weights, &before.slopes), combined(&weights, &self.table.slopes));
+        let y: Vec<f64> = after.iter().zip(&before).map(|(a, b)| a - b).collect();
+        if let Some(curvatures) = &self.table.curvatures {
+            hessian::rescale(b, &combined(&weights, curvatures));
         }
+        hessian::update(b, &s, &y);
         Ok(())
     }
 
@@ -201,6 +225,11 @@ impl Climb<'_, '_> {
         // Minimum of the parabola through the merit at both ends of the step and its predicted slope.
         let shrink = refused.map_or(0.4, |r| (0.5 / (1.0 - r.ratio)).clamp(0.1, 0.5));
         self.radius = shrink * plan.length;
+        if self.table.secants > 0 {
+            self.radius = 0.5 * plan.length;
+            self.renew()?;
+            return Ok(None);
+        }
         let coarse = self.settings.shortest_difference;
         let wall = matches!(self.view.phase, Phase::TieBreak { .. });
         let too_short = match (wall, failed) {
@@ -253,13 +282,17 @@ impl Climb<'_, '_> {
         let steps = self.steps.as_ref().unwrap_or(&shortest);
         let central = self.central || self.steps.is_none();
         let h = if central { steps.central.clone() } else { steps.forward.clone() };
-        let found = table(self.memo, self.space, &self.u, &outputs, &h, central)?;
+        let found = match self.central {
+            true => table(self.memo, self.space, &self.u, &outputs, &h, true)?,
+            false => own_table(self.memo, self.space, &self.u, &outputs, &h, central)?,
+        };
         if let Some(fitted) = Steps::fitted(&found, self.noise, self.settings) {
             *self.steps = Some(match self.steps.take() {
                 Some(known) => known.least(&fitted),
                 None => fitted,
             });
         }
+        self.taken = Some((self.u.clone(), found.clone()));
         self.table = found;
         Ok(())
     }

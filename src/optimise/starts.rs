@@ -60,8 +60,8 @@ pub struct Optima {
 impl Optima {
     /// Least margins that lie nearer together are one optimum: a part of the larger.
     const APART: f64 = 1e-3;
-    /// The same where they are near 0; they are scaled to be of order one, and climbs come within 1e-8 of their ends.
-    const NEAR_ZERO: f64 = 1e-6;
+    /// The same where they are near 0; they are scaled to be of order one, and climbs of several end some 2e-5 below their optimum.
+    const NEAR_ZERO: f64 = 1e-4;
 
     fn of(starts: &[ClimbRecord], tolerance: f64) -> Self {
         let within = starts.iter().filter(|s| s.ended == Ok(Status::Converged) && s.violation <= tolerance);
@@ -99,6 +99,8 @@ pub struct ClimbRecord {
     pub violation: f64,
     /// Evaluations spent, those of a swarm included.
     pub evaluations: usize,
+    /// Derivatives along one variable beside them.
+    pub derivatives: usize,
 }
 
 impl ClimbRecord {
@@ -109,6 +111,7 @@ impl ClimbRecord {
             least_margin: end.evaluation.least_margin(),
             violation: end.evaluation.violation(),
             evaluations: end.evaluations,
+            derivatives: end.derivatives,
         }
     }
 }
@@ -161,17 +164,9 @@ pub(super) fn climb_all(
         }
     }
     let mut found = Found { tolerance, starts: Vec::new(), best: None, refusal: None };
-    let mut drawn = 0;
-    loop {
-        let wanted = (method.starts.max(1) - usize::from(drawn == 0))
-            .min(method.most_starts.max(method.starts) - 1 - drawn);
-        let points = from_box.draw(desk, problem, (lo, hi), wanted, method);
-        let none_left = points.is_empty() && wanted > 0;
-        let name = |i: usize| format!("point {}", drawn + i + 1);
-        named.extend(points.into_iter().enumerate().map(|(i, (x, e))| (name(i), x, Some(e))));
-        drawn += wanted;
+    let climb = |named: &mut Vec<(String, Vec<f64>, Option<Evaluation>)>, found: &mut Found| {
         desk.begins("search");
-        let outcomes: Vec<(String, Result<Outcome, Refusal>)> = std::mem::take(&mut named)
+        let outcomes: Vec<(String, Result<Outcome, Refusal>)> = std::mem::take(named)
             .into_par_iter()
             .map(|(from, x, known)| {
                 let outcome = desk.climb(problem, &x, (lo, hi), &settings);
@@ -183,11 +178,29 @@ pub(super) fn climb_all(
             })
             .collect();
         outcomes.into_iter().for_each(|(from, outcome)| found.add(from, outcome));
+    };
+    // What the others are for is to find further optima: the design comes first.
+    climb(&mut named, &mut found);
+    let mut drawn = 0;
+    loop {
+        let wanted = (method.starts.max(1) - usize::from(drawn == 0))
+            .min(method.most_starts.max(method.starts) - 1 - drawn);
+        if desk.stopped() || wanted == 0 {
+            break;
+        }
+        let points = from_box.draw(desk, problem, (lo, hi), wanted, method);
+        let none_left = points.is_empty();
+        let name = |i: usize| format!("point {}", drawn + i + 1);
+        named.extend(points.into_iter().enumerate().map(|(i, (x, e))| (name(i), x, Some(e))));
+        drawn += wanted;
+        climb(&mut named, &mut found);
         let optima = Optima::of(&found.starts, tolerance);
         if optima.enough() || drawn + 1 >= method.most_starts || none_left || desk.stopped() {
             break;
         }
     }
+    // Before the best of them is finished: all have ended alike.
+    let optima = Optima::of(&found.starts, tolerance);
     if several && !desk.stopped() {
         desk.begins("finish");
         found.finish(|x| {
@@ -195,7 +208,6 @@ pub(super) fn climb_all(
         });
     }
     let Found { starts, best, refusal, .. } = found;
-    let optima = Optima::of(&starts, tolerance);
     let spent_on_points = from_box.spent + spent_on_swarm;
     let evaluations = spent_on_points + starts.iter().map(|s| s.evaluations).sum::<usize>();
     match (best, refusal) {
@@ -236,6 +248,7 @@ impl Found {
         }
         end.history.splice(0..0, before.history);
         end.evaluations += before.evaluations;
+        end.derivatives += before.derivatives;
         end.failures += before.failures;
         self.starts[at] = ClimbRecord { from: self.starts[at].from.clone(), ..ClimbRecord::of(&end) };
         self.best = Some((at, end));
@@ -257,6 +270,7 @@ impl Found {
                     least_margin: f64::NEG_INFINITY,
                     violation: f64::INFINITY,
                     evaluations: 1,
+                    derivatives: 0,
                 });
                 self.refusal.get_or_insert(why);
             }

@@ -4,7 +4,10 @@ use super::answer::Verdict;
 use super::figures::ErrorEstimate;
 use super::prepare::Prepared;
 use super::simulate::{SLIPPED_M, Settings, verdict};
-use crate::dynamics::{Rolling, Run, RunSettings, Stop, rolling, rolling_quickly, run, run_while_it_sticks};
+use crate::dynamics::{
+    Rolling, Run, RunSettings, Stop, Track, rolling, rolling_quickly, rolling_retraced, rolling_tracked, run,
+    run_while_it_sticks,
+};
 use crate::friction::Stribeck;
 
 /// What pure rolling would demand: the basis of slip margin and contact margin.
@@ -36,6 +39,23 @@ pub struct RollingDemand {
     pub interrupted: bool,
     /// Right-hand sides it took.
     pub rhs_evaluations: u64,
+}
+
+impl RollingDemand {
+    /// Of a scene of which nothing is known but that it has a demand.
+    pub const UNKNOWN: Self = Self {
+        required_friction: Some(f64::NAN),
+        by_bisection: false,
+        slip_margin: None,
+        contact_margin: f64::NAN,
+        normal_max_n: [f64::NAN; 2],
+        finished: true,
+        overloaded: false,
+        never_engages: false,
+        gave_up: None,
+        interrupted: false,
+        rhs_evaluations: 0,
+    };
 }
 
 /// Steps per period at least: six looks in each see every half wave. Tolerances below 1e-4 take shorter ones anyway.
@@ -112,25 +132,75 @@ pub(super) fn demand_at(
     fineness: Fineness,
     near: Option<f64>,
 ) -> RollingDemand {
-    let mu = prepared.model.friction.static_;
     if prepared.duration_s == 0.0 {
-        let f = prepared.at_rest();
-        let required = f.map(|f| f.required_friction());
-        return RollingDemand {
-            required_friction: required,
-            by_bisection: false,
-            slip_margin: required.map(|r| mu / r - 1.0),
-            contact_margin: 1.0,
-            normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
-            finished: true,
-            overloaded: false,
-            never_engages: false,
-            gave_up: None,
-            interrupted: false,
-            rhs_evaluations: 0,
-        };
+        return at_rest(prepared);
     }
     roll(prepared, &unaudited(settings), fineness, 0, STEPS_PER_PERIOD_OF_DEMAND, near).1
+}
+
+/// What a static scenario demands.
+fn at_rest(prepared: &Prepared) -> RollingDemand {
+    let f = prepared.at_rest();
+    let required = f.map(|f| f.required_friction());
+    RollingDemand {
+        required_friction: required,
+        by_bisection: false,
+        slip_margin: required.map(|r| prepared.model.friction.static_ / r - 1.0),
+        contact_margin: 1.0,
+        normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
+        finished: true,
+        overloaded: false,
+        never_engages: false,
+        gave_up: None,
+        interrupted: false,
+        rhs_evaluations: 0,
+    }
+}
+
+/// The same with what it integrated, for [`demand_retraced`]; `None` where it integrated nothing, or not what rolls from start to
+/// end: an engagement, a motion that unloads its contact so that friction is bisected, one that meets the end of the curve.
+pub fn demand_tracked(prepared: &Prepared, settings: &Settings) -> (RollingDemand, Option<Track>) {
+    let by_peaks = || {
+        if prepared.duration_s == 0.0 || prepared.overrun.is_some() {
+            return None;
+        }
+        let single = Fineness::single(0.1 * settings.tolerance);
+        let s = run_settings(prepared, &unaudited(settings), single, 0, STEPS_PER_PERIOD_OF_DEMAND);
+        let (model, state, place) = (&prepared.model, prepared.state, prepared.mode.place);
+        let (found, track) = rolling_tracked(model, state, place, &s, QUICK * settings.tolerance)?;
+        let demand = of_peaks(prepared, &found);
+        (demand.finished && demand.required_friction.is_some()).then_some((demand, Some(track)))
+    };
+    by_peaks().unwrap_or_else(|| (demand_quickly(prepared, settings), None))
+}
+
+/// Demand of a scene like the one whose `track` is given, so near to it that the difference counts to the first order alone:
+/// differences of such demands are derivatives. A static scene needs no track. `None` without one, and where the neighbour goes
+/// another way.
+pub fn demand_retraced(prepared: &Prepared, track: Option<&Track>) -> Option<RollingDemand> {
+    if prepared.duration_s == 0.0 {
+        return Some(at_rest(prepared));
+    }
+    let found = rolling_retraced(&prepared.model, prepared.state, prepared.mode.place, track?)?;
+    Some(of_peaks(prepared, &found))
+}
+
+/// Demand of a pure-rolling run whose peak of |T|/N says what friction suffices.
+fn of_peaks(prepared: &Prepared, r: &Rolling) -> RollingDemand {
+    let required_friction = r.required_friction.filter(|&mu| mu <= MOST_FRICTION);
+    RollingDemand {
+        required_friction,
+        by_bisection: false,
+        slip_margin: required_friction.map(|q| prepared.model.friction.static_ / q - 1.0),
+        contact_margin: r.contact_margin(prepared.static_normal_n),
+        normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
+        finished: r.stop == Stop::Finished,
+        overloaded: r.stop == Stop::CurveEnd,
+        never_engages: false,
+        gave_up: r.stop.gave_up().then_some(r.stop),
+        interrupted: r.stop == Stop::Interrupted,
+        rhs_evaluations: r.run.counters.rhs_evaluations,
+    }
 }
 
 /// Without an energy balance, which costs some fifteen evaluations a step and of these runs is not asked for.
@@ -176,30 +246,20 @@ pub(super) fn roll(
         Some(tolerance) => rolling_quickly(&model, state, place, &s, tolerance),
         None => rolling(&model, state, place, &s),
     };
-    let finished = r.stop == Stop::Finished && !never_engages;
-    let mut required = r.required_friction.filter(|_| finished);
-    let mut interrupted = r.stop == Stop::Interrupted;
-    let by_bisection = finished && required.is_none();
-    required = required.filter(|&mu| mu <= MOST_FRICTION);
-    if by_bisection {
+    let mut demand = of_peaks(prepared, &r);
+    demand.never_engages = never_engages;
+    demand.finished &= !never_engages;
+    demand.rhs_evaluations += before;
+    demand.by_bisection = demand.finished && r.required_friction.is_none();
+    let mut required = demand.required_friction.filter(|_| demand.finished);
+    if demand.by_bisection {
         let found = bisected(prepared, settings, fineness, near);
         required = found.required;
-        before += found.rhs_evaluations;
-        interrupted |= found.interrupted;
+        demand.rhs_evaluations += found.rhs_evaluations;
+        demand.interrupted |= found.interrupted;
     }
-    let demand = RollingDemand {
-        required_friction: required,
-        by_bisection,
-        slip_margin: required.map(|q| prepared.model.friction.static_ / q - 1.0),
-        contact_margin: r.contact_margin(prepared.static_normal_n),
-        normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
-        finished,
-        overloaded: r.stop == Stop::CurveEnd,
-        never_engages,
-        gave_up: r.stop.gave_up().then_some(r.stop),
-        interrupted,
-        rhs_evaluations: before + r.run.counters.rhs_evaluations,
-    };
+    demand.required_friction = required;
+    demand.slip_margin = required.map(|q| prepared.model.friction.static_ / q - 1.0);
     (r.run, demand)
 }
 

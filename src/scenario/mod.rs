@@ -18,7 +18,7 @@ mod sliding;
 mod train;
 
 pub use answer::{GaveUp, Simulation, Verdict};
-pub use demand::{RollingDemand, demand, demand_quickly};
+pub use demand::{RollingDemand, demand, demand_quickly, demand_retraced, demand_tracked};
 pub use equilibrium::overrun_swing;
 pub use error::Scales;
 pub use figures::{ErrorEstimate, FIGURES, Figure, Group, Line, Quantity, figures_of};

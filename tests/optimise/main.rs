@@ -6,6 +6,7 @@ mod goals;
 mod made;
 mod prices;
 mod problems;
+mod slopes;
 mod unreached;
 
 use sprag_design::optimise::{Outcome, SearchRun, Settings, Status, maximise_least_margin};

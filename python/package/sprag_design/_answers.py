@@ -803,6 +803,8 @@ class Optimum(_Common):
     """How far the objective is off: its change when the optimum is looked at in full at a tenth of the tolerance."""
     evaluations: int
     """Evaluations of the clutch in all."""
+    derivatives: int
+    """Derivatives of all margins along one variable beside them, each at a third to a half of the cost."""
     failed_evaluations: int
     """Evaluations of the best climb at which there was no clutch."""
     fighting_limits: tuple[str, ...]

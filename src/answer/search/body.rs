@@ -99,6 +99,9 @@ pub struct Climb {
     pub violation: f64,
     /// Evaluations of the clutch.
     pub evaluations: usize,
+    /// Derivatives of all margins along one variable beside them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derivatives: Option<usize>,
 }
 
 /// Optima met, and how many are to be expected.
@@ -152,6 +155,8 @@ pub struct SearchBody {
     pub objective_error: f64,
     /// Evaluations of the clutch in all.
     pub evaluations: usize,
+    /// Derivatives of all margins along one variable beside them, each at a third to a half of the cost.
+    pub derivatives: usize,
     /// Evaluations of the best climb at which there was no clutch.
     pub failed_evaluations: usize,
     /// What holds the optimum where it is.
@@ -226,6 +231,7 @@ impl SearchBody {
             },
             objective_error: story.objective_error(),
             evaluations: story.evaluations(),
+            derivatives: story.derivatives(),
             failed_evaluations: found.outcome.failures,
             active_constraints: story.active(),
             fighting_limits: fighting
@@ -345,6 +351,7 @@ impl Climb {
             least_scaled_objective: s.least_margin,
             violation: s.violation,
             evaluations: s.evaluations,
+            derivatives: Some(s.derivatives),
         }
     }
 
@@ -356,6 +363,7 @@ impl Climb {
             least_scaled_objective: b.least_margin,
             violation: b.violation,
             evaluations: b.evaluations,
+            derivatives: None,
         }
     }
 }

@@ -14,6 +14,7 @@ fn start_table(starts: &[ClimbRecord]) -> Table {
         .number("least_margin", "Least scaled objective", Unit::One, 6, |s| finite(s.least_margin))
         .number("violation", "Worst violation", Unit::One, 3, |s| finite(s.violation))
         .number("evaluations", "Evaluations", Unit::One, 6, |s| s.evaluations)
+        .number("derivatives", "Derivatives", Unit::One, 6, |s| s.derivatives)
         .table()
 }
 

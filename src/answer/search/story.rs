@@ -216,6 +216,12 @@ impl Story {
         self.found.evaluations + flanks + self.stepped.as_ref().map_or(0, |stepped| stepped.evaluations)
     }
 
+    /// Derivatives along one variable, of the same.
+    pub fn derivatives(&self) -> usize {
+        let flanks = self.realised.as_ref().map_or(0, |realised| realised.made.derivatives);
+        self.found.derivatives + flanks + self.stepped.as_ref().map_or(0, |stepped| stepped.derivatives)
+    }
+
     /// The search that [`Self::status`] is of: the first that did not converge.
     pub fn last(&self) -> &Search {
         let first = self.found.outcome.status != Status::Converged;

@@ -153,7 +153,7 @@ impl Story {
         if self.feasible() {
             let reserve = found.problem.reserve();
             format!(
-                "{} {} -> {} ({}), every limit held{}{}; {why} after {} evaluations{counted}{}{}{}",
+                "{} {} -> {} ({}), every limit held{}{}; {why} after {} evaluations and {} derivatives{counted}{}{}{}",
                 found.aim.words(),
                 shown(found.aim, before),
                 shown(found.aim, after),
@@ -165,6 +165,7 @@ impl Story {
                 },
                 self.start_not_held(),
                 self.evaluations(),
+                self.derivatives(),
                 match (self.on_grid().and(self.stepped.as_ref()), self.steps_missed_mm) {
                     (Some(s), _) => format!("; lengths in steps of {} mm", s.step_mm),
                     (None, Some(step_mm)) => format!("; lengths NOT yet in steps of {step_mm} mm"),
@@ -179,8 +180,9 @@ impl Story {
             )
         } else {
             format!(
-                "no feasible design found: {why} after {} evaluations{counted}; not held: {}{}",
+                "no feasible design found: {why} after {} evaluations and {} derivatives{counted}; not held: {}{}",
                 self.evaluations(),
+                self.derivatives(),
                 self.not_held().join(", "),
                 self.worst()
             )

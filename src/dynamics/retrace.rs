@@ -1,0 +1,123 @@
+//! A run that rolls, taken again by a neighbour of its model: what its peaks change by, to the first order.
+//!
+//! The neighbour takes the steps of the run, whatever their error (internal differentiation; Bock, *Numerical treatment of inverse
+//! problems in chemical reaction kinetics*, 1981), so that nothing in it chooses, and the difference of two such runs is the
+//! derivative of what was integrated, to the rounding of the difference. A step that ended at a junction ends at the
+//! neighbour's own. A peak is a level place: by the envelope theorem the time at which it comes does not enter. It is read off a parabola
+//! through three figures about that time, at the ends of the run and at junctions off the state there. Nothing is integrated
+//! beyond the last peak.
+
+use super::events::FIGURES;
+use super::model::{Model, Place, State};
+use super::run::Peaks;
+use super::stick::{Edge, Leg, Pair, Rolls, Seen, Stuck, first_passage};
+use crate::ode::dop853::{Dense, PROBES, Step};
+use crate::ode::step::{Counters, Tolerance};
+
+/// Steps of a run and where its figures were largest.
+#[derive(Debug, Clone)]
+pub struct Track {
+    arc: usize,
+    legs: Vec<Leg>,
+    peaks: Peaks,
+    seen: [Seen; FIGURES],
+}
+
+/// The tolerance of steps that nobody judges.
+const ANY: Tolerance<4> = Tolerance { relative: 1.0, absolute: [1.0; 4], integrated: [0.0; 4] };
+/// Half of what the parabola about a peak spans, as a part of the step: what it leaves out goes with its fourth power.
+const ABOUT: f64 = 0.02;
+
+impl Track {
+    pub(super) fn of(arc: usize, run: Stuck) -> Self {
+        let Stuck { legs, peaks, seen, .. } = run;
+        Self { arc, legs, peaks, seen }
+    }
+
+    /// Figures that a demand is read from: |T|/N of the contact that asks for more, the ends of N_bi.
+    fn read(&self, model: &Model) -> [usize; 3] {
+        let outer_asks = !model.outer_holds && self.peaks.tan_outer > self.peaks.tan_inner;
+        [usize::from(outer_asks), 2, 3]
+    }
+
+    /// Whether leg `k` begins or ends where the motion has a corner or an end.
+    fn is_corner(&self, k: usize, edge: Edge) -> bool {
+        match edge {
+            Edge::Start => k == 0 || self.legs[k - 1].passes,
+            Edge::End => self.legs[k].passes || k + 1 == self.legs.len(),
+        }
+    }
+
+    /// The peaks of `model`, a neighbour of the one whose track this is, from its start `state`; [`Peaks::normal_outer_max_n`] and the
+    /// friction at the contact that asks for less stay as they are. `None` where it goes another way: begins on another arc, or
+    /// does not come to a junction that the run came to.
+    pub(super) fn retraced(&self, model: &Model, state: &State, place: Place) -> Option<Peaks> {
+        if place != Place::Arc(self.arc) {
+            return None;
+        }
+        let read = self.read(model);
+        let last = read.into_iter().map(|i| self.seen[i].leg).max()?;
+        let (mut rolls, mut y) = Rolls::new(model, self.arc, state);
+        let (mut t, mut step, mut counters) = (0.0, Step::new(), Counters::default());
+        let mut now = rolls.sight(t, &y);
+        let mut peaks = self.peaks;
+        for (k, leg) in self.legs[..=last].iter().enumerate() {
+            let slope = rolls.set_out(now);
+            let h = leg.until_s - t;
+            step.take(&mut rolls, t, &y, &slope, h, &ANY, f64::INFINITY, &mut counters).ok()?;
+            let mut dense = None;
+            let passage = match leg.passes {
+                true => Some(first_passage(&mut rolls, &step, &mut dense, &mut counters)??),
+                false => None,
+            };
+            let seen_here = || read.into_iter().filter(|&i| self.seen[i].leg == k);
+            if seen_here().next().is_some() && dense.is_none() {
+                dense = Some(step.dense(&mut rolls, &mut counters).ok()?);
+            }
+            let length = passage.map_or(h, |theta| theta * h);
+            for i in seen_here() {
+                let at = self.seen[i];
+                let d = dense.as_ref()?;
+                let corner = at.edge.filter(|edge| self.is_corner(k, *edge));
+                let value = match corner {
+                    Some(Edge::Start) => now.figures[i],
+                    Some(Edge::End) => rolls.sight(t + length, &d.after(length)).figures[i],
+                    None => top(&mut rolls, d, t, at.t_s - t, h, i),
+                };
+                peaks.keep(i, at.t_s, value, peaks.normal_at_tan_n[usize::from(i == 1)]);
+            }
+            match (passage, &dense) {
+                (Some(_), Some(d)) => {
+                    t += length;
+                    y = d.after(length);
+                    if !rolls.pass(&mut y) {
+                        return None;
+                    }
+                    now = rolls.sight(t, &y);
+                }
+                _ => {
+                    t = leg.until_s;
+                    y = step.y1;
+                    now = rolls.probed[PROBES.len() - 1];
+                }
+            }
+        }
+        Some(peaks)
+    }
+}
+
+/// Figure `i` at its top near `elapsed` (s) after the start of a step at `t` over `h`.
+fn top(rolls: &mut Rolls, dense: &Dense<4>, t: f64, elapsed: f64, h: f64, i: usize) -> f64 {
+    let apart = ABOUT * h;
+    let mut at = |s: f64| {
+        let y: Pair = dense.after(elapsed + s);
+        rolls.sight(t + elapsed + s, &y).figures[i]
+    };
+    let [before, here, after] = [-apart, 0.0, apart].map(&mut at);
+    let (rise, bend) = (0.5 * (after - before), after + before - 2.0 * here);
+    if bend >= 0.0 {
+        return here;
+    }
+    let to_top = (-rise / bend).clamp(-1.0, 1.0);
+    here + to_top * (rise + 0.5 * bend * to_top)
+}
