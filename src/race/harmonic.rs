@@ -212,36 +212,40 @@ impl Race {
         self.track_m() / contacts as f64 * (0.5 + s + 0.5 * t).exp()
     }
 
-    /// Depth y, m, of a sharp change from plane strain to plane stress below a contact, under which the ring has the approach of
-    /// waves that change one by one: of the waves k n/R along its track `share` is plane stress, of wave number times width and
-    /// Poisson's ratio, 1 for long waves and 0 for short ones.
+    /// Depth y, m, of a sharp change from plane strain to plane stress below a contact `contact_length_m` long, under which the ring
+    /// has the approach of waves that change one by one: of the waves k n/R along its track `share` is plane stress, of wave number
+    /// times width and Poisson's ratio, 1 for long waves and 0 for short ones.
     ///
-    /// With c_k and c'_k the harmonic over that of the half-plane in plane stress and plane strain, 1/E and (1-nu^2)/E the
-    /// half-planes' compliances, the approach is sum_k [S_k c_k/E + (1 - S_k) (1-nu^2) c'_k/E]/k, and [`Self::effective_depth_m`] in plane stress
-    /// with a change at y has the same where
+    /// The waves' approach is sum_k [S_k/E + (1 - S_k) (1-nu^2)/E]/k, and a sharp change has the same where ln(R/(n y)) = sum_k S_k/k: a
+    /// thin ring has the y of a half-plane, a thick one R/n, plane strain but for its mean growth.
     ///
-    ///   ln(R/(n y)) = sum_k {S_k - (1 - S_k) [c_k - (1-nu^2) c'_k - nu^2]/nu^2}/k.
-    ///
-    /// A thin ring has the y of a half-plane, a thick one R/n: plane strain but for its mean growth.
-    pub fn transition_m(&self, contacts: usize, share: impl Fn(f64, f64) -> f64) -> f64 {
-        /// Wave number times width beyond which S falls as its inverse.
+    /// Left out: the curvature of the track in the waves, -(1 - S_k) nu^2/(m + 1) of a wave m: it would soften sprags by 0.1 to
+    /// 0.25 % of windup, which finite elements of their outlines do not have. A race wider than its contacts is not loaded evenly over its
+    /// width; from twice the width on it has the y of a half-plane, beside finite elements of such races to 0.45 % of windup, between in
+    /// proportion.
+    pub fn transition_m(
+        &self,
+        contacts: usize,
+        contact_length_m: f64,
+        share: impl Fn(f64, f64) -> f64,
+    ) -> f64 {
+        /// Wave number times width beyond which S falls as its inverse, and before which waves are long.
         const SHORT: f64 = 200.0;
+        const LONG: f64 = 0.25;
         let nu = self.material().poisson_ratio;
+        let sum = |wave: f64| {
+            let count = (SHORT / wave).clamp(1.0, 4e3) as usize;
+            let own: f64 = (1..=count).map(|k| share(k as f64 * wave, nu) / k as f64).sum();
+            own + share((count as f64 + 0.5) * wave, nu)
+        };
         let wave = contacts as f64 * self.width_m() / self.track_m();
-        let count = (SHORT / wave).clamp(1.0, 4e3) as usize;
-        let own: f64 = (1..=count).map(|k| share(k as f64 * wave, nu) / k as f64).sum();
-        let rest = share((count as f64 + 0.5) * wave, nu);
-        let [stress, strain] = [PlaneState::Stress, PlaneState::Strain].map(|s| self.harmonics(contacts, s));
-        let bent: f64 = stress
-            .zip(strain)
-            .map(|((k, a), (_, b))| {
-                let beyond = a.displacement_ratio - 1.0 - (1.0 - nu * nu) * (b.displacement_ratio - 1.0);
-                (1.0 - share(k * wave, nu)) * beyond / k
-            })
-            .sum();
-        // Bodies that do not contract across have one state.
-        let bent = if nu == 0.0 { 0.0 } else { bent / (nu * nu) };
-        self.track_m() / contacts as f64 * (bent - own - rest).exp()
+        let even = sum(wave);
+        let wider = (self.width_m() / contact_length_m - 1.0).clamp(0.0, 1.0);
+        let of = match wider > 0.0 {
+            true => even + wider * (sum(LONG) + (LONG / wave).ln() - even),
+            false => even,
+        };
+        self.track_m() / contacts as f64 * (-of).exp()
     }
 
     /// Hoop stress at the track midway between two contacts, Pa, tension positive.
@@ -359,20 +363,15 @@ mod tests {
     fn a_thin_layer_changes_where_its_waves_do_and_a_thick_one_between_its_contacts() {
         let ring = Race::outer(19.44e-3, 40e-3, 6e-3, STEEL).unwrap();
         let (contacts, waves) = (40, 40.0 * 6e-3 / 19.44e-3);
-        let bent = |depth: f64| {
-            let sharp = ring.transition_m(contacts, |x, _| (-x * depth).exp());
+        for depth in [0.1, 1.0, 10.0] {
+            let sharp = ring.transition_m(contacts, 6e-3, |x, _| (-x * depth).exp());
             let found = sharp * waves / 6e-3 / (1.0 - (-depth * waves).exp());
             println!("{depth}: {found}");
-            found
-        };
-        // What this thick ring adds to a half-plane is within 1 % of ln y.
-        for depth in [0.001, 0.02, 0.1, 1.0, 10.0] {
-            assert!((bent(depth) - 1.0).abs() < 0.02, "{depth}");
+            assert!((found - 1.0).abs() < 1e-3, "{depth}");
         }
-        let soft = Material { poisson_ratio: 0.0, ..STEEL };
-        let none =
-            Race::outer(19.44e-3, 40e-3, 6e-3, soft).unwrap().transition_m(contacts, |x, _| (-x).exp());
-        assert!(none.is_finite() && none > 0.0);
+        // Twice as wide as its contacts: the half-plane's depth, here 0.1 of the width.
+        let wide = ring.transition_m(contacts, 3e-3, |x, _| (-0.1 * x).exp());
+        assert!((wide / 0.6e-3 - 1.0).abs() < 0.02, "{wide}");
     }
 
     #[test]

@@ -251,8 +251,12 @@ fn elastic_law(
         StressState::PlaneStrain => (PlaneState::Strain, [f64::INFINITY; 2]),
         StressState::PlaneStress => (PlaneState::Stress, [0.0; 2]),
         StressState::Layer => {
-            let disc = Race::inner(0.0, 0.5 * height_m, clutch.sprags.length_m, sprag)?;
-            let transitions = [disc.transition_m(2, share), race.transition_m(clutch.sprags.count, share)];
+            let length_m = clutch.sprags.length_m;
+            let disc = Race::inner(0.0, 0.5 * height_m, length_m, sprag)?;
+            let transitions = [
+                disc.transition_m(2, length_m, share),
+                race.transition_m(clutch.sprags.count, length_m, share),
+            ];
             (PlaneState::Stress, transitions)
         }
     };
