@@ -35,17 +35,19 @@
 //! the races turn: 0.2 to 0.35 % of windup for Table 1's clutch, 0.6 to 0.8 % where contacts give more than rings do.
 //!
 //! # Unlike bodies
-//! Pressure p draws a surface together by (1 - 2 nu)(1 + nu)/E p: that of a softer race by 2 beta/E* p more, beta Dundurs'. Surfaces that
-//! stick keep the strain with which they came together, so Gamma T becomes (1/pi) int sqrt((xi - b)/(c - xi)) (g' - 2 beta p/E*) dxi, and without
-//! T surfaces that roll have g' = (2/pi) beta a/R: a softer race turns further by int (2/pi) beta (a/R) dx, and back as far (Bentall
-//! and Johnson, *Int. J. Mech. Sci.* 9, 1967). With a ~ sqrt(N), x ~ N^0.9 the integral equation has somewhat less of it
-//! (`tests/reference/unlike_rolling.py --growing`: 6 to 10 % for x/a from 3 to 6). No work is lost: what T does on that way the normal force does back, it lies
-//! (2/pi) beta a T/N behind the contact point, as the shear q of T raises the pressure there by (2/(pi E*)) int p dxi/(x - xi) = x/R + 2 beta q/E*
-//! (the same script: to 4 %). With a solid shaft of 110 GPa that lowers tan omega by 0.18 % at 2.6 GPa; finite
-//! elements, which slip, have 0.29 % less than with a Poisson's ratio that makes beta 0 (`reports/calculix-ten-decks.md`).
+//! Pressure p draws a surface together by (1 - 2 nu)(1 + nu)/E p: that of a softer race by 2 beta/E* p more, beta Dundurs'. Surfaces
+//! that stick keep the strain with which they came together, so Gamma T becomes (1/pi) int sqrt((xi - b)/(c - xi)) (g' - 2 beta p/E*) dxi,
+//! and without T surfaces that roll have g' = (2/pi) beta a/R: a softer race turns further by int (2/pi) beta (a/R) dx, and back as
+//! far (Bentall and Johnson, *Int. J. Mech. Sci.* 9, 1967). With a ~ sqrt(N), x ~ N^0.9 the integral equation has 6 to 10 % less of it
+//! for x/a from 3 to 6 (`tests/reference/unlike_rolling.py --growing`). No work is lost: what T does on that way the normal force does
+//! back, it lies (2/pi) beta a T/N behind the contact point, as the shear q of T changes the pressure there,
+//! (2/(pi E*)) int p dxi/(x - xi) = x/R + 2 beta q/E* (the same script: to 4 %). With a solid shaft of 110 GPa that lowers tan omega by
+//! 0.18 % at 2.6 GPa; finite elements, which slip, have 0.29 % less than with a Poisson's ratio that makes beta 0
+//! (`reports/calculix-ten-decks.md`).
 //!
 //! # Left out
-//! Slip makes the lever of unlike bodies up to 8/(3 pi) over 2/pi as long. Slip at the trailing edge makes creep 2 (1 - sqrt(1 - u))/u as large, u = T/(mu N) (Carter): 1.08 in finite elements
+//! Slip at the trailing edge makes the lever of unlike bodies up to 4/3 as long, and creep 2 (1 - sqrt(1 - u))/u as large,
+//! u = T/(mu N) (Carter): 1.08 in finite elements
 //! with mu = 0.3, 1.3 with tan omega at two thirds of mu. Hoop strain of the ring at the contact beside the mean growth
 //! moves the pitch point by 0.06 % of N at 100 N m. What only centrifugal force asks for counts as carried without
 //! rolling.
