@@ -2,7 +2,7 @@
 # Ten designs of `size` and `new`, each exported as a CalculiX deck, solved to its end, read back and held against the
 # design's own law elastic: every windup, normal force and tangent must lie within the error that the program states for the law.
 #
-#   sh reports/validate_ten_decks.sh [NAME ...]     all ten, or those named; about half an hour on one free core
+#   sh reports/validate_ten_decks.sh [NAME ...]     all ten, or those named; about an hour on one free core
 #   WORK=DIR sh reports/validate_ten_decks.sh --read [NAME ...]
 #                                                   solve nothing: hold designs and results that DIR has against the law as it is now
 #
@@ -25,15 +25,15 @@ ceramic='{ youngs_modulus_gpa = 310.0, poisson_ratio = 0.27, density_kg_m3 = 320
 bodies() { printf '%s' "s/^name = \"100Cr6\".*/inner_race = $1\\nsprag = $2\\nouter_race = $3/; /^from_material/d"; }
 
 # Name | how it is made | what is changed in it (sed) | torque reached, Nm | spacing of the mesh, mm | what it is.
-cases="starter|new --for starter --bore 40 --peak 900||600|0.05|starter, 8.33 mm race space
+cases="starter|new --for starter --bore 40 --peak 900||600|0.035|starter, 8.33 mm race space
 indexing|new --for indexing --bore 30 --torque 200 --outside 80 --width 25||200|0.038|indexing
 backstop|new --for backstop --bore 60 --torque 2500||2500|0.075|backstop
-helicopter|new --for helicopter --bore 50 --torque 1200|s/^outer_outside_radius_mm = .*/outer_outside_radius_mm = 51.5/|1200|0.065|helicopter, outer race thinned
+helicopter|new --for helicopter --bore 50 --torque 1200|s/^outer_outside_radius_mm = .*/outer_outside_radius_mm = 51.5/|480|0.03|helicopter, outer race thinned
 two-speed|new --for two-speed --bore 40 --torque 800 --material 20MnCr5||800|0.036|two-speed, 34 sprags of 20MnCr5
 small|size --bore 15 --torque 40||40|0.016|smallest race space, 2.5 mm
 large|size --bore 100 --torque 9000 --material 16MnCr5||9000|0.095|bore of 100 mm, 9000 Nm
-narrow|size --bore 35 --torque 300 --outside 75|$(bodies "$steel" "$ceramic" "$steel")|240|0.038|ceramic sprags (310 GPa)
-solid|size --bore 25 --torque 500 --friction 0.13|$(bodies "$soft" "$steel" "$steel"); s/^inner_bore_radius_mm = .*/inner_bore_radius_mm = 0.0/|500|0.042|solid shaft of 110 GPa
+narrow|size --bore 35 --torque 300 --outside 75|$(bodies "$steel" "$ceramic" "$steel")|240|0.025|ceramic sprags (310 GPa)
+solid|size --bore 25 --torque 500 --friction 0.13|$(bodies "$soft" "$steel" "$steel"); s/^inner_bore_radius_mm = .*/inner_bore_radius_mm = 0.0/|500|0.03|solid shaft of 110 GPa
 arcs|size --bore 70 --torque 800 --width 20|s/^inner_arcs = .*/inner_arcs = [{ radius_mm = 2.8, until_rad = 0.10 }, { radius_mm = 3.0, until_rad = 0.22 }, { radius_mm = 3.3, until_rad = 0.37 }]/; s/^flanks = { rear_mm = [0-9.]*/flanks = { rear_mm = 2.42/|700|0.045|three arcs, curved more and more weakly"
 
 columns="design,made_by,torque_nm,mesh_mm,hertz_inner_mpa,windup_deg,law_windup_off_percent,normal_inner_n,law_normal_off_percent,tan_omega,law_tan_off_percent,stated_windup_percent,stated_force_percent,verdict"
@@ -99,7 +99,7 @@ cp "$work/ten.csv" reports/calculix-ten-decks.csv
     awk -F, 'NR > 1 { rows++; if ($NF == "within") held++; if ($NF == "not solved") open++ } END {
         printf "Ten designs of `size` and `new`, exported, solved by CalculiX and read back: in %d of %d rows law elastic is within the error that the program states for it%s.\n", held, rows - open, open ? sprintf("; %d rows are not solved", open) : "" }' "$work/ten.csv"
     echo
-    echo "Windup, normal force and tangent of finite elements; off: the law over them. Races as long as the sprags; windup rim against bore, to the law's the torsion of the races is added. Pressure: mean over an element under the track, half a spacing deep."
+    echo "Windup, normal force and tangent of finite elements; off: the law over them. Races as long as the sprags; windup rim against bore, to the law's the torsion of the races is added; tangents at one radius. Read through all rows within a factor of 1.6 of the torque. Pressure: mean over an element under the track, half a spacing deep."
     echo
     python3 - "$work/ten.csv" <<'EOF'
 import csv
@@ -117,5 +117,34 @@ for name, made, torque, mesh, p0, windup, w, n, n_off, tan, t_off, stated_w, sta
     cells = [f"{name}: `{made}`" if first else "", torque, mesh, p0, windup, w, n, n_off, tan, t_off, stated, verdict]
     print("| " + " | ".join(cells) + " |")
 EOF
+    cat <<'WORDS'
+
+## What finite elements are good to
+
+The same decks on several meshes (`--mesh`), at one torque. From row to row a tangent wanders as the patch passes its nodes, the windup with it; through a dozen rows it is the same on every mesh.
+
+| design | torque, Nm | mesh, mm | windup, deg | N, N | tan | scatter of tan, % |
+|---|---:|---:|---:|---:|---:|---:|
+| solid shaft of 110 GPa | 300 | 0.041 | 2.1701 | 7451.1 | 0.10321 | 0.15 |
+|  |  | 0.028 | 2.1709 | 7450.8 | 0.10321 | 0.09 |
+|  |  | 0.020 | 2.1728 | 7452.6 | 0.10319 | 0.04 |
+| starter | 560 | 0.050 | 3.9034 | 9971.7 | 0.08620 | 0.09 |
+|  |  | 0.035 | 3.9050 | 9969.7 | 0.08621 | 0.07 |
+| ceramic sprags | 220 | 0.037 | 2.7840 | 3679.6 | 0.08676 | 0.19 |
+|  |  | 0.025 | 2.7853 | 3679.2 | 0.08677 | 0.07 |
+
+## What made law and finite elements differ
+
+With the solid shaft of 110 GPa version 0.2.0 of the law was 1.2 % of windup too stiff and 0.4 % of tan too high at 350 Nm, read as above. Decks of the same clutch part it (that law over finite elements at 140, 245 and 350 Nm; energy: work of the torque up to one normal force, which knows approaches alone):
+
+| deck | tan, % | energy, % |
+|---|---|---|
+| as it is, mesh 0.020 mm | 0.22, 0.34, 0.43 | -0.49, -0.58, -0.59 |
+| all of steel, 0.028 mm | 0.02, 0.08, 0.09 | -0.50, -0.56, -0.62 |
+| plane strain, 0.028 mm | 0.18, 0.34, 0.32 | -0.05, -0.15, -0.10 |
+| plane strain, Poisson's ratio 0.4033, with which Dundurs' beta is 0; 0.022 mm | 0.04, 0.11, 0.14 | -0.16, -0.22, -0.22 |
+
+So the tangent is that of unlike bodies, whose pressure pulls along the surface (`src/wedge/rolling.rs`), and the energy that of the passage from plane strain to plane stress in races and sprags longer than the distance of their contacts (`Race::transition_m`): both are in the law now. The penalty of these decks' contacts gives 0.05 to 0.15 % of windup by itself.
+WORDS
 } >reports/calculix-ten-decks.md
 exit "$exit_code"

@@ -150,11 +150,29 @@ impl PlaneState {
     pub fn contact_modulus_pa(self, a: &Material, b: &Material) -> f64 {
         1.0 / (self.compliance(a) + self.compliance(b))
     }
+
+    /// Dundurs' beta of two bodies in this state, positive where `a` is the softer: what of pressure pulls along the surface
+    /// (Johnson (5.3), with (1-2nu)(1+nu)/E the body's compliance times 1 - nu/(1-nu)). 0 for like bodies.
+    pub fn dundurs_beta(self, a: &Material, b: &Material) -> f64 {
+        let along = |m: &Material| self.compliance(m) * (1.0 - self.transverse_ratio(m.poisson_ratio));
+        0.5 * self.contact_modulus_pa(a, b) * (along(a) - along(b))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Against a rigid body beta is (1 - 2 nu)/(2 (1 - nu)) (Johnson, 5.1).
+    #[test]
+    fn beta_is_that_of_a_body_on_a_rigid_one() {
+        let of = |e: f64, nu: f64| Material { youngs_modulus_pa: e, poisson_ratio: nu, density_kg_m3: 1.0 };
+        let (soft, rigid) = (of(1e9, 0.3), of(1e21, 0.3));
+        assert!((PlaneState::Strain.dundurs_beta(&soft, &rigid) - 0.4 / 1.4).abs() < 1e-10);
+        let [ab, ba] = [(soft, rigid), (rigid, soft)].map(|(a, b)| PlaneState::Stress.dundurs_beta(&a, &b));
+        assert!(ab == -ba && (ab - 0.35).abs() < 1e-10, "{ab}");
+        assert_eq!(PlaneState::Strain.dundurs_beta(&soft, &soft), 0.0);
+    }
 
     #[test]
     fn a_steel_answers_to_all_its_names_and_no_two_share_one() {

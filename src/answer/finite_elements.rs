@@ -208,7 +208,9 @@ fn table(rows: &[ResultRow], law: &[Option<StaticPoint>], twist_rad_per_nm: f64)
             l.map_or(Cell::Empty, |l| (l.normal_inner_n / r.normal_inner_n - 1.0).into())
         })
         .number("law_tan_over_fe_percent", "tan ω, law over FE", Unit::Percent, 3, |(r, l)| {
-            l.map_or(Cell::Empty, |l| (l.tan_omega / r.tan_omega - 1.0).into())
+            // Both cut at one radius: of one torque they have one T there. Finite elements have theirs at the middle of the patch,
+            // the law at the pitch point, 0.03 % of the radius beneath.
+            l.map_or(Cell::Empty, |l| (r.normal_inner_n / l.normal_inner_n - 1.0).into())
         })
         .table()
 }

@@ -13,6 +13,7 @@ mod end_profile;
 pub mod half_space;
 mod influence;
 mod junction;
+mod layer;
 mod line;
 mod shaped;
 mod slice;
@@ -22,13 +23,13 @@ mod traction;
 
 pub use approach::{
     Approach, CurvedApproach, DIN26281_COEFFICIENT, HertzBody, HertzLaw, LayerBody, RollerLaw, SliceLaw,
-    element_transition_m, layer_transition_m,
 };
 pub use axial::{AxialFit, ContactEnd, Flank};
 pub use edge::{Edge, Peak};
 pub use end_profile::{EndDrop, ProfileTable};
 pub use influence::{influence_m_per_pa, weighted_influence_m_per_n};
 pub use junction::step_peak_error;
+pub use layer::{WaveShare, element_share, layer_share};
 pub use line::{ContactError, LineContact};
 pub use shaped::ShapedLaw;
 pub use slice::{SliceCompliance, SliceContact, SliceSolution, SliceStatus};

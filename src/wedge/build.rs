@@ -8,7 +8,7 @@ use super::patch::InnerCurvature;
 use super::quick::TRUSTED;
 use super::table::{ArcBuilder, ArcTable};
 use crate::clutch::{Carrier, Clutch};
-use crate::contact::element_transition_m;
+use crate::contact::element_share;
 use crate::numeric::root;
 use crate::profile::Profile;
 
@@ -124,14 +124,14 @@ impl WedgeCurve {
     }
 
     /// The curve at rest of a clutch whose bodies are layers of one linear element through half their length, as a deck for
-    /// CalculiX has them ([`element_transition_m`]): what law `elastic` is held against there.
+    /// CalculiX has them ([`element_share`]): what law `elastic` is held against there.
     ///
     /// # Errors
     /// As [`Self::build`].
     pub fn build_as_deck(clutch: &Clutch, profile: &Profile) -> Result<Self, NoCurve> {
         let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
         let mut statics = whole.map_err(NoCurve::NoElastic)?;
-        statics.elastic = Elastic::with_layers(clutch, element_transition_m).map_err(NoCurve::NoElastic)?;
+        statics.elastic = Elastic::with_layers(clutch, element_share).map_err(NoCurve::NoElastic)?;
         Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
     }
 

@@ -57,7 +57,7 @@ pub struct Closure {
     /// Effective curvature 1/R that the approach at A knows, 1/m; for a law that knows none, that of the arc.
     pub curvature_inner_per_m: f64,
     /// By how much the force at A lies ahead of the contact point in the sense of rising azimuth, m: on arcs of unlike
-    /// curvature, and near a flank. 0 for a law that keeps it there.
+    /// curvature, near a flank, and between unlike bodies (what B asks for included). 0 for a law that keeps it there.
     pub force_ahead_m: f64,
     /// beta, rad, of the contact point.
     pub beta: Dual,
@@ -289,6 +289,8 @@ impl Statics {
         let mut slope_residual = f64::INFINITY;
         let mut unsettled = f64::INFINITY;
         let mut body = Yields::default();
+        let unlike = self.elastic.unlike != [0.0; 2];
+        let mut lag = Dual::constant(0.0);
         for round in 0..60 {
             let mut d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
             d.bulk = body.bulk_m;
@@ -304,7 +306,7 @@ impl Statics {
                 (l.oc_i * sin_b + across).atan2(l.oc_i * cos_b - l.oc_e + along) + (shift_rad - azimuth);
             let g = kinematics::centroid(self.centroid_m, l.oc_e, rotation);
             // From the contact point at A to the force.
-            let ahead = (inner.ahead_m + body.ahead_m) / l.oa;
+            let ahead = (inner.ahead_m + body.ahead_m) / l.oa - lag;
             let (seen, sin_b, cos_b) = match ahead.v == 0.0 {
                 true => (beta, sin_b, cos_b),
                 false => {
@@ -333,6 +335,12 @@ impl Statics {
                 moved.v = moved.v.max(((now.bulk_m.v - body.bulk_m.v) / inner.approach_m.v).abs());
                 moved.d = moved.d.max(((now.bulk_m.d - body.bulk_m.d) / inner.approach_m.d).abs());
                 body = now;
+            }
+            if unlike {
+                let now = self.lag_rad(&inner, [n, next], [t_bi, t_be], &l);
+                moved.v = moved.v.max((now.v - lag.v).abs());
+                moved.d = moved.d.max((now.d - lag.d).abs() / now.d.abs().max(f64::MIN_POSITIVE));
+                lag = now;
             }
             // The offset turns with a race; without one there is nothing to turn.
             let on = if self.is_concentric() { carried } else { self.carried(arc, rotation, turn) };

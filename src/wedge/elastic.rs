@@ -3,7 +3,8 @@
 use super::axial::shaped;
 use crate::clutch::{Clutch, ContactLaw, StressState};
 use crate::contact::{
-    Approach, ContactError, CurvedApproach, HertzBody, LayerBody, LineContact, SliceRatio, layer_transition_m,
+    Approach, ContactError, CurvedApproach, HertzBody, LayerBody, LineContact, SliceRatio, WaveShare,
+    layer_share,
 };
 use crate::kinematics::Deformations;
 use crate::material::{Material, PlaneState};
@@ -51,9 +52,6 @@ impl From<RaceError> for NoElastic {
     }
 }
 
-/// Depth at which a layer passes from plane strain to plane stress, m, of its thickness, m, and Poisson's ratio.
-pub(super) type Transition = fn(f64, f64) -> f64;
-
 /// Compliances of one clutch. Race growths are per normal force of one sprag, all sprags loaded alike.
 #[derive(Debug, Clone)]
 pub struct Elastic {
@@ -71,6 +69,9 @@ pub struct Elastic {
     pub outer_race: Race,
     /// Whether the contacts give along the tracks as well and roll on unstrained circumferences: law `elastic`.
     pub(super) gives_along: bool,
+    /// Dundurs' beta at A and at B, positive where the race is softer than the sprag: 0 between like bodies, and where contacts do not
+    /// give along the tracks.
+    pub(super) unlike: [f64; 2],
     race_inner_m_per_n: f64,
     race_outer_m_per_n: f64,
     body_m_per_n: f64,
@@ -82,12 +83,11 @@ impl Elastic {
     /// The logarithmic law counts the compression of the sprag down to half its height and of a race down to
     /// its wall (a solid shaft: its radius); the rings' mean growth is (5), on top.
     pub fn new(clutch: &Clutch) -> Result<Self, NoElastic> {
-        Self::with_layers(clutch, layer_transition_m)
+        Self::with_layers(clutch, layer_share)
     }
 
-    /// The same with layers that pass from plane strain to plane stress at the depth `transition_m` of thickness (m) and
-    /// Poisson's ratio.
-    pub(super) fn with_layers(clutch: &Clutch, transition_m: Transition) -> Result<Self, NoElastic> {
+    /// The same with layers in whose waves plane stress has the share `share`.
+    pub(super) fn with_layers(clutch: &Clutch, share: WaveShare) -> Result<Self, NoElastic> {
         let (s, r, m) = (&clutch.sprags, &clutch.races, &clutch.materials);
         let near = match clutch.contact {
             ContactLaw::Elastic { state: StressState::PlaneStress } => PlaneState::Stress,
@@ -123,7 +123,7 @@ impl Elastic {
         let law = |contact: &LineContact, side: &Race, wall_m: f64| -> Result<Approach, NoElastic> {
             Ok(match clutch.contact {
                 ContactLaw::Elastic { state } => {
-                    return elastic_law(contact, clutch, side, state, transition_m);
+                    return elastic_law(contact, clutch, side, state, share);
                 }
                 ContactLaw::Roller { coefficient } => Approach::roller(contact, coefficient),
                 ContactLaw::Slice { coefficient } => {
@@ -158,6 +158,8 @@ impl Elastic {
             inner_race,
             outer_race,
             gives_along: own,
+            unlike: [&m.inner_race, &m.outer_race]
+                .map(|race| if own { near.dundurs_beta(race, &m.sprag) } else { 0.0 }),
             race_inner_m_per_n: inner_race.compliance_m_per_n(s.count) + band(&half[0]),
             race_outer_m_per_n: outer_race.compliance_m_per_n(s.count) + band(&half[1]),
             body_m_per_n: body_compliance_m_per_n(
@@ -234,13 +236,14 @@ fn law(approach: &Approach, n: Dual) -> Dual {
 ///
 /// Sprag: a disc of diameter h under opposite loads, h the sprag's height, has between rim and centre
 /// delta = 2q/(pi E') [ln(2h/a) - 1/2] (Johnson, *Contact Mechanics*, (5.57)), which in terms of a depth d with
-/// ln(2d/a) - t/2 is d = h exp(t/2 - 1/2). What the sprag's own outline gives beyond that is [`super::bulk`]'s. Ring: [`Race::effective_depth_m`].
+/// ln(2d/a) - t/2 is d = h exp(t/2 - 1/2); it is a shaft between two contacts. What the sprag's own outline gives beyond that is
+/// [`super::bulk`]'s. Ring: [`Race::effective_depth_m`], [`Race::transition_m`].
 fn elastic_law(
     contact: &LineContact,
     clutch: &Clutch,
     race: &Race,
     state: StressState,
-    transition_m: Transition,
+    share: WaveShare,
 ) -> Result<Approach, NoElastic> {
     let sprag = clutch.materials.sprag;
     let height_m = clutch.races.outer_radius_m - clutch.races.inner_radius_m;
@@ -248,9 +251,11 @@ fn elastic_law(
         StressState::PlaneStrain => (PlaneState::Strain, [f64::INFINITY; 2]),
         StressState::PlaneStress => (PlaneState::Stress, [0.0; 2]),
         StressState::Layer => {
+            let length_m = clutch.sprags.length_m;
+            let disc = Race::inner(0.0, 0.5 * height_m, length_m, sprag)?;
             let transitions = [
-                transition_m(clutch.sprags.length_m, sprag.poisson_ratio),
-                transition_m(race.width_m(), race.material().poisson_ratio),
+                disc.transition_m(2, length_m, share),
+                race.transition_m(clutch.sprags.count, length_m, share),
             ];
             (PlaneState::Stress, transitions)
         }

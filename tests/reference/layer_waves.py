@@ -1,18 +1,15 @@
 #!/usr/bin/env python3
-"""Depth y* at which an elastic layer passes from plane strain to plane stress under a line load on its edge, by finite elements over its
-section: where the figures of layer_transition_m and element_transition_m (src/contact/approach.rs) come from. Prints layer_waves.csv.
-Needs numpy and scipy.
+"""Share of plane stress in a wave on the edge of an elastic layer, by finite elements over its section: where the figures of layer_share
+and element_share (src/contact/layer.rs) come from. Prints layer_waves.csv. Needs numpy and scipy.
 
 Thickness l = 1, |z| < 1/2, free faces, edge y = 0, wave cos kx along the edge, E = 1. Displacements u(y, z) sin kx, v cos kx, w cos kx; nine-node
-quadrilaterals on 0 < z < 1/2. f = displacement of the edge over 2p/(E k), p the mean pressure: with pressure even over the thickness, and
-with displacement even over it. S = [f - (1 - nu^2)]/nu^2 falls from 1 to 0; ln y* = -gamma - lim (int_eps^inf S dk/k + ln eps).
-"element": the same of one element whose thickness strain is even, with the shear factor 3/4.
+quadrilaterals on 0 < z < 1/2. f = displacement of the edge, even over the thickness, over 2p/(E k), p the mean pressure. S = [f - (1 - nu^2)]/nu^2 falls
+from 1 to 0. "element": the same of one element whose thickness strain is even, with the shear factor 3/4.
 """
 import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg as sl
 
-EULER = 0.5772156649015329
 GAUSS = [(-0.6**0.5, 5 / 9), (0.0, 8 / 9), (0.6**0.5, 5 / 9)]
 
 
@@ -28,8 +25,8 @@ def edges(first, end, n):
     return np.concatenate([[0], np.cumsum(first * q ** np.arange(n))])
 
 
-def wave(k, nu, even, ny=24, nz=10):
-    """f of the wave k with `even` pressure or displacement."""
+def wave(k, nu, ny=24, nz=10):
+    """f of the wave k."""
     mu = 0.5 / (1 + nu)
     D = np.diag([2 * mu] * 3 + [mu] * 3)
     D[:3, :3] += nu / ((1 + nu) * (1 - 2 * nu))
@@ -39,7 +36,7 @@ def wave(k, nu, even, ny=24, nz=10):
     width = 2 * nz + 1
     index = lambda i, j: i * width + j
     count = 3 * (2 * ny + 1) * width
-    rows, cols, values, load = [], [], [], np.zeros(count)
+    rows, cols, values = [], [], []
     for i in range(ny):
         for j in range(nz):
             hy, hz = ys[i + 1] - ys[i], zs[j + 1] - zs[j]
@@ -57,14 +54,9 @@ def wave(k, nu, even, ny=24, nz=10):
                     K += B.T @ D @ B * (wy * wz * hy * hz / 4)
             dof = np.array([3 * q + c for q in nodes for c in range(3)])
             rows.append(np.repeat(dof, 27)), cols.append(np.tile(dof, 27)), values.append(K.ravel())
-            if i == 0:
-                for z, wz in GAUSS:
-                    load[[3 * q + 1 for q in nodes[:3]]] += lagrange(z)[0] * wz * hz / 2
     K = sp.csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(cols))))
     held = {3 * index(i, 0) + 2 for i in range(2 * ny + 1)} | {3 * index(2 * ny, j) + c for j in range(width) for c in range(3)}
     free = np.array(sorted(set(range(count)) - held))
-    if even == "pressure":
-        return load[free] @ sl.spsolve(K[free][:, free].tocsc(), load[free]) * k
     top = np.array([3 * index(0, j) + 1 for j in range(width)])
     rest = np.setdiff1d(free, top)
     u = np.zeros(count)
@@ -79,17 +71,9 @@ def element(k, nu):
     return 1 / (1 + nu * nu / (1 - nu * nu) * 2 * k * k * (s - k) / (s * m * m))
 
 
-def depth(f, nu):
-    low, high = np.log(0.05), np.log(300.0)
-    x, w = np.polynomial.legendre.leggauss(28)
-    share = lambda k: (f(k) - (1 - nu * nu)) / nu**2
-    # S ~ 1/k beyond.
-    total = sum(share(np.exp(low + (high - low) * (t + 1) / 2)) * v for t, v in zip(x, w)) * (high - low) / 2 + share(300.0)
-    return np.exp(-EULER - low - total)
-
-
 if __name__ == "__main__":
-    print("poisson,even_displacement,even_pressure,element")
+    print("poisson,wave,layer,element")
     for nu in (0.2, 0.25, 0.3, 0.35, 0.4):
-        of = [depth(lambda k: wave(k, nu, even), nu) for even in ("displacement", "pressure")]
-        print(",".join(f"{v:.4g}" for v in (nu, *of, depth(lambda k: element(k, nu), nu))))
+        for k in (0.5, 1, 2, 4, 8, 16, 32, 64):
+            shares = [(f(k, nu) - (1 - nu**2)) / nu**2 for f in (wave, element)]
+            print(f"{nu},{k},{shares[0]:.4f},{shares[1]:.4f}")

@@ -102,6 +102,55 @@ fn a_few_thousandths_of_the_work_go_along_the_tracks() {
     }
 }
 
+/// A soft shaft and ceramic sprags: torque works on the approaches and on what T gives by itself; what a softer race turns further
+/// is no work, as the force lies behind the contact point for it.
+#[test]
+fn what_unlike_bodies_turn_further_costs_no_work() {
+    let mut clutch = clutch(ELASTIC);
+    clutch.sprags.flanks = None;
+    clutch.materials.inner_race.youngs_modulus_pa = 110e9;
+    clutch.materials.sprag.youngs_modulus_pa = 310e9;
+    let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
+    for n in [300.0, 1500.0, 8000.0] {
+        let (k, c) = curve.closure_at_normal(n).unwrap();
+        let seats = curve.statics().seats(k, &c);
+        let across = c.n_be.v * c.lengths.oc_e.d - n * c.lengths.oc_i.d;
+        let along: f64 = [c.t_bi.v, c.t_be.v].iter().zip(c.give_m_per_n).map(|(t, give)| t * give).sum();
+        let further =
+            seats.iter().map(|s| s.tangential_n.v * s.entrainment() * s.rolled_m_per_n).sum::<f64>();
+        let work = c.torque_nm(curve.statics().count).v / curve.statics().count as f64 * c.windup_slope();
+        let off = (across + along - further) / work - 1.0;
+        println!("N {n}: off by {off:.1e}, with {:.3} % for what turns further", 100.0 * further / work);
+        assert!(off.abs() < 3e-5 && further / work > 1e-3, "{n}: {off:e}");
+    }
+}
+
+/// Coupled rolling contact of unlike half-planes (tests/reference/unlike_rolling.py): half widths and radii 1.
+#[test]
+fn unlike_bodies_roll_as_their_integral_equations_say() {
+    let table = include_str!("../../../tests/reference/unlike_rolling.csv");
+    assert_eq!(table.lines().count(), 5);
+    for line in table.lines().skip(1) {
+        let v: Vec<f64> = line.split(',').map(|c| c.parse().unwrap()).collect();
+        let [beta, ratio, behind, further] = v[..] else { panic!("{line}") };
+        let contact = LineContact::external(2.0, 2.0, 1.0, PI / 4.0).unwrap();
+        let seat = Seat {
+            contact,
+            unlike: beta,
+            normal_n: Dual::constant(1.0),
+            tangential_n: Dual::constant(ratio),
+            approach_m: Dual::constant(0.0),
+            rolled_m_per_n: 1.0,
+        };
+        assert!((contact.half_width_m(1.0) - 1.0).abs() < 1e-12);
+        assert!(
+            (behind - ENTRAINED * beta * ratio).abs() <= 0.05 * behind.abs() + 1e-5
+                && (further / seat.entrainment() - 1.0).abs() < 0.03,
+            "{line}"
+        );
+    }
+}
+
 #[test]
 fn other_laws_give_across_alone() {
     let curve = curve(ContactLaw::Roller { coefficient: 3.944e-5 });
