@@ -227,8 +227,9 @@ fn draw_notes(svg: &mut Svg, view: &View, notes: &[Note]) {
         let bend = if left { 14.0 } else { -14.0 };
         for (note, y) in side.iter().zip(spread(&wanted, PITCH, 46.0, height - 50.0)) {
             // A name longer than its column leans into the drawing: nothing of it is cut.
-            let long = 0.9 * text_width(&note.text, 12.0) + 4.0;
-            let x = if left { column.max(long) } else { column.min(width - long) };
+            let most = text_width(&note.text, 12.0);
+            let wide = 0.9 * most;
+            let x = if left { column.max(wide + 4.0) } else { column.min(width - most - 2.0) };
             let knee = [x + bend, y - 4.0];
             let start = [x + bend / 3.0, y - 4.0];
             svg.path(
@@ -236,7 +237,6 @@ fn draw_notes(svg: &mut Svg, view: &View, notes: &[Note]) {
                 &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""),
             );
             // On paper: the edge of a race would run through the words.
-            let wide = long - 4.0;
             let [from, until] = if left { [x - wide, x + 2.0] } else { [x - 2.0, x + wide] };
             let ground = [[from, y - 11.0], [until, y - 11.0], [until, y + 4.0], [from, y + 4.0]];
             svg.path(&polyline(&ground, true), &format!("fill=\"{PAPER}\" fill-opacity=\"0.85\""));

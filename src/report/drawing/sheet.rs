@@ -214,7 +214,7 @@ fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f6
     let mut lines: Vec<String> = Vec::new();
     for length in lengths {
         match lines.last_mut() {
-            Some(line) if 0.9 * text_width(&format!("{line}, {length}"), 12.0) <= width => {
+            Some(line) if text_width(&format!("{line}, {length}"), 12.0) <= width => {
                 line.push_str(&format!(", {length}"));
             }
             _ => lines.push(length),
