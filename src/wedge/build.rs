@@ -136,7 +136,7 @@ impl WedgeCurve {
     }
 
     /// Arc after arc from first contact to the end, or to the arc that carries `reach_nm`.
-    fn march(
+    pub(super) fn march(
         statics: Statics,
         exponent: f64,
         speed_rad_s: f64,
@@ -198,7 +198,7 @@ impl WedgeCurve {
         if arcs.is_empty() {
             return Err(NoCurve::NoFirstContact);
         }
-        Ok(Self { statics, speed_rad_s, exponent, effort, alpha0, first, arcs, end, touch })
+        Ok(Self { statics, speed_rad_s, exponent, effort, alpha0, first, arcs, over: Vec::new(), end, touch })
     }
 
     /// This curve without the arcs after the one that carries `reach_nm` (N m): what [`Self::build_reaching`] builds, for who has
