@@ -13,8 +13,10 @@
 pub mod count;
 pub mod slip;
 mod wear;
+mod worn;
 
 pub use wear::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
+pub use worn::{BLUNT, Broken, Wear, Worn, WornLife, WornState, worn, worn_life, worn_state};
 
 use crate::clutch::{PittingStrength, RingStrength, Service};
 use crate::design::Design;

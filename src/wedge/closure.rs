@@ -17,6 +17,9 @@ use std::sync::Arc;
 /// slope is infinite.
 pub const FIRST_CONTACT_N: f64 = 1e-120;
 
+/// Steps in which the centres may come too close on the way, near the highest place.
+const UPRIGHT_ROUNDS: usize = 30;
+
 #[cfg(test)]
 thread_local! {
     /// Closures of this thread.
@@ -180,6 +183,8 @@ pub struct Statics {
     pub(super) opened_m: [f64; 3],
     /// Whether the sprag has passed its highest place, where A, B and the axis lie on one line: beta < 0 from there on.
     pub(super) past: bool,
+    /// Whether a step on the way to an equilibrium may lead beyond that place: it is looked for near it.
+    pub(super) near_upright: bool,
     pub(super) radii: Radii,
     centroid_m: [f64; 2],
     mass_kg: f64,
@@ -205,6 +210,7 @@ impl Statics {
             carrier: Carrier::default(),
             opened_m: [0.0; 3],
             past: false,
+            near_upright: false,
             bulk: super::bulk::of(clutch, &profile),
             elastic: Elastic::new(clutch)?,
             radii: Radii {
@@ -330,8 +336,12 @@ impl Statics {
             if self.elastic.gives_along {
                 [l.oa, l.ob] = kinematics::pitch_points(&radii, &d, self.effective_radii_m(&inner));
             }
-            let (sin_b, cos_b) =
-                kinematics::beta_off_centre(&l, distance, apart).ok_or(NoClosure::RolledOver)?;
+            let triangle = kinematics::beta_off_centre(&l, distance, apart);
+            let upright = triangle.is_none();
+            if upright && !(self.near_upright && round < UPRIGHT_ROUNDS) {
+                return Err(NoClosure::RolledOver);
+            }
+            let (sin_b, cos_b) = triangle.unwrap_or((Dual::constant(0.0), Dual::constant(1.0)));
             let [along, across] = apart;
             let sin_b = if self.past { -sin_b } else { sin_b };
             let beta = sin_b.atan2(cos_b);
@@ -397,6 +407,7 @@ impl Statics {
                     && slope_change >= slope_residual
                     && change < 1e-13
                 || round > 20 && there && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
+            let settled = settled && !upright;
             n_be = next;
             (residual, slope_residual, unsettled) = (change, slope_change, change.max(moved.v));
             if settled {

@@ -136,6 +136,7 @@ struct Way {
 impl Way {
     fn new(curve: &WedgeCurve, brink: Option<&Brink>) -> Self {
         let mut arcs = curve.statics.clone();
+        arcs.near_upright = true;
         if let (Some(last), Some(brink)) = (arcs.profile.arcs.last_mut(), brink) {
             last.until_rad = brink.edge_turn_rad.max(last.until_rad);
         }
