@@ -32,7 +32,7 @@ use nalgebra::Vector2;
 use std::f64::consts::PI;
 
 /// Radius of the edge of a flat, as a part of that of its arc: a choice; a sharp edge would be worn blunt itself.
-pub const BLUNT: f64 = 0.02;
+pub const BLUNT: f64 = 0.005;
 /// Parts of the life at which the clutch is looked at, until a limit is broken.
 const SHARES: [f64; 12] = [0.0, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 /// Steps of wear between two of them.

@@ -13,6 +13,7 @@
 use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, WedgeCurve};
 use super::table::{ArcTable, LANES, Layout, lanes_of, later_windup};
+use crate::numeric::dual::Dual;
 use crate::numeric::panels::Panels;
 use crate::numeric::{pieces::Pieces, quadrature, root};
 use crate::profile::Brink;
@@ -170,16 +171,23 @@ impl Way {
         statics.closure(seat.k, n, self.speed, seat.shift).ok()
     }
 
-    fn why(&self, seat: &Seat, n: f64) -> String {
-        let on_edge = usize::from(seat.k >= self.edge_at());
-        let statics = &self.seats[usize::from(seat.outer_edge)][on_edge][usize::from(seat.past)];
-        format!("{:?}", statics.closure(seat.k, n, self.speed, seat.shift).err())
-    }
-
     /// `seat` with the shift that makes it carry N at alpha, `from`.
     fn seated(&self, seat: Seat, [n, alpha]: [f64; 2]) -> Option<Seat> {
         let raw = self.closure(&seat, n)?;
         Some(Seat { shift: seat.shift + (alpha - raw.alpha.v), ..seat })
+    }
+
+    /// `seat` at `from` with the body held as it gives there: near the highest place the turn, and with it what an outline gives, goes with the root
+    /// of the force, which no equilibrium at a given force follows.
+    fn held(&mut self, seat: Seat, from: [f64; 2]) -> Option<Seat> {
+        let turn = self.closure(&seat, from[0])?.turn_rad(self.seats[0][0][0].profile.beta0_rad);
+        let rolled_m = self.seats[0][1][0].rolled_m(seat.k, Dual::constant(turn)).v;
+        for statics in self.seats.iter_mut().flatten().flatten() {
+            if statics.held_m.replace(rolled_m).is_some() {
+                return None;
+            }
+        }
+        self.seated(seat, from)
     }
 
     /// Turn inside and rotation outside that are left, rad.
@@ -221,11 +229,6 @@ impl Way {
                 if at(middle).is_some() { a = middle } else { b = middle }
             }
             (a, b) = (from[0], a * (1.0 - SHY));
-            eprintln!(
-                "DBG gone at {b}: {:?} {:?}",
-                at(b).map(|c| (c.beta.v, self.left(&seat, &c))),
-                self.why(&seat, b * 1.0000001)
-            );
             if at(b).is_none_or(|c| c.beta.v > UPRIGHT_RAD) {
                 return None;
             }
@@ -242,7 +245,6 @@ impl Way {
             };
         }
         let to = [b, at(b)?.alpha.v];
-        eprintln!("DBG {seat:?} {from:?} {to:?} {then:?}");
         (to[1] > from[1]).then_some(Piece { seat, from, to, then })
     }
 
@@ -291,7 +293,7 @@ impl WedgeCurve {
         if curve.end == EndReason::NoConvergence || !curve.statics.is_concentric() {
             return None;
         }
-        let way = Way::new(&curve, brink);
+        let mut way = Way::new(&curve, brink);
         let last = curve.arcs.last()?;
         let k = curve.first + curve.arcs.len() - 1;
         let mut seat = Seat { k, outer_edge: false, past: false, shift: last.shift };
@@ -303,9 +305,13 @@ impl WedgeCurve {
         let (mut windup, mut stored_j) = (curve.windup_rad(from[1]), curve.stored_at_end_j()?);
         let (mut branch, mut begins, mut upright) = (Vec::new(), Vec::new(), None);
         let end = loop {
-            let Some(piece) = way.piece(seat, from) else { break OverEnd::NoConvergence };
+            let Some(piece) = way.piece(seat, from).or_else(|| {
+                seat = way.held(seat, from)?;
+                way.piece(seat, from)
+            }) else {
+                break OverEnd::NoConvergence;
+            };
             let Some(table) = way.table(&piece, windup) else {
-                eprintln!("DBG no table");
                 break OverEnd::NoConvergence;
             };
             curve.over.push(table);
