@@ -114,8 +114,9 @@ fn the_way_begins_where_the_curve_ends() {
         let end = curve.at_torque(curve.end_torque_nm() * (1.0 - 1e-13)).unwrap();
         let first = way.branch[0];
         println!("{file}: {:?}\n{:?}\n{:?}\n{:?} {:?}", way.peak, way.upright, way.least, way.last, way.end);
-        assert!((first.torque_nm / end.torque_nm - 1.0).abs() < 1e-6, "{file}: {first:?}");
-        assert!((first.windup_rad - end.windup_rad).abs() < 1e-9, "{file}: {first:?}");
+        // What an outline gives is continued straight where a flank is near: a kink in the table.
+        assert!((first.torque_nm / end.torque_nm - 1.0).abs() < 5e-6, "{file}: {first:?}, {end:?}");
+        assert!((first.windup_rad - end.windup_rad).abs() < 1e-9, "{file}: {first:?}, {end:?}");
         assert!(way.peak.torque_nm >= end.torque_nm * (1.0 - 1e-9), "{file}");
         assert_ne!(way.end, OverEnd::NoConvergence, "{file}");
     }
@@ -149,6 +150,9 @@ fn a_scene_beyond_the_end_is_followed_until_contact_is_lost() {
     let error = b.error.unwrap();
     assert!(error[0] < 1e-6 && error[1] < 1e-4 * b.speed_rad_s, "{error:?}");
     assert!(answer.verdict_line().contains("roll over"));
+    let energy = b.energy.unwrap();
+    println!("balance {} J of {} J", energy.residual_j(), energy.through_j);
+    assert!(energy.relative().abs() < 1e-6, "{energy:?}");
     // Energy of the inner race, which the torque drives: its work on the windup less what is left stored, nothing, and what the damping
     // between the races takes. The outer race all but stands on its abutment.
     let work_j = 276.8 * b.way.last.windup_rad;

@@ -20,13 +20,11 @@
 use super::{Life, LoadEffect};
 use crate::clutch::{Clutch, InnerArc, Service};
 use crate::design::Design;
-use crate::kinematics::centroid;
 use crate::lubrication::{flat_depth_m, track_depth_m};
 use crate::margin::{
-    LIFT_OFF_TO_RAD_S, LoadState, NoMargins, lift_off_rad_s, load_margins, load_state, lowest_capacity,
-    overrun_at,
+    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, lift_off_rad_s, load_margins, load_state, overrun_at,
 };
-use crate::numeric::{dual::Dual, root};
+use crate::numeric::root;
 use crate::wedge::WedgeCurve;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
@@ -154,6 +152,8 @@ impl WornLife {
 struct March<'a> {
     design: &'a Design,
     state: LoadState,
+    /// Margins of the drawn clutch.
+    rows: Vec<Margin>,
     service: &'a Service,
     life: &'a Life,
     /// Of engagements, a whole life: it does not depend on the wear to first order.
@@ -170,7 +170,8 @@ pub fn worn_life(design: &Design, service: &Service, life: &Life) -> Result<Opti
     }
     let state = load_state(design)?;
     let creep = creep(design, &state, &life.loads);
-    let march = March { design, state, service, life, creep };
+    let rows = load_margins(design, &design.limits, true, &state);
+    let march = March { design, state, rows, service, life, creep };
     let hours = service.overruns.iter().map(|o| o.duration_s / 3600.0).sum();
     let (mut states, mut wear): (Vec<WornState>, _) = (Vec::new(), Wear::default());
     for share in SHARES {
@@ -212,7 +213,8 @@ pub fn worn_state(
 ) -> Result<WornState, NoMargins> {
     let state = load_state(design)?;
     let creep = Wear::default();
-    Ok(March { design, state, service, life, creep }.state(share, wear))
+    let rows = load_margins(design, &design.limits, true, &state);
+    Ok(March { design, state, rows, service, life, creep }.state(share, wear))
 }
 
 impl March<'_> {
@@ -254,6 +256,11 @@ impl March<'_> {
         rate
     }
 
+    /// Torque at which the contact leaves the edge of a flat, N m.
+    fn leaves_edge_nm(&self, worn: &LoadState) -> f64 {
+        worn.curve.at_normal(worn.curve.arc_end_n(0)).map_or(0.0, |p| p.torque_nm)
+    }
+
     fn state(&self, share: f64, wear: &Wear) -> WornState {
         let found = worn(self.design, &self.state, wear);
         let turned_rad = found.as_ref().map_or(0.0, |w| w.turned_rad);
@@ -285,8 +292,19 @@ impl March<'_> {
         let design = Design { clutch: worn.clutch, ..self.design.clone() };
         let Some(of_worn) = load_of_worn(&design, &relaxed, *wear == Wear::default()) else { return state };
         let rows = load_margins(&design, &design.limits, true, &of_worn);
-        let lowest = lowest_capacity(&rows, |_| true);
-        state.capacity = lowest.map(|(row, nm)| (nm, row.code()));
+        // On the edge of a flat the pressure is that of a radius which nobody knows: there a limit is reached at the force of the drawn clutch.
+        let on_edge_nm = if half_flat_m > 0.0 { self.leaves_edge_nm(&of_worn) } else { 0.0 };
+        let capacity = |row: &Margin| {
+            let nm = row.torque_capacity_nm?;
+            if nm > on_edge_nm {
+                return Some((nm, row.code()));
+            }
+            let drawn = self.rows.iter().find(|drawn| drawn.code() == row.code())?.torque_capacity_nm?;
+            let normal_n = self.state.curve.at_torque(drawn)?.normal_inner_n;
+            Some((of_worn.curve.at_normal(normal_n)?.torque_nm, row.code()))
+        };
+        let required = rows.iter().filter(|r| r.required);
+        state.capacity = required.filter_map(capacity).min_by(|a, b| a.0.total_cmp(&b.0));
         state.first_tan_omega = Some(of_worn.first_tan_omega);
         let largest_nm = self.life.largest_nm;
         state.required_friction = of_worn.curve.at_torque(largest_nm).map(|p| p.required_friction());
@@ -475,7 +493,8 @@ pub fn worn(design: &Design, state: &LoadState, wear: &Wear) -> Option<Worn> {
     let turned = |v: [f64; 2]| [v[0] * cos - v[1] * sin, v[0] * sin + v[1] * cos];
     // The body has turned by -azimuth against the line OC_e; against OG by gamma more.
     let drawn = &state.curve;
-    let gamma = centroid(sprags.centroid_m, Dual::constant(oc_e), Dual::constant(-azimuth)).gamma.v;
+    let seen = |from: Vector2<f64>| from.x.atan2(from.y);
+    let gamma = seen(-axis) - seen(Vector2::from(sprags.centroid_m) - axis);
     let mut out = clutch.clone();
     out.races.inner_radius_m = inner_m;
     out.races.outer_radius_m = outer_m;

@@ -4,7 +4,7 @@ use super::demand::{Fineness, STEPS_PER_PERIOD, run_settings};
 use super::prepare::Prepared;
 use super::simulate::Settings;
 use crate::clutch::Clutch;
-use crate::dynamics::{Place, Run, Stop, run};
+use crate::dynamics::{EnergyBalance, Place, Run, Stop, run};
 use crate::wedge::RollOver;
 
 /// What becomes of sprags that have come to the end of the curve.
@@ -47,6 +47,8 @@ pub struct Beyond {
     pub torque_nm: f64,
     /// By how much a run with ten times the tolerance has these, in their order; `None`: it meets another fate.
     pub error: Option<[f64; 3]>,
+    /// Where the energy went.
+    pub energy: Option<EnergyBalance>,
 }
 
 impl Beyond {
@@ -63,7 +65,7 @@ pub fn beyond(clutch: &Clutch, prepared: &Prepared, settings: &Settings) -> Opti
     let way = prepared.model.curve.beyond(clutch.brink(&profile).as_ref())?;
     let mut model = prepared.model.clone();
     model.curve = way.curve.clone();
-    let settings = Settings { energy: false, ..settings.clone() };
+    let settings = Settings { energy: true, ..settings.clone() };
     let once = |tolerance: f64| {
         let fineness = Fineness::single(tolerance);
         let of_run = run_settings(prepared, &settings, fineness, 0, STEPS_PER_PERIOD);
@@ -78,6 +80,7 @@ pub fn beyond(clutch: &Clutch, prepared: &Prepared, settings: &Settings) -> Opti
             speed_rad_s: rates[3] - rates[2],
             torque_nm: clutch.sprags.count as f64 * forces.t_bi * p.oa,
             error: None,
+            energy: found.energy,
         }
     };
     let (coarse, fine) = (once(settings.tolerance), once(0.1 * settings.tolerance));
