@@ -111,6 +111,7 @@ const TYPICAL: &[(&str, &str)] = &[
     ("flanks.front_tilt_rad", "-0.1 … 0.1"),
     ("flanks.rear_tilt_rad", "-0.1 … 0.1"),
     ("swings[].hours", "100 … 10000"),
+    ("overruns[].hours", "100 … 20000"),
     ("thermal.reference_c", "20"),
     ("tolerances.expansion_per_k", "1.15e-5"),
     ("tolerances.friction", "0.005 … 0.02"),

@@ -8,9 +8,11 @@ use pyo3::exceptions::{PyKeyError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, json as object};
 use sprag_design::answer::check::NoCheck;
+use sprag_design::answer::feed::{FeedSettings, NoFeed};
 use sprag_design::answer::life::NoLife;
 use sprag_design::answer::overrun::{NoOverrun, OverrunQuestion, RunningRace};
 use sprag_design::answer::reengagement::{NoReengagement, ReengagementSettings};
+use sprag_design::answer::sharing::NoSharing;
 use sprag_design::answer::simulation::{self, Integration, NoAnswer};
 use sprag_design::answer::stiffness::{self, NoStiffness};
 use sprag_design::answer::{Envelope, LeftOut, search};
@@ -331,6 +333,54 @@ impl Design {
         answer.unwrap_or_else(|why| match why {
             why @ NoReengagement::Refused(_) => Err(PyValueError::new_err(why.to_string())),
             NoReengagement::NoStart(why) => Err(errors::no_clutch(py, &why)),
+        })
+    }
+
+    /// Common keys and figures of what each sprag carries, each as JSON.
+    fn sharing(&self, py: Python<'_>, torque_nm: Option<f64>) -> PyResult<(String, String)> {
+        let design = Arc::clone(&self.design);
+        let answer = compute(py, &Follow::nobody(), move || {
+            let started = Instant::now();
+            design.sharing(torque_nm).map(|a| parts(&a.envelope(started.elapsed().as_secs_f64())))
+        })?;
+        answer.unwrap_or_else(|why| match why {
+            NoSharing::NoClutch(why) => Err(errors::no_clutch(py, &why)),
+            NoSharing::NoTable | NoSharing::NoTorque => {
+                Err(PyValueError::new_err(format!("{}: {why}", self.file)))
+            }
+        })
+    }
+
+    /// Common keys and figures of what each stroke of an indexing drive feeds, each as JSON; angles in degrees.
+    #[pyo3(signature = (stroke_deg, frequencies_hz, brake_nm, inertia_kg_m2, inner_drives, allowed_deg))]
+    #[allow(clippy::too_many_arguments)] // One question, as the class that asks has it.
+    fn feed(
+        &self,
+        py: Python<'_>,
+        stroke_deg: f64,
+        frequencies_hz: Option<Vec<f64>>,
+        brake_nm: Option<f64>,
+        inertia_kg_m2: Option<f64>,
+        inner_drives: bool,
+        allowed_deg: f64,
+    ) -> PyResult<(String, String)> {
+        let (design, stop) = (Arc::clone(&self.design), Follow::new());
+        let ask = FeedSettings {
+            stroke_rad: stroke_deg.to_radians(),
+            frequencies_hz: frequencies_hz.unwrap_or_else(|| FeedSettings::default().frequencies_hz),
+            brake_nm,
+            inertia_kg_m2,
+            inner_drives,
+            allowed_rad: allowed_deg.to_radians(),
+            follow: stop.clone(),
+        };
+        let answer = compute(py, &stop, move || {
+            let started = Instant::now();
+            design.feed(&ask).map(|a| parts(&a.envelope(started.elapsed().as_secs_f64())))
+        })?;
+        answer.unwrap_or_else(|why| match why {
+            why @ NoFeed::Refused { .. } => Err(PyValueError::new_err(why.to_string())),
+            why => Err(errors::no_clutch(py, &why)),
         })
     }
 

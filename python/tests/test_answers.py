@@ -181,6 +181,30 @@ def test_reengage_is_that_of_the_command(command: Command) -> None:
             starter.reengage(**options)  # type: ignore[arg-type]
 
 
+def test_sharing_is_that_of_the_command(command: Command, design: sd.Design) -> None:
+    path = DESIGNS / "unlike-sprags.toml"
+    said = command("sharing", path, "--torque", "40", "--json", "--quiet")
+    found = sd.Design.load(path).sharing(40)
+    assert mine(found.to_dict()) == figures(said.stdout)
+    assert found.held == (said.returncode == 0) and [s.number for s in found.sprags] == list(range(1, len(found.sprags) + 1))
+    with pytest.raises(ValueError, match="above 0"):
+        sd.Design.load(path).sharing(float("nan"))
+    with pytest.raises(ValueError, match="sharing"):
+        design.sharing()
+
+
+def test_feed_is_that_of_the_command(command: Command) -> None:
+    path = DESIGNS / "indexing.toml"
+    flags = ["--stroke", "12", "--brake", "50", "--frequency", "5,10", "--inertia", "0.02"]
+    said = command("feed", path, *flags, "--json", "--quiet")
+    found = sd.Design.load(path).feed(12, [5, 10], brake_nm=50, inertia_kg_m2=0.02)
+    assert mine(found.to_dict()) == figures(said.stdout)
+    assert found.held == (said.returncode == 0) and [f.frequency_hz for f in found.frequencies] == [5, 10]
+    for options, word in [({"driver": "cage"}, "outer, inner"), ({"brake_nm": 1e9}, "brake"), ({"allowed_deg": 0.0}, "allowed_deg")]:
+        with pytest.raises((ValueError, sd.NoClutch), match=word):
+            sd.Design.load(path).feed(12, [5], **options)  # type: ignore[arg-type]
+
+
 def test_a_map_is_that_of_the_command(command: Command, tmp_path: Path) -> None:
     table = tmp_path / "margins.csv"
     said = command("evaluate", MULTI_ARC, "--static", "--grid", "r_i2_mm=4,centroid_x_mm=3", "--csv", table)
@@ -201,13 +225,15 @@ def test_every_key_of_json_is_an_attribute(design: sd.Design) -> None:
     life = sd.Design.load(DESIGNS / "indexing-life.toml").life()
     overrun = sd.Design.load(DESIGNS / "lubricated.toml").overrun([300])
     blow = sd.Design.load(DESIGNS / "starter.toml").reengage([1], torque_nm=50, friction=0.06)
-    rows = [(life, "places"), (life, "loads"), (overrun, "lines"), (blow, "blows")]
+    sharing = sd.Design.load(DESIGNS / "unlike-sprags.toml").sharing()
+    feed = sd.Design.load(DESIGNS / "indexing.toml").feed(12, [5], brake_nm=50)
+    rows = [(life, "places"), (life, "loads"), (overrun, "lines"), (blow, "blows"), (sharing, "sprags"), (feed, "frequencies")]
     for answer, key in rows:
         known = {f.name for f in dataclasses.fields(getattr(answer, key)[0])} | {"lambda"}
         assert set(answer.to_dict()[key][0]) <= known, key
     train = sd.Design.load(ROOT / "tests" / "reference" / "drivetrain.toml").simulate("all")
     assert train.eigenfrequencies and "frequency_hz" in train.eigenfrequencies[0] and simulation.eigenfrequencies is None
-    for answer in (design.check(), simulation, train, design.optimize(starts=1, evaluations=5), life, overrun, blow):
+    for answer in (design.check(), simulation, train, design.optimize(starts=1, evaluations=5), life, overrun, blow, sharing, feed):
         fields = {f.name for f in dataclasses.fields(answer)}
         for key in answer.to_dict():
             name = {"pass": "passed"}.get(key, key)

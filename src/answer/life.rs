@@ -6,7 +6,9 @@ use super::resonance::NoResonance;
 use super::{Envelope, Provenance};
 use crate::clutch::{RepeatedLoad, RepeatedSwing, Service};
 use crate::design::Design;
-use crate::life::{INDENTING_PA, Life, LifePlace, Used, life, part_at};
+use crate::life::{
+    Broken, INDENTING_PA, Life, LifePlace, Used, WornLife, WornState, life, part_at, worn_life,
+};
 use crate::margin::{NoMargins, load_state};
 use crate::report::plot::Curve;
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Tone, Unit, significant};
@@ -36,6 +38,8 @@ pub struct LifeAnswer<'a> {
     pub swung: Vec<Swung>,
     /// The figures.
     pub life: Life,
+    /// Wear over the life; `None` where the life has no overruns, or the design no oil.
+    pub worn: Option<WornLife>,
 }
 
 /// Why there is none.
@@ -78,6 +82,27 @@ impl fmt::Display for NoLife {
 
 impl std::error::Error for NoLife {}
 
+/// Wear by its keys in JSON.
+fn wear_body(worn: &WornLife) -> Value {
+    let um = |m: f64| Unit::Micrometre.from_si(m);
+    let state = |s: &WornState| {
+        json!({
+            "share": s.share, "hours": s.share * worn.hours, "flat_um": um(s.flat_m), "half_flat_um": um(s.half_flat_m),
+            "inner_track_um": um(s.wear.inner_track_m), "outer_track_um": um(s.wear.outer_track_m),
+            "inner_arcs_um": um(s.wear.inner_arcs_m[0]), "outer_arc_um": um(s.wear.outer_arc_m), "opened_um": um(s.opened_m),
+            "first_tan_omega": s.first_tan_omega, "required_friction": s.required_friction,
+            "capacity_nm": s.capacity.as_ref().map(|c| c.0), "capacity_by": s.capacity.as_ref().map(|c| c.1.clone()),
+            "lift_off_rpm": s.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)), "normal_inner_n": s.normal_n,
+            "broken": s.broken.map(|why| why.names().0),
+        })
+    };
+    let broken = worn.broken();
+    json!({
+        "hours": worn.hours, "broken_after_lives": broken.map(|b| b.0), "broken_by": broken.map(|b| b.1.names().0),
+        "states": worn.states.iter().map(state).collect::<Vec<_>>(),
+    })
+}
+
 /// A table to begin with.
 fn example(torque_nm: f64) -> String {
     format!(
@@ -99,7 +124,8 @@ impl Design {
         let swung: Vec<Swung> = service.swings.iter().map(|s| self.swung(s)).collect::<Result<_, _>>()?;
         let loads = service.loads.iter().copied().chain(swung.iter().map(|s| s.load)).collect();
         let life = life(self, &Service { loads, ..service.clone() }).map_err(NoLife::NoClutch)?;
-        Ok(LifeAnswer { design: self, service, swung, life })
+        let worn = worn_life(self, service, &life).map_err(NoLife::NoClutch)?;
+        Ok(LifeAnswer { design: self, service, swung, life, worn })
     }
 
     /// The torques that the clutch carries in a scenario that swings, once its start is forgotten, and how often in the time given.
@@ -182,6 +208,10 @@ impl<'a> LifeAnswer<'a> {
             "indentation_inner": life.indentation[0], "indentation_outer": life.indentation[1],
             "places": places.collect::<Vec<_>>(), "loads": loads.collect::<Vec<_>>(),
         });
+        let mut body = body;
+        if let (Some(worn), Some(body)) = (&self.worn, body.as_object_mut()) {
+            body.insert("wear".to_owned(), wear_body(worn));
+        }
         Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
     }
 
@@ -200,7 +230,8 @@ impl<'a> LifeAnswer<'a> {
             ),
             LeftOut::new(
                 "wear, lubricant, residual stress",
-                "wear in overrun: `overrun`; the others: no model",
+                "wear: with `overruns` and oil, by Archard, with the film of the drawn contact; it does not change pitting and fatigue; the others: no \
+                 model",
                 "unknown; pitting strengths hold for the lubricant and surface that they were found with",
             ),
         ];
@@ -219,6 +250,9 @@ impl<'a> LifeAnswer<'a> {
             .collect();
         if !not_carried.is_empty() {
             return format!("NOT HELD: the clutch does not carry {}", not_carried.join(", "));
+        }
+        if let Some((share, why)) = self.worn_out() {
+            return format!("NOT HELD: after {} of the life {}", Unit::Percent.show(share, 3), why.names().1);
         }
         if let Some(load) = life.slipping() {
             return format!(
@@ -263,9 +297,57 @@ impl<'a> LifeAnswer<'a> {
         all
     }
 
+    /// The part of the life after which wear breaks a limit, where that is before its end.
+    fn worn_out(&self) -> Option<(f64, Broken)> {
+        self.worn.as_ref()?.broken().filter(|(share, _)| *share <= 1.0)
+    }
+
+    /// The clutch as it wears; `None` where nothing is known to wear.
+    pub fn wear(&self) -> Option<Table> {
+        let worn = self.worn.as_ref()?;
+        let (hours, engagements) = (worn.hours, self.life.engagements);
+        let table = Rows::of(&worn.states)
+            .number("hours", "Overrun, h", Unit::One, 4, |s| hours * s.share)
+            .number("engagements", "Engagements", Unit::One, 4, |s| engagements * s.share)
+            .number("flat_um", "Flat", Unit::Micrometre, 3, |s| s.flat_m)
+            .number("inner_track_um", "Track", Unit::Micrometre, 3, |s| s.wear.inner_track_m)
+            .number("opened_um", "Gap opens", Unit::Micrometre, 3, |s| s.opened_m)
+            .number("first_tan_omega", "tan ω first", Unit::One, 4, |s| s.first_tan_omega)
+            .number("required_friction", "μ needed", Unit::One, 4, |s| s.required_friction)
+            .number("capacity_nm", "Capacity", Unit::NewtonMetre, 4, |s| s.capacity.as_ref().map(|c| c.0))
+            .number("lift_off_rpm", "Lift-off", Unit::Rpm, 4, |s| s.lift_off_rad_s)
+            .text("state", "State", |s| match s.broken {
+                Some(why) => Cell::Verdict(false, why.names().0.to_owned()),
+                None => Cell::Verdict(true, "holds".to_owned()),
+            })
+            .table();
+        Some(table)
+    }
+
+    /// What wear comes to, in a sentence.
+    fn wear_remark(&self) -> Option<String> {
+        let worn = self.worn.as_ref()?;
+        let ends = match worn.broken() {
+            Some((share, why)) => format!(
+                "after {} h of overrun ({} lives) {}",
+                significant(share * worn.hours, 3),
+                significant(share, 3),
+                why.names().1
+            ),
+            None => "no limit is broken within a hundred lives".to_owned(),
+        };
+        Some(format!(
+            "Wear: {ends} (Archard; the coefficients of [lubrication] are known to a power of ten at best)"
+        ))
+    }
+
     /// How much the answer knows.
     pub fn known(&self) -> LifeKnown {
-        match (self.life.held(), self.life.decides(), self.not_known().is_empty()) {
+        match (
+            self.life.held() && self.worn_out().is_none(),
+            self.life.decides(),
+            self.not_known().is_empty(),
+        ) {
             (false, ..) => LifeKnown::NotHeld,
             (true, None, _) => LifeKnown::Nothing,
             (true, Some(_), false) => LifeKnown::HeldInPart,
@@ -383,6 +465,7 @@ impl<'a> LifeAnswer<'a> {
                 }
             ));
         }
+        all.extend(self.wear_remark());
         for s in &self.swung {
             all.push(format!(
                 "{}: {} h at {} are {} engagements at {}, its peak as the clutch carries it (peaks above half of the largest: Tsubakimoto); the rings \
@@ -420,13 +503,14 @@ impl<'a> LifeAnswer<'a> {
         // A history has up to fifty.
         let more = loads.rows.len().saturating_sub(MOST_ROWS);
         let shown = Table { rows: loads.rows.iter().take(MOST_ROWS).cloned().collect(), ..loads };
+        let wear = self.wear().map_or(String::new(), |table| format!("{}\n", table.to_text(screen)));
         let more = if more > 0 {
             format!("{more} smaller loads: --csv, --json or --report\n")
         } else {
             String::new()
         };
         format!(
-            "{}  {}\n\n{}\n{}{more}\n{}\n{}\n",
+            "{}  {}\n\n{}\n{}{more}\n{wear}{}\n{}\n",
             design.name,
             design.short_hash(),
             self.places().to_text(screen),
@@ -463,6 +547,13 @@ impl<'a> LifeAnswer<'a> {
             "Of histories in classes. Walk: what the contact rolls on sprag and race; hoop: with bending between the sprags.",
             &self.loads(),
         );
+        if let Some(table) = self.wear() {
+            page.heading("Wear").table(
+                "Sprags and tracks as they wear, until a limit is broken: depth of the flat, gap, friction that first contact and the largest load ask \
+                 for, lowest torque capacity.",
+                &table,
+            );
+        }
         self.envelope(provenance.run_time_s).close(&mut page);
         page
     }

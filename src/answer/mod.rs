@@ -25,6 +25,7 @@ pub mod overrun;
 pub mod page;
 pub mod reengagement;
 pub mod resonance;
+pub mod roll_over;
 pub mod search;
 pub mod sharing;
 pub mod sharing_scene;

@@ -25,7 +25,7 @@ pub use sharing::{GivenSprag, Sharing, Standing};
 pub use tolerances::Tolerances;
 
 use crate::material::Material;
-use crate::profile::{Flanks, Profile, ProfileError};
+use crate::profile::{Brink, Flanks, Outline, Profile, ProfileError};
 use std::f64::consts::PI;
 
 /// Where the sprag's mass, inertia and centroid come from.
@@ -280,6 +280,11 @@ impl Clutch {
     /// [`ProfileError`]; a design that was read from a file has none.
     pub fn profile(&self) -> Result<Profile, ProfileError> {
         self.sprags.profile(&self.races)
+    }
+
+    /// Where the surfaces that the sprags roll on end; `None` where the design has no flanks, or they do not close `profile`.
+    pub fn brink(&self, profile: &Profile) -> Option<Brink> {
+        Outline::closed(profile, self.sprags.flanks.as_ref()?).ok()?.brink(profile)
     }
 
     /// Length over which sprag and race overlap along the axis, m.

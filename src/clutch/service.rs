@@ -9,6 +9,8 @@ pub struct Service {
     pub loads: Vec<RepeatedLoad>,
     /// Scenarios that swing, by the hour.
     pub swings: Vec<RepeatedSwing>,
+    /// Overruns that go on, by the hour.
+    pub overruns: Vec<RepeatedSwing>,
     /// Torques over time.
     pub histories: Vec<RepeatedHistory>,
     /// What the contacts bear; `None`: not known, so no life until pitting.
@@ -36,7 +38,7 @@ pub struct RepeatedLoad {
     pub engagements: f64,
 }
 
-/// A torsional excitation of the design that goes on for some time.
+/// A scenario of the design, a torsional excitation or an overrun, that goes on for some time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RepeatedSwing {
     /// Name of the scenario.

@@ -23,6 +23,9 @@ pub(super) struct LifeFile {
     /// carries, and a swing of the rings down to the least.
     #[serde(default)]
     pub swings: Vec<SwingFile>,
+    /// Scenarios of kind overrun that go on for hours: sprags and inner race wear in them, with the coefficients of `lubrication`.
+    #[serde(default)]
+    pub overruns: Vec<SwingFile>,
     /// Torques over time, counted: peaks above half of the largest are an engagement each, rings by rainflow.
     #[serde(default)]
     pub histories: Vec<RepeatedFile>,
@@ -147,6 +150,19 @@ pub(super) fn service(
             return None;
         }
     }
+    for (i, overrun) in file.overruns.iter().enumerate() {
+        let overruns = |s: &&ScenarioFile| s.kind == KindFile::Overrun;
+        if !whole.scenarios.iter().filter(overruns).any(|s| s.name == overrun.scenario) {
+            let known: Vec<&str> = whole.scenarios.iter().filter(overruns).map(|s| s.name.as_str()).collect();
+            let allowed = match known.as_slice() {
+                [] => "none, because the file has no overrun".to_owned(),
+                _ => known.join(", "),
+            };
+            let help = "name an overrun of this file, or add one of this name".to_owned();
+            out.refuse(&[&format!("life.overruns[{i}].scenario")], allowed, help);
+            return None;
+        }
+    }
     if file.torque_scatter > 0.0 && file.friction_scatter == 0.0 {
         let help = "say how far the friction scatters, 0.10 or so; a catalogue's factor of safety hides it"
             .to_owned();
@@ -185,6 +201,11 @@ pub(super) fn service(
             .collect(),
         swings: file
             .swings
+            .iter()
+            .map(|s| RepeatedSwing { scenario: s.scenario.clone(), duration_s: 3600.0 * s.hours })
+            .collect(),
+        overruns: file
+            .overruns
             .iter()
             .map(|s| RepeatedSwing { scenario: s.scenario.clone(), duration_s: 3600.0 * s.hours })
             .collect(),

@@ -53,7 +53,7 @@ where
                 }
             },
             UPPER => match mode.place {
-                Place::Arc(k) if k + 1 < model.curve.arc_count() => Place::Arc(k + 1),
+                Place::Arc(k) if k + 1 < model.curve.place_count() => Place::Arc(k + 1),
                 Place::Arc(_) => {
                     self.stop(Stop::CurveEnd);
                     return false;

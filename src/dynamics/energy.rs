@@ -133,7 +133,7 @@ impl Model {
         }
         if high > touch {
             let low = low.max(touch);
-            for k in curve.arc_at(low)..=curve.arc_at(high) {
+            for k in curve.place_at(low)..=curve.place_at(high) {
                 let begin = if k == 0 { low } else { curve.arc_end_rad(k - 1).max(low) };
                 let piece = (curve.arc_end_rad(k).min(high) - begin) / f64::from(PIECES);
                 for i in 0..PIECES {

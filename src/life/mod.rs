@@ -1,7 +1,7 @@
 //! What clutches fail of in time: pitting of contacts, fatigue of rings, indentation by a single load, slip by chance.
 //!
 //! In: a `Design` with its [`Service`], and its static curve. Out: [`Life`]: each load with what it does, each place with the
-//! part of its life that is used up; wear in overrun and by slips. Absent: dynamics (torques are as given), a profile that wears.
+//! part of its life that is used up; wear in overrun and by slips, and the clutch as it wears. Absent: dynamics (torques are as given).
 //! Equations: Miner's sum, the power laws of [`crate::clutch::PittingStrength`] and [`crate::clutch::RingStrength`], Goodman's mean stress.
 //!
 //! An engagement presses each sprag once along the path that its contact walks, always the same path: the sprag has one load
@@ -13,8 +13,10 @@
 pub mod count;
 pub mod slip;
 mod wear;
+mod worn;
 
 pub use wear::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
+pub use worn::{BLUNT, Broken, Wear, Worn, WornLife, WornState, worn, worn_life, worn_state};
 
 use crate::clutch::{PittingStrength, RingStrength, Service};
 use crate::design::Design;

@@ -25,7 +25,7 @@ pub use crowding::{clearance_m, least_pitch_rad, touch_rotation_rad};
 pub use curvature::PatchCurvature;
 pub use flank::{Flanks, STEEPEST_RAD};
 pub use mass::MassProperties;
-pub use outline::{Outline, Segment};
+pub use outline::{Brink, Outline, Segment};
 pub use reseat::Reseated;
 pub use unclosed::{FlankSide, OutlineError};
 

@@ -289,6 +289,23 @@ impl Outline {
         Ok([window(&rear, outer_end, first), window(&front, inner_end(profile, last), last)])
     }
 
+    /// Where the surfaces that this outline gives `profile` to roll on end; `None` where it is not the outline of such a profile.
+    pub fn brink(&self, profile: &Profile) -> Option<Brink> {
+        let last = profile.arcs.len().checked_sub(1)?;
+        let [inner, flank, outer, rear] = [0, 1, 2, 3].map(|k| self.segments.get(last + k));
+        // The outward normal at a turn has the azimuth beta_0 + pi - turn.
+        let turn = |azimuth: f64| profile.beta0_rad + PI - azimuth;
+        let edge_turn_rad = turn(inner?.normal_azimuths().1);
+        let flat = turn(flank?.normal_azimuths().0);
+        Some(Brink {
+            edge_turn_rad,
+            flank_turn_rad: edge_turn_rad + (flat - edge_turn_rad).rem_euclid(2.0 * PI),
+            outer_edge_m: outer?.end_m(),
+            rear_azimuth_rad: outer?.normal_azimuths().1,
+            rear_flank_azimuth_rad: rear?.normal_azimuths().0,
+        })
+    }
+
     /// Segments in order, each beginning where the one before ends.
     pub fn segments(&self) -> &[Segment] {
         &self.segments
@@ -305,6 +322,21 @@ impl Outline {
     pub(super) fn planted(segments: Vec<Segment>) -> Self {
         Self { segments }
     }
+}
+
+/// Where the surfaces that a sprag rolls on end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Brink {
+    /// Turn at which the last inner arc ends at the front flank, rad.
+    pub edge_turn_rad: f64,
+    /// Turn at which the sprag has pivoted over that edge until its flank lies on the race, rad.
+    pub flank_turn_rad: f64,
+    /// The edge between the outer arc and the rear flank, m.
+    pub outer_edge_m: Vector2<f64>,
+    /// Azimuth in the body at which the outer arc ends there, rad.
+    pub rear_azimuth_rad: f64,
+    /// Azimuth of the rear flank's outward normal, rad.
+    pub rear_flank_azimuth_rad: f64,
 }
 
 /// Where the working profile ends on the last inner arc, m.

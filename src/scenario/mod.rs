@@ -13,6 +13,7 @@ mod prepare;
 #[cfg(feature = "validation")]
 mod published;
 mod resonance;
+mod roll_over;
 mod simulate;
 mod sliding;
 mod train;
@@ -29,5 +30,6 @@ pub use prepare::{
 #[cfg(feature = "validation")]
 pub use published::{published_steps, simulate_published};
 pub use resonance::{ResonanceCell, resonance};
+pub use roll_over::{Beyond, Fate, beyond};
 pub use simulate::{Settings, simulate, simulate_prepared};
 pub use sliding::{Lubricated, Sliding, sliding};

@@ -110,6 +110,17 @@ impl WedgeCurve {
         Self::march(statics, self.exponent, self.speed_rad_s, None, self.effort)
     }
 
+    /// The curve at rest of sprags whose surfaces have changed by so little that their bodies still give as those of `like` do.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_with_body_of(clutch: &Clutch, profile: &Profile, like: &Self) -> Result<Self, NoCurve> {
+        let whole = Statics::new(clutch, profile.clone(), InnerCurvature::Patch);
+        let mut statics = whole.map_err(NoCurve::NoElastic)?;
+        statics.bulk.clone_from(&like.statics.bulk);
+        Self::march(statics, exponent(clutch), 0.0, None, Effort::Full)
+    }
+
     /// The curve at rest with local deformation alone: rings that do not grow (5), bodies that keep their bulk (6).
     /// The paper's Figure 11 sets it beside the whole.
     ///
@@ -136,7 +147,7 @@ impl WedgeCurve {
     }
 
     /// Arc after arc from first contact to the end, or to the arc that carries `reach_nm`.
-    fn march(
+    pub(super) fn march(
         statics: Statics,
         exponent: f64,
         speed_rad_s: f64,
@@ -198,7 +209,7 @@ impl WedgeCurve {
         if arcs.is_empty() {
             return Err(NoCurve::NoFirstContact);
         }
-        Ok(Self { statics, speed_rad_s, exponent, effort, alpha0, first, arcs, end, touch })
+        Ok(Self { statics, speed_rad_s, exponent, effort, alpha0, first, arcs, over: Vec::new(), end, touch })
     }
 
     /// This curve without the arcs after the one that carries `reach_nm` (N m): what [`Self::build_reaching`] builds, for who has

@@ -8,12 +8,17 @@ use super::patch::{InnerApproach, InnerCurvature};
 use crate::clutch::{Carrier, Clutch};
 use crate::kinematics::{self, Deformations, Lengths, Radii};
 use crate::numeric::dual::Dual;
-use crate::profile::Profile;
+use crate::profile::{Profile, ProfileArc};
+use nalgebra::Vector2;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Smallest normal force at which a closure is evaluated, N: stands for first contact, where the roller law's
 /// slope is infinite.
 pub const FIRST_CONTACT_N: f64 = 1e-120;
+
+/// Steps in which the centres may come too close on the way, near the highest place.
+const UPRIGHT_ROUNDS: usize = 30;
 
 #[cfg(test)]
 thread_local! {
@@ -176,6 +181,12 @@ pub struct Statics {
     pub(super) bulk: Option<Arc<Bulk>>,
     /// What opens the gap at this sprag beside the law: inner track, outer track, and what it lacks in size, m.
     pub(super) opened_m: [f64; 3],
+    /// Whether the sprag has passed its highest place, where A, B and the axis lie on one line: beta < 0 from there on.
+    pub(super) past: bool,
+    /// Whether a step on the way to an equilibrium may lead beyond that place: it is looked for near it.
+    pub(super) near_upright: bool,
+    /// The way rolled at which the body gives as it does wherever the contact is, m; `None`: where it is.
+    pub(super) held_m: Option<f64>,
     pub(super) radii: Radii,
     centroid_m: [f64; 2],
     mass_kg: f64,
@@ -200,6 +211,9 @@ impl Statics {
             offset_m: [0.0; 2],
             carrier: Carrier::default(),
             opened_m: [0.0; 3],
+            past: false,
+            near_upright: false,
+            held_m: None,
             bulk: super::bulk::of(clutch, &profile),
             elastic: Elastic::new(clutch)?,
             radii: Radii {
@@ -218,6 +232,35 @@ impl Statics {
                 .collect(),
             profile,
         })
+    }
+
+    /// With an edge after the last arc, over which a contact pivots from the turn at which that arc ends to `until_rad` (rad): an arc
+    /// without a radius, which gives as the arc before it does.
+    pub(super) fn with_edge(mut self, until_rad: f64) -> Self {
+        if let Some(last) = self.profile.arcs.last().copied() {
+            let centre_m = last.centre_m + last.radius_m * self.profile.contact_direction(last.until_rad);
+            self.profile.arcs.push(ProfileArc {
+                radius_m: 0.0,
+                centre_m,
+                from_rad: last.until_rad,
+                until_rad,
+            });
+            self.centres.push((centre_m.norm(), centre_m.x.atan2(centre_m.y)));
+            self.elastic = self.elastic.with_edge();
+        }
+        self
+    }
+
+    /// With the contact outside on the edge of the body at `edge_m` (m) for good: C_e and the outer arc shrink to that point.
+    pub(super) fn on_outer_edge(mut self, edge_m: Vector2<f64>) -> Self {
+        self.radii.outer_arc_m = 0.0;
+        self.centroid_m = [self.centroid_m[0] - edge_m.x, self.centroid_m[1] - edge_m.y];
+        let seen = |arc: &ProfileArc| {
+            let from = arc.centre_m - edge_m;
+            (from.norm(), from.x.atan2(from.y))
+        };
+        self.centres = self.profile.arcs.iter().map(seen).collect();
+        self
     }
 
     /// gamma at first contact at rest, rad.
@@ -298,12 +341,19 @@ impl Statics {
             if self.elastic.gives_along {
                 [l.oa, l.ob] = kinematics::pitch_points(&radii, &d, self.effective_radii_m(&inner));
             }
-            let (sin_b, cos_b) =
-                kinematics::beta_off_centre(&l, distance, apart).ok_or(NoClosure::RolledOver)?;
+            let triangle = kinematics::beta_off_centre(&l, distance, apart);
+            let upright = triangle.is_none();
+            if upright && !(self.near_upright && round < UPRIGHT_ROUNDS) {
+                return Err(NoClosure::RolledOver);
+            }
+            let (sin_b, cos_b) = triangle.unwrap_or((Dual::constant(0.0), Dual::constant(1.0)));
             let [along, across] = apart;
+            let sin_b = if self.past { -sin_b } else { sin_b };
             let beta = sin_b.atan2(cos_b);
-            let rotation =
-                (l.oc_i * sin_b + across).atan2(l.oc_i * cos_b - l.oc_e + along) + (shift_rad - azimuth);
+            // C_i has passed below C_e there: the angle goes on over pi.
+            let over = if self.past { TAU } else { 0.0 };
+            let rotation = (l.oc_i * sin_b + across).atan2(l.oc_i * cos_b - l.oc_e + along)
+                + (over + shift_rad - azimuth);
             let g = kinematics::centroid(self.centroid_m, l.oc_e, rotation);
             // From the contact point at A to the force.
             let ahead = (inner.ahead_m + body.ahead_m) / l.oa - lag;
@@ -331,7 +381,12 @@ impl Statics {
             let turn = rotation - (beta - self.profile.beta0_rad);
             let mut moved = inner.update(self, arc, n, turn);
             if let Some(bulk) = &self.bulk {
-                let now = Self::yields(bulk, n, self.rolled_m(arc, turn), inner.curvature_per_m);
+                let rolled = self.held_m.map_or_else(|| self.rolled_m(arc, turn), Dual::constant);
+                let mut now = Self::yields(bulk, n, rolled, inner.curvature_per_m);
+                if self.held_m.is_some() || self.profile.arcs[arc].radius_m == 0.0 {
+                    // Over an edge nothing rolls on.
+                    now.ahead_m = Dual::constant(0.0);
+                }
                 moved.v = moved.v.max(((now.bulk_m.v - body.bulk_m.v) / inner.approach_m.v).abs());
                 moved.d = moved.d.max(((now.bulk_m.d - body.bulk_m.d) / inner.approach_m.d).abs());
                 body = now;
@@ -364,6 +419,7 @@ impl Statics {
                     && slope_change >= slope_residual
                     && change < 1e-13
                 || round > 20 && there && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
+            let settled = settled && !upright;
             n_be = next;
             (residual, slope_residual, unsettled) = (change, slope_change, change.max(moved.v));
             if settled {

@@ -74,6 +74,8 @@ pub struct WedgeCurve {
     pub(super) alpha0: f64,
     pub(super) first: usize,
     pub(super) arcs: Vec<ArcTable>,
+    /// What comes after its end ([`Self::beyond`]); mostly nothing. Only places see it: no torque, no force is looked for there.
+    pub(super) over: Vec<ArcTable>,
     pub(super) end: EndReason,
     /// Geometry at first contact, for the open clutch.
     pub(super) touch: Closure,
@@ -117,9 +119,21 @@ impl WedgeCurve {
     pub fn arc_count(&self) -> usize {
         self.arcs.len()
     }
+    /// Number of places that a contact may be in: arcs, and what comes after the curve's end where it is followed.
+    pub(crate) fn place_count(&self) -> usize {
+        self.arcs.len() + self.over.len()
+    }
+    /// The table of arc `k`, or of a place after the curve's end.
+    #[inline(always)]
+    fn place(&self, k: usize) -> &ArcTable {
+        match self.arcs.get(k) {
+            Some(arc) => arc,
+            None => &self.over[k - self.arcs.len()],
+        }
+    }
     /// alpha at which arc `k` (from 0) ends, rad.
     pub fn arc_end_rad(&self, k: usize) -> f64 {
-        self.arcs[k].alpha_until
+        self.place(k).alpha_until
     }
     /// Constant shift of alpha on arc `k`, rad: what keeps N at the junction before it (the paper's Figure 5). Rounding
     /// only, but for a law that knows the radius and is given it pointwise.
@@ -133,6 +147,15 @@ impl WedgeCurve {
     /// Arc in which `alpha` lies.
     pub fn arc_at(&self, alpha: f64) -> usize {
         self.arcs[..self.arcs.len() - 1].partition_point(|a| a.alpha_until < alpha)
+    }
+    /// The same among the places after the curve's end too.
+    pub(crate) fn place_at(&self, alpha: f64) -> usize {
+        let at = self.arc_at(alpha);
+        if self.over.is_empty() || alpha <= self.arcs[at].alpha_until {
+            return at;
+        }
+        let beyond = self.over.partition_point(|a| a.alpha_until < alpha);
+        self.arcs.len() + beyond.min(self.over.len() - 1)
     }
     /// Why and where (alpha, rad) the curve ends.
     pub fn end(&self) -> (EndReason, f64) {
@@ -157,7 +180,7 @@ impl WedgeCurve {
     /// ends so that a trial step sees no kink. Below first contact N stays 0.
     #[inline(always)]
     pub fn in_arc(&self, k: usize, alpha: f64) -> WedgePoint {
-        let arc = &self.arcs[k];
+        let arc = self.place(k);
         if k > 0 {
             let v = arc.table.at(alpha);
             return point(&v, v[8], 1.0, 1.0);
@@ -337,7 +360,7 @@ impl WedgeCurve {
         &self.touch
     }
 
-    fn closure_in(&self, k: usize, n: f64) -> Option<Closure> {
+    pub(super) fn closure_in(&self, k: usize, n: f64) -> Option<Closure> {
         self.statics.closure(self.first + k, n, self.speed_rad_s, self.arcs[k].shift).ok()
     }
 

@@ -195,6 +195,13 @@ impl Elastic {
         Self { inner, outer: self.outer.quickly(), ..self }
     }
 
+    /// With one more arc inside, that gives as the last does.
+    pub(super) fn with_edge(mut self) -> Self {
+        self.inner.extend(self.inner.last().cloned());
+        self.inner_contact.extend(self.inner_contact.last().copied());
+        self
+    }
+
     /// Without growth of the rings and compression of the body.
     pub(super) fn local_only(self) -> Self {
         Self { race_inner_m_per_n: 0.0, race_outer_m_per_n: 0.0, body_m_per_n: 0.0, ..self }

@@ -108,7 +108,8 @@ impl InnerApproach {
     /// slope.
     pub(super) fn update(&mut self, statics: &Statics, arc: usize, n: Dual, turn: Dual) -> Dual {
         let moves = statics.elastic.gives_along;
-        if self.by_curvature_m2.is_none() && !moves {
+        let edge = statics.profile.arcs[arc].radius_m == 0.0;
+        if self.by_curvature_m2.is_none() && !moves || edge {
             return Dual::constant(0.0);
         }
         let contact = &statics.elastic.inner_contact[arc];

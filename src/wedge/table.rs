@@ -311,7 +311,7 @@ fn first_windup(lanes: &Panels<LANES>, layout: &Layout, edges: &[Edge], q: f64) 
 }
 
 /// W on a later arc as a function of alpha: the integral of rho_i + rho_e from the arc's beginning.
-fn later_windup(lanes: &Panels<LANES>, layout: &Layout, windup_from: f64) -> Panels<1> {
+pub(super) fn later_windup(lanes: &Panels<LANES>, layout: &Layout, windup_from: f64) -> Panels<1> {
     let rate = |a: f64| {
         let v = lanes.at(a);
         v[2] + v[3]

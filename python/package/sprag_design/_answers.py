@@ -185,6 +185,8 @@ class End:
     """Why the curve ends there."""
     torque_nm: float
     """Torque at the end, N m."""
+    beyond: dict[str, Any] | None
+    """What comes after it; absent where no equilibrium is found there."""
 
 
 @dataclass(frozen=True)
@@ -566,6 +568,8 @@ class Simulation(_Common):
     """Errors of the figures by name."""
     energy_balance: dict[str, Any] | None
     """Where the energy went, J."""
+    beyond: dict[str, Any] | None
+    """What comes after the end of the curve, where the scene goes there."""
     eigenfrequencies: tuple[dict[str, Any], ...] | None
     """Eigenfrequencies of races and drivetrain with the clutch engaged, lowest first; none without a drivetrain."""
     assumptions: tuple[str, ...] | None
@@ -1008,6 +1012,8 @@ class Life(_Common):
     """Each place with what is used up."""
     loads: tuple[LifeLoad, ...]
     """Each load with what one engagement does."""
+    wear: dict[str, Any] | None
+    """The clutch as it wears: ``hours``, ``broken_after_lives``, ``broken_by``, ``states``; ``None`` without overruns or oil."""
 
     def to_pandas(self) -> pd.DataFrame:
         """The loads as a table. Needs pandas."""
@@ -1221,6 +1227,151 @@ class Reengagement(_Common):
         ax.set_xlabel("Slip until the friction is back, mm")
         ax.set_ylabel("Blow, Nm")
         return ax
+
+
+# ---- sharing, feed
+
+
+@dataclass(frozen=True)
+class SharingSprag:
+    """A sprag of its own and what it carries."""
+
+    number: int
+    """Number, from 1."""
+    azimuth_deg: float
+    """Azimuth, degrees."""
+    size_um: float
+    """By how much it measures more across its contacts, um."""
+    gap_um: float
+    """What it lacks to its races before it engages, um."""
+    friction: float
+    """Its static friction coefficient."""
+    idle: bool
+    """Whether it never comes to carry."""
+    lag_deg: float | None
+    """Windup by which it catches after the first, degrees."""
+    catches_nm: float | None
+    """Torque at which it catches, N m."""
+    first_friction: float | None
+    """Static friction that it needs as it catches."""
+    normal_inner_n: float
+    """Normal force at the inner contact, N."""
+    normal_outer_n: float
+    """Normal force at the outer contact, N."""
+    share: float
+    """Its torque over the mean of all."""
+    hertz_inner_mpa: float
+    """Hertz pressure at the inner contact, MPa."""
+    hertz_outer_mpa: float
+    """Hertz pressure at the outer contact, MPa."""
+    required_friction: float
+    """Static friction that it needs."""
+    bent_inner_um: float
+    """By how much the inner track gives there beside its mean growth, um."""
+    bent_outer_um: float
+    """The same of the outer track, um."""
+
+
+@dataclass(frozen=True)
+class Sharing(_Common):
+    """What each sprag carries."""
+
+    verdict: str
+    """The answer in one line."""
+    held: bool
+    """Whether the torque is carried, no sprag pressed beyond the limit, and none needs more friction than it has."""
+    torque_nm: float
+    """Torque, N m."""
+    seed: int | None
+    """Seed from which the tolerances are drawn."""
+    allowed_mpa: float | None
+    """Hertz pressure that is allowed, MPa."""
+    may_be_lost: int | None
+    """How many sprags may be lost before the limit is broken."""
+    end_torque_nm: float | None
+    """Torque up to which the clutch carries, N m."""
+    end_reason: str | None
+    """Why it carries no more."""
+    sprags: tuple[SharingSprag, ...]
+    """Each sprag."""
+    turn: tuple[dict[str, Any], ...]
+    """Over a turn of the widest gap: windup, sprags that carry, shares, pressure, force on the bearings."""
+    engagement: tuple[dict[str, Any], ...]
+    """As the torque rises: who carries how much."""
+    losses: tuple[dict[str, Any], ...]
+    """With one sprag after another lost."""
+    harmonics_inner_um: tuple[float, ...]
+    """Out-of-round of the inner track by harmonics, from the first on, um."""
+    harmonics_outer_um: tuple[float, ...]
+    """The same of the outer track, um."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each sprag. Needs pandas."""
+        return _columns(self.sprags)
+
+
+@dataclass(frozen=True)
+class FedFrequency:
+    """Strokes at one frequency."""
+
+    frequency_hz: float
+    """Strokes a second, Hz."""
+    feed_deg: float | None
+    """What a stroke feeds, degrees; ``None`` where none was run to its end, as the four below."""
+    error_deg: float | None
+    """By how much that may be off, degrees."""
+    off_deg: float | None
+    """What it feeds more than slow strokes, degrees."""
+    runs_on_deg: float | None
+    """By how much the fed race runs on after the stroke, degrees."""
+    unlike_deg: float | None
+    """By how much strokes differ, degrees."""
+    peak_torque_nm: float | None
+    """Largest torque, N m."""
+    hertz_inner_mpa: float | None
+    """Hertz pressure at it, MPa."""
+    open_ms: float
+    """Time without contact, ms."""
+    strokes: int
+    """Strokes run."""
+    held: bool
+    """Whether they feed as they should and the clutch bears it."""
+    ended: str | None
+    """Why the run ended before its end."""
+
+
+@dataclass(frozen=True)
+class Feed(_Common):
+    """What each stroke of an indexing drive feeds."""
+
+    verdict: str
+    """The answer in one line."""
+    held: bool
+    """Whether strokes of every frequency feed as they should."""
+    stroke_deg: float
+    """Angle that the driving race turns by and back, degrees."""
+    brake_nm: float
+    """Torque of the brake on the fed race, N m."""
+    inertia_kg_m2: float
+    """What turns with the fed race, kg m^2."""
+    driver: str
+    """The race that swings: ``outer`` or ``inner``."""
+    allowed_deg: float
+    """By how much a stroke may feed more or less than slow ones, degrees."""
+    windup_deg: float
+    """Windup under the brake, which every stroke loses, degrees."""
+    limit_hz: float | None
+    """Frequency beyond which strokes first fail, Hz."""
+    bears_nm: float | None
+    """Peak torque that every limit bears, N m."""
+    bears_by: str | None
+    """The limit that sets it."""
+    frequencies: tuple[FedFrequency, ...]
+    """Each frequency."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each frequency. Needs pandas."""
+        return _columns(self.frequencies)
 
 
 # ---- map

@@ -70,6 +70,16 @@ class Design:
         speed_rpm: float | None,
         paths_mm: Sequence[float] | None,
     ) -> tuple[str, str]: ...
+    def sharing(self, torque_nm: float | None) -> tuple[str, str]: ...
+    def feed(
+        self,
+        stroke_deg: float,
+        frequencies_hz: Sequence[float] | None,
+        brake_nm: float | None,
+        inertia_kg_m2: float | None,
+        inner_drives: bool,
+        allowed_deg: float,
+    ) -> tuple[str, str]: ...
     def problem(self, full: bool) -> Problem: ...
     def drawings(self) -> tuple[str, str, str]: ...
 

@@ -16,11 +16,13 @@ from . import _core
 from ._answers import (
     Check,
     Evaluation,
+    Feed,
     FilmOverrun,
     Front,
     Life,
     Optimum,
     Reengagement,
+    Sharing,
     Simulation,
     Stiffness,
     SweepMap,
@@ -351,6 +353,42 @@ class Design:
         paths = None if paths_mm is None else _positive("paths_mm", paths_mm)
         inertias = (inertia_inner_kg_m2, inertia_outer_kg_m2)
         return plain_of(Reengagement, self._core.reengage(torque_nm, inertias, outer_held, friction, speed_rpm, paths))
+
+    def sharing(self, torque_nm: float | None = None) -> Sharing:
+        """What each sprag carries where they are unlike, races bend, run out and give way: the table ``[sharing]`` of the file.
+        ``torque_nm``: left out the nominal torque of ``[limits]``.
+
+        Raises ``ValueError`` where the design has no such table or there is no torque, :class:`NoClutch`.
+        """
+        torque = None if torque_nm is None else _positive("torque_nm", [torque_nm])[0]
+        return plain_of(Sharing, self._core.sharing(torque))
+
+    def feed(
+        self,
+        stroke_deg: float,
+        frequencies_hz: Iterable[float] | None = None,
+        *,
+        brake_nm: float | None = None,
+        inertia_kg_m2: float | None = None,
+        driver: str = "outer",
+        allowed_deg: float = 0.1,
+    ) -> Feed:
+        """What each stroke of an indexing drive feeds, at each frequency (Hz, rising; left out: 1 to 50). The race ``driver``,
+        ``outer`` or ``inner``, turns by ``stroke_deg`` and back, the other is fed against ``brake_nm`` (left out: the nominal
+        torque of ``[limits]``) with ``inertia_kg_m2`` turning with it (left out: the race alone). A stroke may feed more or less than slow
+        ones by ``allowed_deg``.
+
+        Raises ``ValueError`` for what makes no sense, :class:`NoClutch` where the clutch cannot begin so.
+        """
+        if driver not in ("outer", "inner"):
+            raise ValueError(f"driver {driver!r}: allowed: outer, inner")
+        given = {"stroke_deg": stroke_deg, "brake_nm": brake_nm, "inertia_kg_m2": inertia_kg_m2, "allowed_deg": allowed_deg}
+        for name, value in given.items():
+            if value is not None:
+                _positive(name, [value])
+        frequencies = None if frequencies_hz is None else _positive("frequencies_hz", frequencies_hz)
+        core = self._core.feed(stroke_deg, frequencies, brake_nm, inertia_kg_m2, driver == "inner", allowed_deg)
+        return plain_of(Feed, core)
 
     def problem(self, *, full: bool = False) -> Problem:
         """The variables of ``[optimize]`` and the margins at their values, for optimisers of others. ``full`` leaves nothing

@@ -175,7 +175,7 @@ impl CheckBody {
             lowest_torque_capacity: lowest(&|_| true),
             nominal_torque_capacity: lowest(&nominal),
             peak_torque_capacity: lowest(&|r| !nominal(r)),
-            end: CurveEnd { reason: source.end.name(), torque_nm: source.end_torque_nm },
+            end: CurveEnd { reason: source.end.name(), torque_nm: source.end_torque_nm, beyond: None },
             asked_nm: source.asked_nm,
             materials: source.materials,
             lift_off_rpm: source.lift_off_rad_s.map(rpm),

@@ -3,6 +3,7 @@
 use super::train::{Eigenfrequency, eigenfrequencies};
 use super::{Ran, SimulationErrors};
 use crate::answer::left_out::LeftOut;
+use crate::answer::roll_over::BeyondBody;
 use crate::design::rpm;
 use crate::dynamics::{EnergyBalance, SlipRecord, Stop};
 use crate::scenario::{Prepared, Simulation, overrun_swing};
@@ -234,6 +235,9 @@ pub struct SimulationBody {
     /// Normal force at the inner contact about which they swing, by the equations of motion, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub swing_normal_inner_n: Option<f64>,
+    /// What comes after the end of the curve, where the scene goes there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beyond: Option<BeyondBody>,
     /// Terms that the planner looked at and kept.
     pub kept: Vec<LeftOut>,
     /// What a reader must know beside the figures.
@@ -328,6 +332,7 @@ impl SimulationBody {
     pub(super) fn of(scene: &Ran, notes: Vec<String>) -> Self {
         let base = Self {
             scenario: scene.scenario.name.clone(),
+            beyond: scene.beyond.as_ref().map(BeyondBody::of),
             kind: scene.scenario.kind.name(),
             method: scene.method,
             verdict: scene.verdict(),

@@ -31,7 +31,7 @@ use crate::clutch::Scenario;
 use crate::design::Design;
 use crate::fidelity::{self, Term};
 use crate::report::{Page, Screen};
-use crate::scenario::{NoScenario, Prepared, Simulation};
+use crate::scenario::{Beyond, NoScenario, Prepared, Simulation, Verdict, beyond};
 use serde::{Serialize, Serializer};
 use serde_json::json;
 use std::fmt;
@@ -47,6 +47,8 @@ pub struct Ran {
     pub method: &'static str,
     /// Model and start that were run, and what happened; an error where the clutch has no such start.
     pub outcome: Result<(Prepared, Simulation), NoScenario>,
+    /// What comes after the end of the curve, of a scene that went there.
+    pub beyond: Option<Beyond>,
     /// Terms that the planner left out.
     pub planned: Vec<Term>,
     /// Terms that it looked at and kept.
@@ -203,8 +205,12 @@ impl Ran {
             #[cfg(feature = "validation")]
             Integration::Published { .. } => "published",
         };
+        let overloaded = outcome.as_ref().ok().filter(|(_, s)| s.verdict == Some(Verdict::Overloaded));
+        let beyond = overloaded
+            .filter(|_| method == "event")
+            .and_then(|(prepared, _)| beyond(&scenario.clutch, prepared, &settings.of_run(scenario)));
         let own = Design { clutch: scenario.clutch.clone(), ..design.clone() };
-        Self { scenario: scenario.clone(), design: own, method, outcome, planned, kept }
+        Self { scenario: scenario.clone(), design: own, method, outcome, beyond, planned, kept }
     }
 
     /// What happened; `None` where the clutch has no such start.

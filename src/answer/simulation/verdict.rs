@@ -1,6 +1,7 @@
 //! The verdict in words, and what of the clutch the figures of a scene are held against.
 
 use super::Ran;
+use crate::answer::roll_over::followed;
 use crate::clutch::ScenarioKind;
 use crate::dynamics::{Grip, Mode, Place, Stop, Swing};
 use crate::margin::{lift_off_rad_s as lift_off, load_state};
@@ -32,8 +33,10 @@ impl Ran {
                 let curve = &prepared.model.curve;
                 let end = Unit::NewtonMetre.show(curve.end_torque_nm(), 4);
                 let at = Unit::Second.show(s.t_s, 4);
+                let then =
+                    self.beyond.as_ref().map_or(String::new(), |beyond| format!("; {}", followed(beyond)));
                 format!(
-                    "the load goes beyond the end of the curve ({} at {end}) at {at}",
+                    "the load goes beyond the end of the curve ({} at {end}) at {at}{then}",
                     curve.end().0.name()
                 )
             }

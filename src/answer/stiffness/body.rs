@@ -2,6 +2,7 @@
 
 use super::LawCurve;
 use super::junctions::{Junction, junctions};
+use crate::answer::roll_over::RollOverBody;
 use crate::clutch::LawName;
 use crate::report::Unit;
 use crate::wedge::{StaticPoint, straddling_error};
@@ -50,6 +51,9 @@ pub struct CurveEnd {
     pub reason: &'static str,
     /// Torque at the end, N m.
     pub torque_nm: f64,
+    /// What comes after it; absent where no equilibrium is found there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beyond: Option<RollOverBody>,
 }
 
 /// One curve.
@@ -110,7 +114,11 @@ fn law(law: &LawCurve) -> Law {
         points: law.rows.iter().filter_map(|(t, p)| p.as_ref().map(|p| point(*t, p, law))).collect(),
         beyond_end: law.rows.iter().filter(|(_, p)| p.is_none()).map(|(t, _)| *t).collect(),
         junctions: junctions(&law.curve),
-        end: CurveEnd { reason: law.curve.end().0.name(), torque_nm: law.curve.end_torque_nm() },
+        end: CurveEnd {
+            reason: law.curve.end().0.name(),
+            torque_nm: law.curve.end_torque_nm(),
+            beyond: law.beyond.as_ref().map(RollOverBody::of),
+        },
     };
     Law { contact: law.name.facts().key, roller_coefficient, slices, curve }
 }

@@ -22,7 +22,7 @@ use crate::design::Design;
 use crate::follow::Follow;
 use crate::margin::NoMargins;
 use crate::profile::Profile;
-use crate::wedge::{SMALLEST_TORQUE_NM, StaticPoint, WedgeCurve};
+use crate::wedge::{RollOver, SMALLEST_TORQUE_NM, StaticPoint, WedgeCurve};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use std::fmt;
@@ -56,6 +56,8 @@ pub struct LawCurve {
     pub local: WedgeCurve,
     /// Static point at each torque of the table; none beyond the curve's end.
     pub rows: Vec<(f64, Option<StaticPoint>)>,
+    /// What comes after the end of the curve.
+    pub beyond: Option<RollOver>,
 }
 
 /// Curves with what they leave out. As JSON it is the object of `stiffness --json` without the keys that all commands share.
@@ -201,7 +203,8 @@ pub fn curves(
     let torques = torques(settings, design, &curves);
     let laws = curves.into_par_iter().map(|(name, clutch, curve, local)| {
         let rows = torques.iter().map(|&t| (t, curve.at_torque(t))).collect();
-        LawCurve { name, clutch, curve, local, rows }
+        let beyond = curve.beyond(clutch.brink(profile).as_ref());
+        LawCurve { name, clutch, curve, local, rows, beyond }
     });
     Ok(laws.collect())
 }

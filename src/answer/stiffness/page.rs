@@ -4,6 +4,7 @@ use super::fem::{self, Distance, Fem, distance, findings};
 use super::tables::{end_text, full, junction_text, tangents, windups};
 use super::{LawCurve, StiffnessStudy, junctions};
 use crate::answer::page::{begun, draw, draw_sheet, drawing, half, pose_at_rest, pose_at_torque};
+use crate::answer::roll_over::sentence;
 use crate::design::Design;
 use crate::profile::Profile;
 use crate::report::plot::{Curve, Dash};
@@ -84,6 +85,7 @@ fn section(page: &mut Page, study: &StiffnessStudy) {
         page.table("Distance to finite elements; local only: without (5) and (6).", &fem::table(study, fem));
     }
     handovers(page, laws);
+    beyond(page, laws);
     page.heading("Contacts");
     let mpa = |pa: f64| Unit::Megapascal.from_si(pa);
     let inner = curves.plot("Hertz pressure at A, MPa", &|p| mpa(p.hertz_inner_pa));
@@ -119,6 +121,26 @@ fn section(page: &mut Page, study: &StiffnessStudy) {
             page.apart("Every column of each law", each);
         }
     }
+}
+
+/// The way over the sprags' highest place.
+fn beyond(page: &mut Page, laws: &[LawCurve]) {
+    let ways = || laws.iter().enumerate().filter_map(|(i, law)| Some((i, law, law.beyond.as_ref()?)));
+    if ways().next().is_none() {
+        return;
+    }
+    page.heading("Beyond the end");
+    let mut plot = Plot::new("Windup, deg", "Torque, Nm");
+    for (i, law, way) in ways() {
+        let points = way.branch.iter().map(|p| [Unit::Degree.from_si(p.windup_rad), p.torque_nm]);
+        plot.curves.push(Curve::new(law.name.facts().key, points.collect()).coloured(i));
+    }
+    page.figure(
+        &plot.to_figure(),
+        "Equilibria from the end of the curve on: none of them stays under a torque that does. Below 0 the sprags drive the races on. Material \
+         linear elastic; an edge gives as the arc before it.",
+    );
+    page.list(ways().map(|(_, law, way)| format!("{}: {}", law.name.facts().key, sentence(way))));
 }
 
 /// What the stiffness is, at the torques that the design is for, else at the largest of the table.

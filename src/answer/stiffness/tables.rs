@@ -1,8 +1,9 @@
 //! The curve as tables: one law in full, several side by side, all of it as CSV.
 
 use super::{LawCurve, StiffnessStudy, fem, junctions};
+use crate::answer::roll_over::sentence;
 use crate::report::{Cell, Column, Screen, Table, Unit, significant};
-use crate::wedge::StaticPoint;
+use crate::wedge::{RollOver, StaticPoint};
 
 /// The columns of a row, without the law's name.
 fn columns() -> Vec<Column> {
@@ -122,8 +123,27 @@ pub fn csv_table(laws: &[LawCurve]) -> Table {
             row.push(state(point.as_ref()).into());
             table.row(row);
         }
+        // Who asks for a torque that is not carried gets what becomes of the sprags.
+        let asked = law.rows.iter().any(|(_, p)| p.is_none());
+        for cells in law.beyond.iter().filter(|_| asked).flat_map(way_over) {
+            let mut row: Vec<Cell> = vec![law.name.facts().key.into()];
+            row.extend(cells);
+            row.push("rolls over".into());
+            table.row(row);
+        }
     }
     table
+}
+
+/// The way over the sprags' highest place, as rows of [`columns`].
+fn way_over(way: &RollOver) -> impl Iterator<Item = Vec<Cell>> + '_ {
+    way.branch.iter().map(|p| {
+        let mut row: Vec<Cell> =
+            vec![p.torque_nm.into(), p.normal_inner_n.into(), Cell::Empty, p.tan_omega.into()];
+        row.extend([Cell::Empty, p.alpha_rad.into(), p.windup_rad.into()]);
+        row.resize(columns().len(), Cell::Empty);
+        row
+    })
 }
 
 /// The answer for a terminal.
@@ -150,6 +170,9 @@ pub(super) fn text(study: &StiffnessStudy, screen: Screen) -> String {
             end_text(law),
             junction_text(law)
         ));
+        if let Some(way) = &law.beyond {
+            out.push_str(&format!("{}\n", sentence(way)));
+        }
     }
     if let Some(fem) = &study.fem {
         out.push_str(&format!(

@@ -1,0 +1,512 @@
+//! The profile as it wears, fed back: torque, engagement angle, gap and lift-off over the hours and engagements of a life.
+//!
+//! In: a `Design` with oil, a life with overruns, its loads. Out: [`WornLife`]. Absent: a film that changes as the contact conforms (the
+//! asperities' share is that of the drawn contact), wear of the contact at B in overrun, where sprags ride with the outer race.
+//! Equations: Archard's V = k int N ds, of the load that asperities carry; Carter's creep.
+//!
+//! # Overrun
+//! A sprag that rides on the inner race wears to the race's shape. What is left of it between the races is the drawn sprag, turned on until it
+//! overlaps the track by d: the lens between profile and track is the volume worn, V = (4/3) l sqrt(2 R) d^(3/2)
+//! ([`flat_depth_m`]), 1/R = 1/r_i + 1/R_i, b = sqrt(2 R d) wide on either side. (As long as the sprag turns by less than R L/(2 r_i^2),
+//! L = d(gap)/d(turn), each lens holds those before it.) Engaging, the sprag pivots over the front edge of that flat, b ahead of
+//! where the drawn one would touch, until the contact has come to the tangent there: the angle of engagement is larger. The edge is blunt by
+//! [`BLUNT`] of its arc. The track is worn alike all round.
+//!
+//! # Engagements
+//! A contact that rolls ds under N creeps by xi ds, xi = 2 T/(pi E* l a) (Carter, small creep): each pass takes k N xi/l off the sprag and, of a
+//! place of the track, as often as a sprag passes. Twice an engagement: up and back. Over the path that is taken for a line in
+//! the turn, h_0 + h_1 t, by least squares: a parallel curve that is turned by h_1, so arcs stay arcs.
+
+use super::{Life, LoadEffect};
+use crate::clutch::{Clutch, InnerArc, Service};
+use crate::design::Design;
+use crate::lubrication::{flat_depth_m, track_depth_m};
+use crate::margin::{
+    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, lift_off_rad_s, load_margins, load_state, overrun_at,
+};
+use crate::numeric::root;
+use crate::wedge::WedgeCurve;
+use nalgebra::Vector2;
+use std::f64::consts::PI;
+
+/// Radius of the edge of a flat, as a part of that of its arc: a choice; a sharp edge would be worn blunt itself.
+pub const BLUNT: f64 = 0.005;
+/// Parts of the life at which the clutch is looked at, until a limit is broken.
+const SHARES: [f64; 12] = [0.0, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+/// Steps of wear between two of them.
+const STEPS: u32 = 16;
+/// Places of the path of an engagement.
+const PATH: u32 = 24;
+
+/// Depths worn, m.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Wear {
+    /// Volume that overrun has taken off one sprag, m^3.
+    pub sprag_m3: f64,
+    /// Track of the inner race, by overrun and engagements.
+    pub inner_track_m: f64,
+    /// Track of the outer race.
+    pub outer_track_m: f64,
+    /// Off the sprag's inner arcs by engagements: h_0, m, and h_1, m/rad of turn.
+    pub inner_arcs_m: [f64; 2],
+    /// Off its outer arc.
+    pub outer_arc_m: f64,
+}
+
+impl Wear {
+    fn plus(&self, rate: &Self, part: f64) -> Self {
+        Self {
+            sprag_m3: self.sprag_m3 + part * rate.sprag_m3,
+            inner_track_m: self.inner_track_m + part * rate.inner_track_m,
+            outer_track_m: self.outer_track_m + part * rate.outer_track_m,
+            inner_arcs_m: std::array::from_fn(|i| self.inner_arcs_m[i] + part * rate.inner_arcs_m[i]),
+            outer_arc_m: self.outer_arc_m + part * rate.outer_arc_m,
+        }
+    }
+}
+
+/// A clutch that has worn.
+#[derive(Debug, Clone)]
+pub struct Worn {
+    /// The clutch with arcs, tracks and centroid as they are then, in the body frame of its own first contact; without flanks.
+    pub clutch: Clutch,
+    /// Depth of the flat, m, and half its width.
+    pub flat_m: [f64; 2],
+    /// By how much the sprags lie further in engagement at first contact (alpha), rad: the spring is relaxed by that.
+    pub turned_rad: f64,
+}
+
+/// Why a clutch is none any more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Broken {
+    /// The sprags no longer span the gap, or have no profile left.
+    Gap,
+    /// First contact or the largest load asks for more static friction than there is.
+    Friction,
+    /// A limit of the file is reached below the largest torque of the life.
+    Torque,
+    /// Sprags lift off below the speed to which contact is to be kept.
+    LiftOff,
+}
+
+impl Broken {
+    /// Code and words.
+    pub fn names(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Gap => ("gap", "the sprags no longer span the gap"),
+            Self::Friction => {
+                ("friction", "the sprags ask for more static friction than there is: they slip")
+            }
+            Self::Torque => ("torque", "a limit is reached below the largest torque of the life"),
+            Self::LiftOff => {
+                ("lift-off", "the sprags lift off below the speed to which contact is to be kept")
+            }
+        }
+    }
+}
+
+/// The clutch after a part of its life.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WornState {
+    /// Part of the life, pure number.
+    pub share: f64,
+    /// What has worn.
+    pub wear: Wear,
+    /// Depth of the flat, m.
+    pub flat_m: f64,
+    /// Half its width, m.
+    pub half_flat_m: f64,
+    /// By how much the gap has opened at the sprags: tracks, flat, arcs, m.
+    pub opened_m: f64,
+    /// tan omega at first contact.
+    pub first_tan_omega: Option<f64>,
+    /// Static friction that the largest load needs; `None`: not carried.
+    pub required_friction: Option<f64>,
+    /// Lowest torque capacity of the required limits, N m, and its code; `None`: no limit has one.
+    pub capacity: Option<(f64, String)>,
+    /// Lift-off of the outer race, rad/s; `None`: contact is kept up to 60 000 turns a minute.
+    pub lift_off_rad_s: Option<f64>,
+    /// Normal force of one sprag in the first overrun of the life, N.
+    pub normal_n: f64,
+    /// Why it is no clutch any more.
+    pub broken: Option<Broken>,
+}
+
+/// Wear over a life.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WornLife {
+    /// Hours of overrun in the life.
+    pub hours: f64,
+    /// States, until one is broken.
+    pub states: Vec<WornState>,
+}
+
+impl WornLife {
+    /// The part of the life after which a limit is broken, and which; `None`: not within a hundred lives.
+    pub fn broken(&self) -> Option<(f64, Broken)> {
+        self.states.last().and_then(|s| Some((s.share, s.broken?)))
+    }
+}
+
+/// What the march needs.
+struct March<'a> {
+    design: &'a Design,
+    state: LoadState,
+    /// Margins of the drawn clutch.
+    rows: Vec<Margin>,
+    service: &'a Service,
+    life: &'a Life,
+    /// Of engagements, a whole life: it does not depend on the wear to first order.
+    creep: Wear,
+}
+
+/// Wear over the life of `design`; `None` where nothing is known to wear: without oil, or without an overrun in the life.
+///
+/// # Errors
+/// [`NoMargins`] where the drawn clutch is none.
+pub fn worn_life(design: &Design, service: &Service, life: &Life) -> Result<Option<WornLife>, NoMargins> {
+    if design.clutch.lubrication.is_none() || service.overruns.is_empty() {
+        return Ok(None);
+    }
+    let state = load_state(design)?;
+    let creep = creep(design, &state, &life.loads);
+    let rows = load_margins(design, &design.limits, true, &state);
+    let march = March { design, state, rows, service, life, creep };
+    let hours = service.overruns.iter().map(|o| o.duration_s / 3600.0).sum();
+    let (mut states, mut wear): (Vec<WornState>, _) = (Vec::new(), Wear::default());
+    for share in SHARES {
+        let from = states.last().map_or(0.0, |s| s.share);
+        let before = wear;
+        wear = march.on(wear, share - from);
+        let now = march.state(share, &wear);
+        if now.broken.is_none() {
+            states.push(now);
+            continue;
+        }
+        // Between the last two: the last share that holds.
+        let (mut holds, mut breaks, mut last) = (from, share, now);
+        for _ in 0..12 {
+            let middle = 0.5 * (holds + breaks);
+            let there = march.state(middle, &march.on(before, middle - from));
+            if there.broken.is_some() {
+                (breaks, last) = (middle, there);
+            } else {
+                holds = middle;
+            }
+        }
+        states.push(last);
+        break;
+    }
+    Ok(Some(WornLife { hours, states }))
+}
+
+/// One state of `design` with `wear`, for who has that already; `share`: the part of the life it stands for.
+///
+/// # Errors
+/// [`NoMargins`] where the drawn clutch is none.
+pub fn worn_state(
+    design: &Design,
+    service: &Service,
+    life: &Life,
+    share: f64,
+    wear: &Wear,
+) -> Result<WornState, NoMargins> {
+    let state = load_state(design)?;
+    let creep = Wear::default();
+    let rows = load_margins(design, &design.limits, true, &state);
+    Ok(March { design, state, rows, service, life, creep }.state(share, wear))
+}
+
+impl March<'_> {
+    /// `wear` after another `share` of the life: Archard's law in steps, each at the mean of the rates at its ends (Heun).
+    fn on(&self, wear: Wear, share: f64) -> Wear {
+        let part = share / f64::from(STEPS);
+        let mut now = wear;
+        for _ in 0..STEPS {
+            let first = self.rate(&now);
+            let second = self.rate(&now.plus(&first, part));
+            now = now.plus(&first, 0.5 * part).plus(&second, 0.5 * part);
+        }
+        now
+    }
+
+    /// The state of the drawn sprags with the spring relaxed by `turned_rad`.
+    fn relaxed(&self, turned_rad: f64) -> LoadState {
+        LoadState { alpha_max_rad: self.state.alpha_max_rad - turned_rad, ..self.state.clone() }
+    }
+
+    /// Wear in a whole life at the present rate.
+    fn rate(&self, wear: &Wear) -> Wear {
+        let Some(oil) = self.design.clutch.lubrication.as_ref() else { return Wear::default() };
+        let turned_rad = worn(self.design, &self.state, wear).map_or(f64::INFINITY, |w| w.turned_rad);
+        let relaxed = self.relaxed(turned_rad.min(PI));
+        let clutch = &self.design.clutch;
+        let mut rate = self.creep;
+        for overrun in &self.service.overruns {
+            let scenario = self.design.scenario(&overrun.scenario);
+            let Some([ahead, outer]) = scenario.and_then(|s| s.kind.overrun_rad_s()) else { continue };
+            let Ok(point) = overrun_at(self.design, &relaxed, outer, ahead.abs()) else { continue };
+            let Some(on_film) = point.lubricated.as_ref() else { continue };
+            let path_m = ahead.abs() * clutch.races.inner_radius_m * overrun.duration_s;
+            let rubbed = on_film.film.asperities * point.state.normal_inner_n * path_m;
+            rate.sprag_m3 += oil.sprag_wear_m2_per_n * rubbed;
+            let all = clutch.sprags.count as f64 * oil.race_wear_m2_per_n * rubbed;
+            rate.inner_track_m += track_depth_m(all, clutch.races.inner_radius_m, clutch.contact_length_m());
+        }
+        rate
+    }
+
+    /// Torque at which the contact leaves the edge of a flat, N m.
+    fn leaves_edge_nm(&self, worn: &LoadState) -> f64 {
+        worn.curve.at_normal(worn.curve.arc_end_n(0)).map_or(0.0, |p| p.torque_nm)
+    }
+
+    fn state(&self, share: f64, wear: &Wear) -> WornState {
+        let found = worn(self.design, &self.state, wear);
+        let turned_rad = found.as_ref().map_or(0.0, |w| w.turned_rad);
+        let [flat_m, half_flat_m] = found.as_ref().map_or([0.0; 2], |w| w.flat_m);
+        let relaxed = self.relaxed(turned_rad);
+        let first = self
+            .service
+            .overruns
+            .first()
+            .and_then(|o| self.design.scenario(&o.scenario)?.kind.overrun_rad_s());
+        let point =
+            first.and_then(|[ahead, outer]| overrun_at(self.design, &relaxed, outer, ahead.abs()).ok());
+        let opened_m =
+            wear.inner_track_m + wear.outer_track_m + flat_m + wear.inner_arcs_m[0] + wear.outer_arc_m;
+        let mut state = WornState {
+            share,
+            wear: *wear,
+            flat_m,
+            half_flat_m,
+            opened_m,
+            first_tan_omega: None,
+            required_friction: None,
+            capacity: None,
+            lift_off_rad_s: lift_off_rad_s(self.design, &relaxed, LIFT_OFF_TO_RAD_S),
+            normal_n: point.map_or(0.0, |p| p.state.normal_inner_n),
+            broken: Some(Broken::Gap),
+        };
+        let Some(worn) = found else { return state };
+        let design = Design { clutch: worn.clutch, ..self.design.clone() };
+        let Some(of_worn) = load_of_worn(&design, &relaxed, *wear == Wear::default()) else { return state };
+        let rows = load_margins(&design, &design.limits, true, &of_worn);
+        // On the edge of a flat the pressure is that of a radius which nobody knows: there a limit is reached at the force of the drawn clutch.
+        let on_edge_nm = if half_flat_m > 0.0 { self.leaves_edge_nm(&of_worn) } else { 0.0 };
+        let capacity = |row: &Margin| {
+            let nm = row.torque_capacity_nm?;
+            if nm > on_edge_nm {
+                return Some((nm, row.code()));
+            }
+            let drawn = self.rows.iter().find(|drawn| drawn.code() == row.code())?.torque_capacity_nm?;
+            let normal_n = self.state.curve.at_torque(drawn)?.normal_inner_n;
+            Some((of_worn.curve.at_normal(normal_n)?.torque_nm, row.code()))
+        };
+        let required = rows.iter().filter(|r| r.required);
+        state.capacity = required.filter_map(capacity).min_by(|a, b| a.0.total_cmp(&b.0));
+        state.first_tan_omega = Some(of_worn.first_tan_omega);
+        let largest_nm = self.life.largest_nm;
+        state.required_friction = of_worn.curve.at_torque(largest_nm).map(|p| p.required_friction());
+        let asked = state.required_friction.unwrap_or(f64::INFINITY).max(of_worn.first_tan_omega);
+        let keep = self.design.limits.keep_contact_to_rad_s;
+        state.broken = if asked > self.design.clutch.friction.static_ {
+            Some(Broken::Friction)
+        } else if state.capacity.as_ref().is_some_and(|(nm, _)| *nm < largest_nm) {
+            Some(Broken::Torque)
+        } else if keep.zip(state.lift_off_rad_s).is_some_and(|(keep, at)| at < keep) {
+            Some(Broken::LiftOff)
+        } else {
+            None
+        };
+        state
+    }
+}
+
+/// The load state of a worn `design`: what its body gives is that of the drawn one. `drawn`: nothing has worn.
+fn load_of_worn(design: &Design, drawn_state: &LoadState, drawn: bool) -> Option<LoadState> {
+    if drawn {
+        return Some(drawn_state.clone());
+    }
+    let profile = design.clutch.profile().ok()?;
+    let curve = WedgeCurve::build_with_body_of(&design.clutch, &profile, &drawn_state.curve).ok()?;
+    let first_tan_omega = curve.touch().t_ratio;
+    Some(LoadState {
+        profile,
+        outline: None,
+        curve,
+        first_tan_omega,
+        alpha_max_rad: drawn_state.alpha_max_rad,
+    })
+}
+
+/// What engagements of a whole life take by creep.
+fn creep(design: &Design, state: &LoadState, loads: &[LoadEffect]) -> Wear {
+    let clutch = &design.clutch;
+    let Some(oil) = clutch.lubrication.as_ref() else { return Wear::default() };
+    let length_m = clutch.contact_length_m();
+    let elastic = &state.curve.statics().elastic;
+    let (mut path, mut wear) = (Vec::new(), Wear::default());
+    for load in loads {
+        let Some(top) = load.state else { continue };
+        // A contact rolls over a place once up and once back.
+        let passes = 2.0 * load.engagements;
+        let (mut outer_sum, mut inner_sum) = (0.0, 0.0);
+        for i in 1..=PATH {
+            let n = top.normal_inner_n * (f64::from(i) - 0.5) / f64::from(PATH);
+            let Some(p) = state.curve.at_normal(n) else { continue };
+            let depth = |normal_n: f64, tan: f64, half_m: f64, modulus_pa: f64| {
+                normal_n / length_m * (2.0 * tan * normal_n / (PI * modulus_pa * length_m * half_m))
+            };
+            let inner =
+                depth(n, p.tan_omega, p.half_width_inner_m, elastic.inner_contact[p.arc].contact_modulus_pa);
+            let outside = &elastic.outer_contact;
+            let outer = depth(
+                p.normal_outer_n,
+                p.tan_nu,
+                outside.half_width_m(p.normal_outer_n),
+                outside.contact_modulus_pa,
+            );
+            path.push([p.contact_turn_rad, passes * oil.sprag_wear_m2_per_n * inner]);
+            (inner_sum, outer_sum) =
+                (inner_sum + inner / f64::from(PATH), outer_sum + outer / f64::from(PATH));
+        }
+        wear.outer_arc_m += passes * oil.sprag_wear_m2_per_n * outer_sum;
+        wear.inner_track_m += passes * load.passes[0] * oil.race_wear_m2_per_n * inner_sum;
+        wear.outer_track_m += passes * load.passes[1] * oil.race_wear_m2_per_n * outer_sum;
+    }
+    // Depths of loads add up where their paths lie on one another: the line through the path of each, summed.
+    for of_load in path.chunks(PATH as usize) {
+        let [h_0, h_1] = line(of_load);
+        wear.inner_arcs_m = [wear.inner_arcs_m[0] + h_0, wear.inner_arcs_m[1] + h_1];
+    }
+    wear
+}
+
+/// Least squares y = a + b x through points [x, y].
+fn line(points: &[[f64; 2]]) -> [f64; 2] {
+    let n = points.len() as f64;
+    let [x, y] = [0, 1].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / n);
+    let (xx, xy) =
+        points.iter().fold((0.0, 0.0), |(xx, xy), p| (xx + (p[0] - x).powi(2), xy + (p[0] - x) * (p[1] - y)));
+    let slope = if xx > 0.0 { xy / xx } else { 0.0 };
+    [y - slope * x, slope]
+}
+
+/// An arc of the worn profile in the drawn body frame.
+#[derive(Clone, Copy)]
+struct Arc {
+    radius_m: f64,
+    centre_m: Vector2<f64>,
+    /// Turn of the contact direction at which it ends, rad.
+    until_rad: f64,
+}
+
+/// `design`'s clutch with `wear`; `None` where the sprags no longer span the gap.
+pub fn worn(design: &Design, state: &LoadState, wear: &Wear) -> Option<Worn> {
+    let clutch = &design.clutch;
+    if *wear == Wear::default() {
+        return Some(Worn { clutch: clutch.clone(), flat_m: [0.0; 2], turned_rad: 0.0 });
+    }
+    let profile = &state.profile;
+    let (races, sprags) = (&clutch.races, &clutch.sprags);
+    let inner_m = races.inner_radius_m - wear.inner_track_m;
+    let outer_m = races.outer_radius_m + wear.outer_track_m;
+    let outer_arc_m = sprags.outer_radius_m - wear.outer_arc_m;
+    let oc_e = outer_m - outer_arc_m;
+    // The outward normal and the tangent in the sense of rising turn.
+    let normal = |turn: f64| profile.contact_direction(turn);
+    let along = |turn: f64| {
+        let n = normal(turn);
+        Vector2::new(-n.y, n.x)
+    };
+    let [h_0, h_1] = wear.inner_arcs_m;
+    // The support h_0 + h_1 t is taken off: points move by -h n - h' n', radii by -h (h'' = 0; h is its mean over the arc).
+    let mut begins = 0.0;
+    let mut arcs: Vec<Arc> = Vec::new();
+    for arc in &profile.arcs {
+        let mean = h_0 + h_1 * 0.5 * (begins + arc.until_rad);
+        let at_begin = (h_0 + h_1 * begins) * normal(begins) + h_1 * along(begins);
+        let start = arc.centre_m + arc.radius_m * normal(begins) - at_begin;
+        let radius_m = arc.radius_m - mean;
+        let centre_m = match arcs.last() {
+            None => start - radius_m * normal(begins),
+            Some(last) => last.centre_m + (last.radius_m - radius_m) * normal(begins),
+        };
+        arcs.push(Arc { radius_m, centre_m, until_rad: arc.until_rad });
+        begins = arc.until_rad;
+    }
+    // Rigid sprags between rigid tracks, `deep_m` overlapping inside: OC_e of the contact at `turn` on an arc, less what there is.
+    let miss = |arc: &Arc, turn: f64, deep_m: f64| {
+        (arc.centre_m + (inner_m + arc.radius_m - deep_m) * normal(turn)).norm() - oc_e
+    };
+    let touches = |arcs: &[Arc], from: f64, deep_m: f64| {
+        let mut a = from;
+        for (k, arc) in arcs.iter().enumerate() {
+            let (fa, fb) = (miss(arc, a, deep_m), miss(arc, arc.until_rad, deep_m));
+            if fa <= 0.0 && fb >= 0.0 {
+                return root::bracketed(a, arc.until_rad, fa, fb, 1e-15, |t| miss(arc, t, deep_m))
+                    .map(|t| (k, t));
+            }
+            a = arc.until_rad;
+        }
+        None
+    };
+    // Where the profile without its flat would touch, and the flat there.
+    let first = arcs.first().copied()?;
+    let relative_m = 1.0 / (1.0 / first.radius_m + 1.0 / inner_m);
+    let deep_m = flat_depth_m(wear.sprag_m3, relative_m, clutch.contact_length_m(), 0.0);
+    let half_m = (2.0 * relative_m * deep_m).sqrt();
+    // Room below the drawn first contact for rounding.
+    let (k, touch_rad) = touches(&arcs, -1e-3, deep_m)?;
+    let mut list: Vec<Arc> = Vec::new();
+    let mut from = touch_rad;
+    if half_m > 0.0 {
+        // The front edge of the flat: half_m further along the arcs.
+        let (mut left_m, mut edge_k, mut edge_rad) = (half_m, k, touch_rad);
+        loop {
+            let arc = arcs.get(edge_k)?;
+            let until = edge_rad + left_m / arc.radius_m;
+            if until < arc.until_rad {
+                edge_rad = until;
+                break;
+            }
+            left_m -= (arc.until_rad - edge_rad) * arc.radius_m;
+            (edge_k, edge_rad) = (edge_k + 1, arc.until_rad);
+        }
+        let arc = arcs[edge_k];
+        let blunt_m = BLUNT * arc.radius_m;
+        let centre_m = arc.centre_m + (arc.radius_m - blunt_m) * normal(edge_rad);
+        list.push(Arc { radius_m: blunt_m, centre_m, until_rad: edge_rad });
+        list.extend(&arcs[edge_k..]);
+        from = edge_rad - 2.0 * half_m / relative_m;
+    } else {
+        list.extend(&arcs[k..]);
+    }
+    let (k, turn) = touches(&list, from, 0.0)?;
+    let arc = list[k];
+    // The axis in the body frame: C_e is its origin.
+    let axis = arc.centre_m + (inner_m + arc.radius_m) * normal(turn);
+    let up = -axis / axis.norm();
+    let azimuth = up.x.atan2(up.y);
+    let (sin, cos) = azimuth.sin_cos();
+    let turned = |v: [f64; 2]| [v[0] * cos - v[1] * sin, v[0] * sin + v[1] * cos];
+    // The body has turned by -azimuth against the line OC_e; against OG by gamma more.
+    let drawn = &state.curve;
+    let seen = |from: Vector2<f64>| from.x.atan2(from.y);
+    let gamma = seen(-axis) - seen(Vector2::from(sprags.centroid_m) - axis);
+    let mut out = clutch.clone();
+    out.races.inner_radius_m = inner_m;
+    out.races.outer_radius_m = outer_m;
+    out.sprags.outer_radius_m = outer_arc_m;
+    out.sprags.centre_distance_m = arc.centre_m.norm();
+    out.sprags.centroid_m = turned(sprags.centroid_m);
+    out.sprags.flanks = None;
+    out.sprags.inner_arcs =
+        list[k..].iter().map(|a| InnerArc { radius_m: a.radius_m, until_rad: a.until_rad - turn }).collect();
+    Some(Worn {
+        clutch: out,
+        flat_m: [deep_m, half_m],
+        turned_rad: -azimuth + gamma - drawn.statics().gamma0_rad(),
+    })
+}
