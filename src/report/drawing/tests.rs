@@ -79,7 +79,11 @@ fn drawings_hold_no_nan_and_name_no_other_place() {
     drawing.poses.push(broken);
     for svg in [drawing.small_svg(0.03), drawing.detail_figure(), drawing.centres_figure()] {
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
-        assert!(!svg.contains("<after>") && svg.matches("http").count() == svg.matches("xmlns").count() && !svg.contains(" id="));
+        assert!(
+            !svg.contains("<after>")
+                && svg.matches("http").count() == svg.matches("xmlns").count()
+                && !svg.contains(" id=")
+        );
     }
     assert!(drawing.detail_figure().contains("&lt;after&gt;"));
     assert_eq!(drawing.small_svg(0.03).matches("<path").count(), 2 + 2 * 12 + 2);
