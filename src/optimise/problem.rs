@@ -103,24 +103,33 @@ pub struct ClutchProblem {
 /// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
 type Tracks = HashMap<(usize, String), Option<Track>>;
 
-/// Tracks of the latest quick evaluations, so that slopes there need not integrate again; what is not there any more is
-/// integrated to the same bits. A problem that is another begins without.
+/// A quick evaluation: where, its tracks, and the changes that were asked for beside it.
+#[derive(Debug)]
+struct Past {
+    x: Vec<f64>,
+    tracks: Arc<Tracks>,
+    asked: Option<(Vec<Vec<f64>>, Vec<Vec<f64>>)>,
+}
+
+/// The latest of them, so that slopes there need not integrate again; what is not there any more comes to the same bits. A problem
+/// that is another begins without.
 #[derive(Debug, Default)]
-struct Recent(Mutex<VecDeque<(Vec<f64>, Arc<Tracks>)>>);
+struct Recent(Mutex<VecDeque<Past>>);
 
 impl Recent {
     /// As many as climbs side by side may ask for before one of them comes back to its own: 30 kB each.
     const MOST: usize = 32;
 
-    fn of(&self, x: &[f64]) -> Option<Arc<Tracks>> {
-        let known = self.0.lock().unwrap_or_else(|e| e.into_inner());
-        known.iter().find(|(at, _)| at == x).map(|(_, tracks)| tracks.clone())
+    /// What `what` finds in the evaluation at `x`.
+    fn at<T>(&self, x: &[f64], what: impl FnOnce(&mut Past) -> Option<T>) -> Option<T> {
+        let mut known = self.0.lock().unwrap_or_else(|e| e.into_inner());
+        known.iter_mut().find(|past| past.x == x).and_then(what)
     }
 
     fn keep(&self, x: &[f64], tracks: &Arc<Tracks>) {
         let mut known = self.0.lock().unwrap_or_else(|e| e.into_inner());
         known.truncate(Self::MOST - 1);
-        known.push_front((x.to_vec(), tracks.clone()));
+        known.push_front(Past { x: x.to_vec(), tracks: tracks.clone(), asked: None });
     }
 }
 
@@ -599,7 +608,11 @@ impl Evaluate for ClutchProblem {
         if !self.quick || self.links.iter().any(in_steps) {
             return None;
         }
-        let tracks = match self.recent.of(x) {
+        let asked_before = |past: &mut Past| past.asked.clone().filter(|(points, _)| points == beside);
+        if let Some((_, changes)) = self.recent.at(x, asked_before) {
+            return Some(changes);
+        }
+        let tracks = match self.recent.at(x, |past| Some(past.tracks.clone())) {
             Some(known) => known,
             None => self.tracked(x).ok()?.1,
         };
@@ -610,7 +623,10 @@ impl Evaluate for ClutchProblem {
             Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
             _ => Vec::new(),
         };
-        Some(found.into_iter().map(change).collect())
+        let changes: Vec<Vec<f64>> = found.into_iter().map(change).collect();
+        let answered = Some((beside.to_vec(), changes.clone()));
+        self.recent.at(x, |past| past.asked.replace(answered?));
+        Some(changes)
     }
 }
 
