@@ -146,12 +146,24 @@ METHODS = [("scipy differential evolution", differential_evolution), ("pymoo gen
 
 def ours(design, threads):
     with tempfile.TemporaryDirectory() as folder:
+        journal = os.path.join(folder, "journal.csv")
         begun = time.perf_counter()
         done = subprocess.run([TOOL, "optimize", design, "-o", os.path.join(folder, "new.toml"), "--json", "--quiet", "--step-mm", "0",
-                               "--threads", str(threads)], capture_output=True, text=True)
+                               "--threads", str(threads), "--journal", journal], capture_output=True, text=True)
         seconds = time.perf_counter() - begun
-        found = json.loads(done.stdout)
-    return found, seconds
+        with open(journal, newline="") as f:
+            return json.loads(done.stdout), seconds, course_of(csv.DictReader(f))
+
+
+def course_of(journal):
+    """The best feasible value so far over the evaluations of a journal; derivatives are not among these."""
+    course = []
+    for k, row in enumerate(journal, 1):
+        if row["outcome"] == "ok" and min(map(float, row["limits"].split(";"))) >= -1e-8:
+            value = min(map(float, row["objectives"].split(";")))
+            if not course or value > course[-1][1]:
+                course.append((k, value))
+    return course
 
 
 def main():
@@ -159,11 +171,13 @@ def main():
     for design in DESIGNS:
         name = os.path.splitext(os.path.basename(design))[0]
         for threads in (1, 2):
-            found, seconds = ours(design, threads)
+            found, seconds, course = ours(design, threads)
             best = found.get("best") or {}
             starts = [s["evaluations"] for s in found["starts"]]
-            rows.append((name, f"sprag-design optimize, {threads} thread{'s' * (threads > 1)}", found["evaluations"], seconds,
-                         best.get("objective"), len(starts), max(starts), found["optima"]["seen"]))
+            method = f"sprag-design optimize, {threads} thread{'s' * (threads > 1)}"
+            rows.append((name, method, found["evaluations"], seconds, best.get("objective"), len(starts), max(starts),
+                         found["optima"]["seen"], found["derivatives"]))
+            courses[name, method] = course
             print(rows[-1], file=sys.stderr, flush=True)
         ev = Evaluator(design)
         for method, go in METHODS:
@@ -181,7 +195,7 @@ def write(rows, courses):
     path = OUT + ".csv"
     with open(path + ".new", "w", newline="") as f:
         w = csv.writer(f)
-        w.writerow(["problem", "method", "evaluations", "time_s", "objective", "starts", "most_in_a_start", "optima"])
+        w.writerow(["problem", "method", "evaluations", "time_s", "objective", "starts", "most_in_a_start", "optima", "derivatives"])
         w.writerows(rows)
     os.replace(path + ".new", path)
     with open(OUT + "-courses.jsonl", "w") as f:

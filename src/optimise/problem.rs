@@ -1,7 +1,9 @@
 //! The clutch as a vector and its margins.
 
+mod slopes;
+
 use super::corner::{Corner, perturbed};
-use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
+use super::evaluate::{Evaluation, NoEvaluation};
 use super::goal::{Goal, Measure, measures};
 use super::grid::made;
 use super::smooth;
@@ -10,18 +12,13 @@ use crate::design::{
     Blank, Design, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content, lean,
     with_limits, with_values,
 };
-use crate::dynamics::Track;
 use crate::fidelity::{self, Effort};
 use crate::margin::{
     Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
     unlike_margins,
 };
-use crate::scenario::{AtRest, Settings, demand, demand_retraced, demand_tracked};
-use rayon::prelude::*;
-use std::cell::RefCell;
-use std::collections::HashMap;
-use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, OnceLock};
+use crate::scenario::{AtRest, Settings, Track, demand, demand_tracked};
+use std::sync::OnceLock;
 
 /// How an evaluation is computed.
 #[derive(Debug, Clone)]
@@ -97,37 +94,7 @@ pub struct ClutchProblem {
     /// Whether everything that `check` demands is a limit: see [`ClutchProblem::as_checked`].
     as_checked: bool,
     /// Of the latest evaluations.
-    recent: Recent,
-}
-
-/// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
-type Tracks = HashMap<(usize, String), Option<Track>>;
-
-/// Tracks of the latest quick evaluations, so that slopes there need not integrate again; what is not there any more is
-/// integrated to the same bits. A problem that is another begins without.
-#[derive(Debug, Default)]
-struct Recent(Mutex<VecDeque<(Vec<f64>, Arc<Tracks>)>>);
-
-impl Recent {
-    /// As many as climbs side by side may ask for before one of them comes back to its own: 30 kB each.
-    const MOST: usize = 32;
-
-    fn of(&self, x: &[f64]) -> Option<Arc<Tracks>> {
-        let known = self.0.lock().unwrap_or_else(|e| e.into_inner());
-        known.iter().find(|(at, _)| at == x).map(|(_, tracks)| tracks.clone())
-    }
-
-    fn keep(&self, x: &[f64], tracks: &Arc<Tracks>) {
-        let mut known = self.0.lock().unwrap_or_else(|e| e.into_inner());
-        known.truncate(Self::MOST - 1);
-        known.push_front((x.to_vec(), tracks.clone()));
-    }
-}
-
-impl Clone for Recent {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
+    recent: slopes::Recent,
 }
 
 /// Everything known of one clutch.
@@ -172,7 +139,7 @@ impl ClutchProblem {
             quick: false,
             checked: design.check_scenarios.clone(),
             as_checked: false,
-            recent: Recent::default(),
+            recent: slopes::Recent::default(),
         }
     }
 
@@ -418,18 +385,6 @@ impl ClutchProblem {
         (scene_rows(scenario, &SceneDemand::of(scenario, &prepared, found), &self.limits, true), track)
     }
 
-    /// The rows of a scene as a neighbour of the one whose track is given.
-    fn scene_beside(&self, scenario: &Scenario, known: AtRest, track: Option<&Track>) -> Vec<Margin> {
-        let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
-            return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
-        };
-        let demand = match demand_retraced(&prepared, track) {
-            Some(found) => SceneDemand::of(scenario, &prepared, found),
-            None => SceneDemand::unknown(scenario),
-        };
-        scene_rows(scenario, &demand, &self.limits, true)
-    }
-
     /// The design at `x` without the scenarios that no margin is asked of; where that is refused, the whole one says why.
     fn asked_at(&self, x: &[f64]) -> Result<Design, NoEvaluation> {
         let lean = self.lean.get_or_init(|| {
@@ -555,62 +510,6 @@ impl ClutchProblem {
         let text = self.file_at(x)?;
         let said = self.parsed(&text).map_or_else(|_| Limits::default(), |design| design.limits);
         with_sharper_limits(&text, &said, &self.limits)
-    }
-}
-
-impl ClutchProblem {
-    /// The evaluation at `x`, and what its scenes integrated.
-    fn tracked(&self, x: &[f64]) -> Result<(Evaluation, Arc<Tracks>), NoEvaluation> {
-        let tracks = RefCell::new(Tracks::new());
-        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
-            let (rows, track) = self.scene(scenario, known);
-            tracks.borrow_mut().insert((k, scenario.name.clone()), track);
-            rows
-        };
-        let found = self.assess_at_with(x, &scene).map(|assessed| self.evaluation(&assessed))?;
-        Ok((found, Arc::new(tracks.into_inner())))
-    }
-
-    /// The numbers of the evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is
-    /// none.
-    fn retraced(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
-        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
-            let track = tracks.get(&(k, scenario.name.clone())).and_then(Option::as_ref);
-            self.scene_beside(scenario, known, track)
-        };
-        self.assess_at_with(x, &scene).ok().map(|assessed| self.evaluation(&assessed).outputs())
-    }
-}
-
-impl Evaluate for ClutchProblem {
-    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
-        let (found, tracks) = self.tracked(x)?;
-        if self.quick {
-            self.recent.keep(x, &tracks);
-        }
-        Ok(found)
-    }
-
-    /// Of a search's quick evaluations. What a static state demands has its own equilibria at each point, to 1e-12, what a scene
-    /// demands its run taken again by the neighbour ([`demand_retraced`]). Without a change: demands that are bisected, because the
-    /// motion unloads the contact, and scenes that do more than roll; and everything where lengths go with a variable in steps.
-    fn changes(&self, x: &[f64], beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-        let in_steps = |(name, link): &(String, Link)| link.step.is_some() && self.variables.contains(name);
-        if !self.quick || self.links.iter().any(in_steps) {
-            return None;
-        }
-        let tracks = match self.recent.of(x) {
-            Some(known) => known,
-            None => self.tracked(x).ok()?.1,
-        };
-        let points: Vec<&[f64]> = std::iter::once(x).chain(beside.iter().map(Vec::as_slice)).collect();
-        let mut found: Vec<_> = points.into_par_iter().map(|at| self.retraced(at, &tracks)).collect();
-        let here = found.remove(0)?;
-        let change = |there: Option<Vec<f64>>| match there {
-            Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
-            _ => Vec::new(),
-        };
-        Some(found.into_iter().map(change).collect())
     }
 }
 

@@ -207,12 +207,12 @@ pub fn search_problem(
         task.variables.iter().filter(|v| !v.whole).map(|v| v.name.clone()).collect();
     let inner = whole.over(continuous.clone());
     desk.begins("influence of the variables");
+    let quick = inner.quickly();
     let table = if continuous.is_empty() {
         Influence::default()
     } else {
         let (lo, hi) = bounds(&variables, &continuous);
         let x = starts(&variables, &continuous);
-        let quick = inner.quickly();
         let own = desk.run(&quick, |quick, run| own_influence(quick, &x, &lo, &hi, run)).map_err(refused)?;
         let by_differences =
             || desk.run(&inner, |inner, run| influence(inner, &x, &lo, &hi, &method.climb, run));
@@ -245,8 +245,10 @@ pub fn search_problem(
     let mut x = starts(&variables, &searched);
     let (lo, hi) = bounds(&variables, &searched);
     let mut first_refusal = None;
+    // What was looked at for the influence is known to the climbs that are over the same variables.
+    let mut looked_at = Some(quick).filter(|_| searched == continuous && whole_numbers.is_empty());
     for (mut branch, problem) in combos {
-        let problem = problem.over(searched.clone()).quickly();
+        let problem = looked_at.take().unwrap_or_else(|| problem.over(searched.clone()).quickly());
         let begun = rescued(desk, &problem, &x, (&lo, &hi), method);
         let from = begun.unwrap_or_else(|| x.clone());
         let method = if told.is_empty() { method } else { &carried_on };

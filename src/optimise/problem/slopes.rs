@@ -1,0 +1,127 @@
+//! Evaluations of a clutch, and the slopes of its margins beside one.
+
+use super::ClutchProblem;
+use crate::clutch::Scenario;
+use crate::design::Link;
+use crate::fidelity;
+use crate::margin::{Margin, SceneDemand, scene_margins, scene_rows};
+use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
+use crate::scenario::{AtRest, Track, demand_retraced};
+use rayon::prelude::*;
+use std::cell::RefCell;
+use std::collections::{HashMap, VecDeque};
+use std::sync::{Arc, Mutex};
+
+/// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
+type Tracks = HashMap<(usize, String), Option<Track>>;
+
+/// A quick evaluation: where, its tracks, and the changes that were asked for beside it.
+#[derive(Debug)]
+struct Past {
+    x: Vec<f64>,
+    tracks: Arc<Tracks>,
+    asked: Option<(Vec<Vec<f64>>, Vec<Vec<f64>>)>,
+}
+
+/// The latest of them, so that slopes there need not integrate again; what is not there any more comes to the same bits. A problem
+/// that is another begins without.
+#[derive(Debug, Default)]
+pub(super) struct Recent(Mutex<VecDeque<Past>>);
+
+impl Recent {
+    /// As many as climbs side by side may ask for before one of them comes back to its own: 30 kB each.
+    const MOST: usize = 32;
+
+    /// What `what` finds in the evaluation at `x`.
+    fn at<T>(&self, x: &[f64], what: impl FnOnce(&mut Past) -> Option<T>) -> Option<T> {
+        let mut known = self.0.lock().unwrap_or_else(|e| e.into_inner());
+        known.iter_mut().find(|past| past.x == x).and_then(what)
+    }
+
+    fn keep(&self, x: &[f64], tracks: &Arc<Tracks>) {
+        let mut known = self.0.lock().unwrap_or_else(|e| e.into_inner());
+        known.truncate(Self::MOST - 1);
+        known.push_front(Past { x: x.to_vec(), tracks: tracks.clone(), asked: None });
+    }
+}
+
+impl Clone for Recent {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl ClutchProblem {
+    /// The rows of a scene as a neighbour of the one whose track is given.
+    fn scene_beside(&self, scenario: &Scenario, known: AtRest, track: Option<&Track>) -> Vec<Margin> {
+        let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
+            return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
+        };
+        let demand = match demand_retraced(&prepared, track) {
+            Some(found) => SceneDemand::of(scenario, &prepared, found),
+            None => SceneDemand::unknown(scenario),
+        };
+        scene_rows(scenario, &demand, &self.limits, true)
+    }
+
+    /// The evaluation at `x`, and what its scenes integrated.
+    fn tracked(&self, x: &[f64]) -> Result<(Evaluation, Arc<Tracks>), NoEvaluation> {
+        let tracks = RefCell::new(Tracks::new());
+        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
+            let (rows, track) = self.scene(scenario, known);
+            tracks.borrow_mut().insert((k, scenario.name.clone()), track);
+            rows
+        };
+        let found = self.assess_at_with(x, &scene).map(|assessed| self.evaluation(&assessed))?;
+        Ok((found, Arc::new(tracks.into_inner())))
+    }
+
+    /// The numbers of the evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is
+    /// none.
+    fn retraced(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
+        let scene = |k: usize, scenario: &Scenario, known: AtRest| {
+            let track = tracks.get(&(k, scenario.name.clone())).and_then(Option::as_ref);
+            self.scene_beside(scenario, known, track)
+        };
+        self.assess_at_with(x, &scene).ok().map(|assessed| self.evaluation(&assessed).outputs())
+    }
+}
+
+impl Evaluate for ClutchProblem {
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
+        let (found, tracks) = self.tracked(x)?;
+        if self.quick {
+            self.recent.keep(x, &tracks);
+        }
+        Ok(found)
+    }
+
+    /// Of a search's quick evaluations. What a static state demands has its own equilibria at each point, to 1e-12, what a scene
+    /// demands its run taken again by the neighbour ([`demand_retraced`]). Without a change: demands that are bisected, because the
+    /// motion unloads the contact, and scenes that do more than roll; and everything where lengths go with a variable in steps.
+    fn changes(&self, x: &[f64], beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let in_steps = |(name, link): &(String, Link)| link.step.is_some() && self.variables.contains(name);
+        if !self.quick || self.links.iter().any(in_steps) {
+            return None;
+        }
+        let asked_before = |past: &mut Past| past.asked.clone().filter(|(points, _)| points == beside);
+        if let Some((_, changes)) = self.recent.at(x, asked_before) {
+            return Some(changes);
+        }
+        let tracks = match self.recent.at(x, |past| Some(past.tracks.clone())) {
+            Some(known) => known,
+            None => self.tracked(x).ok()?.1,
+        };
+        let points: Vec<&[f64]> = std::iter::once(x).chain(beside.iter().map(Vec::as_slice)).collect();
+        let mut found: Vec<_> = points.into_par_iter().map(|at| self.retraced(at, &tracks)).collect();
+        let here = found.remove(0)?;
+        let change = |there: Option<Vec<f64>>| match there {
+            Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
+            _ => Vec::new(),
+        };
+        let changes: Vec<Vec<f64>> = found.into_iter().map(change).collect();
+        let answered = Some((beside.to_vec(), changes.clone()));
+        self.recent.at(x, |past| past.asked.replace(answered?));
+        Some(changes)
+    }
+}
