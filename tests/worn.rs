@@ -180,3 +180,27 @@ fn what_a_path_takes_is_taken_where_it_says() {
         assert!((off / want - 1.0).abs() < 0.02, "{off:e} against {want:e}");
     }
 }
+
+/// A life that wears a sprag until it slips is not held, and says so; without oil nothing is known to wear; an overrun that is none is refused.
+#[test]
+fn a_life_tells_when_wear_ends_it() {
+    let answer = design(false, 20_000.0, 1.0);
+    let answer = answer.life().unwrap();
+    let (share, why) = answer.worn.as_ref().unwrap().broken().unwrap();
+    println!("{}", answer.verdict());
+    assert!(share < 1.0 && why.names().0 == "friction", "{share} {why:?}");
+    assert!(answer.verdict().starts_with("NOT HELD") && answer.verdict().contains("slip"));
+    let body = answer.envelope(0.0).body;
+    assert_eq!(body["wear"]["broken_by"], "friction");
+    assert_eq!(body["wear"]["states"].as_array().unwrap().len(), answer.worn.as_ref().unwrap().states.len());
+    let oil = OIL.find("[lubrication]").unwrap()..OIL.find("[[scenarios]]").unwrap();
+    let mut dry = OIL.to_owned();
+    dry.replace_range(oil, "");
+    dry += "\n[life]\nloads = [ { torque_nm = 60.0, engagements = 1e5 } ]\noverruns = [ { scenario = \"overrun\", hours = 10.0 } ]\n";
+    let dry = Design::parse(&dry, "dry.toml").unwrap();
+    assert!(dry.life().unwrap().worn.is_none());
+    let wrong = OIL.to_owned()
+        + "\n[life]\nloads = [ { torque_nm = 60.0, engagements = 1e5 } ]\noverruns = [ { scenario = \"nowhere\", hours = 10.0 } ]\n";
+    let why = Design::parse(&wrong, "wrong.toml").unwrap_err().to_string();
+    assert!(why.contains("life.overruns[0].scenario"), "{why}");
+}

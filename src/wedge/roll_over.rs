@@ -8,7 +8,7 @@
 //! which is taken to give as the arc before it. While beta > 0 N rises; it is largest where A, B and the axis lie on one line, the
 //! sprag stands upright and has no torque. From there on beta < 0: the sprag drives the races on and N falls, until contact is lost
 //! or a flank lies on its race. Without loss what was stored comes back: int C dW from first contact to the loss
-//! of contact is 0.
+//! of contact is 0, to parts in a thousand with (6), which takes N_bi for both halves of the body.
 
 use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, WedgeCurve};
