@@ -49,7 +49,7 @@ pub use periodic::{NoOrbit, Orbit, Shooting, orbit};
 #[cfg(feature = "validation")]
 pub use published::{PublishedSettings, published};
 pub use repeat::Jump;
-pub use retrace::Track;
+pub use retrace::RollingTrack;
 pub use rolling::{Rolling, rolling, rolling_quickly, rolling_retraced, rolling_tracked};
 pub use run::{
     Engaged, FastMotion, History, Hold, Neglected, Peaks, Run, RunSettings, Sample, SlipRecord, Stop, run,

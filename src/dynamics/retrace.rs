@@ -16,7 +16,7 @@ use crate::ode::step::{Counters, Tolerance};
 
 /// Steps of a run and where its figures were largest.
 #[derive(Debug, Clone)]
-pub struct Track {
+pub struct RollingTrack {
     arc: usize,
     legs: Vec<Leg>,
     peaks: Peaks,
@@ -28,7 +28,7 @@ const ANY: Tolerance<4> = Tolerance { relative: 1.0, absolute: [1.0; 4], integra
 /// Half of what the parabola about a peak spans, as a part of the step: what it leaves out goes with its fourth power.
 const ABOUT: f64 = 0.02;
 
-impl Track {
+impl RollingTrack {
     pub(super) fn of(arc: usize, run: Stuck) -> Self {
         let Stuck { legs, peaks, seen, .. } = run;
         Self { arc, legs, peaks, seen }

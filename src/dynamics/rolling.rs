@@ -1,7 +1,7 @@
 //! The pure-rolling run: how much friction would the scene need, and how near does contact come to opening?
 
 use super::model::{Grip, Mode, Model, Place, State};
-use super::retrace::Track;
+use super::retrace::RollingTrack;
 use super::run::{Run, RunSettings, Stop, run};
 use super::stick::stuck;
 
@@ -46,18 +46,18 @@ pub fn rolling_tracked(
     place: Place,
     settings: &RunSettings,
     tolerance: f64,
-) -> Option<(Rolling, Track)> {
+) -> Option<(Rolling, RollingTrack)> {
     let Place::Arc(arc) = place else { return None };
     let found = stuck(model, &state, place, &RunSettings { tolerance, ..settings.clone() })?;
     let mut run = Run::start(state, both_roll(place), 0);
     run.stop = if found.interrupted { Stop::Interrupted } else { Stop::Finished };
     (run.t_s, run.peaks, run.counters, run.events) = (found.t_s, found.peaks, found.counters, found.passed);
-    Some((Rolling::of(model, run), Track::of(arc, found)))
+    Some((Rolling::of(model, run), RollingTrack::of(arc, found)))
 }
 
 /// The figures of a neighbour of the model whose `track` it is, by the same steps: differences of such figures are
 /// derivatives. `None` where the neighbour goes another way.
-pub fn rolling_retraced(model: &Model, state: State, place: Place, track: &Track) -> Option<Rolling> {
+pub fn rolling_retraced(model: &Model, state: State, place: Place, track: &RollingTrack) -> Option<Rolling> {
     let mut run = Run::start(state, both_roll(place), 0);
     (run.stop, run.peaks) = (Stop::Finished, track.retraced(model, &state, place)?);
     Some(Rolling::of(model, run))

@@ -17,7 +17,7 @@ use crate::margin::{
     Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
     unlike_margins,
 };
-use crate::scenario::{AtRest, Settings, Track, demand, demand_tracked};
+use crate::scenario::{AtRest, RollingTrack, Settings, demand, demand_tracked};
 use std::sync::OnceLock;
 
 /// How an evaluation is computed.
@@ -365,7 +365,7 @@ impl ClutchProblem {
     }
 
     /// The rows of a scene, and what it integrated where that can be taken again.
-    fn scene(&self, scenario: &Scenario, known: AtRest) -> (Vec<Margin>, Option<Track>) {
+    fn scene(&self, scenario: &Scenario, known: AtRest) -> (Vec<Margin>, Option<RollingTrack>) {
         let Fidelity { settings, reduced } = &self.fidelity;
         let whole = || (scene_margins(scenario, &self.limits, true, Some(known), settings), None);
         if !reduced {

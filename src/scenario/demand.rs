@@ -5,8 +5,8 @@ use super::figures::ErrorEstimate;
 use super::prepare::Prepared;
 use super::simulate::{SLIPPED_M, Settings, verdict};
 use crate::dynamics::{
-    Rolling, Run, RunSettings, Stop, Track, rolling, rolling_quickly, rolling_retraced, rolling_tracked, run,
-    run_while_it_sticks,
+    Rolling, RollingTrack, Run, RunSettings, Stop, rolling, rolling_quickly, rolling_retraced,
+    rolling_tracked, run, run_while_it_sticks,
 };
 use crate::friction::Stribeck;
 
@@ -159,7 +159,7 @@ fn at_rest(prepared: &Prepared) -> RollingDemand {
 
 /// The same with what it integrated, for [`demand_retraced`]; `None` where it integrated nothing, or not what rolls from start to
 /// end: an engagement, a motion that unloads its contact so that friction is bisected, one that meets the end of the curve.
-pub fn demand_tracked(prepared: &Prepared, settings: &Settings) -> (RollingDemand, Option<Track>) {
+pub fn demand_tracked(prepared: &Prepared, settings: &Settings) -> (RollingDemand, Option<RollingTrack>) {
     let by_peaks = || {
         if prepared.duration_s == 0.0 || prepared.overrun.is_some() {
             return None;
@@ -177,7 +177,7 @@ pub fn demand_tracked(prepared: &Prepared, settings: &Settings) -> (RollingDeman
 /// Demand of a scene like the one whose `track` is given, so near to it that the difference counts to the first order alone:
 /// differences of such demands are derivatives. A static scene needs no track. `None` without one, and where the neighbour goes
 /// another way.
-pub fn demand_retraced(prepared: &Prepared, track: Option<&Track>) -> Option<RollingDemand> {
+pub fn demand_retraced(prepared: &Prepared, track: Option<&RollingTrack>) -> Option<RollingDemand> {
     if prepared.duration_s == 0.0 {
         return Some(at_rest(prepared));
     }

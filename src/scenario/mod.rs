@@ -18,7 +18,7 @@ mod simulate;
 mod sliding;
 mod train;
 
-pub use crate::dynamics::Track;
+pub use crate::dynamics::RollingTrack;
 pub use answer::{GaveUp, Simulation, Verdict};
 pub use demand::{RollingDemand, demand, demand_quickly, demand_retraced, demand_tracked};
 pub use equilibrium::overrun_swing;

@@ -6,14 +6,14 @@ use crate::design::Link;
 use crate::fidelity;
 use crate::margin::{Margin, SceneDemand, scene_margins, scene_rows};
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
-use crate::scenario::{AtRest, Track, demand_retraced};
+use crate::scenario::{AtRest, RollingTrack, demand_retraced};
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
 
 /// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
-type Tracks = HashMap<(usize, String), Option<Track>>;
+type Tracks = HashMap<(usize, String), Option<RollingTrack>>;
 
 /// A quick evaluation: where, its tracks, and the changes that were asked for beside it.
 #[derive(Debug)]
@@ -53,7 +53,7 @@ impl Clone for Recent {
 
 impl ClutchProblem {
     /// The rows of a scene as a neighbour of the one whose track is given.
-    fn scene_beside(&self, scenario: &Scenario, known: AtRest, track: Option<&Track>) -> Vec<Margin> {
+    fn scene_beside(&self, scenario: &Scenario, known: AtRest, track: Option<&RollingTrack>) -> Vec<Margin> {
         let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
             return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
         };
