@@ -121,7 +121,7 @@ fn what_unlike_bodies_turn_further_costs_no_work() {
         let work = c.torque_nm(curve.statics().count).v / curve.statics().count as f64 * c.windup_slope();
         let off = (across + along - further) / work - 1.0;
         println!("N {n}: off by {off:.1e}, with {:.3} % for what turns further", 100.0 * further / work);
-        assert!(off.abs() < 1e-5 && further / work > 5e-4, "{n}: {off:e}");
+        assert!(off.abs() < 2e-5 && further / work > 5e-4, "{n}: {off:e}");
     }
 }
 
