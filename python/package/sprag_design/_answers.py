@@ -738,7 +738,7 @@ class Found:
     variables: dict[str, float]
     """Values of the variables, in the units of their names."""
     objective: float
-    """The objective, in its own unit."""
+    """The objective, in its own unit; ``None`` of a least margin that some scene does not have."""
     margins: tuple[FoundMargin, ...]
     """Margins of that design."""
 
