@@ -199,7 +199,7 @@ where no limit is violated.</p><ul>{''.join(verdicts)}</ul>{''.join(parts)}
 <h2>How each was run</h2><ul>
 <li>sprag-design optimize: as a user runs it, but for the number of threads and `--step-mm 0`, no rounding, which the others do not do either; its evaluations are those of all
 starts, the finish and the influence table together. Beside them it takes derivatives of all margins along single variables, at
-0.45 of an evaluation each by instructions (<code>examples/cost.rs</code>): column <code>derivatives</code> of the CSV.</li>
+some 0.45 of an evaluation each in time (<code>examples/cost.rs</code>): column <code>derivatives</code> of the CSV.</li>
 <li>{GLOBAL}: scipy {version('scipy')}, Sobol start, seed 1, feasibility first, then the objective; stopped at the
 number of evaluations given.</li>
 <li>pymoo genetic algorithm: pymoo {version('pymoo')}, population 60, seed 1, constraints as its own rule treats them,

@@ -77,8 +77,8 @@ fn where_there_are_no_slopes_the_problem_says_so() {
     let huang = design(HUANG);
     let problem = super::clutch::problem(&huang);
     let x: Vec<f64> = task(&huang).variables.iter().map(|v| v.start).collect();
-    assert!(problem.changes(&x, &[x.clone()]).is_none());
-    let same = problem.quickly().changes(&x, &[x.clone()]).expect("slopes");
+    assert!(problem.changes(&x, std::slice::from_ref(&x)).is_none());
+    let same = problem.quickly().changes(&x, std::slice::from_ref(&x)).expect("slopes");
     assert!(same[0].iter().all(|change| *change == 0.0), "the same way again changes nothing: {same:?}");
     let refused = problem.quickly().changes(&x, &[x.iter().map(|v| 1e3 * v).collect()]).expect("slopes");
     assert!(refused[0].is_empty());

@@ -15,12 +15,15 @@ use std::sync::{Arc, Mutex};
 /// What the scenes of an evaluation integrated, by the number of the corner and the name of the scene.
 type Tracks = HashMap<(usize, String), Option<RollingTrack>>;
 
+/// Points beside an evaluation, and by how much each changes its measures.
+type Answered = (Vec<Vec<f64>>, Vec<Vec<f64>>);
+
 /// A quick evaluation: where, its tracks, and the changes that were asked for beside it.
 #[derive(Debug)]
 struct Past {
     x: Vec<f64>,
     tracks: Arc<Tracks>,
-    asked: Option<(Vec<Vec<f64>>, Vec<Vec<f64>>)>,
+    asked: Option<Answered>,
 }
 
 /// The latest of them, so that slopes there need not integrate again; what is not there any more comes to the same bits. A problem
