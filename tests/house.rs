@@ -34,7 +34,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // A scene of unlike sprags begins as a scene does, and draws its sprags as statics does.
     ("sprags", &["clutch", "friction", "wedge", "dynamics", "sharing", "scenario"]),
     // Begins as a scene does.
-    ("element", &["follow", "clutch", "dynamics", "scenario"]),
+    ("element", &["numeric", "follow", "clutch", "dynamics", "scenario"]),
     ("fidelity", &["numeric", "clutch", "profile", "contact", "wedge", "dynamics", "scenario"]),
     ("accuracy", &["follow", "numeric", "clutch", "dynamics", "scenario", "fidelity"]),
     (
@@ -81,6 +81,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "answer",
         &[
+            "numeric",
             "follow",
             "material",
             "lubrication",
@@ -137,6 +138,8 @@ const OUTSIDE: &[&str] =
 const MAY_TOUCH: &[(&str, &str)] = &[
     // A design is a file with its histories: errors name file, line and key, so the room opens these itself, here alone.
     ("src/design/open.rs", "std::fs"),
+    // The platform that the program was compiled for is no environment.
+    ("src/export/fmu/archive.rs", "std::env"),
 ];
 
 /// Rooms where a length in mm, an angle in degrees, a pressure in MPa or a speed in rev/min is at home: files, pages, drawings.

@@ -97,7 +97,7 @@ fn what_is_borne_is_the_border() {
     let blow = &body["blows"][0];
     let speed = blow["speed_rpm"].as_f64().unwrap() * std::f64::consts::PI / 30.0;
     assert!((blow["energy_j"].as_f64().unwrap() / (0.5 * 0.025 * speed * speed) - 1.0).abs() < 1e-12);
-    assert!(body["bears_j"].as_f64().unwrap() < body["end_of_curve_j"].as_f64().unwrap(), "{body}");
+    assert!(body["bears_j"].as_f64().unwrap() <= body["end_of_curve_j"].as_f64().unwrap(), "{body}");
 }
 
 /// The races run as the file lets them where they carry torque; overrun does not count.

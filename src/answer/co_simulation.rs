@@ -3,7 +3,7 @@
 use super::Envelope;
 use super::left_out::LeftOut;
 use crate::design::Design;
-use crate::export::fmu::{Fmi, NoUnit, UnitArchive, archive, inertias_beyond, variables};
+use crate::export::fmu::{Fmi, HistoryReader, NoUnit, UnitArchive, archive, inertias_beyond, variables};
 use serde::Serialize;
 
 /// A unit for co-simulation.
@@ -31,13 +31,18 @@ pub struct CoSimulationBody {
 }
 
 impl Design {
-    /// The clutch between its flanges as a unit around `library`, the compiled library of this version; a `[[drivetrain]]` is left
-    /// out.
+    /// The clutch between its flanges as a unit around `library`, the compiled library of this version; `read` gives the bytes of
+    /// a history. A `[[drivetrain]]` is left out.
     ///
     /// # Errors
     /// [`NoUnit`].
-    pub fn co_simulation_unit(&self, fmi: Fmi, library: &[u8]) -> Result<CoSimulationUnit<'_>, NoUnit> {
-        let archive = archive(self, fmi, library)?;
+    pub fn co_simulation_unit(
+        &self,
+        fmi: Fmi,
+        library: &[u8],
+        read: HistoryReader<'_>,
+    ) -> Result<CoSimulationUnit<'_>, NoUnit> {
+        let archive = archive(self, fmi, library, read)?;
         Ok(CoSimulationUnit {
             design: self,
             fmi,

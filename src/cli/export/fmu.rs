@@ -37,7 +37,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         FmiName::Two => Fmi::Two,
         FmiName::Three => Fmi::Three,
     };
-    let (unit, run_time_s) = timed(|| design.co_simulation_unit(fmi, &library));
+    let (unit, run_time_s) = timed(|| design.co_simulation_unit(fmi, &library, &|path| std::fs::read(path)));
     let unit = unit.map_err(|why| match why {
         NoUnit::NoStart(NoElement::NoStart(NoScenario::Profile(e))) => {
             Failure::no_clutch(&args.file, &NoMargins::Profile(e))

@@ -7,7 +7,7 @@ use rawzip::{CompressionMethod, ZipArchiveWriter};
 use std::env::consts::{ARCH, DLL_SUFFIX, OS};
 use std::fmt;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Level of compression, 0 to 10: a second for the library.
 const LEVEL: u8 = 7;
@@ -41,6 +41,9 @@ impl fmt::Display for NoUnit {
 
 impl std::error::Error for NoUnit {}
 
+/// Gives the bytes of a file.
+pub type HistoryReader<'a> = &'a dyn Fn(&Path) -> std::io::Result<Vec<u8>>;
+
 /// A unit: the bytes of its archive, and the name of the platform that its library runs on.
 #[derive(Debug, Clone)]
 pub struct UnitArchive {
@@ -50,11 +53,17 @@ pub struct UnitArchive {
     pub platform: String,
 }
 
-/// The unit of `design` around `library`, the compiled library of this version. Without times: the same design, the same bytes.
+/// The unit of `design` around `library`, the compiled library of this version; `read` gives the bytes of a history. Without times:
+/// the same design, the same bytes.
 ///
 /// # Errors
 /// [`NoUnit`].
-pub fn archive(design: &Design, fmi: Fmi, library: &[u8]) -> Result<UnitArchive, NoUnit> {
+pub fn archive(
+    design: &Design,
+    fmi: Fmi,
+    library: &[u8],
+    read: HistoryReader<'_>,
+) -> Result<UnitArchive, NoUnit> {
     // What cannot begin at rest without load is no element anywhere.
     Element::new(&design.clutch, &Beginning::default(), &Settings::default()).map_err(NoUnit::NoStart)?;
     if !library.windows(MARK.len()).any(|w| w == MARK.as_bytes()) {
@@ -66,7 +75,7 @@ pub fn archive(design: &Design, fmi: Fmi, library: &[u8]) -> Result<UnitArchive,
     files.push((inside, library.to_vec(), true));
     files.push(("resources/design.toml".to_owned(), design.source.clone().into_bytes(), true));
     for history in &design.histories {
-        let text = std::fs::read(history).map_err(|e| NoUnit::History(history.clone(), e))?;
+        let text = read(history).map_err(|e| NoUnit::History(history.clone(), e))?;
         let name = history.strip_prefix(&design.folder).unwrap_or(history);
         let parts: Vec<_> = name.components().map(|c| c.as_os_str().to_string_lossy().into_owned()).collect();
         files.push((format!("resources/{}", parts.join("/")), text, true));

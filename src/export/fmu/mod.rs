@@ -9,7 +9,7 @@ mod description;
 mod units;
 
 #[cfg(feature = "report")]
-pub use archive::{NoUnit, UnitArchive, archive, inertias_beyond};
+pub use archive::{HistoryReader, NoUnit, UnitArchive, archive, inertias_beyond};
 pub use description::description;
 pub use units::{FmiUnit, UNITS, unit};
 
