@@ -125,7 +125,6 @@ fn the_promised_keys_are_there_and_consistent() {
     assert!((slipping - 2.77e-3).abs() < 1e-5, "{slipping}");
     assert!(number(inner, "distance_mm") >= number(inner, "net_mm"));
     assert!(a["required_static_friction"].is_null(), "contact opens: no friction suffices");
-    assert_eq!(number(&a, "slip_margin"), -1.0);
     assert_eq!(number(&a, "normal_min_n"), 0.0);
     let left_out = a["left_out"].as_array().unwrap();
     for word in
