@@ -135,12 +135,14 @@ fn beyond(page: &mut Page, laws: &[LawCurve]) {
         let points = way.branch.iter().map(|p| [Unit::Degree.from_si(p.windup_rad), p.torque_nm]);
         plot.curves.push(Curve::new(law.name.facts().key, points.collect()).coloured(i));
     }
-    page.figure(
-        &plot.to_figure(),
-        "Equilibria from the end of the curve on: none of them stays under a torque that does. Below 0 the sprags drive the races on. Material \
-         linear elastic; an edge gives as the arc before it.",
-    );
     page.list(ways().map(|(_, law, way)| format!("{}: {}", law.name.facts().key, sentence(way))));
+    page.apart("Torque over windup there", |page| {
+        page.figure(
+            &plot.to_figure(),
+            "Equilibria from the end of the curve on: none of them stays under a torque that does. Below 0 the sprags drive the \
+             races on. Material linear elastic; an edge gives as the arc before it.",
+        );
+    });
 }
 
 /// What the stiffness is, at the torques that the design is for, else at the largest of the table.
