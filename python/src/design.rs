@@ -298,7 +298,9 @@ impl Design {
         })?;
         answer.unwrap_or_else(|why| match why {
             NoOverrun::NoClutch(why) => Err(errors::no_clutch(py, &why)),
-            NoOverrun::NoLubrication | NoOverrun::Setting(_) => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
+            NoOverrun::NoLubrication | NoOverrun::Setting(_) => {
+                Err(PyValueError::new_err(format!("{}: {why}", self.file)))
+            }
         })
     }
 
