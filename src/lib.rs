@@ -23,7 +23,7 @@
 //! | 2 | [`kinematics`] | lengths, angles, levers, rolling ratios |
 //! | 2 | [`contact`] | local line contact: roller law, Hertz, slices |
 //! | 2 | [`friction`] | coefficient over speed, dry and on a film |
-//! | 3 | [`wedge`] | the only static iteration: the curve N(alpha) of one design at one speed |
+//! | 3 | [`wedge`] | the only static iteration: the curve N(alpha) of one design at one speed, and the way beyond its end |
 //! | 3 | [`dynamics`] | equations of motion; the only room that knows stick from slip |
 //! | 4 | [`sharing`] | sprags one by one: what each carries where they are unlike, races bend, run out and give way |
 //! | 4 | [`scenario`] | a named scene in, history and verdict out |
@@ -34,7 +34,7 @@
 //! | 4 | [`margin`] | demands against allowables; the only room that has allowables |
 //! | 4 | [`reengage`] | slip under load and the blow when the clutch grips again |
 //! | 4 | [`feed`] | strokes of an indexing drive: what each feeds, up to which frequency |
-//! | 4 | [`life`] | pitting, fatigue of rings, indentation and slip by chance in a life of loads |
+//! | 4 | [`life`] | pitting, fatigue of rings, indentation, wear and slip by chance in a life of loads |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
 //! | 4 | [`sweep`] | the box of the variables as a whole: points by their number, margins at each |
 //! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |

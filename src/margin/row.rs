@@ -180,7 +180,7 @@ impl Margin {
     /// mu_s over the friction that the scene needs, less 1. `None` of other limits, and where no friction suffices or none
     /// is known.
     pub fn slip_margin(&self) -> Option<f64> {
-        matches!(self.demand, Demand::Value(_)).then(|| self.slip_measure()).flatten()
+        self.slip_measure().filter(|_| matches!(self.demand, Demand::Value(_)))
     }
 
     /// The same as a number for every state of the demand, as a search needs it; `None` of other limits.

@@ -5,7 +5,7 @@ use super::figures::ErrorEstimate;
 use super::prepare::Prepared;
 use super::simulate::{SLIPPED_M, Settings, verdict};
 use crate::dynamics::{
-    Rolling, RollingTrack, Run, RunSettings, Stop, rolling, rolling_quickly, rolling_retraced,
+    Model, Rolling, RollingTrack, Run, RunSettings, Stop, rolling, rolling_quickly, rolling_retraced,
     rolling_tracked, run, run_while_it_sticks,
 };
 use crate::friction::Stribeck;
@@ -138,22 +138,21 @@ pub(super) fn demand_at(
     roll(prepared, &unaudited(settings), fineness, 0, STEPS_PER_PERIOD_OF_DEMAND, near).1
 }
 
+/// mu_s/mu_req - 1.
+pub(super) fn slip_margin(model: &Model, required_friction: Option<f64>) -> Option<f64> {
+    required_friction.map(|mu| model.friction.static_ / mu - 1.0)
+}
+
 /// What a static scenario demands.
 fn at_rest(prepared: &Prepared) -> RollingDemand {
     let f = prepared.at_rest();
     let required = f.map(|f| f.required_friction());
     RollingDemand {
         required_friction: required,
-        by_bisection: false,
-        slip_margin: required.map(|r| prepared.model.friction.static_ / r - 1.0),
+        slip_margin: slip_margin(&prepared.model, required),
         contact_margin: 1.0,
         normal_max_n: f.map_or([0.0; 2], |f| [f.normal_inner_n, f.normal_outer_n]),
-        finished: true,
-        overloaded: false,
-        never_engages: false,
-        gave_up: None,
-        interrupted: false,
-        rhs_evaluations: 0,
+        ..RollingDemand::UNKNOWN
     }
 }
 
@@ -191,7 +190,7 @@ fn of_peaks(prepared: &Prepared, r: &Rolling) -> RollingDemand {
     RollingDemand {
         required_friction,
         by_bisection: false,
-        slip_margin: required_friction.map(|q| prepared.model.friction.static_ / q - 1.0),
+        slip_margin: slip_margin(&prepared.model, required_friction),
         contact_margin: r.contact_margin(prepared.static_normal_n),
         normal_max_n: [r.run.peaks.normal_max_n, r.run.peaks.normal_outer_max_n],
         finished: r.stop == Stop::Finished,
@@ -259,7 +258,7 @@ pub(super) fn roll(
         demand.interrupted |= found.interrupted;
     }
     demand.required_friction = required;
-    demand.slip_margin = required.map(|q| prepared.model.friction.static_ / q - 1.0);
+    demand.slip_margin = slip_margin(&prepared.model, required);
     (r.run, demand)
 }
 

@@ -3,7 +3,7 @@
 //! Two questions, as of a transient: what would rolling demand, and what does the clutch do. Where friction suffices both are
 //! one motion. A motion that Newton does not find, or that does not repeat, is an answer with a name.
 
-use super::demand::STEPS_PER_PERIOD_OF_DEMAND;
+use super::demand::{STEPS_PER_PERIOD_OF_DEMAND, slip_margin};
 use super::prepare::Prepared;
 use super::simulate::Settings;
 use crate::dynamics::{
@@ -163,7 +163,7 @@ pub fn steady_motion(prepared: &Prepared, settings: &Settings, near: Option<&Ste
         periods: of(&rolling) + of(&motion),
         kind,
         required_friction,
-        slip_margin: required_friction.map(|mu| model.friction.static_ / mu - 1.0),
+        slip_margin: slip_margin(model, required_friction),
         contact_margin: demand.map(|d| d.contact_margin(static_n)),
         rolling,
         motion,
