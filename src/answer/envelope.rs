@@ -148,8 +148,7 @@ pub trait Answer {
 /// What an answer about one design says; the faces of [`Answer`] follow from it.
 pub trait Said {
     /// Title of its page.
-    const TITLE: &'static str;
-
+    fn title(&self) -> &str;
     /// The design.
     fn design(&self) -> &Design;
     /// What it comes to.
@@ -225,7 +224,7 @@ impl<T: Said> Answer for T {
     }
 
     fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = opened(T::TITLE, self.design(), &provenance.command, |page| {
+        let mut page = opened(self.title(), self.design(), &provenance.command, |page| {
             let (tone, words) = self.banner();
             page.verdict_in(tone, &words);
         });

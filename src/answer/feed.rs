@@ -259,7 +259,9 @@ impl FeedAnswer<'_> {
 }
 
 impl Said for FeedAnswer<'_> {
-    const TITLE: &'static str = "Feed of an indexing drive";
+    fn title(&self) -> &str {
+        "Feed of an indexing drive"
+    }
 
     fn design(&self) -> &Design {
         self.design

@@ -92,7 +92,9 @@ impl<'a> FiniteElements<'a> {
 }
 
 impl Said for FiniteElements<'_> {
-    const TITLE: &'static str = "Finite elements";
+    fn title(&self) -> &str {
+        "Finite elements"
+    }
 
     fn design(&self) -> &Design {
         self.design

@@ -316,7 +316,9 @@ impl LifeAnswer<'_> {
 }
 
 impl Said for LifeAnswer<'_> {
-    const TITLE: &'static str = "Life";
+    fn title(&self) -> &str {
+        "Life"
+    }
 
     fn design(&self) -> &Design {
         self.design

@@ -382,7 +382,9 @@ impl ReengagementAnswer<'_> {
 }
 
 impl Said for ReengagementAnswer<'_> {
-    const TITLE: &'static str = "Slip and re-engagement";
+    fn title(&self) -> &str {
+        "Slip and re-engagement"
+    }
 
     fn design(&self) -> &Design {
         self.design

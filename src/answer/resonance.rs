@@ -292,7 +292,9 @@ impl ResonanceAnswer<'_> {
 }
 
 impl Said for ResonanceAnswer<'_> {
-    const TITLE: &'static str = "Resonance";
+    fn title(&self) -> &str {
+        "Resonance"
+    }
 
     fn design(&self) -> &Design {
         self.design

@@ -8,7 +8,7 @@ use crate::clutch::Rim;
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
 use crate::report::plot::Curve;
-use crate::report::{Cell, Column, Page, Plot, Rows, Screen, Table, Unit, significant};
+use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use crate::sharing::{Bears, Loss, NotShared, Shared, Turn};
 use serde_json::{Value, json};
 use std::fmt;
@@ -272,24 +272,20 @@ impl SharingAnswer<'_> {
 
     /// Growth and harmonics of both tracks.
     fn out_of_round(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("harmonic", "Harmonic"),
-            Column::number("inner_um", "Inner race", Unit::Micrometre, 3),
-            Column::number("outer_um", "Outer race", Unit::Micrometre, 3),
-        ]);
         let [inner, outer] = &self.out_of_round_m;
         let count = self.design.clutch.sprags.count;
-        for k in (0..inner.len().min(HARMONICS)).chain((count > HARMONICS).then_some(count - 1)) {
-            let (Some(a), Some(b)) = (inner.get(k), outer.get(k)) else { continue };
-            let name = match k {
-                0 => "mean, gap opens".to_owned(),
-                1 => "2, a quarter of the ovality".to_owned(),
-                _ if k + 1 == count => format!("{count}, the sprags"),
-                _ => (k + 1).to_string(),
-            };
-            table.row(vec![name.into(), (*a).into(), (*b).into()]);
-        }
-        table
+        let name = |k: usize| match k {
+            0 => "mean, gap opens".to_owned(),
+            1 => "2, a quarter of the ovality".to_owned(),
+            _ if k + 1 == count => format!("{count}, the sprags"),
+            _ => (k + 1).to_string(),
+        };
+        let shown = (0..inner.len().min(HARMONICS)).chain((count > HARMONICS).then_some(count - 1));
+        Rows::of(shown.filter_map(|k| Some((k, *inner.get(k)?, *outer.get(k)?))))
+            .text("harmonic", "Harmonic", |(k, ..)| name(*k))
+            .number("inner_um", "Inner race", Unit::Micrometre, 3, |(_, inner, _)| *inner)
+            .number("outer_um", "Outer race", Unit::Micrometre, 3, |(.., outer)| *outer)
+            .table()
     }
 
     /// Shares round the clutch.
@@ -329,7 +325,9 @@ impl SharingAnswer<'_> {
 }
 
 impl Said for SharingAnswer<'_> {
-    const TITLE: &'static str = "Sharing";
+    fn title(&self) -> &str {
+        "Sharing"
+    }
 
     fn design(&self) -> &Design {
         self.design

@@ -13,6 +13,8 @@ use serde_json::{Value, json};
 #[derive(Debug, Clone)]
 pub struct Sizing<'a> {
     sized: &'a Sized,
+    /// Title of its page.
+    title: &'a str,
     /// Where the design was written, if it was.
     written: Option<&'a str>,
     /// End of the curve, N m.
@@ -22,8 +24,8 @@ pub struct Sizing<'a> {
 }
 
 impl<'a> Sizing<'a> {
-    /// Of what was found; `written`: where the design is.
-    pub fn of(sized: &'a Sized, written: Option<&'a str>) -> Self {
+    /// Of what was found; `title`: that of the page, `written`: where the design is.
+    pub fn of(sized: &'a Sized, title: &'a str, written: Option<&'a str>) -> Self {
         // Of a design whose margins are known there is a curve.
         let (design, made) = (&sized.made.design, &sized.made);
         let state = load_state(design);
@@ -35,6 +37,7 @@ impl<'a> Sizing<'a> {
         let far = far_more_than_asked(asked_nm, carries_nm);
         Self {
             sized,
+            title,
             written,
             end_nm,
             warnings: overruns
@@ -48,7 +51,9 @@ impl<'a> Sizing<'a> {
 }
 
 impl Said for Sizing<'_> {
-    const TITLE: &'static str = "First design";
+    fn title(&self) -> &str {
+        self.title
+    }
 
     fn design(&self) -> &Design {
         &self.sized.made.design
@@ -65,10 +70,11 @@ impl Said for Sizing<'_> {
             s.count,
             Unit::Millimetre.show_plain(s.length_m, 4),
             Unit::Millimetre.show_plain(self.sized.tried[self.sized.taken].space_m, 4),
-            self.sized
-                .made
-                .least()
-                .map_or(String::new(), |r| format!("{} decides, {}", r.code(), margin_words(r)))
+            self.sized.made.least().map_or(String::new(), |r| format!(
+                "{} decides, {}",
+                r.code(),
+                margin_words(r)
+            ))
         )
     }
 
@@ -116,8 +122,7 @@ impl Said for Sizing<'_> {
         );
         alternatives(page, self.sized);
         page.table(&no_flanks(&self.sized.tried).unwrap_or_default(), &self.table());
-        page.heading("Margins")
-            .table(REACHED_AT, &people_table(&self.sized.made.margins, self.end_nm));
+        page.heading("Margins").table(REACHED_AT, &people_table(&self.sized.made.margins, self.end_nm));
     }
 }
 

@@ -33,8 +33,7 @@ pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Conte
         Err(ref why @ NoSize::None { tried: ref list }) => {
             let rows = tried(list, None);
             let table = rows.clone().table();
-            context
-                .object(|| json!({ "sized": false, "why": why.to_string(), "tried": rows.objects() }))?;
+            context.object(|| json!({ "sized": false, "why": why.to_string(), "tried": rows.objects() }))?;
             context.outputs.write_csv(&table);
             context.answer(&format!("{}\n{why}\n", table.to_text(context.screen)))?;
             return Ok(Exit::NotHeld);
@@ -42,5 +41,5 @@ pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Conte
     };
     let written = context.outputs.write(output, FileKind::Design, sized.made.design.source.as_bytes());
     let written = written.then(|| output.display().to_string());
-    context.deliver(&Sizing::of(&sized, written.as_deref()), run_time_s)
+    context.deliver(&Sizing::of(&sized, title, written.as_deref()), run_time_s)
 }

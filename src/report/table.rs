@@ -229,6 +229,21 @@ impl<T> Rows<T> {
         self.number(key, heading, Unit::One, 1, cell)
     }
 
+    /// A further column of numbers for each of `list`, under key and heading by `name`.
+    pub fn each<I, C: Into<Cell>>(
+        self,
+        list: impl IntoIterator<Item = I>,
+        name: impl Fn(&I) -> (String, String),
+        unit: Unit,
+        digits: usize,
+        cell: impl Fn(&T, &I) -> C,
+    ) -> Self {
+        list.into_iter().fold(self, |rows, one| {
+            let (key, heading) = name(&one);
+            rows.number(&key, &heading, unit, digits, |item| cell(item, &one))
+        })
+    }
+
     /// The last column has its numbers in `unit` for people; programs get them in that of the key.
     pub fn shown_in(mut self, unit: Unit) -> Self {
         self.table.columns.iter_mut().last().into_iter().for_each(|column| column.unit = unit);

@@ -10,8 +10,8 @@ use super::{Outcome, Said, VERSION, WRITTEN_BY};
 use crate::design::Design;
 use crate::identify::Identified;
 use crate::report::{Page, Screen, Table};
-use serde_json::{Value, json};
 use plot::deviations;
+use serde_json::{Value, json};
 use tables::{correlation, estimates, in_short, residuals, sentences, verdict};
 
 /// Unknowns found in a design.
@@ -47,7 +47,9 @@ impl Identification<'_> {
 }
 
 impl Said for Identification<'_> {
-    const TITLE: &'static str = "Identification";
+    fn title(&self) -> &str {
+        "Identification"
+    }
 
     fn design(&self) -> &Design {
         self.design

@@ -1,7 +1,7 @@
 //! What an identification says: tables and sentences.
 
 use crate::identify::{Doubt, Estimate, FittedPoint, INSEPARABLE, Identified, Tied, Unknown, Use};
-use crate::report::{Cell, Column, Rows, Table, Unit, significant};
+use crate::report::{Cell, Rows, Table, Unit, significant};
 
 fn use_name(purpose: Use) -> &'static str {
     match purpose {
@@ -61,15 +61,10 @@ pub(super) fn residuals(found: &Identified) -> Rows<&FittedPoint> {
 /// Correlation of the unknowns.
 pub(super) fn correlation(found: &Identified) -> Option<Table> {
     let matrix = found.knowledge.correlation.as_ref()?;
-    let mut columns = vec![Column::text("unknown", "")];
-    columns.extend(found.unknowns.iter().map(|u| Column::number(&u.name, &u.name, Unit::One, 4)));
-    let mut table = Table::new(columns);
-    for (u, row) in found.unknowns.iter().zip(matrix) {
-        let mut cells = vec![u.name.as_str().into()];
-        cells.extend(row.iter().map(|c| Cell::Si(*c)));
-        table.row(cells);
-    }
-    Some(table)
+    let each = found.unknowns.iter().enumerate();
+    let rows = Rows::of(found.unknowns.iter().zip(matrix)).text("unknown", "", |(u, _)| u.name.as_str());
+    let name = |(_, u): &(usize, &Unknown)| (u.name.clone(), u.name.clone());
+    Some(rows.each(each, name, Unit::One, 4, |(_, row), (j, _)| row.get(*j).copied()).table())
 }
 
 /// How far an unknown is not determined, in a few words.

@@ -228,7 +228,9 @@ impl OilAt {
 }
 
 impl Said for OverrunAnswer<'_> {
-    const TITLE: &'static str = "Overrun on a film of oil";
+    fn title(&self) -> &str {
+        "Overrun on a film of oil"
+    }
 
     fn design(&self) -> &Design {
         self.design
