@@ -657,6 +657,31 @@ mod tests {
     }
 
     #[test]
+    fn json_has_the_keys_and_numbers_of_csv_and_what_it_alone_has() {
+        let rows = || {
+            Rows::of([("a", 0.25, true), ("b", f64::NAN, false)])
+                .text("name", "Name", |(name, ..)| *name)
+                .number("margin", "Margin", Unit::One, 3, |(_, margin, _)| *margin)
+                .shown_in(Unit::Percent)
+                .number("gap_mm", "Gap", Unit::Millimetre, 3, |(_, _, on)| Cell::only_if(*on, 2e-3))
+                .hidden("held", Unit::One, |(.., held)| *held)
+                .json_in("gap_um", Unit::Micrometre, |(_, _, on)| on.then_some(2e-3))
+        };
+        let table = rows().table();
+        let csv = String::from_utf8(table.to_csv().unwrap()).unwrap();
+        assert_eq!(csv, "name,margin,gap_mm,held\na,0.25,2,true\nb,,2,false\n");
+        let wanted = json!([
+            { "name": "a", "margin": 0.25, "gap_mm": 2.0, "held": true, "gap_um": 2000.0 },
+            { "name": "b", "margin": null, "gap_mm": 2.0, "held": false, "gap_um": null },
+        ]);
+        assert_eq!(json!(rows().objects()), wanted);
+        assert_eq!(rows().object(), wanted[0]);
+        let text = table.to_text(Screen::default());
+        assert_eq!(text.lines().next(), Some("Name  Margin, %  Gap, mm"), "{text}");
+        assert_eq!(text.lines().last(), Some("b             –        –"), "{text}");
+    }
+
+    #[test]
     fn no_nan_reaches_a_reader() {
         let mut table = Table::new(vec![Column::number("x_m", "x", Unit::Millimetre, 3)]);
         table.row(vec![f64::NAN.into()]).row(vec![None::<f64>.into()]);
