@@ -1,5 +1,6 @@
 //! Sprags one by one: alike they are the curve, unlike they are what a hand calculation says.
 
+use sprag_design::answer::Answer;
 use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, Sharing, Standing};
 use sprag_design::race::Race;
 use sprag_design::wedge::SpragDeviation;

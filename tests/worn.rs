@@ -1,4 +1,5 @@
 //! The profile as it wears, fed back into the clutch.
+use sprag_design::answer::Answer;
 use sprag_design::clutch::Service;
 use sprag_design::design::Design;
 use sprag_design::life::{Life, Wear, life, worn, worn_life, worn_state};

@@ -15,7 +15,7 @@ use sprag_design::answer::reengagement::{NoReengagement, ReengagementSettings};
 use sprag_design::answer::sharing::NoSharing;
 use sprag_design::answer::simulation::{self, Integration, NoAnswer};
 use sprag_design::answer::stiffness::{self, NoStiffness};
-use sprag_design::answer::{Envelope, LeftOut, search};
+use sprag_design::answer::{Answer, Envelope, LeftOut, search};
 use sprag_design::clutch::LAWS;
 use sprag_design::design::Objective;
 use sprag_design::report::{Drawing, SpragPose};

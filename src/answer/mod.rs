@@ -37,7 +37,8 @@ pub mod stiffness;
 pub mod sweep;
 mod under_load;
 
-pub use envelope::{Answer, Envelope, Provenance, TOOL, VERSION, WRITTEN_BY};
+use envelope::Said;
+pub use envelope::{Answer, Envelope, Outcome, Provenance, TOOL, VERSION, WRITTEN_BY};
 pub use left_out::LeftOut;
 
 /// Torque of a table or scene that is suggested for a clutch, N m.

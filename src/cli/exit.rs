@@ -1,5 +1,6 @@
 //! Exit codes, promised to scripts.
 
+use crate::answer::Outcome;
 use crate::design::{DesignError, shown};
 use crate::margin::NoMargins;
 use crate::wedge::{NoCurve, NoElastic};
@@ -43,6 +44,17 @@ impl Exit {
     /// Of a verdict.
     pub fn of(held: bool) -> Self {
         if held { Self::Held } else { Self::NotHeld }
+    }
+}
+
+impl From<Outcome> for Exit {
+    fn from(outcome: Outcome) -> Self {
+        match outcome {
+            Outcome::Held | Outcome::Shown => Self::Held,
+            Outcome::NotHeld => Self::NotHeld,
+            Outcome::NotKnown => Self::Failed,
+            Outcome::Stopped => Self::Interrupted,
+        }
     }
 }
 

@@ -71,12 +71,7 @@ impl Run for FeedArgs {
                 NoFeed::Refused { .. } => Failure::malformed(why.to_string()),
                 why => Failure::of(file, why),
             })?;
-            context.deliver(&found, run_time_s)?;
-            Ok(match found.list.iter().filter_map(|fed| fed.ended).find(|stop| stop.gave_up()) {
-                _ if found.stopped() => Exit::Interrupted,
-                Some(_) => Exit::Failed,
-                None => Exit::of(found.held()),
-            })
+            context.deliver(&found, run_time_s)
         })
     }
 }

@@ -121,14 +121,9 @@ impl Run for IdentifyArgs {
             }
             Err(why) => return Err(Failure::of(&self.file, why)),
         };
-        let answer = Identification { design: &design, found: &found };
+        let answer = Identification { design: &design, found: &found, written: None };
         let written = written(self, &histories, &answer.file(&context.command_line), context);
-        let written = written.as_deref();
-        context.outputs.write_csv(&answer.csv_table());
-        context.outputs.write_report(|| answer.page(&context.provenance(run_time_s), written));
-        context.answer(&answer.text(context.screen))?;
-        context.print(&answer.envelope(run_time_s, written))?;
-        Ok(if answer.determined() { Exit::Held } else { Exit::NotHeld })
+        context.deliver(&Identification { written: written.as_deref(), ..answer }, run_time_s)
     }
 }
 

@@ -83,8 +83,7 @@ impl Run for OverrunArgs {
                 NoOverrun::NoClutch(why) => Failure::no_clutch(file, &why),
                 NoOverrun::NoLubrication | NoOverrun::Setting(_) => Failure::of(file, why),
             })?;
-            context.deliver(&found, run_time_s)?;
-            Ok(Exit::Held)
+            context.deliver(&found, run_time_s)
         })
     }
 }

@@ -116,8 +116,7 @@ impl Run for ResonanceArgs {
                 }
                 NoResonance::NoStart(_) => Failure::NoClutch(named(&why)),
             })?;
-            context.deliver(&found, run_time_s)?;
-            Ok(if found.amplitudes_left() > 0 { Exit::Interrupted } else { Exit::Held })
+            context.deliver(&found, run_time_s)
         })
     }
 }

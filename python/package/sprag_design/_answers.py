@@ -952,8 +952,12 @@ class LifePlace:
     """Share of its life that is used up (Miner); ``None``: no strength is given."""
     lives: float | None
     """How often this life fits in."""
-    mostly_at_nm: float
-    """Torque at which most of that is used up."""
+    mostly_at_nm: float | None
+    """Torque at which most of that is used up; ``None`` likewise."""
+    place: str
+    """The place in words."""
+    verdict: str
+    """Whether it lasts, in words."""
 
 
 @dataclass(frozen=True)
@@ -967,16 +971,16 @@ class LifeLoad:
     carried: bool
     """Whether the clutch carries it."""
     hertz_inner_mpa: float | None
-    """Hertz pressure at the inner contact, MPa; ``None`` where the torque is not carried, as the three below."""
+    """Hertz pressure at the inner contact, MPa; ``None`` where the torque is not carried, as the five below."""
     hertz_outer_mpa: float | None
     """The same at the outer contact, MPa."""
     hoop_inner_mpa: float | None
     """Hoop stress of the inner race, with the bending between the sprags, MPa."""
     hoop_outer_mpa: float | None
     """The same of the outer race, MPa."""
-    walk_inner_mm: float
+    walk_inner_mm: float | None
     """What the inner contact rolls on sprag and race in an engagement, mm."""
-    walk_outer_mm: float
+    walk_outer_mm: float | None
     """The same of the outer contact, mm."""
     passes_inner: float
     """Contacts that one place of the inner track sees in an engagement."""
@@ -1117,6 +1121,8 @@ class SlipWear:
 class FilmOverrun(_Common):
     """Overrun on a film."""
 
+    verdict: str
+    """What matters most, in one line."""
     oil: str
     """The oil."""
     race: str
@@ -1160,8 +1166,8 @@ class Blow:
     """When the load is largest, ms after the slip began; ``None`` where the sprags are out of reach."""
     path_in_all_mm: float | None
     """Path until the races stand still against one another, mm at the inner track; ``None`` likewise."""
-    speed_rpm: float
-    """Largest speed of the races against one another, rev/min."""
+    speed_rpm: float | None
+    """Largest speed of the races against one another, rev/min; ``None`` where the sprags are thrown out once the friction is back."""
     peak_torque_nm: float | None
     """The blow, N m; ``None``: beyond the end of the curve."""
     peak_by_energy_nm: float | None
@@ -1174,6 +1180,12 @@ class Blow:
     """Whether every limit at peak torque bears it."""
     ended: str | None
     """Why it was not followed to its end."""
+    verdict: str
+    """Whether it is borne, in words."""
+    times: float | None
+    """The blow over the torque carried."""
+    of_borne: float | None
+    """The energy over what the limits let the windup take up."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -1276,6 +1288,10 @@ class SharingSprag:
     """By how much the inner track gives there beside its mean growth, um."""
     bent_outer_um: float
     """The same of the outer track, um."""
+    needs_friction: float | None
+    """Static friction that it needs under load, else as it catches."""
+    state: str
+    """What it does, in words."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -1344,6 +1360,8 @@ class FedFrequency:
     """Whether they feed as they should and the clutch bears it."""
     ended: str | None
     """Why the run ended before its end."""
+    verdict: str
+    """The same in words."""
 
 
 @dataclass(frozen=True, repr=False)
