@@ -24,7 +24,6 @@ pub mod journal;
 mod laws;
 mod life;
 mod lists;
-mod made;
 mod map;
 mod new;
 mod optimize;
@@ -38,7 +37,6 @@ mod sample;
 mod sharing;
 mod sheet;
 mod simulate;
-mod size;
 mod stiffness;
 mod studio;
 mod sweep;
@@ -170,7 +168,7 @@ commands! {
     /// Your own clutch: asks what it is for, its space, torque and speeds, and writes the design file
     New(new::NewArgs),
     /// A first design file from space, torque, speeds, friction and steel
-    Size(size::SizeArgs),
+    Size(new::SizeArgs),
     /// Find unknown parameters from measured or published numbers, and what these cannot tell apart
     Identify(identify::IdentifyArgs),
     /// Write the design as a drawing (DXF, SVG), a solid (STEP), a table of arcs, a CalculiX deck or a co-simulation unit (FMU)

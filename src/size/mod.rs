@@ -5,12 +5,14 @@
 //! (`optimise`), allowables other than those in the file. Equations: triangle (9) turned round for e_1; the rest is asked of
 //! `margin`.
 
+mod asked;
 mod finish;
 mod proportions;
 mod purpose;
 mod requirements;
 mod search;
 
+pub use asked::{ASKED, Asked, AskedUnit, Unnamed, asked};
 pub use finish::{Drag, Made, NOT_OPTIMISED};
 pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
 pub use requirements::{
