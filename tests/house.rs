@@ -63,6 +63,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
     // real, and a tolerance felt, on the profile itself.
     ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),
+    // Evaluations as text.
+    ("journal", &["optimise"]),
     // Points of a box, and whatever the margins say there.
     ("sweep", &["numeric", "design", "margin", "optimise"]),
     // Asks for margins and static points as they are; knows no law.
@@ -124,7 +126,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "element", "accuracy", "margin", "optimise", "sweep", "identify", "size", "report", "export",
+            "element", "accuracy", "margin", "optimise", "journal", "sweep", "identify", "size", "report", "export",
             "import", "studio",
         ],
     ),
