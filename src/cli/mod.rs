@@ -6,6 +6,7 @@
 
 mod accuracy;
 mod check;
+mod choices;
 mod clock;
 mod command_line;
 mod compare;
@@ -21,7 +22,6 @@ mod identify;
 mod import;
 mod interrupt;
 pub mod journal;
-mod laws;
 mod life;
 mod lists;
 mod map;

@@ -1,6 +1,6 @@
 //! A design as a finite-element deck.
 
-use super::{ExportArgs, VariantName};
+use super::ExportArgs;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::origin::FileKind;
 use crate::cli::{Context, output};
@@ -9,14 +9,11 @@ use crate::export::calculix::{Options, Variant, deck};
 use crate::margin::NoMargins;
 use crate::profile::Outline;
 
-/// Layers along half a sprag's length in a solid deck.
-const SOLID_LAYERS: usize = 4;
-
 pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Result<Exit, Failure> {
     if context.json || context.outputs.csv.is_some() || context.outputs.report.is_some() {
         return Err(Failure::malformed("a deck is neither JSON, table nor page: those come with --read"));
     }
-    let variant = variant(args.variant.unwrap_or(VariantName::Layer));
+    let variant = args.variant.unwrap_or(Variant::Layer);
     let text = text(design, variant, args)?;
     match &args.output {
         Some(path) => {
@@ -33,15 +30,6 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         None => output::print(&text)?,
     }
     Ok(Exit::Held)
-}
-
-fn variant(name: VariantName) -> Variant {
-    match name {
-        VariantName::PlaneStrain => Variant::PlaneStrain,
-        VariantName::PlaneStress => Variant::PlaneStress,
-        VariantName::Layer => Variant::Layer,
-        VariantName::Solid => Variant::Solid { layers: SOLID_LAYERS },
-    }
 }
 
 fn text(design: &Design, variant: Variant, args: &ExportArgs) -> Result<String, Failure> {

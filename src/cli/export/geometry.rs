@@ -1,6 +1,6 @@
 //! A design as a drawing, a solid or a table of its arcs.
 
-use super::{ExportArgs, Format, PartName, TableName};
+use super::{ExportArgs, Format, TableName};
 use crate::answer::exported::{Exported, arcs_table, points_table};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{Context, output};
@@ -34,7 +34,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     let started = Instant::now();
     let made = design.as_made().map_err(|refused| Failure::Malformed(miette::Report::new(refused)))?;
     let profile = made.profile().map_err(|e| Failure::no_clutch(&args.file, &NoMargins::Profile(e)))?;
-    let part = part(args.part.unwrap_or(PartName::Sprag));
+    let part = args.part.unwrap_or(Part::Sprag);
     let outline = match made.sprags.flanks {
         Some(flanks) => Some(
             Outline::closed(&profile, &flanks)
@@ -90,15 +90,6 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         ));
     }
     Ok(Exit::Held)
-}
-
-fn part(name: PartName) -> Part {
-    match name {
-        PartName::Sprag => Part::Sprag,
-        PartName::Inner => Part::Inner,
-        PartName::Outer => Part::Outer,
-        PartName::Clutch => Part::Clutch,
-    }
 }
 
 /// The refusal of a sprag that no flanks close.
