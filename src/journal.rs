@@ -267,8 +267,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back_and_what_was_edited_is_not_used() {
-        let problem =
-            ProblemId { hash: "p".into(), variables: vec!["a".into()], error: "1e-6".into() };
+        let problem = ProblemId { hash: "p".into(), variables: vec!["a".into()], error: "1e-6".into() };
         let entries = [
             Entry {
                 x: vec![0.1, -1e-300],

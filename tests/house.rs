@@ -126,8 +126,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "element", "accuracy", "margin", "optimise", "journal", "sweep", "identify", "size", "report", "export",
-            "import", "studio",
+            "element", "accuracy", "margin", "optimise", "journal", "sweep", "identify", "size", "report",
+            "export", "import", "studio",
         ],
     ),
 ];
@@ -155,6 +155,7 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/scenario/figures.rs", "the table of figures: the keys of JSON and CSV"),
     ("src/margin/table.rs", "the table of limits: their keys and units"),
     ("src/margin/row.rs", "keys of that table"),
+    ("src/margin/mod.rs", "keys of the file that decide whether there is a curve"),
     ("src/margin/limits.rs", "the name of a row, as it is printed"),
     ("src/margin/run_out/rows.rs", "the place of a sprag, as it is printed"),
     ("src/optimise/freed.rs", "keys of the file that are asked what would free a problem"),

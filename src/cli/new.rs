@@ -11,7 +11,9 @@ use crate::follow::Follow;
 use crate::material::{STEELS, Steel, steel};
 use crate::report::plain;
 use crate::scenario::Settings;
-use crate::size::{ASKED, Asked, BadRequirement, NoSize, PURPOSES, Purpose, Requirements, Wish, purpose, size};
+use crate::size::{
+    ASKED, Asked, BadRequirement, NoSize, PURPOSES, Purpose, Requirements, Wish, purpose, size,
+};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use serde_json::json;
@@ -207,12 +209,7 @@ fn refused(why: BadRequirement) -> Failure {
 }
 
 /// Size what is wished, write the design, print figures and alternatives; `title`: that of the page.
-fn made(
-    wish: &Wish,
-    output: &Path,
-    title: &str,
-    context: &Context,
-) -> Result<(Requirements, Exit), Failure> {
+fn made(wish: &Wish, output: &Path, title: &str, context: &Context) -> Result<(Requirements, Exit), Failure> {
     let wanted = wish.check().map_err(refused)?;
     context.outputs.refuse_work(output)?;
     context.outputs.check(&[], &[(output, FileKind::Design)])?;

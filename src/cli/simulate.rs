@@ -7,12 +7,10 @@ use super::{Context, Run, positive};
 use crate::answer::simulation::{
     self as scene, Ran, RefusedSetting, Setting, SimulationAnswer, SimulationSettings,
 };
-use crate::clutch::Scenario;
-use crate::design::{Design, nearest};
 use crate::dynamics::Stop;
 use crate::report::plain;
 use clap::{Args, ValueEnum};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -93,7 +91,8 @@ impl Run for SimulateArgs {
         settings.validate().map_err(|why| refusal(why, self.window))?;
         refuse_strangers(self)?;
         context.each(&self.files, |file, design| {
-            let scenario = chosen(self.scenario.as_deref(), design, file)?;
+            let scenario = design.which_scenario(self.scenario.as_deref(), |_| true);
+            let scenario = scenario.map_err(|why| Failure::of(file, why))?;
             settings.validate_for(scenario).map_err(|why| refusal(why, self.window))?;
             refuse_unknown_to_published(self)?;
             let duration_s = scenario.kind.duration_s();
@@ -208,45 +207,4 @@ fn window(text: &str) -> Result<[f64; 2], String> {
 
 fn refused(flag: &str, found: f64, allowed: &str) -> Failure {
     Failure::malformed(format!("{flag} {}: allowed: {allowed}", plain(found, DIGITS)))
-}
-
-/// The scenario `name`, or the only one.
-///
-/// # Errors
-/// [`Failure::Malformed`].
-pub(super) fn chosen<'d>(
-    name: Option<&str>,
-    design: &'d Design,
-    file: &Path,
-) -> Result<&'d Scenario, Failure> {
-    match (name, design.scenarios.as_slice()) {
-        (Some(name), _) => design.scenario(name).ok_or_else(|| unknown(name, design, file)),
-        (None, [only]) => Ok(only),
-        (None, all) => {
-            let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
-            Err(Failure::malformed(match names.as_slice() {
-                [] => {
-                    format!("{}: the design has no scenarios; add a [[scenarios]] table", file.display())
-                }
-                names => format!("needed: --scenario NAME; the design has: {}", names.join(", ")),
-            }))
-        }
-    }
-}
-
-/// The refusal of a scenario that the design does not have.
-pub(super) fn unknown(name: &str, design: &Design, file: &Path) -> Failure {
-    let file = file.display();
-    let names: Vec<&str> = design.scenarios.iter().map(|s| s.name.as_str()).collect();
-    if names.is_empty() {
-        return Failure::malformed(format!(
-            "{file}: the design has no scenarios, --scenario {name} asks for one; add a [[scenarios]] table"
-        ));
-    }
-    let meant = nearest(name, &names).map_or(String::new(), |near| format!("; did you mean {near}?"));
-    let end = if meant.is_empty() { "; the" } else { " The" };
-    Failure::malformed(format!(
-        "{file}: no scenario {name}, which --scenario asks for{meant}{end} design has: {}",
-        names.join(", ")
-    ))
 }

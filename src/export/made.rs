@@ -50,7 +50,9 @@ impl fmt::Display for NoPart {
                         ", for example flanks = {{ rear_mm = {rear}, front_mm = {front} }}, the narrowest"
                     )?;
                 }
-                f.write_str("; or let optimize find them with flank_rear_mm and flank_front_mm among its variables")
+                f.write_str(
+                    "; or let optimize find them with flank_rear_mm and flank_front_mm among its variables",
+                )
             }
         }
     }

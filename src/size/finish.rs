@@ -1,8 +1,8 @@
 //! From a width that holds to a whole design: profile's end, flanks, spring, scenes, and what comes of it.
 
-use super::requirements::{NAMED, Requirements};
 use super::proportions::{COUNTS, lengthen, longest_m, spring};
 use super::purpose::{CREST_S, DRIVE_HZ, STOP};
+use super::requirements::{NAMED, Requirements};
 use crate::clutch::Clutch;
 use crate::design::{BOX, Design, Draft, rpm};
 use crate::margin::{

@@ -153,12 +153,15 @@ mod tests {
     fn a_design_alone_is_saved_under_a_plain_name_and_says_who_wrote_it() {
         let session = Session::new(DESIGN.to_owned(), "a.toml", "designs".into(), "b.toml".to_owned());
         assert_eq!(session.ask("open", &Value::Null).unwrap()["save_as"], "b.toml");
-        let save =
-            |text: &str, name: &str| session.to_save(&json!({ "text": text, "name": name, "replace": "yes" }));
+        let save = |text: &str, name: &str| {
+            session.to_save(&json!({ "text": text, "name": name, "replace": "yes" }))
+        };
         let saved = save(DESIGN, "mine.toml").unwrap();
         assert!(saved.replace && saved.text.starts_with(WRITTEN_BY) && saved.text.ends_with(DESIGN));
         assert_eq!(save(&saved.text, "mine.toml").unwrap().text, saved.text, "no second head");
-        for (text, name) in [("a = 1", "mine.toml"), (DESIGN, "../mine.toml"), (DESIGN, "mine.txt"), (DESIGN, "")] {
+        for (text, name) in
+            [("a = 1", "mine.toml"), (DESIGN, "../mine.toml"), (DESIGN, "mine.txt"), (DESIGN, "")]
+        {
             assert!(save(text, name).unwrap_err()["message"].is_string(), "{name}");
         }
     }

@@ -33,7 +33,9 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     }
     let named = library_path(args.library.as_deref());
     let library = library(&named)?;
-    let (unit, run_time_s) = timed(|| design.co_simulation_unit(args.fmi.unwrap_or(Fmi::Two), &library, &|path| std::fs::read(path)));
+    let (unit, run_time_s) = timed(|| {
+        design.co_simulation_unit(args.fmi.unwrap_or(Fmi::Two), &library, &|path| std::fs::read(path))
+    });
     let unit = unit.map_err(|why| match why {
         NoUnit::NoStart(NoElement::NoStart(NoScenario::Profile(e))) => {
             Failure::no_clutch(&args.file, &NoMargins::Profile(e))

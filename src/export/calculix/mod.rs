@@ -157,7 +157,9 @@ impl std::fmt::Display for NoDeck {
             Self::TooFine { nodes, most } => write!(f, "the mesh would have {nodes} nodes, {most} at most"),
             Self::NarrowRace => f.write_str("a solid deck needs races at least as wide as the sprag is long"),
             Self::NoCurve(why) => write!(f, "no wedge curve: {why}"),
-            Self::NoTorque => f.write_str("torque: the design names no nominal torque; give one with --torque"),
+            Self::NoTorque => {
+                f.write_str("torque: the design names no nominal torque; give one with --torque")
+            }
             Self::Profile(why) => write!(f, "the profile cannot be placed: {why}"),
             Self::Outline(why) => write!(f, "the outline does not close: {why}"),
         }
