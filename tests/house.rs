@@ -66,7 +66,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     // Evaluations as text.
     ("journal", &["optimise"]),
     // Points of a box, and whatever the margins say there.
-    ("sweep", &["numeric", "design", "margin", "optimise"]),
+    ("sweep", &["follow", "numeric", "design", "margin", "optimise"]),
     // Asks for margins and static points as they are; knows no law.
     ("identify", &["follow", "numeric", "clutch", "design", "wedge", "margin"]),
     // A first design: proportions, then whatever the margins say.

@@ -208,20 +208,6 @@ impl Context {
         failed.map_or(Ok(worst), Err)
     }
 
-    /// Hand out what was found and the time that it took, s, as [`timed`] has it; the exit code that `exit` says.
-    ///
-    /// # Errors
-    /// What `refused` makes of the library's refusal; as [`Self::deliver`].
-    pub fn answered<A: Answer, E>(
-        &self,
-        (found, run_time_s): (Result<A, E>, f64),
-        refused: impl FnOnce(E) -> Failure,
-        exit: impl FnOnce(&A) -> Exit,
-    ) -> Result<Exit, Failure> {
-        let found = found.map_err(refused)?;
-        self.deliver(&found, run_time_s).map(|()| exit(&found))
-    }
-
     /// Hand out an answer that took `run_time_s`: table to `--csv`, page to `--report`, and the object of `--json` or the text.
     ///
     /// # Errors

@@ -1,7 +1,6 @@
 //! Exit codes, promised to scripts.
 
 use crate::design::{DesignError, shown};
-use crate::dynamics::Stop;
 use crate::margin::NoMargins;
 use serde_json::{Value, json};
 use std::fmt::Display;
@@ -37,19 +36,12 @@ impl Exit {
             Self::Unheard => 141,
         }
     }
+}
 
+impl Exit {
     /// Of a verdict.
     pub fn of(held: bool) -> Self {
         if held { Self::Held } else { Self::NotHeld }
-    }
-
-    /// Of runs, one of which may have ended at `stop`, and a verdict on them.
-    pub fn of_runs(stop: Option<Stop>, held: bool) -> Self {
-        match stop {
-            Some(Stop::Interrupted) => Self::Interrupted,
-            Some(stop) if stop.gave_up() => Self::Failed,
-            _ => Self::of(held),
-        }
     }
 }
 

@@ -4,9 +4,8 @@ use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run, positive};
 use crate::answer::feed::{FeedSettings, NoFeed};
-use crate::dynamics::Stop;
 use clap::{Args, ValueEnum};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -66,23 +65,18 @@ impl Run for FeedArgs {
             allowed_rad: self.allowed.to_radians(),
             follow: context.follow.clone(),
         };
-        let refused = |file: &Path, why| match why {
-            NoFeed::Refused { .. } => Failure::malformed(why.to_string()),
-            why => Failure::of(file, why),
-        };
         context.each(&self.files, |file, design| {
-            let found = timed(|| design.feed(&settings));
-            context.answered(
-                found,
-                |why| refused(file, why),
-                |found| {
-                    let gave_up = found.list.iter().filter_map(|fed| fed.ended).find(|stop| stop.gave_up());
-                    Exit::of_runs(
-                        if found.stopped() { Some(Stop::Interrupted) } else { gave_up },
-                        found.held(),
-                    )
-                },
-            )
+            let (found, run_time_s) = timed(|| design.feed(&settings));
+            let found = found.map_err(|why| match why {
+                NoFeed::Refused { .. } => Failure::malformed(why.to_string()),
+                why => Failure::of(file, why),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(match found.list.iter().filter_map(|fed| fed.ended).find(|stop| stop.gave_up()) {
+                _ if found.stopped() => Exit::Interrupted,
+                Some(_) => Exit::Failed,
+                None => Exit::of(found.held()),
+            })
         })
     }
 }

@@ -5,7 +5,7 @@ use super::exit::{Exit, Failure};
 use super::{Context, Run};
 use crate::answer::life::{LifeKnown, NoLife};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -28,20 +28,17 @@ pub struct LifeArgs {
 
 impl Run for LifeArgs {
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
-        let refused = |file: &Path, why| match why {
-            NoLife::NoClutch(why) => Failure::no_clutch(file, &why),
-            NoLife::NoService { .. } | NoLife::NoSwing { .. } => Failure::of(file, why),
-        };
         context.each(&self.files, |file, design| {
-            let found = timed(|| design.life());
-            context.answered(
-                found,
-                |why| refused(file, why),
-                |found| match found.known() {
-                    LifeKnown::Nothing => Exit::Failed,
-                    known => Exit::of(known != LifeKnown::NotHeld),
-                },
-            )
+            let (found, run_time_s) = timed(|| design.life());
+            let found = found.map_err(|why| match why {
+                NoLife::NoClutch(why) => Failure::no_clutch(file, &why),
+                NoLife::NoService { .. } | NoLife::NoSwing { .. } => Failure::of(file, why),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(match found.known() {
+                LifeKnown::Nothing => Exit::Failed,
+                known => Exit::of(known != LifeKnown::NotHeld),
+            })
         })
     }
 }

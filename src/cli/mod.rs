@@ -24,6 +24,7 @@ mod interrupt;
 pub mod journal;
 mod life;
 mod lists;
+mod made;
 mod map;
 mod new;
 mod optimize;

@@ -1,22 +1,16 @@
 //! `new` and `size`: the own clutch, by questions or by options.
 
-use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::output;
-use super::{Context, Run, Without, number};
-use crate::answer::sizing::{Sizing, tried_json, tried_table};
+use super::{Context, Run, Without, made, number};
 use crate::design::nearest;
 use crate::follow::Follow;
 use crate::material::{STEELS, Steel, steel};
 use crate::report::plain;
-use crate::scenario::Settings;
-use crate::size::{
-    ASKED, Asked, BadRequirement, NoSize, PURPOSES, Purpose, Requirements, Wish, purpose, size,
-};
+use crate::size::{ASKED, Asked, BadRequirement, PURPOSES, Purpose, Requirements, Wish, purpose};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
-use serde_json::json;
 use std::io::{BufRead, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -146,7 +140,7 @@ impl Run for SizeArgs {
         if !missing.is_empty() {
             return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
         }
-        made(&self.wish.0, &self.output, "First design", context).map(|(_, exit)| exit)
+        sized(&self.wish.0, &self.output, "First design", context).map(|(_, exit)| exit)
     }
 }
 
@@ -173,7 +167,7 @@ impl Run for NewArgs {
             Questions { lines: lines(), follow: &context.follow }.fill(&mut wish, &mut output)?;
         }
         let Some(output) = output else { return Err(Failure::malformed("needed: -o NEW.toml")) };
-        let (wanted, exit) = made(&wish, &output, "New clutch", context)?;
+        let (wanted, exit) = sized(&wish, &output, "New clutch", context)?;
         let taken = wanted.taken().into_iter();
         let lines: String =
             taken.map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n")).collect();
@@ -208,38 +202,18 @@ fn refused(why: BadRequirement) -> Failure {
     Failure::malformed(format!("--{why}"))
 }
 
-/// Size what is wished, write the design, print figures and alternatives; `title`: that of the page.
-fn made(wish: &Wish, output: &Path, title: &str, context: &Context) -> Result<(Requirements, Exit), Failure> {
+/// Size what is wished; `title`: that of the page.
+fn sized(
+    wish: &Wish,
+    output: &Path,
+    title: &str,
+    context: &Context,
+) -> Result<(Requirements, Exit), Failure> {
     let wanted = wish.check().map_err(refused)?;
     context.outputs.refuse_work(output)?;
     context.outputs.check(&[], &[(output, FileKind::Design)])?;
     context.outputs.refuse_foreign()?;
-    let settings = Settings { follow: context.follow.unseen(), ..Settings::default() };
-    let (sized, run_time_s) = timed(|| size(&wanted, &settings));
-    if context.follow.stopped() {
-        return Err(Failure::Interrupted);
-    }
-    let sized = match sized {
-        Ok(sized) => sized,
-        Err(NoSize::Requirements(why)) => return Err(refused(why)),
-        Err(ref why @ NoSize::None { ref tried }) => {
-            let object =
-                || json!({ "sized": false, "why": why.to_string(), "tried": tried_json(tried, None) });
-            context.object(object)?;
-            let table = tried_table(tried, None);
-            context.outputs.write_csv(&table);
-            context.answer(&format!("{}\n{why}\n", table.to_text(context.screen)))?;
-            return Ok((wanted, Exit::NotHeld));
-        }
-    };
-    let written = context.outputs.write(output, FileKind::Design, sized.made.design.source.as_bytes());
-    let written = written.then(|| output.display().to_string());
-    let (answer, written) = (Sizing::of(&sized), written.as_deref());
-    context.outputs.write_csv(&answer.csv_table());
-    context.outputs.write_report(|| answer.page(title, &context.provenance(run_time_s), written));
-    context.print(&answer.envelope(run_time_s, written))?;
-    context.answer(&answer.text(written, context.screen))?;
-    Ok((wanted, Exit::Held))
+    made::answer(&wanted, output, title, context).map(|exit| (wanted, exit))
 }
 
 /// Lines of standard input as they come: whoever waits for them can be stopped by Ctrl-C meanwhile.

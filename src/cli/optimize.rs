@@ -6,7 +6,6 @@ use super::journal::{self, JournalFile};
 use super::origin::FileKind;
 use super::output::TOOL;
 use super::progress::ProgressLine;
-use super::simulate::refuse_tolerance;
 use super::{Context, Run};
 use crate::answer::search::{
     Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, SearchSettings, file_text, further_files,
@@ -121,7 +120,6 @@ impl Run for OptimizeArgs {
     const NAMES: &[&str] = &["objectives", "variables", "limits"];
 
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
-        refuse_tolerance(self.tolerance)?;
         let new = output_path(self);
         let record = self.journal.clone().unwrap_or_else(|| journal::path_for(&new));
         context.outputs.check(&[&self.file], &[(&new, FileKind::Design), (&record, FileKind::Journal)])?;
@@ -131,10 +129,8 @@ impl Run for OptimizeArgs {
         let Some(task) = design.optimize.clone() else {
             return Err(Failure::of(&self.file, NoSample::NoTask));
         };
-        refuse_front(self)?;
-        if self.robust && design.tolerances.is_none() {
-            return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
-        }
+        let settings = self.settings(context);
+        settings.validate(&design).map_err(|why| at(why.to_string()))?;
         let beside = beside(&new, self);
         let others: Vec<_> = beside.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
         context.outputs.check(&[&self.file], &others)?;
@@ -167,20 +163,6 @@ impl Run for OptimizeArgs {
             if drawn { "" } else { " (this search draws nothing at random)" },
             if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
         ));
-        let settings = SearchSettings {
-            evaluations: self.evaluations as usize,
-            starts: self.starts.map(|n| n as usize),
-            swarm: self.global.map(|n| n as usize),
-            tolerance: self.tolerance,
-            full: self.full,
-            front: self.pareto.clone(),
-            front_steps: self.points as usize,
-            robust: self.robust,
-            draws: self.draws as usize,
-            step_mm: self.step_mm,
-            reserve: self.reserve,
-            follow: context.follow.clone(),
-        };
         let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
         let started = Instant::now();
         let answer = design.optimise_recorded(&settings, &mut keeper);
@@ -207,6 +189,25 @@ impl Run for OptimizeArgs {
     }
 }
 
+impl OptimizeArgs {
+    fn settings(&self, context: &Context) -> SearchSettings {
+        SearchSettings {
+            evaluations: self.evaluations as usize,
+            starts: self.starts.map(|n| n as usize),
+            swarm: self.global.map(|n| n as usize),
+            tolerance: self.tolerance,
+            full: self.full,
+            front: self.pareto.clone(),
+            front_steps: self.points as usize,
+            robust: self.robust,
+            draws: self.draws as usize,
+            step_mm: self.step_mm,
+            reserve: self.reserve,
+            follow: context.follow.clone(),
+        }
+    }
+}
+
 /// The design with the objective of `--objective`, where that and a task are given.
 fn with_objective(design: Design, args: &OptimizeArgs) -> Result<Design, Failure> {
     let Some(objective) = args.objective.filter(|_| design.optimize.is_some()) else { return Ok(design) };
@@ -218,16 +219,6 @@ fn with_objective(design: Design, args: &OptimizeArgs) -> Result<Design, Failure
 fn share(text: &str) -> Result<f64, String> {
     let value: Option<f64> = text.parse().ok();
     value.filter(|v| (0.0..=1.0).contains(v)).ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
-}
-
-/// Two or three different objectives of `--pareto`, or none.
-fn refuse_front(args: &OptimizeArgs) -> Result<(), Failure> {
-    let aims = &args.pareto;
-    let twice = aims.iter().enumerate().any(|(i, a)| aims[..i].contains(a));
-    if !aims.is_empty() && (twice || !(2..=3).contains(&aims.len())) {
-        return Err(Failure::malformed("--pareto: two or three different objectives are needed"));
-    }
-    Ok(())
 }
 
 /// Write the designs and tell the story.

@@ -8,7 +8,7 @@ use crate::answer::overrun::{
 };
 use crate::design::{rad_s, rpm};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -65,13 +65,14 @@ impl Run for OverrunArgs {
             speeds_rad_s: self.speeds.iter().map(|&rpm| rad_s(rpm)).collect(),
             temperatures_c: self.temperatures.clone(),
         };
-        let refused = |file: &Path, why| match why {
-            NoOverrun::NoClutch(why) => Failure::no_clutch(file, &why),
-            NoOverrun::NoLubrication | NoOverrun::Setting(_) => Failure::of(file, why),
-        };
         context.each(&self.files, |file, design| {
-            let found = timed(|| design.overrun(&question));
-            context.answered(found, |why| refused(file, why), |_| Exit::Held)
+            let (found, run_time_s) = timed(|| design.overrun(&question));
+            let found = found.map_err(|why| match why {
+                NoOverrun::NoClutch(why) => Failure::no_clutch(file, &why),
+                NoOverrun::NoLubrication | NoOverrun::Setting(_) => Failure::of(file, why),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(Exit::Held)
         })
     }
 }

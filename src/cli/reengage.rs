@@ -5,8 +5,9 @@ use super::exit::{Exit, Failure};
 use super::{Context, Run, positive};
 use crate::answer::reengagement::{NoReengagement, ReengagementSettings};
 use crate::design::rad_s;
+use crate::dynamics::Stop;
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -64,22 +65,20 @@ impl Run for ReengageArgs {
             paths_m: paths_m.unwrap_or(usual.paths_m),
             follow: context.follow.clone(),
         };
-        let refused = |file: &Path, why| match why {
-            NoReengagement::Refused(_) => Failure::malformed(why.to_string()),
-            why => Failure::of(file, why),
-        };
         context.each(&self.files, |file, design| {
-            let found = timed(|| design.reengagement(&settings));
-            context.answered(
-                found,
-                |why| refused(file, why),
-                |answer| {
-                    let all = &answer.found;
-                    let ends =
-                        all.list.iter().filter_map(|blow| blow.ended).chain(all.ended.map(|end| end.stop));
-                    Exit::of_runs(ends.last(), answer.held())
-                },
-            )
+            let (found, run_time_s) = timed(|| design.reengagement(&settings));
+            let found = found.map_err(|why| match why {
+                NoReengagement::Refused(_) => Failure::malformed(why.to_string()),
+                why => Failure::of(file, why),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            let all = &found.found;
+            let ends = all.list.iter().filter_map(|blow| blow.ended).chain(all.ended.map(|end| end.stop));
+            Ok(match ends.last() {
+                Some(Stop::Interrupted) => Exit::Interrupted,
+                Some(stop) if stop.gave_up() => Exit::Failed,
+                _ => Exit::of(found.held()),
+            })
         })
     }
 }

@@ -114,20 +114,19 @@ impl Run for ResonanceArgs {
             // Each is found on the way up and on the way down.
             let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);
             let line = context.progress("resonance", "states", Some(total as u64));
-            let found = timed(|| design.resonance(scenario, &question, &settings, &|| line.advance(1)));
+            let (found, run_time_s) =
+                timed(|| design.resonance(scenario, &question, &settings, &|| line.advance(1)));
             drop(line);
             let named = |why: &NoResonance| format!("{}: {}: {why}", path_text(file), scenario.name);
-            let refused = |why| match why {
+            let found = found.map_err(|why| match why {
                 NoResonance::Stopped => Failure::Interrupted,
                 NoResonance::NoExcitation | NoResonance::Drivetrain | NoResonance::Setting(_) => {
                     Failure::malformed(named(&why))
                 }
                 NoResonance::NoStart(_) => Failure::NoClutch(named(&why)),
-            };
-            context.answered(found, refused, |found| match found.amplitudes_left() {
-                0 => Exit::Held,
-                _ => Exit::Interrupted,
-            })
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(if found.amplitudes_left() > 0 { Exit::Interrupted } else { Exit::Held })
         })
     }
 }

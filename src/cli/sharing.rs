@@ -4,9 +4,10 @@ use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run, positive};
 use crate::answer::sharing::NoSharing;
+use crate::dynamics::Stop;
 use crate::scenario::Settings;
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,22 +41,26 @@ pub struct SharingArgs {
 
 impl Run for SharingArgs {
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
-        if let Some(name) = &self.scenario {
-            let (follow, most_steps) = (context.follow.clone(), self.max_steps);
-            let settings = Settings { follow, most_steps, ..Settings::default() };
-            return context.each(&self.files, |file, design| {
-                let found = timed(|| design.sharing_in_scene(name, &settings));
-                let refused = |why| Failure::of(file, why);
-                context.answered(found, refused, |a| Exit::of_runs(Some(a.found.run.stop), a.held()))
-            });
-        }
-        let refused = |file: &Path, why| match why {
-            NoSharing::NoClutch(why) => Failure::no_clutch(file, &why),
-            why => Failure::of(file, why),
-        };
         context.each(&self.files, |file, design| {
-            let found = timed(|| design.sharing(self.torque));
-            context.answered(found, |why| refused(file, why), |found| Exit::of(found.held()))
+            if let Some(name) = &self.scenario {
+                let (follow, most_steps) = (context.follow.clone(), self.max_steps);
+                let settings = Settings { follow, most_steps, ..Settings::default() };
+                let (found, run_time_s) = timed(|| design.sharing_in_scene(name, &settings));
+                let found = found.map_err(|why| Failure::of(file, why))?;
+                context.deliver(&found, run_time_s)?;
+                return Ok(match found.found.run.stop {
+                    Stop::Interrupted => Exit::Interrupted,
+                    stop if stop.gave_up() => Exit::Failed,
+                    _ => Exit::of(found.held()),
+                });
+            }
+            let (found, run_time_s) = timed(|| design.sharing(self.torque));
+            let found = found.map_err(|why| match why {
+                NoSharing::NoClutch(why) => Failure::no_clutch(file, &why),
+                why => Failure::of(file, why),
+            })?;
+            context.deliver(&found, run_time_s)?;
+            Ok(Exit::of(found.held()))
         })
     }
 }

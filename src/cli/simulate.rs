@@ -94,7 +94,6 @@ impl Run for SimulateArgs {
             let scenario = design.which_scenario(self.scenario.as_deref(), |_| true);
             let scenario = scenario.map_err(|why| Failure::of(file, why))?;
             settings.validate_for(scenario).map_err(|why| refusal(why, self.window))?;
-            refuse_unknown_to_published(self)?;
             let duration_s = scenario.kind.duration_s();
             let run = || Ran::new(design, scenario, &settings);
             let (ran, run_time_s) = timed(|| while_shown(&scenario.name, duration_s, context, run));
@@ -163,37 +162,19 @@ fn refusal(why: RefusedSetting, window_s: Option<[f64; 2]>) -> Failure {
     refused(flag, why.found, &why.allowed)
 }
 
-/// Refuse a `--tolerance` that makes no sense.
-pub(super) fn refuse_tolerance(x: f64) -> Result<(), Failure> {
-    SimulationSettings { tolerance: Some(x), ..SimulationSettings::default() }
-        .validate()
-        .map_err(|why| refusal(why, None))
-}
-
 /// Refuse flags that the method does not know.
 fn refuse_strangers(args: &SimulateArgs) -> Result<(), Failure> {
-    match (args.method, args.tolerance, args.band) {
-        (MethodName::Published, Some(x), _) => {
-            Err(refused("--tolerance", x, "--step with --method published, whose step is fixed"))
-        }
-        (MethodName::Event, _, Some(band)) => {
-            Err(refused("--band", band, "only with --method published: the event method needs no band"))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Refuse a window and limits with the published scheme.
-fn refuse_unknown_to_published(args: &SimulateArgs) -> Result<(), Failure> {
+    let published = args.method == MethodName::Published;
+    let with = |what: &'static str| format!("only with --method {what}");
     let given = [
-        ("--window", args.window.is_some()),
-        ("--max-steps", args.max_steps.is_some()),
-        ("--max-changes", args.max_changes.is_some()),
+        ("--tolerance", args.tolerance.is_some(), "event; the published one has a fixed --step"),
+        ("--window", args.window.is_some(), "event"),
+        ("--max-steps", args.max_steps.is_some(), "event"),
+        ("--max-changes", args.max_changes.is_some(), "event"),
+        ("--band", args.band.is_some(), "published: the event method needs no band"),
     ];
-    match given.into_iter().find(|(_, given)| *given && args.method == MethodName::Published) {
-        Some((flag, _)) => Err(Failure::malformed(format!("{flag}: only with --method event"))),
-        None => Ok(()),
-    }
+    let stranger = given.into_iter().find(|(_, given, of)| *given && of.starts_with("event") == published);
+    stranger.map_or(Ok(()), |(flag, _, of)| Err(Failure::malformed(format!("{flag}: {}", with(of)))))
 }
 
 /// Two times, s, with a colon between them.

@@ -1,0 +1,51 @@
+//! What `size` and `new` do with an answer: write the design, print figures and alternatives.
+
+use super::context::{Context, timed};
+use super::exit::{Exit, Failure};
+use super::origin::FileKind;
+use crate::answer::sizing::{Sizing, tried_json, tried_table};
+use crate::scenario::Settings;
+use crate::size::{NoSize, Requirements, size};
+use serde_json::json;
+use std::path::Path;
+
+/// Refuse what no clutch can be asked for.
+///
+/// # Errors
+/// [`Failure::Malformed`] naming the option.
+pub fn refuse(wanted: &Requirements) -> Result<(), Failure> {
+    wanted.check().map_err(|why| Failure::malformed(format!("--{why}")))
+}
+
+/// Compute, write, print; `title`: that of the page.
+///
+/// # Errors
+/// [`Failure`].
+pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Context) -> Result<Exit, Failure> {
+    let settings = Settings { follow: context.follow.unseen(), ..Settings::default() };
+    let (sized, run_time_s) = timed(|| size(wanted, &settings));
+    if context.follow.stopped() {
+        return Err(Failure::Interrupted);
+    }
+    let sized = match sized {
+        Ok(sized) => sized,
+        Err(NoSize::Requirements(_)) => return refuse(wanted).map(|()| Exit::Failed),
+        Err(ref why @ NoSize::None { ref tried }) => {
+            let object =
+                || json!({ "sized": false, "why": why.to_string(), "tried": tried_json(tried, None) });
+            context.object(object)?;
+            let table = tried_table(tried, None);
+            context.outputs.write_csv(&table);
+            context.answer(&format!("{}\n{why}\n", table.to_text(context.screen)))?;
+            return Ok(Exit::NotHeld);
+        }
+    };
+    let written = context.outputs.write(output, FileKind::Design, sized.made.design.source.as_bytes());
+    let written = written.then(|| output.display().to_string());
+    let (answer, written) = (Sizing::of(&sized), written.as_deref());
+    context.outputs.write_csv(&answer.csv_table());
+    context.outputs.write_report(|| answer.page(title, &context.provenance(run_time_s), written));
+    context.print(&answer.envelope(run_time_s, written))?;
+    context.answer(&answer.text(written, context.screen))?;
+    Ok(Exit::Held)
+}
