@@ -72,7 +72,8 @@ Exit codes:
   141 the reader of the answers of evaluate has gone before the last
 
 A file that is there already is replaced only if this tool has written it (its first lines say so; of a table: the names of
-its columns) and nobody goes on with it by hand, as with designs of new, size and the studio; --force replaces any. What cannot be written costs no answer: it is printed, with exit code 3.
+its columns) and nobody goes on with it by hand, as with designs of new, size and the studio; --force replaces any.
+What cannot be written costs no answer: it is printed, with exit code 3.
 With --json whatever is refused or fails is one JSON object too: tool, version, error (message; of a refused design file
 also file and problems), with the same exit code.";
 

@@ -1,8 +1,8 @@
 //! A first design from what a clutch shall do.
 //!
-//! In: [`Wish`], filled up to an [`Requirements`]: space, torques, speeds, friction, steel, purpose. Out: [`Sized`], a design file that holds its own limits with
-//! the alternatives to it, or what stands in the way and how near one comes. Absent: the search for a better one
-//! (`optimise`), allowables other than those in the file. Equations: triangle (9) turned round for e_1; the rest is asked of
+//! In: [`Wish`], filled up to [`Requirements`]: space, torques, speeds, friction, steel, purpose. Out: [`Sized`], a design file that
+//! holds its own limits with the alternatives to it, or what stands in the way and how near one comes. Absent: the search for a better
+//! one (`optimise`), allowables other than those in the file. Equations: triangle (9) turned round for e_1; the rest is asked of
 //! `margin`.
 
 mod asked;
