@@ -136,7 +136,7 @@ where
 
     /// An event function is negative right after a change although the choice was consistent to rounding:
     /// settle it by choosing again with every still contact free.
-    pub(super) fn give_way(&mut self, now: &[f64; EVENTS]) -> bool {
+    pub(super) fn choose_again(&mut self, now: &[f64; EVENTS]) -> bool {
         if !self.count_event() {
             return false;
         }

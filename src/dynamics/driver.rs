@@ -116,7 +116,7 @@ where
         let mut now = probe(self.model, &self.run.mode, 0.0, &self.run.state, !self.settings.rolling).events;
         (now[LOWER], now[UPPER]) = (1.0, 1.0);
         if now[INNER] < 0.0 || now[OUTER] < 0.0 {
-            self.give_way(&now);
+            self.choose_again(&now);
         }
     }
 
@@ -148,8 +148,8 @@ where
             let (t, y) = (self.run.t_s, self.run.state);
             let mut rhs = trail.slope_in(self.model, self.run.mode, !self.settings.rolling);
             let slope = match self.slope.take().zip(self.probed.take()) {
-                Some((slope, seen)) => {
-                    trail.begin(seen);
+                Some((slope, probe)) => {
+                    trail.begin(probe);
                     slope
                 }
                 None => {
@@ -212,7 +212,7 @@ where
                             (self.slope, self.probed) = (Some(*slope), Some(*probes.get(0)));
                             return true;
                         }
-                        return self.give_way(&probes.get(i).events);
+                        return self.choose_again(&probes.get(i).events);
                     }
                 }
             }

@@ -360,7 +360,7 @@ fn answer(prepared: &Prepared, settings: &Settings, of: &Try) -> Simulation {
         samples: run.samples.clone(),
         neglected: run.neglected,
         engaged: run.engaged,
-        held: run.first_hold(),
+        first_hold: run.first_hold(),
         modes: run.modes.clone(),
         jump: run.jump,
         train: run.train.clone(),

@@ -66,6 +66,9 @@ pub enum Unnamed {
     FollowsOrZero,
 }
 
+/// Words for a number that was taken, and where its value comes from.
+type Taken = (&'static str, fn(&Requirements) -> &'static str);
+
 /// A number that a [`Wish`] may name.
 #[derive(Debug, Clone, Copy)]
 pub struct Asked {
@@ -96,7 +99,7 @@ pub struct Asked {
     /// Least and largest value, in its unit, with a reason that follows in words.
     range: (fn(&Requirements) -> [f64; 2], &'static str),
     /// Its name in the list of what was taken, and where the value comes from.
-    taken: Option<(&'static str, fn(&Requirements) -> &'static str)>,
+    taken: Option<Taken>,
 }
 
 /// What most numbers are.

@@ -133,7 +133,7 @@ impl Session {
         let none = || json!({ "running": false, "said": "no search was begun", "text": null });
         locked(&self.searching).as_ref().map_or_else(none, |search| {
             let p = search.progress();
-            json!({ "running": p.running, "said": p.said, "text": p.text })
+            json!({ "running": p.running, "said": p.words, "text": p.text })
         })
     }
 
