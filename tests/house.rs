@@ -1,6 +1,5 @@
-//! The house: what the sources promise about themselves, read from the sources.
-//!
-//! Standard library only: these tests must not depend on what they judge.
+//! The house: what the sources promise about themselves, read from the sources; by the standard library only, for these tests must not
+//! depend on what they judge.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -28,8 +27,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("dynamics", &["follow", "numeric", "ode", "clutch", "kinematics", "friction", "wedge"]),
     // Unlike sprags between the races of one clutch, on its curve.
     ("sharing", &["numeric", "race", "clutch", "wedge"]),
-    // A scenario may be given another friction law, so it names that law.
-    // What slides on a film is at the temperature of its heat balance.
+    // A scenario may be given another friction law; what slides on a film is at the temperature of its heat balance.
     ("scenario", &["follow", "numeric", "lubrication", "clutch", "profile", "friction", "wedge", "dynamics"]),
     // A scene of unlike sprags begins as a scene does, and draws its sprags as statics does.
     ("sprags", &["clutch", "friction", "wedge", "dynamics", "sharing", "scenario"]),
@@ -60,10 +58,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("feed", &["follow", "clutch", "wedge", "dynamics", "element"]),
     // Loads of a life on the static curve; strengths are the file's.
     ("life", &["numeric", "lubrication", "clutch", "design", "friction", "wedge", "margin"]),
-    // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
-    // real, and a tolerance felt, on the profile itself.
+    // Never a contact, a wedge or a path. Scenes run as fidelity plans them; a centroid is made real on the profile itself.
     ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),
-    // Evaluations as text.
     ("journal", &["optimise"]),
     // Points of a box, and whatever the margins say there.
     ("sweep", &["follow", "numeric", "design", "margin", "optimise"]),

@@ -8,7 +8,7 @@ use crate::design::nearest;
 use crate::follow::Follow;
 use crate::material::{STEELS, Steel, steel};
 use crate::report::plain;
-use crate::size::{ASKED, Asked, BadRequirement, PURPOSES, Purpose, Requirements, Wish, purpose};
+use crate::size::{ASKED, BadRequirement, PURPOSES, Purpose, Requirements, Wish, WishNumber, purpose};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use std::io::{BufRead, IsTerminal};
@@ -73,7 +73,7 @@ pub struct SizeArgs {
 }
 
 impl<const OF_PURPOSE: bool> WishArgs<OF_PURPOSE> {
-    fn numbers() -> impl Iterator<Item = &'static Asked> {
+    fn numbers() -> impl Iterator<Item = &'static WishNumber> {
         ASKED.iter().filter(|row| OF_PURPOSE || !row.of_purpose)
     }
 }
@@ -270,7 +270,7 @@ impl Questions<'_> {
     }
 
     /// A number, SI; `None`: what stands in brackets.
-    fn number(&self, row: &Asked, adds: &str, wish: &Wish) -> Result<Option<f64>, Failure> {
+    fn number(&self, row: &WishNumber, adds: &str, wish: &Wish) -> Result<Option<f64>, Failure> {
         let without = row.default(&wish.requirements());
         let shown = match (without, row.needed) {
             (Some(value), _) => format!(" [{}]", plain(value, 6)),

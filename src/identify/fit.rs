@@ -36,7 +36,7 @@ impl FromStr for Unknown {
     fn from_str(text: &str) -> Result<Self, String> {
         let parts: Vec<&str> = text.split(':').map(str::trim).collect();
         let [name, min, max] = parts.as_slice() else {
-            return Err("NAME:MIN:MAX is needed, such as r_i1_mm:3.5:4.5".to_owned());
+            return Err("NAME:MIN:MAX is needed, such as friction.static:0.05:0.2".to_owned());
         };
         let bound = |text: &str| match text.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),

@@ -6,7 +6,7 @@ use crate::numeric::rounded;
 
 /// Unit in which a number is typed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AskedUnit {
+pub enum WishUnit {
     /// mm.
     Millimetre,
     /// N m.
@@ -19,7 +19,7 @@ pub enum AskedUnit {
     One,
 }
 
-impl AskedUnit {
+impl WishUnit {
     /// Its sign; empty for a pure number.
     pub fn sign(self) -> &'static str {
         match self {
@@ -71,13 +71,13 @@ type Taken = (&'static str, fn(&Requirements) -> &'static str);
 
 /// A number that a [`Wish`] may name.
 #[derive(Debug, Clone, Copy)]
-pub struct Asked {
+pub struct WishNumber {
     /// Its name in options and errors.
     pub key: &'static str,
     /// Another name of its option.
     pub alias: Option<&'static str>,
     /// Unit in which it is typed.
-    pub unit: AskedUnit,
+    pub unit: WishUnit,
     /// What stands for it in a line of help.
     pub place: &'static str,
     /// What it is.
@@ -103,10 +103,10 @@ pub struct Asked {
 }
 
 /// What most numbers are.
-const ASK: Asked = Asked {
+const ASK: WishNumber = WishNumber {
     key: "",
     alias: None,
-    unit: AskedUnit::One,
+    unit: WishUnit::One,
     place: "N",
     words: "",
     help: "",
@@ -119,11 +119,11 @@ const ASK: Asked = Asked {
     range: (|_| [0.0, f64::INFINITY], ""),
     taken: None,
 };
-const LENGTH: Asked = Asked { unit: AskedUnit::Millimetre, place: "MM", ..ASK };
-const TORQUE: Asked = Asked { unit: AskedUnit::NewtonMetre, place: "NM", ..ASK };
+const LENGTH: WishNumber = WishNumber { unit: WishUnit::Millimetre, place: "MM", ..ASK };
+const TORQUE: WishNumber = WishNumber { unit: WishUnit::NewtonMetre, place: "NM", ..ASK };
 /// Of a race in overrun.
-const SPEED: Asked = Asked {
-    unit: AskedUnit::Rpm,
+const SPEED: WishNumber = WishNumber {
+    unit: WishUnit::Rpm,
     place: "RPM",
     unnamed: Unnamed::Follows,
     range: (|_| [0.0, MOST_RPM], ""),
@@ -132,8 +132,8 @@ const SPEED: Asked = Asked {
 const MOST_RPM: f64 = 60_000.0;
 
 /// All of them, in the order of the questions.
-pub const ASKED: [Asked; 14] = [
-    Asked {
+pub const ASKED: [WishNumber; 14] = [
+    WishNumber {
         key: "bore",
         words: "Bore of the inner race, diameter, mm",
         needed: true,
@@ -142,7 +142,7 @@ pub const ASKED: [Asked; 14] = [
         range: (|_| [1.0, 2000.0], ""),
         ..LENGTH
     },
-    Asked {
+    WishNumber {
         key: "torque",
         words: "Nominal torque, carried day by day, Nm",
         question: Some(" (none: by the peak torque)"),
@@ -152,7 +152,7 @@ pub const ASKED: [Asked; 14] = [
         taken: Some(("nominal torque", |r| r.from[1])),
         ..TORQUE
     },
-    Asked {
+    WishNumber {
         key: "peak",
         words: "Peak torque, at the worst, Nm",
         help: "; in place of --torque or beside it",
@@ -164,7 +164,7 @@ pub const ASKED: [Asked; 14] = [
         taken: Some(("peak torque", |r| r.from[2])),
         ..TORQUE
     },
-    Asked {
+    WishNumber {
         key: "safety",
         place: "FACTOR",
         words: "Peak torque over nominal torque, where only one of them is named",
@@ -174,7 +174,7 @@ pub const ASKED: [Asked; 14] = [
         range: (|_| [1.0, 10.0], ""),
         ..ASK
     },
-    Asked {
+    WishNumber {
         key: "outside",
         words: "Largest outer diameter, mm",
         help: " [default: 1.4 times the outer track]",
@@ -184,7 +184,7 @@ pub const ASKED: [Asked; 14] = [
         range: (|r| [1e3 * r.bore_m, 10_000.0], ", above the bore"),
         ..LENGTH
     },
-    Asked {
+    WishNumber {
         key: "width",
         words: "Largest width of the races, mm",
         question: Some(" (none: as wide as it must)"),
@@ -193,7 +193,7 @@ pub const ASKED: [Asked; 14] = [
         range: (|_| [1.0, 1000.0], ""),
         ..LENGTH
     },
-    Asked {
+    WishNumber {
         key: "inner-rpm",
         words: "Speed of the inner race in overrun, rpm",
         help: ": for drag and heat",
@@ -202,7 +202,7 @@ pub const ASKED: [Asked; 14] = [
         taken: Some(("inner race in overrun", |r| r.overrun_from[0])),
         ..SPEED
     },
-    Asked {
+    WishNumber {
         key: "outer-rpm",
         words: "Speed of the outer race in overrun, rpm, in the same sense",
         help: " [default: that of --keep-contact-rpm]",
@@ -211,7 +211,7 @@ pub const ASKED: [Asked; 14] = [
         taken: Some(("outer race in overrun", |r| r.overrun_from[1])),
         ..SPEED
     },
-    Asked {
+    WishNumber {
         key: "keep-contact-rpm",
         alias: Some("speed"),
         words: "Speed of the outer race up to which the sprags keep contact in overrun, rpm",
@@ -222,7 +222,7 @@ pub const ASKED: [Asked; 14] = [
         taken: Some(("contact kept up to", |r| r.contact_from[0])),
         ..SPEED
     },
-    Asked {
+    WishNumber {
         key: "lift-off-rpm",
         words: "Speed of the outer race by which the sprags must be off the inner race, rpm",
         help: "; 0: they stay on",
@@ -234,7 +234,7 @@ pub const ASKED: [Asked; 14] = [
         taken: Some(("sprags off by", |r| r.contact_from[1])),
         ..SPEED
     },
-    Asked {
+    WishNumber {
         key: "swing",
         words: "Amplitude by which the torque swings, Nm, up to nominal torque",
         help: "; 0: it does not [default: that of the purpose]",
@@ -250,9 +250,9 @@ pub const ASKED: [Asked; 14] = [
         taken: Some(("torque swings by", |r| r.swing.map_or("", |s| s.from[0]))),
         ..TORQUE
     },
-    Asked {
+    WishNumber {
         key: "swing-hz",
-        unit: AskedUnit::Hertz,
+        unit: WishUnit::Hertz,
         place: "HZ",
         words: "How often it swings, Hz: strokes a second, blades passing, orders of an engine",
         help: " [default: that of the purpose]",
@@ -265,7 +265,7 @@ pub const ASKED: [Asked; 14] = [
         taken: Some(("that often", |r| r.swing.map_or("", |s| s.from[1]))),
         ..ASK
     },
-    Asked {
+    WishNumber {
         key: "friction",
         place: "MU",
         words: "Static friction",
@@ -277,7 +277,7 @@ pub const ASKED: [Asked; 14] = [
         taken: Some(("friction", |r| r.from[0])),
         ..ASK
     },
-    Asked {
+    WishNumber {
         key: "engagements",
         words: "Engagements in its life, at nominal torque: written into [life], for the command life",
         question: Some(" (none: not said)"),
@@ -290,12 +290,12 @@ pub const ASKED: [Asked; 14] = [
 ];
 
 /// The number of that key.
-pub fn asked(key: &str) -> Option<&'static Asked> {
-    static ALL: [Asked; ASKED.len()] = ASKED;
+pub fn asked(key: &str) -> Option<&'static WishNumber> {
+    static ALL: [WishNumber; ASKED.len()] = ASKED;
     ALL.iter().find(|row| row.key == key)
 }
 
-impl Asked {
+impl WishNumber {
     /// What holds where it is not named, in its unit.
     pub fn default(&self, wanted: &Requirements) -> Option<f64> {
         let value = (self.value)(wanted).filter(|v| v.is_finite()).map(|si| self.unit.typed(si));

@@ -12,7 +12,7 @@ mod purpose;
 mod requirements;
 mod search;
 
-pub use asked::{ASKED, Asked, AskedUnit, Unnamed, asked};
+pub use asked::{ASKED, Unnamed, WishNumber, WishUnit, asked};
 pub use finish::{Drag, Made, NOT_OPTIMISED};
 pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
 pub use requirements::{
