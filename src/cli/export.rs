@@ -67,15 +67,8 @@ impl Format {
         }
     }
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Dxf => "dxf",
-            Self::Step => "step",
-            Self::Svg => "svg",
-            Self::Csv => "csv",
-            Self::Calculix => "calculix",
-            Self::Fmu => "fmu",
-        }
+    fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
     }
 }
 

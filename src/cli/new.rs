@@ -1,6 +1,7 @@
 //! `new` and `size`: the own clutch, by questions or by options.
 
 use super::exit::{Exit, Failure};
+use super::interrupt::next;
 use super::origin::FileKind;
 use super::output;
 use super::{Context, Run, Without, made, number};
@@ -13,8 +14,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use std::io::{BufRead, IsTerminal};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::Duration;
+use std::sync::mpsc::{Receiver, channel};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -305,17 +305,7 @@ impl Questions<'_> {
     }
 
     fn line(&self) -> Result<String, Failure> {
-        loop {
-            if self.follow.stopped() {
-                return Err(Failure::Interrupted);
-            }
-            match self.lines.recv_timeout(Duration::from_millis(50)) {
-                Ok(line) => return Ok(line),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Err(Failure::malformed("the answers ended before the last question"));
-                }
-            }
-        }
+        let ended = || Failure::malformed("the answers ended before the last question");
+        next(&self.lines, self.follow)?.ok_or_else(ended)
     }
 }

@@ -8,7 +8,7 @@ use super::output::TOOL;
 use super::progress::ProgressLine;
 use super::{Context, Run};
 use crate::answer::search::{
-    Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, SearchSettings, file_text, further_files,
+    Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, SearchSettings, Story, file_text, further_files,
     further_text,
 };
 use crate::design::{Design, EditError, Objective};
@@ -232,45 +232,26 @@ fn finish(
 ) -> Result<Exit, Failure> {
     let story = &answer.story;
     let interrupted = story.status() == &Status::Interrupted;
-    // Stopped before there were flanks: the best so far is better than nothing, and says what it lacks.
-    let feasible = story.feasible() && (story.makeable() || interrupted);
-    let better = feasible && (story.improved() || !story.found.start_feasible());
-    let mut written = None;
-    let mut beside = Vec::new();
-    let write = |path: &Path, text: Result<String, EditError>| match readable(design, path, text) {
-        Ok(text) => context.outputs.write(path, FileKind::Design, text.as_bytes()),
-        Err(why) => {
-            context.outputs.lost(why);
-            false
-        }
-    };
-    if feasible && (better || !interrupted) && histories.write(&context.outputs) {
-        written = write(new, file_text(design, story, &context.command_line)).then_some(new);
-        for (ending, what, text) in further_files(story) {
-            let path = new.with_extension(format!("{ending}.toml"));
-            if write(&path, further_text(design, what, text)) {
-                beside.push(path);
+    let named = |path: &Path| path.display().to_string();
+    let (mut written, mut beside) = (None, Vec::new());
+    let files = files(design, story, &context.command_line);
+    if !files.is_empty() && histories.write(&context.outputs) {
+        for (ending, text) in files {
+            let path = ending.map_or(new.to_path_buf(), |e| new.with_extension(format!("{e}.toml")));
+            match readable(design, &path, text) {
+                Err(why) => context.outputs.lost(why),
+                Ok(text) if !context.outputs.write(&path, FileKind::Design, text.as_bytes()) => {}
+                Ok(_) if ending.is_none() => written = Some(named(&path)),
+                Ok(_) => beside.push(named(&path)),
             }
         }
     }
-    if !feasible && !interrupted {
-        let path = new.with_extension(format!("{NEAREST}.toml"));
-        let why = match story.feasible() {
-            true => "no flanks give its centroid".to_owned(),
-            false => format!("not held: {}", story.not_held().join(", ")),
-        };
-        let what = format!("the nearest design found, NOT FEASIBLE: {why}");
-        if histories.write(&context.outputs) && write(&path, further_text(design, &what, story.file())) {
-            beside.push(path);
-        }
-    }
     let journal = keep.then(|| file.path().to_path_buf());
-    let named = |path: &Path| path.display().to_string();
     let report = SearchReport {
         design,
         answer,
-        written: written.map(named),
-        beside: beside.iter().map(|path| named(path)).collect(),
+        written,
+        beside,
         journal: journal.as_deref().map(named),
         provenance: context.provenance(run_time_s),
         hints: HINTS,
@@ -286,11 +267,43 @@ fn finish(
     }
     Ok(if interrupted {
         Exit::Interrupted
-    } else if feasible && story.not_robust().is_none() {
+    } else if held(story) && story.not_robust().is_none() {
         Exit::Held
     } else {
         Exit::NotHeld
     })
+}
+
+/// Whether every limit is held by a sprag that can be made. Stopped before there were flanks: the best so far is better than nothing, and
+/// says what it lacks.
+fn held(story: &Story) -> bool {
+    story.feasible() && (story.makeable() || story.status() == &Status::Interrupted)
+}
+
+/// Design files that a search is worth: middle of the name, where it has one, and text.
+fn files<'s>(
+    design: &Design,
+    story: &'s Story,
+    command: &str,
+) -> Vec<(Option<&'s str>, Result<String, EditError>)> {
+    let interrupted = story.status() == &Status::Interrupted;
+    if held(story) {
+        if interrupted && !story.improved() && story.found.start_feasible() {
+            return Vec::new();
+        }
+        let further = further_files(story).into_iter();
+        let further = further.map(|(ending, what, text)| (Some(ending), further_text(design, what, text)));
+        return std::iter::once((None, file_text(design, story, command))).chain(further).collect();
+    }
+    if interrupted {
+        return Vec::new();
+    }
+    let why = match story.feasible() {
+        true => "no flanks give its centroid".to_owned(),
+        false => format!("not held: {}", story.not_held().join(", ")),
+    };
+    let what = format!("the nearest design found, NOT FEASIBLE: {why}");
+    vec![(Some(NEAREST), further_text(design, &what, story.file()))]
 }
 
 /// `text` if it reads as a design with the histories of `design`; else what is wrong with the file that it would have made.

@@ -63,7 +63,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         design,
         subject: &subject,
         part,
-        format: args.format.name(),
+        format: &args.format.name(),
         is_solid: args.format == Format::Step,
         bytes: text.len(),
     };
