@@ -43,7 +43,7 @@ pub(super) struct Stuck {
     /// Its steps.
     pub(super) legs: Vec<Leg>,
     /// Where each figure was largest.
-    pub(super) seen: [Seen; FIGURES],
+    pub(super) largest: [Largest; FIGURES],
     pub(super) counters: Counters,
     /// Junctions passed.
     pub(super) passed: u64,
@@ -64,7 +64,7 @@ pub(super) struct Leg {
 
 /// Where a figure was largest.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Seen {
+pub(super) struct Largest {
     /// Number of the step.
     pub(super) leg: usize,
     /// Time, s.
@@ -266,7 +266,7 @@ pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSe
     let mut run = Stuck {
         peaks: Peaks::NONE,
         legs: Vec::new(),
-        seen: [Seen { leg: 0, t_s: 0.0, edge: Some(Edge::Start) }; FIGURES],
+        largest: [Largest { leg: 0, t_s: 0.0, edge: Some(Edge::Start) }; FIGURES],
         counters: Counters::default(),
         passed: 0,
         interrupted: false,
@@ -445,7 +445,7 @@ fn watch(
             if value(j) > best {
                 best = value(j);
                 peaks.keep(i, seen[j].t, best, seen[j].figures[super::events::N_BI]);
-                run.seen[i] = Seen { leg, t_s: seen[j].t, edge: Some(edge) };
+                run.largest[i] = Largest { leg, t_s: seen[j].t, edge: Some(edge) };
             }
         }
         for j in 0..count {
@@ -471,7 +471,7 @@ fn watch(
                 best = found;
                 let t_s = step.t + theta * length;
                 peaks.keep(i, t_s, best, figures(theta)[super::events::N_BI]);
-                run.seen[i] = Seen { leg, t_s, edge: None };
+                run.largest[i] = Largest { leg, t_s, edge: None };
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The worst of unlike sprags against the limits that hold for all, over a turn of the races.
 
 use super::limits::{Of, When};
-use super::load::{LoadState, said};
+use super::load::{LoadState, row_name};
 use super::row::{Demand, Margin};
 use super::table::LIMITS;
 use crate::design::{Design, Limits};
@@ -56,7 +56,7 @@ pub fn unlike_margins(design: &Design, limits: &Limits, state: &LoadState, capac
         };
         let who = found.map_or("none carries".to_owned(), |(_, i)| format!("sprag {}", i + 1));
         rows.push(Margin {
-            name: said(&format!("{}: {who}", limit.name()), torque, end_nm),
+            name: row_name(&format!("{}: {who}", limit.name()), torque, end_nm),
             torque_capacity_nm: capacities.then(|| capacity(&turn, state, torque, end_nm, &over)).flatten(),
             ..Margin::new(limit, demand, allowed)
         });

@@ -186,7 +186,7 @@ pub struct Statics {
     /// Whether a step on the way to an equilibrium may lead beyond that place: it is looked for near it.
     pub(super) near_upright: bool,
     /// The way rolled at which the body gives as it does wherever the contact is, m; `None`: where it is.
-    pub(super) held_m: Option<f64>,
+    pub(super) fixed_roll_m: Option<f64>,
     pub(super) radii: Radii,
     centroid_m: [f64; 2],
     mass_kg: f64,
@@ -213,7 +213,7 @@ impl Statics {
             opened_m: [0.0; 3],
             past: false,
             near_upright: false,
-            held_m: None,
+            fixed_roll_m: None,
             bulk: super::bulk::of(clutch, &profile),
             elastic: Elastic::new(clutch)?,
             radii: Radii {
@@ -381,9 +381,9 @@ impl Statics {
             let turn = rotation - (beta - self.profile.beta0_rad);
             let mut moved = inner.update(self, arc, n, turn);
             if let Some(bulk) = &self.bulk {
-                let rolled = self.held_m.map_or_else(|| self.rolled_m(arc, turn), Dual::constant);
+                let rolled = self.fixed_roll_m.map_or_else(|| self.rolled_m(arc, turn), Dual::constant);
                 let mut now = Self::yields(bulk, n, rolled, inner.curvature_per_m);
-                if self.held_m.is_some() || self.profile.arcs[arc].radius_m == 0.0 {
+                if self.fixed_roll_m.is_some() || self.profile.arcs[arc].radius_m == 0.0 {
                     // Over an edge nothing rolls on.
                     now.ahead_m = Dual::constant(0.0);
                 }
