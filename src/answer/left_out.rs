@@ -72,6 +72,7 @@ pub fn left_out(clutch: &Clutch, asked_nm: Option<f64>) -> Vec<LeftOut> {
             "at junctions delta_H of a law that knows it changes by 0.1 % (clutch of Table 1)",
         )),
     });
+    list.extend(spiral(clutch));
     list.extend(straddling(clutch));
     list.extend(lengthwise(clutch));
     if clutch.races.inner_bore_radius_m == 0.0 {
@@ -110,6 +111,26 @@ pub fn one_by_one(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
 const TOGETHER: &str = "sprags that wedge one after another";
 const UNEQUAL: &str = "unequal sharing of the load between the sprags";
 const ECCENTRIC: &str = "eccentric and tilted races";
+
+/// What arcs leave out of a spiral.
+fn spiral(clutch: &Clutch) -> Option<LeftOut> {
+    let spiral = clutch.sprags.spiral?;
+    let off = spiral.deviation();
+    let tan = spiral.tan_omega_off(&clutch.profile().ok()?)?;
+    Some(LeftOut::new(
+        "spiral of the inner profile",
+        &format!(
+            "{} tangent arcs stand for it, of which each pair begins and ends on it",
+            spiral.arc_count()
+        ),
+        &format!(
+            "{} in position, tan omega {} of itself, radii {} and peak pressures half of that, at most",
+            Unit::Micrometre.show(off.position_m, 6),
+            Unit::Percent.show(tan, 4),
+            Unit::Percent.show(off.radius, 3)
+        ),
+    ))
+}
 
 /// What the peak pressure leaves out at junctions.
 fn straddling(clutch: &Clutch) -> Option<LeftOut> {

@@ -25,7 +25,7 @@ pub use sharing::{GivenSprag, Sharing, Standing};
 pub use tolerances::Tolerances;
 
 use crate::material::Material;
-use crate::profile::{Brink, Flanks, Outline, Profile, ProfileError};
+use crate::profile::{Brink, Flanks, Outline, Profile, ProfileError, Spiral};
 use std::f64::consts::PI;
 
 /// Where the sprag's mass, inertia and centroid come from.
@@ -70,6 +70,8 @@ pub struct Sprags {
     pub mass_source: MassSource,
     /// Inner arcs in order of engagement, at least one.
     pub inner_arcs: Vec<InnerArc>,
+    /// The spiral that the last of them stand for, if any; answers name it, nothing is computed with it.
+    pub spiral: Option<Spiral>,
     /// Flanks that close the outline: those of the file, or both at half of `width_m`; absent without either.
     pub flanks: Option<Flanks>,
 }

@@ -210,6 +210,14 @@ fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f6
     if let Some(first) = pose.arcs.first() {
         lengths.push(format!("e₁ = C₁Cₑ {}", mm(first.centre_m[0].hypot(first.centre_m[1]))));
     }
+    if let Some(spiral) = pose.spiral {
+        let (arcs, [x, y]) =
+            (pose.arcs.len() - spiral.first, spiral.pole_m.map(|v| Unit::Millimetre.from_si(v)));
+        lengths.push(format!(
+            "spiral k {}, pole ({x:.4}, {y:.4}) mm from Cₑ, as {arcs} arcs",
+            plain(spiral.rise, 6)
+        ));
+    }
     // In as many lines as they need.
     let mut lines: Vec<String> = Vec::new();
     for length in lengths {
