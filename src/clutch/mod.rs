@@ -264,6 +264,11 @@ pub struct Clutch {
 }
 
 impl Sprags {
+    /// Number of inner arcs that a file lists: all but those that stand for its spiral.
+    pub fn listed_arcs(&self) -> usize {
+        self.inner_arcs.len().saturating_sub(self.spiral.map_or(0, |s| s.arc_count()))
+    }
+
     /// Their profile between `races`.
     ///
     /// # Errors

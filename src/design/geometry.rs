@@ -244,26 +244,15 @@ fn spiral(
     if least > 0.0 && found.rise.is_finite() {
         return Some(found);
     }
-    let (what, help) = match file.curve {
-        SpiralCurveFile::Logarithmic => {
-            ("radii of curvature above 0 throughout", "take a smaller rise, or more steps")
-        }
-        SpiralCurveFile::ConstantStrutAngle => (
-            "a profile that bulges outward: the curve of constant strut angle lies r_e R_i/R_e inside a spiral about C_e",
-            "take a smaller outer_radius_mm, a wider race gap, or curve = \"logarithmic\"",
-        ),
-    };
     out.refuse(
         &[
+            "sprags.inner_spiral.until_rad",
             "sprags.inner_spiral.rise",
             "sprags.inner_spiral.strut_angle_deg",
             "sprags.inner_spiral",
-            "sprags.outer_radius_mm",
-            "races.inner_radius_mm",
-            "races.outer_radius_mm",
         ],
-        format!("{what}; the smallest is {} mm", mm(least)),
-        help.to_owned(),
+        format!("arcs whose radii are above 0 throughout; the smallest is {} mm", mm(least)),
+        "take a shorter spiral, a smaller rise or strut angle, or more steps".to_owned(),
     );
     None
 }
@@ -295,15 +284,12 @@ fn profile(file: &SpragsFile, races: &Races, out: &mut Findings) -> Option<(Prof
             let angle = of.strut_angle_deg.unwrap_or_default();
             let Some(from) = Support::under(angle.to_radians(), r_e, tracks) else {
                 out.refuse(
-                    &[
-                        "sprags.inner_spiral.strut_angle_deg",
-                        "sprags.outer_radius_mm",
-                        "races.outer_radius_mm",
-                        "races.inner_radius_mm",
-                    ],
-                    "a strut angle at which C_e lies outside the inner track, with r_e below the race gap"
-                        .to_owned(),
-                    "take a smaller strut_angle_deg or a smaller outer_radius_mm".to_owned(),
+                    &["sprags.outer_radius_mm", "races.outer_radius_mm", "races.inner_radius_mm"],
+                    format!(
+                        "less than the race gap, {} mm: C_e lies outside the inner track",
+                        mm(tracks[1] - tracks[0])
+                    ),
+                    "take a smaller outer_radius_mm of the sprags".to_owned(),
                 );
                 return None;
             };

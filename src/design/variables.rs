@@ -173,8 +173,8 @@ pub fn variable_path(name: &str, arcs: usize) -> Option<String> {
         return known.then(|| name.to_owned());
     }
     VARIABLES.iter().find_map(|(pattern, path, _)| match pattern.split_once("{k}") {
-        None if *pattern == name => Some(path.replace("{last}", &arcs.saturating_sub(1).to_string())),
-        None => None,
+        None if *pattern != name || arcs == 0 && path.contains("{last}") => None,
+        None => Some(path.replace("{last}", &arcs.saturating_sub(1).to_string())),
         Some((before, after)) => {
             let digits = name.strip_prefix(before)?.strip_suffix(after)?;
             let k: usize = digits.parse().ok()?;

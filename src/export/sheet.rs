@@ -172,8 +172,8 @@ impl Sheet {
                 1e3 * (spiral.start_radius_m + spiral.inset_m),
                 spiral.rise,
                 if spiral.inset_m > 0.0 { format!(" - {:.5}", 1e3 * spiral.inset_m) } else { String::new() },
-                1e3 * pole.x,
-                1e3 * pole.y
+                hundredth_um(pole.x),
+                hundredth_um(pole.y)
             ));
             rows.push(format!(
                 "{} ARCS STAND FOR IT, BESIDE IT BY AT MOST {:.6} UM",
@@ -286,6 +286,11 @@ impl Sheet {
 fn contacts(profile: &Profile) -> Vec<(&'static str, Vector2<f64>)> {
     let inner = profile.arcs.first().map(|a| ("A", a.centre_m + a.radius_m * profile.contact_direction(0.0)));
     inner.into_iter().chain([("B", Vector2::new(0.0, profile.outer_radius_m))]).collect()
+}
+
+/// m in mm, to 0.01 um; of a zero without its sign.
+fn hundredth_um(m: f64) -> f64 {
+    (1e8 * m).round() / 1e5 + 0.0
 }
 
 fn extent(points: &[[f64; 2]]) -> [Vector2<f64>; 2] {

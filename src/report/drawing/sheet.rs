@@ -211,8 +211,10 @@ fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f6
         lengths.push(format!("e₁ = C₁Cₑ {}", mm(first.centre_m[0].hypot(first.centre_m[1]))));
     }
     if let Some(spiral) = pose.spiral {
-        let (arcs, [x, y]) =
-            (pose.arcs.len() - spiral.first, spiral.pole_m.map(|v| Unit::Millimetre.from_si(v)));
+        let (arcs, [x, y]) = (
+            pose.arcs.len() - spiral.first,
+            spiral.pole_m.map(|v| (1e4 * Unit::Millimetre.from_si(v)).round() / 1e4 + 0.0),
+        );
         lengths.push(format!(
             "spiral k {}, pole ({x:.4}, {y:.4}) mm from Cₑ, as {arcs} arcs",
             plain(spiral.rise, 6)
