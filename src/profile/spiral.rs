@@ -26,8 +26,8 @@ use super::Profile;
 use crate::numeric::quadrature::{integral, integrals};
 use nalgebra::Vector2;
 
-/// Points of half a step at which the distance of the arcs from their curve is looked at.
-const LOOKS: usize = 16;
+/// Points of half a step at which the distance of the arcs from their curve is looked at: threes, because it is largest at a third.
+const LOOKS: usize = 24;
 
 /// A contact on the profile: distance of its tangent from C_e and how it grows with the turn.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -14,7 +14,7 @@ mod sheet;
 pub use live::{Live, live};
 
 use crate::clutch::{Clutch, Sprags};
-use crate::profile::{Outline, Profile};
+use crate::profile::{Outline, Profile, Spiral};
 
 /// Chords of a drawn outline leave its arcs by no more than this, m.
 const OUTLINE_M: f64 = 1e-6;
@@ -37,8 +37,8 @@ pub struct DrawnArc {
 pub struct DrawnSpiral {
     /// Place of its first arc, from 0.
     pub first: usize,
-    /// Growth of the radius of curvature per rad of turn.
-    pub rise: f64,
+    /// Its spiral; turns and lengths as drawn.
+    pub curve: Spiral,
     /// Pole in the body frame, m.
     pub pole_m: [f64; 2],
 }
@@ -117,7 +117,7 @@ impl SpragPose {
         let spiral = sprags.spiral.and_then(|s| {
             let pole = s.pole_m(profile)?;
             let first = profile.arcs.len().saturating_sub(s.arc_count());
-            Some(DrawnSpiral { first, rise: s.rise, pole_m: [pole.x, pole.y] })
+            Some(DrawnSpiral { first, curve: s, pole_m: [pole.x, pole.y] })
         });
         Self { spiral, ..Self::at_first_contact(label, profile, outline, Some(sprags.centroid_m)) }
     }

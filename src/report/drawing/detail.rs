@@ -218,8 +218,7 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
     if let Some(spiral) = pose.spiral {
         let at = view.px(pose.place(spiral.pole_m));
         cross(at, INK);
-        let text = format!("pole of the spiral, k {}", plain(spiral.rise, 5));
-        notes.push(Note { at, text, left: false, wanted: at[1] });
+        notes.push(Note { at, text: "pole".to_owned(), left: false, wanted: at[1] });
     }
     if let Some(g) = pose.centroid_m.filter(|g| g.iter().all(|v| v.is_finite())) {
         let at = view.px(pose.place(g));
