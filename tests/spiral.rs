@@ -141,7 +141,7 @@ fn the_strut_angle_stays() {
         assert!(moved > 0.0 && moved < bound && bound < 0.0125, "{torque}: {moved} {bound}");
     }
     let arc = Design::parse(SINGLE, "single.toml").unwrap().clutch;
-    let [a, b] = [&arc, &spiral].map(|c| point(c, 90.0).0.tan_omega / 0.0778 - 1.0);
+    let [a, b] = [(&arc, 0.07778), (&spiral, start)].map(|(c, from)| point(c, 90.0).0.tan_omega / from - 1.0);
     println!("at 90 Nm tan omega has moved by {a} on a circle, by {b}");
     assert!(a > 15.0 * b && b < 0.009);
 }

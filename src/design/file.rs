@@ -80,8 +80,7 @@ pub(super) struct SpragsFile {
     /// Radius r_e of the outer arc, mm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub outer_radius_mm: f64,
-    /// Distance e_1 between the centres of the first inner arc and of the outer arc, mm; absent where inner_spiral begins at
-    /// first contact, whose strut_angle_deg says it.
+    /// Distance e_1 between the centres of the first inner arc and of the outer arc, mm; none with strut_angle_deg.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub centre_distance_mm: Option<f64>,
     /// Width b of the sprag's body in (6), mm; omitted or 0: no body compression.
