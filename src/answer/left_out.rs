@@ -60,6 +60,7 @@ pub fn left_out(clutch: &Clutch, asked_nm: Option<f64>) -> Vec<LeftOut> {
             "at junctions delta_H of a law that knows it changes by 0.1 % (clutch of Table 1)",
         )),
     });
+    list.extend(spiral(clutch));
     list.extend(straddling(clutch));
     list.extend(lengthwise(clutch));
     if clutch.races.inner_bore_radius_m == 0.0 {
@@ -93,6 +94,26 @@ pub fn off_centre(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
 /// The same where every sprag was looked at by itself: `instead` of all three assumptions of the paper.
 pub fn one_by_one(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
     off_centre(list.into_iter().filter(|e| e.term != TOGETHER).collect(), instead)
+}
+
+/// What arcs leave out of a spiral.
+fn spiral(clutch: &Clutch) -> Option<LeftOut> {
+    let spiral = clutch.sprags.spiral?;
+    let off = spiral.deviation();
+    let tan = spiral.tan_omega_off(&clutch.profile().ok()?)?;
+    Some(LeftOut::new(
+        "spiral of the inner profile",
+        &format!(
+            "{} tangent arcs stand for it, of which each pair begins and ends on it",
+            spiral.arc_count()
+        ),
+        &format!(
+            "{} in position, tan omega {} of itself, radii {} and peak pressures half of that, at most",
+            Unit::Micrometre.show(off.position_m, 6),
+            Unit::Percent.show(tan, 4),
+            Unit::Percent.show(off.radius, 3)
+        ),
+    ))
 }
 
 /// What the peak pressure leaves out at junctions.

@@ -388,7 +388,7 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
     if unknowns.is_empty() {
         return Err(NoFit::Unknowns("name at least one unknown".to_owned()));
     }
-    let arcs = design.clutch.sprags.inner_arcs.len();
+    let arcs = design.clutch.sprags.listed_arcs();
     let (mut paths, mut before) = (Vec::<String>::new(), Vec::new());
     for u in unknowns {
         let refuse = |why: String| NoFit::Unknown { name: u.name.clone(), why };

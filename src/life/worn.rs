@@ -520,6 +520,7 @@ pub fn worn(design: &Design, state: &LoadState, wear: &Wear) -> Option<Worn> {
     out.sprags.centre_distance_m = arc.centre_m.norm();
     out.sprags.centroid_m = turned(sprags.centroid_m);
     out.sprags.flanks = None;
+    out.sprags.spiral = None;
     out.sprags.inner_arcs =
         list[k..].iter().map(|a| InnerArc { radius_m: a.radius_m, until_rad: a.until_rad - turn }).collect();
     Some(Worn {

@@ -179,6 +179,9 @@ fn draw_profile(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
         if k == 0 {
             ticks.push((arc, arc.from_rad, "first contact at rest".to_owned()));
         }
+        if k + 1 < pose.arcs.len() && pose.within_spiral(k + 1) {
+            continue;
+        }
         let name = if k + 1 < pose.arcs.len() {
             format!("junction {}|{}", k + 1, k + 2)
         } else {
@@ -215,6 +218,9 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
     for (k, arc) in pose.arcs.iter().enumerate() {
         let at = view.px(pose.place(arc.centre_m));
         cross(at, SERIES[1]);
+        if pose.within_spiral(k) && k + 1 < pose.arcs.len() {
+            continue;
+        }
         let text = format!(
             "{}, {} {}",
             subscript("C", k + 1),
@@ -222,6 +228,11 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
             Unit::Millimetre.show_plain(arc.radius_m, 6)
         );
         notes.push(Note { at, text, left: false, wanted: at[1] });
+    }
+    if let Some(spiral) = pose.spiral {
+        let at = view.px(pose.place(spiral.pole_m));
+        cross(at, INK);
+        notes.push(Note { at, text: "pole".to_owned(), left: false, wanted: at[1] });
     }
     if let Some(g) = pose.centroid_m.filter(|g| g.iter().all(|v| v.is_finite())) {
         let at = view.px(pose.place(g));

@@ -220,6 +220,23 @@ fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f6
     if let Some(first) = pose.arcs.first() {
         lengths.push(format!("e₁ = C₁Cₑ {}", mm(first.centre_m[0].hypot(first.centre_m[1]))));
     }
+    if let Some(spiral) = pose.spiral {
+        let curve = &spiral.curve;
+        let [x, y] = spiral.pole_m.map(|v| (1e4 * Unit::Millimetre.from_si(v)).round() / 1e4 + 0.0);
+        let arcs = pose.arcs.len() - spiral.first;
+        let inside = match curve.inset_m > 0.0 {
+            true => format!(" − {}", plain(Unit::Millimetre.from_si(curve.inset_m), 6)),
+            false => String::new(),
+        };
+        lengths.extend([
+            format!(
+                "ρ = {} e^({} ψ){inside} mm",
+                plain(Unit::Millimetre.from_si(curve.start_radius_m + curve.inset_m), 6),
+                plain(curve.rise, 6)
+            ),
+            format!("pole ({x:.4}, {y:.4}) mm from Cₑ, as {arcs} arcs"),
+        ]);
+    }
     // In as many lines as they need.
     let mut lines: Vec<String> = Vec::new();
     for length in lengths {
