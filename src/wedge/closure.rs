@@ -19,6 +19,9 @@ pub const FIRST_CONTACT_N: f64 = 1e-120;
 
 /// Steps in which the centres may come too close on the way, near the highest place.
 const UPRIGHT_ROUNDS: usize = 30;
+/// Rounds at most: a handful suffices but over the edge of a flat, where width of the patch and curvature under it follow each other
+/// in ever smaller steps.
+const ROUNDS: usize = 400;
 
 #[cfg(test)]
 thread_local! {
@@ -334,7 +337,7 @@ impl Statics {
         let mut body = Yields::default();
         let unlike = self.elastic.unlike != [0.0; 2];
         let mut lag = Dual::constant(0.0);
-        for round in 0..60 {
+        for round in 0..ROUNDS {
             let mut d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
             d.bulk = body.bulk_m;
             let mut l = kinematics::lengths(&radii, &d);
@@ -418,7 +421,15 @@ impl Statics {
                     && change >= residual
                     && slope_change >= slope_residual
                     && change < 1e-13
-                || round > 20 && there && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
+                || round > 20 && there && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10
+                // Forces stand still; where the curvature changes by the whole within a hair, as on the edge of a flat, the approach goes
+                // to and fro with the rounding of the turn.
+                || round > 40
+                    && there
+                    && change <= 4.0 * f64::EPSILON
+                    && slope_change < 1e-11
+                    && moved.v < 1e-10
+                    && moved.d < 1e-7;
             let settled = settled && !upright;
             n_be = next;
             (residual, slope_residual, unsettled) = (change, slope_change, change.max(moved.v));
