@@ -104,6 +104,7 @@ const TYPICAL: &[(&str, &str)] = &[
     ("press_fit.shaft_bore_radius_mm", "0, solid"),
     ("scenarios[].torque_nm", "the nominal torque"),
     ("sharing.azimuth_within_deg", "0 … 2"),
+    ("sharing.bearing_mass_kg", "0.2 … 20"),
     ("sharing.bearing_stiffness_n_per_um", "100 … 1000; 0, none"),
     ("sharing.gap_up_to_um", "0 … 10"),
     ("sharing.sprags[].ahead_deg", "-2 … 2"),

@@ -28,6 +28,7 @@ fn alike() -> Sharing {
         friction_within: 0.0,
         gap_up_to_m: 0.0,
         stiffness_n_per_m: None,
+        mass_kg: None,
         given: Vec::new(),
     }
 }

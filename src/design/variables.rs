@@ -52,6 +52,7 @@ const UNITS: &[(&str, &str)] = &[
     ("amplitude_nm", "Nm"),
     ("axial_offset_mm", "mm"),
     ("azimuth_within_deg", "deg"),
+    ("bearing_mass_kg", "kg"),
     ("bearing_stiffness_n_per_um", "N/µm"),
     ("bench_inertia_kg_m2", "kg m^2"),
     ("bore_mm", "mm"),

@@ -180,6 +180,8 @@ pub struct Statics {
     pub(super) offset_m: [f64; 2],
     /// The race that this stays with.
     pub(super) carrier: Carrier,
+    /// Whether it is there as it is given, whatever has turned.
+    pub(super) offset_stays: bool,
     /// What the body gives beyond the law's disc; nothing for a law that takes no disc, or without an outline.
     pub(super) bulk: Option<Arc<Bulk>>,
     /// What opens the gap at this sprag beside the law: inner track, outer track, and what it lacks in size, m.
@@ -213,6 +215,7 @@ impl Statics {
             effort: Effort::Full,
             offset_m: [0.0; 2],
             carrier: Carrier::default(),
+            offset_stays: false,
             opened_m: [0.0; 3],
             past: false,
             near_upright: false,
@@ -401,7 +404,8 @@ impl Statics {
                 lag = now;
             }
             // The offset turns with a race; without one there is nothing to turn.
-            let on = if self.is_concentric() { carried } else { self.carried(arc, rotation, turn) };
+            let stays = self.is_concentric() || self.offset_stays;
+            let on = if stays { carried } else { self.carried(arc, rotation, turn) };
             let rolled_on = on - carried;
             carried = on;
             let change = (next.v - n_be.v).abs() / next.v;

@@ -1333,6 +1333,126 @@ class Sharing(_Common):
 
 
 @dataclass(frozen=True)
+class SceneSprag:
+    """A sprag of its own and what became of it in a scene."""
+
+    number: int
+    """Number, from 1."""
+    azimuth_deg: float
+    """Azimuth, degrees."""
+    size_um: float
+    """By how much it measures more across its contacts, um."""
+    gap_um: float
+    """What it lacks to its races before it engages, um."""
+    friction: float
+    """Its static friction coefficient."""
+    idle: str | None
+    """Why it cannot carry; ``None``: it can. Then the fields below are ``None``."""
+    catches_s: float | None
+    """When it first carries, s; ``None``: never."""
+    normal_max_n: float | None
+    """Largest normal force at the inner contact, N."""
+    normal_max_at_s: float | None
+    """When, s."""
+    largest_share: float | None
+    """Largest normal force over the mean of all places while that is loaded."""
+    largest_share_at_s: float | None
+    """When, s."""
+    used_friction_inner: float | None
+    """Largest tangential over normal force at the inner contact under load."""
+    used_friction_outer: float | None
+    """The same at the outer contact."""
+    slips_at_s: float | None
+    """When a contact that had caught first slips under load, s."""
+    slips_inner: bool | None
+    """Whether it was the inner one."""
+    slips_normal_n: float | None
+    """Normal force at the inner contact then, N."""
+    slip_inner_um: float | None
+    """Slip at the inner contact over the scene, signed, um."""
+    slip_outer_um: float | None
+    """The same at the outer contact."""
+    slip_path_inner_um: float | None
+    """Path of the slip at the inner contact, um."""
+    slip_path_outer_um: float | None
+    """The same at the outer contact."""
+    contact_lost_s: float | None
+    """Time without contact after it has caught, s."""
+
+
+@dataclass(frozen=True)
+class SharingScene(_Common):
+    """A scene with its sprags one by one."""
+
+    verdict: str
+    """The answer in one line."""
+    held: bool
+    """Whether the scene came to its end and no sprag slipped after it had caught."""
+    scenario: str
+    """Name of the scenario."""
+    stop: str
+    """Why the run ended."""
+    end_s: float
+    """Time reached, s."""
+    given_up: str | None
+    """Why the run did not come to its end; ``None``: it did, or what happened is an answer."""
+    largest_share: float | None
+    """Largest share of a sprag, 1: the mean of all places."""
+    largest_share_sprag: int | None
+    """Its number."""
+    largest_share_at_s: float | None
+    """When, s."""
+    bearing_max_n: float | None
+    """Largest force on the bearings of the races, N; ``None``: their axes meet and stay, as of those below."""
+    bearing_max_at_s: float | None
+    """When, s."""
+    axes_apart_max_um: float | None
+    """How far the axes lie apart at most, um."""
+    bearing_mass_kg: float | None
+    """Mass that moves on the bearings, kg; ``None``: they are held."""
+    bearing_frequency_hz: float | None
+    """Frequency at which it swings on them, Hz."""
+    seed: int | None
+    """Seed from which the tolerances are drawn."""
+    catching: tuple[int, ...]
+    """Numbers of the sprags in the order in which they catch."""
+    slipping: int
+    """How many slip under load after they have caught."""
+    first_slip_sprag: int | None
+    """The first of them."""
+    first_slip_at_s: float | None
+    """When, s."""
+    theta_inner_rad: float
+    """Angle of the inner race at the end, rad."""
+    theta_outer_rad: float
+    """The same of the outer race, rad."""
+    theta_inner_error_rad: float | None
+    """Difference of the inner angle to a run ten times as coarse, rad."""
+    normal_max_error: float | None
+    """The same of the largest normal force, as a part of it."""
+    energy_residual_j: float
+    """What works and changes of energy leave over, J."""
+    energy_through_j: float
+    """Energy that went through, J."""
+    kinds: int
+    """Kinds of sprags that are computed."""
+    events: int
+    """Changes of what sprags do."""
+    steps: int
+    """Steps of the run."""
+    rhs_evaluations: int
+    """Evaluations of the equations, each of all sprags."""
+    sprags: tuple[SceneSprag, ...]
+    """Each sprag."""
+    history: tuple[dict[str, Any], ...]
+    """Over time: angles, shares and forces by sprag, force on the bearings and place of the axis."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each sprag. Needs pandas."""
+        return _columns(self.sprags)
+
+
+@dataclass(frozen=True)
 class FedFrequency:
     """Strokes at one frequency."""
 
