@@ -204,3 +204,24 @@ fn a_life_tells_when_wear_ends_it() {
     let why = Design::parse(&wrong, "wrong.toml").unwrap_err().to_string();
     assert!(why.contains("life.overruns[0].scenario"), "{why}");
 }
+
+/// Limits at nominal torque are held at the loads up to it, those at peak torque at every load.
+#[test]
+fn a_seldom_peak_is_held_to_the_limits_of_the_peak() {
+    let held = |peak_nm: f64| {
+        let text = OIL.replace("hertz_nominal_mpa = 4200.0", "hertz_nominal_mpa = 3750.0")
+            + &format!(
+                "\n[life]\nloads = [ {{ torque_nm = 60.0, engagements = 1e5 }}, {{ torque_nm = {peak_nm:?}, engagements = 10 }} ]\noverruns = [ {{ scenario = \"overrun\", hours = 1.0 }} ]\n"
+            );
+        let design = Design::parse(&text, "worn.toml").unwrap();
+        let (service, life, _) = of(&design);
+        worn_state(&design, &service, &life, 0.0, &Wear::default()).unwrap()
+    };
+    let fair = held(105.0);
+    assert!(fair.broken.is_none(), "{fair:?}");
+    let often = held(89.9);
+    let (nominal_nm, code) = often.capacity.unwrap();
+    assert!(code.ends_with("nominal-inner") && nominal_nm < 90.0, "{code} at {nominal_nm}");
+    assert_eq!(often.broken, Some(sprag_design::life::Broken::Torque));
+    assert_eq!(held(125.0).broken, Some(sprag_design::life::Broken::Torque));
+}

@@ -7,6 +7,7 @@
 
 #[cfg(feature = "validation")]
 pub mod accuracy;
+mod alike;
 pub mod check;
 pub mod co_simulation;
 pub mod comparison;

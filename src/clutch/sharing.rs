@@ -3,7 +3,7 @@
 //! In: nothing. Out: [`Sharing`], SI. Absent: what they carry then (`sharing`). Equations: none.
 
 /// Deviations of the sprags: drawn within bounds from a seed, and given by number.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sharing {
     /// How the sprags stand when torque begins.
     pub start: Standing,

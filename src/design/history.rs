@@ -89,8 +89,13 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
             named = true;
             if whole != header {
                 // Not repeated: it may be the first line of any file.
-                let found = "another first line".to_owned();
-                let help = format!("begin the file with the line {header}");
+                let semicolons = whole.contains(';') && whole.replace([';', ' '], ",") == header;
+                let found =
+                    if semicolons { "semicolons between the names" } else { "another first line" }.to_owned();
+                let help = match semicolons {
+                    true => "put commas between the cells, and decimals behind a point".to_owned(),
+                    false => format!("begin the file with the line {header}"),
+                };
                 faults.add("", start..start + whole.len().max(1), found, &header, &help);
                 break;
             }

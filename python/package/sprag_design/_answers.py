@@ -101,6 +101,12 @@ class _Common:
         """The object of ``--json``: figures in the units of their names, ``None`` where there is none."""
         return typing.cast("dict[str, Any]", json.loads(json.dumps(self._data)))
 
+    def __repr__(self) -> str:
+        names = (f.name for f in dataclasses.fields(self) if not f.name.startswith("_"))
+        verdict = getattr(self, "verdict", None)
+        said = f": {verdict}" if verdict else ""
+        return f"<{type(self).__name__}{said}; {', '.join(names)}>"
+
 
 def _common(text: str, body: str) -> tuple[dict[str, Any], dict[str, Any]]:
     """Fields that all answers share, and the figures."""
@@ -242,7 +248,7 @@ class Overrun:
     """A note where that is so at other speeds only, on the way through them."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Check(_Common):
     """A design held against each of its limits."""
 
@@ -414,7 +420,7 @@ def _curve(law: dict[str, Any]) -> Curve:
     )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Stiffness(_Common):
     """Static curves at rest. The figures of the first law stand at the top: ``stiffness.windup_deg``."""
 
@@ -493,7 +499,7 @@ class Slips:
     """At the outer contact."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Simulation(_Common):
     """What became of a scene. Columns of its history are attributes too: ``simulation.theta_inner_rad``."""
 
@@ -781,7 +787,7 @@ class Steps:
     """Evaluations of the clutch."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Optimum(_Common):
     """What a search for a better design found."""
 
@@ -980,7 +986,7 @@ class LifeLoad:
     """Chance of a slip in an engagement."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Life(_Common):
     """What a life of loads does to a clutch."""
 
@@ -1107,7 +1113,7 @@ class SlipWear:
     """Depth worn off a place of the race that one sprag slips over, um."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FilmOverrun(_Common):
     """Overrun on a film."""
 
@@ -1170,7 +1176,7 @@ class Blow:
     """Why it was not followed to its end."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Reengagement(_Common):
     """Slip under load and the blow when the clutch grips again."""
 
@@ -1272,7 +1278,7 @@ class SharingSprag:
     """The same of the outer track, um."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Sharing(_Common):
     """What each sprag carries."""
 
@@ -1340,7 +1346,7 @@ class FedFrequency:
     """Why the run ended before its end."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Feed(_Common):
     """What each stroke of an indexing drive feeds."""
 

@@ -74,7 +74,8 @@ fn front(svg: &mut Svg, drawing: &Drawing, axial_m: [f64; 2], scale: f64, notes:
         if radius > 0.0 {
             let text = format!("⌀ {} {name}", plain(Unit::Millimetre.from_si(2.0 * radius), 6));
             let ends = [o[0] - size(radius), o[0] + size(radius)];
-            dimensions.push(Across { ends, from_y: o[1], y, text });
+            let across = Across { ends, from_y: o[1], y, text };
+            dimensions.push(across.within(SPLIT - 4.0));
             y += 21.0;
         }
     }
@@ -134,6 +135,15 @@ struct Across {
 }
 
 impl Across {
+    /// The same with the last word left out where it would reach beyond `x`.
+    fn within(mut self, x: f64) -> Self {
+        let stands_behind = self.half_text().is_none();
+        if stands_behind && self.ends[1] + 6.0 + text_width(&self.text, 12.0) > x {
+            self.text = self.text.trim_end_matches(" track").to_owned();
+        }
+        self
+    }
+
     /// Half of the text and a hair, where it stands in the line.
     fn half_text(&self) -> Option<f64> {
         let half = 0.45 * text_width(&self.text, 12.0);
