@@ -165,16 +165,26 @@ fn refusal(why: RefusedSetting, window_s: Option<[f64; 2]>) -> Failure {
 /// Refuse flags that the method does not know.
 fn refuse_strangers(args: &SimulateArgs) -> Result<(), Failure> {
     let published = args.method == MethodName::Published;
-    let with = |what: &'static str| format!("only with --method {what}");
+    let event = "only with --method event";
+    // Flag, whether it is given, with its number to be repeated, whether it is of the published method, what is allowed.
     let given = [
-        ("--tolerance", args.tolerance.is_some(), "event; the published one has a fixed --step"),
-        ("--window", args.window.is_some(), "event"),
-        ("--max-steps", args.max_steps.is_some(), "event"),
-        ("--max-changes", args.max_changes.is_some(), "event"),
-        ("--band", args.band.is_some(), "published: the event method needs no band"),
+        (
+            "--tolerance",
+            args.tolerance.map(Some),
+            false,
+            "--step with --method published, whose step is fixed",
+        ),
+        ("--window", args.window.map(|_| None), false, event),
+        ("--max-steps", args.max_steps.map(|_| None), false, event),
+        ("--max-changes", args.max_changes.map(|_| None), false, event),
+        ("--band", args.band.map(Some), true, "only with --method published: the event method needs no band"),
     ];
-    let stranger = given.into_iter().find(|(_, given, of)| *given && of.starts_with("event") == published);
-    stranger.map_or(Ok(()), |(flag, _, of)| Err(Failure::malformed(format!("{flag}: {}", with(of)))))
+    match given.into_iter().find(|(_, given, of_published, _)| given.is_some() && *of_published != published)
+    {
+        Some((flag, Some(Some(x)), _, allowed)) => Err(refused(flag, x, allowed)),
+        Some((flag, _, _, allowed)) => Err(Failure::malformed(format!("{flag}: {allowed}"))),
+        None => Ok(()),
+    }
 }
 
 /// Two times, s, with a colon between them.
