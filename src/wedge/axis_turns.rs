@@ -18,7 +18,7 @@
 
 use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{NoCurve, WedgeCurve};
-use super::table::held;
+use super::table::levelled;
 use crate::numeric::panels::Panels;
 use crate::numeric::pieces::Pieces;
 use crate::numeric::quadrature;
@@ -190,7 +190,7 @@ impl AxisTurns {
         let (variable, rise, bend) = if k > 0 {
             (alpha, 1.0, 0.0)
         } else {
-            let (x, level) = held((alpha - self.alpha0).max(0.0));
+            let (x, level) = levelled((alpha - self.alpha0).max(0.0));
             let s = x.powf(1.0 / self.exponent);
             let rise = if alpha > self.alpha0 { level * s / (self.exponent * x) } else { 0.0 };
             (s, rise, rise * level * (1.0 / self.exponent - 1.0) / x)
