@@ -104,7 +104,7 @@ impl<B: Serialize> Envelope<'_, B> {
 
 /// What an answer comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
+pub enum Finding {
     /// All that was asked about holds.
     Held,
     /// Something does not.
@@ -117,7 +117,7 @@ pub enum Outcome {
     Stopped,
 }
 
-impl Outcome {
+impl Finding {
     /// Of a verdict.
     pub fn of(held: bool) -> Self {
         if held { Self::Held } else { Self::NotHeld }
@@ -127,7 +127,7 @@ impl Outcome {
 /// An answer and its faces.
 pub trait Answer {
     /// What it comes to.
-    fn outcome(&self) -> Outcome;
+    fn outcome(&self) -> Finding;
     /// That in a sentence.
     fn verdict(&self) -> String;
     /// The table for programs.
@@ -141,7 +141,7 @@ pub trait Answer {
 
     /// Whether all that was asked about holds.
     fn held(&self) -> bool {
-        self.outcome() == Outcome::Held
+        self.outcome() == Finding::Held
     }
 }
 
@@ -152,7 +152,7 @@ pub trait Said {
     /// The design.
     fn design(&self) -> &Design;
     /// What it comes to.
-    fn outcome(&self) -> Outcome;
+    fn outcome(&self) -> Finding;
     /// That in a sentence.
     fn verdict(&self) -> String;
     /// What the tables do not say, a sentence each.
@@ -166,7 +166,7 @@ pub trait Said {
 
     /// Whether all that was asked about holds.
     fn is_held(&self) -> bool {
-        self.outcome() == Outcome::Held
+        self.outcome() == Finding::Held
     }
 
     /// What it is about.
@@ -177,9 +177,9 @@ pub trait Said {
     /// How the verdict looks on a page, and its words there.
     fn banner(&self) -> (Tone, String) {
         let tone = match self.outcome() {
-            Outcome::Held => Tone::Good,
-            Outcome::NotHeld | Outcome::Stopped => Tone::Bad,
-            Outcome::Shown | Outcome::NotKnown => Tone::Plain,
+            Finding::Held => Tone::Good,
+            Finding::NotHeld | Finding::Stopped => Tone::Bad,
+            Finding::Shown | Finding::NotKnown => Tone::Plain,
         };
         (tone, self.verdict())
     }
@@ -201,7 +201,7 @@ pub trait Said {
 }
 
 impl<T: Said> Answer for T {
-    fn outcome(&self) -> Outcome {
+    fn outcome(&self) -> Finding {
         Said::outcome(self)
     }
 
@@ -246,11 +246,11 @@ impl<T: Said> Answer for T {
 }
 
 impl Answer for SharingSceneAnswer<'_> {
-    fn outcome(&self) -> Outcome {
+    fn outcome(&self) -> Finding {
         match self.found.run.stop {
-            Stop::Interrupted => Outcome::Stopped,
-            stop if stop.gave_up() => Outcome::NotKnown,
-            _ => Outcome::of(self.held()),
+            Stop::Interrupted => Finding::Stopped,
+            stop if stop.gave_up() => Finding::NotKnown,
+            _ => Finding::of(self.held()),
         }
     }
 

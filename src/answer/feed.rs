@@ -2,7 +2,7 @@
 
 use super::left_out::{LeftOut, left_out_of};
 use super::reengagement::peak_torque_borne;
-use super::{Outcome, Said};
+use super::{Finding, Said};
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
@@ -267,20 +267,20 @@ impl Said for FeedAnswer<'_> {
         self.design
     }
 
-    fn outcome(&self) -> Outcome {
+    fn outcome(&self) -> Finding {
         if self.list.len() < self.asked {
-            Outcome::Stopped
+            Finding::Stopped
         } else if self.list.iter().any(|fed| fed.ended.is_some_and(Stop::gave_up)) {
-            Outcome::NotKnown
+            Finding::NotKnown
         } else {
-            Outcome::of(self.list.iter().all(|fed| self.feeds(fed)))
+            Finding::of(self.list.iter().all(|fed| self.feeds(fed)))
         }
     }
 
     fn verdict(&self) -> String {
         let hertz = |hz: f64| Unit::Hertz.show(hz, 3);
         let degrees = |rad: f64| Unit::Degree.show(rad, 3);
-        if self.outcome() == Outcome::Stopped {
+        if self.outcome() == Finding::Stopped {
             return format!("stopped after {} of {} frequencies", self.list.len(), self.asked);
         }
         let (first, last) = (&self.list[0], &self.list[self.list.len() - 1]);

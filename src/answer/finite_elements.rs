@@ -1,7 +1,7 @@
 //! A result of finite elements beside the design's own contact law.
 
 use super::left_out::LeftOut;
-use super::{Outcome, Said};
+use super::{Finding, Said};
 use crate::clutch::Clutch;
 use crate::design::Design;
 use crate::export::calculix::{Facts, ResultRow};
@@ -100,8 +100,8 @@ impl Said for FiniteElements<'_> {
         self.design
     }
 
-    fn outcome(&self) -> Outcome {
-        Outcome::Shown
+    fn outcome(&self) -> Finding {
+        Finding::Shown
     }
 
     fn verdict(&self) -> String {

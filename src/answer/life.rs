@@ -2,7 +2,7 @@
 
 use super::left_out::{LeftOut, left_out_of};
 use super::resonance::NoResonance;
-use super::{Outcome, Said};
+use super::{Finding, Said};
 use crate::clutch::{RepeatedLoad, RepeatedSwing, Service};
 use crate::design::Design;
 use crate::life::{
@@ -324,11 +324,11 @@ impl Said for LifeAnswer<'_> {
         self.design
     }
 
-    fn outcome(&self) -> Outcome {
+    fn outcome(&self) -> Finding {
         match self.known() {
-            LifeKnown::NotHeld => Outcome::NotHeld,
-            LifeKnown::Held | LifeKnown::HeldInPart => Outcome::Held,
-            LifeKnown::Nothing => Outcome::NotKnown,
+            LifeKnown::NotHeld => Finding::NotHeld,
+            LifeKnown::Held | LifeKnown::HeldInPart => Finding::Held,
+            LifeKnown::Nothing => Finding::NotKnown,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::check::overrun::outer_turns;
 use super::left_out::{LeftOut, left_out_of};
-use super::{Outcome, Said};
+use super::{Finding, Said};
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
@@ -390,13 +390,13 @@ impl Said for ReengagementAnswer<'_> {
         self.design
     }
 
-    fn outcome(&self) -> Outcome {
+    fn outcome(&self) -> Finding {
         let found = &self.found;
         let ends = found.list.iter().filter_map(|blow| blow.ended).chain(found.ended.map(|end| end.stop));
         match ends.last() {
-            Some(Stop::Interrupted) => Outcome::Stopped,
-            Some(stop) if stop.gave_up() => Outcome::NotKnown,
-            _ => Outcome::of(found.ended.is_none() && found.list.iter().all(|blow| self.bears_it(blow))),
+            Some(Stop::Interrupted) => Finding::Stopped,
+            Some(stop) if stop.gave_up() => Finding::NotKnown,
+            _ => Finding::of(found.ended.is_none() && found.list.iter().all(|blow| self.bears_it(blow))),
         }
     }
 

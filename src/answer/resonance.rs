@@ -2,7 +2,7 @@
 
 use super::left_out::{LeftOut, left_out_of};
 use super::page::half;
-use super::{Outcome, Said};
+use super::{Finding, Said};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::dynamics::Run;
@@ -168,7 +168,7 @@ impl ResonanceAnswer<'_> {
     }
 
     /// Each state in a line.
-    pub fn states(&self) -> Rows<State<'_>> {
+    pub fn states(&self) -> Rows<StateLine<'_>> {
         lines(self.cells().map(|c| (c.frequency_hz, c.amplitude_nm, &c.state, c.other.as_ref())))
     }
 
@@ -304,8 +304,8 @@ impl Said for ResonanceAnswer<'_> {
         format!("{}, {}", self.design.name, self.scenario.name)
     }
 
-    fn outcome(&self) -> Outcome {
-        if self.amplitudes_left() > 0 { Outcome::Stopped } else { Outcome::Shown }
+    fn outcome(&self) -> Finding {
+        if self.amplitudes_left() > 0 { Finding::Stopped } else { Finding::Shown }
     }
 
     fn verdict(&self) -> String {
@@ -528,13 +528,13 @@ fn one_verdict(c: &ResonanceCell) -> String {
 }
 
 /// A state, at which frequency (Hz) and amplitude (N m), and another one there.
-pub type State<'a> = (f64, f64, &'a Steady, Option<&'a Steady>);
+pub type StateLine<'a> = (f64, f64, &'a Steady, Option<&'a Steady>);
 
 /// States in a line each.
-fn lines<'a>(states: impl IntoIterator<Item = State<'a>>) -> Rows<State<'a>> {
-    let motion = |s: &State<'a>| s.2.motion.as_ref().ok();
-    let run = |s: &State<'a>| motion(s).map(|o| &o.run);
-    let drift_rad = |s: &State<'a>| motion(s).map(|o| o.drift_rad());
+fn lines<'a>(states: impl IntoIterator<Item = StateLine<'a>>) -> Rows<StateLine<'a>> {
+    let motion = |s: &StateLine<'a>| s.2.motion.as_ref().ok();
+    let run = |s: &StateLine<'a>| motion(s).map(|o| &o.run);
+    let drift_rad = |s: &StateLine<'a>| motion(s).map(|o| o.drift_rad());
     Rows::of(states)
         .number("frequency_hz", "Frequency", Unit::Hertz, 5, |(hz, ..)| *hz)
         .number("amplitude_nm", "Amplitude", Unit::NewtonMetre, 5, |(_, nm, ..)| *nm)

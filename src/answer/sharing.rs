@@ -3,7 +3,7 @@
 use super::drawn::drawn_words;
 use super::left_out::{LeftOut, left_out_of, one_by_one};
 use super::page::half;
-use super::{Outcome, Said};
+use super::{Finding, Said};
 use crate::clutch::Rim;
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
@@ -334,10 +334,10 @@ impl Said for SharingAnswer<'_> {
     }
 
     /// Whether every sprag that carries is within its limits, over the turn.
-    fn outcome(&self) -> Outcome {
+    fn outcome(&self) -> Finding {
         let within = |pa: f64| self.allowed.is_none_or(|(most, _)| pa <= most);
         let pressed = self.most_pressed().is_none_or(|(_, pa)| within(pa));
-        Outcome::of(self.turned.is_ok() && pressed && self.slipping().is_none())
+        Finding::of(self.turned.is_ok() && pressed && self.slipping().is_none())
     }
 
     fn verdict(&self) -> String {

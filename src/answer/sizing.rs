@@ -1,7 +1,7 @@
 //! What a first design answers: the design, its figures, and the alternatives.
 
 use super::check::{CheckRow, REACHED_AT, far_more_than_asked, margin_words, people_table, size_line};
-use super::{Outcome, Said};
+use super::{Finding, Said};
 use crate::design::{Design, shown};
 use crate::follow::Follow;
 use crate::margin::{load_state, lowest_capacity};
@@ -59,8 +59,8 @@ impl Said for Sizing<'_> {
         &self.sized.made.design
     }
 
-    fn outcome(&self) -> Outcome {
-        Outcome::Held
+    fn outcome(&self) -> Finding {
+        Finding::Held
     }
 
     fn verdict(&self) -> String {

@@ -1,6 +1,6 @@
 //! Exit codes, promised to scripts.
 
-use crate::answer::Outcome;
+use crate::answer::Finding;
 use crate::design::{DesignError, shown};
 use crate::margin::NoMargins;
 use serde_json::{Value, json};
@@ -46,13 +46,13 @@ impl Exit {
     }
 }
 
-impl From<Outcome> for Exit {
-    fn from(outcome: Outcome) -> Self {
+impl From<Finding> for Exit {
+    fn from(outcome: Finding) -> Self {
         match outcome {
-            Outcome::Held | Outcome::Shown => Self::Held,
-            Outcome::NotHeld => Self::NotHeld,
-            Outcome::NotKnown => Self::Failed,
-            Outcome::Stopped => Self::Interrupted,
+            Finding::Held | Finding::Shown => Self::Held,
+            Finding::NotHeld => Self::NotHeld,
+            Finding::NotKnown => Self::Failed,
+            Finding::Stopped => Self::Interrupted,
         }
     }
 }

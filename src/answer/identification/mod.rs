@@ -6,7 +6,7 @@ mod tables;
 
 pub use stopped::StoppedIdentification;
 
-use super::{Outcome, Said, VERSION, WRITTEN_BY};
+use super::{Finding, Said, VERSION, WRITTEN_BY};
 use crate::design::Design;
 use crate::identify::Identified;
 use crate::report::{Page, Screen, Table};
@@ -56,8 +56,8 @@ impl Said for Identification<'_> {
     }
 
     /// Whether the data determine every unknown.
-    fn outcome(&self) -> Outcome {
-        Outcome::of(self.found.knowledge.undetermined().next().is_none())
+    fn outcome(&self) -> Finding {
+        Finding::of(self.found.knowledge.undetermined().next().is_none())
     }
 
     fn verdict(&self) -> String {

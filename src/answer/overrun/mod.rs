@@ -4,10 +4,10 @@ mod page;
 mod tables;
 mod words;
 
-pub use tables::Part;
+pub use tables::OverrunPart;
 
 use super::left_out::{LeftOut, left_out_of};
-use super::{Outcome, Said};
+use super::{Finding, Said};
 use crate::clutch::{Clutch, Lubrication};
 use crate::design::{Design, rad_s};
 use crate::life::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
@@ -236,8 +236,8 @@ impl Said for OverrunAnswer<'_> {
         self.design
     }
 
-    fn outcome(&self) -> Outcome {
-        Outcome::Shown
+    fn outcome(&self) -> Finding {
+        Finding::Shown
     }
 
     fn verdict(&self) -> String {
@@ -260,7 +260,9 @@ impl Said for OverrunAnswer<'_> {
     }
 
     fn tables(&self, screen: Screen) -> String {
-        [Part::Film, Part::Heat, Part::Swing].map(|part| self.part(part).to_text(screen)).join("\n")
+        [OverrunPart::Film, OverrunPart::Heat, OverrunPart::Swing]
+            .map(|part| self.part(part).to_text(screen))
+            .join("\n")
     }
 
     fn body(&self) -> Value {

@@ -1,7 +1,7 @@
 //! The page of an overrun.
 
 use super::super::page::half;
-use super::tables::Part;
+use super::tables::OverrunPart;
 use super::{OilAt, OverrunAnswer, OverrunLine, RunningRace};
 use crate::report::plot::{Curve, Dash};
 use crate::report::{Page, Plot, Unit, significant};
@@ -43,15 +43,15 @@ pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
     ]);
     page.heading("Film and drag").table(
         "Regimes: I or V, the oil keeps its viscosity or thickens under pressure; R or E, the bodies stay round or flatten.",
-        &answer.part(Part::Film),
+        &answer.part(OverrunPart::Film),
     );
     page.heading("Heat").table(
         "Means of the bodies; the film is taken to be as warm as the mean of the two that rub.",
-        &answer.part(Part::Heat),
+        &answer.part(OverrunPart::Heat),
     );
     page.heading("Swing and wear").table(
         "Growth of a small swing of the sprags: above 0 the overrun does not stay. Wear of a sprag grows with the power 2/3 of time.",
-        &answer.part(Part::Swing),
+        &answer.part(OverrunPart::Swing),
     );
 }
 

@@ -5,7 +5,7 @@ use crate::report::{Cell, Rows, Table, Unit};
 
 /// A part of the columns that fits a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
+pub enum OverrunPart {
     /// Film, friction, drag.
     Film,
     /// Heat and temperatures.
@@ -82,11 +82,11 @@ impl OverrunAnswer<'_> {
     }
 
     /// A part of it.
-    pub fn part(&self, part: Part) -> Table {
+    pub fn part(&self, part: OverrunPart) -> Table {
         let with = match part {
-            Part::Film => with_film,
-            Part::Heat => with_heat,
-            Part::Swing => with_swing,
+            OverrunPart::Film => with_film,
+            OverrunPart::Heat => with_heat,
+            OverrunPart::Swing => with_swing,
         };
         // Oil and speed say what a row is.
         Table { lead: 2, ..with(self.oil_and_speed()).table() }
