@@ -251,12 +251,13 @@ const BEYOND: [f64; 2] = [1.05, 0.01];
 const MOST: f64 = 1.5;
 
 /// Run `model` from `state` on arc `place` with both contacts rolling. `None` where that leaves the closed contact or asks for
-/// more than these equations hold: a course of speed or torque, damped contacts, a contact B that holds whatever it takes.
+/// more than these equations hold: a course of speed or torque, a drivetrain, damped contacts, a contact B that holds whatever it takes.
 pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSettings) -> Option<Stuck> {
     let Place::Arc(arc) = place else { return None };
     let plain = model.drive.speed_rad_s.is_none()
         && model.drive.torque_nm.is_none()
         && model.drive.flanges.is_none()
+        && model.drive.train.is_none()
         && model.hunt_crossley_s_per_m == 0.0
         && !model.outer_holds;
     if !plain || settings.samples > 0 || settings.energy {
