@@ -16,7 +16,9 @@ mod wear;
 mod worn;
 
 pub use wear::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
-pub use worn::{BLUNT, Broken, Wear, Worn, WornLife, WornState, worn, worn_life, worn_state};
+pub use worn::{
+    BLUNT, BLUNT_BY_RADIUS, Broken, Wear, Worn, WornLife, WornState, worn, worn_life, worn_state,
+};
 
 use crate::clutch::{PittingStrength, RingStrength, Service};
 use crate::design::Design;

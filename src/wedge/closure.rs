@@ -19,9 +19,10 @@ pub const FIRST_CONTACT_N: f64 = 1e-120;
 
 /// Steps in which the centres may come too close on the way, near the highest place.
 const UPRIGHT_ROUNDS: usize = 30;
-/// Rounds at most: a handful suffices but over the edge of a flat, where width of the patch and curvature under it follow each other
-/// in ever smaller steps.
-const ROUNDS: usize = 400;
+/// Rounds at most, and from which on the curvature under the patch takes half a step: over the edge of a flat it goes to and fro with
+/// the width of the patch for ever otherwise. A handful of rounds suffices elsewhere.
+const ROUNDS: usize = 200;
+const HALVED_FROM: usize = 60;
 
 #[cfg(test)]
 thread_local! {
@@ -385,7 +386,7 @@ impl Statics {
             let next = if next.v > FIRST_CONTACT_N { next } else { Dual::constant(FIRST_CONTACT_N) };
             let curvature = inner.curvature_per_m.v;
             let turn = rotation - (beta - self.profile.beta0_rad);
-            let mut moved = inner.update(self, arc, n, turn);
+            let mut moved = inner.update(self, arc, n, turn, round >= HALVED_FROM);
             if let Some(bulk) = &self.bulk {
                 let rolled = self.fixed_roll_m.map_or_else(|| self.rolled_m(arc, turn), Dual::constant);
                 let mut now = Self::yields(bulk, n, rolled, inner.curvature_per_m);
@@ -426,9 +427,9 @@ impl Statics {
                     && slope_change >= slope_residual
                     && change < 1e-13
                 || round > 20 && there && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10
-                // Forces stand still; where the curvature changes by the whole within a hair, as on the edge of a flat, the approach goes
-                // to and fro with the rounding of the turn.
-                || round > 40
+                // Forces stand still; where the curvature changes by the whole within a hair, as on the edge of a flat, the approach
+                // keeps the rounding of the turn many times over.
+                || round > HALVED_FROM
                     && there
                     && change <= 4.0 * f64::EPSILON
                     && slope_change < 1e-11

@@ -106,7 +106,14 @@ impl InnerApproach {
 
     /// Take the curvature at the turn that the last one led to. Returns the relative changes of delta_H and of its
     /// slope.
-    pub(super) fn update(&mut self, statics: &Statics, arc: usize, n: Dual, turn: Dual) -> Dual {
+    pub(super) fn update(
+        &mut self,
+        statics: &Statics,
+        arc: usize,
+        n: Dual,
+        turn: Dual,
+        half_a_step: bool,
+    ) -> Dual {
         let moves = statics.elastic.gives_along;
         let edge = statics.profile.arcs[arc].radius_m == 0.0;
         if self.by_curvature_m2.is_none() && !moves || edge {
@@ -142,7 +149,8 @@ impl InnerApproach {
             v: (by_curvature * (next.v - k.v) / self.approach_m.v).abs(),
             d: (by_curvature * (next.d - k.d) / self.approach_m.d).abs(),
         };
-        if let Some(updated) = Self::curved(statics, arc, n, next) {
+        let taken = if half_a_step { (k + next) * 0.5 } else { next };
+        if let Some(updated) = Self::curved(statics, arc, n, taken) {
             *self = Self { ahead_m: self.ahead_m, ..updated };
         }
         change
