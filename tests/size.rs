@@ -327,3 +327,22 @@ fn an_outer_diameter_that_is_too_small_names_the_one_that_would_do() {
     let same = again.iter().find(|t| t.space_m == barred[0].space_m).unwrap();
     assert_ne!(same.decided_by, "outside");
 }
+
+/// What cannot be is refused with how to mend it: a bore in inches, sprags that nothing throws off, a speed of contact above that of
+/// the purpose's lift-off.
+#[test]
+fn wishes_that_cannot_be_are_refused_in_words() {
+    let why = |wish: Wish| wish.check().unwrap_err().to_string();
+    let inches = why(Wish { purpose: purpose("starter"), ..wish(1.378, 420.0) });
+    assert!(inches.contains("1.378 mm") && inches.contains("an inch is 25.4"), "{inches}");
+    assert!(wish(40.0, 5e4).check().is_ok());
+    let rad_s = |rpm: f64| Some(rpm * PI / 30.0);
+    let held = why(Wish { purpose: purpose("Backstop"), lift_off_rad_s: rad_s(300.0), ..wish(80.0, 6000.0) });
+    assert!(held.contains("lift-off-rpm: found 300 rpm") && held.contains("turns at 0 rpm"), "{held}");
+    let keep = why(Wish { purpose: purpose("starter"), keep_contact_rad_s: rad_s(1500.0), ..wish(35.0, 420.0) });
+    assert!(keep.contains("keep-contact-rpm: found 1500 rpm; allowed: up to 900 rpm"), "{keep}");
+    // The engine that throws them off at 1000 rpm runs at 1000 rpm.
+    let later = Wish { purpose: purpose("starter"), lift_off_rad_s: rad_s(1000.0), ..wish(35.0, 420.0) };
+    let wanted = later.check().unwrap();
+    assert!((wanted.overrun_rad_s[1] - wanted.lift_off_rad_s.unwrap()).abs() < 1e-9);
+}

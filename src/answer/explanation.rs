@@ -130,8 +130,14 @@ fn word(name: &str) -> Option<Explanation> {
         heading == wanted
             || heading.split(", ").any(|one| one == wanted || one.split(' ').next_back() == Some(&wanted))
     };
-    let lines: Vec<(&'static str, String)> = rows
-        .filter(|(heading, _)| is(heading))
+    let all: Vec<_> = rows.filter(|(heading, _)| is(heading)).collect();
+    // r_e is not R_e, where both are there.
+    let exact = plain(name);
+    let to_the_letter =
+        all.iter().filter(|(heading, _)| heading.split(", ").any(|one| one == exact)).cloned();
+    let to_the_letter: Vec<_> = to_the_letter.collect();
+    let lines: Vec<(&'static str, String)> = if to_the_letter.is_empty() { all } else { to_the_letter }
+        .into_iter()
         .flat_map(|(heading, cells)| {
             let file = (cells.len() > 1 && cells[0] != "–").then(|| ("in the file", cells[0].clone()));
             file.into_iter().chain(cells.last().map(|sense| ("is", format!("{heading}: {sense}"))))

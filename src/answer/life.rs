@@ -455,6 +455,13 @@ impl Said for LifeAnswer<'_> {
                 Unit::NewtonMetre.show(s.load.from_nm, 4),
             ));
         }
+        if let Some((peak_nm, indents)) = life.peak_beyond {
+            let word = if indents { ", which would indent a contact" } else { "" };
+            all.push(format!(
+                "Not counted: peak torque, {} by [limits]{word}: {{ torque_nm = {peak_nm:?}, engagements = ... }} among the loads of [life] counts it",
+                Unit::NewtonMetre.show(peak_nm, 4)
+            ));
+        }
         let not_counted: Vec<&str> = self.not_counted().collect();
         if let Some(first) = not_counted.first() {
             all.push(format!(

@@ -164,7 +164,8 @@ impl Run for NewArgs {
                 )));
             }
             wish.check_ratio().map_err(refused)?;
-            Questions { lines: lines(), follow: &context.follow }.fill(&mut wish, &mut output)?;
+            Questions { lines: lines(), follow: &context.follow, force: context.outputs.force }
+                .fill(&mut wish, &mut output)?;
         }
         let Some(output) = output else { return Err(Failure::malformed("needed: -o NEW.toml")) };
         let (wanted, exit) = sized(&wish, &output, "New clutch", context)?;
@@ -232,6 +233,7 @@ fn lines() -> Receiver<String> {
 struct Questions<'a> {
     lines: Receiver<String>,
     follow: &'a Follow,
+    force: bool,
 }
 
 impl Questions<'_> {
@@ -263,8 +265,14 @@ impl Questions<'_> {
         if output.is_none() {
             let name = format!("{}.toml", wish.purpose.map_or("clutch", |p| p.name));
             let question = format!("Write to [{name}]");
-            let answer = self.until(&question, |line| Ok(line.to_owned()))?;
-            *output = Some(PathBuf::from(if answer.is_empty() { name } else { answer }));
+            let path = self.until(&question, |line| {
+                let path = PathBuf::from(if line.is_empty() { &name } else { line });
+                match path.exists() && !self.force {
+                    true => Err(format!("{} exists; name another file", path.display())),
+                    false => Ok(path),
+                }
+            })?;
+            *output = Some(path);
         }
         Ok(())
     }

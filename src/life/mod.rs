@@ -151,6 +151,8 @@ pub struct Life {
     pub largest_nm: f64,
     /// By what a single load may exceed the largest until it indents, load over load: (4000 MPa/p_0)^2, inner and outer contact.
     pub indentation: [f64; 2],
+    /// Peak torque of the limits, N m, where it is above every load, and whether it would indent a contact.
+    pub peak_beyond: Option<(f64, bool)>,
     /// Slips that are expected in the life.
     pub slips: Option<f64>,
     /// How many of them are allowed; `None`: nobody has said.
@@ -213,9 +215,13 @@ pub fn life(design: &Design, service: &Service) -> Result<Life, NoMargins> {
     let used = LifePlace::ALL.map(|place| used(design, service, &state, place, &loads, &cycles)).to_vec();
     let largest = loads.first();
     let indents = |pa: Option<f64>| pa.map_or(0.0, |pa| (INDENTING_PA / pa).powi(2));
+    let largest_nm = largest.map_or(0.0, |l| l.torque_nm);
+    let peak = design.limits.peak_torque_nm.filter(|nm| *nm > largest_nm);
+    let pressed = |nm| state.curve.at_torque(nm).map_or(0.0, |p| p.hertz_inner_pa.max(p.hertz_outer_pa));
     Ok(Life {
+        peak_beyond: peak.map(|nm| (nm, pressed(nm) > INDENTING_PA)),
         used,
-        largest_nm: largest.map_or(0.0, |l| l.torque_nm),
+        largest_nm,
         indentation: [
             indents(largest.and_then(|l| Some(l.state?.hertz_inner_pa))),
             indents(largest.and_then(|l| Some(l.state?.hertz_outer_pa))),

@@ -157,7 +157,7 @@ pub const PURPOSES: [Purpose; 5] = [
 
 /// The purpose of that name.
 pub fn purpose(name: &str) -> Option<&'static Purpose> {
-    PURPOSES.iter().find(|p| p.name == name)
+    PURPOSES.iter().find(|p| p.name.eq_ignore_ascii_case(name))
 }
 
 /// Periods of a swing that are computed.

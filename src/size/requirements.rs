@@ -2,8 +2,10 @@
 
 use super::asked::{ASKED, asked};
 use super::purpose::Purpose;
-use crate::design::rad_s;
+use crate::design::{rad_s, rpm};
 use crate::material::{STEELS, Steel};
+use crate::numeric::rounded;
+use std::f64::consts::PI;
 use std::fmt;
 
 /// A torque that swings, its crest the nominal torque.
@@ -60,6 +62,9 @@ pub const PEAK_OVER_NOMINAL: f64 = 1.3;
 /// Where a value comes from that somebody named.
 pub(super) const NAMED: &str = "asked for";
 
+/// Shear of a solid shaft in the bore beyond which the bore is no shaft's, Pa: ten times what the hardest steels bear.
+const NO_SHAFT_PA: f64 = 1e10;
+
 /// Static friction that catalogues of sprag clutches reckon with (GMN 9050).
 pub const FRICTION: f64 = 0.11;
 
@@ -115,7 +120,60 @@ impl Wish {
                 allowed: "with swing-hz, which says how often".to_owned(),
             });
         }
+        self.check_lift_off(&wanted)?;
+        self.check_shaft(&wanted)?;
         wanted.check().map(|()| wanted)
+    }
+
+    /// Refuse a speed of lift-off that the outer race does not reach, and one of the purpose below a speed to which contact is to be kept.
+    fn check_lift_off(&self, wanted: &Requirements) -> Result<(), BadRequirement> {
+        let show = |rad_s: f64| format!("{} rpm", rounded(rpm(rad_s), 6));
+        let (Some(lift), [_, outer]) = (wanted.lift_off_rad_s, wanted.overrun_rad_s) else { return Ok(()) };
+        if let (None, Some(keep)) = (self.lift_off_rad_s, self.keep_contact_rad_s.filter(|keep| *keep > lift))
+        {
+            return Err(BadRequirement {
+                what: "keep-contact-rpm",
+                found: show(keep),
+                allowed: format!(
+                    "up to {}, by which sprags of this purpose are off ({}); lift-off-rpm says another speed, 0 that they stay on",
+                    show(lift),
+                    wanted.contact_from[1]
+                ),
+            });
+        }
+        let outer_known = self.outer_rad_s.is_some() || self.purpose.is_some();
+        if outer_known && lift > outer * (1.0 + 1e-9) {
+            return Err(BadRequirement {
+                what: "lift-off-rpm",
+                found: format!(
+                    "{}, while the outer race turns at {} in overrun ({})",
+                    show(lift),
+                    show(outer),
+                    wanted.overrun_from[1]
+                ),
+                allowed: "up to the speed of the outer race in overrun, outer-rpm: these sprags ride with it, and nothing else throws them off \
+                          the inner race; 0: they stay on"
+                    .to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    /// Refuse a bore whose shaft no steel would make strong enough by far: mostly one in inches.
+    fn check_shaft(&self, wanted: &Requirements) -> Result<(), BadRequirement> {
+        let shear_pa = 16.0 * wanted.peak_nm / (PI * wanted.bore_m.powi(3));
+        if shear_pa <= NO_SHAFT_PA || !shear_pa.is_finite() {
+            return Ok(());
+        }
+        Err(BadRequirement {
+            what: "bore",
+            found: format!("{} mm", rounded(1e3 * wanted.bore_m, 12)),
+            allowed: format!(
+                "a diameter in mm (an inch is 25.4): {} Nm would shear a shaft as thick as this by {} MPa",
+                rounded(wanted.peak_nm, 6),
+                rounded(shear_pa / 1e6, 2)
+            ),
+        })
     }
 
     /// Refuse a factor beside both torques that it joins, and one that makes the peak the lower.
@@ -142,6 +200,11 @@ impl Wish {
         let keep = self.keep_contact_rad_s.or(of(|p| p.keep_contact_rpm.value).map(rad_s));
         let lift = self.lift_off_rad_s.or(self.purpose.and_then(|p| p.lift_off_rpm).map(|g| rad_s(g.value)));
         let outer = self.outer_rad_s.or(of(|p| p.overrun_rpm[1].value).map(rad_s)).or(keep);
+        // What lifts off by a speed that somebody names is overrun by it.
+        let lifts = self.lift_off_rad_s.filter(|_| self.purpose.is_some_and(|p| p.lift_off_rpm.is_some()));
+        let raised =
+            lifts.filter(|lift| self.outer_rad_s.is_none() && outer.is_some_and(|outer| *lift > outer));
+        let outer = raised.or(outer);
         let inner = self.inner_rad_s.or(of(|p| p.overrun_rpm[0].value).map(rad_s));
         let said = |value: Option<f64>, other: &'static str| value.map_or(other, |_| NAMED);
         let usual = self.purpose.and_then(|p| p.excitation);
@@ -179,7 +242,10 @@ impl Wish {
                 said(self.inner_rad_s, self.purpose.map_or("at rest", |p| p.overrun_rpm[0].from)),
                 said(
                     self.outer_rad_s,
-                    self.purpose.map_or("as contact is kept to", |p| p.overrun_rpm[1].from),
+                    match raised {
+                        Some(_) => "the speed of lift-off",
+                        None => self.purpose.map_or("as contact is kept to", |p| p.overrun_rpm[1].from),
+                    },
                 ),
             ],
             contact_from: [

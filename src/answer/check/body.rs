@@ -158,7 +158,8 @@ impl CheckBody {
             let counts = |r: &Margin| counts(r) && !ends_first(r, source.end_torque_nm);
             lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Capacity {
                 code: r.code(),
-                name: r.name.clone(),
+                // That a torque beyond the curve is not carried does not belong to the capacity.
+                name: r.name.split(": not carried").next().unwrap_or(&r.name).to_owned(),
                 torque_capacity_nm,
             })
         };
@@ -166,7 +167,7 @@ impl CheckBody {
         Self {
             margins: rows.iter().map(|r| CheckRow::of(r, source.end_torque_nm)).collect(),
             pass: required().all(Margin::held),
-            deciding: required().min_by(|a, b| a.margin().total_cmp(&b.margin())).map(|r| Deciding {
+            deciding: required().min_by(nearest_first).map(|r| Deciding {
                 code: r.code(),
                 name: r.name.clone(),
                 margin: r.margin(),
@@ -240,6 +241,23 @@ impl CheckBody {
                 why.map_or(String::new(), |(code, why)| format!(", {code}: {why} (`simulate` tells more)")),
                 broken - unknown
             ),
+            // Where the curve ends first, every limit of that torque is as far away as the torque.
+            Some(d)
+                if self.end.torque_nm < self.asked_nm
+                    && d.margin <= self.end.torque_nm / self.asked_nm - 1.0 =>
+            {
+                let nm = |torque_nm| Unit::NewtonMetre.show(torque_nm, 4);
+                let carried = self.peak_torque_capacity.as_ref().map_or(String::new(), |c| {
+                    format!(", {} carried ({})", nm(c.torque_capacity_nm), c.code)
+                });
+                format!(
+                    "NOT HELD: {} asked{carried}; the curve ends at {} ({}); {broken} of {} required limits are not held",
+                    Unit::NewtonMetre.show_plain(self.asked_nm, 4),
+                    nm(self.end.torque_nm),
+                    self.end.reason,
+                    required.len()
+                )
+            }
             Some(d) => format!(
                 "NOT HELD: {broken} of {} required limits; {} decides, {}",
                 required.len(),
@@ -408,6 +426,12 @@ pub fn is_beyond(r: &Margin, capacity_nm: f64, end_torque_nm: f64) -> bool {
 /// Whether the limit has a capacity, and that lies at the end of the curve or beyond.
 pub fn ends_first(r: &Margin, end_torque_nm: f64) -> bool {
     r.torque_capacity_nm.is_some_and(|c| is_beyond(r, c, end_torque_nm))
+}
+
+/// The least margin first; of equal ones that which is reached at the lowest torque.
+fn nearest_first(a: &&Margin, b: &&Margin) -> std::cmp::Ordering {
+    let reached = |r: &Margin| r.torque_capacity_nm.unwrap_or(f64::INFINITY);
+    a.margin().total_cmp(&b.margin()).then(reached(a).total_cmp(&reached(b)))
 }
 
 fn verdict(r: &Margin) -> Cell {

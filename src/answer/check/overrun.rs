@@ -250,9 +250,10 @@ fn warning(named: &[NamedOverrun], points: &[&OverrunRow], limits: &Limits, on_f
     let (rate, hertz, at) = grows.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let held = if limits.keep_contact_to_rad_s.is_some() { ", and so is keep-contact" } else { "" };
     Some(format!(
-        "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}, at {at}; races at held speeds. Drag and forces \
+        "Warning: steady overrun does not stay: a small swing of the sprags grows by {} (tenfold in {}) at {}, at {at}; races at held speeds. Drag and forces \
          are those of the equilibrium{held}; a transient scenario shows what the sprags do{}",
         Unit::PerSecond.show(rate, 3),
+        Unit::Second.show(std::f64::consts::LN_10 / rate, 2),
         Unit::Hertz.show(hertz, 3),
         if on_film { "" } else { ". A film of oil may damp it: add [lubrication]" },
     ))
