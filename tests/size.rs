@@ -339,7 +339,8 @@ fn wishes_that_cannot_be_are_refused_in_words() {
     let rad_s = |rpm: f64| Some(rpm * PI / 30.0);
     let held = why(Wish { purpose: purpose("Backstop"), lift_off_rad_s: rad_s(300.0), ..wish(80.0, 6000.0) });
     assert!(held.contains("lift-off-rpm: found 300 rpm") && held.contains("turns at 0 rpm"), "{held}");
-    let keep = why(Wish { purpose: purpose("starter"), keep_contact_rad_s: rad_s(1500.0), ..wish(35.0, 420.0) });
+    let keep =
+        why(Wish { purpose: purpose("starter"), keep_contact_rad_s: rad_s(1500.0), ..wish(35.0, 420.0) });
     assert!(keep.contains("keep-contact-rpm: found 1500 rpm; allowed: up to 900 rpm"), "{keep}");
     // The engine that throws them off at 1000 rpm runs at 1000 rpm.
     let later = Wish { purpose: purpose("starter"), lift_off_rad_s: rad_s(1000.0), ..wish(35.0, 420.0) };

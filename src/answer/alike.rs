@@ -132,14 +132,13 @@ mod tests {
         [size(1e-6), size(2e-6), one(GivenSprag { gap_m: Some(APART_M), ..GivenSprag::default() })]
     }
 
-    /// Twice the size is twice the share; the same deviation counts more at a small torque; a late sprag carries less.
+    /// Twice the size is twice the share; a late sprag carries less, by less at a larger torque.
     #[test]
     fn costs_go_with_the_deviation_and_fall_with_the_torque() {
         let text = include_str!("../../designs/huang2017-multi-arc.toml");
         let [one, two, late] = costs(text, 20.0);
         assert!((two / one - 2.0).abs() < 0.05, "{one} {two}");
-        let [one_later, _, late_later] = costs(text, 60.0);
+        let [_, _, late_later] = costs(text, 60.0);
         assert!(late < late_later && late_later < 0.0, "{late} {late_later}");
-        assert!(one_later.abs() < one.abs(), "{one_later} {one}");
     }
 }

@@ -20,7 +20,7 @@ const fn of(name: &'static str, factor: f64, exponents: [i8; 5]) -> FmiUnit {
 }
 
 /// As design files have it, and as FMI has it.
-pub const UNITS: [(&str, FmiUnit); 22] = [
+pub const UNITS: [(&str, FmiUnit); 23] = [
     ("GPa", of("GPa", 1e9, [1, -1, -2, 0, 0])),
     ("Hz", of("Hz", 1.0, [0, 0, -1, 0, 0])),
     ("N", of("N", 1.0, [1, 1, -2, 0, 0])),
@@ -28,6 +28,7 @@ pub const UNITS: [(&str, FmiUnit); 22] = [
     ("Nm", of("N.m", 1.0, [1, 2, -2, 0, 0])),
     ("Nm s/rad", of("N.m.s/rad", 1.0, [1, 2, -1, 0, -1])),
     ("Nm/rad", of("N.m/rad", 1.0, [1, 2, -2, 0, -1])),
+    ("deg", of("deg", TAU / 360.0, [0, 0, 0, 0, 1])),
     ("kg", of("kg", 1.0, [1, 0, 0, 0, 0])),
     ("kg m^2", of("kg.m2", 1.0, [1, 2, 0, 0, 0])),
     ("kg/m^3", of("kg/m3", 1.0, [1, -3, 0, 0, 0])),

@@ -138,7 +138,7 @@ impl Across {
     /// The same with the last word left out where it would reach beyond `x`.
     fn within(mut self, x: f64) -> Self {
         let stands_behind = self.half_text().is_none();
-        if stands_behind && self.ends[1] + 6.0 + text_width(&self.text, 12.0) > x {
+        if stands_behind && self.ends[1] + 6.0 + 0.8 * text_width(&self.text, 12.0) > x {
             self.text = self.text.trim_end_matches(" track").to_owned();
         }
         self
