@@ -4,8 +4,8 @@ use super::exit::{Exit, Failure};
 use super::sweep::PointArgs;
 use super::{Context, Run, Without, evaluate_points, output};
 use crate::answer::search::{describe_problem, evaluate_line};
-use crate::design::Optimize;
-use crate::optimise::ClutchProblem;
+use crate::design::{Design, Optimize};
+use crate::optimise::{ClutchProblem, Corner, corners};
 use crate::sweep::NoSample;
 use clap::Args;
 use serde_json::Value;
@@ -52,6 +52,9 @@ pub struct EvaluateArgs {
     /// Without the scenes of the table `optimize`: static margins alone
     #[arg(long = "static")]
     pub at_rest: bool,
+    /// As drawn and at every corner of `[tolerances]` at once, as `optimize --robust` is held: each row once for each of them
+    #[arg(long)]
+    pub robust: bool,
     /// Points to draw instead of lines to read.
     #[command(flatten)]
     pub points: PointArgs,
@@ -77,6 +80,11 @@ impl Run for EvaluateArgs {
             return Err(Failure::of(&self.file, NoSample::NoTask));
         };
         if of_points {
+            if self.robust {
+                return Err(Failure::malformed(
+                    "--robust goes with lines of JSON: a table has one row for each limit",
+                ));
+            }
             if self.describe {
                 return Err(Failure::malformed(
                     "--describe goes with lines of JSON; a table names its columns itself",
@@ -86,6 +94,7 @@ impl Run for EvaluateArgs {
         }
         let problem = ClutchProblem::of_task(&design, task, self.full);
         let problem = if self.at_rest { problem.at_rest() } else { problem };
+        let problem = if self.robust { at_every_corner(&problem, &design)? } else { problem };
         if self.describe {
             output::print_json(&describe_problem(&design, &problem))?;
         }
@@ -105,6 +114,14 @@ impl Run for EvaluateArgs {
         }
         Ok(if malformed { Exit::Malformed } else { Exit::Held })
     }
+}
+
+/// `problem` as drawn and at every corner of the tolerances.
+fn at_every_corner(problem: &ClutchProblem, design: &Design) -> Result<ClutchProblem, Failure> {
+    let of = design.tolerances.ok_or_else(|| {
+        Failure::malformed("--robust needs a [tolerances] table: what the clutch is made to")
+    })?;
+    Ok(problem.at_corners(std::iter::once(Corner::NOMINAL).chain(corners(&of)).collect()))
 }
 
 /// Refuse what means something of a table of points alone.

@@ -337,6 +337,7 @@ fn load_of_worn(design: &Design, drawn_state: &LoadState, drawn: bool) -> Option
         curve,
         first_tan_omega,
         alpha_max_rad: drawn_state.alpha_max_rad,
+        ends_alone: false,
     })
 }
 

@@ -1,14 +1,14 @@
 //! Evaluations of a clutch, and the slopes of its margins beside one.
 
-use super::ClutchProblem;
+use super::{ClutchProblem, Way};
 use crate::clutch::Scenario;
-use crate::design::Link;
-use crate::fidelity;
-use crate::margin::{Margin, SceneDemand, scene_margins, scene_rows};
+use crate::design::{Design, Link};
+use crate::fidelity::{self, Effort};
+use crate::margin::{LoadState, Margin, SceneDemand, ends_decide, scene_margins, scene_rows};
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use crate::scenario::{AtRest, RollingTrack, demand_retraced};
 use rayon::prelude::*;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
 
@@ -54,17 +54,36 @@ impl Clone for Recent {
     }
 }
 
+/// Truncation of a curve up to which differences of two are taken of coarse ones: what it stands for is a tenth to a thousandth of it.
+const COARSE_ENOUGH: f64 = 1e-4;
+
+/// What the evaluation at a point says of those next to it.
+struct Here {
+    outputs: Vec<f64>,
+    /// Largest truncation of the curves that scenes ran on.
+    truncation: f64,
+    /// Whether [`ends_decide`] at every corner.
+    ends_decide: bool,
+}
+
 impl ClutchProblem {
-    /// The rows of a scene as a neighbour of the one whose track is given.
-    fn scene_beside(&self, scenario: &Scenario, known: AtRest, track: Option<&RollingTrack>) -> Vec<Margin> {
-        let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
-            return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
+    /// The rows of a scene as a neighbour of the one whose track is given, and what the curve that it ran on leaves out.
+    fn scene_beside(
+        &self,
+        scenario: &Scenario,
+        known: AtRest,
+        effort: Effort,
+        track: Option<&RollingTrack>,
+    ) -> (Vec<Margin>, f64) {
+        let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), effort) else {
+            return (scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings), 0.0);
         };
         let demand = match demand_retraced(&prepared, track) {
             Some(found) => SceneDemand::of(scenario, &prepared, found),
             None => SceneDemand::unknown(scenario),
         };
-        scene_rows(scenario, &demand, &self.limits, true)
+        let truncation = if prepared.duration_s > 0.0 { prepared.model.curve.truncation() } else { 0.0 };
+        (scene_rows(scenario, &demand, &self.limits, true), truncation)
     }
 
     /// The evaluation at `x`, and what its scenes integrated.
@@ -75,18 +94,38 @@ impl ClutchProblem {
             tracks.borrow_mut().insert((k, scenario.name.clone()), track);
             rows
         };
-        let found = self.assess_at_with(x, &scene).map(|assessed| self.evaluation(&assessed))?;
+        let found =
+            self.assess_at_with(x, &self.in_whole(&scene)).map(|assessed| self.evaluation(&assessed))?;
         Ok((found, Arc::new(tracks.into_inner())))
     }
 
-    /// The numbers of the evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is
-    /// none.
-    fn retraced(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
+    /// The evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is none.
+    /// `ends_alone`: known of a neighbour that [`ends_decide`]; `None`: to be seen.
+    fn retraced(&self, x: &[f64], tracks: &Tracks, effort: Effort, ends_alone: Option<bool>) -> Option<Here> {
+        let (truncation, all_decide) = (Cell::new(0.0_f64), Cell::new(true));
         let scene = |k: usize, scenario: &Scenario, known: AtRest| {
             let track = tracks.get(&(k, scenario.name.clone())).and_then(Option::as_ref);
-            self.scene_beside(scenario, known, track)
+            let (rows, left_out) = self.scene_beside(scenario, known, effort, track);
+            truncation.set(truncation.get().max(left_out));
+            rows
         };
-        self.assess_at_with(x, &scene).ok().map(|assessed| self.evaluation(&assessed).outputs())
+        let state = |design: &Design, state: LoadState| {
+            let decide = ends_alone.unwrap_or_else(|| ends_decide(design, &self.limits, &state));
+            all_decide.set(all_decide.get() && decide);
+            LoadState { ends_alone: decide, ..state }
+        };
+        let assessed = self.assess_at_with(x, &Way { effort, state: &state, scene: &scene }).ok()?;
+        let outputs = self.evaluation(&assessed).outputs();
+        Some(Here { outputs, truncation: truncation.get(), ends_decide: all_decide.get() })
+    }
+
+    /// The same at `x` itself, and the effort with which it and all beside it are to be taken.
+    fn here(&self, x: &[f64], tracks: &Tracks) -> Option<(Here, Effort)> {
+        let coarse = self.retraced(x, tracks, Effort::Slopes, None)?;
+        if coarse.truncation < COARSE_ENOUGH {
+            return Some((coarse, Effort::Slopes));
+        }
+        Some((self.retraced(x, tracks, Effort::Full, Some(coarse.ends_decide))?, Effort::Full))
     }
 }
 
@@ -99,8 +138,8 @@ impl Evaluate for ClutchProblem {
         Ok(found)
     }
 
-    /// Of a search's quick evaluations. What a static state demands has its own equilibria at each point, to 1e-12, what a scene
-    /// demands its run taken again by the neighbour ([`demand_retraced`]). Without a change: demands that are bisected, because the
+    /// Of a search's quick evaluations. What a static state demands has its own equilibria at each point,
+    /// to 1e-12, what a scene demands its run taken again by the neighbour ([`demand_retraced`]), on curves of a lower degree. Without a change: demands that are bisected, because the
     /// motion unloads the contact, and scenes that do more than roll; and everything where lengths go with a variable in steps.
     fn changes(&self, x: &[f64], beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
         let in_steps = |(name, link): &(String, Link)| link.step.is_some() && self.variables.contains(name);
@@ -115,14 +154,14 @@ impl Evaluate for ClutchProblem {
             Some(known) => known,
             None => self.tracked(x).ok()?.1,
         };
-        let points: Vec<&[f64]> = std::iter::once(x).chain(beside.iter().map(Vec::as_slice)).collect();
-        let mut found: Vec<_> = points.into_par_iter().map(|at| self.retraced(at, &tracks)).collect();
-        let here = found.remove(0)?;
-        let change = |there: Option<Vec<f64>>| match there {
-            Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
+        let (here, effort) = self.here(x, &tracks)?;
+        let change = |at: &Vec<f64>| match self.retraced(at, &tracks, effort, Some(here.ends_decide)) {
+            Some(there) if there.outputs.len() == here.outputs.len() => {
+                there.outputs.iter().zip(&here.outputs).map(|(b, a)| b - a).collect()
+            }
             _ => Vec::new(),
         };
-        let changes: Vec<Vec<f64>> = found.into_iter().map(change).collect();
+        let changes: Vec<Vec<f64>> = beside.par_iter().map(change).collect();
         let answered = Some((beside.to_vec(), changes.clone()));
         self.recent.at(x, |past| past.asked.replace(answered?));
         Some(changes)
