@@ -156,6 +156,8 @@ def main():
         said = (f"The whole search: {float(ours['evaluations']):.0f} evaluations with its {ours['derivatives']} derivatives at "
                 f"{float(ours['derivative_cost']):.2f} each; {ours['starts']} climbs met {optima}, none took more than "
                 f"{ours['most_in_a_start']} evaluations. Two threads end at {same}.")
+        absent = sorted({r["method"] for r in found} - {r["method"] for r in rows})
+        said += f" Not run on this one: {', '.join(absent)}." if absent else ""
         v = ", ".join(f"{x['name']} {x['min']:g} to {x['max']:g}" for x in problem["variables"])
         parts.append(f"<h2>{html.escape(problem['design'])}</h2><p>Free: {html.escape(v)}. Objectives (the least is "
                      f"maximised): {html.escape(', '.join(problem['objectives']))}. Limits: {len(problem['limits'])}."

@@ -116,6 +116,24 @@ fn two_equations_roll_as_four_do() {
     }
 }
 
+/// A swing with something turning behind the inner race: the two equations do not hold that, so the run has to be the whole one.
+#[test]
+fn a_drivetrain_counts_in_a_quick_demand() {
+    let text = std::fs::read_to_string(MULTI).unwrap();
+    let train = "[[drivetrain]]\nname = \"rolls\"\nto = \"inner-race\"\ninertia_kg_m2 = 0.002\n\
+                 stiffness_nm_per_rad = 5.0e3\ndamping_nm_s_per_rad = 0.8\n\n[optimize]";
+    let joined = Design::parse(&text.replacen("[optimize]", train, 1), "x.toml").unwrap();
+    let alone = Design::parse(&text, "x.toml").unwrap();
+    let of = |design: &Design| {
+        let p = prepare(design.scenario("low-10").unwrap()).unwrap();
+        let friction = |demand: sprag_design::scenario::RollingDemand| demand.required_friction.unwrap();
+        (friction(demand(&p, &Settings::default())), friction(demand_quickly(&p, &Settings::default())))
+    };
+    let ((exact, quick), (without, _)) = (of(&joined), of(&alone));
+    assert!((quick / exact - 1.0).abs() < 1e-6, "{quick} {exact}");
+    assert!((without / exact - 1.0).abs() > 1e-2, "{without} {exact}");
+}
+
 #[test]
 fn the_quick_demand_is_the_demand() {
     let (mut worst, mut scenes) = (0.0_f64, 0);

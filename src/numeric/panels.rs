@@ -5,10 +5,8 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Degree of a panel. Sixteen leaves 1e-13 on the panels that the wedge curve uses (tested there).
+/// Degree of every panel. Sixteen leaves 1e-13 on the panels that the wedge curve uses (tested there).
 pub const DEGREE: usize = 16;
-/// Degree of a coarse panel.
-pub const COARSE: usize = 10;
 const NODES: usize = DEGREE + 1;
 
 /// Where a panel's functions go on as half-integer powers of the distance from one of its ends: there they are smooth
@@ -28,8 +26,7 @@ struct Panel<const M: usize> {
     from: f64,
     until: f64,
     grade: Grade,
-    degree: usize,
-    /// coefficients[k][lane] of T_k; 0 beyond the degree.
+    /// coefficients[k][lane] of T_k.
     coefficients: [[f64; M]; NODES],
 }
 
@@ -70,28 +67,23 @@ impl<const M: usize> Panel<M> {
         }
     }
 
-    /// Nothing yet.
-    fn empty(from: f64, until: f64, grade: Grade, degree: usize) -> Self {
-        Self { from, until, grade, degree, coefficients: [[0.0; M]; NODES] }
-    }
-
-    /// With the values of all lanes at the nodes.
-    fn fitted(mut self, values: &[[f64; M]; NODES]) -> Self {
-        let nodes = self.degree + 1;
-        for (row, weights) in self.coefficients[..nodes].iter_mut().zip(weights(self.degree).iter()) {
-            for (value, c) in values[..nodes].iter().zip(weights) {
+    /// Fit the values of all lanes at the nodes.
+    fn fit(from: f64, until: f64, grade: Grade, values: &[[f64; M]; NODES]) -> Self {
+        let mut coefficients = [[0.0; M]; NODES];
+        for (row, weights) in coefficients.iter_mut().zip(WEIGHTS.iter()) {
+            for (value, c) in values.iter().zip(weights) {
                 for lane in 0..M {
                     row[lane] += c * value[lane];
                 }
             }
         }
-        self
+        Self { from, until, grade, coefficients }
     }
 
     /// All lanes at the panel's own variable `t`, by Clenshaw's recurrence.
     fn sum(&self, t: f64) -> [f64; M] {
         let (mut b1, mut b2) = ([0.0; M], [0.0; M]);
-        for row in self.coefficients[1..=self.degree].iter().rev() {
+        for row in self.coefficients[1..].iter().rev() {
             for lane in 0..M {
                 let b = row[lane] + 2.0 * t * b1[lane] - b2[lane];
                 b2[lane] = b1[lane];
@@ -111,7 +103,7 @@ impl<const M: usize> Panel<M> {
         let scale = if self.grade == Grade::Smooth { self.rate(0.0) } else { 1.0 };
         for (out, &lane) in lanes.iter().enumerate() {
             // c'_{k-1} = c'_{k+1} + 2 k c_k; c'_0 halved.
-            for k in (1..=self.degree).rev() {
+            for k in (1..NODES).rev() {
                 let above = if k + 1 < NODES { coefficients[k + 1][out] } else { 0.0 };
                 coefficients[k - 1][out] = above + 2.0 * k as f64 * self.coefficients[k][lane];
             }
@@ -120,17 +112,12 @@ impl<const M: usize> Panel<M> {
                 row[out] *= scale;
             }
         }
-        let empty = || Panel::empty(self.from, self.until, self.grade, self.degree);
-        let by_t = Panel { coefficients, ..empty() };
+        let by_t = Panel { from: self.from, until: self.until, grade: self.grade, coefficients };
         if self.grade == Grade::Smooth {
             return by_t;
         }
-        let mut values = [[0.0; K]; NODES];
-        for (j, value) in values[..=self.degree].iter_mut().enumerate() {
-            let t = node(j, self.degree);
-            *value = by_t.sum(t).map(|d| d * self.rate(t));
-        }
-        empty().fitted(&values)
+        let values = std::array::from_fn(|j| by_t.sum(node(j)).map(|d| d * self.rate(node(j))));
+        Panel::fit(self.from, self.until, self.grade, &values)
     }
 }
 
@@ -141,29 +128,27 @@ impl<const M: usize> Panels<M> {
     /// # Errors
     /// Passes on the first error of `f`.
     pub fn build<E>(breaks: &[f64], f: impl FnMut(f64) -> Result<[f64; M], E>) -> Result<Self, E> {
-        Self::build_graded(breaks, &[], DEGREE, f)
+        Self::build_graded(breaks, &[], f)
     }
 
-    /// The same, of degree [`DEGREE`] or [`COARSE`], panel i graded as `grades[i]` says; panels beyond the end of `grades` are
-    /// smooth.
+    /// The same, panel i graded as `grades[i]` says; panels beyond the end of `grades` are smooth.
     ///
     /// # Errors
     /// Passes on the first error of `f`.
     pub fn build_graded<E>(
         breaks: &[f64],
         grades: &[Grade],
-        degree: usize,
         mut f: impl FnMut(f64) -> Result<[f64; M], E>,
     ) -> Result<Self, E> {
         let mut panels = Vec::with_capacity(breaks.len().saturating_sub(1));
         for (i, pair) in breaks.windows(2).enumerate() {
             let grade = grades.get(i).copied().unwrap_or(Grade::Smooth);
-            let empty = Panel::empty(pair[0], pair[1], grade, degree);
+            let empty = Panel { from: pair[0], until: pair[1], grade, coefficients: [[0.0; M]; NODES] };
             let mut values = [[0.0; M]; NODES];
-            for (j, value) in values[..=degree].iter_mut().enumerate() {
-                *value = f(empty.place(node(j, degree)))?;
+            for (j, value) in values.iter_mut().enumerate() {
+                *value = f(empty.place(node(j)))?;
             }
-            panels.push(empty.fitted(&values));
+            panels.push(Panel::fit(pair[0], pair[1], grade, &values));
         }
         Ok(Self { panels })
     }
@@ -186,7 +171,6 @@ impl<const M: usize> Panels<M> {
             from: p.from,
             until: p.until,
             grade: p.grade,
-            degree: p.degree,
             coefficients: p.coefficients.each_ref().map(sum),
         };
         Panels { panels: self.panels.iter().map(panel).collect() }
@@ -199,7 +183,7 @@ impl<const M: usize> Panels<M> {
         for p in self.panels.iter().skip(skip) {
             for lane in 0..M {
                 let largest = p.coefficients.iter().map(|r| r[lane].abs()).fold(0.0, f64::max);
-                let tail = p.coefficients[p.degree][lane].abs().max(p.coefficients[p.degree - 1][lane].abs());
+                let tail = p.coefficients[DEGREE][lane].abs().max(p.coefficients[DEGREE - 1][lane].abs());
                 if largest > 1e-12 {
                     worst = worst.max(tail / largest);
                 }
@@ -225,25 +209,15 @@ impl<const M: usize> Panels<M> {
 }
 
 /// What the value at node j adds to the coefficient of T_k.
-type Weights = [[f64; NODES]; NODES];
-
-static WEIGHTS: LazyLock<Weights> = LazyLock::new(|| weights_of(DEGREE));
-static COARSE_WEIGHTS: LazyLock<Weights> = LazyLock::new(|| weights_of(COARSE));
-
-fn weights(degree: usize) -> &'static Weights {
-    if degree == DEGREE { &WEIGHTS } else { &COARSE_WEIGHTS }
-}
-
-fn weights_of(degree: usize) -> Weights {
-    let nodes = (degree + 1) as f64;
+static WEIGHTS: LazyLock<[[f64; NODES]; NODES]> = LazyLock::new(|| {
     std::array::from_fn(|k| {
-        let scale = if k == 0 { 1.0 } else { 2.0 } / nodes;
-        std::array::from_fn(|j| scale * (PI * k as f64 * (j as f64 + 0.5) / nodes).cos())
+        let scale = if k == 0 { 1.0 } else { 2.0 } / NODES as f64;
+        std::array::from_fn(|j| scale * (PI * k as f64 * (j as f64 + 0.5) / NODES as f64).cos())
     })
-}
+});
 
-fn node(j: usize, degree: usize) -> f64 {
-    (PI * (j as f64 + 0.5) / (degree + 1) as f64).cos()
+fn node(j: usize) -> f64 {
+    (PI * (j as f64 + 0.5) / NODES as f64).cos()
 }
 
 #[cfg(test)]
@@ -278,8 +252,7 @@ mod tests {
         };
         let grades = [Grade::Smooth, Grade::From, Grade::Until];
         let p =
-            Panels::<1>::build_graded(&[0.0, 1.0, 1.5, 2.0, 3.0], &grades, DEGREE, |x| Ok::<_, ()>([f(x)]))
-                .unwrap();
+            Panels::<1>::build_graded(&[0.0, 1.0, 1.5, 2.0, 3.0], &grades, |x| Ok::<_, ()>([f(x)])).unwrap();
         let d = p.derivative([0]);
         for i in 0..300 {
             let x = 0.005 + f64::from(i) * 0.01;

@@ -150,8 +150,8 @@ mod tests {
             x if x < 1.5 => [x.exp() + (x - 1.0).powf(2.5), 1.0 / (2.0 + x)],
             _ => [x.exp() + (2.0 - x).max(0.0).powf(1.5), 1.0 / (2.0 + x)],
         };
-        let p = Panels::<2>::build_graded(&[0.0, 1.0, 1.5, 2.0, 3.0], &grades, DEGREE, |x| Ok::<_, ()>(f(x)))
-            .unwrap();
+        let p =
+            Panels::<2>::build_graded(&[0.0, 1.0, 1.5, 2.0, 3.0], &grades, |x| Ok::<_, ()>(f(x))).unwrap();
         let d = p.derivative([1]);
         let pieces = Pieces::<4>::of(&p, &d, &p.derivative([0]));
         for i in 0..=3100 {

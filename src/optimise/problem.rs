@@ -102,8 +102,6 @@ type SceneRows<'a> = dyn Fn(usize, &Scenario, AtRest) -> Vec<Margin> + 'a;
 
 /// How an evaluation is taken.
 struct Way<'a> {
-    /// What goes into its curves.
-    effort: Effort,
     /// The load state, before rows are read from it.
     state: &'a dyn Fn(&Design, LoadState) -> LoadState,
     scene: &'a SceneRows<'a>,
@@ -337,12 +335,12 @@ impl ClutchProblem {
 
     /// Evaluations whose scenes are as `scene` has them.
     fn in_whole<'a>(&self, scene: &'a SceneRows) -> Way<'a> {
-        Way { effort: self.effort(), state: &|_, state| state, scene }
+        Way { state: &|_, state| state, scene }
     }
 
     /// The same at corner `k`, on its way.
     fn assess_with(&self, design: &Design, way: &Way, k: usize) -> Result<Assessment, NoEvaluation> {
-        let state = load_state_at(design, way.effort).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
+        let state = load_state_at(design, self.effort()).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         let state = (way.state)(design, state);
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
         let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);

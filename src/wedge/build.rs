@@ -5,7 +5,7 @@ use super::closure::{FIRST_CONTACT_N, Statics};
 use super::curve::{EndReason, NoCurve, WedgeCurve};
 use super::elastic::Elastic;
 use super::patch::InnerCurvature;
-use super::quick::trusted;
+use super::quick::TRUSTED;
 use super::table::{ArcBuilder, ArcTable};
 use crate::clutch::{Carrier, Clutch};
 use crate::contact::element_share;
@@ -70,10 +70,19 @@ impl WedgeCurve {
         statics.effort = effort;
         statics.elastic = statics.elastic.quickly();
         match Self::march(statics, q, speed_rad_s, reach_nm, effort) {
-            Ok(quick) if quick.truncation() < trusted(effort) => Ok(quick),
+            Ok(quick) if quick.truncation() < TRUSTED => Ok(quick),
             // It varies more than a few panels follow, or is none: the full one decides.
             _ => Self::march(full, q, speed_rad_s, reach_nm, Effort::Full),
         }
+    }
+
+    /// The curve of the same clutch at mean speed `speed_rad_s`, as [`Self::build_reaching_at`] has it at the effort of this one, whose
+    /// elastic laws and bodies stand already; `None`: that is to be asked.
+    pub fn at_speed(&self, speed_rad_s: f64, reach_nm: Option<f64>, effort: Effort) -> Option<Self> {
+        let same = self.effort == effort;
+        let found =
+            same.then(|| Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, effort));
+        found?.ok().filter(|curve| effort == Effort::Full || curve.truncation() < TRUSTED)
     }
 
     /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
@@ -233,22 +242,14 @@ pub enum Effort {
     /// A quarter of the closures and no more than 1e-7 of N and windup off (test `a_quick_curve_is_the_curve`), or the full
     /// one where that does not do: for a search, whose answer is looked at once more.
     Search,
-    /// The same on panels of a lower degree, whatever that leaves out: for differences of two curves that are next to each
-    /// other, which are off by as much of themselves.
-    Slopes,
 }
 
 impl Effort {
-    /// Whether less than all goes into it.
-    pub fn is_quick(self) -> bool {
-        self != Self::Full
-    }
-
     /// Ratio of a force to the next, and to the first force, where the end of an arc is looked for.
     fn stride(self) -> [f64; 2] {
         match self {
             Self::Full => [1.1, 1.02],
-            Self::Search | Self::Slopes => [1.6, 1.2],
+            Self::Search => [1.6, 1.2],
         }
     }
 
@@ -256,7 +257,7 @@ impl Effort {
     fn end_width(self) -> [f64; 2] {
         match self {
             Self::Full => [1e-15, 1e-12],
-            Self::Search | Self::Slopes => [1e-11, 1e-9],
+            Self::Search => [1e-11, 1e-9],
         }
     }
 
@@ -264,7 +265,7 @@ impl Effort {
     pub(super) fn edge_width(self) -> f64 {
         match self {
             Self::Full => 1e-13,
-            Self::Search | Self::Slopes => 1e-9,
+            Self::Search => 1e-9,
         }
     }
 }

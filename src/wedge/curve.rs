@@ -166,11 +166,11 @@ impl WedgeCurve {
         &self.statics
     }
     /// Relative size of what the interpolation leaves out, pure number, where N exceeds 1e-10 of its largest; 1e-5
-    /// with a quick [`Effort`].
+    /// with [`Effort::Search`].
     pub fn truncation(&self) -> f64 {
         let skip = |k: usize| match (k, self.effort) {
             (0, Effort::Full) => 2,
-            (0, _) => lowest(self.exponent),
+            (0, Effort::Search) => lowest(self.exponent),
             _ => 0,
         };
         self.arcs.iter().enumerate().map(|(k, a)| a.lanes.truncation(skip(k))).fold(0.0, f64::max)
@@ -291,7 +291,7 @@ impl WedgeCurve {
             if fa > 0.0 && k == 0 {
                 continue;
             }
-            if self.effort.is_quick()
+            if self.effort == Effort::Search
                 && let Some(found) = self.newton(k, torque_nm, [a, b], [fa, fb])
             {
                 return Some((k, found));

@@ -5,7 +5,6 @@
 //! polynomials, not by closures. One panel where the full table has two, three or four where it has five: of an ellipse of parameter
 //! 6.5 seen from twice as far 4 is left, and 4^-16 = 2e-10. Where a curve asks for more, its last coefficients tell.
 
-use super::build::Effort;
 use super::closure::{FIRST_CONTACT_N, NoClosure};
 use super::table::{ArcBuilder, Edge, LANES, Layout, SHAPED_BREAKS, lanes_of, unit_integral};
 use crate::numeric::{panels::Panels, quadrature};
@@ -22,16 +21,7 @@ const BULK_BREAKS: [f64; 5] = [0.0, 0.12, 0.4, 0.8, 1.0];
 /// q of logarithmic laws.
 const LOGARITHMIC: f64 = 10.0;
 /// Largest truncation of a quick curve that is taken as it is: three tenths of what it may be off.
-const TRUSTED: f64 = 3e-8;
-
-/// Largest truncation of a curve at `effort` that is taken as it is. Of two that are next to each other both must be of one
-/// kind, which who asks for slopes has to see to.
-pub(super) fn trusted(effort: Effort) -> f64 {
-    match effort {
-        Effort::Search => TRUSTED,
-        Effort::Full | Effort::Slopes => f64::INFINITY,
-    }
-}
+pub(super) const TRUSTED: f64 = 3e-8;
 
 /// Lowest panels of the first arc for which [`TRUSTED`] is not asked: those below 1e-5 of its largest N, where what a closure
 /// leaves unsettled is more than that of OC_g', which is next to nothing there. `exponent`: q of the law.
@@ -80,7 +70,7 @@ impl ArcBuilder<'_> {
         };
         let over = |end: f64, edges: &[Edge]| {
             let fixed: Vec<f64> = breaks.iter().map(|b| b * end).collect();
-            Layout::new(&fixed, edges).at(self.effort)
+            Layout::new(&fixed, edges)
         };
         let in_z = over(z_end, &edges);
         let sampled: Panels<SAMPLED> =
@@ -131,14 +121,14 @@ impl ArcBuilder<'_> {
         edges: &[Edge],
         alpha_until: f64,
     ) -> Result<(Panels<LANES>, Panels<1>), NoClosure> {
-        let in_n = Layout::new(&[n_from, n_until], edges).at(self.effort);
+        let in_n = Layout::new(&[n_from, n_until], edges);
         let sampled: Panels<SAMPLED> = in_n.panels(|n| self.sample(n, |alpha, _| alpha))?;
         let alpha_of = sampled.combined(&lane(LANES));
         let slope = alpha_of.derivative([0]);
         let alpha_from = self.closure(n_from)?.alpha.v;
         let at_alpha = |e: &Edge| Edge { at: alpha_of.at(e.at)[0], ..*e };
         let edges: Vec<Edge> = edges.iter().map(at_alpha).collect();
-        let layout = Layout::new(&[alpha_from, alpha_until], &edges).at(self.effort);
+        let layout = Layout::new(&[alpha_from, alpha_until], &edges);
         let lanes = sure(layout.panels(|alpha| {
             let mut n = n_from + (n_until - n_from) * (alpha - alpha_from) / (alpha_until - alpha_from);
             for _ in 0..50 {

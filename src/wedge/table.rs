@@ -9,7 +9,7 @@ use super::build::Effort;
 use super::closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 use super::curve::WedgePoint;
 use crate::numeric::{
-    panels::{COARSE, DEGREE, Grade, Panels},
+    panels::{Grade, Panels},
     pieces::Pieces,
     quadrature,
 };
@@ -134,7 +134,6 @@ pub(super) struct Edge {
 pub(super) struct Layout {
     pub(super) breaks: Vec<f64>,
     grades: Vec<Grade>,
-    degree: usize,
 }
 
 impl Layout {
@@ -155,7 +154,7 @@ impl Layout {
         let mut breaks: Vec<(f64, Option<bool>)> = kept.iter().map(|e| (e.at, Some(e.comes))).collect();
         breaks.extend(fixed.iter().filter(|&&b| b == from || b == until || free(b)).map(|&b| (b, None)));
         breaks.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut layout = Self { breaks: vec![from], grades: Vec::new(), degree: DEGREE };
+        let mut layout = Self { breaks: vec![from], grades: Vec::new() };
         for w in breaks.windows(2) {
             match (w[0].1, w[1].1) {
                 (Some(true), Some(false)) => {
@@ -170,11 +169,6 @@ impl Layout {
         layout
     }
 
-    /// The same with the panels that go into a curve at `effort`.
-    pub(super) fn at(self, effort: Effort) -> Self {
-        Self { degree: if effort == Effort::Slopes { COARSE } else { DEGREE }, ..self }
-    }
-
     fn push(&mut self, until: f64, grade: Grade) {
         self.breaks.push(until);
         self.grades.push(grade);
@@ -184,7 +178,7 @@ impl Layout {
         &self,
         f: impl FnMut(f64) -> Result<[f64; M], E>,
     ) -> Result<Panels<M>, E> {
-        Panels::build_graded(&self.breaks, &self.grades, self.degree, f)
+        Panels::build_graded(&self.breaks, &self.grades, f)
     }
 }
 
@@ -222,7 +216,7 @@ impl ArcBuilder<'_> {
         let end = self.closure(n_until)?;
         let alpha_until = end.alpha.v;
         let edges = self.edges(n_from, n_until);
-        let (lanes, windup) = if self.effort.is_quick() {
+        let (lanes, windup) = if self.effort == Effort::Search {
             self.quickly(n_from, n_until, windup_from, first, &edges, alpha_until)?
         } else if first {
             let (lanes, layout, edges) = self.first(n_until, &edges)?;

@@ -3,7 +3,7 @@
 use sprag_design::optimise::*;
 use sprag_design::scenario::Settings as RunSettings;
 
-use super::clutch::{HUANG, PEER_B, PEER_C, changed, design, task};
+use super::clutch::{HUANG, PEER_B, PEER_C, PEER_D, changed, design, task};
 
 /// Fourth-order differences of the outputs at `x` along variable `i` over `h`.
 fn differences(problem: &ClutchProblem, x: &[f64], i: usize, h: f64) -> Vec<f64> {
@@ -33,6 +33,7 @@ fn slopes_are_those_of_whole_evaluations() {
         ("flanks free", design(PEER_B), None),
         ("24 sprags, roller", design(PEER_C), None),
         ("24 sprags, elastic", changed(PEER_C, &[elastic, bare]), None),
+        ("a step of torque, at speed", design(PEER_D), Some(":swing")),
     ];
     for (name, design, without) in designs {
         let task = task(&design);
@@ -68,6 +69,27 @@ fn slopes_are_those_of_whole_evaluations() {
             }
         }
         println!("{name}: {compared} slopes, worst {worst:.1e}");
+    }
+}
+
+/// Of what is not wanted nothing is computed; the rest is as it was, bit for bit.
+#[test]
+fn a_scene_of_which_nothing_is_wanted_is_left_out() {
+    let design = design(PEER_B);
+    let task = task(&design);
+    let problem = super::clutch::problem(&design).quickly();
+    let x: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
+    let mut there = x.clone();
+    there[0] += 1e-6 * (task.variables[0].max - task.variables[0].min);
+    let all = problem.changes(&x, &[there.clone()]).expect("slopes");
+    let names = problem.names(&problem.assess_at(&x).unwrap());
+    let codes: Vec<String> = names.objectives.into_iter().chain(names.limits).collect();
+    let left_out = |k: usize| codes.get(k).is_some_and(|code| code.ends_with(":high-6"));
+    let wanted: Vec<bool> = (0..=codes.len()).map(|k| !left_out(k)).collect();
+    let some = problem.changes_of(&x, &[there], &wanted).expect("slopes");
+    assert!(wanted.contains(&false));
+    for (k, (a, b)) in all[0].iter().zip(&some[0]).enumerate() {
+        assert!(if wanted[k] { a.to_bits() == b.to_bits() } else { b.is_nan() }, "{k}: {a} {b}");
     }
 }
 
