@@ -52,7 +52,7 @@ const answered = (before) =>
 await answered("");
 await page.click("#pin");
 const before = await page.textContent("#banner");
-await page.locator('.field[data-path="sprags.inner_arcs[0].radius_mm"] input[type=number]').fill("3.1");
+await page.locator('.field[data-path="sprags.inner_arcs[0].radius_mm"] input[inputmode=decimal]').fill("3.1");
 await page.keyboard.press("Tab");
 await answered(before);
 await page.evaluate(() => document.activeElement.blur());

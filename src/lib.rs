@@ -36,6 +36,7 @@
 //! | 4 | [`feed`] | strokes of an indexing drive: what each feeds, up to which frequency |
 //! | 4 | [`life`] | pitting, fatigue of rings, indentation, wear and slip by chance in a life of loads |
 //! | 4 | [`optimise`] | a vector and its margins, by SQP: starts, fronts, tolerances, flanks for a centroid |
+//! | 4 | [`journal`] | the record of a search as lines of text, for a later search |
 //! | 4 | [`sweep`] | the box of the variables as a whole: points by their number, margins at each |
 //! | 4 | [`identify`] | unknown parameters from measured numbers, and what these cannot tell apart |
 //! | 4 | [`size`] | a first design from space, torques, speeds, friction, steel and what it is for |
@@ -121,6 +122,7 @@ pub mod follow;
 pub mod friction;
 pub mod identify;
 pub mod import;
+pub mod journal;
 pub mod kinematics;
 pub mod life;
 pub mod lubrication;

@@ -72,7 +72,8 @@ pub const STEELS: [Steel; 4] = [
         race_stress_pa: 400e6,
         hertz_nominal_pa: 4200e6,
         hertz_peak_pa: 4600e6,
-        source: "grade EN ISO 683-3; E, nu, expansion of steel EN 1993-1-1; density EN 1991-1-1; stresses GMN 9050",
+        source: "grade EN ISO 683-3; E, nu, expansion of steel EN 1993-1-1; \
+                 density EN 1991-1-1; stresses GMN 9050",
     },
     Steel {
         name: "20MnCr5",
@@ -82,7 +83,8 @@ pub const STEELS: [Steel; 4] = [
         race_stress_pa: 600e6,
         hertz_nominal_pa: 4200e6,
         hertz_peak_pa: 4600e6,
-        source: "grade EN ISO 683-3; E, nu, expansion of steel EN 1993-1-1; density EN 1991-1-1; stresses GMN 9050",
+        source: "grade EN ISO 683-3; E, nu, expansion of steel EN 1993-1-1; \
+                 density EN 1991-1-1; stresses GMN 9050",
     },
     Steel {
         name: "34CrMo4V",
@@ -92,7 +94,8 @@ pub const STEELS: [Steel; 4] = [
         race_stress_pa: 400e6,
         hertz_nominal_pa: 4200e6,
         hertz_peak_pa: 4600e6,
-        source: "grade EN ISO 683-2 (DIN EN 10083-3), quenched and tempered; E, nu, expansion of steel EN 1993-1-1; density EN 1991-1-1; stresses GMN 9050, tracks hardened",
+        source: "grade EN ISO 683-2 (DIN EN 10083-3), quenched and tempered; E, nu, expansion of steel EN 1993-1-1; \
+                 density EN 1991-1-1; stresses GMN 9050, tracks hardened",
     },
 ];
 

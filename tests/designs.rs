@@ -311,7 +311,9 @@ fn the_scenarios_that_the_examples_check_hold() {
 fn edited_values_read_back_exactly_and_comments_stay() {
     let flanks = "flanks = { rear_mm = 2.5, front_mm = 2.5, rear_tilt_rad = 0.0, front_tilt_rad = 0.0 }";
     let crown = "[contact]\nend_profile = { kind = \"crown\", radius_mm = 1000.0 }";
-    let text = MULTI.replacen("width_mm = 5.05", &format!("{flanks}\nwidth_mm = 5.05"), 1);
+    let spiral =
+        "inner_spiral = { strut_angle_deg = 4.5, start_radius_mm = 4.0, rise = 0.1, until_rad = 0.5 }";
+    let text = MULTI.replacen("width_mm = 5.05", &format!("{flanks}\n{spiral}\nwidth_mm = 5.05"), 1);
     let text = text.replacen("[contact]", crown, 1);
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     for _ in 0..50 {

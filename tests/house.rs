@@ -1,6 +1,5 @@
-//! The house: what the sources promise about themselves, read from the sources.
-//!
-//! Standard library only: these tests must not depend on what they judge.
+//! The house: what the sources promise about themselves, read from the sources; by the standard library only, for these tests must not
+//! depend on what they judge.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -28,8 +27,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("dynamics", &["follow", "numeric", "ode", "clutch", "kinematics", "friction", "wedge"]),
     // Unlike sprags between the races of one clutch, on its curve.
     ("sharing", &["numeric", "race", "clutch", "wedge"]),
-    // A scenario may be given another friction law, so it names that law.
-    // What slides on a film is at the temperature of its heat balance.
+    // A scenario may be given another friction law; what slides on a film is at the temperature of its heat balance.
     ("scenario", &["follow", "numeric", "lubrication", "clutch", "profile", "friction", "wedge", "dynamics"]),
     // A scene of unlike sprags begins as a scene does, and draws its sprags as statics does.
     ("sprags", &["clutch", "friction", "wedge", "dynamics", "sharing", "scenario"]),
@@ -60,11 +58,11 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("feed", &["follow", "clutch", "wedge", "dynamics", "element"]),
     // Loads of a life on the static curve; strengths are the file's.
     ("life", &["numeric", "lubrication", "clutch", "design", "friction", "wedge", "margin"]),
-    // Never a contact, a wedge or a path: a vector and its margins. Scenes run as fidelity plans them; a centroid is made
-    // real, and a tolerance felt, on the profile itself.
+    // Never a contact, a wedge or a path. Scenes run as fidelity plans them; a centroid is made real on the profile itself.
     ("optimise", &["follow", "numeric", "profile", "clutch", "design", "scenario", "fidelity", "margin"]),
+    ("journal", &["optimise"]),
     // Points of a box, and whatever the margins say there.
-    ("sweep", &["numeric", "design", "margin", "optimise"]),
+    ("sweep", &["follow", "numeric", "design", "margin", "optimise"]),
     // Asks for margins and static points as they are; knows no law.
     ("identify", &["follow", "numeric", "clutch", "design", "wedge", "margin"]),
     // A first design: proportions, then whatever the margins say.
@@ -124,8 +122,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "cli",
         &[
             "answer", "follow", "material", "profile", "clutch", "design", "wedge", "dynamics", "scenario",
-            "element", "accuracy", "margin", "optimise", "sweep", "identify", "size", "report", "export",
-            "import", "studio",
+            "element", "accuracy", "margin", "optimise", "journal", "sweep", "identify", "size", "report",
+            "export", "import", "studio",
         ],
     ),
 ];
@@ -153,6 +151,7 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/scenario/figures.rs", "the table of figures: the keys of JSON and CSV"),
     ("src/margin/table.rs", "the table of limits: their keys and units"),
     ("src/margin/row.rs", "keys of that table"),
+    ("src/margin/mod.rs", "keys of the file that decide whether there is a curve"),
     ("src/margin/limits.rs", "the name of a row, as it is printed"),
     ("src/margin/run_out/rows.rs", "the place of a sprag, as it is printed"),
     ("src/optimise/freed.rs", "keys of the file that are asked what would free a problem"),
@@ -161,7 +160,8 @@ const UNITS_ELSEWHERE: &[(&str, &str)] = &[
     ("src/optimise/realise.rs", "unknowns near 1, flanks in mm, and the file's keys for them"),
     ("src/identify/observation.rs", "the columns of a file of observations"),
     ("src/identify/predict.rs", "predictions in the units of those columns"),
-    ("src/size/requirements.rs", "words and ranges of a question, as it is typed"),
+    ("src/size/asked.rs", "words and ranges of a question, as it is typed"),
+    ("src/size/requirements.rs", "drives' speeds, as the table of purposes has them"),
     ("src/size/finish.rs", "words of the new file"),
     ("src/size/search.rs", "words of what was tried"),
     ("src/size/purpose.rs", "what is taken of a drive where nobody says: numbers and keys of the new file"),

@@ -4,6 +4,7 @@
 mod program;
 
 use program::*;
+use sprag_design::answer::Answer;
 use sprag_design::clutch::RingStrength;
 use sprag_design::life::{INDENTING_PA, LifePlace};
 use sprag_design::margin::{LIMITS, load_state, margins, rings_pa};

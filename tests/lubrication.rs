@@ -4,7 +4,7 @@
 mod program;
 
 use program::*;
-use sprag_design::answer::overrun::{OverrunQuestion, RunningRace};
+use sprag_design::answer::overrun::{OverrunPart, OverrunQuestion, RunningRace};
 use sprag_design::dynamics::{alpha_max_rad, overrun, swing, swing_on_film, swing_with_friction};
 use sprag_design::friction::FilmFriction;
 use sprag_design::lubrication::*;
@@ -410,7 +410,9 @@ fn the_commands_answer_and_refuse() {
     // What a row is stands in each part of a table that is folded.
     let answer = changed(&[]);
     let answer = answer.overrun(&OverrunQuestion::default()).unwrap();
-    let folded = answer.films().to_text(sprag_design::report::Screen { colour: false, columns: Some(60) });
+    let folded = answer
+        .part(OverrunPart::Film)
+        .to_text(sprag_design::report::Screen { colour: false, columns: Some(60) });
     for part in folded.split("\n\n") {
         assert!(part.contains("Oil,") && part.contains("Speed,"), "{folded}");
     }

@@ -4,6 +4,7 @@
 mod program;
 
 use program::*;
+use sprag_design::answer::Answer;
 use sprag_design::answer::reengagement::ReengagementSettings;
 use sprag_design::dynamics::Stop;
 use sprag_design::reengage::{Blow, Blows, SlipUnderLoad, blows, by_energy_nm, taken_up_j};

@@ -268,7 +268,7 @@ fn the_initial_slip_lasts_half_a_millisecond_where_the_spring_is_weak() {
     assert!((0.05..0.2).contains(&slip(&hard)), "{}", slip(&hard));
     // A part of all slip, and of the time to the stick: contact is lost for 0.03 ms on the way.
     for s in [&table_1, &weak, &hard] {
-        let waited = s.held.unwrap().t_s - s.engaged.unwrap().t_s;
+        let waited = s.first_hold.unwrap().t_s - s.engaged.unwrap().t_s;
         assert!(slip(s) <= 1e3 * s.inner.time_s + 1e-9 && slip(s) <= 1e3 * waited + 1e-9);
     }
     let change = weak.peaks.normal_max_n / table_1.peaks.normal_max_n - 1.0;
@@ -290,13 +290,13 @@ fn the_initial_slip_ends_with_the_stick_that_carries_the_load_to_its_peak() {
     };
     // Sticks at once for 0.03 ms, then slips.
     let moment = with(20.0, 0.00508);
-    assert!(moment.held.unwrap().t_s - moment.engaged.unwrap().t_s > 1e-4);
+    assert!(moment.first_hold.unwrap().t_s - moment.engaged.unwrap().t_s > 1e-4);
     assert_eq!(moment.initial_slip_s(), Some(moment.inner.time_s));
     // Holds for 10 ms, bounces, holds a larger load later.
     let bounced = with(20.0, 0.001);
     let [initial, all] = [bounced.initial_slip_s().unwrap(), bounced.inner.time_s];
     assert!((3.5e-3..3.6e-3).contains(&initial) && all > 4e-3, "{initial} of {all}");
-    assert!(bounced.peaks.at_s[3] > bounced.held.unwrap().t_s + 10e-3);
+    assert!(bounced.peaks.at_s[3] > bounced.first_hold.unwrap().t_s + 10e-3);
 }
 
 /// "T_bi is always larger than T_be during engagement" (2.2): true of the forces and of the friction asked for as

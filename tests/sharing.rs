@@ -1,5 +1,6 @@
 //! Sprags one by one: alike they are the curve, unlike they are what a hand calculation says.
 
+use sprag_design::answer::Answer;
 use sprag_design::clutch::{Carrier, Eccentricity, GivenSprag, Sharing, Standing};
 use sprag_design::race::Race;
 use sprag_design::wedge::SpragDeviation;
@@ -27,6 +28,7 @@ fn alike() -> Sharing {
         friction_within: 0.0,
         gap_up_to_m: 0.0,
         stiffness_n_per_m: None,
+        mass_kg: None,
         given: Vec::new(),
     }
 }

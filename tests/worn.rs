@@ -1,4 +1,5 @@
 //! The profile as it wears, fed back into the clutch.
+use sprag_design::answer::Answer;
 use sprag_design::clutch::Service;
 use sprag_design::design::Design;
 use sprag_design::life::{Life, Wear, life, worn, worn_life, worn_state};
@@ -203,4 +204,95 @@ fn a_life_tells_when_wear_ends_it() {
         + "\n[life]\nloads = [ { torque_nm = 60.0, engagements = 1e5 } ]\noverruns = [ { scenario = \"nowhere\", hours = 10.0 } ]\n";
     let why = Design::parse(&wrong, "wrong.toml").unwrap_err().to_string();
     assert!(why.contains("life.overruns[0].scenario"), "{why}");
+}
+
+/// Limits at nominal torque are held at the loads up to it, those at peak torque at every load.
+#[test]
+fn a_seldom_peak_is_held_to_the_limits_of_the_peak() {
+    let held = |peak_nm: f64| {
+        let text = OIL.replace("hertz_nominal_mpa = 4200.0", "hertz_nominal_mpa = 3750.0")
+            + &format!(
+                "\n[life]\nloads = [ {{ torque_nm = 60.0, engagements = 1e5 }}, {{ torque_nm = {peak_nm:?}, engagements = 10 }} ]\noverruns = [ {{ scenario = \"overrun\", hours = 1.0 }} ]\n"
+            );
+        let design = Design::parse(&text, "worn.toml").unwrap();
+        let (service, life, _) = of(&design);
+        worn_state(&design, &service, &life, 0.0, &Wear::default()).unwrap()
+    };
+    let fair = held(105.0);
+    assert!(fair.broken.is_none(), "{fair:?}");
+    let often = held(89.9);
+    let (nominal_nm, code) = often.capacity.unwrap();
+    assert!(code.ends_with("nominal-inner") && nominal_nm < 90.0, "{code} at {nominal_nm}");
+    assert_eq!(often.broken, Some(sprag_design::life::Broken::Torque));
+    assert_eq!(held(125.0).broken, Some(sprag_design::life::Broken::Torque));
+}
+
+/// A clutch of one arc with law `elastic`, as `new` makes it for a bore of 40 mm and 1000 N m.
+const ELASTIC: &str = r#"schema = 1
+name = "bore of 40 mm"
+[sprags]
+count = 25
+length_mm = 17.5
+outer_radius_mm = 5.5
+centre_distance_mm = 0.6294
+inner_arcs = [{ radius_mm = 2.915, until_rad = 0.4084 }]
+flanks = { rear_mm = 2.3167, front_mm = 1.666 }
+[races]
+inner_bore_radius_mm = 20.0
+inner_radius_mm = 28.4
+outer_radius_mm = 36.73
+outer_outside_radius_mm = 46.6
+width_mm = 20.5
+viscous_damping_nm_s_per_rad = 0.1
+[spring]
+stiffness_nm_per_rad = 0.01205
+drag_torque_nm = 0.1065
+[material]
+name = "100Cr6"
+[friction]
+static = 0.11
+kinetic = 0.099
+decay_s_per_m = 5.0
+[limits]
+from_material = true
+nominal_torque_nm = 1000.0
+[lubrication]
+oil = "ISO VG 32"
+temperature_c = 60.0
+race_roughness_um = 0.25
+sprag_roughness_um = 0.25
+boundary_friction = 0.11
+sprag_wear_mm3_per_nm = 1e-9
+race_wear_mm3_per_nm = 1e-9
+[life]
+loads = [ { torque_nm = 1000.0, engagements = 1e4 } ]
+overruns = [ { scenario = "overrun", hours = 1000.0 } ]
+[[scenarios]]
+name = "overrun"
+kind = "overrun"
+speed_rpm = 2000.0
+overrun_rpm = 1000.0
+"#;
+
+/// The edge of the first flat, a thousandth of the arc, has all the change of curvature in a hair: curves are found over it, and
+/// the first wear changes little.
+#[test]
+fn wear_of_an_elastic_clutch_begins_where_the_drawn_one_is() {
+    let design = Design::parse(ELASTIC, "elastic.toml").unwrap();
+    let (service, life, state) = of(&design);
+    let found = worn_life(&design, &service, &life).unwrap().unwrap();
+    let at: Vec<_> = found
+        .states
+        .iter()
+        .map(|s| (s.share, s.flat_m, s.first_tan_omega, s.capacity.clone(), s.broken))
+        .collect();
+    println!("{at:#?}");
+    let unworn = found.states[0].capacity.clone().unwrap().0;
+    for pair in found.states.windows(2) {
+        assert!(pair[1].first_tan_omega.unwrap() > pair[0].first_tan_omega.unwrap());
+    }
+    assert_eq!(found.states[0].first_tan_omega, Some(state.first_tan_omega));
+    assert!(found.states.len() > 5 && found.states[1].broken.is_none());
+    let (nm, _) = found.states[1].capacity.clone().unwrap();
+    assert!((nm / unworn - 1.0).abs() < 0.02, "{nm} beside {unworn}");
 }

@@ -13,12 +13,14 @@ use sprag_design::answer::life::NoLife;
 use sprag_design::answer::overrun::{NoOverrun, OverrunQuestion, RunningRace};
 use sprag_design::answer::reengagement::{NoReengagement, ReengagementSettings};
 use sprag_design::answer::sharing::NoSharing;
+use sprag_design::answer::sharing_scene::NoSharingScene;
 use sprag_design::answer::simulation::{self, Integration, NoAnswer};
 use sprag_design::answer::stiffness::{self, NoStiffness};
-use sprag_design::answer::{Envelope, LeftOut, search};
+use sprag_design::answer::{Answer, Envelope, LeftOut, search};
 use sprag_design::clutch::LAWS;
 use sprag_design::design::Objective;
 use sprag_design::report::{Drawing, SpragPose};
+use sprag_design::scenario::Settings;
 use sprag_design::{Follow, NoSearch};
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -350,6 +352,26 @@ impl Design {
             NoSharing::NoTable | NoSharing::NoTorque => {
                 Err(PyValueError::new_err(format!("{}: {why}", self.file)))
             }
+        })
+    }
+
+    /// The same of a scenario, its sprags one by one.
+    fn sharing_in_scene(
+        &self,
+        py: Python<'_>,
+        scenario: String,
+        most_steps: Option<u64>,
+    ) -> PyResult<(String, String)> {
+        let (design, follow) = (Arc::clone(&self.design), Follow::new());
+        let settings = Settings { follow: follow.clone(), most_steps, ..Settings::default() };
+        let answer = compute(py, &follow, move || {
+            let started = Instant::now();
+            let found = design.sharing_in_scene(&scenario, &settings);
+            found.map(|a| parts(&a.envelope(started.elapsed().as_secs_f64())))
+        })?;
+        answer.unwrap_or_else(|why| match why {
+            why @ NoSharingScene::NoSuchScene(..) => Err(PyKeyError::new_err(why.to_string())),
+            why => Err(PyValueError::new_err(format!("{}: {why}", self.file))),
         })
     }
 

@@ -193,6 +193,23 @@ def test_sharing_is_that_of_the_command(command: Command, design: sd.Design) -> 
         design.sharing()
 
 
+def test_a_scene_of_sprags_one_by_one_is_that_of_the_command(command: Command, design: sd.Design) -> None:
+    path = DESIGNS / "unlike-sprags.toml"
+    said = command("sharing", path, "--scenario", "engagement", "--json", "--quiet")
+    found = sd.Design.load(path).sharing_in_scene("engagement")
+    assert mine(found.to_dict()) == figures(said.stdout)
+    assert found.held == (said.returncode == 0) and [s.number for s in found.sprags] == list(range(1, 13))
+    assert found.bearing_max_n is not None and found.bearing_max_n > 0
+    assert set(found.to_dict()) <= {f.name for f in dataclasses.fields(found)}
+    assert set(found.to_dict()["sprags"][0]) <= {f.name for f in dataclasses.fields(sd.SceneSprag)}
+    with pytest.raises(KeyError, match="engagement"):
+        sd.Design.load(path).sharing_in_scene("nothing")
+    with pytest.raises(ValueError, match="most_steps"):
+        sd.Design.load(path).sharing_in_scene("engagement", most_steps=0)
+    with pytest.raises(ValueError, match="sharing"):
+        design.sharing_in_scene("high-6")
+
+
 def test_feed_is_that_of_the_command(command: Command) -> None:
     path = DESIGNS / "indexing.toml"
     flags = ["--stroke", "12", "--brake", "50", "--frequency", "5,10", "--inertia", "0.02"]

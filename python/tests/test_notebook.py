@@ -74,3 +74,11 @@ def test_a_design_is_saved_once(design: sd.Design, tmp_path: Path) -> None:
     assert sd.Design.load(path) == design.with_(r_i2_mm=4.1)
     with pytest.raises(FileExistsError):
         design.save(path)
+
+
+def test_an_answer_prints_in_a_line(design: sd.Design) -> None:
+    for answer in (design.check(), design.stiffness([10.0])):
+        assert "\n" not in repr(answer) and len(repr(answer)) < 1000
+        assert repr(answer).startswith(f"<{type(answer).__name__}")
+    check = design.check()
+    assert check.verdict in str(check) and "margins" in str(check)

@@ -1,17 +1,11 @@
 //! What every answer says of itself beside its own figures: who computed it, from what, how long that took, what was left out.
 
-use super::feed::FeedAnswer;
-use super::finite_elements::{FiniteElementBody, FiniteElements};
-use super::left_out::LeftOut;
-use super::life::LifeAnswer;
-use super::overrun::OverrunAnswer;
-use super::page::draw_inputs;
-use super::reengagement::ReengagementAnswer;
-use super::resonance::ResonanceAnswer;
-use super::sharing::SharingAnswer;
+use super::left_out::{LeftOut, left_out_of};
+use super::page::{draw_inputs, opened};
 use super::sharing_scene::SharingSceneAnswer;
 use crate::design::Design;
-use crate::report::{Page, Rows, Screen, Table};
+use crate::dynamics::Stop;
+use crate::report::{Page, Rows, Screen, Table, Tone};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -108,10 +102,34 @@ impl<B: Serialize> Envelope<'_, B> {
     }
 }
 
+/// What an answer comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Finding {
+    /// All that was asked about holds.
+    Held,
+    /// Something does not.
+    NotHeld,
+    /// Figures alone: nothing is to hold.
+    Shown,
+    /// What would decide is not known, or a run did not come to its end.
+    NotKnown,
+    /// Stopped before its end.
+    Stopped,
+}
+
+impl Finding {
+    /// Of a verdict.
+    pub fn of(held: bool) -> Self {
+        if held { Self::Held } else { Self::NotHeld }
+    }
+}
+
 /// An answer and its faces.
 pub trait Answer {
-    /// Its own keys.
-    type Body: Serialize;
+    /// What it comes to.
+    fn outcome(&self) -> Finding;
+    /// That in a sentence.
+    fn verdict(&self) -> String;
     /// The table for programs.
     fn table(&self) -> Table;
     /// The answer on a terminal.
@@ -119,43 +137,142 @@ pub trait Answer {
     /// The answer as a page.
     fn page(&self, provenance: &Provenance) -> Page;
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Self::Body>;
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value>;
+
+    /// Whether all that was asked about holds.
+    fn held(&self) -> bool {
+        self.outcome() == Finding::Held
+    }
 }
 
-/// Answers with all faces: type, its own keys, which of its tables is the one for programs.
-macro_rules! answers {
-    ($($answer:ty, $body:ty, $table:ident;)+) => {
-        $(impl Answer for $answer {
-            type Body = $body;
+/// What an answer about one design says; the faces of [`Answer`] follow from it.
+pub trait Said {
+    /// Title of its page.
+    fn title(&self) -> &str;
+    /// The design.
+    fn design(&self) -> &Design;
+    /// What it comes to.
+    fn outcome(&self) -> Finding;
+    /// That in a sentence.
+    fn verdict(&self) -> String;
+    /// What the tables do not say, a sentence each.
+    fn remarks(&self) -> Vec<String>;
+    /// The table for programs.
+    fn table(&self) -> Table;
+    /// Its own keys in JSON.
+    fn body(&self) -> Value;
+    /// What stands on a page between the remarks and the inputs.
+    fn draw(&self, page: &mut Page);
 
-            fn table(&self) -> Table {
-                self.$table()
-            }
+    /// Whether all that was asked about holds.
+    fn is_held(&self) -> bool {
+        self.outcome() == Finding::Held
+    }
 
-            fn text(&self, screen: Screen) -> String {
-                self.text(screen)
-            }
+    /// What it is about.
+    fn subject(&self) -> String {
+        self.design().name.clone()
+    }
 
-            fn page(&self, provenance: &Provenance) -> Page {
-                self.page(provenance)
-            }
+    /// How the verdict looks on a page, and its words there.
+    fn banner(&self) -> (Tone, String) {
+        let tone = match self.outcome() {
+            Finding::Held => Tone::Good,
+            Finding::NotHeld | Finding::Stopped => Tone::Bad,
+            Finding::Shown | Finding::NotKnown => Tone::Plain,
+        };
+        (tone, self.verdict())
+    }
 
-            fn envelope(&self, run_time_s: f64) -> Envelope<'_, $body> {
-                self.envelope(run_time_s)
-            }
-        })+
-    };
+    /// The tables on a terminal.
+    fn tables(&self, screen: Screen) -> String {
+        self.table().to_text(screen)
+    }
+
+    /// What the model leaves out.
+    fn left_out(&self) -> Vec<LeftOut> {
+        left_out_of(self.design())
+    }
+
+    /// How far off the answer is, where something was integrated or iterated.
+    fn error_estimate(&self) -> Option<Value> {
+        None
+    }
 }
 
-answers! {
-    FiniteElements<'_>, FiniteElementBody, table;
-    LifeAnswer<'_>, Value, loads;
-    OverrunAnswer<'_>, Value, all;
-    ReengagementAnswer<'_>, Value, blows;
-    FeedAnswer<'_>, Value, frequencies;
-    ResonanceAnswer<'_>, Value, table;
-    SharingAnswer<'_>, Value, by_sprag;
-    SharingSceneAnswer<'_>, Value, by_sprag;
+impl<T: Said> Answer for T {
+    fn outcome(&self) -> Finding {
+        Said::outcome(self)
+    }
+
+    fn verdict(&self) -> String {
+        Said::verdict(self)
+    }
+
+    fn table(&self) -> Table {
+        Said::table(self)
+    }
+
+    fn text(&self, screen: Screen) -> String {
+        let mut text = format!("{}  {}\n\n", self.subject(), self.design().short_hash());
+        let lines = Some(self.tables(screen)).filter(|tables| !tables.is_empty());
+        for line in lines.into_iter().chain(self.remarks()).chain([self.verdict()]) {
+            text += &line;
+            text += "\n";
+        }
+        text
+    }
+
+    fn page(&self, provenance: &Provenance) -> Page {
+        let mut page = opened(self.title(), self.design(), &provenance.command, |page| {
+            let (tone, words) = self.banner();
+            page.verdict_in(tone, &words);
+        });
+        page.list(self.remarks());
+        self.draw(&mut page);
+        self.envelope(provenance.run_time_s).close(&mut page);
+        page
+    }
+
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
+        Envelope {
+            design: self.design(),
+            run_time_s,
+            left_out: self.left_out(),
+            error_estimate: self.error_estimate(),
+            body: self.body(),
+        }
+    }
+}
+
+impl Answer for SharingSceneAnswer<'_> {
+    fn outcome(&self) -> Finding {
+        match self.found.run.stop {
+            Stop::Interrupted => Finding::Stopped,
+            stop if stop.gave_up() => Finding::NotKnown,
+            _ => Finding::of(self.held()),
+        }
+    }
+
+    fn verdict(&self) -> String {
+        self.verdict()
+    }
+
+    fn table(&self) -> Table {
+        self.by_sprag()
+    }
+
+    fn text(&self, screen: Screen) -> String {
+        self.text(screen)
+    }
+
+    fn page(&self, provenance: &Provenance) -> Page {
+        self.page(provenance)
+    }
+
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
+        self.envelope(run_time_s)
+    }
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 //! What an indexing drive feeds with each stroke, over frequency, and where it ends.
 
 use super::left_out::{LeftOut, left_out_of};
-use super::page::opened;
 use super::reengagement::peak_torque_borne;
-use super::{Envelope, Provenance};
+use super::{Finding, Said};
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
@@ -11,7 +10,7 @@ use crate::feed::{Fed, Strokes, fed};
 use crate::follow::Follow;
 use crate::margin::load_state;
 use crate::report::plot::Curve;
-use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, plain, significant};
+use crate::report::{Cell, Page, Plot, Rows, Table, Unit, plain, significant};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::fmt;
@@ -213,7 +212,7 @@ impl Design {
     }
 }
 
-impl<'a> FeedAnswer<'a> {
+impl FeedAnswer<'_> {
     /// Feed of a stroke less that of slow ones, rad.
     fn off_rad(&self, fed: &Fed) -> f64 {
         fed.error_rad + self.windup_rad
@@ -227,16 +226,6 @@ impl<'a> FeedAnswer<'a> {
             && fed.peak.is_some_and(|p| p.torque_nm <= most_nm)
     }
 
-    /// Whether it feeds as it should at every frequency asked for.
-    pub fn held(&self) -> bool {
-        self.list.len() == self.asked && self.list.iter().all(|fed| self.feeds(fed))
-    }
-
-    /// Whether it was stopped before its end.
-    pub fn stopped(&self) -> bool {
-        self.list.len() < self.asked
-    }
-
     fn word(&self, fed: &Fed) -> &'static str {
         match fed.ended {
             Some(Stop::FellAway) => "THROWN OUT",
@@ -248,15 +237,54 @@ impl<'a> FeedAnswer<'a> {
         }
     }
 
-    /// In a sentence.
-    pub fn verdict(&self) -> String {
+    /// Each frequency.
+    pub fn frequencies(&self) -> Rows<&Fed> {
+        Rows::of(&self.list)
+            .number("frequency_hz", "Strokes", Unit::Hertz, 4, |f| f.frequency_hz)
+            .number("feed_deg", "Feed", Unit::Degree, 6, |f| known(f, f.feed_rad))
+            .number("error_deg", "Feed − stroke", Unit::Degree, 4, |f| known(f, f.error_rad))
+            .number("off_deg", "Against slow ones", Unit::Degree, 3, |f| known(f, self.off_rad(f)))
+            .number("runs_on_deg", "Runs on", Unit::Degree, 3, |f| known(f, f.runs_on_rad))
+            .number("unlike_deg", "Unlike", Unit::Degree, 2, |f| known(f, f.unlike_rad))
+            .number("peak_torque_nm", "Torque", Unit::NewtonMetre, 4, |f| f.peak.map(|p| p.torque_nm))
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |f| {
+                f.peak.map(|p| p.hertz_inner_pa)
+            })
+            .number("open_ms", "Open", Unit::Millisecond, 3, |f| f.open_s)
+            .text("verdict", "Verdict", |f| Cell::Verdict(self.feeds(f), self.word(f).to_owned()))
+            .json("strokes", |f| f.strokes)
+            .json("held", |f| self.feeds(f))
+            .json("ended", |f| f.ended.map(Stop::name))
+    }
+}
+
+impl Said for FeedAnswer<'_> {
+    fn title(&self) -> &str {
+        "Feed of an indexing drive"
+    }
+
+    fn design(&self) -> &Design {
+        self.design
+    }
+
+    fn outcome(&self) -> Finding {
+        if self.list.len() < self.asked {
+            Finding::Stopped
+        } else if self.list.iter().any(|fed| fed.ended.is_some_and(Stop::gave_up)) {
+            Finding::NotKnown
+        } else {
+            Finding::of(self.list.iter().all(|fed| self.feeds(fed)))
+        }
+    }
+
+    fn verdict(&self) -> String {
         let hertz = |hz: f64| Unit::Hertz.show(hz, 3);
         let degrees = |rad: f64| Unit::Degree.show(rad, 3);
-        if self.stopped() {
+        if self.outcome() == Finding::Stopped {
             return format!("stopped after {} of {} frequencies", self.list.len(), self.asked);
         }
         let (first, last) = (&self.list[0], &self.list[self.list.len() - 1]);
-        if self.held() {
+        if self.is_held() {
             return format!(
                 "HELD up to {}: each stroke feeds {} less than {}, {} of it windup at the torque of the brake",
                 hertz(last.frequency_hz),
@@ -306,25 +334,6 @@ impl<'a> FeedAnswer<'a> {
         }
     }
 
-    /// Each frequency.
-    pub fn frequencies(&self) -> Table {
-        Rows::of(&self.list)
-            .number("frequency_hz", "Strokes", Unit::Hertz, 4, |f| f.frequency_hz)
-            .number("feed_deg", "Feed", Unit::Degree, 6, |f| known(f, f.feed_rad))
-            .number("error_deg", "Feed − stroke", Unit::Degree, 4, |f| known(f, f.error_rad))
-            .number("off_deg", "Against slow ones", Unit::Degree, 3, |f| known(f, self.off_rad(f)))
-            .number("runs_on_deg", "Runs on", Unit::Degree, 3, |f| known(f, f.runs_on_rad))
-            .number("unlike_deg", "Unlike", Unit::Degree, 2, |f| known(f, f.unlike_rad))
-            .number("peak_torque_nm", "Torque", Unit::NewtonMetre, 4, |f| f.peak.map(|p| p.torque_nm))
-            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |f| {
-                f.peak.map(|p| p.hertz_inner_pa)
-            })
-            .number("open_ms", "Open", Unit::Millisecond, 3, |f| f.open_s)
-            .text("verdict", "Verdict", |f| Cell::Verdict(self.feeds(f), self.word(f).to_owned()))
-            .table()
-    }
-
-    /// What was taken, in sentences.
     fn remarks(&self) -> Vec<String> {
         let case = &self.case;
         let [driving, race] = if case.inner_drives { ["inner", "outer"] } else { ["outer", "inner"] };
@@ -353,28 +362,20 @@ impl<'a> FeedAnswer<'a> {
         ]
     }
 
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
+    fn table(&self) -> Table {
+        self.frequencies().table()
+    }
+
+    fn body(&self) -> Value {
         let degrees = |rad: f64| Unit::Degree.from_si(rad);
-        let list = self.list.iter().map(|f| {
-            let known = |rad: f64| known(f, rad).map(degrees);
-            json!({
-                "frequency_hz": f.frequency_hz, "feed_deg": known(f.feed_rad), "error_deg": known(f.error_rad),
-                "off_deg": known(self.off_rad(f)), "runs_on_deg": known(f.runs_on_rad), "unlike_deg": known(f.unlike_rad),
-                "peak_torque_nm": f.peak.map(|p| p.torque_nm),
-                "hertz_inner_mpa": f.peak.map(|p| Unit::Megapascal.from_si(p.hertz_inner_pa)),
-                "open_ms": 1e3 * f.open_s, "strokes": f.strokes, "held": self.feeds(f), "ended": f.ended.map(Stop::name),
-            })
-        });
         let case = &self.case;
-        let body = json!({
-            "held": self.held(), "verdict": self.verdict(), "stroke_deg": degrees(case.stroke_rad), "brake_nm": case.brake_nm,
+        json!({
+            "held": self.is_held(), "verdict": self.verdict(), "stroke_deg": degrees(case.stroke_rad), "brake_nm": case.brake_nm,
             "inertia_kg_m2": case.inertia_kg_m2, "driver": if case.inner_drives { "inner" } else { "outer" },
             "allowed_deg": degrees(self.allowed_rad), "windup_deg": degrees(self.windup_rad), "limit_hz": self.limit_hz,
             "bears_nm": self.bears.as_ref().map(|b| b.0), "bears_by": self.bears.as_ref().map(|b| b.1.as_str()),
-            "frequencies": list.collect::<Vec<_>>(),
-        });
-        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
+            "frequencies": self.frequencies().objects(),
+        })
     }
 
     fn left_out(&self) -> Vec<LeftOut> {
@@ -387,24 +388,7 @@ impl<'a> FeedAnswer<'a> {
         all
     }
 
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        let hash = self.design.short_hash();
-        format!(
-            "{}  {hash}\n\n{}\n{}\n{}\n",
-            self.design.name,
-            self.frequencies().to_text(screen),
-            self.remarks().join("\n"),
-            self.verdict()
-        )
-    }
-
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = opened("Feed of an indexing drive", self.design, &provenance.command, |page| {
-            page.verdict(self.held(), &self.verdict());
-        });
-        page.list(self.remarks());
+    fn draw(&self, page: &mut Page) {
         let points = |of: &dyn Fn(&Fed) -> f64| -> Vec<[f64; 2]> {
             let done = self.list.iter().filter(|f| f.ended.is_none());
             done.map(|f| [f.frequency_hz, Unit::Degree.from_si(of(f))]).collect()
@@ -416,8 +400,6 @@ impl<'a> FeedAnswer<'a> {
             plot.curves.push(Curve::new("slow strokes: windup", points(&|_| -self.windup_rad)));
             page.figure(&plot.to_figure(), "What a stroke feeds more or less than the driving race turns.");
         }
-        page.table("Each frequency. Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (both negative: less).", &self.frequencies());
-        self.envelope(provenance.run_time_s).close(&mut page);
-        page
+        page.table("Each frequency. Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (both negative: less).", &self.table());
     }
 }

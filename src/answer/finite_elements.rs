@@ -1,65 +1,14 @@
 //! A result of finite elements beside the design's own contact law.
 
 use super::left_out::LeftOut;
-use super::page::opened;
-use super::{Envelope, Provenance};
+use super::{Finding, Said};
 use crate::clutch::Clutch;
 use crate::design::Design;
 use crate::export::calculix::{Facts, ResultRow};
 use crate::race::twist_rad_per_nm;
-use crate::report::{Cell, Page, Rows, Screen, Table, Tone, Unit};
+use crate::report::{Page, Rows, Table, Unit};
 use crate::wedge::{StaticPoint, WedgeCurve};
-use serde::Serialize;
-
-/// Keys of a result that was read back.
-#[derive(Debug, Clone, Serialize)]
-pub struct FiniteElementBody {
-    /// Who computed it.
-    pub source: &'static str,
-    /// Variant of the deck.
-    pub variant: String,
-    /// Spacing of the mesh at the contacts, mm.
-    pub mesh_mm: f64,
-    /// How much of the turn that the deck asks for the result has, 0 to 1; less than 1 where the solver stopped.
-    pub turned: f64,
-    /// Which windups are compared.
-    pub compared: String,
-    /// Error of windup that the design's law is stated with, percent.
-    pub law_windup_error_percent: f64,
-    /// The same of forces and angles.
-    pub law_force_error_percent: f64,
-    /// The rows.
-    pub points: Vec<FiniteElementPoint>,
-}
-
-/// A row of finite elements beside the design's own law.
-#[derive(Debug, Clone, Serialize)]
-pub struct FiniteElementPoint {
-    /// Torque, N m.
-    pub torque_nm: f64,
-    /// N_bi, N.
-    pub normal_inner_n: f64,
-    /// N_be, N.
-    pub normal_outer_n: f64,
-    /// tan omega at A.
-    pub tan_omega: f64,
-    /// tan nu at B.
-    pub tan_nu: f64,
-    /// Windup, rim against bore, degrees.
-    pub windup_deg: f64,
-    /// Secant stiffness, N m/rad.
-    pub k_secant_nm_per_rad: f64,
-    /// Largest pressure at A, MPa.
-    pub hertz_inner_mpa: Option<f64>,
-    /// Torsion of both races between the driven circles and the tracks, degrees: what windup holds and the law's does not.
-    pub races_twist_deg: f64,
-    /// Windup by the design's law, track against track, degrees.
-    pub law_windup_deg: Option<f64>,
-    /// N_bi by the design's law, N.
-    pub law_normal_inner_n: Option<f64>,
-    /// tan omega by the design's law.
-    pub law_tan_omega: Option<f64>,
-}
+use serde_json::{Value, json};
 
 /// Rows of a result of CalculiX beside the curve of the design.
 #[derive(Debug, Clone)]
@@ -87,7 +36,7 @@ impl<'a> FiniteElements<'a> {
         Self { design, facts, rows, law, twist_rad_per_nm, turned }
     }
 
-    /// Which windups stand beside each other.
+    /// Which windups stand beside each other, and what the law is stated with.
     pub fn compared(&self) -> String {
         let [inner, outer] = self.facts.driven_mm;
         let law = self.design.clutch.contact.facts();
@@ -111,67 +60,77 @@ impl<'a> FiniteElements<'a> {
     }
 
     /// The rows, the design's law beside them.
-    pub fn table(&self) -> Table {
-        table(self.rows, &self.law, self.twist_rad_per_nm)
-    }
-
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, FiniteElementBody> {
-        Envelope {
-            design: self.design,
-            run_time_s,
-            left_out: left_out(self.facts),
-            error_estimate: None,
-            body: self.body(),
-        }
-    }
-
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = opened("Finite elements", self.design, &provenance.command, |page| {
-            page.verdict_in(Tone::Plain, &self.compared());
-        });
-        page.heading("CalculiX beside the design's contact law").table("", &self.table());
-        self.envelope(provenance.run_time_s).close(&mut page);
-        page
-    }
-
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        format!("{}\n{}\n", self.table().to_text(screen), self.compared())
-    }
-
-    fn body(&self) -> FiniteElementBody {
-        let points = self
-            .rows
-            .iter()
-            .zip(&self.law)
-            .map(|(r, l)| FiniteElementPoint {
-                torque_nm: r.torque_nm,
-                normal_inner_n: r.normal_inner_n,
-                normal_outer_n: r.normal_outer_n,
-                tan_omega: r.tan_omega,
-                tan_nu: r.tan_nu,
-                windup_deg: r.windup_rad.to_degrees(),
-                k_secant_nm_per_rad: r.torque_nm / r.windup_rad,
-                hertz_inner_mpa: r.pressure_inner_pa.map(|p| 1e-6 * p),
-                races_twist_deg: (self.twist_rad_per_nm * r.torque_nm).to_degrees(),
-                law_windup_deg: l.map(|l| l.windup_rad.to_degrees()),
-                law_normal_inner_n: l.map(|l| l.normal_inner_n),
-                law_tan_omega: l.map(|l| l.tan_omega),
+    pub fn points(&self) -> Rows<(&ResultRow, &Option<StaticPoint>)> {
+        let twist_rad = |r: &ResultRow| self.twist_rad_per_nm * r.torque_nm;
+        Rows::of(self.rows.iter().zip(&self.law))
+            .number("torque_nm", "Torque", Unit::NewtonMetre, 5, |(r, _)| r.torque_nm)
+            .number("normal_inner_n", "N inner", Unit::Newton, 5, |(r, _)| r.normal_inner_n)
+            .number("windup_deg", "Windup", Unit::Degree, 5, |(r, _)| r.windup_rad)
+            .number("hertz_inner_mpa", "Pressure inner", Unit::Megapascal, 4, |(r, _)| r.pressure_inner_pa)
+            .number("tan_omega", "tan ω", Unit::One, 4, |(r, _)| r.tan_omega)
+            .number("k_secant_nm_per_rad", "Secant", Unit::NewtonMetrePerRadian, 4, |(r, _)| {
+                r.torque_nm / r.windup_rad
             })
-            .collect();
-        let [windup, force] = self.design.clutch.law_error();
-        FiniteElementBody {
-            law_windup_error_percent: 100.0 * windup,
-            law_force_error_percent: 100.0 * force,
-            source: "calculix",
-            variant: self.facts.variant.clone(),
-            mesh_mm: self.facts.mesh_mm,
-            turned: self.turned,
-            compared: self.compared(),
-            points,
-        }
+            .number("law_normal_inner_n", "N, law", Unit::Newton, 5, |(_, l)| l.map(|l| l.normal_inner_n))
+            .number("law_windup_deg", "Windup, law", Unit::Degree, 5, |(_, l)| l.map(|l| l.windup_rad))
+            .number("races_twist_deg", "Twist of races", Unit::Degree, 3, |(r, _)| twist_rad(r))
+            .number("law_over_fe_percent", "Law over FE", Unit::Percent, 3, |(r, l)| {
+                l.map(|l| (l.windup_rad + twist_rad(r)) / r.windup_rad - 1.0)
+            })
+            .number("law_normal_over_fe_percent", "N, law over FE", Unit::Percent, 3, |(r, l)| {
+                l.map(|l| l.normal_inner_n / r.normal_inner_n - 1.0)
+            })
+            .number("law_tan_over_fe_percent", "tan ω, law over FE", Unit::Percent, 3, |(r, l)| {
+                // Both cut at one radius: of one torque they have one T there. Finite elements have theirs at the middle of the patch,
+                // the law at the pitch point, 0.03 % of the radius beneath.
+                l.map(|l| r.normal_inner_n / l.normal_inner_n - 1.0)
+            })
+            .json("normal_outer_n", |(r, _)| r.normal_outer_n)
+            .json("tan_nu", |(r, _)| r.tan_nu)
+            .json("law_tan_omega", |(_, l)| l.map(|l| l.tan_omega))
+    }
+}
+
+impl Said for FiniteElements<'_> {
+    fn title(&self) -> &str {
+        "Finite elements"
+    }
+
+    fn design(&self) -> &Design {
+        self.design
+    }
+
+    fn outcome(&self) -> Finding {
+        Finding::Shown
+    }
+
+    fn verdict(&self) -> String {
+        self.compared()
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn table(&self) -> Table {
+        self.points().table()
+    }
+
+    fn body(&self) -> Value {
+        let [windup, force] = self.design.clutch.law_error().map(|error| Unit::Percent.from_si(error));
+        json!({
+            "source": "calculix", "variant": self.facts.variant, "mesh_mm": self.facts.mesh_mm, "turned": self.turned,
+            "compared": self.compared(), "law_windup_error_percent": windup, "law_force_error_percent": force,
+            "points": self.points().objects(),
+        })
+    }
+
+    fn left_out(&self) -> Vec<LeftOut> {
+        left_out(self.facts)
+    }
+
+    fn draw(&self, page: &mut Page) {
+        page.heading("CalculiX beside the design's contact law").table("", &self.table());
     }
 }
 
@@ -185,34 +144,6 @@ fn races_twist_rad_per_nm(facts: &Facts, clutch: &Clutch) -> f64 {
         twist_rad_per_nm(1e-3 * driven, 1e-3 * track, width_m, material)
     };
     materials.into_iter().zip(radii).map(turn).sum()
-}
-
-fn table(rows: &[ResultRow], law: &[Option<StaticPoint>], twist_rad_per_nm: f64) -> Table {
-    let twist_rad = |r: &ResultRow| twist_rad_per_nm * r.torque_nm;
-    Rows::of(rows.iter().zip(law))
-        .number("torque_nm", "Torque", Unit::NewtonMetre, 5, |(r, _)| r.torque_nm)
-        .number("normal_inner_n", "N inner", Unit::Newton, 5, |(r, _)| r.normal_inner_n)
-        .number("windup_deg", "Windup", Unit::Degree, 5, |(r, _)| r.windup_rad)
-        .number("hertz_inner_mpa", "Pressure inner", Unit::Megapascal, 4, |(r, _)| r.pressure_inner_pa)
-        .number("tan_omega", "tan ω", Unit::One, 4, |(r, _)| r.tan_omega)
-        .number("k_secant_nm_per_rad", "Secant", Unit::NewtonMetrePerRadian, 4, |(r, _)| {
-            r.torque_nm / r.windup_rad
-        })
-        .number("law_normal_inner_n", "N, law", Unit::Newton, 5, |(_, l)| l.map(|l| l.normal_inner_n))
-        .number("law_windup_deg", "Windup, law", Unit::Degree, 5, |(_, l)| l.map(|l| l.windup_rad))
-        .number("races_twist_deg", "Twist of races", Unit::Degree, 3, |(r, _)| twist_rad(r))
-        .number("law_over_fe_percent", "Law over FE", Unit::Percent, 3, |(r, l)| {
-            l.map_or(Cell::Empty, |l| ((l.windup_rad + twist_rad(r)) / r.windup_rad - 1.0).into())
-        })
-        .number("law_normal_over_fe_percent", "N, law over FE", Unit::Percent, 3, |(r, l)| {
-            l.map_or(Cell::Empty, |l| (l.normal_inner_n / r.normal_inner_n - 1.0).into())
-        })
-        .number("law_tan_over_fe_percent", "tan ω, law over FE", Unit::Percent, 3, |(r, l)| {
-            // Both cut at one radius: of one torque they have one T there. Finite elements have theirs at the middle of the patch,
-            // the law at the pitch point, 0.03 % of the radius beneath.
-            l.map_or(Cell::Empty, |l| (r.normal_inner_n / l.normal_inner_n - 1.0).into())
-        })
-        .table()
 }
 
 fn left_out(facts: &Facts) -> Vec<LeftOut> {

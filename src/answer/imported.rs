@@ -3,7 +3,7 @@
 use super::left_out::LeftOut;
 use super::{Envelope, VERSION, WRITTEN_BY};
 use crate::design::{Design, shown};
-use crate::import::{Arcs, Drawn, FittedSprag, STANDARD_ERROR};
+use crate::import::{Arc, Arcs, Drawn, FittedSprag, STANDARD_ERROR};
 use crate::report::{Rows, Screen, Table, Unit};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -95,7 +95,7 @@ impl Imported<'_> {
 
     /// The arcs found.
     pub fn csv_table(&self) -> Table {
-        table(self.found)
+        arcs(Some(&self.found.inner), Some(&self.found.outer)).table()
     }
 
     /// The answer with the keys that all answers share; `design`: the new one; `run_time_s`: what it took, s; `written`: where
@@ -123,8 +123,8 @@ impl Imported<'_> {
                 "written": written,
                 "template": self.template,
                 "said": self.remarks(),
-                "inner": side_json(&found.inner),
-                "outer": side_json(&found.outer),
+                "inner": side(&found.inner, arcs(Some(&found.inner), None)),
+                "outer": side(&found.outer, arcs(None, Some(&found.outer))),
                 "sprags": {
                     "outer_radius_mm": 1e3 * found.outer_radius_m,
                     "centre_distance_mm": 1e3 * found.centre_distance_m,
@@ -166,14 +166,14 @@ fn worst(found: &FittedSprag, of: fn(&Arcs) -> f64) -> f64 {
     1e6 * felt(of(&found.inner).max(of(&found.outer)))
 }
 
-fn table(found: &FittedSprag) -> Table {
-    let inner = found
-        .inner
-        .arcs
-        .iter()
-        .enumerate()
-        .map(|(k, arc)| (format!("inner arc {}", k + 1), &found.inner, arc));
-    let outer = found.outer.arcs.iter().map(|arc| ("outer arc".to_owned(), &found.outer, arc));
+/// Arcs of both sides in a line each.
+fn arcs<'a>(inner: Option<&'a Arcs>, outer: Option<&'a Arcs>) -> Rows<(String, &'a Arcs, &'a Arc)> {
+    let inner = inner.into_iter().flat_map(|side| {
+        side.arcs.iter().enumerate().map(move |(k, arc)| (format!("inner arc {}", k + 1), side, arc))
+    });
+    let outer = outer
+        .into_iter()
+        .flat_map(|side| side.arcs.iter().map(move |arc| ("outer arc".to_owned(), side, arc)));
     Rows::of(inner.chain(outer))
         .text("surface", "Surface", |(name, _, _)| name.clone())
         .number("radius_mm", "Radius", Unit::Millimetre, 7, |(_, _, arc)| arc.radius_m)
@@ -184,22 +184,13 @@ fn table(found: &FittedSprag) -> Table {
         .number("points", "Points", Unit::One, 6, |(_, _, arc)| arc.points)
         .number("max_um", "Farthest", Unit::Micrometre, 4, |(_, side, _)| felt(side.max_m))
         .number("rms_um", "rms", Unit::Micrometre, 4, |(_, side, _)| felt(side.rms_m))
-        .table()
+        .json("centre_mm", |(_, _, arc)| {
+            [arc.centre_m.x, arc.centre_m.y].map(|m| Unit::Millimetre.from_si(m))
+        })
 }
 
-fn side_json(side: &Arcs) -> Value {
-    let arc = |a: &crate::import::Arc| {
-        json!({
-            "radius_mm": 1e3 * a.radius_m,
-            "radius_standard_error_um": 1e6 * felt(a.radius_error_m),
-            "centre_mm": [1e3 * a.centre_m.x, 1e3 * a.centre_m.y],
-            "span_rad": a.span_rad,
-            "points": a.points,
-        })
-    };
-    json!({
-        "max_um": 1e6 * felt(side.max_m),
-        "rms_um": 1e6 * felt(side.rms_m),
-        "arcs": side.arcs.iter().map(arc).collect::<Vec<_>>(),
-    })
+/// A side of the sprag: its arcs, and how far the points lie from them.
+fn side(side: &Arcs, arcs: Rows<(String, &Arcs, &Arc)>) -> Value {
+    let um = |m: f64| Unit::Micrometre.from_si(felt(m));
+    json!({ "max_um": um(side.max_m), "rms_um": um(side.rms_m), "arcs": arcs.objects() })
 }

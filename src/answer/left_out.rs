@@ -1,10 +1,11 @@
 //! What the model leaves out, why, and what that costs: every answer says it.
 
-use super::under_load::left_out_under_load;
+use super::alike::{ECCENTRIC, TOGETHER, UNEQUAL, left_out_of_alike};
+use super::under_load::{left_out_under_load, loaded};
 use crate::clutch::{Clutch, ContactLaw};
 use crate::design::Design;
 use crate::report::Unit;
-use crate::wedge::{even_load_error, straddling_error};
+use crate::wedge::{WedgeCurve, even_load_error, straddling_error};
 use serde::Serialize;
 
 /// One term left out.
@@ -33,23 +34,10 @@ pub fn left_out_of(design: &Design) -> Vec<LeftOut> {
 /// What every answer leaves out: the paper's three standing assumptions, then the terms of the bodies and of
 /// the contact law of `clutch`; what grows with the load is named at `asked_nm`, N m, of the whole clutch.
 pub fn left_out(clutch: &Clutch, asked_nm: Option<f64>) -> Vec<LeftOut> {
-    let mut list = vec![
-        LeftOut::new(
-            TOGETHER,
-            "all sprags are taken to wedge simultaneously (assumption of the paper)",
-            "not estimated",
-        ),
-        LeftOut::new(
-            UNEQUAL,
-            "all sprags are taken to carry the same force (assumption of the paper)",
-            "not estimated",
-        ),
-        LeftOut::new(
-            ECCENTRIC,
-            "the races are taken to be concentric (assumption of the paper)",
-            "not estimated",
-        ),
-    ];
+    let curve = clutch.profile().ok().and_then(|p| WedgeCurve::build(clutch, &p, 0.0).ok());
+    let at_load = curve.as_ref().and_then(|curve| Some((curve, loaded(curve, asked_nm)?)));
+    let at_load = at_load.as_ref().map(|(curve, point)| (*curve, point));
+    let mut list = left_out_of_alike(clutch, at_load).to_vec();
     let law = clutch.contact.facts();
     if !law.whole_bodies {
         list.push(LeftOut::new(
@@ -72,6 +60,7 @@ pub fn left_out(clutch: &Clutch, asked_nm: Option<f64>) -> Vec<LeftOut> {
             "at junctions delta_H of a law that knows it changes by 0.1 % (clutch of Table 1)",
         )),
     });
+    list.extend(spiral(clutch));
     list.extend(straddling(clutch));
     list.extend(lengthwise(clutch));
     if clutch.races.inner_bore_radius_m == 0.0 {
@@ -91,7 +80,7 @@ pub fn left_out(clutch: &Clutch, asked_nm: Option<f64>) -> Vec<LeftOut> {
             "windup up to 2 % too small, tan omega 0.8 % too large (finite elements, sprags 0.4 as wide as high)",
         ));
     }
-    list.extend(left_out_under_load(clutch, asked_nm));
+    list.extend(left_out_under_load(clutch, at_load));
     list
 }
 
@@ -107,9 +96,25 @@ pub fn one_by_one(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
     off_centre(list.into_iter().filter(|e| e.term != TOGETHER).collect(), instead)
 }
 
-const TOGETHER: &str = "sprags that wedge one after another";
-const UNEQUAL: &str = "unequal sharing of the load between the sprags";
-const ECCENTRIC: &str = "eccentric and tilted races";
+/// What arcs leave out of a spiral.
+fn spiral(clutch: &Clutch) -> Option<LeftOut> {
+    let spiral = clutch.sprags.spiral?;
+    let off = spiral.deviation();
+    let tan = spiral.tan_omega_off(&clutch.profile().ok()?)?;
+    Some(LeftOut::new(
+        "spiral of the inner profile",
+        &format!(
+            "{} tangent arcs stand for it, of which each pair begins and ends on it",
+            spiral.arc_count()
+        ),
+        &format!(
+            "{} in position, tan omega {} of itself, radii {} and peak pressures half of that, at most",
+            Unit::Micrometre.show(off.position_m, 6),
+            Unit::Percent.show(tan, 4),
+            Unit::Percent.show(off.radius, 3)
+        ),
+    ))
+}
 
 /// What the peak pressure leaves out at junctions.
 fn straddling(clutch: &Clutch) -> Option<LeftOut> {

@@ -1,13 +1,12 @@
 //! What a life of loads does to a clutch: loads, places, verdict, curves of life.
 
 use super::left_out::{LeftOut, left_out_of};
-use super::page::opened;
 use super::resonance::NoResonance;
-use super::{Envelope, Provenance};
+use super::{Finding, Said};
 use crate::clutch::{RepeatedLoad, RepeatedSwing, Service};
 use crate::design::Design;
 use crate::life::{
-    Broken, INDENTING_PA, Life, LifePlace, Used, WornLife, WornState, life, part_at, worn_life,
+    Broken, INDENTING_PA, Life, LifePlace, LoadEffect, Used, WornLife, WornState, life, part_at, worn_life,
 };
 use crate::margin::{NoMargins, load_state};
 use crate::report::plot::Curve;
@@ -82,27 +81,6 @@ impl fmt::Display for NoLife {
 
 impl std::error::Error for NoLife {}
 
-/// Wear by its keys in JSON.
-fn wear_body(worn: &WornLife) -> Value {
-    let um = |m: f64| Unit::Micrometre.from_si(m);
-    let state = |s: &WornState| {
-        json!({
-            "share": s.share, "hours": s.share * worn.hours, "flat_um": um(s.flat_m), "half_flat_um": um(s.half_flat_m),
-            "inner_track_um": um(s.wear.inner_track_m), "outer_track_um": um(s.wear.outer_track_m),
-            "inner_arcs_um": um(s.wear.inner_arcs_m[0]), "outer_arc_um": um(s.wear.outer_arc_m), "opened_um": um(s.opened_m),
-            "first_tan_omega": s.first_tan_omega, "required_friction": s.required_friction,
-            "capacity_nm": s.capacity.as_ref().map(|c| c.0), "capacity_by": s.capacity.as_ref().map(|c| c.1.clone()),
-            "lift_off_rpm": s.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)), "normal_inner_n": s.normal_n,
-            "broken": s.broken.map(|why| why.names().0),
-        })
-    };
-    let broken = worn.broken();
-    json!({
-        "hours": worn.hours, "broken_after_lives": broken.map(|b| b.0), "broken_by": broken.map(|b| b.1.names().0),
-        "states": worn.states.iter().map(state).collect::<Vec<_>>(),
-    })
-}
-
 /// A table to begin with.
 fn example(torque_nm: f64) -> String {
     format!(
@@ -173,140 +151,17 @@ pub enum LifeKnown {
     Nothing,
 }
 
-impl<'a> LifeAnswer<'a> {
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
-        let life = &self.life;
-        let mpa = |pa: f64| Unit::Megapascal.from_si(pa);
-        let loads = life.loads.iter().map(|l| {
-            json!({
-                "torque_nm": l.torque_nm, "engagements": l.engagements, "carried": l.state.is_some(),
-                "hertz_inner_mpa": l.state.map(|p| mpa(p.hertz_inner_pa)),
-                "hertz_outer_mpa": l.state.map(|p| mpa(p.hertz_outer_pa)),
-                "hoop_inner_mpa": l.state.map(|_| mpa(l.hoop_pa[0])), "hoop_outer_mpa": l.state.map(|_| mpa(l.hoop_pa[1])),
-                "walk_inner_mm": 1e3 * l.walk_m[0], "walk_outer_mm": 1e3 * l.walk_m[1],
-                "passes_inner": l.passes[0], "passes_outer": l.passes[1], "slip_probability": l.slip,
-            })
-        });
-        let places = life.used.iter().map(|u| {
-            json!({
-                "code": u.place.names().0, "cycles": u.cycles, "used": u.sum,
-                "lives": u.lives().filter(|l| l.is_finite()), "mostly_at_nm": u.mostly_nm,
-            })
-        });
-        let swings = self.swung.iter().map(|s| {
-            json!({
-                "scenario": s.scenario, "hours": s.duration_s / 3600.0, "frequency_hz": s.frequency_hz,
-                "from_nm": s.load.from_nm, "torque_nm": s.load.torque_nm, "engagements": s.load.engagements,
-            })
-        });
-        let body = json!({
-            "swings": swings.collect::<Vec<_>>(), "swings_not_counted": self.not_counted().collect::<Vec<_>>(),
-            "held": life.held(), "verdict": self.verdict(), "engagements": life.engagements,
-            "largest_torque_nm": life.largest_nm, "expected_slips": life.slips, "slips_allowed": life.slips_allowed,
-            "indents": life.indents(), "not_known": life.not_known().map(|place| place.names().0).collect::<Vec<_>>(),
-            "indentation_inner": life.indentation[0], "indentation_outer": life.indentation[1],
-            "places": places.collect::<Vec<_>>(), "loads": loads.collect::<Vec<_>>(),
-        });
-        let mut body = body;
-        if let (Some(worn), Some(body)) = (&self.worn, body.as_object_mut()) {
-            body.insert("wear".to_owned(), wear_body(worn));
-        }
-        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
-    }
-
-    /// What a life leaves out beside what statics do.
-    fn left_out(&self) -> Vec<LeftOut> {
-        let mut all = vec![
-            LeftOut::new(
-                "calibration",
-                "no maker prints a life curve with its pressures: strengths are the file's",
-                "as good as the strength that is given; 10 % of pressure is a factor 1.9 of pitting life at the exponent 20/3",
-            ),
-            LeftOut::new(
-                "dynamics",
-                "torques of loads and histories are taken as they are given, each engagement as slow; swings have the torques that the clutch carries",
-                "what `simulate` finds beyond the torque given: put its peak here",
-            ),
-            LeftOut::new(
-                "wear, lubricant, residual stress",
-                "wear: with `overruns` and oil, by Archard, with the film of the drawn contact; it does not change pitting and fatigue; the others: no \
-                 model",
-                "unknown; pitting strengths hold for the lubricant and surface that they were found with",
-            ),
-        ];
-        all.extend(left_out_of(self.design));
-        all
-    }
-
-    /// In a sentence.
-    pub fn verdict(&self) -> String {
-        let life = &self.life;
-        let not_carried: Vec<String> = life
-            .loads
-            .iter()
-            .filter(|l| l.state.is_none())
-            .map(|l| Unit::NewtonMetre.show(l.torque_nm, 4))
-            .collect();
-        if !not_carried.is_empty() {
-            return format!("NOT HELD: the clutch does not carry {}", not_carried.join(", "));
-        }
-        if let Some((share, why)) = self.worn_out() {
-            return format!("NOT HELD: after {} of the life {}", Unit::Percent.show(share, 3), why.names().1);
-        }
-        if let Some(load) = life.slipping() {
-            return format!(
-                "NOT HELD: it slips at {}: that needs a friction of {}, and {} is there in the mean",
-                Unit::NewtonMetre.show(load.torque_nm, 4),
-                significant(load.required_friction.unwrap_or(f64::INFINITY), 4),
-                significant(life.friction, 4)
-            );
-        }
-        let mut said = Vec::new();
-        if life.indents() {
-            said.push(format!("{} indents a contact", Unit::NewtonMetre.show(life.largest_nm, 4)));
-        }
-        if let Some((expected, allowed)) =
-            life.slips.zip(life.slips_allowed).filter(|_| life.slips_too_often())
-        {
-            let (expected, allowed) = (significant(expected, 2), significant(allowed, 2));
-            said.push(format!("{expected} slips by chance are expected in the life, {allowed} are allowed"));
-        }
-        if let Some(used) = life.decides() {
-            let decides = format!(
-                "{} decides, {} of its life used up, most of it at {}",
-                used.place.names().1,
-                Unit::Percent.show(used.sum.unwrap_or(0.0), 3),
-                Unit::NewtonMetre.show(used.mostly_nm, 4)
-            );
-            // What fails comes first.
-            let at = if used.sum.is_some_and(|sum| sum > 1.0) { 0 } else { said.len() };
-            said.insert(at, decides);
-        }
-        let unknown = self.not_known();
-        let word = match self.known() {
-            LifeKnown::NotHeld => "NOT HELD: ",
-            LifeKnown::Held => "HELD: ",
-            LifeKnown::HeldInPart => "HELD as far as is known: ",
-            LifeKnown::Nothing => "NOT KNOWN: no strength is given, so no life",
-        };
-        let mut all = format!("{word}{}", said.join("; "));
-        if !unknown.is_empty() {
-            all += &format!("; not known: {}", unknown.join(", "));
-        }
-        all
-    }
-
+impl LifeAnswer<'_> {
     /// The part of the life after which wear breaks a limit, where that is before its end.
     fn worn_out(&self) -> Option<(f64, Broken)> {
         self.worn.as_ref()?.broken().filter(|(share, _)| *share <= 1.0)
     }
 
     /// The clutch as it wears; `None` where nothing is known to wear.
-    pub fn wear(&self) -> Option<Table> {
+    pub fn wear(&self) -> Option<Rows<&WornState>> {
         let worn = self.worn.as_ref()?;
         let (hours, engagements) = (worn.hours, self.life.engagements);
-        let table = Rows::of(&worn.states)
+        let rows = Rows::of(&worn.states)
             .number("hours", "Overrun, h", Unit::One, 4, |s| hours * s.share)
             .number("engagements", "Engagements", Unit::One, 4, |s| engagements * s.share)
             .number("flat_um", "Flat", Unit::Micrometre, 3, |s| s.flat_m)
@@ -320,8 +175,15 @@ impl<'a> LifeAnswer<'a> {
                 Some(why) => Cell::Verdict(false, why.names().0.to_owned()),
                 None => Cell::Verdict(true, "holds".to_owned()),
             })
-            .table();
-        Some(table)
+            .json("share", |s| s.share)
+            .json_in("half_flat_um", Unit::Micrometre, |s| s.half_flat_m)
+            .json_in("outer_track_um", Unit::Micrometre, |s| s.wear.outer_track_m)
+            .json_in("inner_arcs_um", Unit::Micrometre, |s| s.wear.inner_arcs_m[0])
+            .json_in("outer_arc_um", Unit::Micrometre, |s| s.wear.outer_arc_m)
+            .json("capacity_by", |s| s.capacity.as_ref().map(|c| c.1.clone()))
+            .json("normal_inner_n", |s| s.normal_n)
+            .json("broken", |s| s.broken.map(|why| why.names().0));
+        Some(rows)
     }
 
     /// What wear comes to, in a sentence.
@@ -378,26 +240,27 @@ impl<'a> LifeAnswer<'a> {
     }
 
     /// Each place: what is used up.
-    pub fn places(&self) -> Table {
+    pub fn places(&self) -> Rows<&Used> {
         let verdict = |used: &Used| match used.sum {
-            Some(sum) => Cell::Verdict(sum <= 1.0, if sum <= 1.0 { "held" } else { "NOT HELD" }.to_owned()),
+            Some(sum) => Cell::held(sum <= 1.0),
             None if self.life.loads.iter().any(|l| l.state.is_none()) => "torque not carried".into(),
             None => "strength not given".into(),
         };
         Rows::of(&self.life.used)
             .text("place", "Place", |used| used.place.names().1)
             .number("cycles", "Cycles", Unit::One, 4, |used| used.cycles)
-            .number("used_percent", "Used up", Unit::Percent, 3, |used| used.sum)
+            .number("used", "Used up", Unit::One, 3, |used| used.sum)
+            .shown_in(Unit::Percent)
             .number("lives", "Lives", Unit::One, 3, |used| used.lives().filter(|l| l.is_finite()))
             .number("mostly_at_nm", "Mostly at", Unit::NewtonMetre, 4, |used| {
                 used.sum.map(|_| used.mostly_nm)
             })
             .text("verdict", "Verdict", |used| verdict(used))
-            .table()
+            .json("code", |used| used.place.names().0)
     }
 
     /// Each load: what one engagement at it does.
-    pub fn loads(&self) -> Table {
+    pub fn loads(&self) -> Rows<&LoadEffect> {
         Rows::of(&self.life.loads)
             .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |l| l.torque_nm)
             .number("engagements", "Engagements", Unit::One, 4, |l| l.engagements)
@@ -412,7 +275,9 @@ impl<'a> LifeAnswer<'a> {
             .number("walk_inner_mm", "Walk inner", Unit::Millimetre, 3, |l| l.state.map(|_| l.walk_m[0]))
             .number("walk_outer_mm", "Walk outer", Unit::Millimetre, 3, |l| l.state.map(|_| l.walk_m[1]))
             .number("slip_probability", "Slips, of one", Unit::One, 2, |l| l.slip)
-            .table()
+            .json("carried", |l| l.state.is_some())
+            .json("passes_inner", |l| l.passes[0])
+            .json("passes_outer", |l| l.passes[1])
     }
 
     /// Scenarios that swing and that the service does not name.
@@ -421,7 +286,119 @@ impl<'a> LifeAnswer<'a> {
         swing.map(|s| s.name.as_str()).filter(|name| self.swung.iter().all(|s| s.scenario != *name))
     }
 
-    /// What the tables do not say.
+    /// Torque over engagements until each place with a strength is used up.
+    fn curves(&self) -> Plot {
+        let mut plot = Plot::new("Engagements", "Torque, Nm");
+        plot.log_x = true;
+        let Ok(state) = load_state(self.design) else { return plot };
+        let end = state.curve.end_torque_nm();
+        let torques: Vec<f64> = (1..=POINTS).map(|i| end * i as f64 / POINTS as f64 * (1.0 - 1e-9)).collect();
+        for place in LifePlace::ALL {
+            let points: Vec<[f64; 2]> = torques
+                .iter()
+                .filter_map(|&torque| {
+                    let part = part_at(self.design, self.service, &state, place, torque)?;
+                    Some([1.0 / part, torque]).filter(|p| (1.0..=MOST_ENGAGEMENTS).contains(&p[0]))
+                })
+                .collect();
+            if !points.is_empty() {
+                plot.curves.push(Curve::new(place.names().1, points));
+            }
+        }
+        let loads = self.life.loads.iter().map(|l| [l.engagements, l.torque_nm]).collect();
+        plot.curves.push(Curve {
+            dots: true,
+            dash: crate::report::plot::Dash::Dotted,
+            ..Curve::new("loads of this life", loads)
+        });
+        plot
+    }
+}
+
+impl Said for LifeAnswer<'_> {
+    fn title(&self) -> &str {
+        "Life"
+    }
+
+    fn design(&self) -> &Design {
+        self.design
+    }
+
+    fn outcome(&self) -> Finding {
+        match self.known() {
+            LifeKnown::NotHeld => Finding::NotHeld,
+            LifeKnown::Held | LifeKnown::HeldInPart => Finding::Held,
+            LifeKnown::Nothing => Finding::NotKnown,
+        }
+    }
+
+    fn verdict(&self) -> String {
+        let life = &self.life;
+        let not_carried: Vec<String> = life
+            .loads
+            .iter()
+            .filter(|l| l.state.is_none())
+            .map(|l| Unit::NewtonMetre.show(l.torque_nm, 4))
+            .collect();
+        if !not_carried.is_empty() {
+            return format!("NOT HELD: the clutch does not carry {}", not_carried.join(", "));
+        }
+        if let Some((share, why)) = self.worn_out() {
+            return format!("NOT HELD: after {} of the life {}", Unit::Percent.show(share, 3), why.names().1);
+        }
+        if let Some(load) = life.slipping() {
+            return format!(
+                "NOT HELD: it slips at {}: that needs a friction of {}, and {} is there in the mean",
+                Unit::NewtonMetre.show(load.torque_nm, 4),
+                significant(load.required_friction.unwrap_or(f64::INFINITY), 4),
+                significant(life.friction, 4)
+            );
+        }
+        let mut said = Vec::new();
+        if life.indents() {
+            said.push(format!("{} indents a contact", Unit::NewtonMetre.show(life.largest_nm, 4)));
+        }
+        if let Some((expected, allowed)) =
+            life.slips.zip(life.slips_allowed).filter(|_| life.slips_too_often())
+        {
+            let (expected, allowed) = (significant(expected, 2), significant(allowed, 2));
+            said.push(format!("{expected} slips by chance are expected in the life, {allowed} are allowed"));
+        }
+        if let Some(used) = life.decides() {
+            let decides = format!(
+                "{} decides, {} of its life used up, most of it at {}",
+                used.place.names().1,
+                Unit::Percent.show(used.sum.unwrap_or(0.0), 3),
+                Unit::NewtonMetre.show(used.mostly_nm, 4)
+            );
+            // What fails comes first.
+            let at = if used.sum.is_some_and(|sum| sum > 1.0) { 0 } else { said.len() };
+            said.insert(at, decides);
+        }
+        let unknown = self.not_known();
+        let word = match self.known() {
+            LifeKnown::NotHeld => "NOT HELD: ",
+            LifeKnown::Held => "HELD: ",
+            LifeKnown::HeldInPart => "HELD as far as is known: ",
+            LifeKnown::Nothing => "NOT KNOWN: no strength is given, so no life",
+        };
+        let mut all = format!("{word}{}", said.join("; "));
+        if !unknown.is_empty() {
+            all += &format!("; not known: {}", unknown.join(", "));
+        }
+        all
+    }
+
+    fn banner(&self) -> (Tone, String) {
+        let tone = match self.known() {
+            LifeKnown::NotHeld => Tone::Bad,
+            LifeKnown::Held => Tone::Good,
+            LifeKnown::HeldInPart => Tone::Soft,
+            LifeKnown::Nothing => Tone::Plain,
+        };
+        (tone, self.verdict())
+    }
+
     fn remarks(&self) -> Vec<String> {
         let life = &self.life;
         let [inner, outer] = life.indentation;
@@ -496,42 +473,71 @@ impl<'a> LifeAnswer<'a> {
         all
     }
 
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        let design = self.design;
-        let loads = self.loads();
-        // A history has up to fifty.
-        let more = loads.rows.len().saturating_sub(MOST_ROWS);
-        let shown = Table { rows: loads.rows.iter().take(MOST_ROWS).cloned().collect(), ..loads };
-        let wear = self.wear().map_or(String::new(), |table| format!("{}\n", table.to_text(screen)));
-        let more = if more > 0 {
-            format!("{more} smaller loads: --csv, --json or --report\n")
-        } else {
-            String::new()
-        };
-        format!(
-            "{}  {}\n\n{}\n{}{more}\n{wear}{}\n{}\n",
-            design.name,
-            design.short_hash(),
-            self.places().to_text(screen),
-            shown.to_text(screen),
-            self.remarks().join("\n"),
-            self.verdict()
-        )
+    fn table(&self) -> Table {
+        self.loads().table()
     }
 
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance) -> Page {
-        let tone = match self.known() {
-            LifeKnown::NotHeld => Tone::Bad,
-            LifeKnown::Held => Tone::Good,
-            LifeKnown::HeldInPart => Tone::Soft,
-            LifeKnown::Nothing => Tone::Plain,
-        };
-        let mut page = opened("Life", self.design, &provenance.command, |page| {
-            page.verdict_in(tone, &self.verdict());
+    fn tables(&self, screen: Screen) -> String {
+        // A history has up to fifty.
+        let (loads, more) = self.table().first(MOST_ROWS);
+        let mut text = format!("{}\n{}", self.places().table().to_text(screen), loads.to_text(screen));
+        if more > 0 {
+            text += &format!("{more} smaller loads: --csv, --json or --report\n");
+        }
+        text + &self.wear().map_or(String::new(), |wear| format!("\n{}", wear.table().to_text(screen)))
+    }
+
+    fn body(&self) -> Value {
+        let life = &self.life;
+        let swings = Rows::of(&self.swung)
+            .json("scenario", |s| s.scenario.as_str())
+            .json("hours", |s| s.duration_s / 3600.0)
+            .json("frequency_hz", |s| s.frequency_hz)
+            .json("from_nm", |s| s.load.from_nm)
+            .json("torque_nm", |s| s.load.torque_nm)
+            .json("engagements", |s| s.load.engagements);
+        let mut body = json!({
+            "swings": swings.objects(), "swings_not_counted": self.not_counted().collect::<Vec<_>>(),
+            "held": self.known() != LifeKnown::NotHeld, "verdict": self.verdict(), "engagements": life.engagements,
+            "largest_torque_nm": life.largest_nm, "expected_slips": life.slips, "slips_allowed": life.slips_allowed,
+            "indents": life.indents(), "not_known": life.not_known().map(|place| place.names().0).collect::<Vec<_>>(),
+            "indentation_inner": life.indentation[0], "indentation_outer": life.indentation[1],
+            "places": self.places().objects(), "loads": self.loads().objects(),
         });
-        page.list(self.remarks());
+        if let Some((worn, states)) = self.worn.as_ref().zip(self.wear()) {
+            let broken = worn.broken();
+            body["wear"] = json!({
+                "hours": worn.hours, "broken_after_lives": broken.map(|b| b.0), "broken_by": broken.map(|b| b.1.names().0),
+                "states": states.objects(),
+            });
+        }
+        body
+    }
+
+    fn left_out(&self) -> Vec<LeftOut> {
+        let mut all = vec![
+            LeftOut::new(
+                "calibration",
+                "no maker prints a life curve with its pressures: strengths are the file's",
+                "as good as the strength that is given; 10 % of pressure is a factor 1.9 of pitting life at the exponent 20/3",
+            ),
+            LeftOut::new(
+                "dynamics",
+                "torques of loads and histories are taken as they are given, each engagement as slow; swings have the torques that the clutch carries",
+                "what `simulate` finds beyond the torque given: put its peak here",
+            ),
+            LeftOut::new(
+                "wear, lubricant, residual stress",
+                "wear: with `overruns` and oil, by Archard, with the film of the drawn contact; it does not change pitting and fatigue; the others: no \
+                 model",
+                "unknown; pitting strengths hold for the lubricant and surface that they were found with",
+            ),
+        ];
+        all.extend(left_out_of(self.design));
+        all
+    }
+
+    fn draw(&self, page: &mut Page) {
         let known = self.life.used.iter().any(|u| u.sum.is_some());
         if known {
             page.figure(
@@ -541,49 +547,19 @@ impl<'a> LifeAnswer<'a> {
         }
         page.heading("Places").table(
             "Used up: Miner's sum over this life; lives: how often it fits in. Cycles of a track: contacts that one place of it sees.",
-            &self.places(),
+            &self.places().table(),
         );
         page.heading("Loads").table(
             "Of histories in classes. Walk: what the contact rolls on sprag and race; hoop: with bending between the sprags.",
-            &self.loads(),
+            &self.table(),
         );
-        if let Some(table) = self.wear() {
+        if let Some(wear) = self.wear() {
             page.heading("Wear").table(
                 "Sprags and tracks as they wear, until a limit is broken: depth of the flat, gap, friction that first contact and the largest load ask \
                  for, lowest torque capacity.",
-                &table,
+                &wear.table(),
             );
         }
-        self.envelope(provenance.run_time_s).close(&mut page);
-        page
-    }
-
-    /// Torque over engagements until each place with a strength is used up.
-    fn curves(&self) -> Plot {
-        let mut plot = Plot::new("Engagements", "Torque, Nm");
-        plot.log_x = true;
-        let Ok(state) = load_state(self.design) else { return plot };
-        let end = state.curve.end_torque_nm();
-        let torques: Vec<f64> = (1..=POINTS).map(|i| end * i as f64 / POINTS as f64 * (1.0 - 1e-9)).collect();
-        for place in LifePlace::ALL {
-            let points: Vec<[f64; 2]> = torques
-                .iter()
-                .filter_map(|&torque| {
-                    let part = part_at(self.design, self.service, &state, place, torque)?;
-                    Some([1.0 / part, torque]).filter(|p| (1.0..=MOST_ENGAGEMENTS).contains(&p[0]))
-                })
-                .collect();
-            if !points.is_empty() {
-                plot.curves.push(Curve::new(place.names().1, points));
-            }
-        }
-        let loads = self.life.loads.iter().map(|l| [l.engagements, l.torque_nm]).collect();
-        plot.curves.push(Curve {
-            dots: true,
-            dash: crate::report::plot::Dash::Dotted,
-            ..Curve::new("loads of this life", loads)
-        });
-        plot
     }
 }
 

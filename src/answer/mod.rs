@@ -7,6 +7,7 @@
 
 #[cfg(feature = "validation")]
 pub mod accuracy;
+mod alike;
 pub mod check;
 pub mod co_simulation;
 pub mod comparison;
@@ -36,7 +37,8 @@ pub mod stiffness;
 pub mod sweep;
 mod under_load;
 
-pub use envelope::{Answer, Envelope, Provenance, TOOL, VERSION, WRITTEN_BY};
+use envelope::Said;
+pub use envelope::{Answer, Envelope, Finding, Provenance, TOOL, VERSION, WRITTEN_BY};
 pub use left_out::LeftOut;
 
 /// Torque of a table or scene that is suggested for a clutch, N m.

@@ -1,11 +1,10 @@
 //! The oils and greases that a design may name, as a table, as JSON and in words.
 
-use crate::lubrication::OILS;
-use crate::report::{Rows, Screen, Table, Unit};
-use serde_json::{Value, json};
+use crate::lubrication::{OILS, Oil};
+use crate::report::{Rows, Screen, Unit};
 
-/// The oils with what they are reckoned with.
-pub fn table() -> Table {
+/// The oils with what they are reckoned with, in JSON with the source of each.
+pub fn list() -> Rows<&'static Oil> {
     Rows::of(&OILS)
         .text("name", "Name", |o| o.name)
         .text("base", "Base oil", |o| o.base.name())
@@ -18,29 +17,12 @@ pub fn table() -> Table {
         .number("alpha100_per_gpa", "α 100 C, 1/GPa", Unit::One, 3, |o| {
             1e9 * o.pressure_coefficient_per_pa(100.0)
         })
-        .table()
-}
-
-/// The same as JSON, with the source of each.
-pub fn list() -> Vec<Value> {
-    let one = |o: &crate::lubrication::Oil| {
-        json!({
-            "name": o.name,
-            "base": o.base.name(),
-            "nu40_mm2_s": 1e6 * o.nu40_m2_s,
-            "nu100_mm2_s": 1e6 * o.nu100_m2_s,
-            "density_kg_m3": o.density_kg_m3,
-            "alpha40_per_gpa": 1e9 * o.pressure_coefficient_per_pa(40.0),
-            "alpha100_per_gpa": 1e9 * o.pressure_coefficient_per_pa(100.0),
-            "source": o.source,
-        })
-    };
-    OILS.iter().map(one).collect()
+        .json("source", |o| o.source)
 }
 
 /// The same on a terminal.
 pub fn text(screen: Screen) -> String {
-    let mut text = table().to_text(screen);
+    let mut text = list().table().to_text(screen);
     text.push_str(
         "\nNamed in a design as [lubrication] oil = \"ISO VG 32\"; nu40_mm2_s and nu100_mm2_s beside the name win over it. Values are \
          typical of each kind, no maker's promise.\n\n",

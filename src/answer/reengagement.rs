@@ -2,8 +2,7 @@
 
 use super::check::overrun::outer_turns;
 use super::left_out::{LeftOut, left_out_of};
-use super::page::opened;
-use super::{Envelope, Provenance};
+use super::{Finding, Said};
 use crate::design::Design;
 use crate::dynamics::Stop;
 use crate::element::NoElement;
@@ -193,19 +192,14 @@ impl Design {
             speed_of,
             lift_off_rad_s,
         };
-        if !answer.held() && !settings.follow.stopped() {
+        if !answer.is_held() && !settings.follow.stopped() {
             answer.borne = answer.borne(&settings.follow).map_err(NoReengagement::NoStart)?;
         }
         Ok(answer)
     }
 }
 
-impl<'a> ReengagementAnswer<'a> {
-    /// Whether the clutch bears every blow.
-    pub fn held(&self) -> bool {
-        self.found.ended.is_none() && self.found.list.iter().all(|blow| self.bears_it(blow))
-    }
-
+impl ReengagementAnswer<'_> {
     fn bears_it(&self, blow: &Blow) -> bool {
         let most_nm = self.bears.as_ref().map_or(f64::INFINITY, |(torque_nm, _)| *torque_nm);
         blow.peak.is_some_and(|p| p.torque_nm <= most_nm)
@@ -291,105 +285,9 @@ impl<'a> ReengagementAnswer<'a> {
         known.then_some(blow.speed_rad_s)
     }
 
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
-        let case = &self.case;
-        let list = self.found.list.iter().map(|b| {
-            json!({
-                "path_mm": 1e3 * b.path_m, "slip_ms": 1e3 * b.slip_s, "peak_ms": b.peak_s.map(|s| 1e3 * s),
-                "path_in_all_mm": b.path_in_all_m.map(|m| 1e3 * m),
-                "speed_rpm": Unit::Rpm.from_si(b.speed_rad_s), "peak_torque_nm": b.peak.map(|p| p.torque_nm),
-                "peak_by_energy_nm": b.by_energy_nm, "energy_j": self.energy(b).map(|e| e.0),
-                "hertz_inner_mpa": b.peak.map(|p| Unit::Megapascal.from_si(p.hertz_inner_pa)),
-                "held": self.bears_it(b), "ended": b.ended.map(Stop::name),
-            })
-        });
-        let body = json!({
-            "held": self.held(), "verdict": self.verdict(), "torque_nm": case.torque_nm, "friction": case.friction,
-            "speed_rpm": Unit::Rpm.from_si(case.speed_rad_s), "inertia_inner_kg_m2": case.inertia_kg_m2[0],
-            "inertia_outer_kg_m2": (!case.outer_held).then_some(case.inertia_kg_m2[1]), "outer_held": case.outer_held,
-            "bears_nm": self.bears.as_ref().map(|b| b.0),
-            "bears_by": self.bears.as_ref().map(|b| b.1.as_str()), "blows": list.collect::<Vec<_>>(),
-            "bears_j": self.takes_up_j.map(|j| j[0]), "end_of_curve_j": self.takes_up_j.map(|j| j[1]),
-            "torque_needs_friction": Some(self.found.needs).filter(|mu| mu.is_finite()),
-            "borne": self.borne.map(|b| json!({ "path_mm": b.path_m.map(|m| 1e3 * m), "friction": b.friction })),
-            "speed_of": self.speed_of,
-            "needs_friction": self.found.holds, "slip_ended": self.found.ended.map(|end| end.stop.name()),
-            "lift_off_rpm": self.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)),
-            "thrown": self.thrown().map(|end| json!({
-                "at_ms": 1e3 * end.at_s, "path_mm": 1e3 * end.path_m, "speed_rpm": Unit::Rpm.from_si(end.speed_rad_s),
-                "outer_rpm": Unit::Rpm.from_si(end.outer_rad_s),
-            })),
-        });
-        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
-    }
-
     /// Where the slip itself throws the sprags out of reach.
     fn thrown(&self) -> Option<SlipEnd> {
         self.found.ended.filter(|end| end.stop == Stop::FellAway)
-    }
-
-    fn left_out(&self) -> Vec<LeftOut> {
-        let mut all = vec![
-            LeftOut::new(
-                "shafts",
-                if self.case.outer_held {
-                    "the inertia is rigid with the inner race, what holds the outer race does not give"
-                } else {
-                    "both inertias are rigid with their races"
-                },
-                "a soft shaft lowers the blow: put the drive into [[drivetrain]] and simulate a transient",
-            ),
-            LeftOut::new(
-                "damping between the races",
-                "races.viscous_damping_nm_s_per_rad is taken as 0: where nobody has measured it, it would take from the blow",
-                "a damper of 0.1 Nm s/rad takes 5 % of the blow of the starter after 30 mm, between light races far more",
-            ),
-            LeftOut::new(
-                "cage and neighbours",
-                "a sprag that is thrown out is stopped by nothing but its spring",
-                "a cage brings it back sooner: less speed, a smaller blow",
-            ),
-        ];
-        all.extend(left_out_of(self.design));
-        all
-    }
-
-    /// In a sentence.
-    pub fn verdict(&self) -> String {
-        if let Some(needed) = self.found.holds {
-            return format!(
-                "HELD: it does not slip: {} needs a friction of {}, and {} is there",
-                Unit::NewtonMetre.show(self.case.torque_nm, 4),
-                significant(needed, 3),
-                significant(self.case.friction, 3)
-            );
-        }
-        if let Some(end) = self.found.ended {
-            return self.lost(&end);
-        }
-        let limit = self.bears.as_ref().map_or(String::new(), |(torque_nm, code)| {
-            format!(", of {} that {code} allows", Unit::NewtonMetre.show(*torque_nm, 4))
-        });
-        let path = |b: &Blow| Unit::Millimetre.show(b.path_m, 3);
-        match self.found.list.iter().find(|b| !self.bears_it(b)) {
-            Some(b) => match &b.peak {
-                Some(p) => format!(
-                    "NOT HELD: after {} of slip the blow comes to {}{limit}",
-                    path(b),
-                    Unit::NewtonMetre.show(p.torque_nm, 4)
-                ),
-                None => {
-                    format!("NOT HELD: after {} of slip the blow goes beyond the end of the curve", path(b))
-                }
-            },
-            None => {
-                let most = self.found.list.iter().filter_map(|b| Some((b, b.peak?.torque_nm)));
-                most.max_by(|a, b| a.1.total_cmp(&b.1)).map_or("HELD".to_owned(), |(b, torque_nm)| {
-                    format!("HELD: after {} of slip {}{limit}", path(b), Unit::NewtonMetre.show(torque_nm, 4))
-                })
-            }
-        }
     }
 
     /// Why the clutch does not grip, where it does not.
@@ -428,7 +326,7 @@ impl<'a> ReengagementAnswer<'a> {
     }
 
     /// Each path of slip with its blow.
-    pub fn blows(&self) -> Table {
+    pub fn blows(&self) -> Rows<&Blow> {
         let word = |b: &Blow| match (self.bears_it(b), b.ended) {
             (true, _) => "held",
             (false, None) => "NOT HELD",
@@ -451,12 +349,98 @@ impl<'a> ReengagementAnswer<'a> {
             .number("slip_ms", "Lasts", Unit::Millisecond, 3, |b| b.slip_s)
             .number("peak_ms", "Blow at", Unit::Millisecond, 3, |b| b.peak_s.filter(|_| b.peak.is_some()))
             .number("path_in_all_mm", "In all", Unit::Millimetre, 3, |b| b.path_in_all_m)
-            .table()
+            .json("held", |b| self.bears_it(b))
+            .json("ended", |b| b.ended.map(Stop::name))
     }
 
-    /// What was taken, in sentences.
+    /// The friction of the slip, and its share of what the torque needs.
+    fn short(&self) -> String {
+        let (friction, needs) = (self.case.friction, self.found.needs);
+        let share = needs.is_finite().then(|| {
+            format!(" ({} of the {} that it needs)", significant(friction / needs, 2), significant(needs, 3))
+        });
+        significant(friction, 3) + &share.unwrap_or_default()
+    }
+
+    fn borne_words(&self, borne: &BorneSlip) -> String {
+        let path = |m: f64| Unit::Millimetre.show(m, 3);
+        let friction = significant(self.case.friction, 3);
+        let first = match borne.path_m {
+            Some(m) => format!("At a friction of {friction} slip up to {} is borne", path(m)),
+            None => format!("At a friction of {friction} no slip is borne, however short"),
+        };
+        let shortest = self.case.paths_m.first().map_or(String::new(), |m| path(*m));
+        let then = match borne.friction {
+            Some(mu) if mu > self.case.friction => {
+                format!("; {shortest} is borne from a friction of {} on", significant(mu, 4))
+            }
+            Some(_) => String::new(),
+            None => format!("; {shortest} is borne at none that slips"),
+        };
+        first + &then
+    }
+}
+
+impl Said for ReengagementAnswer<'_> {
+    fn title(&self) -> &str {
+        "Slip and re-engagement"
+    }
+
+    fn design(&self) -> &Design {
+        self.design
+    }
+
+    fn outcome(&self) -> Finding {
+        let found = &self.found;
+        let ends = found.list.iter().filter_map(|blow| blow.ended).chain(found.ended.map(|end| end.stop));
+        match ends.last() {
+            Some(Stop::Interrupted) => Finding::Stopped,
+            Some(stop) if stop.gave_up() => Finding::NotKnown,
+            _ => Finding::of(found.ended.is_none() && found.list.iter().all(|blow| self.bears_it(blow))),
+        }
+    }
+
+    fn verdict(&self) -> String {
+        if let Some(needed) = self.found.holds {
+            return format!(
+                "HELD: it does not slip: {} needs a friction of {}, and {} is there",
+                Unit::NewtonMetre.show(self.case.torque_nm, 4),
+                significant(needed, 3),
+                significant(self.case.friction, 3)
+            );
+        }
+        if let Some(end) = self.found.ended {
+            return self.lost(&end);
+        }
+        let limit = self.bears.as_ref().map_or(String::new(), |(torque_nm, code)| {
+            format!(", of {} that {code} allows", Unit::NewtonMetre.show(*torque_nm, 4))
+        });
+        let path = |b: &Blow| Unit::Millimetre.show(b.path_m, 3);
+        match self.found.list.iter().find(|b| !self.bears_it(b)) {
+            Some(b) => match &b.peak {
+                Some(p) => format!(
+                    "NOT HELD: after {} of slip the blow comes to {}{limit}",
+                    path(b),
+                    Unit::NewtonMetre.show(p.torque_nm, 4)
+                ),
+                None => {
+                    format!("NOT HELD: after {} of slip the blow goes beyond the end of the curve", path(b))
+                }
+            },
+            None => {
+                let most = self.found.list.iter().filter_map(|b| Some((b, b.peak?.torque_nm)));
+                most.max_by(|a, b| a.1.total_cmp(&b.1)).map_or("HELD".to_owned(), |(b, torque_nm)| {
+                    format!("HELD: after {} of slip {}{limit}", path(b), Unit::NewtonMetre.show(torque_nm, 4))
+                })
+            }
+        }
+    }
+
     fn remarks(&self) -> Vec<String> {
         let case = &self.case;
+        if self.found.list.is_empty() {
+            return Vec::new();
+        }
         let [inner, outer] = case.inertia_kg_m2.map(|i| significant(i, 4));
         let outer = match case.outer_held {
             true => "rigidly, the outer race is held".to_owned(),
@@ -511,49 +495,64 @@ impl<'a> ReengagementAnswer<'a> {
         all
     }
 
-    /// The friction of the slip, and its share of what the torque needs.
-    fn short(&self) -> String {
-        let (friction, needs) = (self.case.friction, self.found.needs);
-        let share = needs.is_finite().then(|| {
-            format!(" ({} of the {} that it needs)", significant(friction / needs, 2), significant(needs, 3))
-        });
-        significant(friction, 3) + &share.unwrap_or_default()
+    fn table(&self) -> Table {
+        self.blows().table()
     }
 
-    fn borne_words(&self, borne: &BorneSlip) -> String {
-        let path = |m: f64| Unit::Millimetre.show(m, 3);
-        let friction = significant(self.case.friction, 3);
-        let first = match borne.path_m {
-            Some(m) => format!("At a friction of {friction} slip up to {} is borne", path(m)),
-            None => format!("At a friction of {friction} no slip is borne, however short"),
-        };
-        let shortest = self.case.paths_m.first().map_or(String::new(), |m| path(*m));
-        let then = match borne.friction {
-            Some(mu) if mu > self.case.friction => {
-                format!("; {shortest} is borne from a friction of {} on", significant(mu, 4))
-            }
-            Some(_) => String::new(),
-            None => format!("; {shortest} is borne at none that slips"),
-        };
-        first + &then
+    fn tables(&self, screen: Screen) -> String {
+        if self.found.list.is_empty() { String::new() } else { self.table().to_text(screen) }
     }
 
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        let hash = self.design.short_hash();
-        let found = match self.found.list.is_empty() {
-            true => String::new(),
-            false => format!("{}\n{}\n", self.blows().to_text(screen), self.remarks().join("\n")),
-        };
-        format!("{}  {hash}\n\n{found}{}\n", self.design.name, self.verdict())
+    fn body(&self) -> Value {
+        let case = &self.case;
+        let rpm = |rad_s: f64| Unit::Rpm.from_si(rad_s);
+        let mm = |m: f64| Unit::Millimetre.from_si(m);
+        json!({
+            "held": self.is_held(), "verdict": self.verdict(), "torque_nm": case.torque_nm, "friction": case.friction,
+            "speed_rpm": rpm(case.speed_rad_s), "inertia_inner_kg_m2": case.inertia_kg_m2[0],
+            "inertia_outer_kg_m2": (!case.outer_held).then_some(case.inertia_kg_m2[1]), "outer_held": case.outer_held,
+            "bears_nm": self.bears.as_ref().map(|b| b.0),
+            "bears_by": self.bears.as_ref().map(|b| b.1.as_str()), "blows": self.blows().objects(),
+            "bears_j": self.takes_up_j.map(|j| j[0]), "end_of_curve_j": self.takes_up_j.map(|j| j[1]),
+            "torque_needs_friction": Some(self.found.needs).filter(|mu| mu.is_finite()),
+            "borne": self.borne.map(|b| json!({ "path_mm": b.path_m.map(mm), "friction": b.friction })),
+            "speed_of": self.speed_of,
+            "needs_friction": self.found.holds, "slip_ended": self.found.ended.map(|end| end.stop.name()),
+            "lift_off_rpm": self.lift_off_rad_s.map(rpm),
+            "thrown": self.thrown().map(|end| json!({
+                "at_ms": Unit::Millisecond.from_si(end.at_s), "path_mm": mm(end.path_m), "speed_rpm": rpm(end.speed_rad_s),
+                "outer_rpm": rpm(end.outer_rad_s),
+            })),
+        })
     }
 
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = opened("Slip and re-engagement", self.design, &provenance.command, |page| {
-            page.verdict(self.held(), &self.verdict());
-        });
-        page.list(self.remarks());
+    fn left_out(&self) -> Vec<LeftOut> {
+        let mut all = vec![
+            LeftOut::new(
+                "shafts",
+                if self.case.outer_held {
+                    "the inertia is rigid with the inner race, what holds the outer race does not give"
+                } else {
+                    "both inertias are rigid with their races"
+                },
+                "a soft shaft lowers the blow: put the drive into [[drivetrain]] and simulate a transient",
+            ),
+            LeftOut::new(
+                "damping between the races",
+                "races.viscous_damping_nm_s_per_rad is taken as 0: where nobody has measured it, it would take from the blow",
+                "a damper of 0.1 Nm s/rad takes 5 % of the blow of the starter after 30 mm, between light races far more",
+            ),
+            LeftOut::new(
+                "cage and neighbours",
+                "a sprag that is thrown out is stopped by nothing but its spring",
+                "a cage brings it back sooner: less speed, a smaller blow",
+            ),
+        ];
+        all.extend(left_out_of(self.design));
+        all
+    }
+
+    fn draw(&self, page: &mut Page) {
         let points = |of: &dyn Fn(&Blow) -> Option<f64>| -> Vec<[f64; 2]> {
             self.found.list.iter().filter_map(|b| Some([1e3 * b.path_m, of(b)?])).collect()
         };
@@ -569,9 +568,7 @@ impl<'a> ReengagementAnswer<'a> {
         }
         if !self.found.list.is_empty() {
             page.figure(&plot.to_figure(), "Largest torque when the clutch grips again.");
-            page.table("Each path of slip.", &self.blows());
+            page.table("Each path of slip.", &self.table());
         }
-        self.envelope(provenance.run_time_s).close(&mut page);
-        page
     }
 }

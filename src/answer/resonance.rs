@@ -1,8 +1,8 @@
 //! Periodic states of a torsional excitation, one or a map over frequency and amplitude, as text, table, JSON and page.
 
 use super::left_out::{LeftOut, left_out_of};
-use super::page::{half, opened};
-use super::{Envelope, Provenance};
+use super::page::half;
+use super::{Finding, Said};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::Design;
 use crate::dynamics::Run;
@@ -12,6 +12,8 @@ use crate::report::{Cell, HeatMap, Page, Plot, Rows, Screen, Shade, Table, Tone,
 use crate::scenario::{MotionKind, NoScenario, ResonanceCell, Settings, Steady, closely, resonance};
 use serde_json::{Value, json};
 
+/// States of a table on a terminal.
+const MOST_ROWS: usize = 40;
 /// Rows that the plot of mu_req shows.
 const CURVES: usize = 6;
 
@@ -146,7 +148,7 @@ impl Design {
     }
 }
 
-impl<'a> ResonanceAnswer<'a> {
+impl ResonanceAnswer<'_> {
     fn cells(&self) -> impl Iterator<Item = &ResonanceCell> {
         self.rows.iter().flatten()
     }
@@ -165,151 +167,14 @@ impl<'a> ResonanceAnswer<'a> {
         self.cells().all(|c| c.state.kind == MotionKind::Rolls)
     }
 
-    /// In a sentence.
-    pub fn verdict(&self) -> String {
-        let mut cells = self.cells();
-        if let (Some(only), None) = (cells.next(), cells.next()) {
-            return one_verdict(only);
-        }
-        let all = self.cells().count();
-        let mut parts = Vec::new();
-        if self.amplitudes_left() > 0 {
-            parts.push(format!("stopped after {} of {} amplitudes", self.rows.len(), self.asked));
-        }
-        parts.push(format!("{} of {all} states roll", self.count(MotionKind::Rolls)));
-        for (kind, one, several) in [
-            (MotionKind::Slips, "slips in each period", "slip in each period"),
-            (MotionKind::LiftsOff, "lifts off", "lift off"),
-            (
-                MotionKind::Overloaded,
-                "is overloaded, beyond the end of the curve",
-                "are overloaded, beyond the end of the curve",
-            ),
-            (
-                MotionKind::Disengages,
-                "disengages, its sprags thrown out of reach",
-                "disengage, their sprags thrown out of reach",
-            ),
-            (MotionKind::NotFound, "does not repeat, or was not found", "do not repeat, or were not found"),
-        ] {
-            match self.count(kind) {
-                0 => {}
-                1 => parts.push(format!("1 {one}")),
-                n => parts.push(format!("{n} {several}")),
-            }
-        }
-        let two = self.cells().filter(|c| c.other.is_some()).count();
-        let unstable = self.cells().filter(|c| c.state.is_stable() == Some(false)).count();
-        let untold = self.cells().filter(|c| c.state.motion.is_ok() && c.state.is_stable().is_none()).count();
-        if two > 0 {
-            parts.push(format!("at {two} two states were found"));
-        }
-        if unstable > 0 {
-            parts.push(format!("{unstable} {} unstable", if unstable == 1 { "is" } else { "are" }));
-        }
-        if untold > 0 {
-            let they = if untold == 1 { "it is" } else { "they are" };
-            parts.push(format!("of {untold} it cannot be told whether {they} stable"));
-        }
-        parts.join("; ")
-    }
-
-    /// What a reader must know.
-    fn remarks(&self) -> Vec<String> {
-        let most = self.cells().filter_map(|c| Some((c, c.state.required_friction?)));
-        let most = most.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(c, mu)| {
-            format!(
-                "Largest static friction that rolling needs where it keeps contact: {} at {} and {}; there is {}",
-                significant(mu, 4),
-                Unit::Hertz.show(c.frequency_hz, 4),
-                Unit::NewtonMetre.show(c.amplitude_nm, 4),
-                significant(self.friction, 3),
-            )
-        });
-        let ends = self.count(MotionKind::Overloaded) + self.count(MotionKind::Disengages) > 0;
-        let ends = ends.then(|| {
-            "overloaded, disengages: no motion repeats there, the swing carries the sprag beyond the end of the curve, off its profile or over \
-             its highest point, or farther from the race than is followed"
-                .to_owned()
-        });
-        let neutral = self.cells().filter_map(|c| {
-            let motion = c.state.motion.as_ref().ok()?;
-            motion.neutral_multiplier().map(|_| motion.multiplier_error)
-        });
-        let neutral =
-            neutral.fold(None, |most: Option<f64>, error| Some(most.map_or(error, |m| m.max(error))));
-        let neutral = neutral.map(|error| {
-            format!(
-                "Multiplier: the largest beside a pair that is 1 within its error of {}: a swing that neither grows nor dies away, such as \
-                 that of both races together on an abutment, which has no damper; it counts for no instability",
-                significant(error, 2)
-            )
-        });
-        let list = [
-            most,
-            ends,
-            neutral,
-            Some(
-                "Each state is a motion that repeats with the period of the excitation, its start forgotten; a start may slip where \
-                 the state rolls: simulate tells of that"
-                    .to_owned(),
-            ),
-        ];
-        list.into_iter().flatten().collect()
-    }
-
     /// Each state in a line.
-    pub fn table(&self) -> Table {
-        let table = Rows::of(self.cells().map(|c| (c, &c.state, c.state.motion.as_ref().ok())))
-            .number("frequency_hz", "Frequency", Unit::Hertz, 5, |(c, _, _)| c.frequency_hz)
-            .number("amplitude_nm", "Amplitude", Unit::NewtonMetre, 5, |(c, _, _)| c.amplitude_nm)
-            .text("state", "State", |(_, s, _)| {
-                Cell::Verdict(s.kind == MotionKind::Rolls, s.kind.name().to_owned())
-            })
-            .text("stable", "Stable", |(_, s, _)| match (s.is_stable(), s.motion.is_ok()) {
-                (Some(stable), _) => if stable { "yes" } else { "NO" }.into(),
-                (None, true) => "?".into(),
-                (None, false) => Cell::Empty,
-            })
-            .number("required_static_friction", "μ needed", Unit::One, 5, |(_, s, _)| s.required_friction)
-            .number("slip_margin_percent", "Slip margin", Unit::Percent, 4, |(_, s, _)| s.slip_margin)
-            .number("contact_margin_percent", "Contact margin", Unit::Percent, 4, |(_, s, _)| {
-                s.contact_margin
-            })
-            .number("normal_min_n", "N smallest", Unit::Newton, 4, |(_, _, motion)| {
-                motion.map(|o| o.run.peaks.normal_min_n)
-            })
-            .number("normal_max_n", "N largest", Unit::Newton, 4, |(_, _, motion)| {
-                motion.map(|o| o.run.peaks.normal_max_n)
-            })
-            .number("slip_um", "Slip a period", Unit::Micrometre, 4, |(_, _, motion)| {
-                motion.map(|o| o.run.inner.distance_m)
-            })
-            .number("open_ms", "Open a period", Unit::Millisecond, 4, |(_, _, motion)| {
-                motion.map(|o| o.run.open_s)
-            })
-            // What rolls comes back: what is left of it is rounding.
-            .number("drift_mrad", "Drift a period", Unit::Milliradian, 4, |(_, s, motion)| {
-                motion.map(|o| {
-                    if s.kind == MotionKind::Rolls { 0.0 } else { o.drift_rad()[0] - o.drift_rad()[1] }
-                })
-            })
-            .number("multiplier", "Multiplier", Unit::One, 6, |(_, _, motion)| {
-                motion.map(|o| o.deciding_multiplier())
-            })
-            .number("neutral_multiplier", "Neutral one", Unit::One, 6, |(_, _, motion)| {
-                motion.and_then(|o| o.neutral_multiplier())
-            })
-            .text("other_state", "Other state", |(c, _, _)| {
-                c.other.as_ref().map_or(Cell::Empty, |other| other.kind.name().into())
-            })
-            .table();
-        Table { lead: 2, ..table }
+    pub fn states(&self) -> Rows<StateLine<'_>> {
+        lines(self.cells().map(|c| (c.frequency_hz, c.amplitude_nm, &c.state, c.other.as_ref())))
     }
 
     /// For a terminal: of a single state each figure in a line, of several the columns that tell them apart.
     fn short_table(&self) -> Table {
-        let all = self.table();
+        let all = Said::table(self);
         let is_zero = |cell: &Cell| matches!(cell, Cell::Empty) || *cell == Cell::Si(0.0);
         let tells = |k: usize| all.rows.iter().any(|row| !is_zero(&row[k]));
         if let [row] = all.rows.as_slice() {
@@ -337,117 +202,6 @@ impl<'a> ResonanceAnswer<'a> {
             rows: all.rows.iter().map(cells).collect(),
             lead: all.lead,
         }
-    }
-
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
-        let states = self.cells().map(|c| {
-            let mut state = object(&c.state);
-            state["frequency_hz"] = json!(c.frequency_hz);
-            state["amplitude_nm"] = json!(c.amplitude_nm);
-            state["other"] = c.other.as_ref().map_or(Value::Null, object);
-            state
-        });
-        let body = json!({
-            "scenario": self.scenario.name, "amplitudes_left": self.amplitudes_left(), "verdict": self.verdict(), "static_friction": self.friction,
-            "rolls": self.rolls(), "states": states.collect::<Vec<_>>(),
-        });
-        let mut list = left_out_of(self.design);
-        list.push(LeftOut::new(
-            "motions with two or more periods of the excitation",
-            "the state is looked for among motions that repeat with its period",
-            "a multiplier beyond -1 or a state that is not found tells of one",
-        ));
-        list.push(LeftOut::new(
-            "states that no neighbour leads to",
-            "a row is walked upwards and downwards in frequency, from the state at rest",
-            "not estimated",
-        ));
-        let error = Some(self.error_estimate());
-        Envelope { design: self.design, run_time_s, left_out: list, error_estimate: error, body }
-    }
-
-    /// Of a single state: what each figure differs by from that at a tenth of the tolerance. Of a map the tolerance asked for.
-    fn error_estimate(&self) -> Value {
-        let Some((state, finer)) = self.cells().next().map(|c| &c.state).zip(self.finer.as_ref()) else {
-            return json!({ "tolerance": self.tolerance });
-        };
-        let off = |of: &dyn Fn(&Steady) -> Option<f64>| Some((of(state)? - of(finer)?).abs());
-        let run = |s: &Steady, of: fn(&Run) -> f64| Some(of(&s.motion.as_ref().ok()?.run));
-        json!({
-            "required_static_friction": off(&|s| s.required_friction), "contact_margin": off(&|s| s.contact_margin),
-            "normal_min_n": off(&|s| run(s, |r| r.peaks.normal_min_n)),
-            "normal_max_n": off(&|s| run(s, |r| r.peaks.normal_max_n)),
-            "slip_inner_mm": off(&|s| run(s, |r| 1e3 * r.inner.distance_m)),
-            "open_s": off(&|s| run(s, |r| r.open_s)),
-        })
-    }
-
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        let hash = self.design.short_hash();
-        let few = self.cells().nth(40).is_none();
-        let table = if few { format!("{}\n", self.short_table().to_text(screen)) } else { String::new() };
-        let more = if few && self.cells().nth(1).is_some() {
-            "All columns: --csv, --json or --report\n"
-        } else {
-            ""
-        };
-        format!(
-            "{}, {}  {hash}\n\n{table}{}\n{more}{}\n",
-            self.design.name,
-            self.scenario.name,
-            self.remarks().join("\n"),
-            self.verdict()
-        )
-    }
-
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance) -> Page {
-        // A map is to show where it slips: that it does somewhere is no verdict.
-        let tone = match (self.cells().count(), self.rolls()) {
-            (_, true) => Tone::Plain,
-            (1, false) => Tone::Bad,
-            _ => Tone::Soft,
-        };
-        let mut page = opened("Resonance", self.design, &provenance.command, |page| {
-            page.verdict_in(tone, &format!("{}: {}", self.scenario.name, self.verdict()));
-        });
-        page.list(self.remarks());
-        let wide = self.rows.iter().all(|row| row.len() > 1);
-        if wide && self.rows.len() > 1 {
-            page.heading("Map");
-            page.paragraph(
-                "First map: static friction that rolling needs, the deeper green the larger the slip margin, red where there is less; \
-                 grey: rolling would open the contact; crossed: no rolling motion that repeats was found. Second map: what the clutch does with the friction that it has. The line is the \
-                 border of what rolls.",
-            );
-            page.figures(&[(self.needed().to_figure(), ""), (self.kinds().to_figure(), "")]);
-        }
-        if wide {
-            let mut needed = Plot::new("Frequency, Hz", "Static friction that rolling needs");
-            let mut load = Plot::new("Frequency, Hz", "Largest normal force, N");
-            for row in self.some_rows() {
-                let name = row.first().map_or(String::new(), |c| Unit::NewtonMetre.show(c.amplitude_nm, 3));
-                let points = |of: &dyn Fn(&ResonanceCell) -> Option<f64>| {
-                    row.iter().filter_map(|c| Some([c.frequency_hz, of(c)?])).collect::<Vec<_>>()
-                };
-                needed = needed.curve(&name, points(&|c| c.state.required_friction));
-                let largest = |c: &ResonanceCell| Some(c.state.motion.as_ref().ok()?.run.peaks.normal_max_n);
-                load = load.curve(&name, points(&largest));
-            }
-            page.figures(&[
-                (
-                    half(needed),
-                    &format!("Rolling states that keep contact; there is {}.", significant(self.friction, 3)),
-                ),
-                (half(load), "Of the state with the friction that there is."),
-            ]);
-        } else {
-            page.table("The states.", &self.table());
-        }
-        self.envelope(provenance.run_time_s).close(&mut page);
-        page
     }
 
     fn some_rows(&self) -> impl Iterator<Item = &Vec<ResonanceCell>> {
@@ -537,6 +291,210 @@ impl<'a> ResonanceAnswer<'a> {
     }
 }
 
+impl Said for ResonanceAnswer<'_> {
+    fn title(&self) -> &str {
+        "Resonance"
+    }
+
+    fn design(&self) -> &Design {
+        self.design
+    }
+
+    fn subject(&self) -> String {
+        format!("{}, {}", self.design.name, self.scenario.name)
+    }
+
+    fn outcome(&self) -> Finding {
+        if self.amplitudes_left() > 0 { Finding::Stopped } else { Finding::Shown }
+    }
+
+    fn verdict(&self) -> String {
+        let mut cells = self.cells();
+        if let (Some(only), None) = (cells.next(), cells.next()) {
+            return one_verdict(only);
+        }
+        let all = self.cells().count();
+        let mut parts = Vec::new();
+        if self.amplitudes_left() > 0 {
+            parts.push(format!("stopped after {} of {} amplitudes", self.rows.len(), self.asked));
+        }
+        parts.push(format!("{} of {all} states roll", self.count(MotionKind::Rolls)));
+        for (kind, one, several) in [
+            (MotionKind::Slips, "slips in each period", "slip in each period"),
+            (MotionKind::LiftsOff, "lifts off", "lift off"),
+            (
+                MotionKind::Overloaded,
+                "is overloaded, beyond the end of the curve",
+                "are overloaded, beyond the end of the curve",
+            ),
+            (
+                MotionKind::Disengages,
+                "disengages, its sprags thrown out of reach",
+                "disengage, their sprags thrown out of reach",
+            ),
+            (MotionKind::NotFound, "does not repeat, or was not found", "do not repeat, or were not found"),
+        ] {
+            match self.count(kind) {
+                0 => {}
+                1 => parts.push(format!("1 {one}")),
+                n => parts.push(format!("{n} {several}")),
+            }
+        }
+        let two = self.cells().filter(|c| c.other.is_some()).count();
+        let unstable = self.cells().filter(|c| c.state.is_stable() == Some(false)).count();
+        let untold = self.cells().filter(|c| c.state.motion.is_ok() && c.state.is_stable().is_none()).count();
+        if two > 0 {
+            parts.push(format!("at {two} two states were found"));
+        }
+        if unstable > 0 {
+            parts.push(format!("{unstable} {} unstable", if unstable == 1 { "is" } else { "are" }));
+        }
+        if untold > 0 {
+            let they = if untold == 1 { "it is" } else { "they are" };
+            parts.push(format!("of {untold} it cannot be told whether {they} stable"));
+        }
+        parts.join("; ")
+    }
+
+    fn banner(&self) -> (Tone, String) {
+        // A map is to show where it slips: that it does somewhere is no verdict.
+        let tone = match (self.cells().count(), self.rolls()) {
+            (_, true) => Tone::Plain,
+            (1, false) => Tone::Bad,
+            _ => Tone::Soft,
+        };
+        (tone, format!("{}: {}", self.scenario.name, self.verdict()))
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let most = self.cells().filter_map(|c| Some((c, c.state.required_friction?)));
+        let most = most.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(c, mu)| {
+            format!(
+                "Largest static friction that rolling needs where it keeps contact: {} at {} and {}; there is {}",
+                significant(mu, 4),
+                Unit::Hertz.show(c.frequency_hz, 4),
+                Unit::NewtonMetre.show(c.amplitude_nm, 4),
+                significant(self.friction, 3),
+            )
+        });
+        let ends = self.count(MotionKind::Overloaded) + self.count(MotionKind::Disengages) > 0;
+        let ends = ends.then(|| {
+            "overloaded, disengages: no motion repeats there, the swing carries the sprag beyond the end of the curve, off its profile or over \
+             its highest point, or farther from the race than is followed"
+                .to_owned()
+        });
+        let neutral = self.cells().filter_map(|c| {
+            let motion = c.state.motion.as_ref().ok()?;
+            motion.neutral_multiplier().map(|_| motion.multiplier_error)
+        });
+        let neutral =
+            neutral.fold(None, |most: Option<f64>, error| Some(most.map_or(error, |m| m.max(error))));
+        let neutral = neutral.map(|error| {
+            format!(
+                "Multiplier: the largest beside a pair that is 1 within its error of {}: a swing that neither grows nor dies away, such as \
+                 that of both races together on an abutment, which has no damper; it counts for no instability",
+                significant(error, 2)
+            )
+        });
+        let list = [
+            most,
+            ends,
+            neutral,
+            Some(
+                "Each state is a motion that repeats with the period of the excitation, its start forgotten; a start may slip where \
+                 the state rolls: simulate tells of that"
+                    .to_owned(),
+            ),
+        ];
+        list.into_iter().flatten().collect()
+    }
+
+    fn table(&self) -> Table {
+        Table { lead: 2, ..self.states().table() }
+    }
+
+    fn tables(&self, screen: Screen) -> String {
+        let more = self.cells().nth(1).map_or("", |_| "All columns: --csv, --json or --report\n");
+        match self.cells().nth(MOST_ROWS) {
+            None => self.short_table().to_text(screen) + more,
+            Some(_) => String::new(),
+        }
+    }
+
+    fn body(&self) -> Value {
+        json!({
+            "scenario": self.scenario.name, "amplitudes_left": self.amplitudes_left(), "verdict": self.verdict(), "static_friction": self.friction,
+            "rolls": self.rolls(), "states": self.states().objects(),
+        })
+    }
+
+    fn left_out(&self) -> Vec<LeftOut> {
+        let mut list = left_out_of(self.design);
+        list.push(LeftOut::new(
+            "motions with two or more periods of the excitation",
+            "the state is looked for among motions that repeat with its period",
+            "a multiplier beyond -1 or a state that is not found tells of one",
+        ));
+        list.push(LeftOut::new(
+            "states that no neighbour leads to",
+            "a row is walked upwards and downwards in frequency, from the state at rest",
+            "not estimated",
+        ));
+        list
+    }
+
+    /// Of a single state what each figure differs by from that at a tenth of the tolerance, of a map the tolerance asked for.
+    fn error_estimate(&self) -> Option<Value> {
+        let Some((state, finer)) = self.cells().next().map(|c| &c.state).zip(self.finer.as_ref()) else {
+            return Some(json!({ "tolerance": self.tolerance }));
+        };
+        let off = |of: &dyn Fn(&Steady) -> Option<f64>| Some((of(state)? - of(finer)?).abs());
+        let run = |s: &Steady, of: fn(&Run) -> f64| Some(of(&s.motion.as_ref().ok()?.run));
+        Some(json!({
+            "required_static_friction": off(&|s| s.required_friction), "contact_margin": off(&|s| s.contact_margin),
+            "normal_min_n": off(&|s| run(s, |r| r.peaks.normal_min_n)),
+            "normal_max_n": off(&|s| run(s, |r| r.peaks.normal_max_n)),
+            "slip_inner_mm": off(&|s| run(s, |r| 1e3 * r.inner.distance_m)),
+            "open_s": off(&|s| run(s, |r| r.open_s)),
+        }))
+    }
+
+    fn draw(&self, page: &mut Page) {
+        let wide = self.rows.iter().all(|row| row.len() > 1);
+        if wide && self.rows.len() > 1 {
+            page.heading("Map");
+            page.paragraph(
+                "First map: static friction that rolling needs, the deeper green the larger the slip margin, red where there is less; \
+                 grey: rolling would open the contact; crossed: no rolling motion that repeats was found. Second map: what the clutch does with the friction that it has. The line is the \
+                 border of what rolls.",
+            );
+            page.figures(&[(self.needed().to_figure(), ""), (self.kinds().to_figure(), "")]);
+        }
+        if wide {
+            let mut needed = Plot::new("Frequency, Hz", "Static friction that rolling needs");
+            let mut load = Plot::new("Frequency, Hz", "Largest normal force, N");
+            for row in self.some_rows() {
+                let name = row.first().map_or(String::new(), |c| Unit::NewtonMetre.show(c.amplitude_nm, 3));
+                let points = |of: &dyn Fn(&ResonanceCell) -> Option<f64>| {
+                    row.iter().filter_map(|c| Some([c.frequency_hz, of(c)?])).collect::<Vec<_>>()
+                };
+                needed = needed.curve(&name, points(&|c| c.state.required_friction));
+                let largest = |c: &ResonanceCell| Some(c.state.motion.as_ref().ok()?.run.peaks.normal_max_n);
+                load = load.curve(&name, points(&largest));
+            }
+            page.figures(&[
+                (
+                    half(needed),
+                    &format!("Rolling states that keep contact; there is {}.", significant(self.friction, 3)),
+                ),
+                (half(load), "Of the state with the friction that there is."),
+            ]);
+        } else {
+            page.table("The states.", &Said::table(self));
+        }
+    }
+}
+
 /// The state of a single frequency and amplitude.
 fn one_verdict(c: &ResonanceCell) -> String {
     let s = &c.state;
@@ -569,24 +527,64 @@ fn one_verdict(c: &ResonanceCell) -> String {
     format!("{what}{stable}; {needs}{other}")
 }
 
-fn object(s: &Steady) -> Value {
-    let motion = s.motion.as_ref().ok();
-    let energy = motion.and_then(|o| o.run.energy);
-    json!({
-        "state": s.kind.name(), "stable": s.is_stable(), "required_static_friction": s.required_friction,
-        "slip_margin": s.slip_margin, "contact_margin": s.contact_margin,
-        "multipliers": motion.map(|o| o.multipliers.clone()), "multiplier_error": motion.map(|o| o.multiplier_error),
-        "deciding_multiplier": motion.map(|o| o.deciding_multiplier()),
-        "neutral_multiplier": motion.and_then(|o| o.neutral_multiplier()),
-        "normal_min_n": motion.map(|o| o.run.peaks.normal_min_n), "normal_max_n": motion.map(|o| o.run.peaks.normal_max_n),
-        "tan_inner": motion.map(|o| o.run.peaks.tan_inner), "tan_outer": motion.map(|o| o.run.peaks.tan_outer),
-        "slip_inner_mm": motion.map(|o| 1e3 * o.run.inner.distance_m), "slip_outer_mm": motion.map(|o| 1e3 * o.run.outer.distance_m),
-        "net_slip_inner_mm": motion.map(|o| 1e3 * o.run.inner.net_m), "open_s": motion.map(|o| o.run.open_s),
-        "drift_inner_rad": motion.map(|o| o.drift_rad()[0]), "drift_outer_rad": motion.map(|o| o.drift_rad()[1]),
-        "newton_error": motion.map(|o| o.error), "periods": s.periods,
-        "work_in_j": energy.map(|e| e.torque_inner_j + e.torque_outer_j),
-        "lost_j": energy.map(|e| -(e.friction_inner_j + e.friction_outer_j + e.race_damping_j + e.contact_damping_j)),
-    })
+/// A state, at which frequency (Hz) and amplitude (N m), and another one there.
+pub type StateLine<'a> = (f64, f64, &'a Steady, Option<&'a Steady>);
+
+/// States in a line each.
+fn lines<'a>(states: impl IntoIterator<Item = StateLine<'a>>) -> Rows<StateLine<'a>> {
+    let motion = |s: &StateLine<'a>| s.2.motion.as_ref().ok();
+    let run = |s: &StateLine<'a>| motion(s).map(|o| &o.run);
+    let drift_rad = |s: &StateLine<'a>| motion(s).map(|o| o.drift_rad());
+    Rows::of(states)
+        .number("frequency_hz", "Frequency", Unit::Hertz, 5, |(hz, ..)| *hz)
+        .number("amplitude_nm", "Amplitude", Unit::NewtonMetre, 5, |(_, nm, ..)| *nm)
+        .text("state", "State", |(_, _, s, _)| {
+            Cell::Verdict(s.kind == MotionKind::Rolls, s.kind.name().to_owned())
+        })
+        .text("stable", "Stable", |(_, _, s, _)| match (s.is_stable(), s.motion.is_ok()) {
+            (Some(stable), _) => Cell::told(if stable { "yes" } else { "NO" }, stable),
+            (None, true) => Cell::told("?", Cell::Empty),
+            (None, false) => Cell::Empty,
+        })
+        .number("required_static_friction", "μ needed", Unit::One, 5, |(_, _, s, _)| s.required_friction)
+        .number("slip_margin", "Slip margin", Unit::One, 4, |(_, _, s, _)| s.slip_margin)
+        .shown_in(Unit::Percent)
+        .number("contact_margin", "Contact margin", Unit::One, 4, |(_, _, s, _)| s.contact_margin)
+        .shown_in(Unit::Percent)
+        .number("normal_min_n", "N smallest", Unit::Newton, 4, |s| run(s).map(|r| r.peaks.normal_min_n))
+        .number("normal_max_n", "N largest", Unit::Newton, 4, |s| run(s).map(|r| r.peaks.normal_max_n))
+        .number("slip_inner_mm", "Slip a period", Unit::Millimetre, 4, |s| run(s).map(|r| r.inner.distance_m))
+        .shown_in(Unit::Micrometre)
+        .number("open_s", "Open a period", Unit::Second, 4, |s| run(s).map(|r| r.open_s))
+        .shown_in(Unit::Millisecond)
+        // What rolls comes back: what is left of it is rounding.
+        .number("drift_rad", "Drift a period", Unit::Radian, 4, |s| {
+            drift_rad(s).map(|d| if s.2.kind == MotionKind::Rolls { 0.0 } else { d[0] - d[1] })
+        })
+        .shown_in(Unit::Milliradian)
+        .number("deciding_multiplier", "Multiplier", Unit::One, 6, |s| {
+            motion(s).map(|o| o.deciding_multiplier())
+        })
+        .number("neutral_multiplier", "Neutral one", Unit::One, 6, |s| {
+            motion(s).and_then(|o| o.neutral_multiplier())
+        })
+        .text("other_state", "Other state", |(.., other)| other.map(|other| other.kind.name()))
+        .json("other", |(hz, nm, _, other)| other.map(|other| lines([(*hz, *nm, other, None)]).object()))
+        .json("multipliers", |s| motion(s).map(|o| o.multipliers.clone()))
+        .json("multiplier_error", |s| motion(s).map(|o| o.multiplier_error))
+        .json("tan_inner", |s| run(s).map(|r| r.peaks.tan_inner))
+        .json("tan_outer", |s| run(s).map(|r| r.peaks.tan_outer))
+        .json_in("slip_outer_mm", Unit::Millimetre, |s| run(s).map(|r| r.outer.distance_m))
+        .json_in("net_slip_inner_mm", Unit::Millimetre, |s| run(s).map(|r| r.inner.net_m))
+        .json("drift_inner_rad", |s| drift_rad(s).map(|d| d[0]))
+        .json("drift_outer_rad", |s| drift_rad(s).map(|d| d[1]))
+        .json("newton_error", |s| motion(s).map(|o| o.error))
+        .json("periods", |(_, _, s, _)| s.periods)
+        .json("work_in_j", |s| run(s)?.energy.map(|e| e.torque_inner_j + e.torque_outer_j))
+        .json("lost_j", |s| {
+            let e = run(s)?.energy?;
+            Some(-(e.friction_inner_j + e.friction_outer_j + e.race_damping_j + e.contact_damping_j))
+        })
 }
 
 /// Edges between values that rise, half way.

@@ -2,13 +2,13 @@
 
 use super::drawn::drawn_words;
 use super::left_out::{LeftOut, left_out_of, one_by_one};
-use super::page::{half, opened};
-use super::{Envelope, Provenance};
+use super::page::half;
+use super::{Finding, Said};
 use crate::clutch::Rim;
 use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
 use crate::report::plot::Curve;
-use crate::report::{Cell, Column, Page, Plot, Rows, Screen, Table, Unit, significant};
+use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use crate::sharing::{Bears, Loss, NotShared, Shared, Turn};
 use serde_json::{Value, json};
 use std::fmt;
@@ -43,7 +43,7 @@ pub struct SharingAnswer<'a> {
 
 /// One sprag of the table.
 #[derive(Debug, Clone)]
-struct OneRow {
+pub struct OneRow {
     sprag: crate::sharing::OneSprag,
     idle: Option<&'static str>,
     lag_rad: Option<f64>,
@@ -139,14 +139,7 @@ impl Design {
     }
 }
 
-impl<'a> SharingAnswer<'a> {
-    /// Whether every sprag that carries is within its limits, over the turn.
-    pub fn held(&self) -> bool {
-        self.turned.is_ok()
-            && self.most_pressed().is_none_or(|(_, pa)| self.allowed.is_none_or(|(most, _)| pa <= most))
-            && self.slipping().is_none()
-    }
-
+impl SharingAnswer<'_> {
     /// The most pressed sprag of the turn and its pressure, Pa.
     fn most_pressed(&self) -> Option<(usize, f64)> {
         let turned = self.turned.as_ref().ok()?;
@@ -174,54 +167,289 @@ impl<'a> SharingAnswer<'a> {
         self.losses.last().is_some_and(|last| matches!(last.left, Err(NotShared::NoBalance)))
     }
 
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
+    /// Every sprag at the worst place of the turn.
+    pub fn by_sprag(&self) -> Rows<(usize, &OneRow)> {
+        let on = |r: &OneRow| r.bears.normal_inner_n > 0.0;
+        let slips = |r: &OneRow| r.bears.required_friction() > r.sprag.friction;
+        let carried = |r: &OneRow, value: f64| Cell::only_if(on(r), value);
+        let needs = |r: &OneRow| match on(r) {
+            true => Some(r.bears.required_friction()),
+            false => Some(r.first_friction).filter(|f| *f > 0.0),
+        };
+        let state = |r: &OneRow| match r.idle {
+            Some(idle) => idle.into(),
+            None if !on(r) => "no load".into(),
+            None if slips(r) => Cell::Verdict(false, "slips".to_owned()),
+            None => "carries".into(),
+        };
+        Rows::of(self.sprags.iter().enumerate())
+            .number("number", "Sprag", Unit::One, 3, |(i, _)| i + 1)
+            .number("azimuth_deg", "At", Unit::Degree, 4, |(_, r)| r.sprag.azimuth_rad)
+            .number("size_um", "Larger by", Unit::Micrometre, 3, |(_, r)| r.sprag.size_m)
+            .number("gap_um", "Gap", Unit::Micrometre, 3, |(_, r)| r.sprag.gap_m)
+            .number("friction", "μs", Unit::One, 3, |(_, r)| r.sprag.friction)
+            .number("catches_nm", "Bears from", Unit::NewtonMetre, 3, |(_, r)| r.catches_nm)
+            .number("normal_inner_n", "N inner", Unit::Newton, 4, |(_, r)| carried(r, r.bears.normal_inner_n))
+            .number("share", "Share", Unit::One, 4, |(_, r)| r.share)
+            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |(_, r)| {
+                carried(r, r.bears.hertz_inner_pa)
+            })
+            .number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4, |(_, r)| {
+                carried(r, r.bears.hertz_outer_pa)
+            })
+            .number("needs_friction", "Needs μ", Unit::One, 3, |(_, r)| needs(r))
+            .text("state", "State", |(_, r)| state(r))
+            .json("idle", |(_, r)| r.idle)
+            .json_in("lag_deg", Unit::Degree, |(_, r)| r.lag_rad)
+            .json("first_friction", |(_, r)| r.first_friction)
+            .json("normal_outer_n", |(_, r)| r.bears.normal_outer_n)
+            .json("required_friction", |(_, r)| r.bears.required_friction())
+            .json_in("bent_inner_um", Unit::Micrometre, |(_, r)| r.bears.bent_m[0])
+            .json_in("bent_outer_um", Unit::Micrometre, |(_, r)| r.bears.bent_m[1])
+    }
+
+    /// Every place of a turn.
+    fn places(&self) -> Rows<(&Shared, &f64, (usize, f64))> {
+        Rows::of(
+            self.turned
+                .as_deref()
+                .unwrap_or_default()
+                .iter()
+                .zip(&self.gaps_rad)
+                .map(|(s, gap)| (s, gap, s.worst(Bears::hertz_pa))),
+        )
+        .number("widest_gap_deg", "Widest gap at", Unit::Degree, 4, |(_, gap, _)| **gap)
+        .number("windup_deg", "Windup", Unit::Degree, 4, |(s, _, _)| s.windup_rad)
+        .number("carrying", "Carry", Unit::One, 3, |(s, _, _)| s.carrying())
+        .number("largest_share", "Largest share", Unit::One, 4, |(s, _, _)| largest(&s.shares()))
+        .number("most_pressed", "Sprag", Unit::One, 3, |(_, _, (most, _))| most + 1)
+        .number("hertz_mpa", "p₀", Unit::Megapascal, 4, |(_, _, (_, pa))| *pa)
+        .number("required_friction", "Needs μ", Unit::One, 3, |(s, _, _)| {
+            s.worst(Bears::required_friction).1
+        })
+        .number("radial_force_n", "Bearings hold", Unit::Newton, 3, |(s, _, _)| {
+            s.radial_n[0].hypot(s.radial_n[1])
+        })
+        .number("shift_um", "Shift", Unit::Micrometre, 3, |(s, _, _)| s.shift_m[0].hypot(s.shift_m[1]))
+        .json("steps", |(s, _, _)| s.steps)
+        .json("shares", |(s, _, _)| s.shares())
+    }
+
+    /// As the torque rises, at the worst place.
+    fn course(&self) -> Rows<&(f64, Result<Shared, NotShared>)> {
+        let of = |(_, found): &(f64, Result<Shared, NotShared>)| found.clone().ok();
+        let pressed = |row: &(f64, Result<Shared, NotShared>)| Some(of(row)?.worst(Bears::hertz_pa));
+        Rows::of(&self.engagement)
+            .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |(torque, _)| *torque)
+            .number("windup_deg", "Windup", Unit::Degree, 4, |row| of(row).map(|s| s.windup_rad))
+            .number("carrying", "Carry", Unit::One, 3, |row| of(row).map(|s| s.carrying()))
+            .number("largest_share", "Largest share", Unit::One, 4, |row| {
+                of(row).map(|s| largest(&s.shares()))
+            })
+            .number("most_pressed", "Sprag", Unit::One, 3, |row| pressed(row).map(|(most, _)| most + 1))
+            .number("hertz_mpa", "p₀", Unit::Megapascal, 4, |row| pressed(row).map(|(_, pa)| pa))
+            .text("ended", "Not carried", |(_, found)| found.as_ref().err().map(|why| why.words()))
+            .json("shares", |row| of(row).map(|s| s.shares()))
+    }
+
+    /// One loss after another.
+    fn lost(&self) -> Rows<(usize, &Loss)> {
+        let pressed = |l: &Loss| Some(l.left.as_ref().ok()?.worst(Bears::hertz_pa).1);
+        let verdict = |l: &Loss| match &l.left {
+            Err(why) => Cell::Verdict(false, why.words()),
+            Ok(_) => Cell::held(pressed(l).is_none_or(|pa| self.allowed.is_none_or(|(most, _)| pa <= most))),
+        };
+        Rows::of(self.losses.iter().enumerate())
+            .number("losses", "Lost", Unit::One, 3, |(k, _)| k + 1)
+            .number("lost", "The last: sprag", Unit::One, 3, |(_, l)| l.lost + 1)
+            .number("largest_share", "Largest share", Unit::One, 4, |(_, l)| {
+                l.left.as_ref().ok().map(|s| largest(&s.shares()))
+            })
+            .number("hertz_mpa", "p₀", Unit::Megapascal, 4, |(_, l)| pressed(l))
+            .text("verdict", "Verdict", |(_, l)| verdict(l))
+            .json("ended", |(_, l)| l.left.as_ref().err().map(|why| why.words()))
+    }
+
+    /// Growth and harmonics of both tracks.
+    fn out_of_round(&self) -> Table {
+        let [inner, outer] = &self.out_of_round_m;
+        let count = self.design.clutch.sprags.count;
+        let name = |k: usize| match k {
+            0 => "mean, gap opens".to_owned(),
+            1 => "2, a quarter of the ovality".to_owned(),
+            _ if k + 1 == count => format!("{count}, the sprags"),
+            _ => (k + 1).to_string(),
+        };
+        let shown = (0..inner.len().min(HARMONICS)).chain((count > HARMONICS).then_some(count - 1));
+        Rows::of(shown.filter_map(|k| Some((k, *inner.get(k)?, *outer.get(k)?))))
+            .text("harmonic", "Harmonic", |(k, ..)| name(*k))
+            .number("inner_um", "Inner race", Unit::Micrometre, 3, |(_, inner, _)| *inner)
+            .number("outer_um", "Outer race", Unit::Micrometre, 3, |(.., outer)| *outer)
+            .table()
+    }
+
+    /// Shares round the clutch.
+    fn round(&self) -> Plot {
+        let mut plot = Plot::new("Azimuth, °", "Share of the mean");
+        let found: Vec<(f64, &Shared)> =
+            self.engagement.iter().filter_map(|(t, s)| Some((*t, s.as_ref().ok()?))).collect();
+        for part in [0.1, 0.3, 1.0] {
+            let Some((torque, shared)) =
+                found.iter().find(|(t, _)| *t >= part * self.torque_nm * (1.0 - 1e-9))
+            else {
+                continue;
+            };
+            let points = self
+                .sprags
+                .iter()
+                .zip(shared.shares())
+                .map(|(r, share)| [Unit::Degree.from_si(r.sprag.azimuth_rad), share]);
+            plot.curves.push(Curve {
+                dots: true,
+                ..Curve::new(&Unit::NewtonMetre.show_plain(*torque, 4), points.collect())
+            });
+        }
+        plot
+    }
+
+    /// Largest and smallest share over torque.
+    fn rising(&self) -> Plot {
+        let found = self.engagement.iter().filter_map(|(t, s)| Some((*t, s.as_ref().ok()?.shares())));
+        let (mut most, mut least) = (Vec::new(), Vec::new());
+        for (torque, shares) in found {
+            most.push([torque, largest(&shares)]);
+            least.push([torque, shares.iter().copied().fold(f64::INFINITY, f64::min)]);
+        }
+        Plot::new("Torque, Nm", "Share of the mean").curve("largest", most).curve("smallest", least)
+    }
+}
+
+impl Said for SharingAnswer<'_> {
+    fn title(&self) -> &str {
+        "Sharing"
+    }
+
+    fn design(&self) -> &Design {
+        self.design
+    }
+
+    /// Whether every sprag that carries is within its limits, over the turn.
+    fn outcome(&self) -> Finding {
+        let within = |pa: f64| self.allowed.is_none_or(|(most, _)| pa <= most);
+        let pressed = self.most_pressed().is_none_or(|(_, pa)| within(pa));
+        Finding::of(self.turned.is_ok() && pressed && self.slipping().is_none())
+    }
+
+    fn verdict(&self) -> String {
+        let torque = Unit::NewtonMetre.show(self.torque_nm, 4);
+        let turned = match &self.turned {
+            Ok(turned) => turned,
+            Err(why) => {
+                let until = self.end.filter(|(nm, _)| *nm > 0.0).map_or(String::new(), |(nm, _)| {
+                    format!("; {} is carried", Unit::NewtonMetre.show(nm, 4))
+                });
+                return format!("NOT HELD: {torque} is not carried: {}{until}", why.words());
+            }
+        };
+        let word = if self.is_held() { "HELD" } else { "NOT HELD" };
+        let share = turned.iter().map(|s| largest(&s.shares())).fold(0.0, f64::max);
+        let least = turned.iter().map(Shared::carrying).min().unwrap_or(0);
+        let mut said = format!(
+            "{word}: at {torque} {least} of {} sprags carry, the largest share is {} of the mean",
+            self.sprags.len(),
+            significant(share, 4)
+        );
+        if let Some((i, pa)) = self.most_pressed() {
+            said += &format!(", sprag {} at {}", i + 1, Unit::Megapascal.show(pa, 4));
+            if let Some((most, _)) = self.allowed {
+                said += &format!(" of {} allowed", Unit::Megapascal.show(most, 4));
+            }
+        }
+        if let Some((i, needs)) = self.slipping() {
+            said += &format!(
+                "; sprag {} needs a friction of {} and has {}",
+                i + 1,
+                significant(needs, 3),
+                significant(self.sprags[i].sprag.friction, 3)
+            );
+        } else if let Some(count) = self.may_be_lost().filter(|_| self.is_held()) {
+            said += &match count {
+                0 => "; if the most pressed one failed, the others would be pressed beyond that".to_owned(),
+                1 => "; if the most pressed one failed, the others would still hold, after a second one not"
+                    .to_owned(),
+                _ => format!("; {count} may fail, each time the most pressed one, and the others still hold"),
+            };
+        } else if self.is_held() && self.loss_not_found() {
+            said += &format!(
+                "; how many may fail is not known: after {} no balance of forces was found",
+                if self.losses.len() == 1 { "one".to_owned() } else { self.losses.len().to_string() }
+            );
+        }
+        if let Some(peak_nm) = self.design.limits.peak_torque_nm.filter(|nm| *nm > self.torque_nm) {
+            said +=
+                &format!("; at peak torque, {}, `check` holds the worst", Unit::NewtonMetre.show(peak_nm, 4));
+        }
+        said
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let Some(sharing) = &self.design.sharing else { return Vec::new() };
+        let mut all = drawn_words(sharing);
+        let idle: Vec<String> = self
+            .sprags
+            .iter()
+            .enumerate()
+            .filter_map(|(i, r)| r.idle.map(|why| format!("{} {why}", i + 1)))
+            .collect();
+        if !idle.is_empty() {
+            all.push(format!("Sprags that never carry: {}", idle.join(", ")));
+        }
+        if self.allowed.is_none() {
+            all.push("No Hertz pressure is limited: hertz_nominal_mpa or hertz_peak_mpa in [limits] would say how many sprags may fail".to_owned());
+        }
+        all
+    }
+
+    fn table(&self) -> Table {
+        self.by_sprag().table()
+    }
+
+    fn tables(&self, screen: Screen) -> String {
+        let (sprags, more) = self.table().first(MOST_ROWS);
+        let mut text = sprags.to_text(screen);
+        if more > 0 {
+            text += &format!("{more} more sprags: --csv, --json or --report\n");
+        }
+        let mut part = |title: &str, table: Table| {
+            if !table.rows.is_empty() {
+                text += &format!("\n{title}\n{}", table.to_text(screen));
+            }
+        };
+        part(
+            "Over a turn of the races",
+            if self.gaps_rad.len() > 1 { self.places().table() } else { Table::default() },
+        );
+        part("Through an engagement", self.course().table());
+        part("One lost after another, the most pressed first", self.lost().table());
+        part("Tracks out of round: amplitude of the radius", self.out_of_round());
+        text
+    }
+
+    fn body(&self) -> Value {
         let mpa = |pa: f64| Unit::Megapascal.from_si(pa);
-        let um = |m: f64| Unit::Micrometre.from_si(m);
-        let deg = |rad: f64| Unit::Degree.from_si(rad);
-        let sprags = self.sprags.iter().enumerate().map(|(i, r)| {
-            json!({
-                "number": i + 1, "azimuth_deg": deg(r.sprag.azimuth_rad), "size_um": um(r.sprag.size_m), "gap_um": um(r.sprag.gap_m),
-                "friction": r.sprag.friction, "idle": r.idle, "lag_deg": r.lag_rad.map(deg), "catches_nm": r.catches_nm,
-                "first_friction": r.first_friction,
-                "normal_inner_n": r.bears.normal_inner_n, "normal_outer_n": r.bears.normal_outer_n, "share": r.share,
-                "hertz_inner_mpa": mpa(r.bears.hertz_inner_pa), "hertz_outer_mpa": mpa(r.bears.hertz_outer_pa),
-                "required_friction": r.bears.required_friction(),
-                "bent_inner_um": um(r.bears.bent_m[0]), "bent_outer_um": um(r.bears.bent_m[1]),
-            })
-        });
-        let places = self.turned.as_deref().unwrap_or_default().iter().zip(&self.gaps_rad).map(|(s, gap)| {
-            let (most, pa) = s.worst(Bears::hertz_pa);
-            json!({
-                "widest_gap_deg": deg(*gap), "windup_deg": deg(s.windup_rad), "carrying": s.carrying(), "largest_share": largest(&s.shares()),
-                "most_pressed": most + 1, "hertz_mpa": mpa(pa), "required_friction": s.worst(Bears::required_friction).1,
-                "radial_force_n": s.radial_n[0].hypot(s.radial_n[1]), "shift_um": um(s.shift_m[0].hypot(s.shift_m[1])), "steps": s.steps,
-                "shares": s.shares(),
-            })
-        });
-        let engagement = self.engagement.iter().map(|(torque, found)| match found {
-            Ok(s) => json!({
-                "torque_nm": torque, "windup_deg": deg(s.windup_rad), "carrying": s.carrying(), "largest_share": largest(&s.shares()),
-                "hertz_mpa": mpa(s.worst(Bears::hertz_pa).1), "shares": s.shares(), "ended": null,
-            }),
-            Err(why) => json!({ "torque_nm": torque, "ended": why.words() }),
-        });
-        let losses = self.losses.iter().map(|l| match &l.left {
-            Ok(s) => json!({ "lost": l.lost + 1, "hertz_mpa": mpa(s.worst(Bears::hertz_pa).1), "largest_share": largest(&s.shares()), "ended": null }),
-            Err(why) => json!({ "lost": l.lost + 1, "ended": why.words() }),
-        });
-        let round =
-            self.out_of_round_m.each_ref().map(|race| race.iter().map(|m| um(*m)).collect::<Vec<_>>());
-        let seed = self.design.sharing.as_ref().map(|s| s.seed);
-        let body = json!({
-            "held": self.held(), "verdict": self.verdict(), "torque_nm": self.torque_nm, "seed": seed,
+        let [inner, outer] = self
+            .out_of_round_m
+            .each_ref()
+            .map(|race| race.iter().map(|m| Unit::Micrometre.from_si(*m)).collect::<Vec<_>>());
+        json!({
+            "held": self.is_held(), "verdict": self.verdict(), "torque_nm": self.torque_nm,
+            "seed": self.design.sharing.as_ref().map(|s| s.seed),
             "allowed_mpa": self.allowed.map(|(pa, _)| mpa(pa)), "may_be_lost": self.may_be_lost(),
             "end_torque_nm": self.end.map(|(nm, _)| nm), "end_reason": self.end.map(|(_, why)| why.words()),
-            "sprags": sprags.collect::<Vec<_>>(), "turn": places.collect::<Vec<_>>(),
-            "engagement": engagement.collect::<Vec<_>>(), "losses": losses.collect::<Vec<_>>(),
-            "harmonics_inner_um": round[0], "harmonics_outer_um": round[1],
-        });
-        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
+            "sprags": self.by_sprag().objects(), "turn": self.places().objects(),
+            "engagement": self.course().objects(), "losses": self.lost().objects(),
+            "harmonics_inner_um": inner, "harmonics_outer_um": outer,
+        })
     }
 
     fn left_out(&self) -> Vec<LeftOut> {
@@ -272,235 +500,7 @@ impl<'a> SharingAnswer<'a> {
         one_by_one(left_out_of(self.design), &instead)
     }
 
-    /// In a sentence.
-    pub fn verdict(&self) -> String {
-        let torque = Unit::NewtonMetre.show(self.torque_nm, 4);
-        let turned = match &self.turned {
-            Ok(turned) => turned,
-            Err(why) => {
-                let until = self.end.filter(|(nm, _)| *nm > 0.0).map_or(String::new(), |(nm, _)| {
-                    format!("; {} is carried", Unit::NewtonMetre.show(nm, 4))
-                });
-                return format!("NOT HELD: {torque} is not carried: {}{until}", why.words());
-            }
-        };
-        let word = if self.held() { "HELD" } else { "NOT HELD" };
-        let share = turned.iter().map(|s| largest(&s.shares())).fold(0.0, f64::max);
-        let least = turned.iter().map(Shared::carrying).min().unwrap_or(0);
-        let mut said = format!(
-            "{word}: at {torque} {least} of {} sprags carry, the largest share is {} of the mean",
-            self.sprags.len(),
-            significant(share, 4)
-        );
-        if let Some((i, pa)) = self.most_pressed() {
-            said += &format!(", sprag {} at {}", i + 1, Unit::Megapascal.show(pa, 4));
-            if let Some((most, _)) = self.allowed {
-                said += &format!(" of {} allowed", Unit::Megapascal.show(most, 4));
-            }
-        }
-        if let Some((i, needs)) = self.slipping() {
-            said += &format!(
-                "; sprag {} needs a friction of {} and has {}",
-                i + 1,
-                significant(needs, 3),
-                significant(self.sprags[i].sprag.friction, 3)
-            );
-        } else if let Some(count) = self.may_be_lost().filter(|_| self.held()) {
-            said += &match count {
-                0 => "; if the most pressed one failed, the others would be pressed beyond that".to_owned(),
-                1 => "; if the most pressed one failed, the others would still hold, after a second one not"
-                    .to_owned(),
-                _ => format!("; {count} may fail, each time the most pressed one, and the others still hold"),
-            };
-        } else if self.held() && self.loss_not_found() {
-            said += &format!(
-                "; how many may fail is not known: after {} no balance of forces was found",
-                if self.losses.len() == 1 { "one".to_owned() } else { self.losses.len().to_string() }
-            );
-        }
-        if let Some(peak_nm) = self.design.limits.peak_torque_nm.filter(|nm| *nm > self.torque_nm) {
-            said +=
-                &format!("; at peak torque, {}, `check` holds the worst", Unit::NewtonMetre.show(peak_nm, 4));
-        }
-        said
-    }
-
-    /// Every sprag at the worst place of the turn.
-    pub fn by_sprag(&self) -> Table {
-        let on = |r: &OneRow| r.bears.normal_inner_n > 0.0;
-        let slips = |r: &OneRow| r.bears.required_friction() > r.sprag.friction;
-        let carried = |r: &OneRow, value: f64| on(r).then_some(value);
-        let needs = |r: &OneRow| match on(r) {
-            true => Some(r.bears.required_friction()),
-            false => Some(r.first_friction).filter(|f| *f > 0.0),
-        };
-        let state = |r: &OneRow| match r.idle {
-            Some(idle) => idle.into(),
-            None if !on(r) => "no load".into(),
-            None if slips(r) => Cell::Verdict(false, "slips".to_owned()),
-            None => "carries".into(),
-        };
-        Rows::of(self.sprags.iter().enumerate())
-            .number("number", "Sprag", Unit::One, 3, |(i, _)| i + 1)
-            .number("azimuth_deg", "At", Unit::Degree, 4, |(_, r)| r.sprag.azimuth_rad)
-            .number("size_um", "Larger by", Unit::Micrometre, 3, |(_, r)| r.sprag.size_m)
-            .number("gap_um", "Gap", Unit::Micrometre, 3, |(_, r)| r.sprag.gap_m)
-            .number("friction", "μs", Unit::One, 3, |(_, r)| r.sprag.friction)
-            .number("catches_nm", "Bears from", Unit::NewtonMetre, 3, |(_, r)| r.catches_nm)
-            .number("normal_inner_n", "N inner", Unit::Newton, 4, |(_, r)| carried(r, r.bears.normal_inner_n))
-            .number("share", "Share", Unit::One, 4, |(_, r)| r.share)
-            .number("hertz_inner_mpa", "p₀ inner", Unit::Megapascal, 4, |(_, r)| {
-                carried(r, r.bears.hertz_inner_pa)
-            })
-            .number("hertz_outer_mpa", "p₀ outer", Unit::Megapascal, 4, |(_, r)| {
-                carried(r, r.bears.hertz_outer_pa)
-            })
-            .number("required_friction", "Needs μ", Unit::One, 3, |(_, r)| needs(r))
-            .text("state", "State", |(_, r)| state(r))
-            .table()
-    }
-
-    /// Every place of a turn.
-    fn places(&self) -> Table {
-        Rows::of(
-            self.turned
-                .as_deref()
-                .unwrap_or_default()
-                .iter()
-                .zip(&self.gaps_rad)
-                .map(|(s, gap)| (s, gap, s.worst(Bears::hertz_pa))),
-        )
-        .number("widest_gap_deg", "Widest gap at", Unit::Degree, 4, |(_, gap, _)| **gap)
-        .number("windup_deg", "Windup", Unit::Degree, 4, |(s, _, _)| s.windup_rad)
-        .number("carrying", "Carry", Unit::One, 3, |(s, _, _)| s.carrying())
-        .number("largest_share", "Largest share", Unit::One, 4, |(s, _, _)| largest(&s.shares()))
-        .number("most_pressed", "Sprag", Unit::One, 3, |(_, _, (most, _))| most + 1)
-        .number("hertz_mpa", "p₀", Unit::Megapascal, 4, |(_, _, (_, pa))| *pa)
-        .number("required_friction", "Needs μ", Unit::One, 3, |(s, _, _)| {
-            s.worst(Bears::required_friction).1
-        })
-        .number("radial_force_n", "Bearings hold", Unit::Newton, 3, |(s, _, _)| {
-            s.radial_n[0].hypot(s.radial_n[1])
-        })
-        .number("shift_um", "Shift", Unit::Micrometre, 3, |(s, _, _)| s.shift_m[0].hypot(s.shift_m[1]))
-        .table()
-    }
-
-    /// As the torque rises, at the worst place.
-    fn course(&self) -> Table {
-        let of = |(_, found): &(f64, Result<Shared, NotShared>)| found.clone().ok();
-        let pressed = |row: &(f64, Result<Shared, NotShared>)| Some(of(row)?.worst(Bears::hertz_pa));
-        Rows::of(&self.engagement)
-            .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |(torque, _)| *torque)
-            .number("windup_deg", "Windup", Unit::Degree, 4, |row| of(row).map(|s| s.windup_rad))
-            .number("carrying", "Carry", Unit::One, 3, |row| of(row).map(|s| s.carrying()))
-            .number("largest_share", "Largest share", Unit::One, 4, |row| {
-                of(row).map(|s| largest(&s.shares()))
-            })
-            .number("most_pressed", "Sprag", Unit::One, 3, |row| pressed(row).map(|(most, _)| most + 1))
-            .number("hertz_mpa", "p₀", Unit::Megapascal, 4, |row| pressed(row).map(|(_, pa)| pa))
-            .text("ended", "Not carried", |(_, found)| found.as_ref().err().map(|why| why.words()))
-            .table()
-    }
-
-    /// One loss after another.
-    fn lost(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("losses", "Lost", Unit::One, 3),
-            Column::number("lost", "The last: sprag", Unit::One, 3),
-            Column::number("largest_share", "Largest share", Unit::One, 4),
-            Column::number("hertz_mpa", "p₀", Unit::Megapascal, 4),
-            Column::text("verdict", "Verdict"),
-        ]);
-        for (k, loss) in self.losses.iter().enumerate() {
-            let mut row: Vec<Cell> = vec![(k + 1).into(), (loss.lost + 1).into()];
-            match &loss.left {
-                Ok(s) => {
-                    let pa = s.worst(Bears::hertz_pa).1;
-                    let held = self.allowed.is_none_or(|(most, _)| pa <= most);
-                    row.extend([
-                        largest(&s.shares()).into(),
-                        pa.into(),
-                        Cell::Verdict(held, if held { "held" } else { "NOT HELD" }.to_owned()),
-                    ]);
-                }
-                Err(why) => row.extend([Cell::Empty, Cell::Empty, Cell::Verdict(false, why.words())]),
-            }
-            table.row(row);
-        }
-        table
-    }
-
-    /// Growth and harmonics of both tracks.
-    fn out_of_round(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::text("harmonic", "Harmonic"),
-            Column::number("inner_um", "Inner race", Unit::Micrometre, 3),
-            Column::number("outer_um", "Outer race", Unit::Micrometre, 3),
-        ]);
-        let [inner, outer] = &self.out_of_round_m;
-        let count = self.design.clutch.sprags.count;
-        for k in (0..inner.len().min(HARMONICS)).chain((count > HARMONICS).then_some(count - 1)) {
-            let (Some(a), Some(b)) = (inner.get(k), outer.get(k)) else { continue };
-            let name = match k {
-                0 => "mean, gap opens".to_owned(),
-                1 => "2, a quarter of the ovality".to_owned(),
-                _ if k + 1 == count => format!("{count}, the sprags"),
-                _ => (k + 1).to_string(),
-            };
-            table.row(vec![name.into(), (*a).into(), (*b).into()]);
-        }
-        table
-    }
-
-    fn remarks(&self) -> Vec<String> {
-        let Some(sharing) = &self.design.sharing else { return Vec::new() };
-        let mut all = drawn_words(sharing);
-        let idle: Vec<String> = self
-            .sprags
-            .iter()
-            .enumerate()
-            .filter_map(|(i, r)| r.idle.map(|why| format!("{} {why}", i + 1)))
-            .collect();
-        if !idle.is_empty() {
-            all.push(format!("Sprags that never carry: {}", idle.join(", ")));
-        }
-        if self.allowed.is_none() {
-            all.push("No Hertz pressure is limited: hertz_nominal_mpa or hertz_peak_mpa in [limits] would say how many sprags may fail".to_owned());
-        }
-        all
-    }
-
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        let sprags = self.by_sprag();
-        let more = sprags.rows.len().saturating_sub(MOST_ROWS);
-        let shown = Table { rows: sprags.rows.iter().take(MOST_ROWS).cloned().collect(), ..sprags };
-        let more =
-            if more > 0 { format!("{more} more sprags: --csv, --json or --report\n") } else { String::new() };
-        let mut text =
-            format!("{}  {}\n\n{}{more}", self.design.name, self.design.short_hash(), shown.to_text(screen));
-        let mut part = |title: &str, table: Table| {
-            if !table.rows.is_empty() {
-                text += &format!("\n{title}\n{}", table.to_text(screen));
-            }
-        };
-        part(
-            "Over a turn of the races",
-            if self.gaps_rad.len() > 1 { self.places() } else { Table::default() },
-        );
-        part("Through an engagement", self.course());
-        part("One lost after another, the most pressed first", self.lost());
-        part("Tracks out of round: amplitude of the radius", self.out_of_round());
-        format!("{text}\n{}\n{}\n", self.remarks().join("\n"), self.verdict())
-    }
-
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = opened("Sharing", self.design, &provenance.command, |page| {
-            page.verdict(self.held(), &self.verdict());
-        });
-        page.list(self.remarks());
+    fn draw(&self, page: &mut Page) {
         page.figures(&[
             (
                 half(self.round()),
@@ -509,57 +509,20 @@ impl<'a> SharingAnswer<'a> {
             (half(self.rising()), "The largest and the smallest share as the torque rises."),
         ]);
         page.heading("Sprags")
-            .table("At the place of the turn where the most pressed one is pressed most.", &self.by_sprag());
+            .table("At the place of the turn where the most pressed one is pressed most.", &self.table());
         if self.gaps_rad.len() > 1 {
-            page.heading("Over a turn of the races").table("Azimuths from sprag 1.", &self.places());
+            page.heading("Over a turn of the races").table("Azimuths from sprag 1.", &self.places().table());
         }
-        page.heading("Through an engagement").table("", &self.course());
+        page.heading("Through an engagement").table("", &self.course().table());
         if !self.losses.is_empty() {
             page.heading("One lost after another")
-                .table("The most pressed sprag fails, the others take its share.", &self.lost());
+                .table("The most pressed sprag fails, the others take its share.", &self.lost().table());
         }
         page.heading("Tracks out of round").table(
             "Amplitude of the radius in each harmonic; the mean opens the gap. The ovality, largest less smallest diameter, is four times \
              the second.",
             &self.out_of_round(),
         );
-        self.envelope(provenance.run_time_s).close(&mut page);
-        page
-    }
-
-    /// Shares round the clutch.
-    fn round(&self) -> Plot {
-        let mut plot = Plot::new("Azimuth, °", "Share of the mean");
-        let found: Vec<(f64, &Shared)> =
-            self.engagement.iter().filter_map(|(t, s)| Some((*t, s.as_ref().ok()?))).collect();
-        for part in [0.1, 0.3, 1.0] {
-            let Some((torque, shared)) =
-                found.iter().find(|(t, _)| *t >= part * self.torque_nm * (1.0 - 1e-9))
-            else {
-                continue;
-            };
-            let points = self
-                .sprags
-                .iter()
-                .zip(shared.shares())
-                .map(|(r, share)| [Unit::Degree.from_si(r.sprag.azimuth_rad), share]);
-            plot.curves.push(Curve {
-                dots: true,
-                ..Curve::new(&Unit::NewtonMetre.show_plain(*torque, 4), points.collect())
-            });
-        }
-        plot
-    }
-
-    /// Largest and smallest share over torque.
-    fn rising(&self) -> Plot {
-        let found = self.engagement.iter().filter_map(|(t, s)| Some((*t, s.as_ref().ok()?.shares())));
-        let (mut most, mut least) = (Vec::new(), Vec::new());
-        for (torque, shares) in found {
-            most.push([torque, largest(&shares)]);
-            least.push([torque, shares.iter().copied().fold(f64::INFINITY, f64::min)]);
-        }
-        Plot::new("Torque, Nm", "Share of the mean").curve("largest", most).curve("smallest", least)
     }
 }
 

@@ -5,8 +5,9 @@ use super::left_out::{LeftOut, left_out_of, one_by_one};
 use super::page::{half, opened};
 use super::sharing::NoSharing;
 use super::{Envelope, Provenance};
+use crate::clutch::Carrier;
 use crate::design::Design;
-use crate::dynamics::{ManySample, SpragCourse, Stop};
+use crate::dynamics::{Axes, ManySample, SpragCourse, StaysWith, Stop};
 use crate::report::{Page, Plot, Rows, Screen, Table, Unit, significant};
 use crate::scenario::Settings;
 use crate::sprags::{EachSprag, NoEachSprag, each_sprag};
@@ -183,6 +184,13 @@ impl<'a> SharingSceneAnswer<'a> {
             [one] => said += &format!("; sprag {one} never catches"),
             several => said += &format!("; sprags {} never catch", several.join(", ")),
         }
+        if self.found.axes.is_some() {
+            said += &format!(
+                "; the bearings hold at most {}, at {}",
+                Unit::Newton.show(run.bearing_max_n, 4),
+                Unit::Millisecond.show(run.bearing_max_s, 4)
+            );
+        }
         said += &match self.first_slip() {
             Some((i, t_s)) => format!(
                 "; once caught, {} slip{}, sprag {} first, at {}",
@@ -239,7 +247,7 @@ impl<'a> SharingSceneAnswer<'a> {
 
     fn left_out(&self) -> Vec<LeftOut> {
         let cost = match self.found.shares_at_rest {
-            [Some(bent), Some(round)] => format!(
+            [Some(bent), Some(round), _] => format!(
                 "at rest under {} the largest share is {} with it, {} without",
                 Unit::NewtonMetre.show(self.found.largest_nm, 4),
                 significant(bent, 4),
@@ -247,10 +255,10 @@ impl<'a> SharingSceneAnswer<'a> {
             ),
             _ => "not estimated: statics does not carry the largest torque".to_owned(),
         };
-        let instead = [
+        let mut instead = vec![
             LeftOut::new(
-                "races that bend and give way",
-                "in a scene the races stay round and turn about one axis: uneven bending, run-out and the shift on bearings are those of statics alone",
+                "races that bend",
+                "in a scene the races stay round, each sprag yields as one of sprags alike: uneven bending is that of statics alone",
                 &cost,
             ),
             LeftOut::new(
@@ -259,6 +267,18 @@ impl<'a> SharingSceneAnswer<'a> {
                 "its inertia, below 1e-4 of a race's",
             ),
         ];
+        if self.found.axes.is_some() {
+            let [windup_rad, reach_m] = self.found.off_centre;
+            instead.push(LeftOut::new(
+                "a contact that run-out brings over a junction",
+                "a sprag in its own gap rolls by a polynomial of the place of the axis, on the arc that its load stands for",
+                &format!(
+                    "up to {} of windup with the axes {} apart",
+                    Unit::Degree.show(windup_rad, 2),
+                    Unit::Micrometre.show(reach_m, 3)
+                ),
+            ));
+        }
         one_by_one(left_out_of(self.design), &instead)
     }
 
@@ -266,6 +286,8 @@ impl<'a> SharingSceneAnswer<'a> {
     pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
         let run = &self.found.run;
         let um = |m: f64| Unit::Micrometre.from_si(m);
+        let axes = self.found.axes.as_ref();
+        let bearing = axes.and_then(|axes| axes.bearing);
         let sprags = self.found.sprags.iter().enumerate().map(|(i, s)| {
             let c = self.course(i);
             json!({
@@ -283,7 +305,7 @@ impl<'a> SharingSceneAnswer<'a> {
         });
         let history = run.samples.iter().map(|s| {
             json!({
-                "t_s": s.t_s, "theta_inner_rad": s.races[0], "theta_outer_rad": s.races[1], "shares": self.shares(s),
+                "t_s": s.t_s, "bearing_n": axes.map(|_| s.bearing_n), "axis_um": axes.map(|_| s.axis_m.map(um)), "theta_inner_rad": s.races[0], "theta_outer_rad": s.races[1], "shares": self.shares(s),
                 "normal_inner_n": self.found.group.iter().map(|g| g.map_or(0.0, |g| s.normal_n[g])).collect::<Vec<_>>(),
             })
         });
@@ -293,6 +315,9 @@ impl<'a> SharingSceneAnswer<'a> {
             "held": self.held(), "verdict": self.verdict(), "scenario": self.scene, "stop": run.stop.name(), "end_s": run.t_s,
             "largest_share": most.map(|m| m.1), "largest_share_sprag": most.map(|m| m.0 + 1), "largest_share_at_s": most.map(|m| m.2),
             "seed": self.design.sharing.as_ref().map(|sharing| sharing.seed), "given_up": self.given_up(),
+            "bearing_max_n": axes.map(|_| run.bearing_max_n), "bearing_max_at_s": axes.map(|_| run.bearing_max_s),
+            "axes_apart_max_um": axes.map(|_| um(run.axis_max_m)), "bearing_mass_kg": bearing.map(|b| b.mass_kg),
+            "bearing_frequency_hz": bearing.map(|b| b.frequency_hz()),
             "catching": order, "slipping": self.slipping(), "first_slip_sprag": self.first_slip().map(|(i, _)| i + 1), "first_slip_at_s": self.first_slip().map(|(_, t)| t),
             "theta_inner_rad": run.races[0], "theta_outer_rad": run.races[1],
             "theta_inner_error_rad": self.found.error.map(|e| e[0]), "normal_max_error": self.found.error.map(|e| e[1]),
@@ -325,10 +350,48 @@ impl<'a> SharingSceneAnswer<'a> {
             run.counters.steps,
             significant(left, 2)
         ));
+        all.extend(self.found.axes.as_ref().map(|axes| self.axes_words(axes)));
         let terms = self.left_out();
         let bent = terms.iter().find(|t| t.term.starts_with("races that bend"));
         all.extend(bent.map(|t| format!("Left out: {}; {}", t.term, t.cost)));
         all
+    }
+
+    /// What the axes of the races do.
+    fn axes_words(&self, axes: &Axes) -> String {
+        let run = &self.found.run;
+        let um = |m: f64| Unit::Micrometre.show(m, 3);
+        let kg = |mass: f64| format!("{} kg", significant(mass, 3));
+        let stays = match axes.stays_with {
+            _ if axes.offset_m == 0.0 => String::new(),
+            StaysWith::Space => {
+                format!(", {} of it in space, past which the clutch turns", um(axes.offset_m))
+            }
+            StaysWith::Race(Carrier::InnerRace) => {
+                format!(", {} of it with the inner race", um(axes.offset_m))
+            }
+            StaysWith::Race(Carrier::OuterRace) => {
+                format!(", {} of it with the outer race", um(axes.offset_m))
+            }
+        };
+        let held = match axes.bearing {
+            None => "they are held".to_owned(),
+            Some(b) if b.stiffness_n_per_m == 0.0 => {
+                format!("nothing but the sprags holds {}", kg(b.mass_kg))
+            }
+            Some(b) => format!(
+                "{} swing on the bearings at {}; without inertia they would be off by (f/f₀)² of what moves at f",
+                kg(b.mass_kg),
+                Unit::Hertz.show(b.frequency_hz(), 3)
+            ),
+        };
+        let beyond = match self.found.off_centre[1] {
+            reach_m if run.axis_max_m > reach_m * (1.0 + 1e-9) => {
+                format!("; beyond {} the gaps are extrapolated", um(reach_m))
+            }
+            _ => String::new(),
+        };
+        format!("The axes lie up to {} apart{stays}; {held}{beyond}", um(run.axis_max_m))
     }
 
     /// The answer on a terminal.
@@ -354,10 +417,20 @@ impl<'a> SharingSceneAnswer<'a> {
             (half(self.over_time(true)), "Normal force of each kind of sprag over the mean of all places."),
             (half(self.over_time(false)), "Normal force of each kind of sprag at the inner race."),
         ]);
+        if self.found.axes.is_some() {
+            page.figures(&[(half(self.bearings()), "What the bearings of the axes hold.")]);
+        }
         page.heading("Sprags")
             .table("Forces and friction at their largest over the scene.", &self.by_sprag());
         self.envelope(provenance.run_time_s).close(&mut page);
         page
+    }
+
+    /// What the bearings hold over time.
+    fn bearings(&self) -> Plot {
+        let point = |s: &ManySample| [Unit::Millisecond.from_si(s.t_s), s.bearing_n];
+        let points = self.found.run.samples.iter().map(point).collect();
+        Plot::new("Time, ms", "Bearings hold, N").curve("bearings", points)
     }
 
     /// Shares, or forces, over time; one curve for sprags alike.

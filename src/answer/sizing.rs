@@ -1,12 +1,10 @@
 //! What a first design answers: the design, its figures, and the alternatives.
 
-use super::check::{REACHED_AT, ends_first, far_more_than_asked, margin_words, people_table, size_line};
-use super::left_out::left_out_of;
-use super::page::opened;
-use super::{Envelope, Provenance};
-use crate::design::shown;
+use super::check::{CheckRow, REACHED_AT, far_more_than_asked, margin_words, people_table, size_line};
+use super::{Finding, Said};
+use crate::design::{Design, shown};
 use crate::follow::Follow;
-use crate::margin::{Margin, load_state, lowest_capacity};
+use crate::margin::{load_state, lowest_capacity};
 use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit};
 use crate::size::{Made, Sized, Tried};
 use serde_json::{Value, json};
@@ -15,6 +13,10 @@ use serde_json::{Value, json};
 #[derive(Debug, Clone)]
 pub struct Sizing<'a> {
     sized: &'a Sized,
+    /// Title of its page.
+    title: &'a str,
+    /// Where the design was written, if it was.
+    written: Option<&'a str>,
     /// End of the curve, N m.
     end_nm: f64,
     /// What one should not overlook.
@@ -22,8 +24,8 @@ pub struct Sizing<'a> {
 }
 
 impl<'a> Sizing<'a> {
-    /// Of what was found.
-    pub fn of(sized: &'a Sized) -> Self {
+    /// Of what was found; `title`: that of the page, `written`: where the design is.
+    pub fn of(sized: &'a Sized, title: &'a str, written: Option<&'a str>) -> Self {
         // Of a design whose margins are known there is a curve.
         let (design, made) = (&sized.made.design, &sized.made);
         let state = load_state(design);
@@ -35,6 +37,8 @@ impl<'a> Sizing<'a> {
         let far = far_more_than_asked(asked_nm, carries_nm);
         Self {
             sized,
+            title,
+            written,
             end_nm,
             warnings: overruns
                 .and_then(|(section, _)| section.warning)
@@ -44,53 +48,81 @@ impl<'a> Sizing<'a> {
                 .collect(),
         }
     }
+}
 
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s; `written`: where the design is.
-    pub fn envelope(&self, run_time_s: f64, written: Option<&str>) -> Envelope<'a, Value> {
+impl Said for Sizing<'_> {
+    fn title(&self) -> &str {
+        self.title
+    }
+
+    fn design(&self) -> &Design {
+        &self.sized.made.design
+    }
+
+    fn outcome(&self) -> Finding {
+        Finding::Held
+    }
+
+    fn verdict(&self) -> String {
+        let s = &self.design().clutch.sprags;
+        format!(
+            "{} sprags of {} in a race space of {}; {}",
+            s.count,
+            Unit::Millimetre.show_plain(s.length_m, 4),
+            Unit::Millimetre.show_plain(self.sized.tried[self.sized.taken].space_m, 4),
+            self.sized.made.least().map_or(String::new(), |r| format!(
+                "{} decides, {}",
+                r.code(),
+                margin_words(r)
+            ))
+        )
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let written =
+            self.written.map_or("no design written".to_owned(), |path| format!("written to {}", shown(path)));
+        figures(&self.sized.made).into_iter().chain(self.warnings.clone()).chain([written]).collect()
+    }
+
+    fn table(&self) -> Table {
+        tried(&self.sized.tried, Some(self.sized.taken)).table()
+    }
+
+    fn tables(&self, screen: Screen) -> String {
+        format!(
+            "{}{}\n{}{REACHED_AT}\n",
+            self.table().to_text(screen),
+            no_flanks(&self.sized.tried).map_or(String::new(), |line| line + "\n"),
+            people_table(&self.sized.made.margins, self.end_nm).to_text(screen)
+        )
+    }
+
+    fn body(&self) -> Value {
         let (sized, made) = (self.sized, &self.sized.made);
-        let design = &made.design;
-        let body = json!({
+        let races = &made.design.clutch.races;
+        json!({
             "sized": true,
-            "written": written,
-            "outside_mm": Unit::Millimetre.from_si(2.0 * design.clutch.races.outer_outside_radius_m),
-            "width_mm": Unit::Millimetre.from_si(design.clutch.races.width_m),
+            "written": self.written,
+            "outside_mm": Unit::Millimetre.from_si(2.0 * races.outer_outside_radius_m),
+            "width_mm": Unit::Millimetre.from_si(races.width_m),
             "mass_g": Unit::Gram.from_si(made.mass_kg),
             "drag_torque_nm": made.drag.map(|d| d.torque_nm),
             "heat_w": made.drag.map(|d| d.heat_w()),
             "sliding_rpm": made.drag.map(|d| Unit::Rpm.from_si(d.sliding_rad_s)),
-            "tried": tried_json(&sized.tried, Some(sized.taken)),
+            "tried": tried(&sized.tried, Some(sized.taken)).objects(),
             "warnings": self.warnings,
-            "margins": made.margins.iter().map(|r| margin_json(r, self.end_nm)).collect::<Vec<_>>(),
-        });
-        Envelope { design, run_time_s, left_out: left_out_of(design), error_estimate: None, body }
+            "margins": made.margins.iter().map(|r| CheckRow::of(r, self.end_nm)).collect::<Vec<_>>(),
+        })
     }
 
-    /// Every race space tried.
-    pub fn csv_table(&self) -> Table {
-        tried_table(&self.sized.tried, Some(self.sized.taken))
-    }
-
-    /// The answer on a terminal; `written`: where the design is.
-    pub fn text(&self, written: Option<&str>, screen: Screen) -> String {
-        text(self, written, screen)
-    }
-
-    /// The answer as a page under `title`.
-    pub fn page(&self, title: &str, provenance: &Provenance, written: Option<&str>) -> Page {
-        let (sized, made) = (self.sized, &self.sized.made);
-        let design = &made.design;
-        let mut page = opened(title, design, &provenance.command, |page| {
-            page.verdict(true, &verdict(sized)).list(figures(made).into_iter().chain(self.warnings.clone()));
-        });
+    fn draw(&self, page: &mut Page) {
         page.heading("Alternatives").paragraph(
             "Every race space (gap between the tracks) tried, each as narrow as its limits allow; of those that do it the one of the least \
              volume, from bore to outside, is taken. All at one scale.",
         );
-        alternatives(&mut page, sized);
-        page.table(&no_flanks(&sized.tried).unwrap_or_default(), &self.csv_table());
-        page.heading("Margins").table(REACHED_AT, &people_table(&made.margins, self.end_nm));
-        self.envelope(provenance.run_time_s, written).close(&mut page);
-        page
+        alternatives(page, self.sized);
+        page.table(&no_flanks(&self.sized.tried).unwrap_or_default(), &self.table());
+        page.heading("Margins").table(REACHED_AT, &people_table(&self.sized.made.margins, self.end_nm));
     }
 }
 
@@ -131,18 +163,6 @@ fn figures(made: &Made) -> Vec<String> {
     std::iter::once(size).chain(drag).collect()
 }
 
-fn verdict(sized: &Sized) -> String {
-    let s = &sized.made.design.clutch.sprags;
-    let decides = sized.made.least();
-    format!(
-        "{} sprags of {} in a race space of {}; {}",
-        s.count,
-        Unit::Millimetre.show_plain(s.length_m, 4),
-        Unit::Millimetre.show_plain(sized.tried[sized.taken].space_m, 4),
-        decides.map_or(String::new(), |r| format!("{} decides, {}", r.code(), margin_words(r)))
-    )
-}
-
 /// A small drawing of each that does it.
 fn alternatives(page: &mut Page, sized: &Sized) {
     let made: Vec<(usize, &Tried, &Made)> =
@@ -167,21 +187,6 @@ fn alternatives(page: &mut Page, sized: &Sized) {
     page.figures(&figures);
 }
 
-fn text(sizing: &Sizing<'_>, written: Option<&str>, screen: Screen) -> String {
-    let (sized, design) = (sizing.sized, &sizing.sized.made.design);
-    let tried = tried_table(&sized.tried, Some(sized.taken)).to_text(screen);
-    format!(
-        "{}  {}\n\n{tried}{}\n{}\n{}\n{}\n{REACHED_AT}\n{}\n",
-        design.name,
-        design.short_hash(),
-        no_flanks(&sized.tried).map_or(String::new(), |line| line + "\n"),
-        people_table(&sized.made.margins, sizing.end_nm).to_text(screen),
-        verdict(sized),
-        figures(&sized.made).into_iter().chain(sizing.warnings.clone()).collect::<Vec<_>>().join("\n"),
-        written.map_or("no design written".to_owned(), |path| format!("written to {}", shown(path)))
-    )
-}
-
 /// What flanks are, where they decided a race space.
 fn no_flanks(tried: &[Tried]) -> Option<String> {
     let any = tried.iter().any(|t| t.decided_by == "flanks");
@@ -189,51 +194,29 @@ fn no_flanks(tried: &[Tried]) -> Option<String> {
 }
 
 /// Every race space tried; `taken`: the one of the answer.
-pub fn tried_table(tried: &[Tried], taken: Option<usize>) -> Table {
+pub fn tried(tried: &[Tried], taken: Option<usize>) -> Rows<(usize, &Tried)> {
     let word = |i: usize, t: &Tried| match (taken == Some(i), t.held) {
         (true, _) => "taken",
         (false, true) => "possible",
         (false, false) => "NOT POSSIBLE",
     };
     let of = |t: &Tried, value: fn(&Made) -> f64| t.made.as_ref().map(value);
-    // Of what finds no room there is no length.
-    let carries = |t: &Tried, value: f64| (t.carries_nm > 0.0).then_some(value);
     Rows::of(tried.iter().enumerate())
         .number("race_space_mm", "Race space", Unit::Millimetre, 4, |(_, t)| t.space_m)
         .number("count", "Sprags", Unit::One, 3, |(_, t)| t.count)
-        .number("length_mm", "Length", Unit::Millimetre, 4, |(_, t)| carries(t, t.length_m))
+        .number("length_mm", "Length", Unit::Millimetre, 4, |(_, t)| {
+            Cell::only_if(t.carries_nm > 0.0, t.length_m)
+        })
         .number("outside_mm", "⌀", Unit::Millimetre, 4, |(_, t)| {
             of(t, |made| 2.0 * made.design.clutch.races.outer_outside_radius_m)
         })
         .number("mass_g", "Mass", Unit::Gram, 4, |(_, t)| of(t, |made| made.mass_kg))
-        .number("carries_nm", "Carries", Unit::NewtonMetre, 4, |(_, t)| carries(t, t.carries_nm))
+        .number("carries_nm", "Carries", Unit::NewtonMetre, 4, |(_, t)| {
+            Cell::only_if(t.carries_nm > 0.0, t.carries_nm)
+        })
         .text("decided_by", "Decided by", |(_, t)| t.decided_by.as_str())
         .text("verdict", "", |(i, t)| Cell::Verdict(t.held, word(*i, t).to_owned()))
-        .table()
-}
-
-/// The same as JSON.
-pub fn tried_json(tried: &[Tried], taken: Option<usize>) -> Vec<Value> {
-    tried
-        .iter()
-        .enumerate()
-        .map(|(i, t)| {
-            let of = |value: fn(&Made) -> f64| t.made.as_ref().map(value);
-            json!({
-                "race_space_mm": Unit::Millimetre.from_si(t.space_m), "count": t.count,
-                "length_mm": Unit::Millimetre.from_si(t.length_m), "carries_nm": t.carries_nm,
-                "outside_mm": of(|m| 2e3 * m.design.clutch.races.outer_outside_radius_m),
-                "width_mm": of(|m| 1e3 * m.design.clutch.races.width_m), "mass_g": of(|m| 1e3 * m.mass_kg),
-                "decided_by": t.decided_by, "possible": t.held, "taken": taken == Some(i),
-            })
-        })
-        .collect()
-}
-
-fn margin_json(r: &Margin, end_nm: f64) -> Value {
-    json!({
-        "code": r.code(), "demand": r.demand_in_unit(), "allowable": r.shown_allowable(), "unit": r.limit.unit,
-        "margin": r.margin(), "slip_margin": r.slip_margin(),
-        "torque_capacity_nm": r.torque_capacity_nm, "capacity_beyond_end": ends_first(r, end_nm), "held": r.held(),
-    })
+        .json_in("width_mm", Unit::Millimetre, |(_, t)| of(t, |made| made.design.clutch.races.width_m))
+        .json("possible", |(_, t)| t.held)
+        .json("taken", |(i, _)| taken == Some(*i))
 }

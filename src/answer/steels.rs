@@ -1,16 +1,15 @@
 //! The steels that a design may name, as a table, as JSON and in words.
 
 use crate::material::{STEELS, Steel};
-use crate::report::{Rows, Screen, Table, Unit};
-use serde_json::{Value, json};
+use crate::report::{Rows, Screen, Unit};
 
 /// Thermal expansion, um/(m K). Divided, since 1e6 times 11.4e-6 is 11.399999999999999.
 fn expansion_um_per_m_k(steel: &Steel) -> f64 {
     steel.expansion_per_k / 1e-6
 }
 
-/// The steels with their constants and allowed stresses.
-pub fn table() -> Table {
+/// The steels with their constants and allowed stresses, in JSON with the source of each.
+pub fn list() -> Rows<&'static Steel> {
     Rows::of(&STEELS)
         .text("name", "Name", |s| s.name)
         .text("also", "Also", |s| s.also.join(", "))
@@ -21,33 +20,13 @@ pub fn table() -> Table {
         .number("race_stress_mpa", "Race stress", Unit::Megapascal, 4, |s| s.race_stress_pa)
         .number("hertz_nominal_mpa", "Hertz, nominal", Unit::Megapascal, 4, |s| s.hertz_nominal_pa)
         .number("hertz_peak_mpa", "Hertz, peak", Unit::Megapascal, 4, |s| s.hertz_peak_pa)
-        .table()
-}
-
-/// The same as JSON, with the source of each.
-pub fn list() -> Vec<Value> {
-    STEELS
-        .iter()
-        .map(|s| {
-            json!({
-                "name": s.name,
-                "also": s.also,
-                "youngs_modulus_gpa": s.material.youngs_modulus_pa / 1e9,
-                "poisson_ratio": s.material.poisson_ratio,
-                "density_kg_m3": s.material.density_kg_m3,
-                "expansion_um_per_m_k": expansion_um_per_m_k(s),
-                "race_stress_mpa": s.race_stress_pa / 1e6,
-                "hertz_nominal_mpa": s.hertz_nominal_pa / 1e6,
-                "hertz_peak_mpa": s.hertz_peak_pa / 1e6,
-                "source": s.source,
-            })
-        })
-        .collect()
+        .json("also", |s| s.also)
+        .json("source", |s| s.source)
 }
 
 /// The same on a terminal.
 pub fn text(screen: Screen) -> String {
-    let mut text = table().to_text(screen);
+    let mut text = list().table().to_text(screen);
     text.push_str("\nNamed in a design as material = { name = \"100Cr6\" } or [material.sprag] name = \"100Cr6\"; keys\n");
     text.push_str(
         "beside the name win over it. [limits] from_material = true takes the stresses as limits.\n\n",

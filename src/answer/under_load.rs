@@ -18,20 +18,23 @@ const ROLLER_STEEL: Material =
 /// Difference of E* from which it is named; a choice, the scatter of E among steels.
 const SAME_STEEL: f64 = 0.02;
 
-/// What every answer about `clutch` leaves out of a loaded clutch, at `asked_nm`, N m; fewer terms where it has no curve.
-pub(super) fn left_out_under_load(clutch: &Clutch, asked_nm: Option<f64>) -> Vec<LeftOut> {
+/// What every answer about `clutch` leaves out of a loaded clutch; fewer terms where it has no curve. `at_load`: its curve and
+/// the state at which the costs are named, [`loaded`].
+pub(super) fn left_out_under_load(
+    clutch: &Clutch,
+    at_load: Option<(&WedgeCurve, &StaticPoint)>,
+) -> Vec<LeftOut> {
     let mut list: Vec<LeftOut> = other_bodies(clutch).into_iter().collect();
-    let curve = clutch.profile().ok().and_then(|p| WedgeCurve::build(clutch, &p, 0.0).ok());
-    if let Some((curve, point)) = curve.as_ref().and_then(|c| Some((c, loaded(c, asked_nm)?))) {
+    if let Some((curve, point)) = at_load {
         list.extend(shift(clutch, curve));
-        list.extend([torsion(curve, &point), tension(clutch, curve, &point)]);
-        list.extend(creep(clutch, curve, &point));
+        list.extend([torsion(curve, point), tension(clutch, curve, point)]);
+        list.extend(creep(clutch, curve, point));
     }
     list
 }
 
 /// The static state at `asked_nm`, else at [`PRESSURE_PA`]; at the end of a curve that ends below it.
-fn loaded(curve: &WedgeCurve, asked_nm: Option<f64>) -> Option<StaticPoint> {
+pub(super) fn loaded(curve: &WedgeCurve, asked_nm: Option<f64>) -> Option<StaticPoint> {
     let contact = &curve.statics().elastic.inner_contact[curve.first_arc()];
     // p_0 goes with the root of N.
     let normal_n = (PRESSURE_PA / contact.peak_pressure_pa(1.0)).powi(2);
@@ -39,7 +42,7 @@ fn loaded(curve: &WedgeCurve, asked_nm: Option<f64>) -> Option<StaticPoint> {
     found.or_else(|| curve.at_torque(curve.end_torque_nm()))
 }
 
-fn at(point: &StaticPoint) -> String {
+pub(super) fn at(point: &StaticPoint) -> String {
     format!(
         "at {} ({} at the inner contact)",
         Unit::NewtonMetre.show(point.torque_nm, 3),
@@ -165,6 +168,7 @@ fn other_bodies(clutch: &Clutch) -> Option<LeftOut> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::answer::left_out::left_out;
     use crate::clutch::ContactLaw;
     use crate::design::Design;
 
@@ -172,7 +176,7 @@ mod tests {
     fn a_solid_shaft_of_another_steel_is_named_with_its_figures() {
         let text = include_str!("../../tests/reference/soft_shaft.toml");
         let mut clutch = Design::parse(text, "soft").unwrap().clutch;
-        let list = left_out_under_load(&clutch, None);
+        let list = left_out(&clutch, None);
         let cost = |word: &str, list: &[LeftOut]| {
             list.iter().find(|t| t.term.contains(word)).map(|t| t.cost.clone())
         };
@@ -182,7 +186,7 @@ mod tests {
         // The law elastic has no coefficient.
         assert_eq!(cost("elastic constants", &list), None);
         clutch.contact = ContactLaw::Roller { coefficient: 3.84e-5 };
-        let list = left_out_under_load(&clutch, None);
+        let list = left_out(&clutch, None);
         assert!(cost("elastic constants", &list).is_some() && cost("creep", &list).is_none());
     }
 

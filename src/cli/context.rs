@@ -208,15 +208,17 @@ impl Context {
         failed.map_or(Ok(worst), Err)
     }
 
-    /// Hand out an answer that took `run_time_s`: table to `--csv`, page to `--report`, and the object of `--json` or the text.
+    /// Hand out an answer that took `run_time_s`: table to `--csv`, page to `--report`, and the object of `--json` or the text. The
+    /// exit code is that of what it comes to.
     ///
     /// # Errors
     /// [`Failure::Failed`] where standard output cannot be written.
-    pub fn deliver(&self, found: &impl Answer, run_time_s: f64) -> Result<(), Failure> {
+    pub fn deliver(&self, found: &impl Answer, run_time_s: f64) -> Result<Exit, Failure> {
         self.outputs.write_csv(&found.table());
         self.outputs.write_report(|| found.page(&self.provenance(run_time_s)));
         self.answer(&found.text(self.screen))?;
-        self.print(&found.envelope(run_time_s))
+        self.print(&found.envelope(run_time_s))?;
+        Ok(found.outcome().into())
     }
 }
 

@@ -1,6 +1,7 @@
 //! `evaluate`: the optimiser's evaluator for other programs, a vector per line in, margins per line out.
 
 use super::exit::{Exit, Failure};
+use super::interrupt::next;
 use super::sweep::PointArgs;
 use super::{Context, Run, Without, evaluate_points, output};
 use crate::answer::search::{describe_problem, evaluate_line};
@@ -12,8 +13,7 @@ use serde_json::Value;
 use std::io::BufRead;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, channel, sync_channel};
-use std::time::Duration;
+use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -104,8 +104,8 @@ impl Run for EvaluateArgs {
         let asked = Arc::new((problem, task.clone()));
         std::thread::spawn(move || read_lines(&asked, &queue));
         let mut malformed = false;
-        while let Some(place) = next(&places, context)? {
-            let Some(reply) = next(&place, context)? else { break };
+        while let Some(place) = next(&places, &context.follow)? {
+            let Some(reply) = next(&place, &context.follow)? else { break };
             let (value, is_malformed) = reply?;
             malformed |= is_malformed;
             if !output::heard(&format!("{value}\n"))? {
@@ -159,19 +159,5 @@ fn read_lines(asked: &Arc<(ClutchProblem, Optimize)>, queue: &SyncSender<Receive
             let text = text.map_err(|e| Failure::Failed(format!("standard input: {e}")));
             let _ = answer.send(text.map(|text| evaluate_line(&asked.0, &asked.1, at + 1, &text)));
         });
-    }
-}
-
-/// What comes next, looked for often enough that Ctrl-C is heard; `None` where nothing more comes.
-fn next<T>(from: &Receiver<T>, context: &Context) -> Result<Option<T>, Failure> {
-    loop {
-        if context.follow.stopped() {
-            return Err(Failure::Interrupted);
-        }
-        match from.recv_timeout(Duration::from_millis(20)) {
-            Ok(it) => return Ok(Some(it)),
-            Err(RecvTimeoutError::Disconnected) => return Ok(None),
-            Err(RecvTimeoutError::Timeout) => {}
-        }
     }
 }

@@ -3,22 +3,16 @@
 use super::Context;
 use super::evaluate::EvaluateArgs;
 use super::exit::{Exit, Failure};
-use super::sweep::{Emit, Sink, Sunk, opened_again};
+use super::sweep::{Sink, Sunk, opened_again};
 use crate::answer::sweep::{SweepHead, SweepLines, Vectors};
 use crate::design::Design;
-use crate::sweep::SweepSettings;
-use crate::sweep::{BoxSample, Sweep};
-use rayon::prelude::*;
+use crate::sweep::{BoxSample, NextPoint, SweepEnd, SweepRow, SweepSettings};
 use std::fs::File;
 use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
 
-/// Points that a thread is given at once: what is in memory does not grow with the table.
-const CHUNK: usize = 64;
-
-/// Points and their numbers, in order; `None` behind the last.
-type Next<'n> = dyn FnMut() -> Result<Option<(u64, Vec<f64>)>, Failure> + 'n;
+type Next<'n> = NextPoint<'n, Failure>;
 
 /// Where points come from.
 enum Source<'s> {
@@ -67,9 +61,22 @@ pub fn run(args: &EvaluateArgs, design: &Design, context: &Context) -> Result<Ex
         &lines.begin(),
         || last_of(&source, &range, design),
         |emit| {
-            let done = |n: u64| progress.advance(n);
+            if !emit(&lines.begin())? {
+                return Ok(false);
+            }
             over(&source, range.clone(), design, &mut |next| {
-                evaluated(&sweep, &lines, next, emit, context, &mut tally, &done)
+                let made =
+                    |index, row: &SweepRow| (lines.line(index, row), row.feasible(), row.found.is_err());
+                let end = sweep.rows(&context.follow, next, made, |rows| {
+                    for (_, held, void) in &rows {
+                        tally.points += 1;
+                        tally.held += u64::from(*held);
+                        tally.void += u64::from(*void);
+                    }
+                    progress.advance(rows.len() as u64);
+                    emit(&rows.into_iter().flat_map(|(line, ..)| line).collect::<Vec<u8>>())
+                })?;
+                if end == SweepEnd::Stopped { Err(Failure::Interrupted) } else { Ok(end == SweepEnd::Whole) }
             })
         },
     )?;
@@ -89,53 +96,6 @@ pub fn run(args: &EvaluateArgs, design: &Design, context: &Context) -> Result<Ex
         }
     }
     Ok(Exit::Held)
-}
-
-/// Evaluate what `next` gives, in order.
-fn evaluated(
-    sweep: &Sweep,
-    lines: &SweepLines,
-    next: &mut Next,
-    emit: &mut Emit,
-    context: &Context,
-    tally: &mut Tally,
-    done: &dyn Fn(u64),
-) -> Result<bool, Failure> {
-    if !emit(&lines.begin())? {
-        return Ok(false);
-    }
-    let most = CHUNK * rayon::current_num_threads();
-    loop {
-        let mut chunk = Vec::with_capacity(most);
-        while chunk.len() < most
-            && let Some(point) = next()?
-        {
-            chunk.push(point);
-        }
-        if chunk.is_empty() {
-            return Ok(true);
-        }
-        let count = chunk.len() as u64;
-        let of = |(index, x): (u64, Vec<f64>)| {
-            (!context.follow.stopped()).then(|| {
-                let row = sweep.row(x);
-                (lines.line(index, &row), row.feasible(), row.found.is_err())
-            })
-        };
-        let rows: Vec<Option<(Vec<u8>, bool, bool)>> = chunk.into_par_iter().map(of).collect();
-        let mut piece = Vec::new();
-        for row in rows {
-            let Some((line, held, void)) = row else { return Err(Failure::Interrupted) };
-            piece.extend(line);
-            tally.points += 1;
-            tally.held += u64::from(held);
-            tally.void += u64::from(void);
-        }
-        if !emit(&piece)? {
-            return Ok(false);
-        }
-        done(count);
-    }
 }
 
 /// Give `then` the points of `range`, one after another.

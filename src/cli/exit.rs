@@ -1,8 +1,8 @@
 //! Exit codes, promised to scripts.
 
+use crate::answer::Finding;
 use crate::design::{DesignError, shown};
 use crate::margin::NoMargins;
-use crate::wedge::{NoCurve, NoElastic};
 use serde_json::{Value, json};
 use std::fmt::Display;
 use std::path::Path;
@@ -43,6 +43,17 @@ impl Exit {
     /// Of a verdict.
     pub fn of(held: bool) -> Self {
         if held { Self::Held } else { Self::NotHeld }
+    }
+}
+
+impl From<Finding> for Exit {
+    fn from(outcome: Finding) -> Self {
+        match outcome {
+            Finding::Held | Finding::Shown => Self::Held,
+            Finding::NotHeld => Self::NotHeld,
+            Finding::NotKnown => Self::Failed,
+            Finding::Stopped => Self::Interrupted,
+        }
     }
 }
 
@@ -89,24 +100,7 @@ impl Failure {
 
     /// The refusal of a clutch that has no curve: file, reason, and the keys that decide it.
     pub fn no_clutch(file: &Path, why: &NoMargins) -> Self {
-        let keys = match why {
-            NoMargins::Outline(_) => "sprags.flanks, sprags.inner_arcs",
-            NoMargins::Curve(NoCurve::NoElastic(NoElastic::Race(_))) => "races, material",
-            NoMargins::Curve(NoCurve::NoElastic(NoElastic::ThinRace { .. })) => {
-                "races.inner_bore_radius_mm with races.inner_radius_mm, races.outer_outside_radius_mm with races.outer_radius_mm"
-            }
-            NoMargins::Curve(NoCurve::NoElastic(NoElastic::Contact(_))) => {
-                "contact, material, sprags.length_mm"
-            }
-            NoMargins::Curve(NoCurve::NoConvergence) => {
-                "contact, material, sprags.length_mm, sprags.inner_arcs, races"
-            }
-            NoMargins::Profile(_) | NoMargins::Curve(NoCurve::NoFirstContact) => {
-                "sprags.outer_radius_mm, sprags.centre_distance_mm, sprags.inner_arcs, races.inner_radius_mm, \
-                 races.outer_radius_mm"
-            }
-        };
-        Self::NoClutch(format!("{}: {why}; keys that decide it: {keys}", file.display()))
+        Self::NoClutch(format!("{}: {why}; keys that decide it: {}", file.display(), why.keys()))
     }
 
     /// For programs: `message`; of a refused design file also `file` and `problems`.
@@ -144,6 +138,7 @@ impl From<DesignError> for Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wedge::NoCurve;
 
     #[test]
     fn the_codes_are_those_promised() {

@@ -8,6 +8,9 @@ mod result;
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::{Context, Run, positive};
+use crate::export::Part;
+use crate::export::calculix::Variant;
+use crate::export::fmu::Fmi;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -64,29 +67,9 @@ impl Format {
         }
     }
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Dxf => "dxf",
-            Self::Step => "step",
-            Self::Svg => "svg",
-            Self::Csv => "csv",
-            Self::Calculix => "calculix",
-            Self::Fmu => "fmu",
-        }
+    fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
     }
-}
-
-/// Parts by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum PartName {
-    /// One sprag
-    Sprag,
-    /// The inner race
-    Inner,
-    /// The outer race
-    Outer,
-    /// Both races and all sprags
-    Clutch,
 }
 
 /// Tables by name.
@@ -96,30 +79,6 @@ pub enum TableName {
     Arcs,
     /// Points on the surfaces
     Points,
-}
-
-/// Versions of FMI by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FmiName {
-    /// FMI 2.0, which every tool reads
-    #[value(name = "2")]
-    Two,
-    /// FMI 3.0
-    #[value(name = "3")]
-    Three,
-}
-
-/// Variants of the deck by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum VariantName {
-    /// No strain along the axis; races as long as the sprag
-    PlaneStrain,
-    /// No stress along the axis; races as long as the sprag
-    PlaneStress,
-    /// Plane in the middle of the sprag, free at its ends, one layer; races as long as the sprag
-    Layer,
-    /// Several layers, races as wide as designed; minutes become hours unless --mesh is coarse
-    Solid,
 }
 
 /// Arguments of `export`.
@@ -137,7 +96,7 @@ pub struct ExportArgs {
     pub output: Option<PathBuf>,
     /// dxf, step, svg, csv: which part [default: sprag]
     #[arg(long, value_enum)]
-    pub part: Option<PartName>,
+    pub part: Option<Part>,
     /// csv: which table [default: arcs]
     #[arg(long, value_enum)]
     pub table: Option<TableName>,
@@ -146,7 +105,7 @@ pub struct ExportArgs {
     pub deviation_mm: Option<f64>,
     /// fmu: version of FMI [default: 2]
     #[arg(long, value_enum)]
-    pub fmi: Option<FmiName>,
+    pub fmi: Option<Fmi>,
     /// fmu: the library that fmu/build.sh has built [default: looked for beside this program]
     #[arg(long, value_name = "PATH")]
     pub library: Option<PathBuf>,
@@ -155,7 +114,7 @@ pub struct ExportArgs {
     pub clutch_alone: bool,
     /// calculix: where the material is held along the axis [default: layer]
     #[arg(long, value_enum)]
-    pub variant: Option<VariantName>,
+    pub variant: Option<Variant>,
     /// calculix: spacing of the mesh at the contacts, mm [default: 0.025]
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = positive)]
     pub mesh: Option<f64>,

@@ -41,8 +41,8 @@ pub struct FeedArgs {
     /// Torque of the brake on the fed race, Nm [default: limits.nominal_torque_nm]
     #[arg(long, value_name = "NM", allow_hyphen_values = true)]
     pub brake: Option<f64>,
-    /// What turns with the fed race, kg m², the race included [default: races.inner_inertia_kg_m2 of the file, with --driver inner races.outer_inertia_kg_m2, else
-    /// the race alone]
+    /// What turns with the fed race, kg m², the race included [default: races.inner_inertia_kg_m2 of
+    /// the file, with --driver inner races.outer_inertia_kg_m2, else the race alone]
     #[arg(long, value_name = "KG_M2", allow_hyphen_values = true, value_parser = positive)]
     pub inertia: Option<f64>,
     /// The race that swings
@@ -71,12 +71,7 @@ impl Run for FeedArgs {
                 NoFeed::Refused { .. } => Failure::malformed(why.to_string()),
                 why => Failure::of(file, why),
             })?;
-            context.deliver(&found, run_time_s)?;
-            Ok(match found.list.iter().filter_map(|fed| fed.ended).find(|stop| stop.gave_up()) {
-                _ if found.stopped() => Exit::Interrupted,
-                Some(_) => Exit::Failed,
-                None => Exit::of(found.held()),
-            })
+            context.deliver(&found, run_time_s)
         })
     }
 }

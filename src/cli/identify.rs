@@ -42,7 +42,7 @@ pub struct IdentifyArgs {
     #[arg(long, value_name = "DATA.csv")]
     pub data: PathBuf,
     /// Unknowns with their bounds: a variable of optimize or the dotted path of a number in the file
-    #[arg(long, value_name = "NAME:MIN:MAX,..", required = true, value_delimiter = ',', value_parser = unknown)]
+    #[arg(long, value_name = "NAME:MIN:MAX,..", required = true, value_delimiter = ',')]
     pub unknown: Vec<Unknown>,
     /// Where to write the design file with the values found
     #[arg(long, short, value_name = "NEW.toml")]
@@ -56,23 +56,6 @@ pub struct IdentifyArgs {
     /// Most evaluations of the simplex search of one start
     #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub evaluations: u32,
-}
-
-/// `NAME:MIN:MAX`.
-fn unknown(text: &str) -> Result<Unknown, String> {
-    let parts: Vec<&str> = text.split(':').map(str::trim).collect();
-    let [name, min, max] = parts.as_slice() else {
-        return Err("NAME:MIN:MAX is needed, such as r_i1_mm:3.5:4.5".to_owned());
-    };
-    let bound = |text: &str| match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(format!("{text:?} is no finite number")),
-    };
-    let (min, max) = (bound(min)?, bound(max)?);
-    if min >= max {
-        return Err(format!("the lower bound {min} is not below the upper bound {max}"));
-    }
-    Ok(Unknown { name: (*name).to_owned(), min, max })
 }
 
 impl Run for IdentifyArgs {
@@ -121,14 +104,9 @@ impl Run for IdentifyArgs {
             }
             Err(why) => return Err(Failure::of(&self.file, why)),
         };
-        let answer = Identification { design: &design, found: &found };
+        let answer = Identification { design: &design, found: &found, written: None };
         let written = written(self, &histories, &answer.file(&context.command_line), context);
-        let written = written.as_deref();
-        context.outputs.write_csv(&answer.csv_table());
-        context.outputs.write_report(|| answer.page(&context.provenance(run_time_s), written));
-        context.answer(&answer.text(context.screen))?;
-        context.print(&answer.envelope(run_time_s, written))?;
-        Ok(if answer.determined() { Exit::Held } else { Exit::NotHeld })
+        context.deliver(&Identification { written: written.as_deref(), ..answer }, run_time_s)
     }
 }
 

@@ -1,10 +1,12 @@
 //! Ctrl-C: the first asks loops to stop at the next safe point, the second ends the program at once.
 
-use super::exit::Exit;
+use super::exit::{Exit, Failure};
 use super::output;
 use crate::follow::Follow;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::sync::{Mutex, Once, PoisonError};
+use std::time::Duration;
 
 /// What Ctrl-C stops now: a program that carries this one may run several commands, one after another.
 static NOW: Mutex<Follow> = Mutex::new(Follow::nobody());
@@ -34,4 +36,21 @@ pub fn install(quiet: bool) -> Follow {
         }
     });
     follow
+}
+
+/// What comes next, waited for so that Ctrl-C is heard; `None` where nothing more comes.
+///
+/// # Errors
+/// [`Failure::Interrupted`].
+pub fn next<T>(from: &Receiver<T>, follow: &Follow) -> Result<Option<T>, Failure> {
+    loop {
+        if follow.stopped() {
+            return Err(Failure::Interrupted);
+        }
+        match from.recv_timeout(Duration::from_millis(20)) {
+            Ok(it) => return Ok(Some(it)),
+            Err(RecvTimeoutError::Disconnected) => return Ok(None),
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+    }
 }

@@ -1,100 +1,26 @@
-//! The record of a search: one CSV row per evaluation, appended, so that a stop at any moment loses at most what is
-//! under way, and later searches of the same problem need not repeat it.
-//!
-//! Columns: `model` (tool, version, and a hash of the sources that compute a margin, made by `build.rs`), `design` (hash of what the design
-//! file says, comments apart), `problem` (hash of everything that an evaluation depends on but the variables), `hash` (of problem and
-//! inputs), `variables` and `x` (canonical inputs), `outcome` (`ok`, `refused`, `not-finite`, `shape`), `objectives`, `limits`,
-//! `tie_break`, `error` (tolerance of the evaluation), `detail` (why it failed), `check` (of all cells before it). Lists within
-//! a cell are separated by semicolons; numbers read back exactly; a row is one line.
-//!
-//! What is believed: a row of this very model whose `check` agrees. All others stay in the file and are not used. `check`
-//! tells a damaged or edited row from a whole one; it does not prove that the numbers were computed. The optimum found is
-//! computed anew in every search, whatever a journal says of it.
+//! The file of a search's record: appended, so that a stop at any moment loses at most what is under way. What its rows hold and which of
+//! them are believed says `crate::journal`; all others stay in the file. The optimum found is computed anew in every search, whatever a
+//! journal says of it.
 //!
 //! One search at a time: the file is locked as long as it is written. It is changed only after its header was read.
 
 use super::exit::Failure;
-use super::output::{TOOL, VERSION};
-use crate::optimise::{Entry, Evaluation, EvaluationPart, Journal, NoEvaluation, ProblemId};
-use sha2::{Digest, Sha256};
-use std::collections::HashMap;
+pub use crate::journal::model;
+use crate::journal::{JournalRows, JournalText, header};
+use crate::optimise::{Entry, Journal, ProblemId};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-
-/// Names of the columns.
-const COLUMNS: [&str; 13] = [
-    "model",
-    "design",
-    "problem",
-    "hash",
-    "variables",
-    "x",
-    "outcome",
-    "objectives",
-    "limits",
-    "tie_break",
-    "error",
-    "detail",
-    "check",
-];
-/// Where `check` stands: behind everything that it is of.
-const CHECK: usize = COLUMNS.len() - 1;
-
-/// What computes a margin: tool, version, hash of its sources.
-pub fn model() -> String {
-    format!("{TOOL} {VERSION} {}", env!("SPRAG_DESIGN_MODEL"))
-}
 
 /// An open journal file with what it held when it was opened.
 #[derive(Debug)]
 pub struct JournalFile {
     path: PathBuf,
     file: File,
-    model: String,
-    design: String,
-    /// Entries of every problem, by its hash.
-    known: HashMap<String, Vec<Entry>>,
-    /// Entries of this design among them.
-    of_design: usize,
-    /// Rows of other models, and rows that are no whole ones; neither is used.
-    foreign: usize,
-    damaged: usize,
+    rows: JournalRows,
     /// First failure to write; the search goes on without the journal, the end reports it.
     pub failed: Option<String>,
-}
-
-/// What a file is by its first line.
-enum JournalText {
-    /// Nothing yet, or the beginning of a first line that a kill cut short.
-    Nothing,
-    Journal,
-    /// A journal by a version that wrote no `check`.
-    Earlier,
-    Foreign,
-}
-
-impl JournalText {
-    fn of(text: &[u8]) -> Self {
-        let header = COLUMNS.join(",") + "\n";
-        if header.as_bytes().starts_with(text) && text.len() < header.len() {
-            return Self::Nothing;
-        }
-        let first = text.split(|b| *b == b'\n').next().and_then(cells).unwrap_or_default();
-        if first == COLUMNS[..] {
-            Self::Journal
-        } else if first == COLUMNS[..CHECK] {
-            Self::Earlier
-        } else {
-            Self::Foreign
-        }
-    }
-}
-
-/// One line as cells; `None` where it is none of a CSV table.
-fn cells(line: &[u8]) -> Option<csv::StringRecord> {
-    csv::ReaderBuilder::new().has_headers(false).from_reader(line).into_records().next()?.ok()
 }
 
 fn named(path: &Path, e: &dyn std::fmt::Display) -> Failure {
@@ -146,7 +72,7 @@ impl JournalFile {
             )));
         }
         let out = Self::open(path, model, design)?;
-        if out.of_design == 0 {
+        if out.rows.of_design() == 0 {
             return Err(Failure::malformed(format!(
                 "--resume: no row of {} belongs to what this design file says now and to {model}; start without --resume",
                 path.display()
@@ -159,17 +85,8 @@ impl JournalFile {
     fn around(path: &Path, file: File, text: &[u8], model: &str, design: &str) -> Result<Self, Failure> {
         let refused =
             |why: &str| Failure::malformed(format!("{} {why}; it is left as it is", path.display()));
-        let mut out = Self {
-            path: path.to_path_buf(),
-            file,
-            model: model.to_owned(),
-            design: design.to_owned(),
-            known: HashMap::new(),
-            of_design: 0,
-            foreign: 0,
-            damaged: 0,
-            failed: None,
-        };
+        let rows = JournalRows::new(model, design);
+        let mut out = Self { path: path.to_path_buf(), file, rows, failed: None };
         let whole = match JournalText::of(text) {
             JournalText::Nothing => 0,
             JournalText::Journal => text.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1),
@@ -186,42 +103,17 @@ impl JournalFile {
             out.file.set_len(whole as u64).map_err(|e| named(path, &e))?;
         }
         if whole == 0 {
-            out.row(&COLUMNS.map(str::to_owned));
+            out.line(&header());
             return out.failed.as_ref().map_or(Ok(()), |why| Err(named(path, why))).map(|()| out);
         }
-        for line in text[..whole].split(|b| *b == b'\n').skip(1).filter(|line| !line.is_empty()) {
-            out.learn(line);
-        }
+        out.rows.read(&text[..whole]);
         Ok(out)
-    }
-
-    fn learn(&mut self, line: &[u8]) {
-        let row = cells(line).filter(|row| row.len() == COLUMNS.len() && row[CHECK] == check(row));
-        let Some(row) = row else {
-            self.damaged += 1;
-            return;
-        };
-        match entry_of(&row).filter(|_| row[0] == self.model) {
-            Some((problem, entry)) => {
-                self.of_design += usize::from(row[1] == self.design);
-                self.known.entry(problem).or_default().push(entry);
-            }
-            None => self.foreign += 1,
-        }
     }
 
     /// What of the file is not used, in words.
     pub fn unused(&self) -> Option<String> {
-        let rows = |n: usize, what: &str| {
-            (n > 0).then(|| format!("{n} {} {what}", if n == 1 { "row" } else { "rows" }))
-        };
-        let kinds = [
-            rows(self.foreign, "by another version of the program"),
-            rows(self.damaged, "whose check disagrees (damaged or edited)"),
-        ];
-        let kinds: Vec<String> = kinds.into_iter().flatten().collect();
-        let list = kinds.join(" and ");
-        (!kinds.is_empty()).then(|| format!("{}: {list}: kept there, not used", self.path.display()))
+        let list = self.rows.unused()?;
+        Some(format!("{}: {list}: kept there, not used", self.path.display()))
     }
 
     /// Delete the file: the search is over, nothing is left to resume.
@@ -231,57 +123,25 @@ impl JournalFile {
 
     /// Entries of a problem.
     pub fn known(&self, problem: &ProblemId) -> Journal {
-        Journal::from_entries(self.known.get(&problem.hash).into_iter().flatten().cloned())
+        self.rows.known(problem)
     }
 
     /// How many entries there were.
     pub fn entries(&self) -> usize {
-        self.known.values().map(Vec::len).sum()
+        self.rows.entries()
     }
 
     /// Append one evaluation and hand it to the system.
     pub fn append(&mut self, problem: &ProblemId, entry: &Entry) {
-        let x = joined(&entry.x);
-        let hash = Sha256::digest(format!("{};{x}", problem.hash).as_bytes());
-        let hash: String = hash.iter().take(16).map(|byte| format!("{byte:02x}")).collect();
-        let (outcome, objectives, limits, tie_break, detail) = match &entry.outcome {
-            Ok(e) => ("ok", joined(&e.objectives), joined(&e.limits), number(e.tie_break), String::new()),
-            Err(why) => {
-                let (kind, detail) = typed(why);
-                (kind, String::new(), String::new(), String::new(), detail)
-            }
-        };
-        let cells = [
-            self.model.clone(),
-            self.design.clone(),
-            problem.hash.clone(),
-            hash,
-            problem.variables.join(";"),
-            x,
-            outcome.to_owned(),
-            objectives,
-            limits,
-            tie_break,
-            problem.error.clone(),
-            detail,
-        ];
-        let check = check(&csv::StringRecord::from(&cells[..]));
-        self.row(&std::array::from_fn(|i| cells.get(i).unwrap_or(&check).clone()));
+        let line = self.rows.line(problem, entry);
+        self.line(&line);
     }
 
-    /// Nothing is written behind a row that failed: what is left of it would be glued to the next.
-    fn row(&mut self, cells: &[String; COLUMNS.len()]) {
-        if self.failed.is_some() {
-            return;
-        }
-        let mut line = csv::Writer::from_writer(Vec::new());
-        let written = line.write_record(cells).map_err(|e| e.to_string()).and_then(|()| {
-            let bytes = line.into_inner().map_err(|e| e.to_string())?;
+    /// Nothing is written behind a line that failed: what is left of it would be glued to the next.
+    fn line(&mut self, line: &str) {
+        if self.failed.is_none() {
             // One call: a kill leaves a whole line or a torn one, never two mixed.
-            self.file.write_all(&bytes).map_err(|e| e.to_string())
-        });
-        if let Err(why) = written {
-            self.failed = Some(why);
+            self.failed = self.file.write_all(line.as_bytes()).err().map(|e| e.to_string());
         }
     }
 
@@ -332,73 +192,6 @@ fn free_name(path: &Path) -> PathBuf {
         PathBuf::from(name)
     };
     (1..).map(numbered).find(|name| !name.exists()).unwrap_or_else(|| numbered(0))
-}
-
-/// Of all cells before `check`: the first 16 hex digits of their SHA-256, each cell with a line end behind it.
-fn check(row: &csv::StringRecord) -> String {
-    let digest =
-        row.iter().take(CHECK).fold(Sha256::new(), |sum, cell| sum.chain_update(cell).chain_update("\n"));
-    digest.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// Text without line ends, as in JSON, so that a row is one line.
-fn one_line(text: &str) -> String {
-    let quoted = serde_json::Value::from(text).to_string();
-    quoted[1..quoted.len() - 1].to_owned()
-}
-
-fn as_written(cell: &str) -> Option<String> {
-    serde_json::from_str(&format!("\"{cell}\"")).ok()
-}
-
-/// Shortest text that reads back as the same double.
-fn number(v: f64) -> String {
-    format!("{v:?}")
-}
-
-fn joined(values: &[f64]) -> String {
-    values.iter().map(|v| number(*v)).collect::<Vec<_>>().join(";")
-}
-
-fn numbers(cell: &str) -> Option<Vec<f64>> {
-    if cell.is_empty() { Some(Vec::new()) } else { cell.split(';').map(|v| v.parse().ok()).collect() }
-}
-
-fn typed(why: &NoEvaluation) -> (&'static str, String) {
-    match why {
-        NoEvaluation::Refused(why) => ("refused", one_line(why)),
-        NoEvaluation::NotFinite { part, index } => ("not-finite", format!("{part:?};{index}")),
-        NoEvaluation::Shape { expected, found } => {
-            ("shape", format!("{};{};{};{}", expected.0, expected.1, found.0, found.1))
-        }
-    }
-}
-
-/// Problem and entry of one row; `None` for a row that this version does not understand.
-fn entry_of(row: &csv::StringRecord) -> Option<(String, Entry)> {
-    let cell = |i: usize| row.get(i);
-    let outcome = match cell(6)? {
-        "ok" => Ok(Evaluation {
-            objectives: numbers(cell(7)?)?,
-            limits: numbers(cell(8)?)?,
-            tie_break: cell(9)?.parse().ok()?,
-        }),
-        "refused" => Err(NoEvaluation::Refused(as_written(cell(11)?)?)),
-        "not-finite" => {
-            let (part, index) = cell(11)?.split_once(';')?;
-            let part = [EvaluationPart::Objective, EvaluationPart::Limit, EvaluationPart::TieBreak]
-                .into_iter()
-                .find(|p| format!("{p:?}") == part)?;
-            Err(NoEvaluation::NotFinite { part, index: index.parse().ok()? })
-        }
-        "shape" => {
-            let counts: Option<Vec<usize>> = cell(11)?.split(';').map(|v| v.parse().ok()).collect();
-            let [a, b, c, d] = counts?[..] else { return None };
-            Err(NoEvaluation::Shape { expected: (a, b), found: (c, d) })
-        }
-        _ => return None,
-    };
-    Some((cell(2)?.to_owned(), Entry { x: numbers(cell(5)?)?, outcome }))
 }
 
 /// The journal beside the design to be written.

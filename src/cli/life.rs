@@ -3,7 +3,7 @@
 use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run};
-use crate::answer::life::{LifeKnown, NoLife};
+use crate::answer::life::NoLife;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -34,11 +34,7 @@ impl Run for LifeArgs {
                 NoLife::NoClutch(why) => Failure::no_clutch(file, &why),
                 NoLife::NoService { .. } | NoLife::NoSwing { .. } => Failure::of(file, why),
             })?;
-            context.deliver(&found, run_time_s)?;
-            Ok(match found.known() {
-                LifeKnown::Nothing => Exit::Failed,
-                known => Exit::of(known != LifeKnown::NotHeld),
-            })
+            context.deliver(&found, run_time_s)
         })
     }
 }

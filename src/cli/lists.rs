@@ -4,10 +4,10 @@ use super::exit::{Exit, Failure};
 use super::{Context, Run, Without, command, output};
 use crate::answer::{oils, steels};
 use crate::design::schema;
-use crate::report::Table;
+use crate::report::Rows;
 use clap::Args;
 use clap_complete::Shell;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Arguments of `materials`.
 #[derive(Debug, Args)]
@@ -33,7 +33,7 @@ impl Run for MaterialsArgs {
         ("steels are a table, they have no page", &["report", "set", "threads", "quiet"]);
 
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
-        listed("materials", steels::list(), &steels::table(), &steels::text(context.screen), context)
+        listed("materials", steels::list(), &steels::text(context.screen), context)
     }
 }
 
@@ -41,21 +41,15 @@ impl Run for OilsArgs {
     const WITHOUT: Without = ("oils are a table, they have no page", &["report", "set", "threads", "quiet"]);
 
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
-        listed("oils", oils::list(), &oils::table(), &oils::text(context.screen), context)
+        listed("oils", oils::list(), &oils::text(context.screen), context)
     }
 }
 
-fn listed(
-    key: &str,
-    list: Vec<Value>,
-    table: &Table,
-    text: &str,
-    context: &Context,
-) -> Result<Exit, Failure> {
+fn listed<T: Clone>(key: &str, list: Rows<T>, text: &str, context: &Context) -> Result<Exit, Failure> {
     context.reads([])?;
     context.outputs.refuse_foreign()?;
-    context.outputs.write_csv(table);
-    context.object(|| json!({ key: list }))?;
+    context.outputs.write_csv(&list.clone().table());
+    context.object(|| json!({ key: list.objects() }))?;
     context.answer(text)?;
     Ok(Exit::Held)
 }

@@ -3,7 +3,7 @@
 use super::context::{Context, timed};
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
-use crate::answer::sizing::{Sizing, tried_json, tried_table};
+use crate::answer::sizing::{Sizing, tried};
 use crate::scenario::Settings;
 use crate::size::{NoSize, Requirements, size};
 use serde_json::json;
@@ -30,11 +30,10 @@ pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Conte
     let sized = match sized {
         Ok(sized) => sized,
         Err(NoSize::Requirements(_)) => return refuse(wanted).map(|()| Exit::Failed),
-        Err(ref why @ NoSize::None { ref tried }) => {
-            let object =
-                || json!({ "sized": false, "why": why.to_string(), "tried": tried_json(tried, None) });
-            context.object(object)?;
-            let table = tried_table(tried, None);
+        Err(ref why @ NoSize::None { tried: ref list }) => {
+            let rows = tried(list, None);
+            let table = rows.clone().table();
+            context.object(|| json!({ "sized": false, "why": why.to_string(), "tried": rows.objects() }))?;
             context.outputs.write_csv(&table);
             context.answer(&format!("{}\n{why}\n", table.to_text(context.screen)))?;
             return Ok(Exit::NotHeld);
@@ -42,10 +41,5 @@ pub fn answer(wanted: &Requirements, output: &Path, title: &str, context: &Conte
     };
     let written = context.outputs.write(output, FileKind::Design, sized.made.design.source.as_bytes());
     let written = written.then(|| output.display().to_string());
-    let (answer, written) = (Sizing::of(&sized), written.as_deref());
-    context.outputs.write_csv(&answer.csv_table());
-    context.outputs.write_report(|| answer.page(title, &context.provenance(run_time_s), written));
-    context.print(&answer.envelope(run_time_s, written))?;
-    context.answer(&answer.text(written, context.screen))?;
-    Ok(Exit::Held)
+    context.deliver(&Sizing::of(&sized, title, written.as_deref()), run_time_s)
 }

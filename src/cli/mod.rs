@@ -6,6 +6,7 @@
 
 mod accuracy;
 mod check;
+mod choices;
 mod clock;
 mod command_line;
 mod compare;
@@ -21,7 +22,6 @@ mod identify;
 mod import;
 mod interrupt;
 pub mod journal;
-mod laws;
 mod life;
 mod lists;
 mod made;
@@ -38,7 +38,6 @@ mod sample;
 mod sharing;
 mod sheet;
 mod simulate;
-mod size;
 mod stiffness;
 mod studio;
 mod sweep;
@@ -73,7 +72,8 @@ Exit codes:
   141 the reader of the answers of evaluate has gone before the last
 
 A file that is there already is replaced only if this tool has written it (its first lines say so; of a table: the names of
-its columns) and nobody goes on with it by hand, as with designs of new, size and the studio; --force replaces any. What cannot be written costs no answer: it is printed, with exit code 3.
+its columns) and nobody goes on with it by hand, as with designs of new, size and the studio; --force replaces any.
+What cannot be written costs no answer: it is printed, with exit code 3.
 With --json whatever is refused or fails is one JSON object too: tool, version, error (message; of a refused design file
 also file and problems), with the same exit code.";
 
@@ -170,7 +170,7 @@ commands! {
     /// Your own clutch: asks what it is for, its space, torque and speeds, and writes the design file
     New(new::NewArgs),
     /// A first design file from space, torque, speeds, friction and steel
-    Size(size::SizeArgs),
+    Size(new::SizeArgs),
     /// Find unknown parameters from measured or published numbers, and what these cannot tell apart
     Identify(identify::IdentifyArgs),
     /// Write the design as a drawing (DXF, SVG), a solid (STEP), a table of arcs, a CalculiX deck or a co-simulation unit (FMU)

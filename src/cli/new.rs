@@ -1,20 +1,20 @@
-//! `new`: the own clutch, by questions or by flags.
+//! `new` and `size`: the own clutch, by questions or by options.
 
 use super::exit::{Exit, Failure};
+use super::interrupt::next;
+use super::origin::FileKind;
 use super::output;
-use super::size::{WishArgs, a_steel, may_write};
 use super::{Context, Run, Without, made, number};
-use crate::design::rpm;
+use crate::design::nearest;
 use crate::follow::Follow;
-use crate::material::STEELS;
+use crate::material::{STEELS, Steel, steel};
 use crate::report::plain;
-use crate::size::{PURPOSES, Purpose, Requirements, Wish, purpose};
-use clap::Args;
-use clap::builder::PossibleValuesParser;
+use crate::size::{ASKED, BadRequirement, PURPOSES, Purpose, Requirements, Wish, WishNumber, purpose};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use std::io::{BufRead, IsTerminal};
-use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::Duration;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -29,36 +29,133 @@ is sized as by `size`; a file that is there already is replaced only with --forc
 
 Exit codes: 0 written; 1 no clutch of the family does it, with the limit that prevents it and the nearest possible.";
 
+const SIZE_EXAMPLES: &str = "\
+Examples:
+  sprag-design size --bore 40 --torque 1000 --speed 3000 -o mine.toml
+  sprag-design size --bore 40 --peak 1300 --outside 100 --width 30 --material 20MnCr5 -o mine.toml
+  sprag-design check mine.toml
+  sprag-design optimize mine.toml -o better.toml
+
+Every race space of one family of similar sprags is tried; of those that do it the one of the
+least volume, from bore to outside and as wide as it must be, is taken. The file that
+is written holds its limits, with a static scenario at nominal torque and a torque step up to it, and an optimize table. A
+file that is there already is replaced only with --force. `new` asks the same questions one by one, and adds the scenes of a
+purpose.
+
+Exit codes: 0 written; 1 no clutch of the family does it, with the limit that prevents it and the nearest possible.";
+
+/// What a clutch shall do: an option for each number of the table, with or without those of a purpose.
+#[derive(Debug, Clone, Copy)]
+pub struct WishArgs<const OF_PURPOSE: bool>(Wish);
+
 /// Arguments of `new`.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct NewArgs {
-    /// What the clutch is for
-    #[arg(long = "for", value_name = "PURPOSE", value_parser = PossibleValuesParser::new(PURPOSES.map(|p| p.name)))]
-    pub purpose: Option<String>,
     /// What it shall do.
     #[command(flatten)]
-    pub wish: WishArgs,
-    /// Amplitude by which the torque swings, Nm, up to nominal torque; 0: it does not [default: that of the purpose]
-    #[arg(long, value_name = "NM", allow_hyphen_values = true, value_parser = number)]
-    pub swing: Option<f64>,
-    /// How often it swings, Hz: strokes a second, blades passing, orders of an engine [default: that of the purpose]
-    #[arg(long = "swing-hz", value_name = "HZ", allow_hyphen_values = true, value_parser = number)]
-    pub swing_hz: Option<f64>,
-    /// Engagements in its life, at nominal torque: written into [life], for the command life
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number)]
-    pub engagements: Option<f64>,
+    pub wish: WishArgs<true>,
     /// Where to write the design file
     #[arg(long, short, value_name = "NEW.toml")]
     pub output: Option<PathBuf>,
+}
+
+/// Arguments of `size`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = SIZE_EXAMPLES)]
+pub struct SizeArgs {
+    /// What it shall do.
+    #[command(flatten)]
+    pub wish: WishArgs<false>,
+    /// Where to write the design file
+    #[arg(long, short, value_name = "NEW.toml")]
+    pub output: PathBuf,
+}
+
+impl<const OF_PURPOSE: bool> WishArgs<OF_PURPOSE> {
+    fn numbers() -> impl Iterator<Item = &'static WishNumber> {
+        ASKED.iter().filter(|row| OF_PURPOSE || !row.of_purpose)
+    }
+}
+
+impl<const OF_PURPOSE: bool> Args for WishArgs<OF_PURPOSE> {
+    fn augment_args(command: clap::Command) -> clap::Command {
+        let named = |key, place| Arg::new(key).long(key).value_name(place);
+        let purposes = PossibleValuesParser::new(PURPOSES.map(|p| p.name)).map(|name| purpose(&name));
+        let purpose = named("for", "PURPOSE").value_parser(purposes).help("What the clutch is for");
+        let numbers = Self::numbers().map(|row| {
+            let arg = named(row.key, row.place).allow_hyphen_values(true).value_parser(number);
+            let arg = arg.help(format!("{}{}", row.words, row.help));
+            row.alias.into_iter().fold(arg, Arg::visible_alias)
+        });
+        let steel = named("material", "STEEL").value_parser(a_steel).help(
+            "Steel of sprags and races, by its name in `materials` [default: 100Cr6]; brings the allowed stresses",
+        );
+        // Refused with the two that are meant.
+        let overrun = named("overrun-rpm", "RPM").hide(true).value_parser(which_race);
+        command.args(OF_PURPOSE.then_some(purpose)).args(numbers).args([steel, overrun])
+    }
+
+    fn augment_args_for_update(command: clap::Command) -> clap::Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<const OF_PURPOSE: bool> FromArgMatches for WishArgs<OF_PURPOSE> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut wish = Wish { steel: matches.get_one("material").copied(), ..Wish::default() };
+        if OF_PURPOSE {
+            wish.purpose = matches.get_one::<Option<&'static Purpose>>("for").copied().flatten();
+        }
+        for row in Self::numbers() {
+            *(row.at)(&mut wish) = matches.get_one::<f64>(row.key).map(|typed| row.unit.si(*typed));
+        }
+        Ok(Self(wish))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+fn which_race(_: &str) -> Result<f64, String> {
+    Err("in overrun one race runs past the other: name the speeds, --inner-rpm and --outer-rpm".to_owned())
+}
+
+/// A steel of the library, by name.
+fn a_steel(name: &str) -> Result<&'static Steel, String> {
+    steel(name).ok_or_else(|| {
+        let names: Vec<&str> = STEELS.iter().map(|s| s.name).collect();
+        let like = nearest(name, &names).map_or(String::new(), |like| format!("did you mean {like}? "));
+        format!("{like}the library has {}", names.join(", "))
+    })
+}
+
+impl Run for SizeArgs {
+    const WITHOUT: Without = ("it makes a design, it reads none", &["set"]);
+
+    fn run(&self, context: &Context) -> Result<Exit, Failure> {
+        let missing = missing(&self.wish.0);
+        if !missing.is_empty() {
+            return Err(Failure::malformed(format!("needed: {}", missing.join(", "))));
+        }
+        sized(&self.wish.0, &self.output, "First design", context).map(|(_, exit)| exit)
+    }
 }
 
 impl Run for NewArgs {
     const WITHOUT: Without = ("it makes a design, it reads none", &["set"]);
 
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
-        let mut args = self.clone();
-        let missing = args.missing();
+        let (mut wish, mut output) = (self.wish.0, self.output.clone());
+        let mut missing = missing(&wish);
+        if wish.purpose.is_none() {
+            missing.insert(0, "--for PURPOSE");
+        }
+        if output.is_none() {
+            missing.push("-o NEW.toml");
+        }
         if !missing.is_empty() {
             if !std::io::stdin().is_terminal() || context.json {
                 return Err(Failure::malformed(format!(
@@ -66,32 +163,23 @@ impl Run for NewArgs {
                     missing.join(", ")
                 )));
             }
-            args.wish.check_safety()?;
-            Questions { lines: lines(), follow: &context.follow }.fill(&mut args)?;
+            wish.check_ratio().map_err(refused)?;
+            Questions { lines: lines(), follow: &context.follow }.fill(&mut wish, &mut output)?;
         }
-        args.wish.check_safety()?;
-        let Some(output) = args.output.clone() else { return Err(Failure::malformed("needed: -o NEW.toml")) };
-        let wanted = args.requirements();
-        if wanted.swing.is_none() && args.swing.is_some_and(|nm| nm != 0.0) {
-            return Err(Failure::malformed("--swing: how often it swings is not said; add --swing-hz"));
-        }
-        made::refuse(&wanted)?;
-        may_write(&output, context)?;
-        let exit = made::answer(&wanted, &output, "New clutch", context)?;
-        let taken = wanted.taken();
-        if !taken.is_empty() {
-            let lines: String = taken
-                .iter()
-                .map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n"))
-                .collect();
+        let Some(output) = output else { return Err(Failure::malformed("needed: -o NEW.toml")) };
+        let (wanted, exit) = sized(&wish, &output, "New clutch", context)?;
+        let taken = wanted.taken().into_iter();
+        let lines: String =
+            taken.map(|(what, value, from)| format!("  {what:<22} {value:<12} {from}\n")).collect();
+        if !lines.is_empty() {
             context.answer(&format!(
                 "\nTaken where nothing was said (an option of `new --help` says otherwise):\n{lines}"
             ))?;
         }
         if exit == Exit::Held && context.outputs.unwritten().is_empty() {
             let path = output::path_text(&output);
-            let further = self.purpose().map_or(&[][..], |p| p.ask).iter().copied();
-            let asked = self.engagements.map(|_| "life {}");
+            let further = wish.purpose.map_or(&[][..], |p| p.ask).iter().copied();
+            let asked = wish.engagements.map(|_| "life {}");
             let next = ["studio {}", "check {}", "optimize {} -o better.toml", "sheet {}"].into_iter();
             let lines = next
                 .chain(further)
@@ -103,28 +191,29 @@ impl Run for NewArgs {
     }
 }
 
-impl NewArgs {
-    fn missing(&self) -> Vec<&'static str> {
-        let mut missing = Vec::new();
-        if self.purpose.is_none() {
-            missing.push("--for PURPOSE");
-        }
-        missing.extend(self.wish.missing());
-        if self.output.is_none() {
-            missing.push("-o NEW.toml");
-        }
-        missing
-    }
+/// Options without which there is no question, as typed.
+fn missing(wish: &Wish) -> Vec<&'static str> {
+    let bore = wish.bore_m.is_none().then_some("--bore MM");
+    let torque = (wish.torque_nm.is_none() && wish.peak_nm.is_none()).then_some("--torque NM or --peak NM");
+    bore.into_iter().chain(torque).collect()
+}
 
-    fn purpose(&self) -> Option<&'static Purpose> {
-        self.purpose.as_deref().and_then(purpose)
-    }
+fn refused(why: BadRequirement) -> Failure {
+    Failure::malformed(format!("--{why}"))
+}
 
-    fn requirements(&self) -> Requirements {
-        let Self { swing, swing_hz, engagements, .. } = *self;
-        Wish { purpose: self.purpose(), swing_nm: swing, swing_hz, engagements, ..self.wish.wish() }
-            .requirements()
-    }
+/// Size what is wished; `title`: that of the page.
+fn sized(
+    wish: &Wish,
+    output: &Path,
+    title: &str,
+    context: &Context,
+) -> Result<(Requirements, Exit), Failure> {
+    let wanted = wish.check().map_err(refused)?;
+    context.outputs.refuse_work(output)?;
+    context.outputs.check(&[], &[(output, FileKind::Design)])?;
+    context.outputs.refuse_foreign()?;
+    made::answer(&wanted, output, title, context).map(|exit| (wanted, exit))
 }
 
 /// Lines of standard input as they come: whoever waits for them can be stopped by Ctrl-C meanwhile.
@@ -140,171 +229,67 @@ fn lines() -> Receiver<String> {
     receive
 }
 
-/// A number that is asked for: question with unit, name of its option, where it is kept, what holds without an answer, and
-/// whether there must be an answer.
-struct Number {
-    question: &'static str,
-    what: &'static str,
-    at: fn(&mut NewArgs) -> &mut Option<f64>,
-    without: fn(&Requirements) -> Option<f64>,
-    needed: bool,
-}
-
-const NUMBERS: [Number; 13] = [
-    Number {
-        question: "Bore of the inner race, diameter, mm",
-        what: "bore",
-        at: |a| &mut a.wish.bore,
-        without: |_| None,
-        needed: true,
-    },
-    Number {
-        question: "Nominal torque, carried day by day, Nm (none: by the peak torque)",
-        what: "torque",
-        at: |a| &mut a.wish.torque,
-        without: |_| None,
-        needed: false,
-    },
-    Number {
-        question: "Peak torque, at the worst, Nm",
-        what: "peak",
-        at: |a| &mut a.wish.peak,
-        without: |wanted| Some(wanted.peak_nm).filter(|t| t.is_finite()),
-        needed: true,
-    },
-    Number {
-        question: "Largest outer diameter, mm (none: 1.4 times the outer track)",
-        what: "outside",
-        at: |a| &mut a.wish.outside,
-        without: |_| None,
-        needed: false,
-    },
-    Number {
-        question: "Largest width of the races, mm (none: as wide as it must)",
-        what: "width",
-        at: |a| &mut a.wish.width,
-        without: |_| None,
-        needed: false,
-    },
-    Number {
-        question: "Speed of the inner race in overrun, rpm",
-        what: "inner-rpm",
-        at: |a| &mut a.wish.inner,
-        without: |wanted| Some(rpm(wanted.overrun_rad_s[0])),
-        needed: false,
-    },
-    Number {
-        question: "Speed of the outer race in overrun, in the same sense, rpm",
-        what: "outer-rpm",
-        at: |a| &mut a.wish.outer,
-        without: |wanted| Some(rpm(wanted.overrun_rad_s[1])),
-        needed: false,
-    },
-    Number {
-        question: "Sprags keep contact up to this speed of the outer race, rpm (0: not asked)",
-        what: "keep-contact-rpm",
-        at: |a| &mut a.wish.keep_contact,
-        without: |wanted| Some(rpm(wanted.keep_contact_rad_s.unwrap_or(0.0))),
-        needed: false,
-    },
-    Number {
-        question: "Sprags are off by this speed of the outer race, rpm (0: they stay on)",
-        what: "lift-off-rpm",
-        at: |a| &mut a.wish.lift_off,
-        without: |wanted| Some(rpm(wanted.lift_off_rad_s.unwrap_or(0.0))),
-        needed: false,
-    },
-    Number {
-        question: "Amplitude by which the torque swings, up to nominal torque, Nm (0: it does not)",
-        what: "swing",
-        at: |a| &mut a.swing,
-        without: |wanted| Some(wanted.swing.map_or(0.0, |s| s.amplitude_nm)),
-        needed: false,
-    },
-    Number {
-        question: "How often it swings, Hz: strokes a second, blades passing (none: it does not)",
-        what: "swing-hz",
-        at: |a| &mut a.swing_hz,
-        without: |wanted| wanted.swing.map(|s| s.frequency_hz),
-        needed: false,
-    },
-    Number {
-        question: "Static friction",
-        what: "friction",
-        at: |a| &mut a.wish.friction,
-        without: |wanted| Some(wanted.friction),
-        needed: false,
-    },
-    Number {
-        question: "Engagements in its life, at nominal torque (none: not said; written into [life], for the command life)",
-        what: "engagements",
-        at: |a| &mut a.engagements,
-        without: |_| None,
-        needed: false,
-    },
-];
-
 struct Questions<'a> {
     lines: Receiver<String>,
     follow: &'a Follow,
 }
 
 impl Questions<'_> {
-    /// Ask for everything that `args` do not say.
-    fn fill(&self, args: &mut NewArgs) -> Result<(), Failure> {
-        if args.purpose.is_none() {
+    /// Ask for everything that nobody has said.
+    fn fill(&self, wish: &mut Wish, output: &mut Option<PathBuf>) -> Result<(), Failure> {
+        if wish.purpose.is_none() {
             for p in &PURPOSES {
                 output::note(&format!("  {:<11} {}", p.name, p.words));
             }
-            args.purpose = Some(self.until("What is it for?", |line| match purpose(line) {
-                Some(found) => Ok(found.name.to_owned()),
+            wish.purpose = self.until("What is it for?", |line| match purpose(line) {
+                Some(found) => Ok(Some(found)),
                 None => Err(format!("one of {}", PURPOSES.map(|p| p.name).join(", "))),
-            })?);
+            })?;
         }
-        for number in &NUMBERS {
-            if (number.at)(args).is_none() {
-                let value = self.number(number, args)?;
-                *(number.at)(args) = value;
+        for row in &ASKED {
+            if let (Some(adds), None) = (row.question, (row.at)(wish)) {
+                let value = self.number(row, adds, wish)?;
+                *(row.at)(wish) = value;
             }
         }
-        if args.wish.material.is_none() {
+        if wish.steel.is_none() {
             let names = STEELS.map(|s| s.name).join(", ");
-            let question = format!("Steel: {names} [{}]", args.requirements().steel.name);
-            args.wish.material = self.until(&question, |line| match line {
+            let question = format!("Steel: {names} [{}]", wish.requirements().steel.name);
+            wish.steel = self.until(&question, |line| match line {
                 "" => Ok(None),
                 name => a_steel(name).map(Some),
             })?;
         }
-        if args.output.is_none() {
-            let name = format!("{}.toml", args.purpose.as_deref().unwrap_or("clutch"));
+        if output.is_none() {
+            let name = format!("{}.toml", wish.purpose.map_or("clutch", |p| p.name));
             let question = format!("Write to [{name}]");
             let answer = self.until(&question, |line| Ok(line.to_owned()))?;
-            args.output = Some(PathBuf::from(if answer.is_empty() { name } else { answer }));
+            *output = Some(PathBuf::from(if answer.is_empty() { name } else { answer }));
         }
         Ok(())
     }
 
-    fn number(&self, number: &Number, args: &NewArgs) -> Result<Option<f64>, Failure> {
-        let without = (number.without)(&args.requirements());
-        let shown = match (without, number.needed) {
+    /// A number, SI; `None`: what stands in brackets.
+    fn number(&self, row: &WishNumber, adds: &str, wish: &Wish) -> Result<Option<f64>, Failure> {
+        let without = row.default(&wish.requirements());
+        let shown = match (without, row.needed) {
             (Some(value), _) => format!(" [{}]", plain(value, 6)),
             (None, true) => String::new(),
             (None, false) => " [none]".to_owned(),
         };
-        self.until(&format!("{}{shown}", number.question), |line| {
+        let fits = |wish: &Wish| row.check(&wish.requirements()).map_err(|why| why.to_string());
+        self.until(&format!("{}{adds}{shown}", row.words), |line| {
             if line.is_empty() {
-                if number.needed && without.is_none() {
+                if row.needed && without.is_none() {
                     return Err("a number is needed".to_owned());
                 }
                 // What came before may leave no room for what stands in brackets.
-                let fits = without.map_or(Ok(()), |_| args.requirements().check_one(number.what));
-                return fits.map(|()| None).map_err(|why| why.to_string());
+                return without.map_or(Ok(()), |_| fits(wish)).map(|()| None);
             }
-            let value = line.replace(',', ".").parse::<f64>().map_err(|_| "not a number".to_owned())?;
-            let mut with = args.clone();
-            *(number.at)(&mut with) = Some(value);
-            let checked = with.requirements().check_one(number.what);
-            checked.map(|()| Some(value)).map_err(|why| why.to_string())
+            let typed = line.replace(',', ".").parse::<f64>().map_err(|_| "not a number".to_owned())?;
+            let mut with = *wish;
+            *(row.at)(&mut with) = Some(row.unit.si(typed));
+            fits(&with).map(|()| *(row.at)(&mut with))
         })
     }
 
@@ -320,17 +305,7 @@ impl Questions<'_> {
     }
 
     fn line(&self) -> Result<String, Failure> {
-        loop {
-            if self.follow.stopped() {
-                return Err(Failure::Interrupted);
-            }
-            match self.lines.recv_timeout(Duration::from_millis(50)) {
-                Ok(line) => return Ok(line),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Err(Failure::malformed("the answers ended before the last question"));
-                }
-            }
-        }
+        let ended = || Failure::malformed("the answers ended before the last question");
+        next(&self.lines, self.follow)?.ok_or_else(ended)
     }
 }

@@ -6,10 +6,9 @@ use super::journal::{self, JournalFile};
 use super::origin::FileKind;
 use super::output::TOOL;
 use super::progress::ProgressLine;
-use super::simulate::refuse_tolerance;
 use super::{Context, Run};
 use crate::answer::search::{
-    Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, SearchSettings, file_text, further_files,
+    Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, SearchSettings, Story, file_text, further_files,
     further_text,
 };
 use crate::design::{Design, EditError, Objective};
@@ -121,7 +120,6 @@ impl Run for OptimizeArgs {
     const NAMES: &[&str] = &["objectives", "variables", "limits"];
 
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
-        refuse_tolerance(self.tolerance)?;
         let new = output_path(self);
         let record = self.journal.clone().unwrap_or_else(|| journal::path_for(&new));
         context.outputs.check(&[&self.file], &[(&new, FileKind::Design), (&record, FileKind::Journal)])?;
@@ -131,10 +129,8 @@ impl Run for OptimizeArgs {
         let Some(task) = design.optimize.clone() else {
             return Err(Failure::of(&self.file, NoSample::NoTask));
         };
-        refuse_front(self)?;
-        if self.robust && design.tolerances.is_none() {
-            return Err(at("--robust needs a [tolerances] table: what the clutch is made to".into()));
-        }
+        let settings = self.settings(context);
+        settings.validate(&design).map_err(|why| at(why.to_string()))?;
         let beside = beside(&new, self);
         let others: Vec<_> = beside.iter().map(|path| (path.as_path(), FileKind::Design)).collect();
         context.outputs.check(&[&self.file], &others)?;
@@ -167,20 +163,6 @@ impl Run for OptimizeArgs {
             if drawn { "" } else { " (this search draws nothing at random)" },
             if known > 0 { format!("; {known} evaluations in the journal") } else { String::new() }
         ));
-        let settings = SearchSettings {
-            evaluations: self.evaluations as usize,
-            starts: self.starts.map(|n| n as usize),
-            swarm: self.global.map(|n| n as usize),
-            tolerance: self.tolerance,
-            full: self.full,
-            front: self.pareto.clone(),
-            front_steps: self.points as usize,
-            robust: self.robust,
-            draws: self.draws as usize,
-            step_mm: self.step_mm,
-            reserve: self.reserve,
-            follow: context.follow.clone(),
-        };
         let mut keeper = Keeper::new(context.progress("search", "evaluations", None), file);
         let started = Instant::now();
         let answer = design.optimise_recorded(&settings, &mut keeper);
@@ -207,6 +189,25 @@ impl Run for OptimizeArgs {
     }
 }
 
+impl OptimizeArgs {
+    fn settings(&self, context: &Context) -> SearchSettings {
+        SearchSettings {
+            evaluations: self.evaluations as usize,
+            starts: self.starts.map(|n| n as usize),
+            swarm: self.global.map(|n| n as usize),
+            tolerance: self.tolerance,
+            full: self.full,
+            front: self.pareto.clone(),
+            front_steps: self.points as usize,
+            robust: self.robust,
+            draws: self.draws as usize,
+            step_mm: self.step_mm,
+            reserve: self.reserve,
+            follow: context.follow.clone(),
+        }
+    }
+}
+
 /// The design with the objective of `--objective`, where that and a task are given.
 fn with_objective(design: Design, args: &OptimizeArgs) -> Result<Design, Failure> {
     let Some(objective) = args.objective.filter(|_| design.optimize.is_some()) else { return Ok(design) };
@@ -220,16 +221,6 @@ fn share(text: &str) -> Result<f64, String> {
     value.filter(|v| (0.0..=1.0).contains(v)).ok_or_else(|| "a number from 0 to 1 is needed".to_owned())
 }
 
-/// Two or three different objectives of `--pareto`, or none.
-fn refuse_front(args: &OptimizeArgs) -> Result<(), Failure> {
-    let aims = &args.pareto;
-    let twice = aims.iter().enumerate().any(|(i, a)| aims[..i].contains(a));
-    if !aims.is_empty() && (twice || !(2..=3).contains(&aims.len())) {
-        return Err(Failure::malformed("--pareto: two or three different objectives are needed"));
-    }
-    Ok(())
-}
-
 /// Write the designs and tell the story.
 fn finish(
     design: &Design,
@@ -241,45 +232,26 @@ fn finish(
 ) -> Result<Exit, Failure> {
     let story = &answer.story;
     let interrupted = story.status() == &Status::Interrupted;
-    // Stopped before there were flanks: the best so far is better than nothing, and says what it lacks.
-    let feasible = story.feasible() && (story.makeable() || interrupted);
-    let better = feasible && (story.improved() || !story.found.start_feasible());
-    let mut written = None;
-    let mut beside = Vec::new();
-    let write = |path: &Path, text: Result<String, EditError>| match readable(design, path, text) {
-        Ok(text) => context.outputs.write(path, FileKind::Design, text.as_bytes()),
-        Err(why) => {
-            context.outputs.lost(why);
-            false
-        }
-    };
-    if feasible && (better || !interrupted) && histories.write(&context.outputs) {
-        written = write(new, file_text(design, story, &context.command_line)).then_some(new);
-        for (ending, what, text) in further_files(story) {
-            let path = new.with_extension(format!("{ending}.toml"));
-            if write(&path, further_text(design, what, text)) {
-                beside.push(path);
+    let named = |path: &Path| path.display().to_string();
+    let (mut written, mut beside) = (None, Vec::new());
+    let files = files(design, story, &context.command_line);
+    if !files.is_empty() && histories.write(&context.outputs) {
+        for (ending, text) in files {
+            let path = ending.map_or(new.to_path_buf(), |e| new.with_extension(format!("{e}.toml")));
+            match readable(design, &path, text) {
+                Err(why) => context.outputs.lost(why),
+                Ok(text) if !context.outputs.write(&path, FileKind::Design, text.as_bytes()) => {}
+                Ok(_) if ending.is_none() => written = Some(named(&path)),
+                Ok(_) => beside.push(named(&path)),
             }
         }
     }
-    if !feasible && !interrupted {
-        let path = new.with_extension(format!("{NEAREST}.toml"));
-        let why = match story.feasible() {
-            true => "no flanks give its centroid".to_owned(),
-            false => format!("not held: {}", story.not_held().join(", ")),
-        };
-        let what = format!("the nearest design found, NOT FEASIBLE: {why}");
-        if histories.write(&context.outputs) && write(&path, further_text(design, &what, story.file())) {
-            beside.push(path);
-        }
-    }
     let journal = keep.then(|| file.path().to_path_buf());
-    let named = |path: &Path| path.display().to_string();
     let report = SearchReport {
         design,
         answer,
-        written: written.map(named),
-        beside: beside.iter().map(|path| named(path)).collect(),
+        written,
+        beside,
         journal: journal.as_deref().map(named),
         provenance: context.provenance(run_time_s),
         hints: HINTS,
@@ -295,11 +267,43 @@ fn finish(
     }
     Ok(if interrupted {
         Exit::Interrupted
-    } else if feasible && story.not_robust().is_none() {
+    } else if held(story) && story.not_robust().is_none() {
         Exit::Held
     } else {
         Exit::NotHeld
     })
+}
+
+/// Whether every limit is held by a sprag that can be made. Stopped before there were flanks: the best so far is better than nothing, and
+/// says what it lacks.
+fn held(story: &Story) -> bool {
+    story.feasible() && (story.makeable() || story.status() == &Status::Interrupted)
+}
+
+/// Design files that a search is worth: middle of the name, where it has one, and text.
+fn files<'s>(
+    design: &Design,
+    story: &'s Story,
+    command: &str,
+) -> Vec<(Option<&'s str>, Result<String, EditError>)> {
+    let interrupted = story.status() == &Status::Interrupted;
+    if held(story) {
+        if interrupted && !story.improved() && story.found.start_feasible() {
+            return Vec::new();
+        }
+        let further = further_files(story).into_iter();
+        let further = further.map(|(ending, what, text)| (Some(ending), further_text(design, what, text)));
+        return std::iter::once((None, file_text(design, story, command))).chain(further).collect();
+    }
+    if interrupted {
+        return Vec::new();
+    }
+    let why = match story.feasible() {
+        true => "no flanks give its centroid".to_owned(),
+        false => format!("not held: {}", story.not_held().join(", ")),
+    };
+    let what = format!("the nearest design found, NOT FEASIBLE: {why}");
+    vec![(Some(NEAREST), further_text(design, &what, story.file()))]
 }
 
 /// `text` if it reads as a design with the histories of `design`; else what is wrong with the file that it would have made.

@@ -1,22 +1,16 @@
 //! What a file is by its name, and whether this tool has written it: somebody else's file is not replaced in silence.
 
-pub use crate::answer::WRITTEN_BY;
+use crate::answer::WRITTEN_BY;
 use crate::answer::sweep::SweepHead;
 use crate::design::is_history;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// First words of the facts in a deck.
-const DECK_FACT: &str = "** sprag-design ";
-/// First word in the second line of a drawing or solid, behind what its format wants there.
-const MARK: &str = "sprag-design ";
-/// Words in the description of a unit.
-const UNIT: &str = "generationTool=\"sprag-design ";
-/// First words of a page.
-const PAGE: &str = "<!-- sprag-design ";
 /// As much of a file as is looked at, bytes.
 const HEAD: u64 = 65_536;
+/// First word of what a drawing, a solid, a page or a deck says of itself, with its version behind.
+const MARK: &str = "sprag-design ";
 
 /// What is written into a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,57 +35,44 @@ pub enum FileKind {
     Unit,
 }
 
-/// Endings that name a kind, and endings of files that this tool never writes.
-const ENDINGS: [(&str, Option<FileKind>); 20] = [
-    ("csv", Some(FileKind::Table)),
-    ("html", Some(FileKind::Page)),
-    ("htm", Some(FileKind::Page)),
-    ("toml", Some(FileKind::Design)),
-    ("inp", Some(FileKind::Deck)),
-    ("dxf", Some(FileKind::Dxf)),
-    ("svg", Some(FileKind::Svg)),
-    ("step", Some(FileKind::Step)),
-    ("stp", Some(FileKind::Step)),
-    ("fmu", Some(FileKind::Unit)),
-    ("json", None),
-    ("pdf", None),
-    ("png", None),
-    ("jpg", None),
-    ("xls", None),
-    ("xlsx", None),
-    ("ods", None),
-    ("doc", None),
-    ("docx", None),
-    ("zip", None),
+/// Kind, noun, endings, and whether this tool wrote a file that begins so.
+type Facts = (FileKind, &'static str, &'static [&'static str], fn(&str) -> bool);
+
+/// Of every kind. A journal has the ending of a table, which stands before it.
+const KINDS: [Facts; 9] = [
+    (FileKind::Table, "table", &["csv"], |head| {
+        let ours = |line: &str| is_our_header(line) || SweepHead::begins(line);
+        !is_history(head) && head.lines().next().is_some_and(ours)
+    }),
+    (FileKind::Journal, "journal", &["csv"], |_| true),
+    (FileKind::Page, "page", &["html", "htm"], |head| line_is_ours(head, 0, "<!-- ")),
+    (FileKind::Design, "design file", &["toml"], |head| {
+        // What `new`, `size` and the studio write is gone on with by hand.
+        let by = |command: &&str| head.strip_prefix(WRITTEN_BY).is_some_and(|rest| rest.starts_with(command));
+        [" optimize ", " import ", " identify "].iter().any(by)
+    }),
+    (FileKind::Deck, "deck", &["inp"], |head| (0..8).any(|n| line_is_ours(head, n, "** "))),
+    (FileKind::Dxf, "DXF drawing", &["dxf"], |head| line_is_ours(head, 1, "")),
+    (FileKind::Svg, "SVG drawing", &["svg"], |head| line_is_ours(head, 1, "<desc>")),
+    (FileKind::Step, "STEP solid", &["step", "stp"], |head| line_is_ours(head, 1, "/* ")),
+    // Its description comes first, as it is.
+    (FileKind::Unit, "co-simulation unit", &["fmu"], |head| {
+        head.starts_with("PK") && head.contains("generationTool=\"sprag-design ")
+    }),
 ];
 
+/// Endings of files that this tool never writes.
+const OTHERS: [&str; 10] = ["json", "pdf", "png", "jpg", "xls", "xlsx", "ods", "doc", "docx", "zip"];
+
 impl FileKind {
-    /// The kind in one word.
-    pub fn noun(self) -> &'static str {
-        match self {
-            Self::Table => "table",
-            Self::Journal => "journal",
-            Self::Page => "page",
-            Self::Design => "design file",
-            Self::Deck => "deck",
-            Self::Dxf => "DXF drawing",
-            Self::Svg => "SVG drawing",
-            Self::Step => "STEP solid",
-            Self::Unit => "co-simulation unit",
-        }
+    fn facts(self) -> &'static Facts {
+        static ALL: [Facts; KINDS.len()] = KINDS;
+        &ALL[self as usize]
     }
 
-    fn ending(self) -> &'static str {
-        match self {
-            Self::Table | Self::Journal => ".csv",
-            Self::Page => ".html or .htm",
-            Self::Design => ".toml",
-            Self::Deck => ".inp",
-            Self::Dxf => ".dxf",
-            Self::Svg => ".svg",
-            Self::Step => ".step or .stp",
-            Self::Unit => ".fmu",
-        }
+    /// The kind in one word.
+    pub fn noun(self) -> &'static str {
+        self.facts().1
     }
 
     /// Refuse a name whose ending says another kind of file; a page says by its ending that it is one, since programs open
@@ -101,16 +82,21 @@ impl FileKind {
     /// What is wrong with the name, in words.
     pub fn fits(self, path: &Path) -> Result<(), String> {
         let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-        let known = ENDINGS.iter().find(|(e, _)| *e == ending);
+        let own = self.facts().2;
+        if own.contains(&&*ending) {
+            return Ok(());
+        }
         let noun = self.noun();
-        match known {
-            Some((_, Some(there))) if *there == self => Ok(()),
-            Some((_, Some(Self::Table))) if self == Self::Journal => Ok(()),
-            Some((_, Some(there))) if path.exists() => {
-                Err(format!("is a {} already; a {noun} does not overwrite it", there.noun()))
+        let other = KINDS.iter().find(|(_, _, endings, _)| endings.contains(&&*ending));
+        match other {
+            Some((_, there, ..)) if path.exists() => {
+                Err(format!("is a {there} already; a {noun} does not overwrite it"))
             }
-            None if self != Self::Page => Ok(()),
-            _ => Err(format!("a {noun} is written there; let its name end in {}", self.ending())),
+            None if self != Self::Page && !OTHERS.contains(&&*ending) => Ok(()),
+            _ => {
+                let own = own.iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(" or ");
+                Err(format!("a {noun} is written there; let its name end in {own}"))
+            }
         }
     }
 
@@ -126,33 +112,13 @@ impl FileKind {
     }
 
     fn wrote(self, head: &str) -> bool {
-        match self {
-            // What `new`, `size` and the studio write is gone on with by hand.
-            Self::Design => head.strip_prefix(WRITTEN_BY).is_some_and(|rest| {
-                [" optimize ", " import ", " identify "].iter().any(|command| rest.starts_with(command))
-            }),
-            Self::Page => head.starts_with(PAGE),
-            Self::Deck => head.lines().take(8).any(|line| line.starts_with(DECK_FACT)),
-            Self::Dxf => head.lines().nth(1).is_some_and(|line| line.starts_with(MARK)),
-            Self::Svg => head
-                .lines()
-                .nth(1)
-                .and_then(|line| line.strip_prefix("<desc>"))
-                .is_some_and(|l| l.starts_with(MARK)),
-            Self::Step => head
-                .lines()
-                .nth(1)
-                .and_then(|line| line.strip_prefix("/* "))
-                .is_some_and(|l| l.starts_with(MARK)),
-            // Its description comes first, as it is.
-            Self::Unit => head.starts_with("PK") && head.contains(UNIT),
-            Self::Journal => true,
-            Self::Table => {
-                let ours = |line: &str| is_our_header(line) || SweepHead::begins(line);
-                !is_history(head) && head.lines().next().is_some_and(ours)
-            }
-        }
+        (self.facts().3)(head)
     }
+}
+
+/// Whether line `n` of a file, from 0, is `before` and our mark.
+fn line_is_ours(head: &str, n: usize, before: &str) -> bool {
+    head.lines().nth(n).and_then(|line| line.strip_prefix(before)).is_some_and(|rest| rest.starts_with(MARK))
 }
 
 /// The beginning of a file; `None`: it cannot be read.
@@ -188,6 +154,7 @@ mod tests {
             (FileKind::Table, "model,design\n", "notes\n"),
             (FileKind::Table, "# sprag-design sweep 0.2.0; vectors; a\n", "# by hand\n"),
         ] {
+            assert_eq!(kind.facts().0, kind);
             assert!(kind.wrote(ours) && !kind.wrote(theirs), "{kind:?}");
         }
     }

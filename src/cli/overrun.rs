@@ -7,7 +7,7 @@ use crate::answer::overrun::{
     NoOverrun, OIL_TEMPERATURES_C, OVERRUN_SPEEDS_RAD_S, OverrunQuestion, RunningRace,
 };
 use crate::design::{rad_s, rpm};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -36,16 +36,7 @@ pub struct OverrunArgs {
     pub temperatures: Vec<f64>,
     /// Race that runs, the other one stands
     #[arg(long, value_name = "RACE", value_enum, default_value = "inner")]
-    pub race: RaceName,
-}
-
-/// A race, as flags have it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum RaceName {
-    /// The inner race, past sprags that stand
-    Inner,
-    /// The outer race, the sprags with it
-    Outer,
+    pub race: RunningRace,
 }
 
 /// A speed at which such a clutch may run.
@@ -70,10 +61,7 @@ fn oil_temperature(text: &str) -> Result<f64, String> {
 impl Run for OverrunArgs {
     fn run(&self, context: &Context) -> Result<Exit, Failure> {
         let question = OverrunQuestion {
-            race: match self.race {
-                RaceName::Inner => RunningRace::Inner,
-                RaceName::Outer => RunningRace::Outer,
-            },
+            race: self.race,
             speeds_rad_s: self.speeds.iter().map(|&rpm| rad_s(rpm)).collect(),
             temperatures_c: self.temperatures.clone(),
         };
@@ -83,8 +71,7 @@ impl Run for OverrunArgs {
                 NoOverrun::NoClutch(why) => Failure::no_clutch(file, &why),
                 NoOverrun::NoLubrication | NoOverrun::Setting(_) => Failure::of(file, why),
             })?;
-            context.deliver(&found, run_time_s)?;
-            Ok(Exit::Held)
+            context.deliver(&found, run_time_s)
         })
     }
 }

@@ -5,7 +5,6 @@ use super::exit::{Exit, Failure};
 use super::{Context, Run, positive};
 use crate::answer::reengagement::{NoReengagement, ReengagementSettings};
 use crate::design::rad_s;
-use crate::dynamics::Stop;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -71,14 +70,7 @@ impl Run for ReengageArgs {
                 NoReengagement::Refused(_) => Failure::malformed(why.to_string()),
                 why => Failure::of(file, why),
             })?;
-            context.deliver(&found, run_time_s)?;
-            let all = &found.found;
-            let ends = all.list.iter().filter_map(|blow| blow.ended).chain(all.ended.map(|end| end.stop));
-            Ok(match ends.last() {
-                Some(Stop::Interrupted) => Exit::Interrupted,
-                Some(stop) if stop.gave_up() => Exit::Failed,
-                _ => Exit::of(found.held()),
-            })
+            context.deliver(&found, run_time_s)
         })
     }
 }

@@ -3,15 +3,13 @@
 use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::output::path_text;
-use super::simulate::chosen;
 use super::{Context, Run, positive};
 use crate::answer::example_torque_nm;
 use crate::answer::resonance::{NoResonance, RESONANCE_TOLERANCES, ResonanceQuestion, example};
-use crate::clutch::Scenario;
-use crate::design::Design;
+use crate::design::WhichScenario;
 use crate::scenario::Settings;
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -101,7 +99,18 @@ impl Run for ResonanceArgs {
         let settings =
             Settings { tolerance: self.tolerance, follow: context.follow.unseen(), ..Settings::default() };
         context.each(&self.files, |file, design| {
-            let scenario = excited(self.scenario.as_deref(), design, file)?;
+            let scenario = design.which_scenario(self.scenario.as_deref(), |s| s.kind.frequency_hz().is_some());
+            let scenario = scenario.map_err(|why| match why {
+                WhichScenario::None => Failure::of(
+                    file,
+                    format!(
+                        "the design has no torsional excitation; add one, such as\n\n{}\n\n`sprag-design explain scenarios` lists \
+                         its keys",
+                        example(example_torque_nm(design))
+                    ),
+                ),
+                why => Failure::of(file, why),
+            })?;
             // Each is found on the way up and on the way down.
             let total = 2 * question.frequencies_hz.len().max(1) * question.amplitudes_nm.len().max(1);
             let line = context.progress("resonance", "states", Some(total as u64));
@@ -116,31 +125,7 @@ impl Run for ResonanceArgs {
                 }
                 NoResonance::NoStart(_) => Failure::NoClutch(named(&why)),
             })?;
-            context.deliver(&found, run_time_s)?;
-            Ok(if found.amplitudes_left() > 0 { Exit::Interrupted } else { Exit::Held })
+            context.deliver(&found, run_time_s)
         })
-    }
-}
-
-/// The scenario of that name, else the only torsional excitation that the design has.
-fn excited<'d>(name: Option<&str>, design: &'d Design, file: &Path) -> Result<&'d Scenario, Failure> {
-    if name.is_some() {
-        return chosen(name, design, file);
-    }
-    let swings = design.scenarios.iter().filter(|s| s.kind.frequency_hz().is_some());
-    match swings.collect::<Vec<_>>().as_slice() {
-        [only] => Ok(only),
-        [] => Err(Failure::malformed(format!(
-            "{}: the design has no torsional excitation; add one, such as\n\n{}\n\n`sprag-design explain scenarios` lists its keys",
-            path_text(file),
-            example(example_torque_nm(design))
-        ))),
-        several => {
-            let names: Vec<&str> = several.iter().map(|s| s.name.as_str()).collect();
-            Err(Failure::malformed(format!(
-                "needed: --scenario NAME; torsional excitations of the design: {}",
-                names.join(", ")
-            )))
-        }
     }
 }

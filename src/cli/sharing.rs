@@ -4,7 +4,6 @@ use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run, positive};
 use crate::answer::sharing::NoSharing;
-use crate::dynamics::Stop;
 use crate::scenario::Settings;
 use clap::Args;
 use std::path::PathBuf;
@@ -47,20 +46,14 @@ impl Run for SharingArgs {
                 let settings = Settings { follow, most_steps, ..Settings::default() };
                 let (found, run_time_s) = timed(|| design.sharing_in_scene(name, &settings));
                 let found = found.map_err(|why| Failure::of(file, why))?;
-                context.deliver(&found, run_time_s)?;
-                return Ok(match found.found.run.stop {
-                    Stop::Interrupted => Exit::Interrupted,
-                    stop if stop.gave_up() => Exit::Failed,
-                    _ => Exit::of(found.held()),
-                });
+                return context.deliver(&found, run_time_s);
             }
             let (found, run_time_s) = timed(|| design.sharing(self.torque));
             let found = found.map_err(|why| match why {
                 NoSharing::NoClutch(why) => Failure::no_clutch(file, &why),
                 why => Failure::of(file, why),
             })?;
-            context.deliver(&found, run_time_s)?;
-            Ok(Exit::of(found.held()))
+            context.deliver(&found, run_time_s)
         })
     }
 }

@@ -7,12 +7,10 @@ use super::{Context, Run, positive};
 use crate::answer::simulation::{
     self as scene, Ran, RefusedSetting, Setting, SimulationAnswer, SimulationSettings,
 };
-use crate::clutch::Scenario;
-use crate::design::{Design, nearest};
 use crate::dynamics::Stop;
 use crate::report::plain;
 use clap::{Args, ValueEnum};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -93,9 +91,9 @@ impl Run for SimulateArgs {
         settings.validate().map_err(|why| refusal(why, self.window))?;
         refuse_strangers(self)?;
         context.each(&self.files, |file, design| {
-            let scenario = chosen(self.scenario.as_deref(), design, file)?;
+            let scenario = design.which_scenario(self.scenario.as_deref(), |_| true);
+            let scenario = scenario.map_err(|why| Failure::of(file, why))?;
             settings.validate_for(scenario).map_err(|why| refusal(why, self.window))?;
-            refuse_unknown_to_published(self)?;
             let duration_s = scenario.kind.duration_s();
             let run = || Ran::new(design, scenario, &settings);
             let (ran, run_time_s) = timed(|| while_shown(&scenario.name, duration_s, context, run));
@@ -164,35 +162,27 @@ fn refusal(why: RefusedSetting, window_s: Option<[f64; 2]>) -> Failure {
     refused(flag, why.found, &why.allowed)
 }
 
-/// Refuse a `--tolerance` that makes no sense.
-pub(super) fn refuse_tolerance(x: f64) -> Result<(), Failure> {
-    SimulationSettings { tolerance: Some(x), ..SimulationSettings::default() }
-        .validate()
-        .map_err(|why| refusal(why, None))
-}
-
 /// Refuse flags that the method does not know.
 fn refuse_strangers(args: &SimulateArgs) -> Result<(), Failure> {
-    match (args.method, args.tolerance, args.band) {
-        (MethodName::Published, Some(x), _) => {
-            Err(refused("--tolerance", x, "--step with --method published, whose step is fixed"))
-        }
-        (MethodName::Event, _, Some(band)) => {
-            Err(refused("--band", band, "only with --method published: the event method needs no band"))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Refuse a window and limits with the published scheme.
-fn refuse_unknown_to_published(args: &SimulateArgs) -> Result<(), Failure> {
+    let published = args.method == MethodName::Published;
+    let event = "only with --method event";
+    // Flag, whether it is given, with its number to be repeated, whether it is of the published method, what is allowed.
     let given = [
-        ("--window", args.window.is_some()),
-        ("--max-steps", args.max_steps.is_some()),
-        ("--max-changes", args.max_changes.is_some()),
+        (
+            "--tolerance",
+            args.tolerance.map(Some),
+            false,
+            "--step with --method published, whose step is fixed",
+        ),
+        ("--window", args.window.map(|_| None), false, event),
+        ("--max-steps", args.max_steps.map(|_| None), false, event),
+        ("--max-changes", args.max_changes.map(|_| None), false, event),
+        ("--band", args.band.map(Some), true, "only with --method published: the event method needs no band"),
     ];
-    match given.into_iter().find(|(_, given)| *given && args.method == MethodName::Published) {
-        Some((flag, _)) => Err(Failure::malformed(format!("{flag}: only with --method event"))),
+    match given.into_iter().find(|(_, given, of_published, _)| given.is_some() && *of_published != published)
+    {
+        Some((flag, Some(Some(x)), _, allowed)) => Err(refused(flag, x, allowed)),
+        Some((flag, _, _, allowed)) => Err(Failure::malformed(format!("{flag}: {allowed}"))),
         None => Ok(()),
     }
 }
@@ -208,45 +198,4 @@ fn window(text: &str) -> Result<[f64; 2], String> {
 
 fn refused(flag: &str, found: f64, allowed: &str) -> Failure {
     Failure::malformed(format!("{flag} {}: allowed: {allowed}", plain(found, DIGITS)))
-}
-
-/// The scenario `name`, or the only one.
-///
-/// # Errors
-/// [`Failure::Malformed`].
-pub(super) fn chosen<'d>(
-    name: Option<&str>,
-    design: &'d Design,
-    file: &Path,
-) -> Result<&'d Scenario, Failure> {
-    match (name, design.scenarios.as_slice()) {
-        (Some(name), _) => design.scenario(name).ok_or_else(|| unknown(name, design, file)),
-        (None, [only]) => Ok(only),
-        (None, all) => {
-            let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
-            Err(Failure::malformed(match names.as_slice() {
-                [] => {
-                    format!("{}: the design has no scenarios; add a [[scenarios]] table", file.display())
-                }
-                names => format!("needed: --scenario NAME; the design has: {}", names.join(", ")),
-            }))
-        }
-    }
-}
-
-/// The refusal of a scenario that the design does not have.
-pub(super) fn unknown(name: &str, design: &Design, file: &Path) -> Failure {
-    let file = file.display();
-    let names: Vec<&str> = design.scenarios.iter().map(|s| s.name.as_str()).collect();
-    if names.is_empty() {
-        return Failure::malformed(format!(
-            "{file}: the design has no scenarios, --scenario {name} asks for one; add a [[scenarios]] table"
-        ));
-    }
-    let meant = nearest(name, &names).map_or(String::new(), |near| format!("; did you mean {near}?"));
-    let end = if meant.is_empty() { "; the" } else { " The" };
-    Failure::malformed(format!(
-        "{file}: no scenario {name}, which --scenario asks for{meant}{end} design has: {}",
-        names.join(", ")
-    ))
 }

@@ -10,7 +10,7 @@ use crate::clutch::LawName;
 use crate::design::{MOST_TABLE, read_text};
 use crate::margin::NoMargins;
 use crate::wedge::Lengthwise;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -49,28 +49,7 @@ pub struct StiffnessArgs {
     pub fem_model: Option<String>,
     /// Pressure along the length of the contacts; on by itself, by slices, with an end profile or a tilt
     #[arg(long, value_name = "HOW", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "slices")]
-    pub pressure: Option<PressureName>,
-}
-
-/// How the pressure along the length is found, as flags have it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum PressureName {
-    /// Slices: (1)-(4) with the slice law, slices on half-spaces with the others
-    Slices,
-    /// Half-spaces solved on a grid over the patch, two rows a slice; seconds
-    Reference,
-    /// The same with free faces where a body ends (quarter-space correction)
-    FreeEnds,
-}
-
-impl PressureName {
-    fn how(self) -> Lengthwise {
-        match self {
-            Self::Slices => Lengthwise::Slices,
-            Self::Reference => Lengthwise::Reference,
-            Self::FreeEnds => Lengthwise::FreeEnds,
-        }
-    }
+    pub pressure: Option<Lengthwise>,
 }
 
 impl Run for StiffnessArgs {
@@ -119,9 +98,9 @@ fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<StiffnessS
         NoStiffness::Stopped => Failure::Interrupted,
     })?;
     drop(progress);
-    let shaped = (!design.clutch.axial.is_straight()).then_some(PressureName::Slices);
+    let shaped = (!design.clutch.axial.is_straight()).then_some(Lengthwise::Slices);
     let pressure = match (laws.first(), args.pressure.or(shaped)) {
-        (Some(law), Some(how)) => Some(PressureMap::of(law, how.how()).map_err(|e| {
+        (Some(law), Some(how)) => Some(PressureMap::of(law, how).map_err(|e| {
             Failure::malformed(format!(
                 "no pressure along the length: {e}; take fewer slices or --pressure slices"
             ))

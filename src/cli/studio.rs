@@ -1,19 +1,15 @@
 //! `studio`: the live page, served to this machine alone.
 
 use super::exit::{Exit, Failure};
-use super::origin::{FileKind, WRITTEN_BY};
+use super::origin::FileKind;
 use super::output::{self, Outputs};
 use super::{Context, Run, Without};
-use crate::design::{Design, MOST_TABLE};
-use crate::follow::Follow;
-use crate::scenario::Settings;
-use crate::studio::{Engine, Searching, page};
+use crate::design::MOST_TABLE;
+use crate::studio::{Session, ToSave, page};
 use clap::Args;
 use serde_json::{Value, json};
-use std::collections::HashMap;
 use std::io::Read;
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::path::PathBuf;
 use std::time::Duration;
 use tiny_http::{Header, Method, Request, Response, Server};
 
@@ -51,16 +47,10 @@ const LONGEST: u64 = 2 * MOST_TABLE;
 
 struct Studio<'a> {
     context: &'a Context,
-    engine: Engine,
-    text: String,
-    file: String,
+    session: Session,
     folder: PathBuf,
-    save_as: String,
     token: String,
     port: u16,
-    searching: Mutex<Option<Searching>>,
-    /// What a page asked last, by page and kind of question.
-    asked: Mutex<HashMap<String, Follow>>,
 }
 
 impl Run for StudioArgs {
@@ -83,18 +73,8 @@ impl Run for StudioArgs {
         let folder = output::folder_of(&file);
         let name = file.display().to_string();
         let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-        let studio = Studio {
-            context,
-            engine: Engine::new(&name, folder.clone()),
-            text,
-            file: name,
-            folder,
-            save_as: format!("{stem}-studio.toml"),
-            token: token()?,
-            port,
-            searching: Mutex::default(),
-            asked: Mutex::default(),
-        };
+        let session = Session::new(text, &name, folder.clone(), format!("{stem}-studio.toml"));
+        let studio = Studio { context, session, folder, token: token()?, port };
         let address = format!("http://127.0.0.1:{port}/{}/", studio.token);
         output::print(&format!("{address}\n"))?;
         context.message("the studio runs until Ctrl-C");
@@ -106,9 +86,7 @@ impl Run for StudioArgs {
                 scope.spawn(|| studio.serve(&server));
             }
         });
-        if let Some(search) = &*studio.searching.lock().unwrap_or_else(PoisonError::into_inner) {
-            search.stop();
-        }
+        studio.session.stop();
         Ok(Exit::Held)
     }
 }
@@ -145,7 +123,7 @@ impl Reply {
     }
 
     fn refused(status: u16, message: &str) -> Self {
-        Self::json(status, &json!({ "message": message, "problems": null }))
+        Self::json(status, &refusal(message))
     }
 }
 
@@ -177,9 +155,7 @@ impl Studio<'_> {
             let _ = request.respond(response);
         }
         // What the others still compute ends too.
-        self.asked.lock().unwrap_or_else(PoisonError::into_inner).values().for_each(|f| {
-            f.stop();
-        });
+        self.session.stop();
     }
 
     fn answer(&self, request: &mut Request) -> Reply {
@@ -216,108 +192,24 @@ impl Studio<'_> {
 
     fn ask(&self, ask: &str, question: &Value) -> Reply {
         let answer = match ask {
-            "open" => Ok(json!({ "text": self.text, "file": self.file, "save_as": self.save_as })),
-            "save" => self.save(question),
-            "optimise" => self.optimise(question),
-            "progress" => Ok(self.progress()),
-            "stop" => {
-                self.searching().iter().for_each(Searching::stop);
-                Ok(Value::Null)
-            }
-            _ => {
-                let settings = Settings { follow: self.newest(ask, question), ..Settings::default() };
-                self.engine.ask(ask, question, &settings)
-            }
+            "save" => self.session.to_save(question).and_then(|saved| self.save(&saved)),
+            _ => self.session.ask(ask, question),
         };
-        match answer {
-            Ok(value) => Reply::json(200, &value),
-            Err(refused) => Reply::json(422, &refused),
-        }
+        answer.map_or_else(|refused| Reply::json(422, &refused), |value| Reply::json(200, &value))
     }
 
-    /// Stops the question of this kind that the same page asked before, and can be stopped by the next.
-    fn newest(&self, ask: &str, question: &Value) -> Follow {
-        /// Pages that are remembered; one that has been closed asks nothing more.
-        const MOST: usize = 1000;
-        let page = question.get("page").and_then(Value::as_str).unwrap_or("");
-        let mine = Follow::new();
-        let mut asked = self.asked.lock().unwrap_or_else(PoisonError::into_inner);
-        if asked.len() > MOST {
-            asked.clear();
-        }
-        if let Some(before) = asked.insert(format!("{page} {ask}"), mine.clone()) {
-            before.stop();
-        }
-        mine
-    }
-
-    fn searching(&self) -> std::sync::MutexGuard<'_, Option<Searching>> {
-        self.searching.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn optimise(&self, question: &Value) -> Result<Value, Value> {
-        let mut searching = self.searching();
-        if searching.as_ref().is_some_and(|s| s.progress().running) {
-            return Err(refusal("a search is running already, from this page or another; stop it first"));
-        }
-        let design = self.parsed(question)?;
-        *searching = Some(Searching::begin(design));
-        Ok(Value::Null)
-    }
-
-    fn progress(&self) -> Value {
-        match &*self.searching() {
-            Some(search) => {
-                let p = search.progress();
-                json!({ "running": p.running, "said": p.said, "text": p.text })
-            }
-            None => json!({ "running": false, "said": "no search was begun", "text": null }),
-        }
-    }
-
-    fn parsed(&self, question: &Value) -> Result<Design, Value> {
-        let text = question
-            .get("text")
-            .and_then(Value::as_str)
-            .ok_or_else(|| refusal("the question has no text"))?;
-        Design::parse_in(&self.folder, text, &self.file)
-            .map_err(|e| json!({ "message": e.to_string(), "problems": e.to_json() }))
-    }
-
-    /// Write the design beside the file that is open; only what is a design, only under a plain name.
-    fn save(&self, question: &Value) -> Result<Value, Value> {
-        let design = self.parsed(question)?;
-        let text = |key: &str| question.get(key).and_then(Value::as_str).unwrap_or("").trim();
-        let name = Path::new(text("name"));
-        if name.file_name().is_none_or(|own| own != name.as_os_str()) {
-            return Err(refusal(
-                "give a plain file name; it is written into the folder of the file that is open",
-            ));
-        }
-        if name.extension().is_none_or(|e| e != "toml") {
-            return Err(refusal("let the name end in .toml: a design file is written there"));
-        }
-        let path = self.folder.join(name);
+    /// Write a design beside the file that is open.
+    fn save(&self, saved: &ToSave) -> Result<Value, Value> {
+        let path = self.folder.join(&saved.name);
         // Whoever wrote it: it may have been edited since.
-        if path.exists() && text("replace") != "yes" {
+        if path.exists() && !saved.replace {
             return Err(refusal(&format!(
                 "{} exists; tick the box to replace it, or give another name",
                 path.display()
             )));
         }
-        let outputs = Outputs::new(None, None, text("replace") == "yes");
-        let first = design.source.lines().next().unwrap_or("");
-        let ours = if first.starts_with(WRITTEN_BY) {
-            design.source.clone()
-        } else {
-            format!(
-                "{WRITTEN_BY} {} studio from {}.\n{}",
-                output::VERSION,
-                output::path_text(Path::new(&self.file)),
-                design.source
-            )
-        };
-        match outputs.write(&path, FileKind::Design, ours.as_bytes()) {
+        let outputs = Outputs::new(None, None, saved.replace);
+        match outputs.write(&path, FileKind::Design, saved.text.as_bytes()) {
             true => Ok(json!({ "path": path.display().to_string() })),
             false => Err(refusal(&outputs.unwritten().join("; "))),
         }

@@ -25,7 +25,7 @@ pub use sharing::{GivenSprag, Sharing, Standing};
 pub use tolerances::Tolerances;
 
 use crate::material::Material;
-use crate::profile::{Brink, Flanks, Outline, Profile, ProfileError};
+use crate::profile::{Brink, Flanks, Outline, Profile, ProfileError, Spiral};
 use std::f64::consts::PI;
 
 /// Where the sprag's mass, inertia and centroid come from.
@@ -70,6 +70,8 @@ pub struct Sprags {
     pub mass_source: MassSource,
     /// Inner arcs in order of engagement, at least one.
     pub inner_arcs: Vec<InnerArc>,
+    /// The spiral that the last of them stand for, if any; answers name it, nothing is computed with it.
+    pub spiral: Option<Spiral>,
     /// Flanks that close the outline: those of the file, or both at half of `width_m`; absent without either.
     pub flanks: Option<Flanks>,
 }
@@ -262,6 +264,11 @@ pub struct Clutch {
 }
 
 impl Sprags {
+    /// Number of inner arcs that a file lists: all but those that stand for its spiral.
+    pub fn listed_arcs(&self) -> usize {
+        self.inner_arcs.len().saturating_sub(self.spiral.map_or(0, |s| s.arc_count()))
+    }
+
     /// Their profile between `races`.
     ///
     /// # Errors

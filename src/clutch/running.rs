@@ -224,6 +224,7 @@ fn placed(made: &Races, run: &Races, sprags: &Sprags, scale: f64) -> Option<(Spr
         inner_arcs: inner_arcs
             .map(|a| InnerArc { radius_m: scale * a.radius_m, until_rad: a.until_rad - turn })
             .collect(),
+        spiral: sprags.spiral.map(|s| s.moved(scale, turn)),
         flanks: sprags.flanks.map(|f| Flanks { rear_m: scale * f.rear_m, front_m: scale * f.front_m, ..f }),
         ..sprags.clone()
     };

@@ -3,7 +3,7 @@
 //! In: nothing. Out: [`Sharing`], SI. Absent: what they carry then (`sharing`). Equations: none.
 
 /// Deviations of the sprags: drawn within bounds from a seed, and given by number.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sharing {
     /// How the sprags stand when torque begins.
     pub start: Standing,
@@ -20,6 +20,8 @@ pub struct Sharing {
     /// Radial stiffness of what holds the axes, N/m, 0: free to centre itself, infinite: held; `None`: that of the eccentricity,
     /// else held.
     pub stiffness_n_per_m: Option<f64>,
+    /// Mass that moves on it in a scene, kg; `None`: that of the inner race as a plain ring.
+    pub mass_kg: Option<f64>,
     /// Sprags by number, in place of what is drawn.
     pub given: Vec<GivenSprag>,
 }

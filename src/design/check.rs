@@ -208,7 +208,7 @@ pub(super) fn film(file: &DesignFile, out: &mut Findings) {
 }
 
 /// A tolerance must leave its quantity above 0.
-pub(super) fn tolerances(file: &DesignFile, out: &mut Findings) {
+pub(super) fn tolerances(file: &DesignFile, clutch: Option<&Clutch>, out: &mut Findings) {
     let Some(t) = &file.tolerances else { return };
     let (found, value) = (t.friction, file.friction.static_);
     if found >= value {
@@ -218,8 +218,11 @@ pub(super) fn tolerances(file: &DesignFile, out: &mut Findings) {
             "lower tolerances.friction".to_owned(),
         );
     }
-    let least =
-        file.sprags.inner_arcs.iter().map(|a| a.radius_mm).fold(file.sprags.outer_radius_mm, f64::min);
+    let spiral = clutch
+        .and_then(|c| c.sprags.spiral)
+        .map(|s| geometry::mm(s.radius_m(s.from_rad).min(s.radius_m(s.until_rad))));
+    let radii = file.sprags.inner_arcs.iter().map(|a| a.radius_mm).chain(spiral);
+    let least = radii.fold(file.sprags.outer_radius_mm, f64::min);
     let gap = file.races.outer_radius_mm - file.races.inner_radius_mm;
     for (key, found, of) in [
         ("tolerances.inner_race_radius_mm", t.inner_race_radius_mm, gap),

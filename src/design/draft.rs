@@ -23,7 +23,7 @@ pub struct DraftScene {
     /// Key, value in the file's unit, where the value comes from.
     pub keys: Vec<(&'static str, f64, &'static str)>,
     /// Whether `check` holds the design to it, or only shows it.
-    pub held: bool,
+    pub checked: bool,
 }
 
 /// What a new design file says; one inner arc, a steel of the library, the law `elastic`. The outer race's inertia is
@@ -138,8 +138,8 @@ impl Draft {
                 "# inner_inertia_kg_m2, outer_inertia_kg_m2: absent, so those of the rings alone".to_owned()
             }
         };
-        let held: String =
-            self.scenes.iter().filter(|s| s.held).map(|s| format!(", \"{}\"", s.name)).collect();
+        let checked: String =
+            self.scenes.iter().filter(|s| s.checked).map(|s| format!(", \"{}\"", s.name)).collect();
         let scenes: String = self.scenes.iter().map(DraftScene::to_toml).collect();
         let life = self.engagements.map_or(String::new(), |count| {
             format!(
@@ -192,7 +192,7 @@ gap_peak_mm = {gap_peak}            # GMN 9050: 8.60 mm of a gap of 8.33, in pro
 slip_margin = 0.1                   # choice
 {contact}
 [check]
-scenarios = ["rated-static", "rated-step"{held}]
+scenarios = ["rated-static", "rated-step"{checked}]
 
 [[scenarios]]
 name = "rated-static"
@@ -212,7 +212,7 @@ speed_rpm = {speed}
 {scenes}{life}
 [optimize]
 objective = "slip-margin"
-scenarios = ["rated-static", "rated-step"{held}]
+scenarios = ["rated-static", "rated-step"{checked}]
 variables = [
   {{ name = "r_i1_mm", min = {ri_min}, max = {ri_max} }},
   {{ name = "centre_distance_mm", min = {e_min}, max = {e_max} }},

@@ -151,6 +151,7 @@ pub fn with_sprag(
         rows.push(row);
     }
     sprags.insert("inner_arcs", Item::Value(Value::Array(rows)));
+    sprags.remove("inner_spiral");
     Ok(document.to_string())
 }
 

@@ -80,9 +80,9 @@ pub(super) struct SpragsFile {
     /// Radius r_e of the outer arc, mm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub outer_radius_mm: f64,
-    /// Distance e_1 between the centres of the first inner arc and of the outer arc, mm.
+    /// Distance e_1 between the centres of the first inner arc and of the outer arc, mm; none with strut_angle_deg.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub centre_distance_mm: f64,
+    pub centre_distance_mm: Option<f64>,
     /// Width b of the sprag's body in (6), mm; omitted or 0: no body compression.
     #[serde(default)]
     #[schemars(extend("minimum" = 0))]
@@ -95,9 +95,12 @@ pub(super) struct SpragsFile {
     pub inertia_kg_m2: Option<f64>,
     /// Centroid of a sprag in its body frame.
     pub centroid: Option<CentroidFile>,
-    /// Inner arcs in the order in which engagement reaches them.
+    /// Inner arcs in the order in which engagement reaches them; absent where inner_spiral begins at first contact.
+    #[serde(default)]
     #[schemars(length(min = 1))]
     pub inner_arcs: Vec<InnerArcFile>,
+    /// A spiral behind the inner arcs, or in place of them; absent: arcs alone.
+    pub inner_spiral: Option<InnerSpiralFile>,
     /// Straight flanks that close the outline; absent: both at half of width_mm, or none where that is 0.
     pub flanks: Option<FlanksFile>,
 }
@@ -122,6 +125,43 @@ pub(super) struct InnerArcFile {
     /// Turn of the contact direction in the body, from first contact at rest, at which the arc ends, rad.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = std::f64::consts::FRAC_PI_2))]
     pub until_rad: f64,
+}
+
+/// A piece of the inner profile whose radius of curvature grows by the same part for every radian of turn. Tangent arcs stand
+/// for it, which begin and end on it; every answer says how far they lie beside it.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct InnerSpiralFile {
+    /// constant-strut-angle: the curve that keeps the strut angle of its beginning between these races, a logarithmic spiral
+    /// about C_e less outer_radius_mm times inner over outer track radius; logarithmic: the spiral of start_radius_mm and
+    /// rise. Absent: constant-strut-angle.
+    #[serde(default)]
+    pub curve: SpiralCurveFile,
+    /// Strut angle omega at first contact at rest, deg, by which the sprag lies between the races; where there are inner_arcs
+    /// the centre distance says it.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 45))]
+    pub strut_angle_deg: Option<f64>,
+    /// Radius of curvature where a logarithmic spiral begins, mm: its distance from the pole times the root of 1 + rise^2.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub start_radius_mm: Option<f64>,
+    /// Growth of a logarithmic spiral's radius per rad of turn over the radius, tangent of the angle between the radius from
+    /// its pole and its normal; 0: an arc. Absent: the tangent of the strut angle where it begins, the pole on the strut.
+    #[schemars(extend("minimum" = -1, "maximum" = 1))]
+    pub rise: Option<f64>,
+    /// Turn of the contact direction in the body, from first contact at rest, at which the spiral ends, rad.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = std::f64::consts::FRAC_PI_2))]
+    pub until_rad: f64,
+    /// Steps into which its turn is cut, each of which two arcs stand for; absent: 12.
+    #[schemars(extend("minimum" = 1, "maximum" = 100))]
+    pub steps: Option<usize>,
+}
+
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum SpiralCurveFile {
+    #[default]
+    ConstantStrutAngle,
+    Logarithmic,
 }
 
 /// The two straight flanks. The strut line runs from the inner contact A to the outer contact B at first contact at

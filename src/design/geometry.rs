@@ -1,14 +1,14 @@
 //! Whether the sprags fit between the races.
 //!
 //! In: the `[sprags]` table, races in order. Out: [`Sprags`], SI. Absent: deformation; flanks and neighbours
-//! ([`super::outline`]). Equations: none of its own; triangle (9) at first contact is asked of `profile`.
+//! ([`super::outline`]); what a spiral is (`profile`). Equations: none of its own; triangle (9) at first contact is asked of `profile`.
 
 use super::check::m;
-use super::file::SpragsFile;
+use super::file::{InnerSpiralFile, SpiralCurveFile, SpragsFile};
 use super::findings::Findings;
 use super::outline;
 use crate::clutch::{InnerArc, MassSource, Materials, Races, Sprags};
-use crate::profile::{Profile, ProfileError};
+use crate::profile::{Profile, ProfileError, Spiral, Support};
 
 /// Mass m_g kg, inertia I_g about the centroid kg m^2, centroid in the body frame m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +32,7 @@ pub(super) fn sprags(
     out: &mut Findings,
 ) -> Option<Sprags> {
     let profile = arcs_in_order(file, out).then(|| profile(file, races, out)).flatten();
+    let (profile, spiral) = profile.map_or((None, None), |(profile, spiral)| (Some(profile), spiral));
     let given = given_mass(file, out);
     let profile = profile?;
     let flanks = outline::flanks(file);
@@ -67,26 +68,59 @@ pub(super) fn sprags(
         count: file.count,
         length_m: m(file.length_mm),
         outer_radius_m: m(file.outer_radius_mm),
-        centre_distance_m: m(file.centre_distance_mm),
+        centre_distance_m: centre_distance_m(file, &profile),
         width_m: m(file.width_mm),
         mass_kg: mass.mass_kg,
         inertia_kg_m2: mass.inertia_kg_m2,
         centroid_m: mass.centroid_m,
         mass_source,
-        inner_arcs: file
-            .inner_arcs
+        inner_arcs: profile
+            .arcs
             .iter()
-            .map(|a| InnerArc { radius_m: m(a.radius_mm), until_rad: a.until_rad })
+            .map(|a| InnerArc { radius_m: a.radius_m, until_rad: a.until_rad })
             .collect(),
+        spiral,
         flanks,
     })
 }
 
+/// e_1 as the file has it; that of a spiral's first arc where the file has none.
+fn centre_distance_m(file: &SpragsFile, profile: &Profile) -> f64 {
+    file.centre_distance_mm.map_or_else(|| profile.arcs.first().map_or(0.0, |a| a.centre_m.norm()), m)
+}
+
 /// Arcs of a profile at most: a curve is built arc by arc.
 const MOST_ARCS: usize = 200;
+/// Steps of a spiral where the file names none: tan omega is then that of the curve to some parts of 1e5 (a test has it), and
+/// a curve costs as much as one of 24 arcs.
+const SPIRAL_STEPS: usize = 12;
 
 fn arcs_in_order(file: &SpragsFile, out: &mut Findings) -> bool {
     let mut in_order = true;
+    if let Some(spiral) = &file.inner_spiral {
+        in_order = spiral_in_order(file, spiral, out);
+    } else if file.inner_arcs.is_empty() {
+        out.refuse(
+            &["sprags.inner_arcs", "sprags"],
+            "inner arcs, or an inner_spiral in place of them".to_owned(),
+            "add inner_arcs = [{ radius_mm = ..., until_rad = ... }], or inner_spiral = { strut_angle_deg = ..., \
+             until_rad = ... }"
+                .to_owned(),
+        );
+        return false;
+    } else if file.centre_distance_mm.is_none() {
+        refuse_without_distance(out);
+        return false;
+    }
+    let steps = file.inner_spiral.as_ref().map_or(0, |s| s.steps.unwrap_or(SPIRAL_STEPS));
+    if file.inner_arcs.len() + 2 * steps > MOST_ARCS && steps > 0 {
+        out.refuse(
+            &["sprags.inner_spiral.steps", "sprags.inner_arcs", "sprags.inner_spiral"],
+            format!("at most {MOST_ARCS} arcs, two of them for each step of the spiral"),
+            "take fewer steps: 12 are enough".to_owned(),
+        );
+        return false;
+    }
     if file.inner_arcs.len() > MOST_ARCS {
         out.refuse(
             &["sprags.inner_arcs"],
@@ -109,13 +143,124 @@ fn arcs_in_order(file: &SpragsFile, out: &mut Findings) -> bool {
     in_order
 }
 
+fn refuse_without_distance(out: &mut Findings) {
+    out.refuse(
+        &["sprags.centre_distance_mm", "sprags"],
+        super::shape::meaning_of("sprags.centre_distance_mm"),
+        "add centre_distance_mm = ... to [sprags]: with inner_arcs it says how the sprag lies between the races".to_owned(),
+    );
+}
+
+/// Whether the keys beside a spiral say once, and not twice, how it begins.
+fn spiral_in_order(file: &SpragsFile, spiral: &InnerSpiralFile, out: &mut Findings) -> bool {
+    let before = out.problems.len();
+    let key = |name: &str| format!("sprags.inner_spiral.{name}");
+    let (angle, table) = (key("strut_angle_deg"), "sprags.inner_spiral");
+    match (file.inner_arcs.last(), spiral.strut_angle_deg, file.centre_distance_mm) {
+        (None, None, _) => out.refuse(
+            &[&angle, table],
+            "the strut angle at first contact, where the spiral begins: there are no inner_arcs before it"
+                .to_owned(),
+            format!("add strut_angle_deg = ... to [{table}]; tan omega has to stay below the friction"),
+        ),
+        (None, _, Some(_)) => out.refuse(
+            &["sprags.centre_distance_mm", &angle],
+            "no centre_distance_mm with a spiral from first contact on: its strut_angle_deg says it"
+                .to_owned(),
+            "remove centre_distance_mm, or give inner_arcs before the spiral".to_owned(),
+        ),
+        (Some(_), Some(_), _) => out.refuse(
+            &[&angle, "sprags.inner_arcs"],
+            "no strut_angle_deg behind inner_arcs: radius and centre distance of the first of them say it"
+                .to_owned(),
+            "remove strut_angle_deg, or inner_arcs and centre_distance_mm".to_owned(),
+        ),
+        (Some(_), None, None) => refuse_without_distance(out),
+        (Some(last), None, Some(_)) if spiral.until_rad <= last.until_rad => {
+            let end = arc_key(file.inner_arcs.len() - 1, "until_rad");
+            out.refuse(
+                &[&key("until_rad"), &end, "sprags.inner_arcs"],
+                format!("more than the end of the arc before, {} rad", last.until_rad),
+                "let the spiral end behind the arcs, or take it away".to_owned(),
+            );
+        }
+        _ => {}
+    }
+    match spiral.curve {
+        SpiralCurveFile::Logarithmic if spiral.start_radius_mm.is_none() => out.refuse(
+            &[&key("start_radius_mm"), &key("curve")],
+            super::shape::meaning_of(&key("start_radius_mm")),
+            format!("add start_radius_mm = ... to [{table}]"),
+        ),
+        SpiralCurveFile::ConstantStrutAngle => {
+            for (name, given) in
+                [("start_radius_mm", spiral.start_radius_mm.is_some()), ("rise", spiral.rise.is_some())]
+            {
+                if given {
+                    out.refuse(
+                        &[&key(name), &key("curve"), table],
+                        format!(
+                            "no {name} with curve = \"constant-strut-angle\": races and strut angle say it"
+                        ),
+                        format!("remove {name}, or give curve = \"logarithmic\""),
+                    );
+                }
+            }
+        }
+        SpiralCurveFile::Logarithmic => {}
+    }
+    out.problems.len() == before
+}
+
 pub(super) fn arc_key(k: usize, key: &str) -> String {
     format!("sprags.inner_arcs[{k}].{key}")
 }
 
-fn profile(file: &SpragsFile, races: &Races, out: &mut Findings) -> Option<Profile> {
-    let arcs: Vec<(f64, f64)> = file.inner_arcs.iter().map(|a| (m(a.radius_mm), a.until_rad)).collect();
-    let (r_e, e) = (m(file.outer_radius_mm), m(file.centre_distance_mm));
+/// The key at which the profile ends.
+pub(super) fn end_key(file: &SpragsFile) -> String {
+    match file.inner_spiral {
+        Some(_) => "sprags.inner_spiral.until_rad".to_owned(),
+        None => arc_key(file.inner_arcs.len().saturating_sub(1), "until_rad"),
+    }
+}
+
+/// The spiral of a file whose first contact, or whose junction with the arcs before, is `from`.
+fn spiral(
+    file: &InnerSpiralFile,
+    from: Support,
+    from_rad: f64,
+    inset_m: f64,
+    out: &mut Findings,
+) -> Option<Spiral> {
+    let (until_rad, steps) = (file.until_rad, file.steps.unwrap_or(SPIRAL_STEPS));
+    let found = match (file.curve, file.start_radius_mm) {
+        (SpiralCurveFile::Logarithmic, Some(radius)) => {
+            let rise = file.rise.unwrap_or_else(|| from.tan_omega(inset_m));
+            Spiral { start_radius_m: m(radius), rise, inset_m: 0.0, from_rad, until_rad, steps }
+        }
+        _ => Spiral::of_constant_angle(from, inset_m, [from_rad, until_rad], steps),
+    };
+    let least = found.arcs().iter().map(|a| a.0).fold(found.start_radius_m, f64::min);
+    if least > 0.0 && found.rise.is_finite() {
+        return Some(found);
+    }
+    out.refuse(
+        &[
+            "sprags.inner_spiral.until_rad",
+            "sprags.inner_spiral.rise",
+            "sprags.inner_spiral.strut_angle_deg",
+            "sprags.inner_spiral",
+        ],
+        format!("arcs whose radii are above 0 throughout; the smallest is {} mm", mm(least)),
+        "take a shorter spiral, a smaller rise or strut angle, or more steps".to_owned(),
+    );
+    None
+}
+
+/// The profile of the file's arcs and of those that stand for its spiral, with the spiral.
+fn profile(file: &SpragsFile, races: &Races, out: &mut Findings) -> Option<(Profile, Option<Spiral>)> {
+    let mut arcs: Vec<(f64, f64)> = file.inner_arcs.iter().map(|a| (m(a.radius_mm), a.until_rad)).collect();
+    let (r_e, tracks) = (m(file.outer_radius_mm), [races.inner_radius_m, races.outer_radius_m]);
     if r_e >= races.outer_radius_m {
         out.refuse(
             &["sprags.outer_radius_mm", "races.outer_radius_mm"],
@@ -124,8 +269,38 @@ fn profile(file: &SpragsFile, races: &Races, out: &mut Findings) -> Option<Profi
         );
         return None;
     }
-    let error = match Profile::new(r_e, e, &arcs, races.inner_radius_m, races.outer_radius_m) {
-        Ok(profile) => return Some(profile),
+    let inset_m = r_e * tracks[0] / tracks[1];
+    let (placed, spiral) = match (&file.inner_spiral, arcs.last().copied()) {
+        (None, _) => (placed(r_e, file, &arcs, tracks), None),
+        (Some(of), Some(last)) => match placed(r_e, file, &arcs, tracks) {
+            Ok(before) => {
+                let spiral = spiral(of, Support::of(&before, last.1)?, last.1, inset_m, out)?;
+                arcs.extend(spiral.arcs());
+                (placed(r_e, file, &arcs, tracks), Some(spiral))
+            }
+            refused => (refused, None),
+        },
+        (Some(of), None) => {
+            let angle = of.strut_angle_deg.unwrap_or_default();
+            let Some(from) = Support::under(angle.to_radians(), r_e, tracks) else {
+                out.refuse(
+                    &["sprags.outer_radius_mm", "races.outer_radius_mm", "races.inner_radius_mm"],
+                    format!(
+                        "less than the race gap, {} mm: C_e lies outside the inner track",
+                        mm(tracks[1] - tracks[0])
+                    ),
+                    "take a smaller outer_radius_mm of the sprags".to_owned(),
+                );
+                return None;
+            };
+            let spiral = spiral(of, from, 0.0, inset_m, out)?;
+            let arcs = spiral.arcs();
+            let first = arcs.first().map_or(0.0, |a| a.0);
+            (Profile::new(r_e, from.centre_distance_m(first), &arcs, tracks[0], tracks[1]), Some(spiral))
+        }
+    };
+    let error = match placed {
+        Ok(profile) => return Some((profile, spiral)),
         Err(error) => error,
     };
     // Of the scenario or the base, whichever list of arcs holds.
@@ -180,6 +355,21 @@ fn profile(file: &SpragsFile, races: &Races, out: &mut Findings) -> Option<Profi
         }
     }
     None
+}
+
+fn placed(
+    outer_radius_m: f64,
+    file: &SpragsFile,
+    arcs: &[(f64, f64)],
+    tracks_m: [f64; 2],
+) -> Result<Profile, ProfileError> {
+    Profile::new(
+        outer_radius_m,
+        m(file.centre_distance_mm.unwrap_or_default()),
+        arcs,
+        tracks_m[0],
+        tracks_m[1],
+    )
 }
 
 /// `Some(None)`: to come from the profile. `None`: refused.

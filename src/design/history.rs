@@ -89,8 +89,13 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
             named = true;
             if whole != header {
                 // Not repeated: it may be the first line of any file.
-                let found = "another first line".to_owned();
-                let help = format!("begin the file with the line {header}");
+                let semicolons = whole.contains(';') && whole.replace([';', ' '], ",") == header;
+                let found =
+                    if semicolons { "semicolons between the names" } else { "another first line" }.to_owned();
+                let help = match semicolons {
+                    true => "put commas between the cells, and decimals behind a point".to_owned(),
+                    false => format!("begin the file with the line {header}"),
+                };
                 faults.add("", start..start + whole.len().max(1), found, &header, &help);
                 break;
             }
@@ -155,7 +160,7 @@ pub(super) fn rows(text: &str, kind: HistoryKind) -> Result<Vec<[f64; 2]>, Vec<P
         let help = format!("write {header} and one row per point below it");
         faults.add("", 0..1, found, "at least two", &help);
     }
-    if faults.problems.is_empty() { Ok(rows) } else { Err(faults.told()) }
+    if faults.problems.is_empty() { Ok(rows) } else { Err(faults.listed()) }
 }
 
 /// A field as it is told: a number as it stands.
@@ -191,8 +196,8 @@ impl Faults<'_> {
         });
     }
 
-    /// Those told one by one; the last of them says how many more there are.
-    fn told(mut self) -> Vec<Problem> {
+    /// Those that are listed; the last of them says how many more there are.
+    fn listed(mut self) -> Vec<Problem> {
         if let (more @ 1.., Some(last)) = (self.more, self.problems.last_mut()) {
             last.help.push_str(&format!("; and {more} more such faults below"));
         }

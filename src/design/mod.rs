@@ -38,6 +38,7 @@ mod task;
 mod task_file;
 mod tolerances_file;
 mod variables;
+mod which;
 
 pub use check::{rad_s, rpm};
 pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
@@ -57,6 +58,7 @@ pub use set::with_setting;
 pub use shape::{allowed, keys_of, nearest, paths_of, schema, shape_of};
 pub use steels::{beside_the_name, names_of_bodies};
 pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
+pub use which::WhichScenario;
 
 use crate::clutch::{Clutch, Scenario, Service, Sharing, Tolerances};
 

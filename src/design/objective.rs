@@ -51,21 +51,59 @@ struct Facts {
 }
 
 /// One row an objective, in the order of [`Objective::ALL`].
-#[rustfmt::skip]
 const FACTS: [Facts; 12] = [
-    Facts { name: "slip-margin", unit: "", words: "least slip margin", sense: 1.0, gain: "slip margin", span: 1.0 },
-    Facts { name: "torque-capacity", unit: "Nm", words: "torque capacity", sense: 1.0, gain: "of torque capacity", span: 1.0 },
-    Facts { name: "peak-pressure", unit: "MPa", words: "largest Hertz pressure at peak torque", sense: -1.0, gain: "less pressure", span: 1000.0 },
-    Facts { name: "windup", unit: "deg", words: "windup at nominal torque", sense: -1.0, gain: "less windup", span: 1.0 },
-    Facts { name: "stiffness-curve", unit: "", words: "largest departure from the target windup", sense: -1.0, gain: "less departure from the target", span: 1.0 },
-    Facts { name: "contact-margin", unit: "", words: "least contact margin of the scenarios", sense: 1.0, gain: "contact margin", span: 1.0 },
-    Facts { name: "keep-contact", unit: "rpm", words: "speed of the outer race up to which the sprags keep contact in overrun", sense: 1.0, gain: "more", span: 1000.0 },
-    Facts { name: "lift-off", unit: "rpm", words: "speed of the outer race at which the sprags lift off in overrun", sense: -1.0, gain: "less", span: 1000.0 },
-    Facts { name: "drag", unit: "Nm", words: "drag torque in overrun, the larger of slow and at the speed to which contact is kept", sense: -1.0, gain: "less drag", span: 0.1 },
-    Facts { name: "mass", unit: "g", words: "mass of sprags and races", sense: -1.0, gain: "less mass", span: 100.0 },
-    Facts { name: "width", unit: "mm", words: "width of the races", sense: -1.0, gain: "less width", span: 10.0 },
-    Facts { name: "outside-diameter", unit: "mm", words: "outer diameter", sense: -1.0, gain: "less diameter", span: 10.0 },
+    facts("slip-margin", "", "least slip margin", 1.0, "slip margin", 1.0),
+    facts("torque-capacity", "Nm", "torque capacity", 1.0, "of torque capacity", 1.0),
+    facts("peak-pressure", "MPa", "largest Hertz pressure at peak torque", -1.0, "less pressure", 1000.0),
+    facts("windup", "deg", "windup at nominal torque", -1.0, "less windup", 1.0),
+    facts(
+        "stiffness-curve",
+        "",
+        "largest departure from the target windup",
+        -1.0,
+        "less departure from the target",
+        1.0,
+    ),
+    facts("contact-margin", "", "least contact margin of the scenarios", 1.0, "contact margin", 1.0),
+    facts(
+        "keep-contact",
+        "rpm",
+        "speed of the outer race up to which the sprags keep contact in overrun",
+        1.0,
+        "more",
+        1000.0,
+    ),
+    facts(
+        "lift-off",
+        "rpm",
+        "speed of the outer race at which the sprags lift off in overrun",
+        -1.0,
+        "less",
+        1000.0,
+    ),
+    facts(
+        "drag",
+        "Nm",
+        "drag torque in overrun, the larger of slow and at the speed to which contact is kept",
+        -1.0,
+        "less drag",
+        0.1,
+    ),
+    facts("mass", "g", "mass of sprags and races", -1.0, "less mass", 100.0),
+    facts("width", "mm", "width of the races", -1.0, "less width", 10.0),
+    facts("outside-diameter", "mm", "outer diameter", -1.0, "less diameter", 10.0),
 ];
+
+const fn facts(
+    name: &'static str,
+    unit: &'static str,
+    words: &'static str,
+    sense: f64,
+    gain: &'static str,
+    span: f64,
+) -> Facts {
+    Facts { name, unit, words, sense, gain, span }
+}
 
 impl Objective {
     /// All of them, in the order of the file format.

@@ -6,7 +6,7 @@
 use super::check::m;
 use super::file::SpragsFile;
 use super::findings::Findings;
-use super::geometry::{arc_key, mm};
+use super::geometry::{end_key, mm};
 use crate::profile::{FlankSide, Flanks, Outline, OutlineError, Profile, STEEPEST_RAD, clearance_m};
 
 /// The flanks that a file names, or both at half of its width; none where it has neither.
@@ -59,7 +59,7 @@ pub(super) fn outline(
         (Some(_), FlankSide::Rear) => "sprags.flanks.rear_mm",
         (Some(_), FlankSide::Front) => "sprags.flanks.front_mm",
     };
-    let end = arc_key(file.inner_arcs.len().saturating_sub(1), "until_rad");
+    let end = end_key(file);
     let help = match file.flanks {
         Some(_) => format!("move the {side} flank, or end the profile elsewhere"),
         None => format!(

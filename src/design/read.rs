@@ -149,7 +149,7 @@ impl Design {
         let limits = check::limits(&file.limits, Limits::default(), &mut out);
         check::body_yield(&file, &mut out);
         check::film(&file, &mut out);
-        check::tolerances(&file, &mut out);
+        check::tolerances(&file, clutch.as_ref(), &mut out);
         check::gaps(&file.limits, &file.races, &mut out);
         let mut texts: BTreeMap<PathBuf, String> = BTreeMap::new();
         let mut refused = None;

@@ -6,17 +6,15 @@
 use super::contact_file::ContactFile;
 use super::file::{FrictionFile, MaterialFile, RacesFile, SpragsFile, SpringFile};
 use super::random_torque::RandomTorqueFile;
-use super::scenarios::KindFile;
+use super::scenarios::{KindFile, SCENARIO_KINDS};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
+use serde_json::Value;
 
-/// One scenario. Keys belong to kinds: static: torque_nm, start; torsional-excitation: preload_nm, amplitude_nm,
-/// frequency_hz, abutment_stiffness_nm_per_rad, duration_s, speed_rpm, start, drivetrain; engagement: free_run_rpm,
-/// reversing_torque_nm, stop_stiffness_nm_per_rad, bench_inertia_kg_m2, duration_s, drivetrain; overrun: speed_rpm,
-/// overrun_rpm; transient: abutment_stiffness_nm_per_rad, duration_s, preload_nm, torque_step_nm, step_time_s,
-/// torque_history_csv, torque_random, speed_rpm, speed_history_csv, overrun_rpm, start, drivetrain. Any of the clutch's tables may be overridden in part.
+/// One scenario. Any of the clutch's tables may be overridden in part.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = with_kinds)]
 pub(super) struct ScenarioFile {
     /// Unique name.
     #[schemars(length(min = 1))]
@@ -123,4 +121,41 @@ fn part_of<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
     let mut schema = T::json_schema(generator);
     super::shape::let_all_keys_be_absent(&mut schema);
     schema
+}
+
+/// Names the keys of each kind, from their table, in the description.
+fn with_kinds(schema: &mut Schema) {
+    let kinds =
+        SCENARIO_KINDS.map(|k| format!("{}: {}", k.name, [k.required, k.optional].concat().join(", ")));
+    let words = format!("One scenario. Keys belong to kinds: {}.", kinds.join("; "));
+    if let Some(Value::String(description)) = schema.get_mut("description") {
+        *description = description.replacen("One scenario.", &words, 1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A key's words name the kinds that it belongs to before its first colon, and those whose own sense follows behind a semicolon.
+    #[test]
+    fn keys_say_the_kinds_that_they_belong_to() {
+        let schema = schemars::schema_for!(ScenarioFile);
+        let properties = schema.get("properties").and_then(Value::as_object).unwrap();
+        let mut keys = 0;
+        for (key, property) in properties {
+            let words = property.get("description").and_then(Value::as_str).unwrap_or("");
+            let heads = words.split("; ").filter_map(|part| part.split_once(": ").map(|(head, _)| head));
+            let named: Vec<&str> = heads.flat_map(|head| head.split([',', ' '])).collect();
+            for kind in SCENARIO_KINDS {
+                let belongs = kind.required.contains(&&**key) || kind.optional.contains(&&**key);
+                assert_eq!(named.contains(&kind.name), belongs, "{key}, {}: {words}", kind.name);
+                keys += usize::from(belongs);
+            }
+        }
+        let all: usize = SCENARIO_KINDS.iter().map(|kind| kind.required.len() + kind.optional.len()).sum();
+        assert_eq!(keys, all, "a key of the table is none of the file");
+        let words = schema.get("description").and_then(Value::as_str).unwrap();
+        assert!(words.contains("static: torque_nm, start; "), "{words}");
+    }
 }

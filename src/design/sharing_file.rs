@@ -44,6 +44,9 @@ pub(super) struct SharingFile {
     /// else held.
     #[schemars(extend("minimum" = 0))]
     pub bearing_stiffness_n_per_um: Option<f64>,
+    /// Mass that moves on these bearings in a scene: race and what it is fixed to, kg; absent: the inner race as a plain ring.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub bearing_mass_kg: Option<f64>,
     /// Sprags of which something is known.
     #[serde(default)]
     pub sprags: Vec<GivenSpragFile>,
@@ -189,6 +192,7 @@ pub(super) fn si(
         gap_up_to_m: um(sharing.gap_up_to_um),
         // N/um to N/m.
         stiffness_n_per_m: sharing.bearing_stiffness_n_per_um.map(|k| 1e6 * k),
+        mass_kg: sharing.bearing_mass_kg,
         given: sharing.sprags.iter().map(one).collect(),
     }
 }

@@ -15,6 +15,18 @@ pub const VARIABLES: &[(&str, &str, &str)] = &[
     ("r_i{k}_mm", "sprags.inner_arcs[{k}].radius_mm", "radius of inner arc k"),
     ("junction_{k}_rad", "sprags.inner_arcs[{k}].until_rad", "turn at which arc k gives way to arc k+1"),
     ("profile_end_rad", "sprags.inner_arcs[{last}].until_rad", "turn at which the last arc ends"),
+    ("strut_angle_deg", "sprags.inner_spiral.strut_angle_deg", "strut angle at first contact of a spiral"),
+    (
+        "spiral_radius_mm",
+        "sprags.inner_spiral.start_radius_mm",
+        "radius of curvature where a logarithmic spiral begins",
+    ),
+    (
+        "spiral_rise",
+        "sprags.inner_spiral.rise",
+        "growth of a logarithmic spiral's radius per rad over the radius",
+    ),
+    ("spiral_end_rad", "sprags.inner_spiral.until_rad", "turn at which a spiral ends"),
     ("outer_radius_mm", "sprags.outer_radius_mm", "radius r_e of the sprag's outer arc"),
     ("centre_distance_mm", "sprags.centre_distance_mm", "centre distance e_1"),
     ("length_mm", "sprags.length_mm", "length of the sprags"),
@@ -40,6 +52,7 @@ const UNITS: &[(&str, &str)] = &[
     ("amplitude_nm", "Nm"),
     ("axial_offset_mm", "mm"),
     ("azimuth_within_deg", "deg"),
+    ("bearing_mass_kg", "kg"),
     ("bearing_stiffness_n_per_um", "N/µm"),
     ("bench_inertia_kg_m2", "kg m^2"),
     ("bore_mm", "mm"),
@@ -107,6 +120,7 @@ const UNITS: &[(&str, &str)] = &[
     ("rear_tilt_rad", "rad"),
     ("reference_c", "°C"),
     ("reversing_torque_nm", "Nm"),
+    ("rise", ""),
     ("rod_ratio", ""),
     ("roller_coefficient", ""),
     ("seed", ""),
@@ -121,11 +135,14 @@ const UNITS: &[(&str, &str)] = &[
     ("sprag_wear_mm3_per_nm", "mm^3/(Nm)"),
     ("sprags_c", "°C"),
     ("sprags_to_oil_w_per_k", "W/K"),
+    ("start_radius_mm", "mm"),
     ("static", ""),
     ("step_time_s", "s"),
+    ("steps", ""),
     ("stiffness_nm_per_rad", "Nm/rad"),
     ("stop_stiffness_nm_per_rad", "Nm/rad"),
     ("stroke_mm", "mm"),
+    ("strut_angle_deg", "deg"),
     ("temperature_c", "°C"),
     ("tilt_mrad", "mrad"),
     ("torque_nm", "Nm"),
@@ -157,8 +174,8 @@ pub fn variable_path(name: &str, arcs: usize) -> Option<String> {
         return known.then(|| name.to_owned());
     }
     VARIABLES.iter().find_map(|(pattern, path, _)| match pattern.split_once("{k}") {
-        None if *pattern == name => Some(path.replace("{last}", &arcs.saturating_sub(1).to_string())),
-        None => None,
+        None if *pattern != name || arcs == 0 && path.contains("{last}") => None,
+        None => Some(path.replace("{last}", &arcs.saturating_sub(1).to_string())),
         Some((before, after)) => {
             let digits = name.strip_prefix(before)?.strip_suffix(after)?;
             let k: usize = digits.parse().ok()?;
@@ -201,7 +218,7 @@ mod tests {
         {
             assert_eq!(path(none), None, "{none}");
         }
-        assert_eq!(variable_names(1).len(), 14);
+        assert_eq!(variable_names(1).len(), 18);
         assert!(
             is_whole("count", 3)
                 && is_whole("sprags.count", 3)

@@ -1,11 +1,12 @@
-//! What happens at a change of mode: where A goes, which contacts slip, how the velocities jump.
+//! What happens at a change of mode: where A goes, which contacts slip, how the velocities jump, where changes that accumulate lead.
 
 use super::choose::{Known, choose};
 use super::crossing::cross;
 use super::driver::Driver;
 use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER, probe_of};
-use super::model::{Forces, Grip, Mode, Place};
+use super::model::{Forces, Grip, Mode, N_STATE, Place};
 use super::run::Stop;
+use super::zeno::{Accumulation, bound, resolution_s};
 use crate::ode::adaptive::Size;
 use crate::wedge::WedgePoint;
 use nalgebra::Const;
@@ -101,7 +102,9 @@ where
         let held =
             Mode { place, inner: if touching { Grip::Slip(1.0) } else { mode.inner }, outer: mode.outer };
         let after = cross(model, &held, p, &q, rates);
-        self.audit_jump(y, (p, &rates), (&q, &after));
+        if let Some(audit) = &mut self.audit {
+            audit.jump(model, y, (p, &rates), (&q, &after));
+        }
         y[4..8].copy_from_slice(&after);
         if self.settings.rolling {
             return Next::of_mode(Mode { place, ..*mode });
@@ -133,7 +136,7 @@ where
 
     /// An event function is negative right after a change although the choice was consistent to rounding:
     /// settle it by choosing again with every still contact free.
-    pub(super) fn give_way(&mut self, now: &[f64; EVENTS]) -> bool {
+    pub(super) fn choose_again(&mut self, now: &[f64; EVENTS]) -> bool {
         if !self.count_event() {
             return false;
         }
@@ -141,7 +144,9 @@ where
         let (t, mut y) = (self.run.t_s, self.run.state);
         let p = self.hold(&mut y);
         self.run.state = y;
-        if let Some(limit) = self.zeno.note(t, now.map(|e| e < 0.0), self.resolution_s()) {
+        if let Some(limit) =
+            self.zeno.note(t, now.map(|e| e < 0.0), resolution_s(&self.run.state, self.settings))
+        {
             self.close(&limit, t, y);
             return true;
         }
@@ -180,6 +185,43 @@ where
         true
     }
 
+    /// Go to the limit of accumulating changes.
+    pub(super) fn close(&mut self, limit: &Accumulation, t: f64, mut y: [f64; N]) {
+        let (model, mode) = (self.model, self.run.mode);
+        let took = |i: usize| limit.took_part[i];
+        let t = t + limit.left_s;
+        for i in 0..4 {
+            y[i] += limit.left_s * y[4 + i];
+        }
+        for twist in y[N_STATE..].chunks_exact_mut(2) {
+            twist[0] += limit.left_s * twist[1];
+        }
+        let free = |grip: Grip, took: bool| if took { Grip::Stick } else { grip };
+        let (inner, outer) = (free(mode.inner, took(INNER)), free(mode.outer, took(OUTER)));
+        let known = |grip: Grip| match grip {
+            Grip::Stick => Known::Still,
+            Grip::Slip(s) => Known::Slips(s),
+        };
+        let mut place = mode.place;
+        let at_bound = (took(LOWER) || took(UPPER))
+            .then(|| bound(&model.curve, mode.place, self.settings.rolling, y[0]));
+        if let Some((alpha, lower, upper)) = at_bound {
+            (y[0], y[4], place) = (alpha, 0.0, upper);
+            let held = Mode { place, inner, outer };
+            if model.forces(&held, t, &y).acceleration[0] < 0.0 {
+                place = lower;
+            }
+        }
+        let held = Mode { place, inner, outer };
+        let p = model.point(place, y[0]);
+        let rates = model.rates(&held, &p, &y);
+        y[4..8].copy_from_slice(&rates);
+        let next = self.chosen(t, &y, p, place, known(inner), known(outer));
+        (self.run.t_s, self.run.state) = (t, y);
+        self.run.zeno_closures += 1;
+        self.enter(next);
+    }
+
     /// Go on in `next` from the present time and state.
     pub(super) fn enter(&mut self, next: Next) {
         let mode = next.mode;
@@ -210,7 +252,7 @@ where
         self.run.note_engagement();
         if self.settings.samples > 0 && self.run.modes.last().is_none_or(|last| last.1 != mode) {
             self.run.modes.push((t, mode));
-            self.mark(t);
+            self.watch.mark(&mut self.run, t);
         }
     }
 

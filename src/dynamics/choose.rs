@@ -17,7 +17,7 @@
 //! Then all branches of the piecewise linear map are oriented alike. The left side exceeds the right by a
 //! factor of some hundred in the random clutches of the test, where exactly one candidate is consistent in each case.
 //! Where no candidate is consistent the least violation is still a mode and is counted (`inconsistent_choices`); the run then
-//! goes on by `give_way`, bounded by the limit of events.
+//! goes on by `choose_again`, bounded by the limit of events.
 
 use super::model::{Forces, Grip, Mode, Model, Place};
 use crate::wedge::WedgePoint;

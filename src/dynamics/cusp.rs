@@ -1,9 +1,7 @@
 //! First contact, the cusp of every curve: N ~ x^(10/9) and rho - rho_0 ~ x^(1/9), x its distance in alpha.
 
-use super::driver::{Driver, Found};
-use super::events::{LOWER, UPPER, probe};
+use super::events::{LOWER, UPPER};
 use super::model::{Grip, Mode, Model, Place};
-use super::probes::Probes;
 use crate::ode::adaptive::Size;
 use crate::ode::step::{Dense, Step};
 use crate::wedge::RHO_STEEPEST_RAD;
@@ -23,7 +21,9 @@ pub(super) fn cusp(place: Place) -> Option<usize> {
     }
 }
 
-/// [`Driver::towards_the_cusp_s`] at `alpha` (rad) that goes at `rate` (rad/s).
+/// How long a step at `alpha` (rad) that goes at `rate` (rad/s) may be that does not spoil the loss of contact, s. Where one contact holds
+/// and the other slips, alpha'' holds rho' alpha'^2 ~ x^(-8/9): of a step that begins at x and ends at the cusp the estimate sees
+/// nothing, however short, and three runs that do the same agree and are wrong together.
 pub(super) fn towards_the_cusp_s(model: &Model, mode: &Mode, alpha: f64, rate: f64) -> f64 {
     let one_holds = (mode.inner == Grip::Stick) != (mode.outer == Grip::Stick);
     let x = alpha - model.curve.first_contact_rad();
@@ -33,35 +33,11 @@ pub(super) fn towards_the_cusp_s(model: &Model, mode: &Mode, alpha: f64, rate: f
     f64::INFINITY
 }
 
-impl<const N: usize> Driver<'_, N>
+/// The fraction of a step from which on what shows only near first contact shows, where the cusp lies at the fraction `theta` of it: what
+/// rolling demands grows there with the slope of rho, as far as [`RHO_STEEPEST_RAD`] from it.
+pub(super) fn near_the_cusp<const N: usize>(step: &Step<N>, theta: f64, dense: &Dense<N>) -> f64
 where
     Const<N>: Size,
 {
-    /// How long a step may be that does not spoil the loss of contact, s. Where one contact holds and the other slips,
-    /// alpha'' holds rho' alpha'^2 ~ x^(-8/9): of a step that begins at x and ends at the cusp the estimate sees nothing,
-    /// however short, and three runs that do the same agree and are wrong together.
-    pub(super) fn towards_the_cusp_s(&self) -> f64 {
-        let y = &self.run.state;
-        towards_the_cusp_s(self.model, &self.run.mode, y[0], y[4])
-    }
-
-    /// The first event before the cusp at first contact, which lies at `theta`, that shows only near it: what rolling demands
-    /// grows there with the slope of rho, as far as [`RHO_STEEPEST_RAD`] from it.
-    pub(super) fn before_the_cusp(
-        &self,
-        step: &Step<N>,
-        probes: &Probes,
-        theta: f64,
-        dense: &Dense<N>,
-    ) -> Option<(f64, usize)> {
-        let (mode, grips) = (self.run.mode, !self.settings.rolling);
-        let near = theta - RHO_STEEPEST_RAD / (dense.after(theta * step.h())[4] * step.h()).abs();
-        let left = probes.last_before(near)?;
-        let elapsed = near * step.h();
-        let there = probe(self.model, &mode, step.t() + elapsed, &dense.after(elapsed), grips).events;
-        match self.first_event(dense, step, probes, left, near, &there) {
-            Found::At(theta, which) => Some((theta, which)),
-            Found::Nothing | Found::TooCoarse => None,
-        }
-    }
+    theta - RHO_STEEPEST_RAD / (dense.after(theta * step.h())[4] * step.h()).abs()
 }

@@ -1,15 +1,15 @@
 //! Event-driven integration: smooth inside a mode, every change of mode located.
 
 use super::change::Next;
-use super::cusp::cusp;
+use super::cusp::{cusp, near_the_cusp, towards_the_cusp_s};
 use super::energy::Audit;
 use super::events::{EVENTS, INNER, LOWER, OUTER, Probe, UPPER, event, probe};
 use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::probes::{NeverPositive, Observed, Probes, Trail};
 use super::repeat::Repeat;
 use super::run::{FastMotion, Run, RunSettings, Stop};
-use super::watch::highest;
-use super::zeno::Zeno;
+use super::watch::{Watch, highest, sample_extremes};
+use super::zeno::{Zeno, resolution_s};
 use crate::ode::adaptive::{Adaptive, Size};
 use crate::ode::rhs::RightHandSide;
 use crate::ode::step::{Dense, Room, Step};
@@ -38,7 +38,7 @@ where
     pub(super) open_since: Option<f64>,
     /// Windup reference of stick: theta_bi - theta_be + W(alpha) is kept while both stick.
     pub(super) phase: Option<f64>,
-    pub(super) next_sample: usize,
+    pub(super) watch: Watch<'a>,
     /// Works so far, where they are counted.
     pub(super) audit: Option<Audit>,
     pub(super) zeno: Zeno,
@@ -86,7 +86,7 @@ where
             run: Run::start(state, mode, settings.samples),
             open_since: (mode.place == Place::Open).then_some(0.0),
             phase: None,
-            next_sample: 0,
+            watch: Watch::new(model, settings),
             audit: None,
             zeno: Zeno::new(),
             repeat: settings.jump_period_s.map(Repeat::new),
@@ -98,10 +98,8 @@ where
             lengths: [f64::INFINITY; KINDS],
         };
         driver.enter(Next::of_mode(mode));
-        driver.probe(state, 0.0);
-        if settings.energy {
-            driver.audit();
-        }
+        driver.watch.begin(&mut driver.run);
+        driver.audit = settings.energy.then(|| Audit::begin(model, &driver.run));
         driver
     }
 
@@ -118,7 +116,7 @@ where
         let mut now = probe(self.model, &self.run.mode, 0.0, &self.run.state, !self.settings.rolling).events;
         (now[LOWER], now[UPPER]) = (1.0, 1.0);
         if now[INNER] < 0.0 || now[OUTER] < 0.0 {
-            self.give_way(&now);
+            self.choose_again(&now);
         }
     }
 
@@ -132,7 +130,7 @@ where
             if self.most_slip_m.is_some_and(|path| self.run.has_slipped(self.model.loaded_n, path)) {
                 return self.stop(Stop::Slipped);
             }
-            let period = self.left_of_period_s();
+            let period = Repeat::left_s(self);
             if self.run.t_s >= self.settings.duration_s {
                 return;
             }
@@ -150,8 +148,8 @@ where
             let (t, y) = (self.run.t_s, self.run.state);
             let mut rhs = trail.slope_in(self.model, self.run.mode, !self.settings.rolling);
             let slope = match self.slope.take().zip(self.probed.take()) {
-                Some((slope, seen)) => {
-                    trail.begin(seen);
+                Some((slope, probe)) => {
+                    trail.begin(probe);
                     slope
                 }
                 None => {
@@ -164,7 +162,8 @@ where
             };
             let longest = self.settings.longest_step_s;
             let rest = self.settings.duration_s.min(self.model.drive.next_break_s(t)) - t;
-            let rest = rest.min(self.towards_the_cusp_s()).min(period);
+            let mode = &self.run.mode;
+            let rest = rest.min(towards_the_cusp_s(self.model, mode, y[0], y[4])).min(period);
             let counters = &mut self.run.counters;
             let cusp = cusp(self.run.mode.place);
             let useful = |h: f64| trail.useful(h, cusp);
@@ -213,15 +212,14 @@ where
                             (self.slope, self.probed) = (Some(*slope), Some(*probes.get(0)));
                             return true;
                         }
-                        return self.give_way(&probes.get(i).events);
+                        return self.choose_again(&probes.get(i).events);
                     }
                 }
             }
         }
         match self.crest(step, probes, dense, None, rhs) {
             Ok(Some((theta, which, d))) => return self.land(step, probes, theta, which, &d, rhs),
-            Ok(None) if self.watch(step, probes, rhs).is_ok() => {
-                self.audit_step(step, rhs);
+            Ok(None) if self.remember(step, probes, rhs).is_ok() => {
                 self.accept(step, probes.end());
             }
             _ => {
@@ -294,7 +292,7 @@ where
     }
 
     /// Earliest zero between probe `left` and the fraction `to` of the step, where `after` is seen.
-    pub(super) fn first_event(
+    fn first_event(
         &self,
         dense: &Dense<N>,
         step: &Step<N>,
@@ -364,11 +362,10 @@ where
             }
             // A step that was short because the event was expected says little of how long the next in this mode may be.
             self.stepper.h = step.h().max(self.lengths[kind(&mode)].min(self.stepper.h));
-            if self.watch(&part, &probes, rhs).is_err() {
+            if self.remember(&part, &probes, rhs).is_err() {
                 self.stop(Stop::NotFinite);
                 return false;
             }
-            self.audit_step(&part, rhs);
             self.accept(&part, probes.end());
         }
         let (t, y) = (step.t() + h, self.run.state);
@@ -376,13 +373,45 @@ where
         if !self.count_event() {
             return false;
         }
-        match self.zeno.note(t, std::array::from_fn(|i| i == which), self.resolution_s()) {
+        match self.zeno.note(
+            t,
+            std::array::from_fn(|i| i == which),
+            resolution_s(&self.run.state, self.settings),
+        ) {
             Some(limit) => {
                 self.close(&limit, t, y);
                 true
             }
             None => self.change(which, t, y),
         }
+    }
+
+    /// The first event before the cusp at first contact, which lies at `theta`, that shows only near it.
+    fn before_the_cusp(
+        &self,
+        step: &Step<N>,
+        probes: &Probes,
+        theta: f64,
+        dense: &Dense<N>,
+    ) -> Option<(f64, usize)> {
+        let (mode, grips) = (self.run.mode, !self.settings.rolling);
+        let near = near_the_cusp(step, theta, dense);
+        let left = probes.last_before(near)?;
+        let elapsed = near * step.h();
+        let there = probe(self.model, &mode, step.t() + elapsed, &dense.after(elapsed), grips).events;
+        match self.first_event(dense, step, probes, left, near, &there) {
+            Found::At(theta, which) => Some((theta, which)),
+            Found::Nothing | Found::TooCoarse => None,
+        }
+    }
+
+    /// Extremes, samples and works inside a step that is taken.
+    fn remember(&mut self, step: &Step<N>, probes: &Probes, rhs: &mut Observed) -> Result<(), ()> {
+        self.watch.step(&mut self.run, self.repeat.as_mut(), step, probes, rhs)?;
+        if let Some(audit) = &mut self.audit {
+            audit.step(self.model, &self.run.mode, step, rhs);
+        }
+        Ok(())
     }
 
     /// False where there have been too many.
@@ -442,8 +471,8 @@ where
     }
 
     pub(super) fn finish(mut self) -> Run<N> {
-        self.run.energy = self.balance();
-        self.sample_extremes();
+        self.run.energy = self.audit.map(|audit| audit.balance(self.model, &self.run));
+        sample_extremes(&mut self.run);
         if matches!(self.run.stop, Stop::StepLimit | Stop::EventLimit) {
             let mut rhs = slope_in(self.model, self.run.mode);
             let (t, y) = (self.run.t_s, self.run.state);
@@ -459,7 +488,7 @@ where
     }
 }
 
-pub(super) enum Found {
+enum Found {
     Nothing,
     At(f64, usize),
     TooCoarse,

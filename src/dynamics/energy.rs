@@ -11,9 +11,9 @@
 //! differs from that of the curve's speed. What the balance leaves over is what integration, changes of mode and
 //! the projections at them have done wrong.
 
-use super::driver::Driver;
-use super::model::{Grip, Model, N_STATE, Place};
+use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::probes::Observed;
+use super::run::Run;
 use crate::numeric::quadrature;
 use crate::ode::adaptive::Size;
 use crate::ode::step::{Counters, Step};
@@ -70,7 +70,7 @@ const WORKS: usize = 7;
 
 impl Model {
     /// Powers in the order of the fields of [`EnergyBalance`], W.
-    fn powers<const N: usize>(&self, mode: &super::Mode, t: f64, y: &[f64; N]) -> [f64; WORKS] {
+    fn powers<const N: usize>(&self, mode: &Mode, t: f64, y: &[f64; N]) -> [f64; WORKS] {
         let p = self.point(mode.place, y[0]);
         let rates = self.rates(mode, &p, y);
         let f = self.forces_at(mode, t, y, &p, &rates);
@@ -149,6 +149,19 @@ impl Model {
     }
 }
 
+/// Kinetic energy and that of springs and abutment of a run, J, and alpha.
+fn energies<const N: usize>(model: &Model, run: &Run<N>) -> [f64; 3] {
+    let y = &run.state;
+    let p = model.point(run.mode.place, y[0]);
+    let rates = model.rates(&run.mode, &p, y);
+    let still = model.energy_without_wedge(&p, &[0.0; 4], y);
+    let [moves, twisted] = match &model.drive.train {
+        Some(train) if N > N_STATE => train.energies_j(run.t_s, y, model.mean_speed(run.t_s).0),
+        _ => [0.0; 2],
+    };
+    [model.energy_without_wedge(&p, &rates, y) - still + moves, still + twisted, y[0]]
+}
+
 /// What a run keeps to close its balance at the end.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Audit {
@@ -169,63 +182,50 @@ impl Audit {
         let sums = self.works.iter_mut().chain([&mut self.through_j]);
         sums.zip(more).for_each(|(sum, more)| *sum += n * more);
     }
-}
 
-impl<const N: usize> Driver<'_, N>
-where
-    Const<N>: Size,
-{
-    /// Kinetic energy and that of springs and abutment now, J, and alpha.
-    fn energies(&self) -> [f64; 3] {
-        let (model, y) = (self.model, &self.run.state);
-        let p = model.point(self.run.mode.place, y[0]);
-        let rates = model.rates(&self.run.mode, &p, y);
-        let still = model.energy_without_wedge(&p, &[0.0; 4], y);
-        let [moves, twisted] = match &model.drive.train {
-            Some(train) if N > N_STATE => train.energies_j(self.run.t_s, y, model.mean_speed(self.run.t_s).0),
-            _ => [0.0; 2],
-        };
-        [model.energy_without_wedge(&p, &rates, y) - still + moves, still + twisted, y[0]]
-    }
-
-    /// Begin to count.
-    pub(super) fn audit(&mut self) {
-        let start = self.energies();
-        self.audit = Some(Audit { works: [0.0; WORKS], through_j: start[0], start });
+    /// Nothing counted yet, where `run` stands.
+    pub(super) fn begin<const N: usize>(model: &Model, run: &Run<N>) -> Self {
+        let start = energies(model, run);
+        Self { works: [0.0; WORKS], through_j: start[0], start }
     }
 
     /// Count what flanges that move their race bring when the rates jump from one point of the curve to another: kinetic
     /// energy is kept but for that.
-    pub(super) fn audit_jump(
+    pub(super) fn jump<const N: usize>(
         &mut self,
+        model: &Model,
         y: &[f64; N],
         before: (&WedgePoint, &[f64; 4]),
         after: (&WedgePoint, &[f64; 4]),
     ) {
-        let model = self.model;
-        let Some(audit) = &mut self.audit else { return };
         if let Some(race) = model.held_rad_s2().iter().position(Option::is_some) {
             // Where both are moved it is told of the inner one alone.
             let [before, after] = [before, after].map(|(p, rates)| model.energy_without_wedge(p, rates, y));
-            audit.works[4 + race] += after - before;
+            self.works[4 + race] += after - before;
         }
     }
 
     /// Count the works of an accepted step, by quadrature over its dense output, whose evaluations are none of the run's.
-    pub(super) fn audit_step(&mut self, step: &Step<N>, rhs: &mut Observed) {
-        let (model, mode) = (self.model, self.run.mode);
-        let Some(audit) = &mut self.audit else { return };
+    pub(super) fn step<const N: usize>(
+        &mut self,
+        model: &Model,
+        mode: &Mode,
+        step: &Step<N>,
+        rhs: &mut Observed,
+    ) where
+        Const<N>: Size,
+    {
         let Ok(dense) = step.dense(rhs, &mut Counters::default()) else { return };
         let (from, until) = (step.t(), step.t() + step.h());
-        audit.through_j += quadrature::integrals(from, until, |t| {
-            let powers = model.powers(&mode, t, &dense.at(t));
+        self.through_j += quadrature::integrals(from, until, |t| {
+            let powers = model.powers(mode, t, &dense.at(t));
             let all = powers.iter().map(|p| p.abs()).sum::<f64>();
             let [a, b, c, d, e, f, g] = powers;
             [a, b, c, d, e, f, g, all]
         })
         .into_iter()
         .enumerate()
-        .fold(0.0, |all, (i, work)| match audit.works.get_mut(i) {
+        .fold(0.0, |all, (i, work)| match self.works.get_mut(i) {
             Some(sum) => {
                 *sum += work;
                 all
@@ -234,13 +234,13 @@ where
         });
     }
 
-    /// The balance at the end.
-    pub(super) fn balance(&self) -> Option<EnergyBalance> {
-        let Audit { works, through_j, start } = self.audit?;
-        let now = self.energies();
+    /// The balance at the end of `run`.
+    pub(super) fn balance<const N: usize>(&self, model: &Model, run: &Run<N>) -> EnergyBalance {
+        let Self { works, through_j, start } = *self;
+        let now = energies(model, run);
         let [friction_inner_j, friction_outer_j, race_damping_j, contact_damping_j, inner, outer, frame_j] =
             works;
-        Some(EnergyBalance {
+        EnergyBalance {
             friction_inner_j,
             friction_outer_j,
             race_damping_j,
@@ -249,8 +249,8 @@ where
             torque_outer_j: outer,
             frame_j,
             kinetic_j: now[0] - start[0],
-            stored_j: now[1] - start[1] + self.model.wedge_energy_j(start[2], now[2]),
+            stored_j: now[1] - start[1] + model.wedge_energy_j(start[2], now[2]),
             through_j,
-        })
+        }
     }
 }

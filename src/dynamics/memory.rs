@@ -85,30 +85,30 @@ impl Memory {
     }
 }
 
-impl Driver<'_, N_STATE> {
-    fn recall(&mut self, memory: &Memory) {
-        self.phase = memory.phase_rad.or(self.phase);
-        if let Some(pace) = memory.pace {
-            self.stepper.go_on_at(pace);
+impl Memory {
+    fn recalled_by(&self, driver: &mut Driver<'_, N_STATE>) {
+        driver.phase = self.phase_rad.or(driver.phase);
+        if let Some(pace) = self.pace {
+            driver.stepper.go_on_at(pace);
         }
-        self.lengths = memory.lengths_s.map(|h| h.unwrap_or(f64::INFINITY));
-        self.landed = memory.landed.unwrap_or(self.landed);
-        for (last, kept) in self.zeno.last.iter_mut().zip(&memory.changes) {
+        driver.lengths = self.lengths_s.map(|h| h.unwrap_or(f64::INFINITY));
+        driver.landed = self.landed.unwrap_or(driver.landed);
+        for (last, kept) in driver.zeno.last.iter_mut().zip(&self.changes) {
             *last = kept.unwrap_or(*last);
         }
     }
 
-    fn memory(&self) -> Memory {
-        let before = |t: f64| t - self.run.t_s;
-        let landed = Some((before(self.landed.0), self.landed.1));
-        Memory {
-            state: self.run.state,
-            mode: self.run.mode,
-            phase_rad: self.phase,
-            pace: Some(self.stepper.pace()),
-            lengths_s: self.lengths.map(|h| h.is_finite().then_some(h)),
+    fn of(driver: &Driver<'_, N_STATE>) -> Self {
+        let before = |t: f64| t - driver.run.t_s;
+        let landed = Some((before(driver.landed.0), driver.landed.1));
+        Self {
+            state: driver.run.state,
+            mode: driver.run.mode,
+            phase_rad: driver.phase,
+            pace: Some(driver.stepper.pace()),
+            lengths_s: driver.lengths.map(|h| h.is_finite().then_some(h)),
             landed: landed.filter(|(t, _)| t.is_finite()),
-            changes: self.zeno.last.map(|(t, fell)| t.is_finite().then_some((before(t), fell))),
+            changes: driver.zeno.last.map(|(t, fell)| t.is_finite().then_some((before(t), fell))),
         }
     }
 }
@@ -117,10 +117,10 @@ impl Driver<'_, N_STATE> {
 /// from there. From [`Memory::new`] on it is [`super::run()`], to the bit. What the run says is of this stretch alone.
 pub fn go_on(model: &Model, memory: &Memory, settings: &RunSettings) -> (Run, Memory) {
     let mut driver = Driver::new(model, memory.state, memory.mode, settings);
-    driver.recall(memory);
+    memory.recalled_by(&mut driver);
     settings.follow.begin_run();
     driver.begin();
     driver.integrate();
-    let memory = driver.memory();
+    let memory = Memory::of(&driver);
     (driver.finish(), memory)
 }

@@ -95,11 +95,11 @@ pub struct Forces {
 /// A sprag between races whose motion is left open: what [`Model::loose`] says.
 pub(super) struct Loose {
     /// (alpha'', phi'') without T_bi and T_be, rad/s^2.
-    free: Vector2<f64>,
+    pub(super) free: Vector2<f64>,
     /// What one newton of T_bi on each sprag does to them.
-    column_i: Vector2<f64>,
+    pub(super) column_i: Vector2<f64>,
     /// The same of T_be.
-    column_e: Vector2<f64>,
+    pub(super) column_e: Vector2<f64>,
     n_bi: f64,
     v_a: f64,
     v_b: f64,
@@ -382,6 +382,16 @@ impl Model {
             sin_g,
             cos_g,
             press: n_bi * cos_bg + self.mass_kg * p.oc_g * phi_rate * phi_rate,
+        }
+    }
+
+    /// `of` where phi' counts `along` times in the slip rates of A and B, so that the forces turn the sprag by as much.
+    pub(super) fn turned_along(&self, of: Loose, p: &WedgePoint, along: [f64; 2]) -> Loose {
+        let (inverse, n) = (self.sprag_inverse(p.oc_g), self.count);
+        Loose {
+            column_i: inverse * Vector2::new(n * p.rho_i * p.oa, -n * p.oa * along[0]),
+            column_e: inverse * Vector2::new(n * p.rho_e * p.ob, n * p.ob * along[1]),
+            ..of
         }
     }
 

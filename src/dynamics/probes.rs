@@ -124,11 +124,11 @@ impl Probes {
         Self { at: [0.0; MOST], probed: [Probe::NOTHING; MOST], count: 0 }
     }
 
-    /// `count` places and what is `seen` there.
-    pub(super) fn of(seen: impl Fn(usize) -> (f64, Probe), count: usize) -> Self {
+    /// `count` places and what is there, by `place`.
+    pub(super) fn of(place: impl Fn(usize) -> (f64, Probe), count: usize) -> Self {
         let mut probes = Self::new();
-        for (at, seen) in (0..count).map(seen) {
-            probes.push(at, seen);
+        for (at, probe) in (0..count).map(place) {
+            probes.push(at, probe);
         }
         probes
     }
@@ -142,17 +142,17 @@ impl Probes {
         step: &Step<N>,
         trail: &Trail,
     ) {
-        let (seen, _) = &*trail.probed.borrow();
+        let (probed, _) = &*trail.probed.borrow();
         self.count = 0;
         for (j, &theta) in step.probes().iter().enumerate() {
             let known = j == 0 || step.is_explicit();
-            let seen = if known {
-                seen[j]
+            let probe = if known {
+                probed[j]
             } else {
                 let y = if theta == 1.0 { *step.y1() } else { step.glance(theta) };
                 probe(model, mode, step.t() + theta * step.h(), &y, grips)
             };
-            self.push(theta, seen);
+            self.push(theta, probe);
         }
     }
 
@@ -203,8 +203,8 @@ impl Probes {
         self.at[..self.count].iter().rposition(|&at| at < theta)
     }
 
-    fn push(&mut self, at: f64, seen: Probe) {
-        (self.at[self.count], self.probed[self.count]) = (at, seen);
+    fn push(&mut self, at: f64, probe: Probe) {
+        (self.at[self.count], self.probed[self.count]) = (at, probe);
         self.count += 1;
     }
 
@@ -276,8 +276,8 @@ impl Probes {
         if start.1 <= 0.0 {
             // Starts at zero (a contact just released): find where it has become positive.
             let inside = [0.02, 0.1, 0.25, 0.5, 0.75].map(|f| from + f * (to - from));
-            let mut seen = inside.into_iter().map(|theta| (theta, value(theta)));
-            start = seen.find(|&(_, e)| e > 0.0).ok_or(NeverPositive)?;
+            let mut values = inside.into_iter().map(|theta| (theta, value(theta)));
+            start = values.find(|&(_, e)| e > 0.0).ok_or(NeverPositive)?;
         }
         Ok(root(start.0, to, start.1, end))
     }

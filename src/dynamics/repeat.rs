@@ -14,7 +14,7 @@
 //! itself, so their difference holds what the jump did too.
 
 use super::driver::Driver;
-use super::model::{Mode, N_STATE};
+use super::model::{Mode, Model, N_STATE};
 use super::run::{Sample, SlipRecord};
 use super::zeno::Zeno;
 use crate::ode::adaptive::Size;
@@ -93,62 +93,48 @@ impl<const N: usize> Repeat<N> {
     }
 }
 
-impl<const N: usize> Driver<'_, N>
+impl<const N: usize> Repeat<N>
 where
     Const<N>: Size,
 {
-    /// Time to the end of the period, s; at its end what is there is compared, and periods are jumped where it repeats.
-    pub(super) fn left_of_period_s(&mut self) -> f64 {
-        let Some(mut repeat) = self.repeat.take() else { return f64::INFINITY };
-        if self.run.t_s >= repeat.end_s() * (1.0 - 1e-14) {
+    /// Time to the end of the period of `driver`'s run, s; at its end what is there is compared, and periods are jumped where it repeats.
+    pub(super) fn left_s(driver: &mut Driver<'_, N>) -> f64 {
+        let Some(mut repeat) = driver.repeat.take() else { return f64::INFINITY };
+        if driver.run.t_s >= repeat.end_s() * (1.0 - 1e-14) {
             repeat.count += 1;
             match repeat.template.take() {
-                Some((start, periods, error)) => return self.jump(repeat, &start, periods, error),
-                None => self.compare(&mut repeat),
+                Some((start, periods, error)) => {
+                    repeat.jump(driver, &start, periods, error);
+                    return f64::INFINITY;
+                }
+                None => repeat.compare(driver),
             }
         }
-        let left_s = repeat.end_s() - self.run.t_s;
-        self.repeat = Some(repeat);
+        let left_s = repeat.end_s() - driver.run.t_s;
+        driver.repeat = Some(repeat);
         left_s
     }
 
-    /// What runs on: phi and the races as far as nothing holds them, slip.
-    fn runs_on(&self, i: usize) -> bool {
-        matches!(i, 1 | 2 | 8 | 9) || i == 3 && self.model.loads.abutment_nm_per_rad == 0.0
-    }
-
-    fn section(&self) -> Section<N> {
-        let run = &self.run;
-        let slip = |s: &SlipRecord| [s.time_s, s.distance_m, s.net_m];
-        let open = run.open_s + self.open_since.map_or(0.0, |since| run.t_s - since);
-        let mut added = [0.0; ADDED];
-        added[..3].copy_from_slice(&slip(&run.inner));
-        added[3..6].copy_from_slice(&slip(&run.outer));
-        added[6] = open;
-        if let Some(audit) = &self.audit {
-            added[7..].copy_from_slice(&audit.sums());
-        }
-        Section { state: run.state, mode: run.mode, events: run.events, added }
-    }
-
-    fn compare(&mut self, repeat: &mut Repeat<N>) {
-        let now = self.section();
-        repeat.sections.push(now);
-        let last = repeat.sections.len() - 1;
+    /// What has come back at the end of a period of `driver`'s run, and whether the next is a template.
+    fn compare(&mut self, driver: &Driver<'_, N>) {
+        let now = Section::of(driver);
+        self.sections.push(now);
+        let last = self.sections.len() - 1;
         if last < 2 {
             return;
         }
-        let left = ((self.settings.duration_s - self.run.t_s) / repeat.period_s * (1.0 + 1e-12)).floor();
+        let left = ((driver.settings.duration_s - driver.run.t_s) / self.period_s * (1.0 + 1e-12)).floor();
         // One is run as a template.
         let periods = left - 1.0;
-        let s = &repeat.sections;
+        let (s, period_s) = (&self.sections, self.period_s);
         let gained = |k: usize| gain(&s[k - 1], &s[k]);
-        let off =
-            |lag: usize| self.difference(&s[last - lag], &now, &gained(last - lag), &gained(last), periods);
-        repeat.differences.rotate_right(1);
-        repeat.differences[0] = off(1);
+        let off = |lag: usize| {
+            difference(driver, period_s, &s[last - lag], &now, &gained(last - lag), &gained(last), periods)
+        };
+        self.differences.rotate_right(1);
+        self.differences[0] = off(1);
         let largest = |d: &[f64]| d.iter().fold(0.0, |a: f64, b| a.max(*b));
-        let (recent, earlier) = repeat.differences.split_at(STEADY / 2);
+        let (recent, earlier) = self.differences.split_at(STEADY / 2);
         let (recent, earlier) = (largest(recent), largest(earlier));
         let decay = (recent / earlier).powf(2.0 / STEADY as f64).max(LEAST_RATIO);
         let decays = if decay < 1.0 { recent * decay / (1.0 - decay) } else { f64::INFINITY };
@@ -158,21 +144,21 @@ where
         let scatters = if apart <= 2.0 * recent.max(earlier) { HIDDEN * apart } else { f64::INFINITY };
         let error = decays.min(scatters);
         let alike = now.mode == s[last - 1].mode && gained(last - 1).2 == gained(last).2;
-        repeat.alike = if alike && error <= self.settings.tolerance { repeat.alike + 1 } else { 0 };
+        self.alike = if alike && error <= driver.settings.tolerance { self.alike + 1 } else { 0 };
         if whole {
-            repeat.sections.remove(0);
+            self.sections.remove(0);
         }
-        if repeat.alike < STEADY || periods < 1.0 {
+        if self.alike < STEADY || periods < 1.0 {
             return;
         }
         let periods = periods as u64;
-        repeat.template = Some((now, periods, error));
-        let from = repeat.end_s();
+        self.template = Some((now, periods, error));
+        let from = self.end_s();
         // A sample at the very end is one of them, whatever rounding says.
-        let until = (repeat.count + 1 + periods) as f64 * repeat.period_s * (1.0 + 1e-12);
-        let (start_s, period_s) = (self.run.t_s, repeat.period_s);
-        repeat.wanted = (self.next_sample..self.settings.samples)
-            .map(|i| (i, self.sample_time(i)))
+        let until = (self.count + 1 + periods) as f64 * self.period_s * (1.0 + 1e-12);
+        let (start_s, period_s) = (driver.run.t_s, self.period_s);
+        self.wanted = (driver.watch.next_sample..driver.settings.samples)
+            .map(|i| (i, driver.watch.sample_time(i)))
             .skip_while(|&(_, t)| t <= from)
             .take_while(|&(_, t)| t <= until)
             .map(|(i, t)| {
@@ -181,107 +167,129 @@ where
                 (i, later, (t - later * period_s).min(from * (1.0 - 1e-13)))
             })
             .collect();
-        repeat.wanted.sort_by(|a, b| b.2.total_cmp(&a.2));
+        self.wanted.sort_by(|a, b| b.2.total_cmp(&a.2));
     }
 
-    /// g of this module.
-    fn difference(
-        &self,
-        last: &Section<N>,
-        now: &Section<N>,
-        before: &([f64; N], [f64; ADDED], u64),
-        gained: &([f64; N], [f64; ADDED], u64),
-        periods: f64,
-    ) -> f64 {
-        let radius_m = self.model.curve.touch().lengths.oa.v;
-        let rate = std::f64::consts::TAU / self.repeat_period_s();
-        let through = now.added[ADDED - 1].max(f64::MIN_POSITIVE);
-        let state = (0..N).map(|i| {
-            if self.runs_on(i) {
-                let size = if (8..N_STATE).contains(&i) { radius_m } else { 1.0 };
-                periods * (gained.0[i] - before.0[i]).abs() / size
-            } else {
-                let is_rate = (4..8).contains(&i) || i >= N_STATE && i % 2 == 1;
-                let size = if is_rate { rate } else { 1.0 };
-                (now.state[i] - last.state[i]).abs() / size
-            }
-        });
-        // What went through is a measure, and no figure.
-        let added = (0..ADDED - 1).map(|i| {
-            let size = match i {
-                0 | 3 | 6 => self.settings.duration_s,
-                1 | 2 | 4 | 5 => radius_m,
-                // Both grow with the periods.
-                _ => through * (1.0 + periods / self.run.t_s * self.repeat_period_s()),
-            };
-            periods * (gained.1[i] - before.1[i]).abs() / size
-        });
-        // What moves alpha tells in the force: dN/N is some dalpha/alpha.
-        let pressed = (now.state[0] - last.state[0]).abs() / now.state[0].abs().max(1e-3);
-        state.chain(added).fold(pressed, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
-    }
-
-    fn repeat_period_s(&self) -> f64 {
-        self.settings.jump_period_s.unwrap_or(f64::INFINITY)
-    }
-
-    /// Add `periods` of the template that began at `start` and ends now. The rest of the run, less than a period, is run.
-    fn jump(&mut self, mut repeat: Repeat<N>, start: &Section<N>, periods: u64, error: f64) -> f64 {
-        let now = self.section();
+    /// Add to `driver`'s run `periods` of the template that began at `start` and ends now. The rest of the run, less than a period, is run.
+    fn jump(mut self, driver: &mut Driver<'_, N>, start: &Section<N>, periods: u64, error: f64) {
+        let (model, now) = (driver.model, Section::of(driver));
         let (drift, added, events) = gain(start, &now);
-        let (n, span_s) = (periods as f64, periods as f64 * repeat.period_s);
-        let from_s = self.run.t_s;
-        for (_, later, sample) in &mut repeat.taken {
-            sample.t += *later * repeat.period_s;
-            for i in (0..N).filter(|&i| self.runs_on(i)) {
+        let (n, span_s) = (periods as f64, periods as f64 * self.period_s);
+        let from_s = driver.run.t_s;
+        for (_, later, sample) in &mut self.taken {
+            sample.t += *later * self.period_s;
+            for i in (0..N).filter(|&i| runs_on(model, i)) {
                 sample.state[i] += *later * drift[i];
             }
         }
-        repeat.taken.sort_by_key(|t| t.0);
-        self.next_sample = repeat.taken.last().map_or(self.next_sample, |t| self.next_sample.max(t.0 + 1));
-        self.run.samples.extend(repeat.taken.iter().map(|t| t.2));
+        self.taken.sort_by_key(|t| t.0);
+        driver.watch.next_sample =
+            self.taken.last().map_or(driver.watch.next_sample, |t| driver.watch.next_sample.max(t.0 + 1));
+        driver.run.samples.extend(self.taken.iter().map(|t| t.2));
         for (i, drift) in drift.iter().enumerate() {
-            let runs_on = f64::from(u8::from(self.runs_on(i)));
-            self.run.state[i] += runs_on * n * drift;
+            let runs_on = f64::from(u8::from(runs_on(model, i)));
+            driver.run.state[i] += runs_on * n * drift;
         }
         let more = |s: &mut SlipRecord, by: &[f64]| {
             s.time_s += n * by[0];
             s.distance_m += n * by[1];
             s.net_m += n * by[2];
         };
-        more(&mut self.run.inner, &added[..3]);
-        more(&mut self.run.outer, &added[3..6]);
-        self.run.open_s += n * added[6];
-        self.open_since = self.open_since.map(|since| since + span_s);
-        self.run.events += periods * events;
-        if let Some(audit) = &mut self.audit {
+        more(&mut driver.run.inner, &added[..3]);
+        more(&mut driver.run.outer, &added[3..6]);
+        driver.run.open_s += n * added[6];
+        driver.open_since = driver.open_since.map(|since| since + span_s);
+        driver.run.events += periods * events;
+        if let Some(audit) = &mut driver.audit {
             audit.add(n, &added[7..]);
         }
-        self.phase =
-            self.phase.map(|phase| phase + n * (drift[2] - if self.runs_on(3) { drift[3] } else { 0.0 }));
-        self.run.t_s = (repeat.count + periods) as f64 * repeat.period_s;
-        (self.slope, self.probed) = (None, None);
-        (self.zeno, self.landed) = (Zeno::new(), (f64::NAN, super::events::EVENTS));
-        self.run.jump = Some(Jump { from_s, periods, period_s: repeat.period_s, error, events });
-        f64::INFINITY
+        driver.phase =
+            driver.phase.map(|phase| phase + n * (drift[2] - if runs_on(model, 3) { drift[3] } else { 0.0 }));
+        driver.run.t_s = (self.count + periods) as f64 * self.period_s;
+        (driver.slope, driver.probed) = (None, None);
+        (driver.zeno, driver.landed) = (Zeno::new(), (f64::NAN, super::events::EVENTS));
+        driver.run.jump = Some(Jump { from_s, periods, period_s: self.period_s, error, events });
     }
 
     /// Whether a sample of the template lies before `until_s`.
     pub(super) fn wants_template(&self, until_s: f64) -> bool {
-        self.repeat.as_ref().and_then(|r| r.wanted.last()).is_some_and(|wanted| wanted.2 <= until_s)
+        self.wanted.last().is_some_and(|wanted| wanted.2 <= until_s)
     }
 
     /// Samples of the template within its step, which ends at `until_s`: taken by `at`.
-    pub(super) fn sample_template(&mut self, until_s: f64, at: impl Fn(&Self, f64) -> Sample<N>) {
-        let Some(mut repeat) = self.repeat.take() else { return };
-        while let Some(&(number, later, t)) = repeat.wanted.last() {
+    pub(super) fn sample_template(&mut self, until_s: f64, at: impl Fn(f64) -> Sample<N>) {
+        while let Some(&(number, later, t)) = self.wanted.last() {
             if t > until_s {
                 break;
             }
-            repeat.wanted.pop();
-            repeat.taken.push((number, later, at(self, t)));
+            self.wanted.pop();
+            self.taken.push((number, later, at(t)));
         }
-        self.repeat = Some(repeat);
+    }
+}
+
+/// g of this module.
+fn difference<const N: usize>(
+    driver: &Driver<'_, N>,
+    period_s: f64,
+    last: &Section<N>,
+    now: &Section<N>,
+    before: &([f64; N], [f64; ADDED], u64),
+    gained: &([f64; N], [f64; ADDED], u64),
+    periods: f64,
+) -> f64
+where
+    Const<N>: Size,
+{
+    let radius_m = driver.model.curve.touch().lengths.oa.v;
+    let rate = std::f64::consts::TAU / period_s;
+    let through = now.added[ADDED - 1].max(f64::MIN_POSITIVE);
+    let state = (0..N).map(|i| {
+        if runs_on(driver.model, i) {
+            let size = if (8..N_STATE).contains(&i) { radius_m } else { 1.0 };
+            periods * (gained.0[i] - before.0[i]).abs() / size
+        } else {
+            let is_rate = (4..8).contains(&i) || i >= N_STATE && i % 2 == 1;
+            let size = if is_rate { rate } else { 1.0 };
+            (now.state[i] - last.state[i]).abs() / size
+        }
+    });
+    // What went through is a measure, and no figure.
+    let added = (0..ADDED - 1).map(|i| {
+        let size = match i {
+            0 | 3 | 6 => driver.settings.duration_s,
+            1 | 2 | 4 | 5 => radius_m,
+            // Both grow with the periods.
+            _ => through * (1.0 + periods / driver.run.t_s * period_s),
+        };
+        periods * (gained.1[i] - before.1[i]).abs() / size
+    });
+    // What moves alpha tells in the force: dN/N is some dalpha/alpha.
+    let pressed = (now.state[0] - last.state[0]).abs() / now.state[0].abs().max(1e-3);
+    state.chain(added).fold(pressed, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
+}
+
+/// What runs on: phi and the races as far as nothing holds them, slip.
+fn runs_on(model: &Model, i: usize) -> bool {
+    matches!(i, 1 | 2 | 8 | 9) || i == 3 && model.loads.abutment_nm_per_rad == 0.0
+}
+
+impl<const N: usize> Section<N> {
+    fn of(driver: &Driver<'_, N>) -> Self
+    where
+        Const<N>: Size,
+    {
+        let run = &driver.run;
+        let slip = |s: &SlipRecord| [s.time_s, s.distance_m, s.net_m];
+        let open = run.open_s + driver.open_since.map_or(0.0, |since| run.t_s - since);
+        let mut added = [0.0; ADDED];
+        added[..3].copy_from_slice(&slip(&run.inner));
+        added[3..6].copy_from_slice(&slip(&run.outer));
+        added[6] = open;
+        if let Some(audit) = &driver.audit {
+            added[7..].copy_from_slice(&audit.sums());
+        }
+        Self { state: run.state, mode: run.mode, events: run.events, added }
     }
 }
 

@@ -10,7 +10,7 @@
 use super::events::FIGURES;
 use super::model::{Model, Place, State};
 use super::run::Peaks;
-use super::stick::{Edge, Leg, Pair, Rolls, Seen, Stuck, first_passage};
+use super::stick::{Edge, Largest, Leg, Pair, Rolls, Stuck, first_passage};
 use crate::ode::dop853::{Dense, PROBES, Step};
 use crate::ode::step::{Counters, Tolerance};
 
@@ -20,7 +20,7 @@ pub struct RollingTrack {
     arc: usize,
     legs: Vec<Leg>,
     peaks: Peaks,
-    seen: [Seen; FIGURES],
+    largest: [Largest; FIGURES],
 }
 
 /// The tolerance of steps that nobody judges.
@@ -30,8 +30,8 @@ const ABOUT: f64 = 0.02;
 
 impl RollingTrack {
     pub(super) fn of(arc: usize, run: Stuck) -> Self {
-        let Stuck { legs, peaks, seen, .. } = run;
-        Self { arc, legs, peaks, seen }
+        let Stuck { legs, peaks, largest, .. } = run;
+        Self { arc, legs, peaks, largest }
     }
 
     /// Figures that a demand is read from: |T|/N of the contact that asks for more, the ends of N_bi.
@@ -56,7 +56,7 @@ impl RollingTrack {
             return None;
         }
         let read = self.read(model);
-        let last = read.into_iter().map(|i| self.seen[i].leg).max()?;
+        let last = read.into_iter().map(|i| self.largest[i].leg).max()?;
         let (mut rolls, mut y) = Rolls::new(model, self.arc, state);
         let (mut t, mut step, mut counters) = (0.0, Step::new(), Counters::default());
         let mut now = rolls.sight(t, &y);
@@ -71,13 +71,13 @@ impl RollingTrack {
                 true => Some(first_passage(&mut rolls, &step, &mut dense, &mut counters)??),
                 false => None,
             };
-            let seen_here = || read.into_iter().filter(|&i| self.seen[i].leg == k);
-            if seen_here().next().is_some() && dense.is_none() {
+            let largest_here = || read.into_iter().filter(|&i| self.largest[i].leg == k);
+            if largest_here().next().is_some() && dense.is_none() {
                 dense = Some(step.dense(&mut rolls, &mut counters).ok()?);
             }
             let length = passage.map_or(h, |theta| theta * h);
-            for i in seen_here() {
-                let at = self.seen[i];
+            for i in largest_here() {
+                let at = self.largest[i];
                 let d = dense.as_ref()?;
                 let corner = at.edge.filter(|edge| self.is_corner(k, *edge));
                 let value = match corner {

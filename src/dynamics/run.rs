@@ -301,7 +301,7 @@ pub struct Run<const N: usize = N_STATE> {
     /// When the clutch began to be one; `None`: it overran or was open to the end.
     pub engaged: Option<Engaged<N>>,
     /// The first hold of the load since then that has ended.
-    pub(super) held: Option<Hold>,
+    pub(super) hold: Option<Hold>,
     /// The stick of A that lasts.
     pub(super) stick: Option<Hold>,
     /// Every mode with the time at which it began, s; empty where no samples were asked for.
@@ -370,7 +370,7 @@ impl<const N: usize> Run<N> {
             extremes: [None; FIGURES],
             neglected: Neglected::default(),
             engaged: None,
-            held: None,
+            hold: None,
             stick: None,
             modes: Vec::new(),
             jump: None,
@@ -408,7 +408,7 @@ impl<const N: usize> Run<N> {
             }
             Some(stick) if !sticks => {
                 let peak_s = self.peaks.at_s[N_BI];
-                self.held = self.held.or((stick.t_s < peak_s && peak_s < self.t_s).then_some(stick));
+                self.hold = self.hold.or((stick.t_s < peak_s && peak_s < self.t_s).then_some(stick));
                 self.stick = None;
             }
             _ => {}
@@ -417,7 +417,7 @@ impl<const N: usize> Run<N> {
 
     /// The first hold of the load since the clutch engaged; a stick that lasts to the end is one.
     pub fn first_hold(&self) -> Option<Hold> {
-        self.held.or(self.stick)
+        self.hold.or(self.stick)
     }
 }
 

@@ -52,8 +52,8 @@ pub fn preloaded(model: &Model, torque_nm: f64) -> Option<(State, Place)> {
 
 /// State at rest under `torque_nm` >= 0 with the spring at work, at the mean speed of t = 0: both races in balance
 /// (n_s T_bi OA = n_s T_be OB = C, theta_be = -C/k_ab), the sprag by
-/// T(alpha) OA (rho_i + rho_e) = C (rho_i + rho_e)/n_s + K_r(alpha_max - alpha). Open at first contact where nothing presses the sprag in. `None` where the curve does
-/// not carry it.
+/// T(alpha) OA (rho_i + rho_e) = C (rho_i + rho_e)/n_s + K_r(alpha_max - alpha). Open at first contact where nothing
+/// presses the sprag in. `None` where the curve does not carry it.
 pub fn settled(model: &Model, torque_nm: f64) -> Option<(State, Place)> {
     let mut y = [0.0; super::N_STATE];
     let (speed, _) = model.mean_speed(0.0);

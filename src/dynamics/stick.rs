@@ -44,7 +44,7 @@ pub(super) struct Stuck {
     /// Its steps.
     pub(super) legs: Vec<Leg>,
     /// Where each figure was largest.
-    pub(super) seen: [Seen; FIGURES],
+    pub(super) largest: [Largest; FIGURES],
     pub(super) counters: Counters,
     /// Junctions passed.
     pub(super) passed: u64,
@@ -67,7 +67,7 @@ pub(super) struct Leg {
 
 /// Where a figure was largest.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Seen {
+pub(super) struct Largest {
     /// Number of the step.
     pub(super) leg: usize,
     /// Time, s.
@@ -287,8 +287,8 @@ const MOST: f64 = 1.5;
 pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSettings) -> Option<Stuck> {
     let Place::Arc(arc) = place else { return None };
     let plain = model.drive.speed_rad_s.is_none()
-        && model.drive.train.is_none()
         && model.drive.flanges.is_none()
+        && model.drive.train.is_none()
         && model.hunt_crossley_s_per_m == 0.0
         && !model.outer_holds;
     if !plain || settings.samples > 0 || settings.energy {
@@ -298,7 +298,7 @@ pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSe
     let mut run = Stuck {
         peaks: Peaks::NONE,
         legs: Vec::new(),
-        seen: [Seen { leg: 0, t_s: 0.0, edge: Some(Edge::Start) }; FIGURES],
+        largest: [Largest { leg: 0, t_s: 0.0, edge: Some(Edge::Start) }; FIGURES],
         counters: Counters::default(),
         passed: 0,
         interrupted: false,
@@ -485,7 +485,7 @@ fn watch(
             if value(j) > best {
                 best = value(j);
                 peaks.keep(i, seen[j].t, best, seen[j].figures[super::events::N_BI]);
-                run.seen[i] = Seen { leg, t_s: seen[j].t, edge: Some(edge) };
+                run.largest[i] = Largest { leg, t_s: seen[j].t, edge: Some(edge) };
             }
         }
         for j in 0..count {
@@ -511,7 +511,7 @@ fn watch(
                 best = found;
                 let t_s = step.t + theta * length;
                 peaks.keep(i, t_s, best, figures(theta)[super::events::N_BI]);
-                run.seen[i] = Seen { leg, t_s, edge: None };
+                run.largest[i] = Largest { leg, t_s, edge: None };
             }
         }
     }

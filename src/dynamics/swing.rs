@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, Matrix2};
 
-use super::drive::Loads;
+use super::drive::{Drive, FlangeDrive, Loads};
 use super::model::{Grip, Mode, Model, N_STATE, Place};
 use super::start::Overrun;
 use crate::clutch::Clutch;
@@ -122,13 +122,8 @@ pub fn swing_on_film(
     // The third unknown is delta/X', rad.
     let rate = [-by_turn, stiffness * by_speed * turn, -by_turn - stiffness * pressed]
         .map(|of| of / (squeeze * pressed));
-    #[rustfmt::skip]
-    let matrix = [
-        0.0,             1.0,            0.0,
-        beside.by_alpha, beside.by_rate, beside.by_alpha,
-        rate[0],         rate[1],        rate[2],
-    ];
-    let eigenvalues = eigenvalues(DMatrix::from_row_slice(3, 3, &matrix))?;
+    let matrix = [[0.0, 1.0, 0.0], [beside.by_alpha, beside.by_rate, beside.by_alpha], rate];
+    let eigenvalues = eigenvalues(DMatrix::from_row_slice(3, 3, matrix.as_flattened()))?;
     let growth = eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max);
     Some(Swing::of(growth, eigenvalues.iter().map(|l| l.im).fold(0.0, f64::max), p.n_bi))
 }
@@ -155,11 +150,10 @@ impl Beside {
             return None;
         }
         let still = Loads { inner_nm: 0.0, amplitude_nm: 0.0, omega_rad_s: 0.0, abutment_nm_per_rad: 0.0 };
-        // Races that nothing turns: the largest number, as infinity times 0 is none.
+        // Flanges keep the speeds of both races.
         let held = Model {
             film: film.copied(),
-            inner_inertia_kg_m2: f64::MAX,
-            outer_inertia_kg_m2: f64::MAX,
+            drive: Drive { flanges: Some([FlangeDrive::Acceleration(0.0); 2]), ..Drive::default() },
             ..Model::new(clutch, curve.clone(), still, alpha_max_rad, 0.0)
         };
         let mode = Mode { place: Place::Arc(0), inner: Grip::Slip(1.0), outer: Grip::Stick };

@@ -1,23 +1,43 @@
 //! What a run remembers of each step: located extremes and samples, never read off step ends alone.
 
-use super::driver::Driver;
 use super::events::{FIGURES, N_BE, N_BI, probe};
+use super::model::{Mode, Model};
 use super::probes::{Observed, Probes, parabola};
-use super::run::{RunSettings, Sample};
+use super::repeat::Repeat;
+use super::run::{Run, RunSettings, Sample};
 use crate::ode::adaptive::Size;
 use crate::ode::step::Step;
 use nalgebra::Const;
 
-impl<const N: usize> Driver<'_, N>
-where
-    Const<N>: Size,
-{
-    /// Extremes and samples inside the step.
-    pub(super) fn watch(&mut self, step: &Step<N>, probes: &Probes, rhs: &mut Observed) -> Result<(), ()> {
-        let (mode, model) = (self.run.mode, self.model);
+/// What watches a run.
+pub(super) struct Watch<'a> {
+    model: &'a Model,
+    settings: &'a RunSettings,
+    /// The equidistant sample that comes next.
+    pub(super) next_sample: usize,
+}
+
+impl<'a> Watch<'a> {
+    pub(super) fn new(model: &'a Model, settings: &'a RunSettings) -> Self {
+        Self { model, settings, next_sample: 0 }
+    }
+
+    /// Extremes and samples inside a step of `run`, those of a template too.
+    pub(super) fn step<const N: usize>(
+        &mut self,
+        run: &mut Run<N>,
+        repeat: Option<&mut Repeat<N>>,
+        step: &Step<N>,
+        probes: &Probes,
+        rhs: &mut Observed,
+    ) -> Result<(), ()>
+    where
+        Const<N>: Size,
+    {
+        let (mode, model) = (run.mode, self.model);
         let (start, length) = (step.t(), step.h());
         let t_end = start + length;
-        let mut peaks = self.run.peaks;
+        let mut peaks = run.peaks;
         let samples = self.settings.samples;
         let wants_sample =
             samples > 0 && self.next_sample < samples && self.sample_time(self.next_sample) <= t_end;
@@ -29,8 +49,8 @@ where
                 if value(j) > best {
                     best = value(j);
                     peaks.keep(i, t, best, probes.get(j).figures[N_BI]);
-                    let state = if j == 0 { self.run.state } else { *step.y1() };
-                    self.keep_extreme(i, t, state);
+                    let state = if j == 0 { run.state } else { *step.y1() };
+                    self.keep_extreme(run, i, t, state);
                 }
             }
             for j in 0..probes.count() {
@@ -43,7 +63,7 @@ where
                 if top && value(j) + probes.overshoot(j, value) > enough {
                     let d = match &dense {
                         Some(d) => d,
-                        None => dense.insert(step.dense(rhs, &mut self.run.counters)?),
+                        None => dense.insert(step.dense(rhs, &mut run.counters)?),
                     };
                     let figures = |theta: f64| {
                         let elapsed = theta * length;
@@ -56,7 +76,7 @@ where
                         best = found.min(bound);
                         peaks.keep(i, start + theta * length, best, figures(theta)[N_BI]);
                         let state = d.after(theta * length);
-                        self.keep_extreme(i, start + theta * length, state);
+                        self.keep_extreme(run, i, start + theta * length, state);
                     }
                 }
             }
@@ -69,26 +89,26 @@ where
                 let rate = |j: usize| probes.get(j).outer_rate_rad_s.abs();
                 let [radial, rate] =
                     [radial(j) + probes.overshoot(j, radial), rate(j) + probes.overshoot(j, rate)];
-                self.run.neglected.note(radial, seen.figures[N_BE], rate);
+                run.neglected.note(radial, seen.figures[N_BE], rate);
             }
         }
         if wants_sample {
             let d = match dense {
                 Some(d) => d,
-                None => step.dense(rhs, &mut self.run.counters)?,
+                None => step.dense(rhs, &mut run.counters)?,
             };
             while self.next_sample < samples && self.sample_time(self.next_sample) <= t_end {
                 let t = self.sample_time(self.next_sample);
                 let state = d.at(t);
-                let sample = self.sample(t, state);
-                self.run.samples.push(sample);
+                let sample = self.sample(mode, t, state);
+                run.samples.push(sample);
                 self.next_sample += 1;
             }
         }
-        self.run.peaks = peaks;
-        if samples > 0 && self.wants_template(t_end) {
-            let d = step.dense(rhs, &mut self.run.counters)?;
-            self.sample_template(t_end, |driver, t| driver.sample(t, d.at(t)));
+        run.peaks = peaks;
+        if let Some(repeat) = repeat.filter(|repeat| samples > 0 && repeat.wants_template(t_end)) {
+            let d = step.dense(rhs, &mut run.counters)?;
+            repeat.sample_template(t_end, |t| self.sample(mode, t, d.at(t)));
         }
         Ok(())
     }
@@ -108,8 +128,7 @@ where
         from + (until - from) * i as f64 / (self.settings.samples.max(2) - 1) as f64
     }
 
-    fn sample(&self, t: f64, state: [f64; N]) -> Sample<N> {
-        let mode = self.run.mode;
+    fn sample<const N: usize>(&self, mode: Mode, t: f64, state: [f64; N]) -> Sample<N> {
         Sample { t, state, forces: self.model.forces(&mode, t, &state), mode }
     }
 
@@ -119,36 +138,34 @@ where
         *samples > 0 && history.marks && history.window_s.is_none_or(|[from, until]| from <= t && t <= until)
     }
 
-    /// The mode has changed at `t` (s).
-    pub(super) fn mark(&mut self, t: f64) {
-        if self.marks(t) && self.run.marked < self.settings.samples {
-            let sample = self.sample(t, self.run.state);
-            self.run.samples.push(sample);
-            self.run.marked += 1;
+    /// The mode of `run` has changed at `t` (s).
+    pub(super) fn mark<const N: usize>(&self, run: &mut Run<N>, t: f64) {
+        if self.marks(t) && run.marked < self.settings.samples {
+            run.samples.push(self.sample(run.mode, t, run.state));
+            run.marked += 1;
         }
     }
 
-    /// Extreme `i` so far is at `t` (s).
-    fn keep_extreme(&mut self, i: usize, t: f64, state: [f64; N]) {
+    /// Extreme `i` of `run` so far is at `t` (s).
+    fn keep_extreme<const N: usize>(&self, run: &mut Run<N>, i: usize, t: f64, state: [f64; N]) {
         if self.marks(t) {
-            self.run.extremes[i] = Some(self.sample(t, state));
+            run.extremes[i] = Some(self.sample(run.mode, t, state));
         }
     }
 
-    /// The extremes of the run join its samples.
-    pub(super) fn sample_extremes(&mut self) {
-        let run = &mut self.run;
-        run.samples.extend(run.extremes.iter_mut().filter_map(Option::take));
-        run.samples.sort_by(|a, b| a.t.total_cmp(&b.t));
-    }
-
-    /// Extremes of N_bi at one instant.
-    pub(super) fn probe(&mut self, y: [f64; N], t: f64) {
-        let f = self.model.forces(&self.run.mode, t, &y);
-        let p = &mut self.run.peaks;
+    /// Extremes of N_bi where `run` begins.
+    pub(super) fn begin<const N: usize>(&self, run: &mut Run<N>) {
+        let f = self.model.forces(&run.mode, run.t_s, &run.state);
+        let p = &mut run.peaks;
         p.normal_min_n = p.normal_min_n.min(f.n_bi);
         p.normal_max_n = p.normal_max_n.max(f.n_bi);
     }
+}
+
+/// The extremes of `run` join its samples.
+pub(super) fn sample_extremes<const N: usize>(run: &mut Run<N>) {
+    run.samples.extend(run.extremes.iter_mut().filter_map(Option::take));
+    run.samples.sort_by(|a, b| a.t.total_cmp(&b.t));
 }
 
 /// Place and value of the largest value of a smooth function with one hump on [a, b], looked for about `guess` first:

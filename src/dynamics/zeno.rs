@@ -8,12 +8,10 @@
 //! chosen anew. Contacts of this model yield, so a bounce takes time and a sequence is finite unless a drive or
 //! rounding feeds it; the rule bounds the work where one does.
 
-use super::choose::Known;
-use super::driver::Driver;
-use super::events::{EVENTS, INNER, LOWER, OUTER, UPPER};
-use super::model::{Grip, Mode, N_STATE, Place};
-use crate::ode::adaptive::Size;
-use nalgebra::Const;
+use super::events::EVENTS;
+use super::model::Place;
+use super::run::RunSettings;
+use crate::wedge::WedgeCurve;
 
 const CYCLE: usize = 4;
 pub(super) const KEPT: usize = 3 * CYCLE + 1;
@@ -62,70 +60,29 @@ impl Zeno {
     }
 }
 
-impl<const N: usize> Driver<'_, N>
-where
-    Const<N>: Size,
-{
-    /// Time in which no angle moves by its tolerance, s; at most a millionth of the scene.
-    pub(super) fn resolution_s(&self) -> f64 {
-        let rate = self.run.state[4..8].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        (1e-2 * self.settings.tolerance / rate.max(f64::MIN_POSITIVE)).min(1e-6 * self.settings.duration_s)
-    }
+/// Time in which no angle of `state` moves by its tolerance, s; at most a millionth of the scene.
+pub(super) fn resolution_s<const N: usize>(state: &[f64; N], settings: &RunSettings) -> f64 {
+    let rate = state[4..8].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    (1e-2 * settings.tolerance / rate.max(f64::MIN_POSITIVE)).min(1e-6 * settings.duration_s)
+}
 
-    /// Go to the limit of accumulating changes.
-    pub(super) fn close(&mut self, limit: &Accumulation, t: f64, mut y: [f64; N]) {
-        let (model, mode) = (self.model, self.run.mode);
-        let took = |i: usize| limit.took_part[i];
-        let t = t + limit.left_s;
-        for i in 0..4 {
-            y[i] += limit.left_s * y[4 + i];
+/// The bound of `place` nearest to `alpha` (rad), with the places below and above it; `rolling`: as in tension below first contact.
+pub(super) fn bound(curve: &WedgeCurve, place: Place, rolling: bool, alpha: f64) -> (f64, Place, Place) {
+    let below = |k: usize| if k == 0 { Place::Open } else { Place::Arc(k - 1) };
+    let from = |k: usize| if k == 0 { curve.first_contact_rad() } else { curve.arc_end_rad(k - 1) };
+    match place {
+        Place::Open | Place::Tension => (from(0), place, Place::Arc(0)),
+        Place::Arc(k) if k + 1 < curve.arc_count() && curve.arc_end_rad(k) - alpha < alpha - from(k) => {
+            (curve.arc_end_rad(k), Place::Arc(k), Place::Arc(k + 1))
         }
-        for twist in y[N_STATE..].chunks_exact_mut(2) {
-            twist[0] += limit.left_s * twist[1];
-        }
-        let free = |grip: Grip, took: bool| if took { Grip::Stick } else { grip };
-        let (inner, outer) = (free(mode.inner, took(INNER)), free(mode.outer, took(OUTER)));
-        let known = |grip: Grip| match grip {
-            Grip::Stick => Known::Still,
-            Grip::Slip(s) => Known::Slips(s),
-        };
-        let mut place = mode.place;
-        let at_bound = (took(LOWER) || took(UPPER)).then(|| self.bound(y[0]));
-        if let Some((alpha, lower, upper)) = at_bound {
-            (y[0], y[4], place) = (alpha, 0.0, upper);
-            let held = Mode { place, inner, outer };
-            if model.forces(&held, t, &y).acceleration[0] < 0.0 {
-                place = lower;
-            }
-        }
-        let held = Mode { place, inner, outer };
-        let p = model.point(place, y[0]);
-        let rates = model.rates(&held, &p, &y);
-        y[4..8].copy_from_slice(&rates);
-        let next = self.chosen(t, &y, p, place, known(inner), known(outer));
-        (self.run.t_s, self.run.state) = (t, y);
-        self.run.zeno_closures += 1;
-        self.enter(next);
-    }
-
-    /// The bound of the present place nearest to `alpha` (rad), with the places below and above it.
-    fn bound(&self, alpha: f64) -> (f64, Place, Place) {
-        let curve = &self.model.curve;
-        let below = |k: usize| if k == 0 { Place::Open } else { Place::Arc(k - 1) };
-        let from = |k: usize| if k == 0 { curve.first_contact_rad() } else { curve.arc_end_rad(k - 1) };
-        match self.run.mode.place {
-            Place::Open | Place::Tension => (from(0), self.run.mode.place, Place::Arc(0)),
-            Place::Arc(k) if k + 1 < curve.arc_count() && curve.arc_end_rad(k) - alpha < alpha - from(k) => {
-                (curve.arc_end_rad(k), Place::Arc(k), Place::Arc(k + 1))
-            }
-            Place::Arc(k) if self.settings.rolling && k == 0 => (from(k), Place::Tension, Place::Arc(k)),
-            Place::Arc(k) => (from(k), below(k), Place::Arc(k)),
-        }
+        Place::Arc(k) if rolling && k == 0 => (from(k), Place::Tension, Place::Arc(k)),
+        Place::Arc(k) => (from(k), below(k), Place::Arc(k)),
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::events::UPPER;
     use super::*;
 
     /// A ball with restitution 0.8: gaps shrink by it, the sum is known.

@@ -18,7 +18,7 @@ pub use motion::{Contact, Flange, Motion};
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Start};
 use crate::dynamics::{Drive, FlangeDrive, Memory, Model, Ramp, Run, RunSettings, SlipRecord, Stop, go_on};
 use crate::numeric::setting::in_range;
-use crate::scenario::{NoScenario, prepare};
+use crate::scenario::{NoScenario, TOLERANCES, prepare};
 use serde::{Deserialize, Serialize};
 
 /// How an element begins.
@@ -80,8 +80,6 @@ impl Default for Settings {
 
 /// Shortest and longest advance, s.
 const STEPS_S: [f64; 2] = [1e-15, 1e9];
-/// Tolerances of a step that can be kept: above, estimates mean little, below, rounding.
-const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
 
 /// Torque of a flange over one advance, straight between its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]

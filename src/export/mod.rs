@@ -8,10 +8,12 @@
 pub mod calculix;
 pub mod dxf;
 pub mod fmu;
+mod made;
 mod part;
 pub mod rows;
 mod sheet;
 pub mod step;
 pub mod svg;
 
+pub use made::{MadeClutch, NoPart};
 pub use part::{DrawnClutch, Part};

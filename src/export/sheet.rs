@@ -155,7 +155,33 @@ impl Sheet {
                 self.line(Layer::ArcEnds, end - across, end + across);
             }
             let label = if is_outer { "CE".to_owned() } else { name };
-            labels.push((centre_m, format!("{label}  R {:.4}", 1e3 * radius_m)));
+            // Of a spiral's arcs the first and the last: their centres lie in a row.
+            let arcs = profile.arcs.len();
+            let of_spiral = subject.clutch.sprags.spiral.map_or(0, |s| s.arc_count());
+            if is_outer || inner == arcs || inner <= (arcs + 1).saturating_sub(of_spiral) {
+                labels.push((centre_m, format!("{label}  R {:.4}", 1e3 * radius_m)));
+            }
+        }
+        if let Some((spiral, pole)) = subject.clutch.sprags.spiral.and_then(|s| Some((s, s.pole_m(profile)?)))
+        {
+            let off = spiral.deviation();
+            rows.push(format!(
+                "SPIRAL FROM TURN {:.4} TO {:.4} DEG: RADIUS OF CURVATURE {:.5} EXP({:.6} TURN/RAD){}, POLE {:.5}, {:.5}",
+                spiral.from_rad.to_degrees(),
+                spiral.until_rad.to_degrees(),
+                1e3 * (spiral.start_radius_m + spiral.inset_m),
+                spiral.rise,
+                if spiral.inset_m > 0.0 { format!(" - {:.5}", 1e3 * spiral.inset_m) } else { String::new() },
+                hundredth_um(pole.x),
+                hundredth_um(pole.y)
+            ));
+            rows.push(format!(
+                "{} ARCS STAND FOR IT, BESIDE IT BY AT MOST {:.6} UM",
+                spiral.arc_count(),
+                1e6 * off.position_m
+            ));
+            self.cross(pole, CROSS * self.letter_m);
+            labels.push((pole, "POLE OF THE SPIRAL".to_owned()));
         }
         for (name, at) in contacts(profile) {
             self.cross(at, CROSS * self.letter_m);
@@ -260,6 +286,11 @@ impl Sheet {
 fn contacts(profile: &Profile) -> Vec<(&'static str, Vector2<f64>)> {
     let inner = profile.arcs.first().map(|a| ("A", a.centre_m + a.radius_m * profile.contact_direction(0.0)));
     inner.into_iter().chain([("B", Vector2::new(0.0, profile.outer_radius_m))]).collect()
+}
+
+/// m in mm, to 0.01 um; of a zero without its sign.
+fn hundredth_um(m: f64) -> f64 {
+    (1e8 * m).round() / 1e5 + 0.0
 }
 
 fn extent(points: &[[f64; 2]]) -> [Vector2<f64>; 2] {

@@ -1,5 +1,6 @@
 //! The fit: Nelder-Mead of argmin from several starts, finished by Levenberg and Marquardt.
 
+use std::str::FromStr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -26,6 +27,27 @@ pub struct Unknown {
     pub min: f64,
     /// Upper bound.
     pub max: f64,
+}
+
+impl FromStr for Unknown {
+    type Err = String;
+
+    /// `NAME:MIN:MAX`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+        let [name, min, max] = parts.as_slice() else {
+            return Err("NAME:MIN:MAX is needed, such as friction.static:0.05:0.2".to_owned());
+        };
+        let bound = |text: &str| match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => Err(format!("{text:?} is no finite number")),
+        };
+        let (min, max) = (bound(min)?, bound(max)?);
+        if min >= max {
+            return Err(format!("the lower bound {min} is not below the upper bound {max}"));
+        }
+        Ok(Self { name: (*name).to_owned(), min, max })
+    }
 }
 
 /// How the fit is made.
@@ -366,7 +388,7 @@ fn paths(design: &Design, unknowns: &[Unknown]) -> Result<(Vec<String>, Vec<f64>
     if unknowns.is_empty() {
         return Err(NoFit::Unknowns("name at least one unknown".to_owned()));
     }
-    let arcs = design.clutch.sprags.inner_arcs.len();
+    let arcs = design.clutch.sprags.listed_arcs();
     let (mut paths, mut before) = (Vec::<String>::new(), Vec::new());
     for u in unknowns {
         let refuse = |why: String| NoFit::Unknown { name: u.name.clone(), why };

@@ -191,6 +191,15 @@ fn is_known(name: &str) -> bool {
 }
 
 fn check_header(header: &[String]) -> Result<(), Fault> {
+    if header.len() == 1 && header[0].contains(';') {
+        return Err(Fault {
+            line: 1,
+            column: "the first line".to_owned(),
+            found: "semicolons between the names".to_owned(),
+            allowed: "commas between cells, decimals behind a point (a spreadsheet saves so as CSV, comma-separated)"
+                .to_owned(),
+        });
+    }
     // Where no column is known and they are no names it may be any file: nothing of it is repeated.
     let is_name =
         |name: &String| name.len() < 40 && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');

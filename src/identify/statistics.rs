@@ -124,7 +124,8 @@ impl Knowledge {
 }
 
 /// From the Jacobian of the scaled residuals by the unknowns over their ranges, and the residuals at the solution; `bounds`
-/// are (least, most) of each; `given`: each residual is in standard errors that the data came with, which then bound what is known. Unknowns without effect are left aside, and the others judged without them.
+/// are (least, most) of each; `given`: each residual is in standard errors that the data came with, which then bound what
+/// is known. Unknowns without effect are left aside, and the others judged without them.
 pub(super) fn knowledge(
     jacobian: &DMatrix<f64>,
     residuals: &DVector<f64>,

@@ -22,7 +22,8 @@ use crate::clutch::{Clutch, InnerArc, Service};
 use crate::design::Design;
 use crate::lubrication::{flat_depth_m, track_depth_m};
 use crate::margin::{
-    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, lift_off_rad_s, load_margins, load_state, overrun_at,
+    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, When, lift_off_rad_s, load_margins, load_state,
+    overrun_at,
 };
 use crate::numeric::root;
 use crate::wedge::WedgeCurve;
@@ -83,7 +84,7 @@ pub enum Broken {
     Gap,
     /// First contact or the largest load asks for more static friction than there is.
     Friction,
-    /// A limit of the file is reached below the largest torque of the life.
+    /// A limit of the file is reached below the largest torque of the life that it is held at.
     Torque,
     /// Sprags lift off below the speed to which contact is to be kept.
     LiftOff,
@@ -97,7 +98,9 @@ impl Broken {
             Self::Friction => {
                 ("friction", "the sprags ask for more static friction than there is: they slip")
             }
-            Self::Torque => ("torque", "a limit is reached below the largest torque of the life"),
+            Self::Torque => {
+                ("torque", "a limit is reached below the largest torque of the life that it is held at")
+            }
             Self::LiftOff => {
                 ("lift-off", "the sprags lift off below the speed to which contact is to be kept")
             }
@@ -122,7 +125,7 @@ pub struct WornState {
     pub first_tan_omega: Option<f64>,
     /// Static friction that the largest load needs; `None`: not carried.
     pub required_friction: Option<f64>,
-    /// Lowest torque capacity of the required limits, N m, and its code; `None`: no limit has one.
+    /// Torque at which the required limit is reached that its loads come nearest to, N m, and its code; `None`: no limit has one.
     pub capacity: Option<(f64, String)>,
     /// Lift-off of the outer race, rad/s; `None`: contact is kept up to 60 000 turns a minute.
     pub lift_off_rad_s: Option<f64>,
@@ -256,6 +259,15 @@ impl March<'_> {
         rate
     }
 
+    /// Largest torque of the life that a limit is held at, N m: one of the nominal torque allows what comes again and again, so the
+    /// loads up to nominal torque count for it, all others for every load. `None`: no such load.
+    fn asked_nm(&self, row: &Margin) -> Option<f64> {
+        let nominal = self.design.limits.nominal_torque_nm.filter(|_| row.limit.when == When::Nominal);
+        let most_nm = nominal.map_or(f64::INFINITY, |nm| nm * (1.0 + 1e-12));
+        let counted = self.life.loads.iter().map(|load| load.torque_nm).filter(|nm| *nm <= most_nm);
+        counted.reduce(f64::max).filter(|nm| *nm > 0.0)
+    }
+
     /// Torque at which the contact leaves the edge of a flat, N m.
     fn leaves_edge_nm(&self, worn: &LoadState) -> f64 {
         worn.curve.at_normal(worn.curve.arc_end_n(0)).map_or(0.0, |p| p.torque_nm)
@@ -297,14 +309,20 @@ impl March<'_> {
         let capacity = |row: &Margin| {
             let nm = row.torque_capacity_nm?;
             if nm > on_edge_nm {
-                return Some((nm, row.code()));
+                return Some(nm);
             }
             let drawn = self.rows.iter().find(|drawn| drawn.code() == row.code())?.torque_capacity_nm?;
             let normal_n = self.state.curve.at_torque(drawn)?.normal_inner_n;
-            Some((of_worn.curve.at_normal(normal_n)?.torque_nm, row.code()))
+            Some(of_worn.curve.at_normal(normal_n)?.torque_nm)
         };
-        let required = rows.iter().filter(|r| r.required);
-        state.capacity = required.filter_map(capacity).min_by(|a, b| a.0.total_cmp(&b.0));
+        // The part of its asked torque at which each limit is reached.
+        let reached = rows.iter().filter(|r| r.required).filter_map(|row| {
+            let (nm, asked_nm) = (capacity(row)?, self.asked_nm(row)?);
+            Some((nm / asked_nm, (nm, row.code())))
+        });
+        let lowest = reached.min_by(|a, b| a.0.total_cmp(&b.0));
+        let carries = lowest.as_ref().is_none_or(|(part, _)| *part >= 1.0);
+        state.capacity = lowest.map(|(_, capacity)| capacity);
         state.first_tan_omega = Some(of_worn.first_tan_omega);
         let largest_nm = self.life.largest_nm;
         state.required_friction = of_worn.curve.at_torque(largest_nm).map(|p| p.required_friction());
@@ -312,7 +330,7 @@ impl March<'_> {
         let keep = self.design.limits.keep_contact_to_rad_s;
         state.broken = if asked > self.design.clutch.friction.static_ {
             Some(Broken::Friction)
-        } else if state.capacity.as_ref().is_some_and(|(nm, _)| *nm < largest_nm) {
+        } else if !carries {
             Some(Broken::Torque)
         } else if keep.zip(state.lift_off_rad_s).is_some_and(|(keep, at)| at < keep) {
             Some(Broken::LiftOff)
@@ -503,6 +521,7 @@ pub fn worn(design: &Design, state: &LoadState, wear: &Wear) -> Option<Worn> {
     out.sprags.centre_distance_m = arc.centre_m.norm();
     out.sprags.centroid_m = turned(sprags.centroid_m);
     out.sprags.flanks = None;
+    out.sprags.spiral = None;
     out.sprags.inner_arcs =
         list[k..].iter().map(|a| InnerArc { radius_m: a.radius_m, until_rad: a.until_rad - turn }).collect();
     Some(Worn {

@@ -56,16 +56,15 @@ impl Heat {
 }
 
 impl Network {
-    /// Temperatures at which what the contacts make, `heat_w`, goes to oil of `oil_c`. Linear: K (T - T_oil) = (heat, 0, 0, 0).
+    /// Temperatures at which what the contacts make, `heat_w`, goes to oil of `oil_c`. Linear: K (T - T_oil) = (heat, 0, 0, 0), K symmetric.
     pub fn solve(&self, heat_w: f64, oil_c: f64) -> Option<Heat> {
         let Self { into_race: r, into_sprags: s, through_outer: o, to_oil: [i, p, e] } = *self;
-        #[rustfmt::skip]
-        let k = Matrix4::new(
-            r + s, -r,    -s,        0.0,
-            -r,    r + i, 0.0,       0.0,
-            -s,    0.0,   s + o + p, -o,
-            0.0,   0.0,   -o,        o + e,
-        );
+        let k = Matrix4::from([
+            [r + s, -r, -s, 0.0],
+            [-r, r + i, 0.0, 0.0],
+            [-s, 0.0, s + o + p, -o],
+            [0.0, 0.0, -o, o + e],
+        ]);
         let rise = k.cholesky()?.solve(&Vector4::new(heat_w, 0.0, 0.0, 0.0));
         let temperatures = Temperatures {
             contact: oil_c + rise[0],

@@ -54,7 +54,7 @@ pub(super) enum Of {
         allowed: Allowed,
         demand: fn(&Design, &Limits, &StaticPoint) -> f64,
         /// What states below the torque demand, SI, where the largest on the way counts.
-        on_the_way: Option<fn(&StaticPoint) -> f64>,
+        below_torque: Option<fn(&StaticPoint) -> f64>,
     },
     /// Of the whole clutch in a static state, SI.
     Clutch {
@@ -94,9 +94,9 @@ impl Of {
     pub const fn sprag(
         allowed: Allowed,
         demand: fn(&Design, &Limits, &StaticPoint) -> f64,
-        on_the_way: Option<fn(&StaticPoint) -> f64>,
+        below_torque: Option<fn(&StaticPoint) -> f64>,
     ) -> Self {
-        Self::Sprag { allowed, demand, on_the_way }
+        Self::Sprag { allowed, demand, below_torque }
     }
 
     pub const fn clutch(allowed: Allowed, demand: fn(&LoadCase, &StaticPoint) -> f64) -> Self {
@@ -180,12 +180,12 @@ impl Limit {
 
     /// The demand at `peak`, or at one of the states `below` where one of those is larger, SI.
     pub(super) fn largest(&self, case: &LoadCase, peak: &StaticPoint, below: &[StaticPoint]) -> Option<f64> {
-        let on_the_way = match self.of {
-            Of::Sprag { on_the_way, .. } => on_the_way,
+        let below_torque = match self.of {
+            Of::Sprag { below_torque, .. } => below_torque,
             _ => None,
         };
-        let way = on_the_way.into_iter().flat_map(|way| below.iter().map(way));
-        self.demand(case, peak).map(|at_peak| way.fold(at_peak, f64::max))
+        let lower = below_torque.into_iter().flat_map(|demand| below.iter().map(demand));
+        self.demand(case, peak).map(|at_peak| lower.fold(at_peak, f64::max))
     }
 
     /// Name of its row at a static state.

@@ -99,7 +99,7 @@ impl Reached {
     }
 
     fn row(&self, limit: &'static Limit, name: &str, value: f64, allowable: f64) -> Margin {
-        let name = said(name, self.torque_nm, self.end_nm);
+        let name = row_name(name, self.torque_nm, self.end_nm);
         Margin { name, ..Margin::new(limit, self.demand(value), allowable) }
     }
 }
@@ -182,7 +182,7 @@ pub fn ends_decide(design: &Design, limits: &Limits, state: &LoadState) -> bool 
                 let up_to = |below| clearance_up_to_m(design, state, &p, below);
                 up_to(&below) == up_to(&[])
             }
-            Of::Sprag { on_the_way: Some(_), .. } => {
+            Of::Sprag { below_torque: Some(_), .. } => {
                 limit.largest(&case, &p, &below) == limit.largest(&case, &p, &[])
             }
             _ => true,
@@ -239,7 +239,7 @@ pub(super) fn beyond(value: f64, torque: f64, end: f64) -> Demand {
 }
 
 /// The name of a row, with word that its torque is not carried where the curve ends below it.
-pub(super) fn said(name: &str, torque_nm: f64, end_nm: f64) -> String {
+pub(super) fn row_name(name: &str, torque_nm: f64, end_nm: f64) -> String {
     match end_nm >= torque_nm {
         true => name.to_owned(),
         false => format!(

@@ -36,7 +36,7 @@ pub use unlike::unlike_margins;
 use crate::clutch::{Clutch, Scenario};
 use crate::design::{Design, Limits};
 use crate::scenario::{AtRest, Settings};
-use crate::wedge::{Effort, NoCurve, WedgeCurve};
+use crate::wedge::{Effort, NoCurve, NoElastic, WedgeCurve};
 
 /// Why no margins can be computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,6 +60,27 @@ impl std::fmt::Display for NoMargins {
 }
 
 impl std::error::Error for NoMargins {}
+
+impl NoMargins {
+    /// Keys of the design file that decide it.
+    pub fn keys(&self) -> &'static str {
+        match self {
+            Self::Outline(_) => "sprags.flanks, sprags.inner_arcs",
+            Self::Curve(NoCurve::NoElastic(NoElastic::Race(_))) => "races, material",
+            Self::Curve(NoCurve::NoElastic(NoElastic::ThinRace { .. })) => {
+                "races.inner_bore_radius_mm with races.inner_radius_mm, races.outer_outside_radius_mm with races.outer_radius_mm"
+            }
+            Self::Curve(NoCurve::NoElastic(NoElastic::Contact(_))) => "contact, material, sprags.length_mm",
+            Self::Curve(NoCurve::NoConvergence) => {
+                "contact, material, sprags.length_mm, sprags.inner_arcs, races"
+            }
+            Self::Profile(_) | Self::Curve(NoCurve::NoFirstContact) => {
+                "sprags.outer_radius_mm, sprags.centre_distance_mm, sprags.inner_arcs, races.inner_radius_mm, \
+                 races.outer_radius_mm"
+            }
+        }
+    }
+}
 
 impl Clutch {
     /// Its wedge curve at rest.

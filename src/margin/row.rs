@@ -168,7 +168,7 @@ impl Margin {
     }
 
     /// Whether nothing is demanded, to a millionth of the allowable.
-    pub fn asks_nothing(&self) -> bool {
+    pub fn demands_nothing(&self) -> bool {
         self.margin() >= NOTHING_DEMANDED
     }
 
@@ -246,7 +246,7 @@ impl Margin {
     /// nothing is demanded.
     pub fn shown_margin(&self) -> Option<f64> {
         let margin = self.slip_measure().unwrap_or(self.margin());
-        (!self.asks_nothing()).then_some(if margin.abs() < RESOLUTION { 0.0 } else { margin })
+        (!self.demands_nothing()).then_some(if margin.abs() < RESOLUTION { 0.0 } else { margin })
     }
 }
 

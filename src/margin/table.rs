@@ -386,8 +386,9 @@ pub static LIMITS: &[&Limit] = &[
         code: "roll-over",
         name: |_| "peak torque against roll-over torque",
         unit: "Nm",
-        explanation: "Peak torque against that at which the strut stands upright and the sprag rolls over. Where the profile ends sooner, its last arc is taken to \
-                      go on: end-of-profile holds that end. More height of the sprag against the gap, or stiffer races, raise it.",
+        explanation: "Peak torque against that at which the strut stands upright and the sprag rolls over. Where the profile \
+                      ends sooner, its last arc is taken to go on: end-of-profile holds that end. More height of the sprag \
+                      against the gap, or stiffer races, raise it.",
         formula: "largest torque of the curve, dC/dN_A = 0, or the last at which the sprag still spans the gap",
         source: "Huang 2017, (10)",
         ends_curve: true,

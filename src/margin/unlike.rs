@@ -1,7 +1,7 @@
 //! The worst of unlike sprags against the limits that hold for all, over a turn of the races.
 
 use super::limits::{Of, When};
-use super::load::{LoadState, said};
+use super::load::{LoadState, row_name};
 use super::row::{Demand, Margin};
 use super::table::LIMITS;
 use crate::design::{Design, Limits};
@@ -56,8 +56,8 @@ pub fn unlike_margins(design: &Design, limits: &Limits, state: &LoadState, capac
         };
         let who = found.map_or("none carries".to_owned(), |(_, i)| format!("sprag {}", i + 1));
         rows.push(Margin {
-            name: said(&format!("{}: {who}", limit.name()), torque, end_nm),
-            torque_capacity_nm: capacities.then(|| capacity(state, torque, end_nm, &over)).flatten(),
+            name: row_name(&format!("{}: {who}", limit.name()), torque, end_nm),
+            torque_capacity_nm: capacities.then(|| capacity(&turn, state, torque, end_nm, &over)).flatten(),
             ..Margin::new(limit, demand, allowed)
         });
     }
@@ -65,17 +65,29 @@ pub fn unlike_margins(design: &Design, limits: &Limits, state: &LoadState, capac
 }
 
 /// Torque at which `over` rises to 0, N m; `None`: not before the end.
-fn capacity(state: &LoadState, torque_nm: f64, end_nm: f64, over: &dyn Fn(f64) -> f64) -> Option<f64> {
+fn capacity(
+    turn: &Turn,
+    state: &LoadState,
+    torque_nm: f64,
+    end_nm: f64,
+    over: &dyn Fn(f64) -> f64,
+) -> Option<f64> {
     let (mut a, mut at_a) = (1e-6 * torque_nm, over(1e-6 * torque_nm));
     if at_a >= 0.0 {
         return Some(0.0);
     }
     // Steps of a quarter of the torque, up to the end of the curve.
-    let most = if end_nm < torque_nm { end_nm } else { state.curve.end_torque_nm() };
+    let mut most = if end_nm < torque_nm { end_nm } else { state.curve.end_torque_nm() };
     let mut b = a;
     while b < most {
         b = (b + 0.25 * torque_nm).min(most);
-        let at_b = over(b);
+        let mut at_b = over(b);
+        if at_b.is_nan() {
+            // Unlike sprags end before the curve of sprags alike does.
+            most = turn.end(b)?.0;
+            b = most;
+            at_b = over(b);
+        }
         if at_b.is_nan() {
             return None;
         }

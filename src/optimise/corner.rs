@@ -118,6 +118,8 @@ fn made_as(clutch: &Clutch, corner: &Corner) -> Result<Clutch, ProfileError> {
     sprags.centre_distance_m = seat.centre_distance_m;
     sprags.inner_arcs =
         seat.arcs.iter().map(|&(radius_m, until_rad)| InnerArc { radius_m, until_rad }).collect();
+    // Other arcs than those of the spiral.
+    sprags.spiral = None;
     sprags.centroid_m = seat.point_m(sprags.centroid_m);
     sprags.flanks = sprags.flanks.and_then(|f| seat.flanks(&body, &f));
     let friction = &mut made.friction;

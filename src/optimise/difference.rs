@@ -91,14 +91,12 @@ impl Steps {
 /// with it, and the 1e-12 to which equilibria settle over it.
 const BESIDE: f64 = 1e-6;
 
-/// Slopes at u as the problem itself has them, `[output][variable]`, NaN where it has none or none is `wanted`; `None`: it has
-/// none at all.
+/// Slopes at u as the problem itself has them, `[output][variable]`, NaN where it has none; `None`: it has none at all.
 pub(super) fn own_slopes(
     memo: &mut Memo,
     space: &Space,
     u: &[f64],
     outputs: usize,
-    wanted: &[bool],
 ) -> Result<Option<Vec<Vec<f64>>>, Halt> {
     let free = space.free();
     let offsets: Vec<f64> = free.iter().map(|&i| if u[i] > 0.5 { -BESIDE } else { BESIDE }).collect();
@@ -108,7 +106,7 @@ pub(super) fn own_slopes(
         space.unscaled(&v)
     });
     let beside: Vec<Vec<f64>> = beside.collect();
-    let Some(changes) = memo.changes(&space.unscaled(u), &beside, wanted)? else { return Ok(None) };
+    let Some(changes) = memo.changes(&space.unscaled(u), &beside)? else { return Ok(None) };
     let mut slopes = vec![vec![0.0; space.len()]; outputs];
     for ((&i, offset), change) in free.iter().zip(offsets).zip(changes) {
         for (k, row) in slopes.iter_mut().enumerate() {
@@ -118,8 +116,7 @@ pub(super) fn own_slopes(
     Ok(Some(slopes))
 }
 
-/// Derivative table at u, where the outputs are `outputs`: the problem's own slopes, of outputs that are not `wanted` those of the
-/// table `before`, and those of [`table`] where there is none.
+/// Derivative table at u, where the outputs are `outputs`: the problem's own slopes, and those of [`table`] where it has none.
 pub(super) fn own_table(
     memo: &mut Memo,
     space: &Space,
@@ -127,12 +124,9 @@ pub(super) fn own_table(
     outputs: &[f64],
     h: &[f64],
     central: bool,
-    (wanted, before): (&[bool], &Table),
 ) -> Result<Table, Halt> {
     let known = |slope: &f64| slope.is_finite();
-    let mut own = own_slopes(memo, space, u, outputs.len(), wanted)?.unwrap_or_default();
-    let rows = own.iter_mut().zip(wanted).zip(&before.slopes);
-    rows.filter(|((_, wanted), _)| !**wanted).for_each(|((own, _), before)| own.clone_from(before));
+    let own = own_slopes(memo, space, u, outputs.len())?.unwrap_or_default();
     if !own.is_empty() && own.iter().flatten().all(known) {
         return Ok(Table { slopes: own, curvatures: None, held: Vec::new(), exact: true, secants: 0 });
     }

@@ -208,7 +208,6 @@ impl Driver<'_, '_> {
             u: stand.point.u.clone(),
             evaluation: stand.point.evaluation.clone(),
             radius: out.radius,
-            stride: 1.0,
             weight: out.weight,
             central: out.central,
             multipliers: (Vec::new(), Vec::new()),

@@ -19,12 +19,6 @@ pub trait Evaluate: Sync {
     fn changes(&self, _x: &[f64], _beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
         None
     }
-
-    /// The same of those numbers that are `wanted`, in the order of objectives, limits, tie break (none named: all); the others may
-    /// be NaN.
-    fn changes_of(&self, x: &[f64], beside: &[Vec<f64>], _wanted: &[bool]) -> Option<Vec<Vec<f64>>> {
-        self.changes(x, beside)
-    }
 }
 
 /// Margins at one point.

@@ -152,7 +152,7 @@ pub fn loosened(design: &Design, found: &Search, desk: &Desk) -> Vec<Loosened> {
         };
         asked.push((Number::Limit(key), format!("limits.{}", key.name), key.unit, value, between));
     }
-    let arcs = design.clutch.sprags.inner_arcs.len();
+    let arcs = design.clutch.sprags.listed_arcs();
     let known: Vec<Option<String>> = found.variables.iter().map(|v| variable_path(&v.name, arcs)).collect();
     let dimensions = variable_names(arcs).into_iter().chain(RINGS.map(str::to_owned));
     for name in dimensions {

@@ -87,7 +87,7 @@ pub(super) fn own_influence<'a>(
     let space = Space::new(x0, lo, hi)?;
     let mut memo = Memo::new(problem, run, usize::MAX);
     let here = memo.one(x0.to_vec()).map_err(|_| Refusal::StoppedAtStart)?.map_err(Refusal::StartFails)?;
-    let found = own_slopes(&mut memo, &space, &space.start(), here.outputs().len(), &[]);
+    let found = own_slopes(&mut memo, &space, &space.start(), here.outputs().len());
     let Some(slopes) = found.map_err(|_| Refusal::StoppedAtStart)? else { return Ok(None) };
     let is_felt = |i: usize| slopes.iter().any(|row| row[i].abs() > FELT);
     let known = slopes.iter().flatten().all(|slope| slope.is_finite());

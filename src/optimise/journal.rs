@@ -199,17 +199,12 @@ impl<'a> Memo<'a> {
         Ok(outcomes)
     }
 
-    /// What the problem itself says of the way from `x` to the points `beside` it ([`Evaluate::changes_of`]).
-    pub fn changes(
-        &mut self,
-        x: &[f64],
-        beside: &[Vec<f64>],
-        wanted: &[bool],
-    ) -> Result<Option<Vec<Vec<f64>>>, Halt> {
+    /// What the problem itself says of the way from `x` to the points `beside` it ([`Evaluate::changes`]).
+    pub fn changes(&mut self, x: &[f64], beside: &[Vec<f64>]) -> Result<Option<Vec<Vec<f64>>>, Halt> {
         if self.stopped() {
             return Err(Halt::Interrupted);
         }
-        let found = self.problem.changes_of(x, beside, wanted);
+        let found = self.problem.changes(x, beside);
         let along = found.as_ref().map_or(0, Vec::len);
         self.derivatives += along;
         if let Some(watch) = self.run.watch.as_mut().filter(|_| along > 0) {

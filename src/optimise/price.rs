@@ -95,8 +95,8 @@ pub(super) fn prices(
 /// The demand, in the limit's unit, of a row whose margin is allowable/demand - 1.
 fn ratio_of(row: &Margin) -> Option<f64> {
     let ratio = match (row.limit.rule, row.demand) {
-        (Rule::Ratio | Rule::Onset | Rule::Slip, Demand::Value(_)) => !row.asks_nothing(),
-        (Rule::Ratio, Demand::Overloaded { shortfall: None, .. }) => !row.asks_nothing(),
+        (Rule::Ratio | Rule::Onset | Rule::Slip, Demand::Value(_)) => !row.demands_nothing(),
+        (Rule::Ratio, Demand::Overloaded { shortfall: None, .. }) => !row.demands_nothing(),
         (Rule::Reserve, Demand::Value(demand)) => demand > 0.0,
         // 1 - demand/allowable is that too at the limit, to the square of the margin.
         (Rule::Share, Demand::Value(_)) => row.margin().abs() <= 1e-3,

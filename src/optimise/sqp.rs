@@ -39,9 +39,6 @@ const BELIEVED: f64 = 0.5;
 /// into: a choice; two optima that are as near to each other are taken for one by all climbs but the first.
 const BASIN: f64 = 0.05;
 const LEVEL: f64 = 0.02;
-/// How much longer a step than the last is looked for in rows whose slopes are left as they were: a choice; where one is longer
-/// still, these are followed by secants as all are between two tables.
-const LONGER: f64 = 4.0;
 /// Trust radius at which a climb gives up: a hundred-millionth of the range.
 const SHORTEST_RADIUS: f64 = 1e-8;
 
@@ -85,8 +82,6 @@ pub(super) struct Climb<'a, 'm> {
     pub u: Vec<f64>,
     pub evaluation: Evaluation,
     pub radius: f64,
-    /// Length of the last step taken, before the first that of the longest.
-    pub stride: f64,
     pub weight: f64,
     pub central: bool,
     /// Multipliers of the phase's margins and limits at the last subproblem.
@@ -216,7 +211,6 @@ impl Climb<'_, '_> {
         }
         self.record(if trial.corrected { TrialOutcome::Corrected } else { TrialOutcome::Accepted });
         let s: Vec<f64> = trial.u.iter().zip(&self.u).map(|(a, b)| a - b).collect();
-        self.stride = s.iter().fold(0.0, |longest: f64, step| longest.max(step.abs()));
         let outputs = self.evaluation.outputs();
         (self.u, self.evaluation) = (trial.u, trial.evaluation);
         if self.table.exact && trial.ratio >= BELIEVED && self.table.secants < SECANTS {
@@ -307,24 +301,6 @@ impl Climb<'_, '_> {
         self.derive()
     }
 
-    /// Whose slopes may matter for the next step, taken to be no more than [`LONGER`] times as long as the last: those of rows that
-    /// have a part in the last subproblem's solution, or that such a step may bring to the least margin, or to a limit. Of none
-    /// where all are.
-    fn wanted(&self, outputs: &[f64]) -> Vec<bool> {
-        if self.table.slopes.len() != outputs.len() || self.view.phase != Phase::Margin {
-            return Vec::new();
-        }
-        let (objectives, limits) = self.memo.shape();
-        let (least, weights) = (self.view.measure(outputs).0, self.lagrangian_weights());
-        let reach = LONGER * self.stride;
-        let may_matter = |k: usize| {
-            let steep: f64 = self.table.slopes[k].iter().map(|slope| slope.abs()).sum();
-            let bound = if k < objectives { least } else { 0.0 };
-            weights[k] != 0.0 || k >= objectives + limits || !(outputs[k] - reach * steep > bound)
-        };
-        (0..outputs.len()).map(may_matter).collect()
-    }
-
     /// Derivative table at the present point.
     fn derive(&mut self) -> Result<(), Halt> {
         let outputs = self.evaluation.outputs();
@@ -334,10 +310,7 @@ impl Climb<'_, '_> {
         let h = if central { steps.central.clone() } else { steps.forward.clone() };
         let found = match self.central {
             true => table(self.memo, self.space, &self.u, &outputs, &h, true)?,
-            false => {
-                let wanted = self.wanted(&outputs);
-                own_table(self.memo, self.space, &self.u, &outputs, &h, central, (&wanted, &self.table))?
-            }
+            false => own_table(self.memo, self.space, &self.u, &outputs, &h, central)?,
         };
         if let Some(fitted) = Steps::fitted(&found, self.noise, self.settings) {
             *self.steps = Some(match self.steps.take() {

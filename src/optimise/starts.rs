@@ -131,8 +131,8 @@ pub(super) fn rank(e: &Evaluation, tolerance: f64) -> (f64, f64) {
     if violation <= tolerance { (0.0, -e.least_margin()) } else { (violation, 0.0) }
 }
 
-/// Best of all climbs in the box, from `x0`, from the points `felt_at` and from drawn ones; each climb's path depends on its own start alone, so neither the number of threads nor
-/// the order in which they end matters.
+/// Best of all climbs in the box, from `x0`, from the points `felt_at` and from drawn ones; each climb's path depends on its own start alone, so
+/// neither the number of threads nor the order in which they end matters.
 ///
 /// # Errors
 /// [`Refusal`] of the climb from the design where none of the others began either.

@@ -19,6 +19,7 @@ mod outline;
 #[cfg(test)]
 mod properties;
 mod reseat;
+mod spiral;
 mod unclosed;
 
 pub use crowding::{clearance_m, least_pitch_rad, touch_rotation_rad};
@@ -27,6 +28,7 @@ pub use flank::{Flanks, STEEPEST_RAD};
 pub use mass::MassProperties;
 pub use outline::{Brink, Outline, Segment};
 pub use reseat::Reseated;
+pub use spiral::{Spiral, SpiralDeviation, Support};
 pub use unclosed::{FlankSide, OutlineError};
 
 use nalgebra::Vector2;
@@ -141,6 +143,12 @@ impl Profile {
     /// turned by `turn_rad`.
     pub fn contact_direction(&self, turn_rad: f64) -> Vector2<f64> {
         direction(self.beta0_rad, turn_rad)
+    }
+
+    /// Unit vector in the body frame along which the contact travels at that turn: the derivative of the direction.
+    pub fn way(&self, turn_rad: f64) -> Vector2<f64> {
+        let n = self.contact_direction(turn_rad);
+        Vector2::new(-n.y, n.x)
     }
 
     /// Turn at which the last arc ends, rad.

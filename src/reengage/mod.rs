@@ -1,7 +1,8 @@
 //! Slip under load and the blow when the clutch grips again: what brought helicopters down.
 //!
 //! In: a clutch, the torque it carries, what turns with both races, the friction while it slips. Out: [`Blow`] for each path of slip.
-//! Absent: damping between the races; what makes it slip (oil, wear, dirt); shafts, which soften the blow (a `[[drivetrain]]` scene has them); heat of the slip.
+//! Absent: damping between the races; what makes it slip (oil, wear, dirt); shafts, which soften the blow (a `[[drivetrain]]`
+//! scene has them); heat of the slip.
 //! Equations: (13) and (15) by [`crate::element`], and the balance of energy below.
 //!
 //! The clutch carries C in equilibrium; from one instant on its contacts have the friction of the slip. The wedge throws the sprags

@@ -14,7 +14,7 @@ mod sheet;
 pub use live::{Live, live};
 
 use crate::clutch::{Clutch, Sprags};
-use crate::profile::{Outline, Profile};
+use crate::profile::{Outline, Profile, Spiral};
 
 /// Chords of a drawn outline leave its arcs by no more than this, m.
 const OUTLINE_M: f64 = 1e-6;
@@ -30,6 +30,17 @@ pub struct DrawnArc {
     pub from_rad: f64,
     /// Turn at which it ends, rad.
     pub until_rad: f64,
+}
+
+/// The spiral that the last arcs of a drawn sprag stand for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawnSpiral {
+    /// Place of its first arc, from 0.
+    pub first: usize,
+    /// Its spiral; turns and lengths as drawn.
+    pub curve: Spiral,
+    /// Pole in the body frame, m.
+    pub pole_m: [f64; 2],
 }
 
 /// One sprag in one position.
@@ -50,6 +61,8 @@ pub struct SpragPose {
     pub beta0_rad: f64,
     /// Inner arcs in order of engagement.
     pub arcs: Vec<DrawnArc>,
+    /// The spiral that the last of them stand for.
+    pub spiral: Option<DrawnSpiral>,
     /// Centroid G in the body frame, m.
     pub centroid_m: Option<[f64; 2]>,
 }
@@ -88,6 +101,7 @@ impl SpragPose {
             rotation_rad: 0.0,
             beta0_rad: profile.beta0_rad,
             arcs: profile.arcs.iter().map(drawn).collect(),
+            spiral: None,
             centroid_m,
         }
     }
@@ -100,7 +114,17 @@ impl SpragPose {
             None => Outline::narrowest(profile),
         };
         let outline = outline.map(|o| o.polyline(OUTLINE_M)).unwrap_or_default();
-        Self::at_first_contact(label, profile, outline, Some(sprags.centroid_m))
+        let spiral = sprags.spiral.and_then(|s| {
+            let pole = s.pole_m(profile)?;
+            let first = profile.arcs.len().saturating_sub(s.arc_count());
+            Some(DrawnSpiral { first, curve: s, pole_m: [pole.x, pole.y] })
+        });
+        Self { spiral, ..Self::at_first_contact(label, profile, outline, Some(sprags.centroid_m)) }
+    }
+
+    /// Whether arc `k` and the one before are arcs of a spiral, which needs no name there.
+    fn within_spiral(&self, k: usize) -> bool {
+        self.spiral.is_some_and(|s| k > s.first)
     }
 
     /// The same sprag in another position: body rotated by `rotation_rad` relative to the line OC_e since first

@@ -1,25 +1,38 @@
-//! One table, three faces: aligned text for the terminal, CSV for programs, HTML for the page.
+//! One table, four faces: aligned text for the terminal, HTML for the page, CSV and JSON for programs.
 
 use super::number::{MISSING, Unit, significant};
 use super::page::escape;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
 
 /// One column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Name in the CSV header, unit included as in the JSON (`torque_nm`).
+    /// Name in the CSV header and in JSON, unit included (`torque_nm`).
     pub key: String,
+    /// Unit of the numbers there: that of the key.
+    pub key_unit: Unit,
     /// Name for people, without the unit.
     pub heading: String,
-    /// Unit of the numbers in the column.
+    /// Unit in which people see the numbers.
     pub unit: Unit,
-    /// Significant digits for people; CSV has all of them.
+    /// Significant digits for people; programs get all of them.
     pub digits: usize,
+    /// Whether people see it at all.
+    pub for_people: bool,
 }
 
 impl Column {
     /// A column of numbers.
     pub fn number(key: &str, heading: &str, unit: Unit, digits: usize) -> Self {
-        Self { key: key.to_owned(), heading: heading.to_owned(), unit, digits }
+        Self {
+            key: key.to_owned(),
+            key_unit: unit,
+            heading: heading.to_owned(),
+            unit,
+            digits,
+            for_people: true,
+        }
     }
 
     /// A column of words.
@@ -41,6 +54,10 @@ pub enum Cell {
     Count(usize),
     /// A verdict: held or not, and the word for it.
     Verdict(bool, String),
+    /// True or false.
+    Flag(bool),
+    /// What people read in the place of what programs get.
+    Told(String, Box<Cell>),
     /// Nothing to say.
     Empty,
 }
@@ -81,11 +98,33 @@ impl From<usize> for Cell {
     }
 }
 
+impl From<bool> for Cell {
+    fn from(flag: bool) -> Self {
+        Self::Flag(flag)
+    }
+}
+
 impl Cell {
+    /// `words` for people, `value` for programs.
+    pub fn told(words: &str, value: impl Into<Self>) -> Self {
+        Self::Told(words.to_owned(), Box::new(value.into()))
+    }
+
+    /// `value` for programs; for people only where it `counts`.
+    pub fn only_if(counts: bool, value: impl Into<Self>) -> Self {
+        if counts { value.into() } else { Self::told(MISSING, value) }
+    }
+
+    /// `held`, or that it is not.
+    pub fn held(held: bool) -> Self {
+        Self::Verdict(held, if held { "held" } else { "NOT HELD" }.to_owned())
+    }
+
     /// As people read it.
     pub(crate) fn shown(&self, column: &Column) -> String {
         match self {
-            Self::Text(text) | Self::Verdict(_, text) => text.clone(),
+            Self::Text(text) | Self::Verdict(_, text) | Self::Told(text, _) => text.clone(),
+            Self::Flag(flag) => flag.to_string(),
             Self::Si(si) => significant(column.unit.from_si(*si), column.digits),
             Self::In(si, unit) => unit.show(*si, column.digits),
             Self::Count(count) => count.to_string(),
@@ -101,10 +140,25 @@ impl Cell {
         let full = |value: f64| if value.is_finite() { value.to_string() } else { String::new() };
         match self {
             Self::Text(text) | Self::Verdict(_, text) => no_formula(text),
-            Self::Si(si) => full(column.unit.from_si(*si)),
+            Self::Si(si) => full(column.key_unit.from_si(*si)),
             Self::In(si, unit) => full(unit.from_si(*si)),
             Self::Count(count) => count.to_string(),
+            Self::Flag(flag) => flag.to_string(),
+            Self::Told(_, value) => value.csv(column),
             Self::Empty => String::new(),
+        }
+    }
+
+    /// A number that is none is null.
+    fn json(&self, column: &Column) -> Value {
+        match self {
+            Self::Text(text) | Self::Verdict(_, text) => json!(text),
+            Self::Si(si) => json!(column.key_unit.from_si(*si)),
+            Self::In(si, unit) => json!(unit.from_si(*si)),
+            Self::Count(count) => json!(count),
+            Self::Flag(flag) => json!(flag),
+            Self::Told(_, value) => value.json(column),
+            Self::Empty => Value::Null,
         }
     }
 }
@@ -140,11 +194,12 @@ pub struct Table {
     pub lead: usize,
 }
 
-/// A table of things, column by column: each says where its cells come from.
+/// A table of things, column by column: each says where its cells come from. What JSON alone has stands beside.
 #[derive(Debug, Clone)]
 pub struct Rows<T> {
     items: Vec<T>,
     table: Table,
+    json: Vec<Map<String, Value>>,
 }
 
 impl<T> Rows<T> {
@@ -152,7 +207,7 @@ impl<T> Rows<T> {
     pub fn of(items: impl IntoIterator<Item = T>) -> Self {
         let items: Vec<T> = items.into_iter().collect();
         let table = Table { rows: vec![Vec::new(); items.len()], ..Table::new(Vec::new()) };
-        Self { items, table }
+        Self { json: vec![Map::new(); items.len()], items, table }
     }
 
     /// A further column of numbers.
@@ -174,9 +229,64 @@ impl<T> Rows<T> {
         self.number(key, heading, Unit::One, 1, cell)
     }
 
+    /// A further column of numbers for each of `list`, under key and heading by `name`.
+    pub fn each<I, C: Into<Cell>>(
+        self,
+        list: impl IntoIterator<Item = I>,
+        name: impl Fn(&I) -> (String, String),
+        unit: Unit,
+        digits: usize,
+        cell: impl Fn(&T, &I) -> C,
+    ) -> Self {
+        list.into_iter().fold(self, |rows, one| {
+            let (key, heading) = name(&one);
+            rows.number(&key, &heading, unit, digits, |item| cell(item, &one))
+        })
+    }
+
+    /// The last column has its numbers in `unit` for people; programs get them in that of the key.
+    pub fn shown_in(mut self, unit: Unit) -> Self {
+        self.table.columns.iter_mut().last().into_iter().for_each(|column| column.unit = unit);
+        self
+    }
+
+    /// A further column for programs alone.
+    pub fn hidden<C: Into<Cell>>(mut self, key: &str, unit: Unit, cell: impl Fn(&T) -> C) -> Self {
+        self = self.number(key, "", unit, 1, cell);
+        self.table.columns.iter_mut().last().into_iter().for_each(|column| column.for_people = false);
+        self
+    }
+
+    /// What JSON alone has, in the place of a column of that key where there is one.
+    pub fn json<V: Serialize>(mut self, key: &str, value: impl Fn(&T) -> V) -> Self {
+        for (row, item) in self.json.iter_mut().zip(&self.items) {
+            row.insert(key.to_owned(), serde_json::to_value(value(item)).unwrap_or_default());
+        }
+        self
+    }
+
+    /// A number in SI that JSON alone has, there in `unit`, that of its key.
+    pub fn json_in<N: Into<Option<f64>>>(self, key: &str, unit: Unit, si: impl Fn(&T) -> N) -> Self {
+        self.json(key, |item| si(item).into().map(|si| unit.from_si(si)))
+    }
+
     /// The table.
     pub fn table(self) -> Table {
         self.table
+    }
+
+    /// JSON: an object for each row, under the keys of the columns and those that it alone has.
+    pub fn objects(self) -> Vec<Value> {
+        let mut rows = self.table.objects();
+        for (row, more) in rows.iter_mut().zip(self.json) {
+            row.extend(more);
+        }
+        rows.into_iter().map(Value::Object).collect()
+    }
+
+    /// The object of the first row; null without one.
+    pub fn object(self) -> Value {
+        self.objects().into_iter().next().unwrap_or_default()
     }
 }
 
@@ -201,6 +311,35 @@ impl Table {
         self
     }
 
+    /// The columns that people see.
+    fn for_people(&self) -> Self {
+        let kept = |cells: &Vec<Cell>| {
+            let cells = cells.iter().zip(&self.columns).filter(|(_, column)| column.for_people);
+            cells.map(|(cell, _)| cell.clone()).collect()
+        };
+        Self {
+            columns: self.columns.iter().filter(|column| column.for_people).cloned().collect(),
+            rows: self.rows.iter().map(kept).collect(),
+            lead: self.lead,
+        }
+    }
+
+    /// The rows of which `most` at most are left, and how many are not.
+    pub fn first(mut self, most: usize) -> (Self, usize) {
+        let more = self.rows.len().saturating_sub(most);
+        self.rows.truncate(most);
+        (self, more)
+    }
+
+    /// JSON: an object for each row, in the units of the keys.
+    pub fn objects(&self) -> Vec<Map<String, Value>> {
+        let one = |row: &Vec<Cell>| {
+            let cells = self.columns.iter().enumerate();
+            cells.map(|(i, column)| (column.key.clone(), Self::cell(row, i).json(column))).collect()
+        };
+        self.rows.iter().map(one).collect()
+    }
+
     /// A column stands right-aligned if it holds at least one number.
     fn is_numeric(&self, index: usize) -> bool {
         self.rows.iter().any(|row| row.get(index).is_some_and(Cell::is_number))
@@ -213,6 +352,10 @@ impl Table {
     /// Aligned columns for a terminal, units in the headings. Where they do not fit on the screen, headings take several lines; where
     /// that is not enough, the columns move closer; those that still do not fit follow below, beside those that lead.
     pub fn to_text(&self, screen: Screen) -> String {
+        self.for_people().aligned(screen)
+    }
+
+    fn aligned(&self, screen: Screen) -> String {
         let shown: Vec<Vec<String>> = self
             .rows
             .iter()
@@ -302,6 +445,10 @@ impl Table {
 
     /// `<table>` with numbers right-aligned.
     pub fn to_html(&self) -> String {
+        self.for_people().html()
+    }
+
+    fn html(&self) -> String {
         let wide = if self.columns.len() >= WIDE_FROM { " class=\"wide\"" } else { "" };
         let mut out = format!("<table{wide}>\n<thead><tr>");
         for (i, column) in self.columns.iter().enumerate() {
@@ -391,138 +538,4 @@ fn blocks(widths: &[usize], most: Option<usize>, lead: usize, between: usize) ->
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn margins() -> Table {
-        let mut table = Table::new(vec![
-            Column::text("name", "Limit"),
-            Column::number("demand", "Demand", Unit::One, 4),
-            Column::number("margin", "Margin", Unit::Percent, 3),
-            Column::text("verdict", "Verdict"),
-        ]);
-        table.row(vec![
-            "Hertz, nominal".into(),
-            Cell::In(3.91e9, Unit::Megapascal),
-            0.0742.into(),
-            Cell::Verdict(true, "held".into()),
-        ]);
-        table.row(vec![
-            "Hoop <outer>, \"mean\"".into(),
-            Cell::In(7.6e8, Unit::Megapascal),
-            (-0.013).into(),
-            Cell::Verdict(false, "broken".into()),
-        ]);
-        table
-    }
-
-    #[test]
-    fn text_columns_line_up_and_end_without_blanks() {
-        let text = margins().to_text(Screen::default());
-        let lines: Vec<Vec<char>> = text.lines().map(|l| l.chars().collect()).collect();
-        assert_eq!(
-            text,
-            "Limit                    Demand  Margin, %  Verdict\n\
-                          ────────────────────  ─────────  ─────────  ───────\n\
-                          Hertz, nominal         3910 MPa       7.42  held\n\
-                          Hoop <outer>, \"mean\"  760.0 MPa      −1.30  broken\n"
-        );
-        assert!(lines.iter().all(|l| l.last() != Some(&' ')));
-    }
-
-    #[test]
-    fn colour_adds_nothing_but_escape_codes() {
-        let table = margins();
-        let painted = table.to_text(Screen { colour: true, columns: None });
-        assert_ne!(painted, table.to_text(Screen::default()));
-        let plain =
-            ["\u{1b}[32m", "\u{1b}[31m", "\u{1b}[0m"].iter().fold(painted, |s, code| s.replace(code, ""));
-        assert_eq!(plain, table.to_text(Screen::default()));
-    }
-
-    #[test]
-    fn a_narrow_screen_gets_every_column_below_one_another() {
-        let at = |columns: usize| margins().to_text(Screen { colour: false, columns: Some(columns) });
-        let text = at(45);
-        assert_eq!(
-            text,
-            "                                 Margin,\n\
-                          Limit                    Demand        %\n\
-                          ────────────────────  ─────────  ───────\n\
-                          Hertz, nominal         3910 MPa     7.42\n\
-                          Hoop <outer>, \"mean\"  760.0 MPa    −1.30\n\
-                          \n\
-                          Limit                 Verdict\n\
-                          ────────────────────  ───────\n\
-                          Hertz, nominal        held\n\
-                          Hoop <outer>, \"mean\"  broken\n"
-        );
-        // What two columns tell stands beside what follows below.
-        let two = Table { lead: 2, ..margins() }.to_text(Screen { colour: false, columns: Some(45) });
-        assert!(two.contains("Limit                    Demand  Verdict\n"), "{two}");
-        // Nothing is lost where not even two columns fit, nor where the whole table does.
-        let narrow = at(5);
-        assert!(["Demand", "Margin,", "Verdict", "broken"].iter().all(|word| narrow.contains(word)));
-        assert_eq!(at(51), margins().to_text(Screen::default()));
-        assert!(at(50) != at(51));
-        // Three characters less than they take with folded headings: closer.
-        let closer = at(46);
-        assert!(closer.contains("\nLimit                   Demand       % Verdict\n"), "{closer}");
-        assert_eq!(closer.matches("Limit").count(), 1);
-    }
-
-    #[test]
-    fn keys_break_between_their_parts_alone() {
-        assert_eq!(breakable("sprags.inner_arcs[0].r_mm"), "sprags.<wbr>inner_<wbr>arcs[0].<wbr>r_<wbr>mm");
-        assert_eq!(breakable("0.4076 rad, e. g. &amp;_"), "0.4076 rad, e. g. &amp;_");
-    }
-
-    #[test]
-    fn a_row_longer_than_the_columns_loses_nothing() {
-        let mut table = Table::new(vec![Column::text("name", "Limit")]);
-        table.row(vec!["a".into(), 2.5.into()]);
-        assert!(table.to_text(Screen::default()).contains("2"));
-        assert_eq!(String::from_utf8(table.to_csv().unwrap()).unwrap(), "name,column_2\na,2.5\n");
-    }
-
-    #[test]
-    fn csv_quotes_and_keeps_every_digit() {
-        let mut table = margins();
-        table.row(vec!["short row".into()]);
-        let bytes = table.to_csv().unwrap();
-        let mut reader = csv::Reader::from_reader(bytes.as_slice());
-        assert_eq!(reader.headers().unwrap(), vec!["name", "demand", "margin", "verdict"]);
-        let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
-        assert_eq!(&rows[1][0], "Hoop <outer>, \"mean\"");
-        assert_eq!(rows[1][2].parse::<f64>().unwrap(), -0.013 * 100.0);
-        assert_eq!(&rows[2], &csv::StringRecord::from(vec!["short row", "", "", ""]));
-    }
-
-    #[test]
-    fn no_text_is_a_formula_to_a_spreadsheet() {
-        let mut table = Table::new(vec![Column::text("name", "Name"), Column::text("value", "Value")]);
-        for text in ["=1+1", "+a", "-a", "@a", "\ta", "a=1", "-1.5"] {
-            table.row(vec![text.into(), (-2.5).into()]);
-        }
-        let csv = String::from_utf8(table.to_csv().unwrap()).unwrap();
-        let wanted = "name,value\n'=1+1,-2.5\n'+a,-2.5\n'-a,-2.5\n'@a,-2.5\n'\ta,-2.5\na=1,-2.5\n-1.5,-2.5\n";
-        assert_eq!(csv, wanted);
-    }
-
-    #[test]
-    fn no_nan_reaches_a_reader() {
-        let mut table = Table::new(vec![Column::number("x_m", "x", Unit::Millimetre, 3)]);
-        table.row(vec![f64::NAN.into()]).row(vec![None::<f64>.into()]);
-        let all = table.to_text(Screen::default())
-            + &table.to_html()
-            + &String::from_utf8(table.to_csv().unwrap()).unwrap();
-        assert!(!all.contains("NaN"), "{all}");
-    }
-
-    #[test]
-    fn html_is_escaped() {
-        let html = margins().to_html();
-        assert!(html.contains("Hoop &lt;outer&gt;, &quot;mean&quot;"), "{html}");
-        assert!(html.contains("<td class=\"broken\">broken</td>"));
-    }
-}
+mod tests;

@@ -124,7 +124,7 @@ pub struct Simulation {
     /// When A first carried load without overrunning; `None`: never, or an equilibrium.
     pub engaged: Option<Engaged>,
     /// The first stick of A since then under which the load comes to a peak.
-    pub held: Option<Hold>,
+    pub first_hold: Option<Hold>,
     /// Modes with the times at which they began, s; empty without samples.
     pub modes: Vec<(f64, Mode)>,
     /// Whole periods that were not integrated, being like the one before.
@@ -142,6 +142,6 @@ impl Simulation {
     /// overrun or such a stick.
     pub fn initial_slip_s(&self) -> Option<f64> {
         self.overrun?;
-        Some(self.held?.inner.since(&self.engaged?.inner).time_s)
+        Some(self.first_hold?.inner.since(&self.engaged?.inner).time_s)
     }
 }

@@ -62,7 +62,7 @@ pub(super) fn steady(prepared: &Prepared, settings: &Settings) -> Simulation {
         samples: Vec::new(),
         neglected: Neglected::default(),
         engaged: None,
-        held: None,
+        first_hold: None,
         modes: Vec::new(),
         jump: None,
         train: None,

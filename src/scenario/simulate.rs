@@ -10,6 +10,9 @@ use crate::clutch::Scenario;
 use crate::dynamics::{Grip, History, Place, Run, SlipRecord, Stop, Train, run};
 use crate::follow::Follow;
 
+/// Tolerances that make sense, of a run and of a step: below, rounding rules; above, estimates mean little and changes of mode are missed.
+pub const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
+
 /// Settings of a simulation.
 #[derive(Debug, Clone)]
 pub struct Settings {
@@ -357,7 +360,7 @@ fn answer(prepared: &Prepared, settings: &Settings, of: &Try) -> Simulation {
         samples: run.samples.clone(),
         neglected: run.neglected,
         engaged: run.engaged,
-        held: run.first_hold(),
+        first_hold: run.first_hold(),
         modes: run.modes.clone(),
         jump: run.jump,
         train: run.train.clone(),

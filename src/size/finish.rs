@@ -1,8 +1,8 @@
 //! From a width that holds to a whole design: profile's end, flanks, spring, scenes, and what comes of it.
 
-use super::Requirements;
 use super::proportions::{COUNTS, lengthen, longest_m, spring};
 use super::purpose::{CREST_S, DRIVE_HZ, STOP};
+use super::requirements::{NAMED, Requirements};
 use crate::clutch::Clutch;
 use crate::design::{BOX, Design, Draft, rpm};
 use crate::margin::{
@@ -263,7 +263,7 @@ fn why_lines(wanted: &Requirements, draft: &Draft, least: Option<&Margin>) -> Ve
     ];
     asked.extend(wanted.outside_m.map(|m| format!("at most {} mm outside", short(m * 1e3))));
     asked.extend(wanted.width_m.map(|m| format!("at most {} mm wide", short(m * 1e3))));
-    let by_purpose = |from: &str| if from == "asked for" { String::new() } else { format!(" ({from})") };
+    let by_purpose = |from: &str| if from == NAMED { String::new() } else { format!(" ({from})") };
     let [kept, off] = wanted.contact_from.map(by_purpose);
     asked.extend(
         wanted

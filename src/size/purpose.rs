@@ -205,7 +205,7 @@ impl Purpose {
                     ("duration_s", (PERIODS / frequency_hz).max(SWINGS_S), "two periods, 20 ms at least"),
                     ("speed_rpm", rpm(wanted.keep_contact_rad_s.unwrap_or(0.0)), ""),
                 ],
-                held: true,
+                checked: true,
             });
         }
         let reversing = self.reversing_share.value * wanted.torque_nm;
@@ -226,7 +226,7 @@ impl Purpose {
                 ("bench_inertia_kg_m2", 0.0, "none beside the drive's, inner_inertia_kg_m2"),
                 ("duration_s", (stopping_s + CREST_S).max(0.02), ""),
             ],
-            held: false,
+            checked: false,
         });
         if inner != outer {
             scenes.push(DraftScene {
@@ -247,7 +247,7 @@ impl Purpose {
                         "by how much the inner race is faster; below 0 the outer one is",
                     ),
                 ],
-                held: false,
+                checked: false,
             });
         }
         scenes

@@ -1,10 +1,9 @@
 //! What is asked of a new clutch.
 
+use super::asked::{ASKED, asked};
 use super::purpose::Purpose;
-use crate::design::{rad_s, rpm};
+use crate::design::rad_s;
 use crate::material::{STEELS, Steel};
-use crate::numeric::rounded;
-use std::f64::consts::PI;
 use std::fmt;
 
 /// A torque that swings, its crest the nominal torque.
@@ -58,6 +57,9 @@ pub struct Requirements {
 /// Peak over nominal torque where only one of them is named: a choice, some scatter of the drive.
 pub const PEAK_OVER_NOMINAL: f64 = 1.3;
 
+/// Where a value comes from that somebody named.
+pub(super) const NAMED: &str = "asked for";
+
 /// Static friction that catalogues of sprag clutches reckon with (GMN 9050).
 pub const FRICTION: f64 = 0.11;
 
@@ -99,6 +101,39 @@ pub struct Wish {
 }
 
 impl Wish {
+    /// The whole question, refused where no clutch of this kind is asked for.
+    ///
+    /// # Errors
+    /// The first [`BadRequirement`].
+    pub fn check(&self) -> Result<Requirements, BadRequirement> {
+        self.check_ratio()?;
+        let wanted = self.requirements();
+        if let Some(nm) = self.swing_nm.filter(|nm| *nm != 0.0 && wanted.swing.is_none()) {
+            return Err(BadRequirement {
+                what: "swing",
+                found: format!("{nm} Nm alone"),
+                allowed: "with swing-hz, which says how often".to_owned(),
+            });
+        }
+        wanted.check().map(|()| wanted)
+    }
+
+    /// Refuse a factor beside both torques that it joins, and one that makes the peak the lower.
+    ///
+    /// # Errors
+    /// [`BadRequirement`] of `safety`.
+    pub fn check_ratio(&self) -> Result<(), BadRequirement> {
+        let Some(ratio) = self.peak_over_nominal else { return Ok(()) };
+        if self.torque_nm.is_some() && self.peak_nm.is_some() {
+            return Err(BadRequirement {
+                what: "safety",
+                found: format!("{ratio} beside torque and peak"),
+                allowed: "one of the three left out, for it is peak over torque".to_owned(),
+            });
+        }
+        asked("safety").map_or(Ok(()), |row| row.check_value(ratio, &self.requirements()))
+    }
+
     /// The whole question. Bore and torques that nobody has said are no numbers, which [`Requirements::check`] refuses.
     pub fn requirements(&self) -> Requirements {
         let of = |value: fn(&Purpose) -> f64| self.purpose.map(value);
@@ -108,7 +143,7 @@ impl Wish {
         let lift = self.lift_off_rad_s.or(self.purpose.and_then(|p| p.lift_off_rpm).map(|g| rad_s(g.value)));
         let outer = self.outer_rad_s.or(of(|p| p.overrun_rpm[1].value).map(rad_s)).or(keep);
         let inner = self.inner_rad_s.or(of(|p| p.overrun_rpm[0].value).map(rad_s));
-        let said = |value: Option<f64>, other: &'static str| value.map_or(other, |_| "asked for");
+        let said = |value: Option<f64>, other: &'static str| value.map_or(other, |_| NAMED);
         let usual = self.purpose.and_then(|p| p.excitation);
         let amplitude_nm = self.swing_nm.or(usual.map(|e| e.share.value * torque_nm)).filter(|nm| *nm != 0.0);
         let frequency_hz = self.swing_hz.or(usual.map(|e| e.frequency_hz.value));
@@ -196,26 +231,8 @@ impl Requirements {
 
     /// What nobody has said and the purpose has answered: words, value with its unit, where it comes from.
     pub fn taken(&self) -> Vec<(&'static str, String, &'static str)> {
-        if self.purpose.is_none() {
-            return Vec::new();
-        }
-        let of = |value: f64, unit: &str| format!("{} {unit}", rounded(value, 6));
-        let rpm = |rad_s: f64| of(rpm(rad_s), "rpm");
-        let mut rows = vec![
-            ("friction", rounded(self.friction, 6).to_string(), self.from[0]),
-            ("nominal torque", of(self.torque_nm, "Nm"), self.from[1]),
-            ("peak torque", of(self.peak_nm, "Nm"), self.from[2]),
-            ("inner race in overrun", rpm(self.overrun_rad_s[0]), self.overrun_from[0]),
-            ("outer race in overrun", rpm(self.overrun_rad_s[1]), self.overrun_from[1]),
-            ("contact kept up to", rpm(self.keep_contact_rad_s.unwrap_or(0.0)), self.contact_from[0]),
-        ];
-        rows.extend(self.lift_off_rad_s.map(|w| ("sprags off by", rpm(w), self.contact_from[1])));
-        if let Some(swing) = self.swing {
-            rows.push(("torque swings by", of(swing.amplitude_nm, "Nm"), swing.from[0]));
-            rows.push(("that often", of(swing.frequency_hz, "Hz"), swing.from[1]));
-        }
-        rows.retain(|(.., from)| *from != "asked for");
-        rows
+        let rows = ASKED.iter().filter(|_| self.purpose.is_some());
+        rows.filter_map(|row| row.taken(self)).collect()
     }
 
     /// Refuse what no clutch of this kind is asked for.
@@ -223,59 +240,6 @@ impl Requirements {
     /// # Errors
     /// The first [`BadRequirement`].
     pub fn check(&self) -> Result<(), BadRequirement> {
-        self.check_where(|_| true)
-    }
-
-    /// The same of one number alone, as an error names it.
-    ///
-    /// # Errors
-    /// [`BadRequirement`] of that number.
-    pub fn check_one(&self, what: &str) -> Result<(), BadRequirement> {
-        self.check_where(|name| name == what)
-    }
-
-    fn check_where(&self, asked: impl Fn(&str) -> bool) -> Result<(), BadRequirement> {
-        let (mm, rpm) = (1e3, 30.0 / PI);
-        let [inner, outer] = self.overrun_rad_s;
-        let bore = self.bore_m * mm;
-        let keep = self.keep_contact_rad_s.unwrap_or(0.0) * rpm;
-        let rows = [
-            ("bore", Some(self.bore_m), mm, "mm", 1.0, 2000.0),
-            ("torque", Some(self.torque_nm), 1.0, "Nm", 1e-3, 1e7),
-            ("peak", Some(self.peak_nm), 1.0, "Nm", self.torque_nm, 10.0 * self.torque_nm),
-            ("outside", self.outside_m, mm, "mm", bore, 10_000.0),
-            ("width", self.width_m, mm, "mm", 1.0, 1000.0),
-            ("keep-contact-rpm", self.keep_contact_rad_s, rpm, "rpm", 0.0, 60_000.0),
-            ("lift-off-rpm", self.lift_off_rad_s, rpm, "rpm", keep.max(1.0), 60_000.0),
-            ("inner-rpm", Some(inner), rpm, "rpm", 0.0, 60_000.0),
-            ("outer-rpm", Some(outer), rpm, "rpm", 0.0, 60_000.0),
-            ("friction", Some(self.friction), 1.0, "", 0.03, 0.5),
-            ("swing", self.swing.map(|s| s.amplitude_nm), 1.0, "Nm", 0.0, 0.5 * self.torque_nm),
-            ("swing-hz", self.swing.map(|s| s.frequency_hz), 1.0, "Hz", 0.1, 10_000.0),
-            ("engagements", self.engagements, 1.0, "", 1.0, 1e15),
-        ];
-        for (what, value, per_si, unit, least, most) in rows {
-            let Some(value) = value.filter(|_| asked(what)) else { continue };
-            let shown = value * per_si;
-            // NaN is in no range; rounding of the units is.
-            if !(shown >= least * (1.0 - 1e-9) && shown <= most * (1.0 + 1e-9)) {
-                let space = if unit.is_empty() { "" } else { " " };
-                return Err(BadRequirement {
-                    what,
-                    found: format!("{}{space}{unit}", rounded(shown, 12)),
-                    allowed: match what {
-                        "outside" => {
-                            format!("above the bore, {} mm, to {} mm", rounded(bore, 12), rounded(most, 12))
-                        }
-                        "swing" => format!(
-                            "0 to {} {unit}, half the nominal torque: it swings up to nominal torque and must not turn round",
-                            rounded(most, 12)
-                        ),
-                        _ => format!("{} to {}{space}{unit}", rounded(least, 12), rounded(most, 12)),
-                    },
-                });
-            }
-        }
-        Ok(())
+        ASKED.iter().try_for_each(|row| row.check(self))
     }
 }

@@ -4,20 +4,32 @@
 //! Equations: those of [`crate::dynamics::run_many`].
 //!
 //! Every sprag has its own curve (its size), its own friction (static and kinetic in one ratio) and its own lag (its gap, or its size where a
-//! cage holds all), drawn and given as for statics. Races turn about one axis and stay round, so its azimuth does not matter.
+//! cage holds all), drawn and given as for statics. Where the
+//! axes of the races do not meet, or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]). Races
+//! stay round: what uneven bending would change is told by statics.
 
-use crate::clutch::{Scenario, ScenarioKind, Sharing, Start};
-use crate::dynamics::{ManyRun, ManyStart, RunSettings, SpragGroup, Stop, run_many, settled_together};
+use crate::clutch::{Clutch, Scenario, ScenarioKind, Sharing, Start};
+use crate::dynamics::{
+    Axes, AxisBearing, ManyRun, ManyStart, OffCentre, RunSettings, SpragGroup, StaysWith, Stop, run_many,
+    settled_off_centre, settled_together,
+};
 use crate::friction::Stribeck;
 use crate::scenario::{NoScenario, Prepared, Settings, prepare};
 use crate::sharing::{Asked, Idle, OneSprag, Unlike};
-use crate::wedge::{NoCurve, WedgeCurve};
+use crate::wedge::{AxisTurns, NoCurve, WedgeCurve};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Together with the first, to rounding, rad.
 const TOGETHER_RAD: f64 = 1e-12;
 /// Most kinds of sprags that are integrated.
 const MOST_KINDS: usize = 64;
+/// Damping of the axis on its bearings, of the critical: a choice, that of rolling bearings is 0.01 to 0.05.
+const BEARING_DAMPING: f64 = 0.02;
+/// How much further than at rest an axis on bearings is looked for: a load that comes at once swings to twice of it.
+const FURTHER: f64 = 2.5;
+/// What an axis may shift at least, as a part of the distance of the axes, and m.
+const SHIFTS: [f64; 2] = [0.5, 1e-6];
 
 /// Why there is no run.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,9 +104,13 @@ pub struct EachSprag {
     pub error: Option<[f64; 2]>,
     /// Most steps and changes that a run was allowed.
     pub limits: [u64; 2],
-    /// Largest share at rest under the scene's largest torque: between races that bend and shift as `sharing` has them, and round concentric
-    /// ones; `None` where statics does not carry it.
-    pub shares_at_rest: [Option<f64>; 2],
+    /// Largest share at rest under the scene's largest torque: as `sharing` has it, between races that do not bend unevenly, and between round
+    /// concentric ones; `None` where statics does not carry it.
+    pub shares_at_rest: [Option<f64>; 3],
+    /// Axes that do not meet or give way; `None`: nothing in the scene feels that.
+    pub axes: Option<Axes>,
+    /// What the table of sprags that stand off centre leaves out, as a windup, rad, and how far off the axes were looked at, m.
+    pub off_centre: [f64; 2],
     /// That torque, N m.
     pub largest_nm: f64,
 }
@@ -112,6 +128,8 @@ pub struct Many {
     pub idle: Vec<Option<Idle>>,
     /// The sprags.
     pub sprags: Vec<OneSprag>,
+    /// Axes that do not meet or give way.
+    pub axes: Option<Axes>,
     /// The scene of sprags alike.
     pub alike: Prepared,
 }
@@ -132,17 +150,17 @@ impl Many {
             return Err(NoEachSprag::Drivetrain);
         }
         let alike = prepare(scenario).map_err(NoEachSprag::NoScenario)?;
-        let mut clutch = scenario.clutch.clone();
-        clutch.races.eccentricity = None;
+        let clutch = &scenario.clutch;
         let curve = &alike.model.curve;
         let at_rest = if curve.speed_rad_s() == 0.0 {
             curve.clone()
         } else {
             let profile = clutch.profile().map_err(|e| NoEachSprag::NoScenario(NoScenario::Profile(e)))?;
-            WedgeCurve::build(&clutch, &profile, 0.0)
+            WedgeCurve::build(clutch, &profile, 0.0)
                 .map_err(|e| NoEachSprag::NoScenario(NoScenario::Curve(e)))?
         };
-        let unlike = Unlike::new(&clutch, sharing, &at_rest, 0.0);
+        let unlike = Unlike::new(clutch, sharing, &at_rest, 0.0);
+        let axes = axes(clutch, &unlike, sharing, curve.speed_rad_s());
         let first = unlike.lag_rad.iter().flatten().copied().fold(f64::INFINITY, f64::min);
         if first == f64::INFINITY {
             return Err(NoEachSprag::NoneCarries);
@@ -151,7 +169,12 @@ impl Many {
         // A deviation of -0 is none.
         let key = |i: usize| {
             let s = &unlike.sprags[i];
-            ((s.size_m + 0.0).to_bits(), s.friction.to_bits(), lag(i).map(f64::to_bits), apart.then_some(i))
+            (
+                (s.size_m + 0.0).to_bits(),
+                s.friction.to_bits(),
+                lag(i).map(f64::to_bits),
+                apart.then_some(i).or(axes.map(|_| i)),
+            )
         };
         let able: Vec<usize> = (0..unlike.sprags.len()).filter(|&i| unlike.lag_rad[i].is_some()).collect();
         let mut kinds: Vec<usize> = Vec::new();
@@ -173,12 +196,18 @@ impl Many {
             let kinetic = law.kinetic * (sprag.friction / law.static_);
             let friction = Stribeck { static_: sprag.friction, kinetic, ..law };
             let count = group.iter().filter(|of| **of == Some(g)).count();
-            Ok(SpragGroup { model: alike.model.of_sprags(count, own, friction), lag_rad: lag(i) })
+            let model = alike.model.of_sprags(count, own, friction);
+            Ok(SpragGroup { model, lag_rad: lag(i), off_centre: None })
         };
         let built: Vec<_> = kinds.par_iter().enumerate().map(of).collect();
-        let groups = built.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let mut groups = built.into_iter().collect::<Result<Vec<_>, _>>()?;
+        if let Some(axes) = &axes {
+            let reach_m = reach_m(axes, &unlike, scenario, &alike);
+            stand_off_centre(&mut groups, &unlike, &kinds, reach_m)?;
+        }
         // Where nothing but friction sets them apart they begin as sprags alike.
-        let even = able.len() == unlike.sprags.len()
+        let even = axes.is_none()
+            && able.len() == unlike.sprags.len()
             && groups.iter().all(|g| g.lag_rad.is_none())
             && unlike.sprags.iter().all(|s| s.size_m == 0.0);
         let start = match alike.free_run {
@@ -191,12 +220,16 @@ impl Many {
             None => {
                 let torque_nm = alike.model.drive.torque_at(0.0).max(0.0) - alike.model.loads.inner_nm;
                 let spring = scenario.start == Start::Settled;
-                Some(settled_together(&groups, torque_nm, spring).ok_or(NoEachSprag::NotCarried(torque_nm))?)
+                let settled = match &axes {
+                    Some(axes) => settled_off_centre(&groups, axes, torque_nm, spring),
+                    None => settled_together(&groups, torque_nm, spring),
+                };
+                Some(settled.ok_or(NoEachSprag::NotCarried(torque_nm))?)
             }
         };
         let start = start.ok_or(NoEachSprag::NoneCarries)?;
         let (idle, sprags) = (unlike.idle.clone(), unlike.sprags.clone());
-        Ok(Self { groups, start, group, idle, sprags, alike })
+        Ok(Self { groups, start, group, idle, sprags, axes, alike })
     }
 
     /// Most steps, and most changes of all sprags, of a run.
@@ -220,8 +253,84 @@ impl Many {
             follow: settings.follow.clone(),
             ..RunSettings::default()
         };
-        run_many(&self.groups, &self.start, &settings)
+        run_many(&self.groups, self.axes.as_ref(), &self.start, &settings)
     }
+}
+
+/// Axes of `clutch` where its sprags can feel them: those that do not meet, or that give way under sprags unlike one another.
+fn axes(clutch: &Clutch, unlike: &Unlike<'_>, sharing: &Sharing, speed_rad_s: f64) -> Option<Axes> {
+    let gives = unlike.stiffness_n_per_m.is_finite();
+    let uneven = (0..unlike.sprags.len()).any(|i| {
+        let (s, even) = (&unlike.sprags[i], std::f64::consts::TAU * i as f64 / unlike.sprags.len() as f64);
+        unlike.idle[i].is_some()
+            || s.size_m != unlike.sprags[0].size_m
+            || s.gap_m != unlike.sprags[0].gap_m
+            || s.friction != unlike.sprags[0].friction
+            || s.azimuth_rad != even
+    });
+    if unlike.offset_m == 0.0 && !(gives && uneven) {
+        return None;
+    }
+    let mass_kg = sharing.mass_kg.unwrap_or(clutch.masses_kg()[1]);
+    let stiffness_n_per_m = unlike.stiffness_n_per_m;
+    let damping_n_s_per_m = 2.0 * BEARING_DAMPING * (stiffness_n_per_m * mass_kg).sqrt();
+    Some(Axes {
+        offset_m: unlike.offset_m,
+        phase_rad: unlike.phase_rad,
+        stays_with: match clutch.races.eccentricity {
+            Some(e) if !e.turning => StaysWith::Race(e.carrier),
+            _ => StaysWith::Space,
+        },
+        bearing: gives.then_some(AxisBearing { mass_kg, stiffness_n_per_m, damping_n_s_per_m }),
+        speed_rad_s,
+    })
+}
+
+/// Largest torque that acts in `scenario`, N m.
+fn largest_nm(scenario: &Scenario, loads: &crate::dynamics::Loads) -> f64 {
+    match scenario.kind {
+        ScenarioKind::Transient { preload_nm, torque_step_nm, .. } => {
+            preload_nm.max(preload_nm + torque_step_nm)
+        }
+        _ => loads.amplitude_nm - loads.inner_nm,
+    }
+}
+
+/// How far off the axes are looked at, m: as far as at rest under the largest torque they shift, and what a swing adds.
+fn reach_m(axes: &Axes, unlike: &Unlike<'_>, scenario: &Scenario, alike: &Prepared) -> f64 {
+    if axes.bearing.is_none() {
+        return axes.offset_m.max(SHIFTS[1]);
+    }
+    let largest_nm = largest_nm(scenario, &alike.model.loads);
+    let shift = match unlike.unbent().carrying(Asked::Torque(largest_nm), 0.0) {
+        Ok(shared) => shared.shift_m[0].hypot(shared.shift_m[1]),
+        Err(_) => 0.0,
+    };
+    axes.offset_m + (FURTHER * shift).max(SHIFTS[0] * axes.offset_m).max(SHIFTS[1])
+}
+
+/// Put every group where it stands between axes that lie up to `reach_m` off; those of one size share a table.
+fn stand_off_centre(
+    groups: &mut [SpragGroup],
+    unlike: &Unlike<'_>,
+    kinds: &[usize],
+    reach_m: f64,
+) -> Result<(), NoEachSprag> {
+    let size = |g: usize| (unlike.sprags[kinds[g]].size_m + 0.0).to_bits();
+    let firsts: Vec<usize> =
+        (0..groups.len()).filter(|&g| (0..g).all(|before| size(before) != size(g))).collect();
+    let table = |g: &usize| {
+        AxisTurns::new(&groups[*g].model.curve, reach_m).map_err(|why| NoEachSprag::Curve(kinds[*g], why))
+    };
+    let tables: Vec<_> = firsts.par_iter().map(table).collect();
+    let tables = tables.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let tables: Vec<Arc<AxisTurns>> = tables.into_iter().map(Arc::new).collect();
+    for (g, group) in groups.iter_mut().enumerate() {
+        let Some(table) = firsts.iter().position(|&first| size(first) == size(g)) else { continue };
+        let azimuth_rad = unlike.sprags[kinds[g]].azimuth_rad;
+        group.off_centre = Some(OffCentre { azimuth_rad, turns: tables[table].clone() });
+    }
+    Ok(())
 }
 
 /// Run `scenario` with its sprags as `sharing` has them.
@@ -254,15 +363,10 @@ pub fn each_sprag(
     run.courses.iter_mut().for_each(|course| course.share *= places);
     let limits = many.limits(settings);
     let loads = &many.alike.model.loads;
-    let largest_nm = match scenario.kind {
-        ScenarioKind::Transient { preload_nm, torque_step_nm, .. } => {
-            preload_nm.max(preload_nm + torque_step_nm)
-        }
-        _ => loads.amplitude_nm - loads.inner_nm,
-    };
+    let largest_nm = largest_nm(scenario, loads);
     let profile = scenario.clutch.profile().ok();
     let at_rest = profile.and_then(|p| WedgeCurve::build(&scenario.clutch, &p, 0.0).ok());
-    let share = |round: bool| -> Option<f64> {
+    let share = |bends: bool, round: bool| -> Option<f64> {
         let curve = at_rest.as_ref()?;
         let mut clutch = scenario.clutch.clone();
         let mut sharing = sharing.clone();
@@ -271,14 +375,30 @@ pub fn each_sprag(
             sharing.stiffness_n_per_m = None;
         }
         let unlike = Unlike::new(&clutch, &sharing, curve, 0.0);
-        let unlike = if round { unlike.unbent() } else { unlike };
+        let unlike = if bends { unlike } else { unlike.unbent() };
         let shared = unlike.carrying(Asked::Torque(largest_nm), 0.0).ok()?;
         Some(shared.shares().into_iter().fold(0.0, f64::max))
     };
-    let shares_at_rest = [share(false), share(true)];
+    let shares_at_rest = [share(true, false), share(false, false), share(false, true)];
     let counts =
         (0..many.groups.len()).map(|g| many.group.iter().filter(|of| **of == Some(g)).count()).collect();
     let loaded_n = many.alike.model.loaded_n;
-    let Many { sprags, idle, group, .. } = many;
-    Ok(EachSprag { sprags, idle, group, counts, run, loaded_n, error, limits, shares_at_rest, largest_nm })
+    let turns = || many.groups.iter().filter_map(|g| g.off_centre.as_ref());
+    let most = |of: &dyn Fn(&AxisTurns) -> f64| turns().map(|at| of(&at.turns)).fold(0.0, f64::max);
+    let off_centre = [most(&|turns| turns.error_rad), most(&AxisTurns::reach_m)];
+    let Many { sprags, idle, group, axes, .. } = many;
+    Ok(EachSprag {
+        sprags,
+        idle,
+        group,
+        counts,
+        run,
+        loaded_n,
+        error,
+        limits,
+        shares_at_rest,
+        axes,
+        off_centre,
+        largest_nm,
+    })
 }

@@ -19,8 +19,13 @@ pub struct StudioRefusal {
 }
 
 impl StudioRefusal {
-    fn said(message: impl Into<String>) -> Self {
+    pub(super) fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), problems: Value::Null }
+    }
+
+    /// As the page takes it.
+    pub(super) fn into_json(self) -> Value {
+        json!({ "message": self.message, "problems": self.problems })
     }
 }
 
@@ -36,13 +41,13 @@ impl From<DesignError> for StudioRefusal {
 
 impl From<NoMargins> for StudioRefusal {
     fn from(why: NoMargins) -> Self {
-        Self::said(why.to_string())
+        Self::new(why.to_string())
     }
 }
 
 impl From<NoScenario> for StudioRefusal {
     fn from(why: NoScenario) -> Self {
-        Self::said(why.to_string())
+        Self::new(why.to_string())
     }
 }
 
@@ -65,7 +70,7 @@ impl Engine {
         Self { file: file.to_owned(), folder, kept: Mutex::default() }
     }
 
-    fn design(&self, text: &str) -> Result<Design, StudioRefusal> {
+    pub(super) fn design(&self, text: &str) -> Result<Design, StudioRefusal> {
         Ok(Design::parse_in(&self.folder, text, &self.file)?)
     }
 
@@ -104,7 +109,7 @@ impl Engine {
         let scenario = solved
             .design
             .scenario(name)
-            .ok_or_else(|| StudioRefusal::said(format!("no scenario {name:?}")))?;
+            .ok_or_else(|| StudioRefusal::new(format!("no scenario {name:?}")))?;
         Ok(scene_row(&solved.design, &solved.state, scenario, settings))
     }
 
@@ -124,7 +129,7 @@ impl Engine {
         let scenario = solved
             .design
             .scenario(name)
-            .ok_or_else(|| StudioRefusal::said(format!("no scenario {name:?}")))?;
+            .ok_or_else(|| StudioRefusal::new(format!("no scenario {name:?}")))?;
         Ok(scene_view(scenario, pinned.as_ref().and_then(|p| p.design.scenario(name)), settings)?)
     }
 
@@ -133,7 +138,7 @@ impl Engine {
     /// # Errors
     /// [`StudioRefusal`] where there is no such key.
     pub fn set(&self, text: &str, path: &str, value: &str) -> Result<String, StudioRefusal> {
-        with_setting(text, path, value).map_err(|why| StudioRefusal::said(why.to_string()))
+        with_setting(text, path, value).map_err(|why| StudioRefusal::new(why.to_string()))
     }
 
     /// A question as the page puts it: `ask` names it, `question` is an object of texts. The answer, or an object with
@@ -144,11 +149,11 @@ impl Engine {
     pub fn ask(&self, ask: &str, question: &Value, settings: &Settings) -> Result<Value, Value> {
         let text = |key: &str| question.get(key).and_then(Value::as_str);
         let need = |key: &str| {
-            text(key).ok_or_else(|| StudioRefusal::said(format!("the question {ask} has no text {key}")))
+            text(key).ok_or_else(|| StudioRefusal::new(format!("the question {ask} has no text {key}")))
         };
         let answer = || -> Result<Value, StudioRefusal> {
             let json = |value: Result<Value, serde_json::Error>| {
-                value.map_err(|e| StudioRefusal::said(e.to_string()))
+                value.map_err(|e| StudioRefusal::new(e.to_string()))
             };
             match ask {
                 "check" => json(serde_json::to_value(self.check(need("text")?, text("pinned"))?)),
@@ -164,10 +169,10 @@ impl Engine {
                     let look = self.check(&text, question.get("pinned").and_then(Value::as_str))?;
                     Ok(json!({ "text": text, "look": look }))
                 }
-                other => Err(StudioRefusal::said(format!("no question {other:?}"))),
+                other => Err(StudioRefusal::new(format!("no question {other:?}"))),
             }
         };
-        answer().map_err(|r| json!({ "message": r.message, "problems": r.problems }))
+        answer().map_err(StudioRefusal::into_json)
     }
 }
 

@@ -60,7 +60,7 @@ fn field(design: &Design, input: Input, like: f64) -> Option<Field> {
         Some(at) => (path[..at].to_owned(), path[at + 1..].to_owned()),
         None => (String::new(), path.clone()),
     };
-    let arcs = design.clutch.sprags.inner_arcs.len();
+    let arcs = design.clutch.sprags.listed_arcs();
     let task = design.optimize.iter().flat_map(|o| &o.variables);
     let bounds = task
         .filter(|v| variable_path(&v.name, arcs).as_deref() == Some(path.as_str()))

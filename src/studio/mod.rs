@@ -7,12 +7,14 @@ mod engine;
 mod fields;
 mod scene;
 mod search;
+mod session;
 mod view;
 
 pub use engine::{Engine, StudioRefusal};
 pub use fields::{Field, fields};
 pub use scene::{SceneRow, SceneView};
 pub use search::{SearchProgress, Searching};
+pub use session::{Session, ToSave};
 pub use view::{MarginColour, MarginRow, Pose, StudioView};
 
 /// The page as one file; what is between the marks `<!--engine-->` is put in by whoever serves it.

@@ -13,7 +13,7 @@ pub struct SearchProgress {
     /// Whether it goes on.
     pub running: bool,
     /// In one sentence.
-    pub said: String,
+    pub words: String,
     /// The design file found.
     pub text: Option<String>,
 }
@@ -39,8 +39,8 @@ impl Searching {
         }));
         let shared = mine.0.clone();
         std::thread::spawn(move || {
-            let told = tell(&design, &shared);
-            *shared.done.lock().unwrap_or_else(PoisonError::into_inner) = Some(told);
+            let end = tell(&design, &shared);
+            *shared.done.lock().unwrap_or_else(PoisonError::into_inner) = Some(end);
         });
         mine
     }
@@ -54,8 +54,8 @@ impl Searching {
     pub fn progress(&self) -> SearchProgress {
         let done = self.0.done.lock().unwrap_or_else(PoisonError::into_inner).clone();
         done.unwrap_or_else(|| {
-            let said = format!("searching: {} evaluations", self.0.evaluations.load(Ordering::Relaxed));
-            SearchProgress { running: true, said, text: None }
+            let words = format!("searching: {} evaluations", self.0.evaluations.load(Ordering::Relaxed));
+            SearchProgress { running: true, words, text: None }
         })
     }
 }
@@ -73,10 +73,10 @@ fn tell(design: &Design, shared: &SearchState) -> SearchProgress {
     match design.optimise_recorded(&ask, &mut Counter(&shared.evaluations)) {
         Ok(answer) => {
             let story = &answer.story;
-            let said = story.verdict(&Hints::default());
-            SearchProgress { running: false, said, text: Some(story.file().to_owned()) }
+            let words = story.verdict(&Hints::default());
+            SearchProgress { running: false, words, text: Some(story.file().to_owned()) }
         }
-        Err(why) => SearchProgress { running: false, said: format!("no search: {why}"), text: None },
+        Err(why) => SearchProgress { running: false, words: format!("no search: {why}"), text: None },
     }
 }
 
@@ -92,7 +92,7 @@ mod tests {
         let searching = Searching::begin(design);
         let mut solved = searching.progress();
         assert!(solved.running);
-        while solved.running && !solved.said.contains("searching: 1") {
+        while solved.running && !solved.words.contains("searching: 1") {
             std::thread::sleep(Duration::from_millis(5));
             solved = searching.progress();
         }
@@ -101,6 +101,6 @@ mod tests {
             std::thread::sleep(Duration::from_millis(5));
             solved = searching.progress();
         }
-        assert!(solved.said.contains("evaluations") || solved.said.contains("stopped"), "{}", solved.said);
+        assert!(solved.words.contains("evaluations") || solved.words.contains("stopped"), "{}", solved.words);
     }
 }

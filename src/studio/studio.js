@@ -62,7 +62,7 @@ async function change(path, value, field, before) {
     if (asked !== overtaken) return;
     if (before !== found.text && state.undo.at(-1) !== before) { state.undo.push(before); state.redo = []; }
     state.text = found.text;
-    fault(field, "");
+    built.forEach((each) => fault(each, ""));
     say("");
     show(found.look);
   } catch (error) {
@@ -72,9 +72,11 @@ async function change(path, value, field, before) {
     if (waiting) { const next = waiting; waiting = null; change(...next); }
   }
 }
+/* A value that is refused stays in its field with why; the answers are those of the design before it, and say so. */
 function fault(field, text) {
   field.classList.toggle("bad", text !== "");
   field.querySelector(".error").textContent = text;
+  if (state.look) rows();
 }
 
 function show(found) {
@@ -133,7 +135,9 @@ function verdict(required) {
   const decides = first && `${first.code} decides, margin ${first.text}`;
   const some = broken.length > 1 ? `${broken.length} limits` : "1 limit";
   $("banner").textContent = !first ? "No limit is named" : broken.length ? `NOT HELD: ${some} of ${required.length}${running ? " so far" : ""}; ${decides}` : running ? `Static limits held, scenes are running …; ${decides} so far` : `HELD: all ${required.length} required limits; ${decides}`;
-  $("banner").className = "verdict " + (!first || (running && !broken.length) ? "mixed" : broken.length ? "broken" : "held");
+  const refused = [...built].filter(([, field]) => field.classList.contains("bad")).map(([path]) => path);
+  if (refused.length) $("banner").textContent = `${refused.join(", ")} refused; without it: ${$("banner").textContent}`;
+  $("banner").className = "verdict " + (refused.length || !first || (running && !broken.length) ? "mixed" : broken.length ? "broken" : "held");
 }
 
 /* Scenes follow when the sliders rest. */
@@ -217,7 +221,9 @@ function fieldOf(f) {
     input.addEventListener("pointerdown", begin);
     input.addEventListener("focus", begin);
     input.addEventListener(event, () => {
-      if (input.value !== "") return change(f.path, input.value, field, before || state.text);
+      const typed = input.value.trim();
+      if (f.choice || Number.isFinite(Number(typed || NaN))) return change(f.path, typed, field, before || state.text);
+      if (typed.includes(",")) return fault(field, `found ${typed}; decimals stand behind a point, thousands without a mark`);
       fault(field, "a number is needed: the one before stands");
       fields(state.look.fields);
     });
@@ -232,8 +238,9 @@ function fieldOf(f) {
     return field;
   }
   const number = document.createElement("input");
-  number.type = "number";
-  number.step = f.whole ? "1" : "any";
+  // As text, since a browser's own number fields drop a comma without a word: 400,5 would be 4005.
+  number.inputMode = "decimal";
+  number.spellcheck = false;
   number.id = "n:" + f.path;
   label.htmlFor = number.id;
   listen(number, "change");
@@ -411,13 +418,14 @@ const go = (from, to) => () => {
   state.text = state[from].pop();
   waiting = null;
   overtaken += 1;
+  built.forEach((field) => fault(field, ""));
   buttons();
   look().catch(complain);
 };
 $("undo").addEventListener("click", go("undo", "redo"));
 $("redo").addEventListener("click", go("redo", "undo"));
 document.addEventListener("keydown", (event) => {
-  if (!(event.ctrlKey || event.metaKey) || event.target.matches("input[type=number], input[type=text], input[type=search]")) return;
+  if (!(event.ctrlKey || event.metaKey) || event.target.matches("input:not([type=range], [type=checkbox])")) return;
   if (event.key === "z" && !event.shiftKey) { event.preventDefault(); $("undo").click(); }
   if (event.key === "y" || (event.key === "z" && event.shiftKey)) { event.preventDefault(); $("redo").click(); }
 });
@@ -447,16 +455,21 @@ $("save").addEventListener("click", () => {
     state.saved = state.text;
     return;
   }
+  unsaved("");
+});
+/* Asks for the name; `why` the last one would not do. */
+function unsaved(why) {
+  $("unsaved").textContent = why;
   $("saving").returnValue = "";
   $("saving").showModal();
-});
+}
 $("saving").addEventListener("close", async () => {
   if ($("saving").returnValue !== "save") return;
   try {
     const found = await engine.ask("save", { text: state.text, name: $("filename").value, replace: $("replace").checked ? "yes" : "no" });
     state.saved = state.text;
     say("written: " + found.path);
-  } catch (error) { complain(error); }
+  } catch (error) { complain(error); unsaved(error.message || String(error)); }
 });
 window.addEventListener("beforeunload", (event) => { if (state.text !== state.saved) event.preventDefault(); });
 

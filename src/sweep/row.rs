@@ -2,8 +2,10 @@
 
 use super::sampling::{BoxSample, NoSample, Sampling};
 use crate::design::{Design, Optimize};
+use crate::follow::Follow;
 use crate::margin::RESOLUTION;
 use crate::optimise::{ClutchProblem, Evaluate, Evaluation, Names};
+use rayon::prelude::*;
 use std::fmt;
 
 /// What is looked at at each point of a sweep.
@@ -75,7 +77,57 @@ impl SweepRow {
     }
 }
 
+/// How a sweep over points ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SweepEnd {
+    /// Behind the last point.
+    Whole,
+    /// Where nobody wanted more.
+    Enough,
+    /// Where it was stopped; what was under way is lost.
+    Stopped,
+}
+
+/// Points that a thread is given at once.
+const CHUNK: usize = 64;
+
+/// Gives points with their numbers, in order; `None` behind the last.
+pub type NextPoint<'n, E> = dyn FnMut() -> Result<Option<(u64, Vec<f64>)>, E> + 'n;
+
 impl Sweep {
+    /// What there is at the points that `next` gives, some at once on all threads: what is in memory does not grow with their count.
+    /// `made` is asked on any thread; `take` gets what it made, in order, and says whether more is wanted. The same for any number of
+    /// threads.
+    ///
+    /// # Errors
+    /// What `next` or `take` says.
+    pub fn rows<T: Send, E>(
+        &self,
+        follow: &Follow,
+        next: &mut NextPoint<'_, E>,
+        made: impl Fn(u64, &SweepRow) -> T + Sync,
+        mut take: impl FnMut(Vec<T>) -> Result<bool, E>,
+    ) -> Result<SweepEnd, E> {
+        let most = CHUNK * rayon::current_num_threads();
+        loop {
+            let mut chunk = Vec::with_capacity(most);
+            while chunk.len() < most
+                && let Some(point) = next()?
+            {
+                chunk.push(point);
+            }
+            if chunk.is_empty() {
+                return Ok(SweepEnd::Whole);
+            }
+            let of = |(index, x)| (!follow.stopped()).then(|| made(index, &self.row(x)));
+            let rows: Option<Vec<T>> = chunk.into_par_iter().map(of).collect();
+            let Some(rows) = rows else { return Ok(SweepEnd::Stopped) };
+            if !take(rows)? {
+                return Ok(SweepEnd::Enough);
+            }
+        }
+    }
+
     /// Of the `[optimize]` table of `design`; `at_rest`: without its scenes, `full`: nothing is left out that a scene cannot feel.
     ///
     /// # Errors
@@ -113,5 +165,45 @@ impl Sweep {
             None => self.problem.evaluate(&x).and_then(|e| e.checked(shape)).map_err(|why| why.to_string()),
         };
         SweepRow { x, found }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_come_in_order_until_enough_or_stopped() {
+        let text = include_str!("../../designs/huang2017-multi-arc.toml");
+        let design = Design::parse(text, "a.toml").unwrap();
+        let settings = SweepSettings { at_rest: true, full: false };
+        let sweep = Sweep::of(&design, &settings).unwrap();
+        let sampling = Sampling::Sobol { count: 300, seed: 1 };
+        let sample = BoxSample::of(sweep.task(), &sampling).unwrap();
+        let run = |follow: &Follow, most: usize| {
+            let (mut left, mut found) = (0..sample.count(), Vec::new());
+            let mut next = || Ok::<_, String>(left.next().map(|i| (i, sample.point(i))));
+            let end = sweep.rows(
+                follow,
+                &mut next,
+                |i, row| (i, row.clone()),
+                |rows| {
+                    found.extend(rows);
+                    Ok(found.len() < most)
+                },
+            );
+            (end, found)
+        };
+        let (end, whole) = run(&Follow::new(), usize::MAX);
+        assert_eq!((end, whole.len()), (Ok(SweepEnd::Whole), 300));
+        for (i, row) in &whole {
+            assert_eq!(*row, sweep.row(sample.point(*i)));
+        }
+        let (end, part) = run(&Follow::new(), 1);
+        assert_eq!((end, &part[..]), (Ok(SweepEnd::Enough), &whole[..part.len()]));
+        assert!(part.len() < 300 || rayon::current_num_threads() > 4);
+        let stopped = Follow::new();
+        stopped.stop();
+        assert_eq!(run(&stopped, usize::MAX), (Ok(SweepEnd::Stopped), Vec::new()));
     }
 }

@@ -19,6 +19,9 @@ pub const FIRST_CONTACT_N: f64 = 1e-120;
 
 /// Steps in which the centres may come too close on the way, near the highest place.
 const UPRIGHT_ROUNDS: usize = 30;
+/// Rounds at most: a handful suffices but over the edge of a flat, where width of the patch and curvature under it follow each other
+/// in ever smaller steps.
+const ROUNDS: usize = 400;
 
 #[cfg(test)]
 thread_local! {
@@ -177,6 +180,8 @@ pub struct Statics {
     pub(super) offset_m: [f64; 2],
     /// The race that this stays with.
     pub(super) carrier: Carrier,
+    /// Whether it is there as it is given, whatever has turned.
+    pub(super) offset_stays: bool,
     /// What the body gives beyond the law's disc; nothing for a law that takes no disc, or without an outline.
     pub(super) bulk: Option<Arc<Bulk>>,
     /// What opens the gap at this sprag beside the law: inner track, outer track, and what it lacks in size, m.
@@ -186,7 +191,7 @@ pub struct Statics {
     /// Whether a step on the way to an equilibrium may lead beyond that place: it is looked for near it.
     pub(super) near_upright: bool,
     /// The way rolled at which the body gives as it does wherever the contact is, m; `None`: where it is.
-    pub(super) held_m: Option<f64>,
+    pub(super) fixed_roll_m: Option<f64>,
     pub(super) radii: Radii,
     centroid_m: [f64; 2],
     mass_kg: f64,
@@ -210,10 +215,11 @@ impl Statics {
             effort: Effort::Full,
             offset_m: [0.0; 2],
             carrier: Carrier::default(),
+            offset_stays: false,
             opened_m: [0.0; 3],
             past: false,
             near_upright: false,
-            held_m: None,
+            fixed_roll_m: None,
             bulk: super::bulk::of(clutch, &profile),
             elastic: Elastic::new(clutch)?,
             radii: Radii {
@@ -334,7 +340,7 @@ impl Statics {
         let mut body = Yields::default();
         let unlike = self.elastic.unlike != [0.0; 2];
         let mut lag = Dual::constant(0.0);
-        for round in 0..60 {
+        for round in 0..ROUNDS {
             let mut d = self.opened(self.elastic.deformations(n, n_be, inner.approach_m, speed_rad_s));
             d.bulk = body.bulk_m;
             let mut l = kinematics::lengths(&radii, &d);
@@ -381,9 +387,9 @@ impl Statics {
             let turn = rotation - (beta - self.profile.beta0_rad);
             let mut moved = inner.update(self, arc, n, turn);
             if let Some(bulk) = &self.bulk {
-                let rolled = self.held_m.map_or_else(|| self.rolled_m(arc, turn), Dual::constant);
+                let rolled = self.fixed_roll_m.map_or_else(|| self.rolled_m(arc, turn), Dual::constant);
                 let mut now = Self::yields(bulk, n, rolled, inner.curvature_per_m);
-                if self.held_m.is_some() || self.profile.arcs[arc].radius_m == 0.0 {
+                if self.fixed_roll_m.is_some() || self.profile.arcs[arc].radius_m == 0.0 {
                     // Over an edge nothing rolls on.
                     now.ahead_m = Dual::constant(0.0);
                 }
@@ -398,7 +404,8 @@ impl Statics {
                 lag = now;
             }
             // The offset turns with a race; without one there is nothing to turn.
-            let on = if self.is_concentric() { carried } else { self.carried(arc, rotation, turn) };
+            let stays = self.is_concentric() || self.offset_stays;
+            let on = if stays { carried } else { self.carried(arc, rotation, turn) };
             let rolled_on = on - carried;
             carried = on;
             let change = (next.v - n_be.v).abs() / next.v;
@@ -418,7 +425,15 @@ impl Statics {
                     && change >= residual
                     && slope_change >= slope_residual
                     && change < 1e-13
-                || round > 20 && there && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10;
+                || round > 20 && there && change.max(moved.v) < 1e-13 && slope_change.max(moved.d) < 1e-10
+                // Forces stand still; where the curvature changes by the whole within a hair, as on the edge of a flat, the approach goes
+                // to and fro with the rounding of the turn.
+                || round > 40
+                    && there
+                    && change <= 4.0 * f64::EPSILON
+                    && slope_change < 1e-11
+                    && moved.v < 1e-10
+                    && moved.d < 1e-7;
             let settled = settled && !upright;
             n_be = next;
             (residual, slope_residual, unsettled) = (change, slope_change, change.max(moved.v));

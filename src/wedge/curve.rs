@@ -4,7 +4,7 @@ use super::build::{Effort, arc_end};
 use super::closure::{Closure, FIRST_CONTACT_N, Statics};
 use super::elastic::NoElastic;
 use super::quick::lowest;
-use super::table::{ArcTable, held, point};
+use super::table::{ArcTable, levelled, point};
 use crate::numeric::root;
 
 /// Why the curve ends.
@@ -187,10 +187,10 @@ impl WedgeCurve {
         }
         // s = (alpha - alpha_0)^(1/q); N = (s * z/s)^10.
         let x = (alpha - self.alpha0).max(0.0);
-        let (held, slope) = held(x);
-        let s = held.powf(1.0 / self.exponent);
+        let (at, slope) = levelled(x);
+        let s = at.powf(1.0 / self.exponent);
         let v = arc.table.at(s);
-        point(&v, (s * v[8]).powi(10) * (x / held), slope * s / (self.exponent * held), x)
+        point(&v, (s * v[8]).powi(10) * (x / at), slope * s / (self.exponent * at), x)
     }
 
     /// The curve continued below first contact by the tension that a bilateral contact would carry:

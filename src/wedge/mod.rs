@@ -8,6 +8,7 @@
 
 mod apart;
 mod axial;
+mod axis_turns;
 mod build;
 mod bulk;
 mod closure;
@@ -27,6 +28,7 @@ mod table;
 pub use crate::contact::{Edge, Peak};
 pub use apart::{Borne, SpragDeviation};
 pub use axial::{Along, Lengthwise, Side, along, asks_for_slices, even_load_error};
+pub use axis_turns::{AxisTurn, AxisTurns};
 pub use build::Effort;
 pub use closure::{Closure, FIRST_CONTACT_N, NoClosure, Statics};
 pub use curve::{EndReason, NoCurve, WedgeCurve, WedgePoint};

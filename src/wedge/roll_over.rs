@@ -177,13 +177,13 @@ impl Way {
         Some(Seat { shift: seat.shift + (alpha - raw.alpha.v), ..seat })
     }
 
-    /// `seat` at `from` with the body held as it gives there: near the highest place the turn, and with it what an outline gives, goes with the root
+    /// `seat` at `from` with the body fixed as it gives there: near the highest place the turn, and with it what an outline gives, goes with the root
     /// of the force, which no equilibrium at a given force follows.
-    fn held(&mut self, seat: Seat, from: [f64; 2]) -> Option<Seat> {
+    fn with_fixed_body(&mut self, seat: Seat, from: [f64; 2]) -> Option<Seat> {
         let turn = self.closure(&seat, from[0])?.turn_rad(self.seats[0][0][0].profile.beta0_rad);
         let rolled_m = self.seats[0][1][0].rolled_m(seat.k, Dual::constant(turn)).v;
         for statics in self.seats.iter_mut().flatten().flatten() {
-            if statics.held_m.replace(rolled_m).is_some() {
+            if statics.fixed_roll_m.replace(rolled_m).is_some() {
                 return None;
             }
         }
@@ -306,7 +306,7 @@ impl WedgeCurve {
         let (mut branch, mut begins, mut upright) = (Vec::new(), Vec::new(), None);
         let end = loop {
             let Some(piece) = way.piece(seat, from).or_else(|| {
-                seat = way.held(seat, from)?;
+                seat = way.with_fixed_body(seat, from)?;
                 way.piece(seat, from)
             }) else {
                 break OverEnd::NoConvergence;

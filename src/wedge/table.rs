@@ -19,11 +19,11 @@ pub(super) const LANES: usize = 11;
 /// first arc, W on the later ones.
 pub(super) const READ: usize = LANES + 3;
 
-/// Distance from first contact below which the geometry is held, rad.
-const HELD_RAD: f64 = 1e-9;
+/// Distance from first contact below which the geometry is read level, rad.
+const LEVEL_RAD: f64 = 1e-9;
 /// Where by that the slopes of rho are largest, rad.
-pub(crate) const RHO_STEEPEST_RAD: f64 = 1.23 * HELD_RAD;
-/// From here on, in parts of [`HELD_RAD`], nothing is held: e^-40 is less than rounding.
+pub(crate) const RHO_STEEPEST_RAD: f64 = 1.23 * LEVEL_RAD;
+/// From here on, in parts of [`LEVEL_RAD`], nothing is levelled: e^-40 is less than rounding.
 const FREE: f64 = 40.0;
 
 /// Where the geometry `x` >= 0 (rad) from first contact is read, and the slope of that. rho' is singular (integrably, as
@@ -31,12 +31,12 @@ const FREE: f64 = 40.0;
 /// x = 0, so that velocities and their constraints agree and nothing jumps: alpha'' holds rho' alpha'^2, and a step of high
 /// order would have to end where rho' jumps. The jump at first contact is taken as every jump of rho is.
 #[inline(always)]
-pub(super) fn held(x: f64) -> (f64, f64) {
-    if x > FREE * HELD_RAD {
+pub(super) fn levelled(x: f64) -> (f64, f64) {
+    if x > FREE * LEVEL_RAD {
         return (x, 1.0);
     }
-    let rest = (-x / HELD_RAD).exp();
-    (x + HELD_RAD * rest, 1.0 - rest)
+    let rest = (-x / LEVEL_RAD).exp();
+    (x + LEVEL_RAD * rest, 1.0 - rest)
 }
 
 /// Panels of the first arc in s, as fractions of its end. The lowest two hold N below 1e-10 of the end's and

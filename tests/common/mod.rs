@@ -23,6 +23,7 @@ pub fn clutch(arcs: &[(f64, f64)]) -> (Clutch, Profile) {
             centroid_m: [0.1935e-3, 0.5288e-3],
             mass_source: MassSource::Given,
             inner_arcs: arcs.iter().map(|&(radius_m, until_rad)| InnerArc { radius_m, until_rad }).collect(),
+            spiral: None,
             flanks: Some(Flanks::parallel(2.525e-3, 2.525e-3)),
         },
         races: Races {

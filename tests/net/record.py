@@ -35,6 +35,27 @@ REFUSALS = {
     "law": ('law = "roller"', 'law = "rolller"'),
     "too-many-faults": ("mm = ", "m = "),
 }
+MULTI = "designs/huang2017-multi-arc.toml"
+SWINGS = ["resonance", MULTI, "--scenario", "high-6"]
+STARTS = ["reengage", "designs/starter.toml", "--torque", "50", "--inner-inertia", "0.05", "--outer-inertia", "0.05"]
+ANSWERS = {
+    "feed": ["feed", "designs/indexing.toml", "--stroke", "30", "--brake", "100", "--inertia", "0.02"],
+    "feed-lost": ["feed", "designs/indexing.toml", "--stroke", "12", "--brake", "5", "--frequency", "5,40,200"],
+    "life": ["life", "designs/indexing-life.toml"],
+    "life-scatter": ["life", "designs/indexing-life.toml", "--set", "life.friction_scatter=0.15"],
+    "sharing": ["sharing", "designs/unlike-sprags.toml"],
+    "sharing-too-much": ["sharing", "designs/unlike-sprags.toml", "--torque", "4000"],
+    "reengage": [*STARTS, "--friction", "0.06"],
+    "reengage-held": ["reengage", "designs/indexing.toml", "--torque", "100", "--friction", "0.06",
+                      "--inner-inertia", "0.02", "--outer-held"],
+    "resonance": SWINGS,
+    "resonance-map": [*SWINGS, "--frequency", "100:300", "--amplitude", "5:15", "--points", "5"],
+    "overrun": ["overrun", "designs/lubricated.toml"],
+    "overrun-outer": ["overrun", "designs/lubricated.toml", "--race", "outer", "--temperatures", "20,60"],
+    "compare": ["compare", "designs/huang2017-single-arc.toml", MULTI],
+    "compare-three": ["compare", "designs/series-833-small.toml", "designs/series-833-mid.toml",
+                      "designs/series-833-large.toml"],
+}
 
 
 def commands(root):
@@ -67,7 +88,7 @@ def commands(root):
                                       "--json", "--csv", "out.csv"], None
             yield f"optimize-text-{key}", ["optimize", file, "-o", "new.toml", "--starts", "1",
                                            "--evaluations", "60", "--quiet"], None
-    multi = "designs/huang2017-multi-arc.toml"
+    multi = MULTI
     for pressure in ["slices", "reference", "free-ends"]:
         yield f"pressure-{pressure}", ["stiffness", multi, "--torques", "16.8", f"--pressure={pressure}", "--json"], None
     yield "accuracy", ["accuracy", multi, "--cases", "0", "--min-step", "1e-5", "--quiet"], None
@@ -85,6 +106,9 @@ def commands(root):
                               "--evaluations", "30", "--json"], None
     yield "optimize-pareto", ["optimize", "problems/a-huang-at-rest.toml", "-o", "new.toml", "--starts", "1", "--pareto",
                               "slip-margin,windup", "--points", "2", "--evaluations", "30", "--json"], None
+    for name, arguments in ANSWERS.items():
+        yield name, [*arguments, "--json", "--csv", "out.csv"], None
+        yield f"{name}-text", arguments, None
     for name in REFUSALS:
         yield f"refused-{name}", ["check", f"refused-{name}.toml", "--json"], None
     for name, arguments in {

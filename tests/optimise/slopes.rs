@@ -72,27 +72,6 @@ fn slopes_are_those_of_whole_evaluations() {
     }
 }
 
-/// Of what is not wanted nothing is computed; the rest is as it was, bit for bit.
-#[test]
-fn a_scene_of_which_nothing_is_wanted_is_left_out() {
-    let design = design(PEER_B);
-    let task = task(&design);
-    let problem = super::clutch::problem(&design).quickly();
-    let x: Vec<f64> = task.variables.iter().map(|v| v.start).collect();
-    let mut there = x.clone();
-    there[0] += 1e-6 * (task.variables[0].max - task.variables[0].min);
-    let all = problem.changes(&x, &[there.clone()]).expect("slopes");
-    let names = problem.names(&problem.assess_at(&x).unwrap());
-    let codes: Vec<String> = names.objectives.into_iter().chain(names.limits).collect();
-    let left_out = |k: usize| codes.get(k).is_some_and(|code| code.ends_with(":high-6"));
-    let wanted: Vec<bool> = (0..=codes.len()).map(|k| !left_out(k)).collect();
-    let some = problem.changes_of(&x, &[there], &wanted).expect("slopes");
-    assert!(wanted.contains(&false));
-    for (k, (a, b)) in all[0].iter().zip(&some[0]).enumerate() {
-        assert!(if wanted[k] { a.to_bits() == b.to_bits() } else { b.is_nan() }, "{k}: {a} {b}");
-    }
-}
-
 /// What else has none: an evaluation in full, which is no quick one, and lengths that go with a variable in steps.
 #[test]
 fn where_there_are_no_slopes_the_problem_says_so() {

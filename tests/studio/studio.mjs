@@ -34,7 +34,7 @@ const percent = (text) => Number(text.replace("−", "-").replace(/\s*%.*/s, "")
 const close = (text, value) => assert.ok(Math.abs(percent(text) - value) <= 6e-3 * Math.abs(value) + 1e-9, `${text} beside ${value}`);
 const path = "sprags.inner_arcs[1].radius_mm";
 const slider = (page, of = path) => page.locator(`.field[data-path="${of}"] input[type=range]`);
-const number = (page, of = path) => page.locator(`.field[data-path="${of}"] input[type=number]`);
+const number = (page, of = path) => page.locator(`.field[data-path="${of}"] input[inputmode=decimal]`);
 const set = (locator, value) => locator.evaluate((input, value) => {
   input.focus();
   input.value = value;
@@ -67,13 +67,13 @@ try {
   await page.route("**/ask/check", async (route) => { await new Promise((done) => setTimeout(done, 400)); await route.continue(); });
   await page.click("#pin");
   await set(number(page), 4.25);
-  await page.waitForFunction((path) => Number(document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[type=number]`).value) === 4.25, path);
+  await page.waitForFunction((path) => Number(document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[inputmode=decimal]`).value) === 4.25, path);
   await page.waitForTimeout(900);
   close(await margin(page, "hertz-nominal-inner"), checked(`${path}=4.25`)["hertz-nominal-inner"]);
   await page.unroute("**/ask/check");
   await page.click("#unpin");
   await set(number(page), 4.2);
-  await page.waitForFunction((path) => Number(document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[type=number]`).value) === 4.2, path);
+  await page.waitForFunction((path) => Number(document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[inputmode=decimal]`).value) === 4.2, path);
 
   step("moves are answered in time");
   const times = await page.evaluate(async (path) => {
@@ -104,13 +104,20 @@ try {
   await page.waitForSelector(`.field[data-path="${path}"] .error:not(:empty)`);
   assert.match(await page.textContent(`.field[data-path="${path}"] .error`), /line \d+.*-4/s);
   close(await margin(page, "hertz-nominal-inner"), checked()["hertz-nominal-inner"]);
+  assert.match(await page.textContent("#banner"), /^sprags\.inner_arcs\[1\]\.radius_mm refused; without it: /);
+  const peak = "limits.peak_torque_nm", fault = (of) => page.textContent(`.field[data-path="${of}"] .error`);
+  await set(number(page, peak), "105,5");
+  assert.match(await fault(peak), /decimals stand behind a point/);
+  await set(number(page, peak), "105.5");
+  await page.waitForFunction(() => [...document.querySelectorAll(".field .error")].every((e) => e.textContent === ""));
+  assert.ok(!(await page.textContent("#banner")).includes("refused"));
   await set(number(page), 4.08);
-  await page.waitForFunction((path) => document.querySelector(`.field[data-path="${CSS.escape(path)}"] .error`).textContent === "", path);
+  await page.waitForFunction(() => document.getElementById("work").textContent === "");
 
   await set(number(page), 4.11);
   await page.waitForFunction(() => !document.getElementById("undo").disabled);
   await page.click("#undo");
-  await page.waitForFunction((path) => Number(document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[type=number]`).value) === 4.08, path);
+  await page.waitForFunction((path) => Number(document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[inputmode=decimal]`).value) === 4.08, path);
 
   step("a scene is played");
   await page.selectOption("#mode", "high-10");
@@ -128,7 +135,7 @@ try {
   await set(slider(page), 4.15);
   await page.waitForTimeout(500);
   const save = async (name, replace) => {
-    await page.click("#save");
+    if (!(await page.evaluate(() => document.getElementById("saving").open))) await page.click("#save");
     await page.fill("#filename", name);
     await page.setChecked("#replace", replace);
     await page.evaluate(() => { document.getElementById("work").textContent = ""; });
@@ -143,6 +150,9 @@ try {
   assert.match(await save(design, false), /exists; tick the box/);
   assert.match(await save("../evil.toml", false), /plain file name/);
   assert.ok(!existsSync("../evil.toml"));
+  assert.equal(await page.inputValue("#filename"), "../evil.toml");
+  assert.match(await page.textContent("#unsaved"), /plain file name/);
+  await page.click('#saving button[value="cancel"]');
 
   step("two pages do not disturb each other");
   const other = await open();

@@ -101,6 +101,12 @@ class _Common:
         """The object of ``--json``: figures in the units of their names, ``None`` where there is none."""
         return typing.cast("dict[str, Any]", json.loads(json.dumps(self._data)))
 
+    def __repr__(self) -> str:
+        names = (f.name for f in dataclasses.fields(self) if not f.name.startswith("_"))
+        verdict = getattr(self, "verdict", None)
+        said = f": {verdict}" if verdict else ""
+        return f"<{type(self).__name__}{said}; {', '.join(names)}>"
+
 
 def _common(text: str, body: str) -> tuple[dict[str, Any], dict[str, Any]]:
     """Fields that all answers share, and the figures."""
@@ -242,7 +248,7 @@ class Overrun:
     """A note where that is so at other speeds only, on the way through them."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Check(_Common):
     """A design held against each of its limits."""
 
@@ -414,7 +420,7 @@ def _curve(law: dict[str, Any]) -> Curve:
     )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Stiffness(_Common):
     """Static curves at rest. The figures of the first law stand at the top: ``stiffness.windup_deg``."""
 
@@ -493,7 +499,7 @@ class Slips:
     """At the outer contact."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Simulation(_Common):
     """What became of a scene. Columns of its history are attributes too: ``simulation.theta_inner_rad``."""
 
@@ -781,7 +787,7 @@ class Steps:
     """Evaluations of the clutch."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Optimum(_Common):
     """What a search for a better design found."""
 
@@ -946,8 +952,12 @@ class LifePlace:
     """Share of its life that is used up (Miner); ``None``: no strength is given."""
     lives: float | None
     """How often this life fits in."""
-    mostly_at_nm: float
-    """Torque at which most of that is used up."""
+    mostly_at_nm: float | None
+    """Torque at which most of that is used up; ``None`` likewise."""
+    place: str
+    """The place in words."""
+    verdict: str
+    """Whether it lasts, in words."""
 
 
 @dataclass(frozen=True)
@@ -961,16 +971,16 @@ class LifeLoad:
     carried: bool
     """Whether the clutch carries it."""
     hertz_inner_mpa: float | None
-    """Hertz pressure at the inner contact, MPa; ``None`` where the torque is not carried, as the three below."""
+    """Hertz pressure at the inner contact, MPa; ``None`` where the torque is not carried, as the five below."""
     hertz_outer_mpa: float | None
     """The same at the outer contact, MPa."""
     hoop_inner_mpa: float | None
     """Hoop stress of the inner race, with the bending between the sprags, MPa."""
     hoop_outer_mpa: float | None
     """The same of the outer race, MPa."""
-    walk_inner_mm: float
+    walk_inner_mm: float | None
     """What the inner contact rolls on sprag and race in an engagement, mm."""
-    walk_outer_mm: float
+    walk_outer_mm: float | None
     """The same of the outer contact, mm."""
     passes_inner: float
     """Contacts that one place of the inner track sees in an engagement."""
@@ -980,7 +990,7 @@ class LifeLoad:
     """Chance of a slip in an engagement."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Life(_Common):
     """What a life of loads does to a clutch."""
 
@@ -1107,10 +1117,12 @@ class SlipWear:
     """Depth worn off a place of the race that one sprag slips over, um."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FilmOverrun(_Common):
     """Overrun on a film."""
 
+    verdict: str
+    """What matters most, in one line."""
     oil: str
     """The oil."""
     race: str
@@ -1154,8 +1166,8 @@ class Blow:
     """When the load is largest, ms after the slip began; ``None`` where the sprags are out of reach."""
     path_in_all_mm: float | None
     """Path until the races stand still against one another, mm at the inner track; ``None`` likewise."""
-    speed_rpm: float
-    """Largest speed of the races against one another, rev/min."""
+    speed_rpm: float | None
+    """Largest speed of the races against one another, rev/min; ``None`` where the sprags are thrown out once the friction is back."""
     peak_torque_nm: float | None
     """The blow, N m; ``None``: beyond the end of the curve."""
     peak_by_energy_nm: float | None
@@ -1168,9 +1180,15 @@ class Blow:
     """Whether every limit at peak torque bears it."""
     ended: str | None
     """Why it was not followed to its end."""
+    verdict: str
+    """Whether it is borne, in words."""
+    times: float | None
+    """The blow over the torque carried."""
+    of_borne: float | None
+    """The energy over what the limits let the windup take up."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Reengagement(_Common):
     """Slip under load and the blow when the clutch grips again."""
 
@@ -1270,9 +1288,13 @@ class SharingSprag:
     """By how much the inner track gives there beside its mean growth, um."""
     bent_outer_um: float
     """The same of the outer track, um."""
+    needs_friction: float | None
+    """Static friction that it needs under load, else as it catches."""
+    state: str
+    """What it does, in words."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Sharing(_Common):
     """What each sprag carries."""
 
@@ -1311,6 +1333,126 @@ class Sharing(_Common):
 
 
 @dataclass(frozen=True)
+class SceneSprag:
+    """A sprag of its own and what became of it in a scene."""
+
+    number: int
+    """Number, from 1."""
+    azimuth_deg: float
+    """Azimuth, degrees."""
+    size_um: float
+    """By how much it measures more across its contacts, um."""
+    gap_um: float
+    """What it lacks to its races before it engages, um."""
+    friction: float
+    """Its static friction coefficient."""
+    idle: str | None
+    """Why it cannot carry; ``None``: it can. Then the fields below are ``None``."""
+    catches_s: float | None
+    """When it first carries, s; ``None``: never."""
+    normal_max_n: float | None
+    """Largest normal force at the inner contact, N."""
+    normal_max_at_s: float | None
+    """When, s."""
+    largest_share: float | None
+    """Largest normal force over the mean of all places while that is loaded."""
+    largest_share_at_s: float | None
+    """When, s."""
+    used_friction_inner: float | None
+    """Largest tangential over normal force at the inner contact under load."""
+    used_friction_outer: float | None
+    """The same at the outer contact."""
+    slips_at_s: float | None
+    """When a contact that had caught first slips under load, s."""
+    slips_inner: bool | None
+    """Whether it was the inner one."""
+    slips_normal_n: float | None
+    """Normal force at the inner contact then, N."""
+    slip_inner_um: float | None
+    """Slip at the inner contact over the scene, signed, um."""
+    slip_outer_um: float | None
+    """The same at the outer contact."""
+    slip_path_inner_um: float | None
+    """Path of the slip at the inner contact, um."""
+    slip_path_outer_um: float | None
+    """The same at the outer contact."""
+    contact_lost_s: float | None
+    """Time without contact after it has caught, s."""
+
+
+@dataclass(frozen=True)
+class SharingScene(_Common):
+    """A scene with its sprags one by one."""
+
+    verdict: str
+    """The answer in one line."""
+    held: bool
+    """Whether the scene came to its end and no sprag slipped after it had caught."""
+    scenario: str
+    """Name of the scenario."""
+    stop: str
+    """Why the run ended."""
+    end_s: float
+    """Time reached, s."""
+    given_up: str | None
+    """Why the run did not come to its end; ``None``: it did, or what happened is an answer."""
+    largest_share: float | None
+    """Largest share of a sprag, 1: the mean of all places."""
+    largest_share_sprag: int | None
+    """Its number."""
+    largest_share_at_s: float | None
+    """When, s."""
+    bearing_max_n: float | None
+    """Largest force on the bearings of the races, N; ``None``: their axes meet and stay, as of those below."""
+    bearing_max_at_s: float | None
+    """When, s."""
+    axes_apart_max_um: float | None
+    """How far the axes lie apart at most, um."""
+    bearing_mass_kg: float | None
+    """Mass that moves on the bearings, kg; ``None``: they are held."""
+    bearing_frequency_hz: float | None
+    """Frequency at which it swings on them, Hz."""
+    seed: int | None
+    """Seed from which the tolerances are drawn."""
+    catching: tuple[int, ...]
+    """Numbers of the sprags in the order in which they catch."""
+    slipping: int
+    """How many slip under load after they have caught."""
+    first_slip_sprag: int | None
+    """The first of them."""
+    first_slip_at_s: float | None
+    """When, s."""
+    theta_inner_rad: float
+    """Angle of the inner race at the end, rad."""
+    theta_outer_rad: float
+    """The same of the outer race, rad."""
+    theta_inner_error_rad: float | None
+    """Difference of the inner angle to a run ten times as coarse, rad."""
+    normal_max_error: float | None
+    """The same of the largest normal force, as a part of it."""
+    energy_residual_j: float
+    """What works and changes of energy leave over, J."""
+    energy_through_j: float
+    """Energy that went through, J."""
+    kinds: int
+    """Kinds of sprags that are computed."""
+    events: int
+    """Changes of what sprags do."""
+    steps: int
+    """Steps of the run."""
+    rhs_evaluations: int
+    """Evaluations of the equations, each of all sprags."""
+    sprags: tuple[SceneSprag, ...]
+    """Each sprag."""
+    history: tuple[dict[str, Any], ...]
+    """Over time: angles, shares and forces by sprag, force on the bearings and place of the axis."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each sprag. Needs pandas."""
+        return _columns(self.sprags)
+
+
+@dataclass(frozen=True)
 class FedFrequency:
     """Strokes at one frequency."""
 
@@ -1338,9 +1480,11 @@ class FedFrequency:
     """Whether they feed as they should and the clutch bears it."""
     ended: str | None
     """Why the run ended before its end."""
+    verdict: str
+    """The same in words."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Feed(_Common):
     """What each stroke of an indexing drive feeds."""
 

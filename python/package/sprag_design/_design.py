@@ -23,6 +23,7 @@ from ._answers import (
     Optimum,
     Reengagement,
     Sharing,
+    SharingScene,
     Simulation,
     Stiffness,
     SweepMap,
@@ -362,6 +363,16 @@ class Design:
         """
         torque = None if torque_nm is None else _positive("torque_nm", [torque_nm])[0]
         return plain_of(Sharing, self._core.sharing(torque))
+
+    def sharing_in_scene(self, scenario: str, *, most_steps: int | None = None) -> SharingScene:
+        """A scenario with its sprags one by one, as ``[sharing]`` has them: who catches when, who slips, what each carries over time, what
+        the bearings of the races hold. ``most_steps``: as in :meth:`simulate`.
+
+        Raises ``KeyError`` where there is no such scenario, ``ValueError`` where the design has no such table or the scenario cannot be run so.
+        """
+        if most_steps is not None and most_steps < 1:
+            raise ValueError(f"most_steps {most_steps}: allowed: 1 or more")
+        return plain_of(SharingScene, self._core.sharing_in_scene(scenario, most_steps))
 
     def feed(
         self,

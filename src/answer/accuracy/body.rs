@@ -1,8 +1,9 @@
 //! The keys of `accuracy --json`.
 
+use super::tables::{points, points_of};
 use super::verdict::{WANTED_RAD, gains_over_published, winners};
 use super::{AccuracyStudy, map};
-use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS, Precision, Scheme, WorkPoint};
+use crate::accuracy::{CaseEnd, Halved, Judged, PARAMETERS, Precision};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -32,9 +33,8 @@ impl AccuracyBody {
 }
 
 fn scene(s: &Precision) -> Value {
-    let points = s.methods.iter().flat_map(|(m, list)| list.iter().map(move |p| point(*m, p)));
     let cheapest = winners(s).into_iter().map(|(m, p)| match p {
-        Some(p) => point(m, p),
+        Some(p) => points([(s, m, p)]).object(),
         None => json!({ "method": m.key(), "reached": false }),
     });
     json!({
@@ -48,28 +48,9 @@ fn scene(s: &Precision) -> Value {
         },
         "prepare_time_s": { "full": s.prepare_s[0], "reduced": s.prepare_s[1] },
         "reduced_without": s.left_out,
-        "points": points.collect::<Vec<_>>(),
+        "points": points(points_of(s)).objects(),
         "cheapest": cheapest.collect::<Vec<_>>(),
         "published_step_over_one_run": gains_over_published(s).map(|g| g[0]),
-    })
-}
-
-fn point(method: Scheme, p: &WorkPoint) -> Value {
-    let [tolerance, step_s] = match method {
-        Scheme::Published(_) => [None, Some(p.setting)],
-        _ => [Some(p.setting), None],
-    };
-    json!({
-        "method": method.key(),
-        "tolerance": tolerance,
-        "step_s": step_s,
-        "band_m_per_s": method.band_m_s(),
-        "theta_inner_error_rad": p.theta_error_rad,
-        "slip_margin_error": p.margin_error,
-        "error_estimate_rad": p.stated_rad,
-        "rhs_evaluations": p.rhs_evaluations,
-        "run_time_s": p.seconds,
-        "stop": p.stop.name(),
     })
 }
 

@@ -113,7 +113,7 @@ impl AccuracyStudy {
 
     /// Every point of every scene.
     pub fn csv_table(&self) -> Table {
-        tables::points(&self.scenes)
+        tables::points(self.scenes.iter().flat_map(tables::points_of)).table()
     }
 
     /// The answer on a terminal.

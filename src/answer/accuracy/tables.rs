@@ -5,11 +5,18 @@ use super::{AccuracyStudy, map};
 use crate::accuracy::{Precision, Scheme, WorkPoint};
 use crate::report::{Rows, Screen, Table, Unit};
 
-/// Every point of every scene, for programs.
-pub(super) fn points(scenes: &[Precision]) -> Table {
-    let all = scenes.iter().flat_map(|scene| scene.methods.iter().map(move |(m, list)| (scene, *m, list)));
+/// A point of a method in a scene.
+pub(super) type Point<'a> = (&'a Precision, Scheme, &'a WorkPoint);
+
+/// Every point of `scene`.
+pub(super) fn points_of(scene: &Precision) -> impl Iterator<Item = Point<'_>> {
+    scene.methods.iter().flat_map(move |(m, list)| list.iter().map(move |p| (scene, *m, p)))
+}
+
+/// Points, for programs.
+pub(super) fn points<'a>(all: impl IntoIterator<Item = Point<'a>>) -> Rows<Point<'a>> {
     let adaptive = |m: Scheme| !matches!(m, Scheme::Published(_));
-    Rows::of(all.flat_map(|(scene, m, list)| list.iter().map(move |p| (scene, m, p))))
+    Rows::of(all)
         .text("scenario", "Scene", |(s, _, _)| s.scene.as_str())
         .text("method", "Method", |(_, m, _)| m.key())
         .number("tolerance", "Tolerance", Unit::One, 1, |(_, m, p)| adaptive(*m).then_some(p.setting))
@@ -21,7 +28,6 @@ pub(super) fn points(scenes: &[Precision]) -> Table {
         .number("rhs_evaluations", "Right-hand sides", Unit::One, 6, |(_, _, p)| p.rhs_evaluations)
         .number("run_time_s", "Time", Unit::Second, 3, |(_, _, p)| p.seconds)
         .text("stop", "End", |(_, _, p)| p.stop.name())
-        .table()
 }
 
 /// One scene, for people.

@@ -164,7 +164,7 @@ impl CheckBody {
         };
         let nominal = |r: &Margin| r.limit.when == When::Nominal;
         Self {
-            margins: rows.iter().map(|r| row(r, source.end_torque_nm)).collect(),
+            margins: rows.iter().map(|r| CheckRow::of(r, source.end_torque_nm)).collect(),
             pass: required().all(Margin::held),
             deciding: required().min_by(|a, b| a.margin().total_cmp(&b.margin())).map(|r| Deciding {
                 code: r.code(),
@@ -299,31 +299,29 @@ impl CheckBody {
     }
 }
 
-fn row(r: &Margin, end_torque_nm: f64) -> CheckRow {
-    CheckRow {
-        code: r.code(),
-        name: r.name.clone(),
-        demand: demand(r),
-        allowable: r.shown_allowable(),
-        unit: r.limit.unit,
-        margin: r.margin(),
-        torque_capacity_nm: r.torque_capacity_nm,
-        capacity_beyond_end: ends_first(r, end_torque_nm),
-        required: r.required,
-        computed: r.computed(),
-        not_computed: match r.demand {
-            Demand::NotComputed(why) => Some(why),
-            _ => None,
-        },
-        overloaded: r.overloaded(),
-        held: r.held(),
-        slip_margin: r.slip_margin(),
+impl CheckRow {
+    /// Of a limit on a clutch whose curve ends at `end_torque_nm`, N m.
+    pub fn of(r: &Margin, end_torque_nm: f64) -> Self {
+        Self {
+            code: r.code(),
+            name: r.name.clone(),
+            demand: r.demand_in_unit().filter(|_| !r.overloaded()),
+            allowable: r.shown_allowable(),
+            unit: r.limit.unit,
+            margin: r.margin(),
+            torque_capacity_nm: r.torque_capacity_nm,
+            capacity_beyond_end: ends_first(r, end_torque_nm),
+            required: r.required,
+            computed: r.computed(),
+            not_computed: match r.demand {
+                Demand::NotComputed(why) => Some(why),
+                _ => None,
+            },
+            overloaded: r.overloaded(),
+            held: r.held(),
+            slip_margin: r.slip_margin(),
+        }
     }
-}
-
-/// Demand as a number; none where no friction suffices or the torque is not reached.
-fn demand(r: &Margin) -> Option<f64> {
-    r.demand_in_unit().filter(|_| !r.overloaded())
 }
 
 /// The table for people: codes, not sentences, so that it fits a terminal. A limit that is not reached before the
@@ -424,21 +422,19 @@ fn verdict(r: &Margin) -> Cell {
 }
 
 /// The table for programs: every number in full, nothing but numbers in number columns.
-pub fn csv_table(rows: &[Margin], end_torque_nm: f64) -> Table {
+pub fn csv_table(rows: &[CheckRow]) -> Table {
     Rows::of(rows)
-        .text("code", "Code", |r| r.code())
+        .text("code", "Code", |r| r.code.as_str())
         .text("name", "Limit", |r| r.name.as_str())
-        .number("demand", "Demand", Unit::One, 5, |r| demand(r))
-        .number("allowable", "Allowable", Unit::One, 5, |r| r.shown_allowable())
-        .text("unit", "Unit", |r| r.limit.unit)
-        .number("margin", "Margin", Unit::One, 5, |r| r.margin())
+        .number("demand", "Demand", Unit::One, 5, |r| r.demand)
+        .number("allowable", "Allowable", Unit::One, 5, |r| r.allowable)
+        .text("unit", "Unit", |r| r.unit)
+        .number("margin", "Margin", Unit::One, 5, |r| r.margin)
         .number("torque_capacity_nm", "Torque capacity", Unit::NewtonMetre, 5, |r| r.torque_capacity_nm)
-        .text("required", "Required", |r| r.required.to_string())
-        .text("held", "Held", |r| r.held().to_string())
-        .text("capacity_beyond_end", "Capacity beyond the end of the curve", |r| {
-            ends_first(r, end_torque_nm).to_string()
-        })
-        .number("slip_margin", "Slip margin", Unit::One, 5, |r| r.slip_margin())
+        .text("required", "Required", |r| r.required)
+        .text("held", "Held", |r| r.held)
+        .text("capacity_beyond_end", "Capacity beyond the end of the curve", |r| r.capacity_beyond_end)
+        .number("slip_margin", "Slip margin", Unit::One, 5, |r| r.slip_margin)
         .table()
 }
 

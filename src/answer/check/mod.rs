@@ -88,7 +88,7 @@ impl CheckAnswer {
 
     /// The table for programs: every number in full, nothing but numbers in number columns.
     pub fn csv_table(&self) -> Table {
-        body::csv_table(&self.rows, self.state.curve.end_torque_nm())
+        body::csv_table(&self.body.margins)
     }
 
     /// The answer on a terminal.

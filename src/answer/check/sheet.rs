@@ -8,7 +8,7 @@ use crate::answer::page::{draw_inputs, half};
 use crate::design::{Design, names_of_bodies};
 use crate::margin::{Margin, SceneDemand};
 use crate::material::Material;
-use crate::report::{Cell, Column, Page, Plot, Table, Unit, greek};
+use crate::report::{Cell, Page, Plot, Rows, Table, Unit, greek};
 use crate::wedge::{PLOTTED, StaticPoint};
 
 /// The page.
@@ -71,35 +71,24 @@ fn curves(page: &mut Page, design: &Design, check: &CheckAnswer) {
 }
 
 fn scenes(design: &Design, check: &CheckAnswer) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("name", "Scene"),
-        Column::number("required_friction", "μ required", Unit::One, 4),
-        Column::number("static_friction", "μs", Unit::One, 4),
-        Column::number("slip_margin", "Slip margin", Unit::Percent, 3),
-        Column::number("contact_margin", "Contact margin", Unit::Percent, 3),
-        Column::text("verdict", "Verdict"),
-    ]);
-    for (name, found) in &check.scenes {
-        let required = design.check_scenarios.contains(name);
+    let verdict = |name: &String| {
         // Held with the slip margin that is wanted, which is more than to stick.
         let held = check.rows.iter().filter(|r| r.scene.as_ref() == Some(name)).all(Margin::held);
-        let verdict = match (required, held) {
-            (true, true) => Cell::Verdict(true, "held".into()),
-            (true, false) => Cell::Verdict(false, "NOT HELD".into()),
+        match (design.check_scenarios.contains(name), held) {
+            (true, held) => Cell::held(held),
             (false, true) => "shown".into(),
             (false, false) => "shown, broken".into(),
-        };
-        table.row(vec![
-            name.as_str().into(),
-            friction(found),
-            found.static_friction.into(),
-            // Where no friction suffices there is none, as the column before says.
-            found.slip_margin().into(),
-            found.contact_margin().into(),
-            verdict,
-        ]);
-    }
-    table
+        }
+    };
+    Rows::of(&check.scenes)
+        .text("name", "Scene", |(name, _)| name.as_str())
+        .number("required_friction", "μ required", Unit::One, 4, |(_, found)| friction(found))
+        .number("static_friction", "μs", Unit::One, 4, |(_, found)| found.static_friction)
+        // Where no friction suffices there is none, as the column before says.
+        .number("slip_margin", "Slip margin", Unit::Percent, 3, |(_, found)| found.slip_margin())
+        .number("contact_margin", "Contact margin", Unit::Percent, 3, |(_, found)| found.contact_margin())
+        .text("verdict", "Verdict", |(name, _)| verdict(name))
+        .table()
 }
 
 /// Friction that the scene needs, or why there is none.
@@ -112,27 +101,21 @@ fn friction(found: &SceneDemand) -> Cell {
 }
 
 fn materials(design: &Design) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("body", "Body"),
-        Column::text("material", "Material"),
-        Column::number("youngs_modulus_gpa", "E", Unit::Gigapascal, 4),
-        Column::number("poisson_ratio", "Poisson ratio", Unit::One, 3),
-        Column::number("density_kg_m3", "Density, kg/m³", Unit::One, 5),
-        Column::number("mass_g", "Mass", Unit::Gram, 4),
-    ]);
     let m = &design.clutch.materials;
-    let count = design.clutch.sprags.count;
     let bodies: [(String, &Material); 3] = [
-        (format!("{count} sprags"), &m.sprag),
+        (format!("{} sprags", design.clutch.sprags.count), &m.sprag),
         ("inner race".into(), &m.inner_race),
         ("outer race".into(), &m.outer_race),
     ];
-    let named = names_of_bodies(&design.source);
-    for (((name, m), mass), named) in bodies.into_iter().zip(design.clutch.masses_kg()).zip(named) {
-        let row = [m.youngs_modulus_pa, m.poisson_ratio, m.density_kg_m3, mass];
-        let mut cells: Vec<Cell> = vec![name.into(), named.unwrap_or_else(|| "by its numbers".into()).into()];
-        cells.extend(row.map(Cell::Si));
-        table.row(cells);
-    }
-    table
+    let named = names_of_bodies(&design.source).into_iter().zip(design.clutch.masses_kg());
+    Rows::of(bodies.into_iter().zip(named))
+        .text("body", "Body", |((body, _), _)| body.clone())
+        .text("material", "Material", |(_, (named, _))| {
+            named.clone().unwrap_or_else(|| "by its numbers".into())
+        })
+        .number("youngs_modulus_gpa", "E", Unit::Gigapascal, 4, |((_, m), _)| m.youngs_modulus_pa)
+        .number("poisson_ratio", "Poisson ratio", Unit::One, 3, |((_, m), _)| m.poisson_ratio)
+        .number("density_kg_m3", "Density, kg/m³", Unit::One, 5, |((_, m), _)| m.density_kg_m3)
+        .number("mass_g", "Mass", Unit::Gram, 4, |(_, (_, mass_kg))| *mass_kg)
+        .table()
 }

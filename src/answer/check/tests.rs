@@ -75,7 +75,7 @@ fn a_demand_beyond_any_friction_is_words_null_and_an_empty_cell() {
     let unknown = CheckBody::new(&unknown, source(None));
     assert_eq!(unknown.held(), None);
     assert!(unknown.verdict().contains("slip:x: step limit"), "{}", unknown.verdict());
-    let csv = String::from_utf8(csv_table(&rows, 200.0).to_csv().unwrap()).unwrap();
+    let csv = String::from_utf8(csv_table(&rows.map(|r| CheckRow::of(&r, 200.0))).to_csv().unwrap()).unwrap();
     assert!(csv.contains("slip:x,limit slip:x,,0,1,-1,,true,false,false,\n"), "{csv}");
 }
 

@@ -11,7 +11,7 @@ use crate::compare::{Scene, SideBySide, Subject, inputs_that_differ, margins, pr
 use crate::design::{Design, Input};
 use crate::follow::Follow;
 use crate::margin::{LIFT_OFF_TO_RAD_S, Margin, NoMargins};
-use crate::report::{Page, Screen, Table, Unit, greek};
+use crate::report::{Page, Rows, Screen, Table, Unit, greek};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -130,65 +130,46 @@ impl<'a> Comparison<'a> {
     }
 
     fn json(&self) -> Value {
-        let designs: Vec<Value> = self
-            .subjects
-            .iter()
-            .zip(self.files)
-            .map(|(s, file)| {
-                json!({
-                    "name": s.design.name, "file": file, "design_hash": s.design.hash,
-                    "pass": s.held(), "deciding": s.deciding().map(|m| m.code()),
-                })
-            })
-            .collect();
-        let input = |i: &Input| i.number.map_or_else(|| json!(i.text), |n| json!(n));
-        let inputs: Vec<Value> = self
-            .inputs
-            .iter()
-            .map(|row| {
-                let unit = row.values.iter().flatten().map(|i| i.unit).next().unwrap_or("");
-                json!({ "path": row.key, "unit": unit, "values": values(row, input) })
-            })
-            .collect();
-        let margins: Vec<Value> = self
-            .margins
-            .iter()
-            .map(|row| {
-                json!({
-                    "code": row.key,
-                    "required": values(row, |m| json!(m.required)),
-                    "held": values(row, |m| json!(m.held())),
-                    "margins": values(row, |m| json!(m.margin())),
-                    "torque_capacities_nm": values(row, |m| json!(m.torque_capacity_nm)),
-                })
-            })
-            .collect();
-        let figures: Vec<Value> = figures::FIGURES
-            .iter()
-            .map(|f| {
-                let values: Vec<Option<f64>> = self.subjects.iter().map(|s| f.shown(s)).collect();
-                json!({ "key": f.key, "unit": f.unit.symbol(), "values": values })
-            })
-            .collect();
-        let scenes: Vec<Value> = self
-            .scenes
-            .iter()
-            .map(|row| {
-                json!({
-                    "name": row.key,
-                    "required_friction": values(row, |s| json!(tables::required_friction(s))),
-                    "slip_margin": values(row, |s| json!(s.found.slip_margin())),
-                    "contact_margin": values(row, |s| json!(s.found.contact_margin())),
-                })
-            })
-            .collect();
-        json!({ "designs": designs, "inputs": inputs, "figures": figures, "margins": margins, "scenes": scenes })
+        let designs = Rows::of(self.subjects.iter().zip(self.files))
+            .json("name", |(s, _)| s.design.name.as_str())
+            .json("file", |(_, file)| file.as_str())
+            .json("design_hash", |(s, _)| s.design.hash.as_str())
+            .json("pass", |(s, _)| s.held())
+            .json("deciding", |(s, _)| s.deciding().map(|m| m.code()));
+        let inputs = Rows::of(&self.inputs)
+            .json("path", |row| row.key.as_str())
+            .json("unit", |row| unit_of(row))
+            .json("values", |row| values(row, |i| i.number.map_or_else(|| json!(i.text), |n| json!(n))));
+        let figures = Rows::of(&figures::FIGURES)
+            .json("key", |f| f.key)
+            .json("unit", |f| f.unit.symbol())
+            .json("values", |f| self.subjects.iter().map(|s| f.shown(s)).collect::<Vec<_>>());
+        let margins = Rows::of(&self.margins)
+            .json("code", |row| row.key.as_str())
+            .json("required", |row| values(row, |m| m.required))
+            .json("held", |row| values(row, |m| m.held()))
+            .json("margins", |row| values(row, |m| m.margin()))
+            .json("torque_capacities_nm", |row| values(row, |m| m.torque_capacity_nm));
+        let scenes = Rows::of(&self.scenes)
+            .json("name", |row| row.key.as_str())
+            .json("required_friction", |row| values(row, |s| tables::required_friction(s)))
+            .json("slip_margin", |row| values(row, |s| s.found.slip_margin()))
+            .json("contact_margin", |row| values(row, |s| s.found.contact_margin()));
+        json!({
+            "designs": designs.objects(), "inputs": inputs.objects(), "figures": figures.objects(), "margins": margins.objects(),
+            "scenes": scenes.objects(),
+        })
     }
 }
 
-/// One value of each design; null of a design without it.
-fn values<T>(row: &SideBySide<T>, value: impl Fn(&T) -> Value) -> Vec<Value> {
-    row.values.iter().map(|v| v.as_ref().map_or(Value::Null, &value)).collect()
+/// One value of each design; none of a design without it.
+fn values<T, V>(row: &SideBySide<T>, value: impl Fn(&T) -> V) -> Vec<Option<V>> {
+    row.values.iter().map(|v| v.as_ref().map(&value)).collect()
+}
+
+/// Unit of an input; empty for a pure number.
+fn unit_of(row: &SideBySide<Input>) -> &'static str {
+    row.values.iter().flatten().map(|i| i.unit).next().unwrap_or("")
 }
 
 /// Unit behind the key of an input.

@@ -1,35 +1,47 @@
 //! The comparison as tables and text.
 
-use super::figures::FIGURES;
-use super::{Comparison, farthest, letter, proud, with_unit};
+use super::figures::{FIGURES, Figure};
+use super::{Comparison, farthest, letter, proud, unit_of, with_unit};
 use crate::answer::check::{in_place_of_margin, margin_cell};
-use crate::compare::Scene;
+use crate::compare::{Scene, SideBySide};
+use crate::design::Input;
 use crate::margin::{LIFT_OFF_TO_RAD_S, Margin};
-use crate::report::{Cell, Column, Rows, Screen, Table, Unit, significant};
+use crate::report::{Cell, Rows, Screen, Table, Unit, significant};
 
 /// Friction that a scene needs; none where none suffices or it does not run.
 pub(super) fn required_friction(scene: &Scene) -> Option<f64> {
     scene.found.demand.as_ref().ok().filter(|d| d.finished).and_then(|d| d.required_friction)
 }
 
-/// A leading column, one of each design, and where there are two what changes.
-fn columns(
+/// A column of each design, under its letter.
+fn by_design<T>(
+    rows: Rows<T>,
     compared: &Comparison<'_>,
-    heading: &str,
     (unit, digits): (Unit, usize),
-    change: Option<&str>,
-) -> Vec<Column> {
-    let mut columns = vec![Column::text("key", heading)];
-    let count = compared.subjects.len();
-    columns.extend((0..count).map(|i| Column::number(&format!("value_{}", i + 1), &letter(i), unit, digits)));
-    columns.extend(change.filter(|_| count == 2).map(|h| Column::number("change", h, Unit::Percent, 3)));
-    columns
+    cell: impl Fn(&T, usize) -> Cell,
+) -> Rows<T> {
+    let name = |i: &usize| (format!("value_{}", i + 1), letter(*i));
+    rows.each(0..compared.subjects.len(), name, unit, digits, |row, i| cell(row, *i))
+}
+
+/// The same of numbers, and of two designs what changes.
+fn with_change<T>(
+    rows: Rows<T>,
+    compared: &Comparison<'_>,
+    cell: impl Fn(&T, usize) -> Cell,
+    number: impl Fn(&T, usize) -> Option<f64>,
+) -> Table {
+    let rows = by_design(rows, compared, (Unit::One, 5), cell);
+    match compared.subjects.len() {
+        2 => rows
+            .number("change", "Change", Unit::Percent, 3, |row| change(number(row, 0)?, number(row, 1)?))
+            .table(),
+        _ => rows.table(),
+    }
 }
 
 /// Relative change of two numbers.
-fn change(values: &[Option<f64>]) -> Option<Cell> {
-    let [before, after] = values else { return None };
-    let (a, b) = ((*before)?, (*after)?);
+fn change(a: f64, b: f64) -> Option<Cell> {
     Some(if a == b { "=".into() } else { Cell::Si(b / a - 1.0) })
 }
 
@@ -40,143 +52,103 @@ pub(super) fn designs(compared: &Comparison<'_>) -> Table {
         .text("name", "Design", |(_, (s, _))| s.design.name.as_str())
         .text("file", "File", |(_, (_, file))| file.as_str())
         .text("hash", "Hash", |(_, (s, _))| s.design.short_hash())
-        .text("verdict", "Required limits", |(_, (s, _))| {
-            Cell::Verdict(s.held(), if s.held() { "held" } else { "NOT HELD" }.to_owned())
-        })
+        .text("verdict", "Required limits", |(_, (s, _))| Cell::held(s.held()))
         .table()
 }
 
 pub(super) fn inputs(compared: &Comparison<'_>) -> Table {
-    let mut table = Table::new(columns(compared, "Input", (Unit::One, 5), Some("Change")));
-    for row in &compared.inputs {
-        let mut cells: Vec<Cell> = vec![with_unit(row).into()];
-        cells.extend(row.values.iter().map(|v| v.as_ref().map_or(Cell::Empty, |i| i.text.as_str().into())));
-        let numbers: Vec<Option<f64>> =
-            row.values.iter().map(|v| v.as_ref().and_then(|i| i.number)).collect();
-        cells.extend(change(&numbers));
-        table.row(cells);
-    }
-    table
+    let rows = Rows::of(&compared.inputs).text("key", "Input", |row| with_unit(row));
+    let text = |row: &&SideBySide<Input>, i: usize| row.values[i].as_ref().map(|v| v.text.as_str()).into();
+    with_change(rows, compared, text, |row, i| row.values[i].as_ref()?.number)
 }
 
 pub(super) fn figures(compared: &Comparison<'_>) -> Table {
-    let mut table = Table::new(columns(compared, "Figure", (Unit::One, 5), Some("Change")));
-    for figure in &FIGURES {
-        let values: Vec<Option<f64>> = compared.subjects.iter().map(|s| figure.shown(s)).collect();
-        if values.iter().all(Option::is_none) {
-            continue;
-        }
-        let mut cells: Vec<Cell> = vec![figure.unit.heading(figure.name).into()];
-        cells.extend(values.iter().map(|v| Cell::from(*v)));
-        cells.extend(change(&values));
-        table.row(cells);
-    }
-    table
+    let known = |figure: &&Figure| compared.subjects.iter().any(|s| figure.shown(s).is_some());
+    let rows = Rows::of(FIGURES.iter().filter(known)).text("key", "Figure", |f| f.unit.heading(f.name));
+    let of = |figure: &&Figure, i: usize| figure.shown(&compared.subjects[i]);
+    with_change(rows, compared, |figure, i| of(figure, i).into(), of)
 }
 
 /// Margins in percent; those that do not count are named so.
 pub(super) fn margins(compared: &Comparison<'_>) -> Table {
-    let mut table = Table::new(columns(compared, "Limit", (Unit::Percent, 3), None));
+    type Row<'r, 'm> = &'r SideBySide<&'m Margin>;
+    let rows = Rows::of(&compared.margins).text("key", "Limit", |row| row.key.as_str());
+    let mut rows = by_design(rows, compared, (Unit::Percent, 3), |row, i| {
+        row.values[i].map_or(Cell::Empty, margin_cell)
+    });
     if compared.subjects.len() == 2 {
         // A difference of per cents is not per cent of anything.
-        table.columns.push(Column::number("change", "B − A, points", Unit::One, 3));
-    }
-    table.columns.push(Column::text("verdict", "Verdict"));
-    for row in &compared.margins {
-        let mut cells: Vec<Cell> = vec![row.key.as_str().into()];
-        cells.extend(row.values.iter().map(|m| m.map_or(Cell::Empty, margin_cell)));
-        if let [a, b] = row.values.as_slice() {
-            cells.push(match (a, b) {
-                (Some(a), Some(b)) if a.shown_margin() == b.shown_margin() => "=".into(),
-                (Some(a), Some(b)) if [a, b].into_iter().any(|m| in_place_of_margin(m).is_some()) => {
-                    Cell::Empty
-                }
-                (Some(a), Some(b)) => Unit::Percent.from_si(shown(b) - shown(a)).into(),
-                _ => Cell::Empty,
-            });
-        }
-        let counted: Vec<usize> =
-            (0..row.values.len()).filter(|&i| row.values[i].is_some_and(|m| m.required)).collect();
-        let lost: Vec<String> = counted
-            .iter()
-            .filter(|&&i| row.values[i].is_some_and(|m| !m.held()))
-            .map(|&i| letter(i))
-            .collect();
-        cells.push(match (counted.as_slice(), lost.as_slice()) {
-            ([], _) => "shown".into(),
-            (_, []) => Cell::Verdict(true, "held".into()),
-            (_, lost) => Cell::Verdict(false, format!("NOT HELD: {}", lost.join(", "))),
+        rows = rows.number("change", "B − A, points", Unit::One, 3, |row| {
+            let [Some(a), Some(b)] = row.values.as_slice() else { return Cell::Empty };
+            match [a, b].into_iter().any(|m| in_place_of_margin(m).is_some()) {
+                _ if a.shown_margin() == b.shown_margin() => "=".into(),
+                true => Cell::Empty,
+                false => Unit::Percent.from_si(shown(b) - shown(a)).into(),
+            }
         });
-        table.row(cells);
     }
-    table
+    let verdict = |row: &Row<'_, '_>| {
+        let counted =
+            || row.values.iter().enumerate().filter_map(|(i, m)| Some((i, m.filter(|m| m.required)?)));
+        let lost: Vec<String> = counted().filter(|(_, m)| !m.held()).map(|(i, _)| letter(i)).collect();
+        match (counted().next(), lost.as_slice()) {
+            (None, _) => "shown".into(),
+            (_, []) => Cell::held(true),
+            (_, lost) => Cell::Verdict(false, format!("NOT HELD: {}", lost.join(", "))),
+        }
+    };
+    rows.text("verdict", "Verdict", verdict).table()
 }
 
 /// Friction that each scene needs, and its slip margin against the friction of the design.
 pub(super) fn scenes(compared: &Comparison<'_>) -> Table {
-    let count = compared.subjects.len();
-    let mut table = Table::new(vec![Column::text("key", "Scene")]);
-    for i in 0..count {
-        let heading = format!("μ required, {}", letter(i));
-        table.columns.push(Column::number(&format!("required_friction_{}", i + 1), &heading, Unit::One, 4));
-    }
-    for i in 0..count {
-        let heading = format!("Slip margin, {}", letter(i));
-        table.columns.push(Column::number(&format!("slip_margin_{}", i + 1), &heading, Unit::Percent, 3));
-    }
-    for row in &compared.scenes {
-        let mut cells: Vec<Cell> = vec![row.key.as_str().into()];
-        let friction = |s: &Scene| match (required_friction(s), &s.found.demand) {
-            (Some(mu), _) => mu.into(),
-            (None, Ok(d)) if d.finished => "none suffices".into(),
-            (None, _) => "does not run".into(),
-        };
-        cells.extend(row.values.iter().map(|s| s.map_or(Cell::Empty, friction)));
-        cells.extend(row.values.iter().map(|s| s.map_or(Cell::Empty, |s| s.found.slip_margin().into())));
-        table.row(cells);
-    }
-    table
+    let friction = |s: &Scene| match (required_friction(s), &s.found.demand) {
+        (Some(mu), _) => mu.into(),
+        (None, Ok(d)) if d.finished => "none suffices".into(),
+        (None, _) => "does not run".into(),
+    };
+    let under = |key: &'static str, heading: &'static str| {
+        move |i: &usize| (format!("{key}_{}", i + 1), format!("{heading}, {}", letter(*i)))
+    };
+    let designs = || 0..compared.subjects.len();
+    Rows::of(&compared.scenes)
+        .text("key", "Scene", |row| row.key.as_str())
+        .each(designs(), under("required_friction", "μ required"), Unit::One, 4, |row, i| {
+            row.values[*i].map_or(Cell::Empty, friction)
+        })
+        .each(designs(), under("slip_margin", "Slip margin"), Unit::Percent, 3, |row, i| {
+            row.values[*i].and_then(|s| s.found.slip_margin())
+        })
+        .table()
 }
 
 /// Everything, one value a row and design: section, key, unit, values.
 pub(super) fn csv(compared: &Comparison<'_>) -> Table {
-    let mut table = Table::new(vec![
-        Column::text("section", "Section"),
-        Column::text("key", "Key"),
-        Column::text("unit", "Unit"),
-    ]);
-    let count = compared.subjects.len();
-    table
-        .columns
-        .extend((0..count).map(|i| Column::number(&format!("value_{}", i + 1), &letter(i), Unit::One, 5)));
-    let mut row = |section: &str, key: &str, unit: &str, cells: Vec<Cell>| {
-        let mut all: Vec<Cell> = vec![section.into(), key.into(), unit.into()];
-        all.extend(cells);
-        table.row(all);
-    };
+    let mut all: Vec<(&str, &str, &str, Vec<Cell>)> = Vec::new();
     for r in &compared.inputs {
-        let unit = r.values.iter().flatten().map(|i| i.unit).next().unwrap_or("");
-        let cell = |v: &Option<crate::design::Input>| match v {
-            Some(i) => i.number.map_or_else(|| Cell::Text(i.text.clone()), Cell::Si),
-            None => Cell::Empty,
+        let cell = |v: &Option<Input>| {
+            v.as_ref().map(|i| i.number.map_or_else(|| Cell::Text(i.text.clone()), Cell::Si)).into()
         };
-        row("input", &r.key, unit, r.values.iter().map(cell).collect());
+        all.push(("input", &r.key, unit_of(r), r.values.iter().map(cell).collect()));
     }
     for f in &FIGURES {
-        let cells = compared.subjects.iter().map(|s| Cell::from(f.shown(s))).collect();
-        row("figure", f.key, f.unit.symbol(), cells);
+        let cells = compared.subjects.iter().map(|s| f.shown(s).into()).collect();
+        all.push(("figure", f.key, f.unit.symbol(), cells));
     }
     for r in &compared.margins {
-        let cells = r.values.iter().map(|m| Cell::from(m.map(shown))).collect();
-        row("margin", &r.key, "", cells);
+        all.push(("margin", &r.key, "", r.values.iter().map(|m| m.map(shown).into()).collect()));
     }
     for r in &compared.scenes {
-        let friction = r.values.iter().map(|s| Cell::from(s.and_then(required_friction))).collect();
-        row("required_friction", &r.key, "", friction);
-        let slip = r.values.iter().map(|s| Cell::from(s.and_then(|s| s.found.slip_margin()))).collect();
-        row("slip_margin", &r.key, "", slip);
+        let of =
+            |value: fn(&Scene) -> Option<f64>| r.values.iter().map(|s| s.and_then(value).into()).collect();
+        all.push(("required_friction", &r.key, "", of(required_friction)));
+        all.push(("slip_margin", &r.key, "", of(|s| s.found.slip_margin())));
     }
-    table
+    let rows = Rows::of(all)
+        .text("section", "Section", |(section, ..)| *section)
+        .text("key", "Key", |(_, key, ..)| *key)
+        .text("unit", "Unit", |(.., unit, _)| *unit);
+    by_design(rows, compared, (Unit::One, 5), |(.., values), i| values[i].clone()).table()
 }
 
 pub(super) fn text(compared: &Comparison<'_>, screen: Screen) -> String {

@@ -1,89 +1,18 @@
 //! What an identification answers: unknowns with their intervals, residuals, what the data cannot tell apart.
 
-mod page;
+mod plot;
 mod stopped;
 mod tables;
 
 pub use stopped::StoppedIdentification;
 
-use super::left_out::left_out_of;
-use super::{Envelope, Provenance, VERSION, WRITTEN_BY};
+use super::{Finding, Said, VERSION, WRITTEN_BY};
 use crate::design::Design;
 use crate::identify::Identified;
 use crate::report::{Page, Screen, Table};
-use serde::Serialize;
+use plot::deviations;
 use serde_json::{Value, json};
-use tables::{estimates, in_short, residuals, sentences, use_name, verdict};
-
-/// The answer's own keys.
-#[derive(Debug, Serialize)]
-pub struct IdentificationBody {
-    /// Unknowns with bounds, values and intervals.
-    pub unknowns: Vec<Value>,
-    /// Correlation of the unknowns.
-    pub correlation: Option<Vec<Vec<f64>>>,
-    /// Every observation beside what the model says.
-    pub observations: Vec<Value>,
-    /// Standard deviation of a scaled residual.
-    pub residual_sigma: Option<f64>,
-    /// Observations more than unknowns.
-    pub degrees_of_freedom: usize,
-    /// Smallest over largest singular value of the scaled sensitivities.
-    pub singular_ratio: f64,
-    /// Sum of squared scaled residuals of each start.
-    pub sums_of_squares: Vec<f64>,
-    /// Evaluations of all fitted observations.
-    pub evaluations: usize,
-    /// Whether the last step no longer mattered.
-    pub converged: bool,
-    /// Whether the data determine every unknown.
-    pub determined: bool,
-    /// How good it is and what cannot be told apart.
-    pub remarks: Vec<String>,
-    /// Where the new design was written.
-    pub written: Option<String>,
-}
-
-impl IdentificationBody {
-    fn new(found: &Identified, written: Option<&str>) -> Self {
-        let k = &found.knowledge;
-        let unknowns = found.unknowns.iter().zip(&found.before).zip(&k.estimates);
-        Self {
-            unknowns: unknowns
-                .map(|((u, before), e)| {
-                    json!({
-                        "name": u.name, "min": u.min, "max": u.max, "before": before, "value": e.value,
-                        "sigma": e.sigma, "half_width_95": e.half_width, "half_width_95_by_law": e.by_law, "determined": e.doubt.is_none(),
-                    })
-                })
-                .collect(),
-            correlation: k.correlation.clone(),
-            observations: found
-                .points
-                .iter()
-                .map(|p| {
-                    let o = &p.observation;
-                    let predicted = p.predicted.as_ref();
-                    json!({
-                        "line": o.line, "label": o.label, "quantity": o.kind.column(), "torque_nm": o.torque_nm,
-                        "observed": o.value, "predicted": predicted.ok().map(|s| s.value), "relative": p.relative(),
-                        "use": use_name(o.purpose), "decided_by": predicted.ok().and_then(|s| s.decided_by.clone()),
-                        "why_not": predicted.err().map(ToString::to_string),
-                    })
-                })
-                .collect(),
-            residual_sigma: k.residual_sigma,
-            degrees_of_freedom: k.freedom,
-            singular_ratio: k.singular_ratio,
-            sums_of_squares: found.sums.0.clone(),
-            evaluations: found.evaluations,
-            converged: found.converged,
-            determined: k.undetermined().next().is_none(),
-            remarks: sentences(found),
-            written: written.map(str::to_owned),
-        }
-    }
-}
+use tables::{correlation, estimates, in_short, residuals, sentences, verdict};
 
 /// Unknowns found in a design.
 #[derive(Debug, Clone, Copy)]
@@ -92,52 +21,11 @@ pub struct Identification<'a> {
     pub design: &'a Design,
     /// What was found.
     pub found: &'a Identified,
+    /// Where the new design was written, if it was.
+    pub written: Option<&'a str>,
 }
 
-impl<'a> Identification<'a> {
-    /// Whether the data determine every unknown.
-    pub fn determined(&self) -> bool {
-        self.found.knowledge.undetermined().next().is_none()
-    }
-
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s; `written`: where the new design is.
-    pub fn envelope(&self, run_time_s: f64, written: Option<&str>) -> Envelope<'a, IdentificationBody> {
-        Envelope {
-            design: self.design,
-            run_time_s,
-            left_out: left_out_of(self.design),
-            error_estimate: Some(json!({ "residual_sigma": self.found.knowledge.residual_sigma })),
-            body: IdentificationBody::new(self.found, written),
-        }
-    }
-
-    /// Every observation beside what the model says.
-    pub fn csv_table(&self) -> Table {
-        residuals(self.found)
-    }
-
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        let (design, found) = (self.design, self.found);
-        let mut out = format!(
-            "{}  {}\n\n{}\n{}\n",
-            design.name,
-            design.short_hash(),
-            estimates(found).to_text(screen),
-            residuals(found).to_text(screen)
-        );
-        for line in std::iter::once(verdict(found)).chain(sentences(found)) {
-            out.push_str(&line);
-            out.push('\n');
-        }
-        out
-    }
-
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance, written: Option<&str>) -> Page {
-        page::page(self, provenance, written)
-    }
-
+impl Identification<'_> {
     /// The new design file: the old one with its comments, the values found, and who found them.
     pub fn file(&self, command: &str) -> String {
         let found = self.found;
@@ -155,6 +43,62 @@ impl<'a> Identification<'a> {
             })
             .collect();
         head(self.design, command) + &changes + "#\n" + &found.source
+    }
+}
+
+impl Said for Identification<'_> {
+    fn title(&self) -> &str {
+        "Identification"
+    }
+
+    fn design(&self) -> &Design {
+        self.design
+    }
+
+    /// Whether the data determine every unknown.
+    fn outcome(&self) -> Finding {
+        Finding::of(self.found.knowledge.undetermined().next().is_none())
+    }
+
+    fn verdict(&self) -> String {
+        verdict(self.found)
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        sentences(self.found)
+    }
+
+    fn table(&self) -> Table {
+        residuals(self.found).table()
+    }
+
+    fn tables(&self, screen: Screen) -> String {
+        format!("{}\n{}", estimates(self.found).table().to_text(screen), self.table().to_text(screen))
+    }
+
+    fn body(&self) -> Value {
+        let (found, k) = (self.found, &self.found.knowledge);
+        json!({
+            "unknowns": estimates(found).objects(), "correlation": k.correlation, "observations": residuals(found).objects(),
+            "residual_sigma": k.residual_sigma, "degrees_of_freedom": k.freedom, "singular_ratio": k.singular_ratio,
+            "sums_of_squares": found.sums.0, "evaluations": found.evaluations, "converged": found.converged,
+            "determined": self.is_held(), "remarks": self.remarks(), "written": self.written,
+        })
+    }
+
+    fn error_estimate(&self) -> Option<Value> {
+        Some(json!({ "residual_sigma": self.found.knowledge.residual_sigma }))
+    }
+
+    fn draw(&self, page: &mut Page) {
+        let found = self.found;
+        page.heading("Unknowns").table("Each in the unit of its name.", &estimates(found).table());
+        if let Some(table) = correlation(found) {
+            page.table("Correlation of what was found.", &table);
+        }
+        let off = deviations(found);
+        page.heading("Observations").figure(&off, "Model over observation, less one, row by row.");
+        page.table("", &self.table());
     }
 }
 

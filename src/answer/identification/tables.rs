@@ -1,9 +1,9 @@
 //! What an identification says: tables and sentences.
 
-use crate::identify::{Doubt, FittedPoint, INSEPARABLE, Identified, Tied, Use};
-use crate::report::{Cell, Column, Rows, Table, Unit, significant};
+use crate::identify::{Doubt, Estimate, FittedPoint, INSEPARABLE, Identified, Tied, Unknown, Use};
+use crate::report::{Cell, Rows, Table, Unit, significant};
 
-pub(super) fn use_name(purpose: Use) -> &'static str {
+fn use_name(purpose: Use) -> &'static str {
     match purpose {
         Use::Fit => "fit",
         Use::Check => "check",
@@ -11,7 +11,7 @@ pub(super) fn use_name(purpose: Use) -> &'static str {
 }
 
 /// The unknowns as found; each in the unit of its name.
-pub(super) fn estimates(found: &Identified) -> Table {
+pub(super) fn estimates(found: &Identified) -> Rows<(&Unknown, &f64, &Estimate, String)> {
     Rows::of(found.unknowns.iter().zip(&found.before).zip(&found.knowledge.estimates).map(
         |((u, before), e)| {
             let range = u.max - u.min;
@@ -27,7 +27,7 @@ pub(super) fn estimates(found: &Identified) -> Table {
             (u, before, e, note)
         },
     ))
-    .text("unknown", "Unknown", |(u, _, _, _)| u.name.as_str())
+    .text("name", "Unknown", |(u, _, _, _)| u.name.as_str())
     .number("min", "From", Unit::One, 6, |(u, _, _, _)| u.min)
     .number("max", "To", Unit::One, 6, |(u, _, _, _)| u.max)
     .number("before", "Before", Unit::One, 6, |(_, before, _, _)| **before)
@@ -35,42 +35,36 @@ pub(super) fn estimates(found: &Identified) -> Table {
     .number("half_width_95", "± scatter", Unit::One, 3, |(_, _, e, _)| e.half_width)
     .number("half_width_95_by_law", "± law", Unit::One, 3, |(_, _, e, _)| e.by_law)
     .text("note", "Note", |(_, _, _, note)| note.clone())
-    .table()
+    .json("sigma", |(_, _, e, _)| e.sigma)
+    .json("determined", |(_, _, e, _)| e.doubt.is_none())
 }
 
 /// Every observation beside what the model says.
-pub(super) fn residuals(found: &Identified) -> Table {
-    Rows::of(found.points.iter().map(|p| {
-        let o = &p.observation;
-        let (value, note) = match &p.predicted {
-            Ok(prediction) => (Cell::Si(prediction.value), prediction.decided_by.clone().unwrap_or_default()),
-            Err(why) => (Cell::Empty, why.to_string()),
-        };
-        (p, o, value, note)
-    }))
-    .text("label", "Row", |(_, o, _, _)| o.label.as_str())
-    .text("use", "Use", |(_, o, _, _)| use_name(o.purpose))
-    .text("quantity", "Quantity", |(_, o, _, _)| o.kind.column())
-    .number("torque_nm", "At torque", Unit::NewtonMetre, 5, |(_, o, _, _)| o.torque_nm)
-    .number("observed", "Observed", Unit::One, 6, |(_, o, _, _)| o.value)
-    .number("predicted", "Model", Unit::One, 6, |(_, _, value, _)| value.clone())
-    .number("relative_percent", "Off", Unit::Percent, 3, |(p, _, _, _)| p.relative())
-    .text("decided_by", "Decided by", |(_, _, _, note)| note.clone())
-    .table()
+pub(super) fn residuals(found: &Identified) -> Rows<&FittedPoint> {
+    Rows::of(&found.points)
+        .text("label", "Row", |p| p.observation.label.as_str())
+        .text("use", "Use", |p| use_name(p.observation.purpose))
+        .text("quantity", "Quantity", |p| p.observation.kind.column())
+        .number("torque_nm", "At torque", Unit::NewtonMetre, 5, |p| p.observation.torque_nm)
+        .number("observed", "Observed", Unit::One, 6, |p| p.observation.value)
+        .number("predicted", "Model", Unit::One, 6, |p| p.predicted.as_ref().ok().map(|s| s.value))
+        .number("relative", "Off", Unit::One, 3, |p| p.relative())
+        .shown_in(Unit::Percent)
+        .text("decided_by", "Decided by", |p| match &p.predicted {
+            Ok(prediction) => prediction.decided_by.clone().map_or(Cell::told("", Cell::Empty), Cell::from),
+            Err(why) => Cell::told(&why.to_string(), Cell::Empty),
+        })
+        .hidden("why_not", Unit::One, |p| p.predicted.as_ref().err().map(ToString::to_string))
+        .json("line", |p| p.observation.line)
 }
 
 /// Correlation of the unknowns.
 pub(super) fn correlation(found: &Identified) -> Option<Table> {
     let matrix = found.knowledge.correlation.as_ref()?;
-    let mut columns = vec![Column::text("unknown", "")];
-    columns.extend(found.unknowns.iter().map(|u| Column::number(&u.name, &u.name, Unit::One, 4)));
-    let mut table = Table::new(columns);
-    for (u, row) in found.unknowns.iter().zip(matrix) {
-        let mut cells = vec![u.name.as_str().into()];
-        cells.extend(row.iter().map(|c| Cell::Si(*c)));
-        table.row(cells);
-    }
-    Some(table)
+    let each = found.unknowns.iter().enumerate();
+    let rows = Rows::of(found.unknowns.iter().zip(matrix)).text("unknown", "", |(u, _)| u.name.as_str());
+    let name = |(_, u): &(usize, &Unknown)| (u.name.clone(), u.name.clone());
+    Some(rows.each(each, name, Unit::One, 4, |(_, row), (j, _)| row.get(*j).copied()).table())
 }
 
 /// How far an unknown is not determined, in a few words.

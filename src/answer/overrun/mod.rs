@@ -4,8 +4,10 @@ mod page;
 mod tables;
 mod words;
 
+pub use tables::OverrunPart;
+
 use super::left_out::{LeftOut, left_out_of};
-use super::{Envelope, Provenance};
+use super::{Finding, Said};
 use crate::clutch::{Clutch, Lubrication};
 use crate::design::{Design, rad_s};
 use crate::life::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
@@ -13,7 +15,7 @@ use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, NoMargins, OverrunPoint, lift_off_rad_s, load_state, overrun_at,
 };
 use crate::numeric::setting::{BadSetting, all_in_range};
-use crate::report::{Screen, Unit};
+use crate::report::{Page, Rows, Screen, Table, Tone, Unit};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -225,80 +227,73 @@ impl OilAt {
     }
 }
 
-impl<'a> OverrunAnswer<'a> {
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
-        let um = |m: f64| 1e6 * m;
-        let lines = self.lines.iter().map(|l| {
-            let film = l.point.lubricated.as_ref();
-            let heat = film.map(|f| f.heat);
-            json!({
-                "oil_c": l.oil_c, "speed_rpm": Unit::Rpm.from_si(l.speed_rad_s),
-                "normal_inner_n": l.point.state.normal_inner_n, "lifted_off": l.point.state.normal_inner_n <= 0.0,
-                "film_um": film.map(|f| um(f.film.film.thickness_m)), "lambda": film.map(|f| f.film.lambda),
-                "regime": film.map(|f| f.film.film.regime.name()), "moes_load": film.map(|f| f.film.film.load),
-                "moes_lubricant": film.map(|f| f.film.film.lubricant), "asperity_share": film.map(|f| f.film.asperities),
-                "nahme": film.map(|f| f.film.shear.nahme), "friction": l.point.friction, "friction_dry": l.dry.friction,
-                "drag_torque_nm": l.point.state.drag_torque_nm, "drag_torque_dry_nm": l.dry.state.drag_torque_nm,
-                "heat_w": heat.map(|h| h.heat_w), "film_c": film.map(|f| f.film_c),
-                "contact_c": heat.map(|h| h.temperatures.contact), "inner_race_c": heat.map(|h| h.temperatures.inner_race),
-                "sprags_c": heat.map(|h| h.temperatures.sprags), "outer_race_c": heat.map(|h| h.temperatures.outer_race),
-                "heat_balance_error": heat.map(|h| h.balance_error()),
-                "growth_rate_per_s": l.point.swing.map(|s| s.growth_rate_per_s),
-                "growth_by_friction_per_s": l.point.swing_by_friction.map(|s| s.growth_rate_per_s),
-                "growth_dry_per_s": l.dry.swing.map(|s| s.growth_rate_per_s),
-                "swing_frequency_hz": l.point.swing.map(|s| s.frequency_hz),
-                "sprag_wear_first_hour_um": l.wear.map(|w| um(w.sprag_m)), "race_wear_um_per_hour": l.wear.map(|w| um(w.race_m)),
-            })
-        });
-        let slip = self.slip.map(|s| {
-            json!({
-                "torque_nm": s.case.torque_nm, "speed_m_s": s.case.speed_m_s, "path_mm": 1e3 * s.case.path_m, "normal_n": s.normal_n,
-                "friction": s.friction, "flash_k": s.flash_k, "peclet": s.peclet,
-                "sprag_wear_um": um(s.sprag_m), "race_wear_um": um(s.race_m),
-            })
-        });
-        let oil = self.lubrication.oil;
-        let body = json!({
-            "oil": oil.name, "race": self.question.race.name(), "composite_roughness_um": um(self.lubrication.roughness_m()),
+impl Said for OverrunAnswer<'_> {
+    fn title(&self) -> &str {
+        "Overrun on a film of oil"
+    }
+
+    fn design(&self) -> &Design {
+        self.design
+    }
+
+    fn outcome(&self) -> Finding {
+        Finding::Shown
+    }
+
+    fn verdict(&self) -> String {
+        let first = self.warnings().into_iter().next();
+        first.unwrap_or_else(|| "steady overrun stays; asperities hardly touch".to_owned())
+    }
+
+    fn banner(&self) -> (Tone, String) {
+        let verdict = self.verdict();
+        (if verdict.starts_with("Warning") { Tone::Bad } else { Tone::Plain }, verdict)
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let about = self.about();
+        about.into_iter().chain(self.warnings().into_iter().skip(1)).collect()
+    }
+
+    fn table(&self) -> Table {
+        self.all().table()
+    }
+
+    fn tables(&self, screen: Screen) -> String {
+        [OverrunPart::Film, OverrunPart::Heat, OverrunPart::Swing]
+            .map(|part| self.part(part).to_text(screen))
+            .join("\n")
+    }
+
+    fn body(&self) -> Value {
+        let slip = Rows::of(self.slip)
+            .json("torque_nm", |s| s.case.torque_nm)
+            .json("speed_m_s", |s| s.case.speed_m_s)
+            .json_in("path_mm", Unit::Millimetre, |s| s.case.path_m)
+            .json("normal_n", |s| s.normal_n)
+            .json("friction", |s| s.friction)
+            .json("flash_k", |s| s.flash_k)
+            .json("peclet", |s| s.peclet)
+            .json_in("sprag_wear_um", Unit::Micrometre, |s| s.sprag_m)
+            .json_in("race_wear_um", Unit::Micrometre, |s| s.race_m);
+        json!({
+            "verdict": self.verdict(), "oil": self.lubrication.oil.name, "race": self.question.race.name(),
+            "composite_roughness_um": Unit::Micrometre.from_si(self.lubrication.roughness_m()),
             "lift_off_rpm": self.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)),
-            "lines": lines.collect::<Vec<_>>(), "slip": slip, "warnings": self.warnings(),
-        });
-        let balance =
-            self.lines.iter().filter_map(|l| Some(l.point.lubricated.as_ref()?.heat.balance_error()));
-        let error = json!({ "heat_balance": balance.fold(0.0, f64::max) });
-        Envelope {
-            design: self.design,
-            run_time_s,
-            left_out: self.left_out(),
-            error_estimate: Some(error),
-            body,
-        }
+            "lines": self.all().objects(), "slip": slip.object(), "warnings": self.warnings(),
+        })
     }
 
-    /// What overrun leaves out beside what statics do.
+    fn error_estimate(&self) -> Option<Value> {
+        let films = self.lines.iter().filter_map(|l| l.point.lubricated.as_ref());
+        Some(json!({ "heat_balance": films.map(|film| film.heat.balance_error()).fold(0.0, f64::max) }))
+    }
+
     fn left_out(&self) -> Vec<LeftOut> {
-        let mut all = words::left_out();
-        all.extend(left_out_of(self.design));
-        all
+        words::left_out().into_iter().chain(left_out_of(self.design)).collect()
     }
 
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        let design = self.design;
-        format!(
-            "{}  {}\n\n{}\n{}\n{}\n{}\n",
-            design.name,
-            design.short_hash(),
-            self.remarks().join("\n"),
-            self.films().to_text(screen),
-            self.heat().to_text(screen),
-            self.swing_and_wear().to_text(screen),
-        ) + &self.warnings().iter().map(|w| format!("{w}\n")).collect::<String>()
-    }
-
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance) -> crate::report::Page {
-        page::page(self, provenance)
+    fn draw(&self, page: &mut Page) {
+        page::draw(self, page);
     }
 }

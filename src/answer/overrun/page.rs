@@ -1,10 +1,10 @@
 //! The page of an overrun.
 
-use super::super::page::{half, opened};
+use super::super::page::half;
+use super::tables::OverrunPart;
 use super::{OilAt, OverrunAnswer, OverrunLine, RunningRace};
-use crate::answer::Provenance;
 use crate::report::plot::{Curve, Dash};
-use crate::report::{Page, Plot, Tone, Unit, significant};
+use crate::report::{Page, Plot, Unit, significant};
 
 /// Speeds of a curve.
 const POINTS: usize = 24;
@@ -12,17 +12,7 @@ const POINTS: usize = 24;
 /// What a plot shows of a line.
 type Shown = fn(&OverrunLine) -> Option<f64>;
 
-pub(super) fn page(answer: &OverrunAnswer<'_>, provenance: &Provenance) -> Page {
-    let warnings = answer.warnings();
-    let tone = if warnings.iter().any(|w| w.starts_with("Warning")) { Tone::Bad } else { Tone::Plain };
-    let first = warnings
-        .first()
-        .cloned()
-        .unwrap_or_else(|| "steady overrun stays; asperities hardly touch".to_owned());
-    let mut page = opened("Overrun on a film of oil", answer.design, &provenance.command, |page| {
-        page.verdict_in(tone, &first);
-    });
-    page.list(answer.remarks().into_iter().chain(warnings.into_iter().skip(1)));
+pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
     let sets = curves(answer);
     let speed = format!("Speed of the {} race, rpm", answer.question.race.name());
     let plot = |title: &str, shown: Shown| {
@@ -53,18 +43,16 @@ pub(super) fn page(answer: &OverrunAnswer<'_>, provenance: &Provenance) -> Page 
     ]);
     page.heading("Film and drag").table(
         "Regimes: I or V, the oil keeps its viscosity or thickens under pressure; R or E, the bodies stay round or flatten.",
-        &answer.films(),
+        &answer.part(OverrunPart::Film),
     );
     page.heading("Heat").table(
         "Means of the bodies; the film is taken to be as warm as the mean of the two that rub.",
-        &answer.heat(),
+        &answer.part(OverrunPart::Heat),
     );
     page.heading("Swing and wear").table(
         "Growth of a small swing of the sprags: above 0 the overrun does not stay. Wear of a sprag grows with the power 2/3 of time.",
-        &answer.swing_and_wear(),
+        &answer.part(OverrunPart::Swing),
     );
-    answer.envelope(provenance.run_time_s).close(&mut page);
-    page
 }
 
 fn points(lines: &[OverrunLine], shown: Shown) -> Vec<[f64; 2]> {

@@ -37,7 +37,7 @@ const THIN: f64 = 0.01;
 
 impl OverrunAnswer<'_> {
     /// Oil, surfaces, lift-off, slip.
-    pub(super) fn remarks(&self) -> Vec<String> {
+    pub(super) fn about(&self) -> Vec<String> {
         let l = self.lubrication;
         let mut all = Vec::new();
         for &c in &self.question.temperatures_c {

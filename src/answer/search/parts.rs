@@ -5,7 +5,7 @@ use super::words::{Hints, gain, optima_line, price_sentence, shown};
 use super::{Story, steps};
 use crate::design::Objective;
 use crate::optimise::{Branch, ClimbRecord, Front, Realised, Robust, Search, Status};
-use crate::report::{Cell, Column, Plot, Rows, Table, Unit, significant};
+use crate::report::{Cell, Plot, Rows, Table, Unit, significant};
 
 fn start_table(starts: &[ClimbRecord]) -> Table {
     Rows::of(starts)
@@ -50,23 +50,16 @@ fn spread_table(made: &Robust) -> Table {
 }
 
 fn front_table(front: &Front) -> Table {
-    let mut columns: Vec<Column> = front
-        .aims
-        .iter()
-        .map(|a| {
-            let unit = if a.unit().is_empty() { String::new() } else { format!(", {}", a.unit()) };
-            Column::number(a.name(), &format!("{}{unit}", a.words()), Unit::One, 5)
-        })
-        .collect();
-    columns.extend(front.variables.iter().map(|v| Column::number(v, v, Unit::One, 5)));
-    columns.push(Column::text("end", "End of the front"));
-    let mut table = Table::new(columns);
-    for p in &front.points {
-        let mut row: Vec<Cell> = p.values.iter().chain(&p.x).map(|v| (*v).into()).collect();
-        row.push(p.anchor.map_or("", Objective::words).into());
-        table.row(row);
-    }
-    table
+    let aim = |(_, a): &(usize, &Objective)| {
+        let unit = if a.unit().is_empty() { String::new() } else { format!(", {}", a.unit()) };
+        (a.name().to_owned(), format!("{}{unit}", a.words()))
+    };
+    let variable = |(_, v): &(usize, &String)| (String::clone(v), String::clone(v));
+    Rows::of(&front.points)
+        .each(front.aims.iter().enumerate(), aim, Unit::One, 5, |p, (i, _)| p.values.get(*i).copied())
+        .each(front.variables.iter().enumerate(), variable, Unit::One, 5, |p, (i, _)| p.x.get(*i).copied())
+        .text("end", "End of the front", |p| p.anchor.map_or("", Objective::words))
+        .table()
 }
 
 /// One part of an answer: heading, sentences, tables with captions, plots with captions.

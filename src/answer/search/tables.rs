@@ -4,7 +4,7 @@ use super::Story;
 use crate::answer::check::{allowable_cell, demand_cell, margin_cell, unit_cell};
 use crate::margin::Margin;
 use crate::optimise::NO_INFLUENCE;
-use crate::report::{Cell, Column, Rows, Table, Unit};
+use crate::report::{Cell, Rows, Table, Unit};
 
 /// What stands behind the rows of the objective.
 const OF_OBJECTIVE: &str = " (objective)";
@@ -93,24 +93,17 @@ impl Story {
 
     /// Change of each margin over the whole range of each variable, at the start.
     pub fn influence_table(&self) -> Table {
-        let mut columns = vec![Column::text("margin", "Margin")];
-        for v in &self.found.continuous {
-            columns.push(Column::number(v, v, Unit::One, 3));
-        }
-        let mut table = Table::new(columns);
-        let names = &self.found.names;
-        let rows = names
-            .objectives
-            .iter()
-            .map(|n| format!("{n}{OF_OBJECTIVE}"))
-            .zip(&self.found.influence.objectives);
-        let limits = names.limits.iter().cloned().zip(&self.found.influence.limits);
-        for (name, slopes) in rows.chain(limits) {
-            let mut row: Vec<Cell> = vec![name.into()];
-            // Below the threshold for "no influence" a slope is rounding, shown as none.
-            row.extend(slopes.iter().map(|&s| if s.abs() < NO_INFLUENCE { 0.0 } else { s }.into()));
-            table.row(row);
-        }
-        table
+        let (names, slopes) = (&self.found.names, &self.found.influence);
+        let objectives = names.objectives.iter().map(|n| format!("{n}{OF_OBJECTIVE}"));
+        let rows = objectives.zip(&slopes.objectives).chain(names.limits.iter().cloned().zip(&slopes.limits));
+        let name = |(_, v): &(usize, &String)| (String::clone(v), String::clone(v));
+        // Below the threshold for "no influence" a slope is rounding, shown as none.
+        let felt = |slope: f64| if slope.abs() < NO_INFLUENCE { 0.0 } else { slope };
+        Rows::of(rows)
+            .text("margin", "Margin", |(name, _)| name.clone())
+            .each(self.found.continuous.iter().enumerate(), name, Unit::One, 3, |(_, slopes), (j, _)| {
+                slopes.get(*j).copied().map(felt)
+            })
+            .table()
     }
 }

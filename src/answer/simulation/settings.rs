@@ -4,11 +4,9 @@ use crate::clutch::Scenario;
 use crate::dynamics::History;
 use crate::follow::Follow;
 use crate::report::plain;
-use crate::scenario::Settings;
+use crate::scenario::{Settings, TOLERANCES};
 use std::fmt;
 
-/// Tolerances that make sense: below, rounding rules; above, events are missed.
-const TOLERANCES: [f64; 2] = [1e-13, 1e-3];
 /// Shortest step that makes sense, s: below, rounding of the time rules.
 const SHORTEST_STEP_S: f64 = 1e-9;
 

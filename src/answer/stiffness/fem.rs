@@ -1,7 +1,7 @@
 //! Finite-element results beside the laws.
 
 use super::{LawCurve, StiffnessStudy};
-use crate::report::{Cell, Column, Table, Unit};
+use crate::report::{Rows, Table, Unit};
 use crate::wedge::WedgeCurve;
 use serde::Serialize;
 
@@ -131,26 +131,23 @@ pub(super) fn distance(law: &LawCurve, row: &FemRow) -> Distance {
 
 /// Distances of every law at every row.
 pub(super) fn table(study: &StiffnessStudy, fem: &Fem) -> Table {
-    let mut columns = vec![
-        Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
-        Column::number("fem_windup_deg", "FE windup", Unit::Degree, 4),
-    ];
-    for law in study.laws() {
+    type Of = fn(&Distance) -> Option<f64>;
+    let each = study.laws().iter().flat_map(|law| {
         let key = law.name.facts().key;
-        columns.push(Column::number(&format!("{key}_windup"), &format!("{key}: windup"), Unit::Percent, 3));
-        columns.push(Column::number(&format!("{key}_local"), "local only", Unit::Percent, 3));
-        columns.push(Column::number(&format!("{key}_normal"), "N", Unit::Percent, 2));
-    }
-    let mut table = Table::new(columns);
-    for row in &fem.rows {
-        let mut cells: Vec<Cell> = vec![row.torque_nm.into(), row.windup_rad.into()];
-        for law in study.laws() {
-            let d = distance(law, row);
-            cells.extend([d.windup, d.windup_local_only, d.normal].map(Cell::from));
-        }
-        table.row(cells);
-    }
-    table
+        let columns: [(&str, String, usize, Of); 3] = [
+            ("windup", format!("{key}: windup"), 3, |d| d.windup),
+            ("local", "local only".to_owned(), 3, |d| d.windup_local_only),
+            ("normal", "N".to_owned(), 2, |d| d.normal),
+        ];
+        columns.map(|(of, heading, digits, value)| (law, format!("{key}_{of}"), heading, digits, value))
+    });
+    let rows = Rows::of(&fem.rows)
+        .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |row| row.torque_nm)
+        .number("fem_windup_deg", "FE windup", Unit::Degree, 4, |row| row.windup_rad);
+    let rows = each.fold(rows, |rows, (law, key, heading, digits, value)| {
+        rows.number(&key, &heading, Unit::Percent, digits, |row| value(&distance(law, row)))
+    });
+    rows.table()
 }
 
 /// Largest magnitude of a distance over the rows of a law.

@@ -3,7 +3,7 @@
 use super::LawCurve;
 use crate::answer::page::half;
 use crate::contact::ContactError;
-use crate::report::{Column, Plot, Table, Unit};
+use crate::report::{Plot, Rows, Table, Unit};
 use crate::wedge::{Along, Edge, Lengthwise, Peak, Side, along};
 use serde::Serialize;
 
@@ -105,66 +105,45 @@ impl PressureMap {
 
     /// Middle, largest value, where and of what kind.
     pub(super) fn table(&self) -> Table {
-        let mut table = Table::new(vec![
-            Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
-            Column::text("contact", "Contact"),
-            Column::number("middle_mpa", "Middle", Unit::Megapascal, 4),
-            Column::number("largest_mpa", "Largest", Unit::Megapascal, 4),
-            Column::number("at_mm", "at", Unit::Millimetre, 3),
-            Column::text("kind", "What it is"),
-        ]);
-        for row in &self.rows {
-            for (name, found) in [("A", &row.inner), ("B", &row.outer)] {
-                let middle = found.pressure_pa.get(found.pressure_pa.len() / 2).copied().unwrap_or(0.0);
-                let (value, y, kind) = peak(found);
-                let width = Unit::Millimetre.show(slice_width(found), 3);
-                let words = match kind {
-                    SINGULAR => format!("singular at the end, value at slices of {width}"),
-                    FLUSH => format!("flush ends, bounded but not known: value at slices of {width}"),
-                    other => other.to_owned(),
-                };
-                table.row(vec![
-                    row.torque_nm.into(),
-                    name.into(),
-                    middle.into(),
-                    value.into(),
-                    y.into(),
-                    words.as_str().into(),
-                ]);
+        let words = |found: &Along| {
+            let width = Unit::Millimetre.show(slice_width(found), 3);
+            match peak(found).2 {
+                SINGULAR => format!("singular at the end, value at slices of {width}"),
+                FLUSH => format!("flush ends, bounded but not known: value at slices of {width}"),
+                other => other.to_owned(),
             }
-        }
-        table
+        };
+        Rows::of(self.rows.iter().flat_map(|r| [(r, "A", &r.inner), (r, "B", &r.outer)]))
+            .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |(r, ..)| r.torque_nm)
+            .text("contact", "Contact", |(_, name, _)| *name)
+            .number("middle_mpa", "Middle", Unit::Megapascal, 4, |(.., found)| {
+                found.pressure_pa.get(found.pressure_pa.len() / 2).copied().unwrap_or(0.0)
+            })
+            .number("largest_mpa", "Largest", Unit::Megapascal, 4, |(.., found)| peak(found).0)
+            .number("at_mm", "at", Unit::Millimetre, 3, |(.., found)| peak(found).1)
+            .text("kind", "What it is", |(.., found)| words(found))
+            .table()
     }
 
     pub(super) fn body(&self) -> PressureBody {
-        let contact = |of: &dyn Fn(&PressureRow) -> &Along| ContactBody {
-            y_mm: self
-                .rows
-                .first()
-                .map_or_else(Vec::new, |r| of(r).y_m.iter().map(|y| Unit::Millimetre.from_si(*y)).collect()),
-            pressure_mpa: self
-                .rows
-                .iter()
-                .map(|r| of(r).pressure_pa.iter().map(|p| Unit::Megapascal.from_si(*p)).collect())
-                .collect(),
-            peak: self
-                .rows
-                .iter()
-                .map(|r| {
-                    let (pa, y, kind) = peak(of(r));
-                    PeakBody {
-                        mpa: Unit::Megapascal.from_si(pa),
-                        y_mm: Unit::Millimetre.from_si(y),
-                        kind,
-                        slice_width_mm: Unit::Millimetre.from_si(slice_width(of(r))),
-                    }
-                })
-                .collect(),
+        let mm = |m: f64| Unit::Millimetre.from_si(m);
+        let mpa = |pa: f64| Unit::Megapascal.from_si(pa);
+        let largest = |found: &Along| {
+            let (pa, y_m, kind) = peak(found);
+            PeakBody { mpa: mpa(pa), y_mm: mm(y_m), kind, slice_width_mm: mm(slice_width(found)) }
+        };
+        let contact = |of: fn(&PressureRow) -> &Along| {
+            let all = || self.rows.iter().map(of);
+            ContactBody {
+                y_mm: all().take(1).flat_map(|found| &found.y_m).map(|y| mm(*y)).collect(),
+                pressure_mpa: all().map(|f| f.pressure_pa.iter().map(|pa| mpa(*pa)).collect()).collect(),
+                peak: all().map(largest).collect(),
+            }
         };
         PressureBody {
             torques_nm: self.rows.iter().map(|r| r.torque_nm).collect(),
-            inner: contact(&|r| &r.inner),
-            outer: contact(&|r| &r.outer),
+            inner: contact(|r| &r.inner),
+            outer: contact(|r| &r.outer),
         }
     }
 }

@@ -2,148 +2,145 @@
 
 use super::{LawCurve, StiffnessStudy, fem, junctions};
 use crate::answer::roll_over::sentence;
-use crate::report::{Cell, Column, Screen, Table, Unit, significant};
-use crate::wedge::{RollOver, StaticPoint};
+use crate::report::{Rows, Screen, Table, Unit, significant};
+use crate::wedge::{OverPoint, StaticPoint};
 
-/// The columns of a row, without the law's name.
-fn columns() -> Vec<Column> {
-    vec![
-        Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4),
-        Column::number("normal_inner_n", "N A", Unit::Newton, 5),
-        Column::number("normal_outer_n", "N B", Unit::Newton, 5),
-        Column::number("tan_omega", "tan ω", Unit::One, 4),
-        Column::number("tan_nu", "tan ν", Unit::One, 4),
-        Column::number("alpha_rad", "α", Unit::Radian, 4),
-        Column::number("windup_deg", "Windup", Unit::Degree, 5),
-        Column::number("k_secant_nm_per_rad", "K sec", Unit::NewtonMetrePerRadian, 5),
-        Column::number("k_tangent_nm_per_rad", "K tan", Unit::NewtonMetrePerRadian, 5),
-        Column::number("arc", "Arc", Unit::One, 1),
-        Column::number("hertz_inner_mpa", "p₀ A", Unit::Megapascal, 4),
-        Column::number("hertz_outer_mpa", "p₀ B", Unit::Megapascal, 4),
-    ]
+/// A line of a curve.
+enum Line<'a> {
+    /// A torque asked for, N m, and its state where it is carried.
+    Asked(f64, Option<&'a StaticPoint>),
+    /// A place on the way over the sprags' highest place.
+    Over(&'a OverPoint),
 }
 
-fn cells(torque_nm: f64, point: Option<&StaticPoint>) -> Vec<Cell> {
-    let Some(p) = point else { return vec![torque_nm.into()] };
-    vec![
-        torque_nm.into(),
-        p.normal_inner_n.into(),
-        p.normal_outer_n.into(),
-        p.tan_omega.into(),
-        p.tan_nu.into(),
-        p.alpha_rad.into(),
-        p.windup_rad.into(),
-        p.k_secant_nm_per_rad.into(),
-        p.k_tangent_nm_per_rad.into(),
-        (p.arc + 1).into(),
-        p.hertz_inner_pa.into(),
-        p.hertz_outer_pa.into(),
-    ]
+impl Line<'_> {
+    fn torque_nm(&self) -> f64 {
+        match self {
+            Self::Asked(torque_nm, _) => *torque_nm,
+            Self::Over(p) => p.torque_nm,
+        }
+    }
+
+    fn of(&self, point: impl Fn(&StaticPoint) -> f64) -> Option<f64> {
+        match self {
+            Self::Asked(_, p) => p.map(point),
+            Self::Over(_) => None,
+        }
+    }
+
+    /// The same of what the way over has too.
+    fn of_both(&self, point: impl Fn(&StaticPoint) -> f64, over: impl Fn(&OverPoint) -> f64) -> Option<f64> {
+        match self {
+            Self::Asked(..) => self.of(point),
+            Self::Over(p) => Some(over(p)),
+        }
+    }
+
+    fn state(&self) -> &'static str {
+        match self {
+            Self::Asked(_, Some(_)) => "carried",
+            Self::Asked(_, None) => "beyond the end",
+            Self::Over(_) => "rolls over",
+        }
+    }
+}
+
+/// The torques asked for, each with the key of its law.
+fn asked(law: &LawCurve) -> impl Iterator<Item = (&'static str, Line<'_>)> {
+    law.rows.iter().map(|(torque, p)| (law.name.facts().key, Line::Asked(*torque, p.as_ref())))
+}
+
+fn lines<'a>(all: impl IntoIterator<Item = (&'static str, Line<'a>)>) -> Table {
+    Rows::of(all)
+        .text("contact", "Contact law", |(key, _)| *key)
+        .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |(_, l)| l.torque_nm())
+        .number("normal_inner_n", "N A", Unit::Newton, 5, |(_, l)| {
+            l.of_both(|p| p.normal_inner_n, |p| p.normal_inner_n)
+        })
+        .number("normal_outer_n", "N B", Unit::Newton, 5, |(_, l)| l.of(|p| p.normal_outer_n))
+        .number("tan_omega", "tan ω", Unit::One, 4, |(_, l)| l.of_both(|p| p.tan_omega, |p| p.tan_omega))
+        .number("tan_nu", "tan ν", Unit::One, 4, |(_, l)| l.of(|p| p.tan_nu))
+        .number("alpha_rad", "α", Unit::Radian, 4, |(_, l)| l.of_both(|p| p.alpha_rad, |p| p.alpha_rad))
+        .number("windup_deg", "Windup", Unit::Degree, 5, |(_, l)| {
+            l.of_both(|p| p.windup_rad, |p| p.windup_rad)
+        })
+        .number("k_secant_nm_per_rad", "K sec", Unit::NewtonMetrePerRadian, 5, |(_, l)| {
+            l.of(|p| p.k_secant_nm_per_rad)
+        })
+        .number("k_tangent_nm_per_rad", "K tan", Unit::NewtonMetrePerRadian, 5, |(_, l)| {
+            l.of(|p| p.k_tangent_nm_per_rad)
+        })
+        .number("arc", "Arc", Unit::One, 1, |(_, l)| match l {
+            Line::Asked(_, p) => p.map(|p| p.arc + 1),
+            Line::Over(_) => None,
+        })
+        .number("hertz_inner_mpa", "p₀ A", Unit::Megapascal, 4, |(_, l)| l.of(|p| p.hertz_inner_pa))
+        .number("hertz_outer_mpa", "p₀ B", Unit::Megapascal, 4, |(_, l)| l.of(|p| p.hertz_outer_pa))
+        .text("state", "State", |(_, l)| l.state())
+        .table()
 }
 
 /// One law in full. A torque beyond the curve's end is a row that says so.
 pub(super) fn full(law: &LawCurve) -> Table {
-    let mut table = Table::new(columns());
     let beyond = law.rows.iter().any(|(_, p)| p.is_none());
-    if beyond {
-        table.columns.push(Column::text("state", "State"));
-    }
-    for (torque, point) in &law.rows {
-        let mut row = cells(*torque, point.as_ref());
-        if beyond {
-            row.resize(columns().len(), Cell::Empty);
-            row.push(state(point.as_ref()).into());
-        }
-        table.row(row);
+    let mut table = lines(asked(law));
+    for column in &mut table.columns {
+        column.for_people = column.key != "contact" && (beyond || column.key != "state");
     }
     table
 }
 
-fn state(point: Option<&StaticPoint>) -> &'static str {
-    if point.is_some() { "carried" } else { "beyond the end" }
+/// The torques of the table, each with its place in the rows of the laws.
+fn torques(laws: &[LawCurve]) -> Rows<(usize, f64)> {
+    let all = laws.first().map_or(&[][..], |law| &law.rows);
+    Rows::of(all.iter().map(|row| row.0).enumerate()).number(
+        "torque_nm",
+        "Torque",
+        Unit::NewtonMetre,
+        4,
+        |(_, torque)| *torque,
+    )
 }
 
-/// Points of every law at each torque of the table.
-fn side_by_side(laws: &[LawCurve]) -> impl Iterator<Item = (f64, Vec<Option<&StaticPoint>>)> {
-    let torques = laws.first().map(|l| l.rows.iter().map(|r| r.0)).into_iter().flatten();
-    torques
-        .enumerate()
-        .map(|(i, torque)| (torque, laws.iter().map(|l| l.rows.get(i).and_then(|r| r.1.as_ref())).collect()))
+/// Key of a law, and heading.
+fn named(law: &&LawCurve) -> (String, String) {
+    let key = law.name.facts().key;
+    (key.to_owned(), key.to_owned())
 }
 
-fn one_column_each(laws: &[LawCurve], unit: Unit) -> Vec<Column> {
-    let torque = Column::number("torque_nm", "Torque", Unit::NewtonMetre, 4);
-    let each = laws.iter().map(|l| Column::number(l.name.facts().key, l.name.facts().key, unit, 5));
-    std::iter::once(torque).chain(each).collect()
+fn at<'a>(law: &'a LawCurve, (i, _): &(usize, f64)) -> Option<&'a StaticPoint> {
+    law.rows.get(*i)?.1.as_ref()
 }
 
 /// Windup of the laws side by side, and its difference to that of the first.
 pub(super) fn windups(laws: &[LawCurve]) -> Table {
-    let mut columns = one_column_each(laws, Unit::Degree);
-    columns.extend(laws.iter().skip(1).map(|l| {
-        let key = l.name.facts().key;
-        Column::number(&format!("{key}_difference"), &format!("{key} diff."), Unit::Percent, 3)
-    }));
-    let mut table = Table::new(columns);
-    for (torque, points) in side_by_side(laws) {
-        let windup = |p: &Option<&StaticPoint>| p.map(|p| p.windup_rad);
-        let reference = points.first().and_then(windup);
-        let mut row: Vec<Cell> = vec![torque.into()];
-        row.extend(points.iter().map(|p| Cell::from(windup(p))));
-        row.extend(
-            points.iter().skip(1).map(|p| Cell::from(windup(p).zip(reference).map(|(w, r)| w / r - 1.0))),
-        );
-        table.row(row);
-    }
-    table
+    let windup = |law: &LawCurve, row: &(usize, f64)| Some(at(law, row)?.windup_rad);
+    let difference = |law: &&LawCurve| {
+        let key = law.name.facts().key;
+        (format!("{key}_difference"), format!("{key} diff."))
+    };
+    torques(laws)
+        .each(laws, named, Unit::Degree, 5, |row, law| windup(law, row))
+        .each(laws.iter().skip(1), difference, Unit::Percent, 3, |row, law| {
+            Some(windup(law, row)? / windup(laws.first()?, row)? - 1.0)
+        })
+        .table()
 }
 
 /// Tangent stiffness of the laws side by side.
 pub(super) fn tangents(laws: &[LawCurve]) -> Table {
-    let mut table = Table::new(one_column_each(laws, Unit::NewtonMetrePerRadian));
-    for (torque, points) in side_by_side(laws) {
-        let mut row: Vec<Cell> = vec![torque.into()];
-        row.extend(points.iter().map(|p| Cell::from(p.map(|p| p.k_tangent_nm_per_rad))));
-        table.row(row);
-    }
-    table
+    torques(laws)
+        .each(laws, named, Unit::NewtonMetrePerRadian, 5, |row, law| Some(at(law, row)?.k_tangent_nm_per_rad))
+        .table()
 }
 
-/// Every row of every law.
+/// Every row of every law. Who asks for a torque that is not carried gets what becomes of the sprags.
 pub fn csv_table(laws: &[LawCurve]) -> Table {
-    let mut all = vec![Column::text("contact", "Contact law")];
-    all.extend(columns());
-    all.push(Column::text("state", "State"));
-    let mut table = Table::new(all);
-    for law in laws {
-        for (torque, point) in &law.rows {
-            let mut row: Vec<Cell> = vec![law.name.facts().key.into()];
-            row.extend(cells(*torque, point.as_ref()));
-            row.resize(columns().len() + 1, Cell::Empty);
-            row.push(state(point.as_ref()).into());
-            table.row(row);
-        }
-        // Who asks for a torque that is not carried gets what becomes of the sprags.
-        let asked = law.rows.iter().any(|(_, p)| p.is_none());
-        for cells in law.beyond.iter().filter(|_| asked).flat_map(way_over) {
-            let mut row: Vec<Cell> = vec![law.name.facts().key.into()];
-            row.extend(cells);
-            row.push("rolls over".into());
-            table.row(row);
-        }
-    }
-    table
-}
-
-/// The way over the sprags' highest place, as rows of [`columns`].
-fn way_over(way: &RollOver) -> impl Iterator<Item = Vec<Cell>> + '_ {
-    way.branch.iter().map(|p| {
-        let mut row: Vec<Cell> =
-            vec![p.torque_nm.into(), p.normal_inner_n.into(), Cell::Empty, p.tan_omega.into()];
-        row.extend([Cell::Empty, p.alpha_rad.into(), p.windup_rad.into()]);
-        row.resize(columns().len(), Cell::Empty);
-        row
-    })
+    lines(laws.iter().flat_map(|law| {
+        let over = law.beyond.iter().filter(|_| law.rows.iter().any(|(_, p)| p.is_none()));
+        let over = over.flat_map(|way| &way.branch).map(|p| (law.name.facts().key, Line::Over(p)));
+        asked(law).chain(over)
+    }))
 }
 
 /// The answer for a terminal.

@@ -1,7 +1,7 @@
 //! The map of a sweep as text, JSON and page.
 
 use super::head::{Holds, SweepHead};
-use super::map::{MapPair, SweepMap};
+use super::map::{MapPair, MapVariable, SweepMap};
 use crate::answer::{Provenance, TOOL, VERSION};
 use crate::design::variable_unit;
 use crate::report::heat::{KINDS, SHADES};
@@ -49,15 +49,21 @@ impl SweepMap {
 
     /// Each variable: its range, and that of the points that are held.
     pub fn variables_table(&self) -> Table {
+        self.variable_rows().table()
+    }
+
+    fn variable_rows(&self) -> Rows<(usize, &MapVariable)> {
         let digits = 5;
+        let range = |[low, high]: [f64; 2]| json!({ "from": low, "to": high });
         Rows::of(self.variables.iter().enumerate())
-            .text("variable", "Variable", |(_, v)| v.name.as_str())
+            .text("name", "Variable", |(_, v)| v.name.as_str())
             .number("from", "From", Unit::One, digits, |(_, v)| v.range[0])
             .number("to", "To", Unit::One, digits, |(_, v)| v.range[1])
             .number("held_from", "Held from", Unit::One, digits, |(_, v)| v.held.map(|held| held[0]))
             .number("held_to", "Held to", Unit::One, digits, |(_, v)| v.held.map(|held| held[1]))
             .number("best", "Best point", Unit::One, digits, |(i, _)| Some(*self.best.as_ref()?.x.get(*i)?))
-            .table()
+            .json("range", move |(_, v)| range(v.range))
+            .json("held", move |(_, v)| v.held.map(range))
     }
 
     /// What decides, most often first: places in [`SweepMap::deciding`].
@@ -69,14 +75,16 @@ impl SweepMap {
 
     /// Which limit decides at how many points.
     pub fn deciding_table(&self) -> Table {
+        self.deciding_rows().table()
+    }
+
+    fn deciding_rows(&self) -> Rows<&(String, u64)> {
         let all: u64 = self.deciding.iter().map(|(_, n)| n).sum();
         Rows::of(self.ranked().into_iter().map(|i| &self.deciding[i]))
-            .text("limit", "Limit that decides", |(code, _)| code.as_str())
+            .text("code", "Limit that decides", |(code, _)| code.as_str())
             .number("points", "Points", Unit::One, 9, |(_, points)| *points)
-            .number("share_percent", "Share", Unit::Percent, 3, |(_, points)| {
-                *points as f64 / all.max(1) as f64
-            })
-            .table()
+            .number("share", "Share", Unit::One, 3, |(_, points)| *points as f64 / all.max(1) as f64)
+            .shown_in(Unit::Percent)
     }
 
     /// What the tables do not say.
@@ -115,25 +123,15 @@ impl SweepMap {
 
     /// The answer as one JSON object.
     pub fn object(&self) -> Value {
-        let range = |[low, high]: [f64; 2]| json!({ "from": low, "to": high });
-        let variables = self
-            .variables
-            .iter()
-            .map(|v| json!({ "name": v.name, "range": range(v.range), "held": v.held.map(range) }));
         let best = self.best.as_ref().map(
             |b| json!({ "index": b.index, "x": b.x, "value": b.value, "least": b.least, "held": b.held }),
         );
-        let deciding: Vec<Value> = self
-            .ranked()
-            .into_iter()
-            .map(|i| json!({ "code": self.deciding[i].0, "points": self.deciding[i].1 }))
-            .collect();
         json!({
             "tool": TOOL, "version": VERSION,
             "design": self.head.as_ref().map(|h| &h.design), "design_hash": self.head.as_ref().map(|h| &h.design_hash),
             "sampling": self.head.as_ref().map(|h| &h.points), "by": self.by,
             "verdict": self.verdict(), "points": self.points, "without_clutch": self.void, "held": self.held,
-            "variables": variables.collect::<Vec<_>>(), "deciding": deciding, "best": best,
+            "variables": self.variable_rows().objects(), "deciding": self.deciding_rows().objects(), "best": best,
         })
     }
 

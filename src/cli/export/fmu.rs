@@ -1,6 +1,6 @@
 //! A design as a unit for co-simulation: where its library is, where the unit goes.
 
-use super::{ExportArgs, FmiName};
+use super::ExportArgs;
 use crate::cli::Context;
 use crate::cli::context::timed;
 use crate::cli::exit::{Exit, Failure};
@@ -33,11 +33,9 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
     }
     let named = library_path(args.library.as_deref());
     let library = library(&named)?;
-    let fmi = match args.fmi.unwrap_or(FmiName::Two) {
-        FmiName::Two => Fmi::Two,
-        FmiName::Three => Fmi::Three,
-    };
-    let (unit, run_time_s) = timed(|| design.co_simulation_unit(fmi, &library, &|path| std::fs::read(path)));
+    let (unit, run_time_s) = timed(|| {
+        design.co_simulation_unit(args.fmi.unwrap_or(Fmi::Two), &library, &|path| std::fs::read(path))
+    });
     let unit = unit.map_err(|why| match why {
         NoUnit::NoStart(NoElement::NoStart(NoScenario::Profile(e))) => {
             Failure::no_clutch(&args.file, &NoMargins::Profile(e))

@@ -1,14 +1,13 @@
 //! A design as a drawing, a solid or a table of its arcs.
 
-use super::{ExportArgs, Format, PartName, TableName};
+use super::{ExportArgs, Format, TableName};
 use crate::answer::exported::{Exported, arcs_table, points_table};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::{Context, output};
 use crate::design::Design;
 use crate::export::rows::{arcs, points};
-use crate::export::{DrawnClutch, Part, dxf::dxf, step::step, svg::svg};
+use crate::export::{DrawnClutch, NoPart, Part, dxf::dxf, step::step, svg::svg};
 use crate::margin::NoMargins;
-use crate::profile::{Outline, Profile};
 use std::time::Instant;
 
 /// Smallest deviation of points, mm: a hundredth of what a length standard resolves, and file sizes stay bounded.
@@ -32,27 +31,20 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         return Err(Failure::malformed("--json needs -o: the file cannot go to standard output as well"));
     }
     let started = Instant::now();
-    let made = design.as_made().map_err(|refused| Failure::Malformed(miette::Report::new(refused)))?;
-    let profile = made.profile().map_err(|e| Failure::no_clutch(&args.file, &NoMargins::Profile(e)))?;
-    let part = part(args.part.unwrap_or(PartName::Sprag));
-    let outline = match made.sprags.flanks {
-        Some(flanks) => Some(
-            Outline::closed(&profile, &flanks)
-                .map_err(|e| Failure::no_clutch(&args.file, &NoMargins::Outline(e)))?,
-        ),
-        None => None,
-    };
+    let part = args.part.unwrap_or(Part::Sprag);
     let listed = args.format == Format::Csv && args.table != Some(TableName::Points) && part == Part::Sprag;
-    if outline.is_none() && part.has_sprag() && !listed {
-        return Err(open(args, &profile));
-    }
-    let subject = DrawnClutch {
-        name: &design.name,
-        hash: &design.hash,
-        clutch: &made,
-        profile: &profile,
-        outline: outline.as_ref(),
-    };
+    let made = design.made_clutch();
+    let made = made.and_then(|made| if listed { Ok(made) } else { made.closed(part).map(|()| made) });
+    let made = made.map_err(|why| match why {
+        NoPart::Refused(refused) => refused.into(),
+        NoPart::Profile(e) => Failure::no_clutch(&args.file, &NoMargins::Profile(e)),
+        NoPart::Outline(e) => Failure::no_clutch(&args.file, &NoMargins::Outline(e)),
+        NoPart::Open { .. } => Failure::NoClutch(format!(
+            "{}: {why}. Without flanks there are --part inner, --part outer and --format csv --table arcs",
+            args.file.display()
+        )),
+    })?;
+    let subject = made.drawn(design);
     let text = match args.format {
         Format::Dxf => dxf(part, &subject),
         Format::Svg => svg(part, &subject),
@@ -71,7 +63,7 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         design,
         subject: &subject,
         part,
-        format: args.format.name(),
+        format: &args.format.name(),
         is_solid: args.format == Format::Step,
         bytes: text.len(),
     };
@@ -90,38 +82,6 @@ pub(super) fn run(design: &Design, args: &ExportArgs, context: &Context) -> Resu
         ));
     }
     Ok(Exit::Held)
-}
-
-fn part(name: PartName) -> Part {
-    match name {
-        PartName::Sprag => Part::Sprag,
-        PartName::Inner => Part::Inner,
-        PartName::Outer => Part::Outer,
-        PartName::Clutch => Part::Clutch,
-    }
-}
-
-/// The refusal of a sprag that no flanks close.
-fn open(args: &ExportArgs, profile: &Profile) -> Failure {
-    let file = args.file.display();
-    let narrowest = match Outline::narrowest_flanks(profile) {
-        Ok((rear, front)) => {
-            let up = |m: f64| (m * 1e6).ceil() / 1e3;
-            format!(
-                ", for example flanks = {{ rear_mm = {}, front_mm = {} }}, the narrowest",
-                up(rear),
-                up(front)
-            )
-        }
-        Err(_) => String::new(),
-    };
-    Failure::NoClutch(format!(
-        "{file}: the outline of the sprag is open: found neither sprags.flanks nor a sprags.width_mm above 0, and --format {} \
-         needs a closed outline; give [sprags] flanks{narrowest}; or let optimize find them with \
-         flank_rear_mm and flank_front_mm among its variables. Without flanks there are --part inner, --part outer and \
-         --format csv --table arcs",
-        args.format.name()
-    ))
 }
 
 fn csv(part: Part, subject: &DrawnClutch, args: &ExportArgs, deviation_mm: f64) -> Result<String, Failure> {

@@ -4,7 +4,7 @@ use crate::answer::finite_elements::FiniteElements;
 use crate::cli::Context;
 use crate::cli::exit::{Exit, Failure};
 use crate::design::{Design, MOST_RESULT, read_text};
-use crate::export::calculix::{Facts, ResultRow, at_torque, read};
+use crate::export::calculix::read;
 use std::path::Path;
 use std::time::Instant;
 
@@ -17,33 +17,17 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
     let dat_text = text(dat, "the result to be read")?;
     let deck_text = text(&deck, "the deck of that result, looked for beside it")?;
     let started = Instant::now();
-    let facts = Facts::parse(&deck_text).map_err(|key| {
-        Failure::malformed(format!("{}: no deck of this tool, or its head lacks {key}", deck.display()))
-    })?;
-    if facts.hash != design.hash {
-        return Err(Failure::malformed(format!(
-            "{}: the deck was made from another design file (hash {}, this one {})",
-            deck.display(),
-            facts.hash,
-            design.hash
-        )));
-    }
+    let facts = design.deck_facts(&deck_text).map_err(|why| Failure::of(&deck, why))?;
     let reading = read(&facts, &dat_text).map_err(|e| Failure::of(dat, e))?;
-    let whole = reading.is_whole();
-    let (turned, all) = (reading.turned, reading.rows);
-    if !whole {
+    let (rows, all) = (reading.at(torques), &reading.rows);
+    if !reading.is_whole() {
         context.message(&format!(
             "the last increments are missing: the result goes up to {:.4} Nm, {:.0} % of the turn that its deck asks for; ccx \
              stopped (its output says why; a coarser mesh or more increments may help) or still runs",
             all.last().map_or(0.0, |r| r.torque_nm),
-            100.0 * turned
+            100.0 * reading.turned
         ));
     }
-    let rows: Vec<ResultRow> = if torques.is_empty() {
-        all.clone()
-    } else {
-        torques.iter().filter_map(|t| at_torque(&all, *t)).collect()
-    };
     for torque in torques.iter().filter(|t| !rows.iter().any(|r| r.torque_nm == **t)) {
         let (low, high) = (all.first().map_or(0.0, |r| r.torque_nm), all.last().map_or(0.0, |r| r.torque_nm));
         context.message(&format!("{torque} Nm lies outside the result, {low:.4} to {high:.4} Nm"));
@@ -51,7 +35,6 @@ pub(super) fn run(design: &Design, dat: &Path, torques: &[f64], context: &Contex
     if rows.is_empty() {
         return Err(Failure::malformed("the result holds none of the torques asked for"));
     }
-    let answer = FiniteElements::of(design, &facts, &rows, turned);
-    context.deliver(&answer, started.elapsed().as_secs_f64())?;
-    Ok(Exit::Held)
+    let answer = FiniteElements::of(design, &facts, &rows, reading.turned);
+    context.deliver(&answer, started.elapsed().as_secs_f64())
 }

@@ -22,9 +22,8 @@ impl<const N: usize> Going<'_, N> {
     pub(super) fn hold(&mut self) {
         for (g, motion) in self.rhs.motions.iter().enumerate().filter(|(_, m)| !m.waits) {
             let own = state_of(&self.y, g);
-            let model = &self.groups[g].model;
-            let p = model.point(motion.mode.place, own[0]);
-            let [da, dp, ..] = model.rates(&motion.mode, &p, &own);
+            let sight = self.rhs.stands(g, motion.mode.place, self.t_s, &self.y, &own);
+            let [da, dp, ..] = self.rhs.goes(g, &motion.mode, &sight, &self.y, &own);
             let at = HEAD + EACH * g;
             (self.y[at + 2], self.y[at + 3]) = (da, dp);
         }
@@ -90,8 +89,9 @@ impl<const N: usize> Going<'_, N> {
     fn turn_round(&mut self, known: &mut [[Known; 2]], jumps: &[bool]) {
         for (g, motion) in self.rhs.motions.iter().enumerate().filter(|(g, m)| jumps[*g] && !m.waits) {
             let (model, own) = (&self.groups[g].model, state_of(&self.y, g));
-            let q = model.point(motion.mode.place, own[0]);
-            let (v_a, v_b) = model.slip_velocities(&q, &model.rates(&motion.mode, &q, &own));
+            let q = self.rhs.stands(g, motion.mode.place, self.t_s, &self.y, &own);
+            let rates = self.rhs.goes(g, &motion.mode, &q, &self.y, &own);
+            let (v_a, v_b) = model.slip_velocities(&q.point, &rates);
             for (known, v) in known[g].iter_mut().zip([v_a, v_b]) {
                 if matches!(known, Known::Slips(_)) {
                     *known = moving(v);
@@ -147,10 +147,14 @@ impl<const N: usize> Going<'_, N> {
         let model = &self.groups[g].model;
         let at = HEAD + EACH * g;
         self.y[at] = model.curve.first_contact_rad();
+        if self.rhs.axes.is_some() {
+            // It has been turned along with the outer race.
+            self.y[at + 1] = self.y[1];
+        }
         let mode = Mode { place: Place::Arc(0), inner: Grip::Stick, outer: Grip::Stick };
         self.rhs.motions[g] = SpragMotion::touching(mode);
         self.hold();
-        self.appeared_j += self.rhs.energy_of_j(g, &self.y);
+        self.appeared_j += self.rhs.energy_of_j(g, self.t_s, &self.y);
     }
 
     /// The consistent modes of all; `entered`: which begin anew even in the mode that they had `before`. False: the run has ended.
@@ -221,9 +225,9 @@ impl<const N: usize> Going<'_, N> {
         for g in (0..falls.len()).filter(|&g| falls[g].contains(&true)) {
             let own = state_of(&self.y, g);
             let mode = self.rhs.motions[g].mode;
-            let p = self.groups[g].model.point(mode.place, own[0]);
-            let model = &self.groups[g].model;
-            let (v_a, v_b) = model.slip_velocities(&p, &model.rates(&mode, &p, &own));
+            let sight = self.rhs.stands(g, mode.place, self.t_s, &self.y, &own);
+            let rates = self.rhs.goes(g, &mode, &sight, &self.y, &own);
+            let (v_a, v_b) = self.groups[g].model.slip_velocities(&sight.point, &rates);
             let with = |grip: Grip, v: f64| match grip {
                 Grip::Slip(s) if s * v < 0.0 => Grip::Slip(-s),
                 _ => grip,
@@ -241,11 +245,12 @@ impl<const N: usize> Going<'_, N> {
         let model = &self.groups[g].model;
         let own = state_of(&self.y, g);
         let mode = self.rhs.motions[g].mode;
-        let p = model.point(mode.place, own[0]);
+        let sight = self.rhs.stands(g, mode.place, self.t_s, &self.y, &own);
+        let p = sight.point;
         let closed = |mode: &Mode| matches!(mode.place, Place::Arc(_));
         let both = mode.inner == Grip::Stick && mode.outer == Grip::Stick;
         self.rhs.motions[g].phase = (both && closed(&mode)).then(|| own[2] - own[3] + p.windup);
-        let [da, dp, ..] = model.rates(&mode, &p, &own);
+        let [da, dp, ..] = self.rhs.goes(g, &mode, &sight, &self.y, &own);
         let at = HEAD + EACH * g;
         (self.y[at + 2], self.y[at + 3]) = (da, dp);
         let course = &mut self.out.courses[g];

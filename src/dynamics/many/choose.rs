@@ -11,9 +11,10 @@
 //! less. None of the sprags comes first, so sprags alike in the same state choose the same.
 
 use super::rhs::Rhs;
+use super::state_of;
 use crate::dynamics::choose::{Known, choose_by};
 use crate::dynamics::model::{Grip, Mode};
-use nalgebra::Vector2;
+use nalgebra::Vector4;
 
 /// Steps of Newton's method, halvings included: two or three are needed.
 const MOST: u32 = 60;
@@ -37,9 +38,11 @@ impl Rhs<'_> {
             motion.mode.inner = released(known[0], motion.mode.inner);
             motion.mode.outer = released(known[1], motion.mode.outer);
         }
-        let races = &self.groups[0].model;
-        let inertia = Vector2::new(races.inner_inertia_kg_m2, races.outer_inertia_kg_m2);
-        let size = |miss: &Vector2<f64>| miss[0] * miss[0] / inertia[0] + miss[1] * miss[1] / inertia[1];
+        let inertia = self.inertia();
+        let size = |miss: &Vector4<f64>| {
+            let part = |i: usize| miss[i] * miss[i] / inertia[i];
+            part(0) + part(1) + part(2) + part(3)
+        };
         let mut x = self.look::<true>(t, y);
         let mut choice = self.choose_under(t, y, known, &x);
         let mut left = size(&choice.miss);
@@ -76,10 +79,8 @@ impl Rhs<'_> {
     }
 
     /// Each group's own mode while the races go at `x`, rad/s^2.
-    fn choose_under(&self, t: f64, y: &[f64], known: &[BothKnown], x: &Vector2<f64>) -> Chosen {
-        let races = &self.groups[0].model;
-        let mut miss = Vector2::new(races.inner_inertia_kg_m2 * x[0], races.outer_inertia_kg_m2 * x[1])
-            - self.torques_nm(t, y);
+    fn choose_under(&self, t: f64, y: &[f64], known: &[BothKnown], x: &Vector4<f64>) -> Chosen {
+        let mut miss = self.inertia().component_mul(x) - self.outside(&self.torques_nm(t, y), y);
         let mut consistent = true;
         let mut modes = Vec::with_capacity(self.groups.len());
         for (g, (group, motion)) in self.groups.iter().zip(&self.motions).enumerate() {
@@ -88,13 +89,13 @@ impl Rhs<'_> {
                 continue;
             }
             let model = &group.model;
-            let p = model.point(motion.mode.place, y[super::HEAD + super::EACH * g]);
+            let sight = self.stands(g, motion.mode.place, t, y, &state_of(y, g));
             let [inner, outer] = known[g];
-            let found =
-                choose_by(model, &p, motion.mode.place, inner, outer, |mode| self.between(g, mode, t, y, x));
-            let [arm_i, arm_e] = super::rhs::arms(model, &p);
+            let found = choose_by(model, &sight.point, motion.mode.place, inner, outer, |mode| {
+                self.between(g, mode, t, y, x)
+            });
             let forces = found.forces.unwrap_or(crate::dynamics::model::Forces::NONE);
-            miss -= Vector2::new(arm_i * forces.t_bi, arm_e * forces.t_be);
+            miss -= self.acts(g, &sight, &forces);
             consistent = consistent && found.consistent;
             // What a contact does means nothing without one.
             modes.push(found.mode);
@@ -113,6 +114,6 @@ fn released(known: Known, grip: Grip) -> Grip {
 /// Modes under accelerations of the races, and what these then miss, N m.
 struct Chosen {
     modes: Vec<Mode>,
-    miss: Vector2<f64>,
+    miss: Vector4<f64>,
     consistent: bool,
 }

@@ -54,6 +54,10 @@ pub struct ManySample {
     pub tan: Vec<[f64; 2]>,
     /// What each does.
     pub motions: Vec<SpragMotion>,
+    /// Axis of the inner race against that of the outer, in the frame of the mean speed: towards sprag 0's even place and a quarter turn ahead, m.
+    pub axis_m: [f64; 2],
+    /// What the bearings of the axes hold, N; 0 where these meet and are held.
+    pub bearing_n: f64,
 }
 
 /// A finished run.
@@ -69,6 +73,12 @@ pub struct ManyRun {
     pub races: [f64; 4],
     /// alpha, phi of each group there, rad.
     pub sprags: Vec<[f64; 2]>,
+    /// Largest force that the bearings of the axes hold, N, where they do not meet or give way; a held axis is held by that.
+    pub bearing_max_n: f64,
+    /// When, s.
+    pub bearing_max_s: f64,
+    /// How far the axes lie apart at most, at the ends of steps, m.
+    pub axis_max_m: f64,
     /// By group.
     pub courses: Vec<SpragCourse>,
     /// Equidistant.

@@ -25,7 +25,7 @@ impl<const N: usize> Going<'_, N> {
         if motion.waits {
             return None;
         }
-        let p = model.point(motion.mode.place, state_of(&self.y, g)[0]);
+        let p = self.rhs.stands(g, motion.mode.place, self.t_s, &self.y, &state_of(&self.y, g)).point;
         let (n, i) = (model.count, model.inertia_kg_m2);
         let orbit = model.mass_kg * p.oc_g * p.oc_g;
         let inner = motion.mode.inner == Grip::Stick && motion.mode.place != Place::Open;
@@ -79,13 +79,14 @@ impl<const N: usize> Going<'_, N> {
         let model = &self.groups[g].model;
         let mode = self.rhs.motions[g].mode;
         let own = state_of(&self.y, g);
-        let (p, q) = (model.point(mode.place, own[0]), model.point(place, own[0]));
+        let [p, q] = [mode.place, place].map(|at| self.rhs.stands(g, at, self.t_s, &self.y, &own));
+        let rates = self.rhs.goes(g, &mode, &p, &self.y, &own);
         let touching = mode.place == Place::Open;
         let held = Mode { place, inner: if touching { Grip::Slip(1.0) } else { mode.inner }, ..mode };
         let races = self.races_with_all_but(those);
         let times = those.len() as f64;
-        let after = cross_between(model, times, &held, &p, &q, model.rates(&mode, &p, &own), &races);
-        let pushed = self.push([after[2] - own[6], after[3] - own[7]], those);
+        let after = cross_between(model, times, &held, &p.point, &q.point, rates, &races);
+        let pushed = self.push([after[2] - rates[2], after[3] - rates[3]], those);
         for &g in those {
             let at = HEAD + EACH * g;
             (self.y[at + 2], self.y[at + 3]) = (after[0], after[1]);

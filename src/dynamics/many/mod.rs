@@ -19,8 +19,13 @@
 //! Where several come to events at one time, or one of them makes another's contact give way, the modes of all are chosen together
 //! (`choose`); across a junction all momenta but alpha's and the kinetic energy are kept (`jump`), with what turns along.
 //!
-//! State: theta_bi, theta_be, their rates, five works, then of each group alpha, phi, their rates and the slips at A and B.
+//! Where the axes of the races do not meet, or give way on bearings, each sprag stands in its own gap (`axes`); the system has the two
+//! rates of the axis beside those of the races.
+//!
+//! State: theta_bi, theta_be, their rates, five works, then of each group alpha, phi, their rates and the slips at A and B; last the shift of
+//! the axis and its rate, where there are bearings.
 
+mod axes;
 mod change;
 mod choose;
 mod found;
@@ -31,9 +36,10 @@ mod run;
 mod start;
 mod watch;
 
+pub use axes::{Axes, AxisBearing, OffCentre, StaysWith};
 pub use found::{FirstSlip, ManyRun, ManySample, SpragCourse};
 pub use run::run_many;
-pub use start::settled_together;
+pub use start::{settled_off_centre, settled_together};
 
 use super::model::{Mode, Model};
 use super::{N_STATE, State};
@@ -55,6 +61,8 @@ pub struct SpragGroup {
     pub model: Model,
     /// Windup of the races from which on they touch, rad; `None`: they touch at the start.
     pub lag_rad: Option<f64>,
+    /// Where they stand between axes that do not meet; `None`: these meet, or it is not asked.
+    pub off_centre: Option<OffCentre>,
 }
 
 /// Where a group is.
@@ -77,6 +85,8 @@ pub struct ManyStart {
     pub sprags: Vec<[f64; 4]>,
     /// What each does.
     pub motions: Vec<SpragMotion>,
+    /// Shift of the axis on its bearings, m.
+    pub shift_m: [f64; 2],
 }
 
 /// The state of group `g` in the order of the one-sprag model.

@@ -1,5 +1,6 @@
 //! The right-hand side of all sprags: forces of each, accelerations of the races under their sum.
 
+use super::axes::{AXIS, Axes, SeenAxes, Sight, rotated};
 use super::{EACH, FIRST_WORK, HEAD, PROBES, SpragGroup, SpragMotion, state_of};
 use crate::dynamics::choose::EXCESS;
 use crate::dynamics::events::{INNER, OUTER, Probe, probe_of, without_forces};
@@ -7,7 +8,7 @@ use crate::dynamics::model::{Forces, Grip, Loose, Mode, Model, Place};
 use crate::dynamics::{N_STATE, State};
 use crate::ode::rhs::RightHandSide;
 use crate::wedge::WedgePoint;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 
 /// A contact is released where it asks for this much more than its limit, as a part of that. A choice takes a stick that asks for up
 /// to [`EXCESS`] more, so what it has chosen does not fall at once; and a slip begins with an acceleration that rounding cannot turn
@@ -20,6 +21,7 @@ pub(super) struct Seen {
     pub(super) point: WedgePoint,
     pub(super) rates: [f64; 4],
     pub(super) forces: Forces,
+    pub(super) axes: Option<SeenAxes>,
 }
 
 /// One group while the races' accelerations are sought.
@@ -32,6 +34,7 @@ pub(super) struct GroupRhs {
     still: Vector2<f64>,
     yields: Matrix2<f64>,
     let_go: bool,
+    axes: Option<SeenAxes>,
 }
 
 impl GroupRhs {
@@ -41,14 +44,21 @@ impl GroupRhs {
         mode: &Mode,
         t: f64,
         own: &State,
-        p: &WedgePoint,
+        sight: &Sight,
         rates: &[f64; 4],
     ) -> Self {
-        let of = model.loose::<RADIAL, N_STATE>(mode, t, own, p, rates);
-        let (a, b) = model.grips(mode, p, rates, &of, [0.0; 2], [0.0; 2]);
+        let (p, axes) = (&sight.point, sight.axes);
+        let mut of = model.loose::<RADIAL, N_STATE>(mode, t, own, p, rates);
+        if let Some(seen) = &axes {
+            of = model.turned_along(of, p, seen.along);
+        }
+        let (mut a, mut b) = model.grips(mode, p, rates, &of, [0.0; 2], [0.0; 2]);
+        if let Some(seen) = &axes {
+            seen.roll(mode, p, rates, [own[6], own[7]], &of, (&mut a, &mut b));
+        }
         let holds = [mode.inner == Grip::Stick && mode.place != Place::Open, mode.outer == Grip::Stick];
         let (still, yields) = (Vector2::zeros(), Matrix2::zeros());
-        let mut part = Self { of, a, b, holds, still, yields, let_go: false };
+        let mut part = Self { of, a, b, holds, still, yields, let_go: false, axes };
         part.solve();
         part
     }
@@ -73,8 +83,8 @@ impl GroupRhs {
     }
 
     /// Forces where the races go at `x`, rad/s^2; whether B has let go of what it is not held by.
-    fn under(&mut self, x: &Vector2<f64>) -> (Forces, bool) {
-        let t = self.still - self.yields * x;
+    fn under(&mut self, x: &Vector4<f64>) -> (Forces, bool) {
+        let t = self.still - self.yields * self.races(x);
         let n_be = if self.let_go { 0.0 } else { self.of.outer_n(t[0], t[1]) };
         let lets_go = n_be < 0.0 && !self.holds[1];
         if lets_go {
@@ -85,15 +95,28 @@ impl GroupRhs {
     }
 }
 
+impl GroupRhs {
+    /// What `x` of the races and the axis is to the two contacts, rad/s^2.
+    fn races(&self, x: &Vector4<f64>) -> Vector2<f64> {
+        match &self.axes {
+            None => Vector2::new(x[0], x[1]),
+            Some(seen) => Vector2::new(seen.races[0].dot(x), seen.races[1].dot(x)),
+        }
+    }
+}
+
 /// The right-hand side while every group is in one mode, with what it sees on its way.
 pub(super) struct Rhs<'a> {
     pub(super) groups: &'a [SpragGroup],
+    pub(super) axes: Option<&'a Axes>,
     pub(super) motions: Vec<SpragMotion>,
     /// theta_be - theta_bi from which the windup counts that a waiting group waits for, rad.
     pub(super) reference_rad: f64,
     parts: Vec<Option<GroupRhs>>,
     pub(super) seen: Vec<Option<Seen>>,
     pub(super) probes: [Vec<Probe>; PROBES],
+    /// What the bearings hold at each probe, N.
+    pub(super) bearing_probes_n: [f64; PROBES],
 }
 
 /// What a newton of T_bi and of T_be on each sprag of `model` does to the races, N m.
@@ -102,16 +125,63 @@ pub(super) fn arms(model: &Model, p: &WedgePoint) -> [f64; 2] {
 }
 
 impl<'a> Rhs<'a> {
-    pub(super) fn new(groups: &'a [SpragGroup], motions: Vec<SpragMotion>, reference_rad: f64) -> Self {
+    pub(super) fn new(
+        groups: &'a [SpragGroup],
+        axes: Option<&'a Axes>,
+        motions: Vec<SpragMotion>,
+        reference_rad: f64,
+    ) -> Self {
         let n = groups.len();
         Self {
             groups,
+            axes,
             motions,
             reference_rad,
             parts: (0..n).map(|_| None).collect(),
             seen: vec![None; n],
             probes: std::array::from_fn(|_| vec![Probe::NOTHING; n]),
+            bearing_probes_n: [0.0; PROBES],
         }
+    }
+
+    /// Where group `g` stands in its place, `own` its state in y.
+    pub(super) fn stands(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
+        self.groups[g].sight(self.axes, self.groups.len(), place, t, y, own)
+    }
+
+    /// Rates of group `g` with its rolling constraints put in exactly.
+    pub(super) fn goes(&self, g: usize, mode: &Mode, sight: &Sight, y: &[f64], own: &State) -> [f64; 4] {
+        self.groups[g].rates(self.axes, self.groups.len(), mode, sight, y, own)
+    }
+
+    /// The axes, where they may move.
+    pub(super) fn moved(&self) -> Option<(&'a Axes, usize)> {
+        let axes = self.axes?;
+        axes.bearing.map(|_| (axes, HEAD + EACH * self.groups.len()))
+    }
+
+    /// Push of all sprags on the axis of the inner race after [`Self::look`], N.
+    pub(super) fn push_n(&self) -> [f64; 2] {
+        let mut push = [0.0; 2];
+        for (seen, group) in self.seen.iter().zip(self.groups) {
+            let Some((seen, axes)) = seen.as_ref().and_then(|s| Some((s, s.axes?))) else { continue };
+            let [inner, outer] = arms(&group.model, &seen.point);
+            for (i, push) in push.iter_mut().enumerate() {
+                *push += inner * seen.forces.t_bi * axes.races[0][2 + i]
+                    + outer * seen.forces.t_be * axes.races[1][2 + i];
+            }
+        }
+        push
+    }
+
+    /// What the bearings hold after [`Self::look`] at y, N.
+    pub(super) fn bearing_n(&self, y: &[f64]) -> f64 {
+        let Some(axes) = self.axes else { return 0.0 };
+        let [x, y] = match axes.bearing {
+            None => self.push_n(),
+            Some(b) => axes.shift(y, self.groups.len())[0].map(|s| b.stiffness_n_per_m * s),
+        };
+        x.hypot(y)
     }
 
     /// Torques on the races but for those of the sprags, N m.
@@ -123,7 +193,7 @@ impl<'a> Rhs<'a> {
     }
 
     /// All forces at (t, y), left in `seen`; the accelerations of the races, rad/s^2.
-    pub(super) fn look<const RADIAL: bool>(&mut self, t: f64, y: &[f64]) -> Vector2<f64> {
+    pub(super) fn look<const RADIAL: bool>(&mut self, t: f64, y: &[f64]) -> Vector4<f64> {
         let races = &self.groups[0].model;
         let f = self.torques_nm(t, y);
         for (g, (group, motion)) in self.groups.iter().zip(&self.motions).enumerate() {
@@ -133,14 +203,22 @@ impl<'a> Rhs<'a> {
             }
             let (model, mode) = (&group.model, &motion.mode);
             let own = state_of(y, g);
-            let p = model.point(mode.place, own[0]);
-            let rates = model.rates(mode, &p, &own);
-            self.parts[g] = Some(GroupRhs::new::<RADIAL>(model, mode, t, &own, &p, &rates));
+            let sight = self.stands(g, mode.place, t, y, &own);
+            let rates = self.goes(g, mode, &sight, y, &own);
+            self.parts[g] = Some(GroupRhs::new::<RADIAL>(model, mode, t, &own, &sight, &rates));
             // Forces follow below.
-            self.seen[g] = Some(Seen { point: p, rates, forces: Forces::NONE });
+            let (point, axes) = (sight.point, sight.axes);
+            self.seen[g] = Some(Seen { point, rates, forces: Forces::NONE, axes });
         }
         // A contact B that lets go changes the system, at most once each.
         loop {
+            if self.axes.is_some() {
+                let x = self.pushed(&f, y);
+                if !self.lets_go(&x) {
+                    return x;
+                }
+                continue;
+            }
             let mut mass = Matrix2::new(races.inner_inertia_kg_m2, 0.0, 0.0, races.outer_inertia_kg_m2);
             let mut torque = f;
             let parts = self.parts.iter().zip(&self.seen).zip(self.groups);
@@ -153,20 +231,81 @@ impl<'a> Rhs<'a> {
                 }
             }
             let determinant = mass[(0, 0)] * mass[(1, 1)] - mass[(0, 1)] * mass[(1, 0)];
-            let x = Vector2::new(
+            let x = Vector4::new(
                 (torque[0] * mass[(1, 1)] - torque[1] * mass[(0, 1)]) / determinant,
                 (mass[(0, 0)] * torque[1] - mass[(1, 0)] * torque[0]) / determinant,
+                0.0,
+                0.0,
             );
-            let mut again = false;
-            for (part, seen) in self.parts.iter_mut().zip(&mut self.seen) {
-                let (Some(part), Some(seen)) = (part, seen) else { continue };
-                let (forces, lets_go) = part.under(&x);
-                (seen.forces, again) = (forces, again || lets_go);
-            }
-            if !again {
+            if !self.lets_go(&x) {
                 return x;
             }
         }
+    }
+
+    /// Forces of all while the races go at `x`; whether a contact B has let go.
+    fn lets_go(&mut self, x: &Vector4<f64>) -> bool {
+        let mut again = false;
+        for (part, seen) in self.parts.iter_mut().zip(&mut self.seen) {
+            let (Some(part), Some(seen)) = (part, seen) else { continue };
+            let (forces, lets_go) = part.under(x);
+            (seen.forces, again) = (forces, again || lets_go);
+        }
+        again
+    }
+
+    /// Accelerations of races and axis where the axes do not meet; `f` the torques from outside, N m.
+    fn pushed(&self, f: &Vector2<f64>, y: &[f64]) -> Vector4<f64> {
+        let inertia = self.inertia();
+        let mut mass = Matrix4::from_diagonal(&inertia);
+        let mut force = self.outside(f, y);
+        for ((part, seen), group) in self.parts.iter().zip(&self.seen).zip(self.groups) {
+            let (Some(part), Some(seen)) = (part, seen) else { continue };
+            let Some(axes) = &part.axes else { continue };
+            let arms = arms(&group.model, &seen.point);
+            for (contact, arm) in arms.into_iter().enumerate() {
+                let acts = axes.races[contact] * arm;
+                force += acts * part.still[contact];
+                for other in 0..2 {
+                    mass += acts * axes.races[other].transpose() * part.yields[(contact, other)];
+                }
+            }
+        }
+        if self.moved().is_some() {
+            return mass.lu().solve(&force).unwrap_or(Vector4::repeat(f64::NAN));
+        }
+        let determinant = mass[(0, 0)] * mass[(1, 1)] - mass[(0, 1)] * mass[(1, 0)];
+        Vector4::new(
+            (force[0] * mass[(1, 1)] - force[1] * mass[(0, 1)]) / determinant,
+            (mass[(0, 0)] * force[1] - mass[(1, 0)] * force[0]) / determinant,
+            0.0,
+            0.0,
+        )
+    }
+
+    /// Inertia of the races, kg m^2, and of the axis, kg; 1 where that is held.
+    pub(super) fn inertia(&self) -> Vector4<f64> {
+        let races = &self.groups[0].model;
+        let mass = self.axes.and_then(|axes| axes.bearing).map_or(1.0, |b| b.mass_kg);
+        Vector4::new(races.inner_inertia_kg_m2, races.outer_inertia_kg_m2, mass, mass)
+    }
+
+    /// Torques `f` on the races (N m) and forces on the axis (N) but for those of the sprags.
+    pub(super) fn outside(&self, f: &Vector2<f64>, y: &[f64]) -> Vector4<f64> {
+        let [x, y] = self.axes.map_or([0.0; 2], |axes| axes.pulls_n(axes.shift(y, self.groups.len())));
+        Vector4::new(f[0], f[1], x, y)
+    }
+
+    /// What contacts under `forces` do to races (N m) and axis (N, where it may move).
+    pub(super) fn acts(&self, g: usize, sight: &Sight, forces: &Forces) -> Vector4<f64> {
+        let [inner, outer] = arms(&self.groups[g].model, &sight.point);
+        let (t_bi, t_be) = (inner * forces.t_bi, outer * forces.t_be);
+        let Some(axes) = &sight.axes else { return Vector4::new(t_bi, t_be, 0.0, 0.0) };
+        let mut acts = axes.races[0] * t_bi + axes.races[1] * t_be;
+        if self.moved().is_none() {
+            (acts[2], acts[3]) = (0.0, 0.0);
+        }
+        acts
     }
 
     /// Rate of alpha (rad/s) and forces of group `g` in `mode` while the races go at `x`, rad/s^2, whatever the others do.
@@ -176,18 +315,40 @@ impl<'a> Rhs<'a> {
         mode: &Mode,
         t: f64,
         y: &[f64],
-        x: &Vector2<f64>,
+        x: &Vector4<f64>,
     ) -> (f64, Forces) {
         let (model, own) = (&self.groups[g].model, state_of(y, g));
-        let p = model.point(mode.place, own[0]);
-        let rates = model.rates(mode, &p, &own);
-        let mut part = GroupRhs::new::<true>(model, mode, t, &own, &p, &rates);
-        let (forces, lets_go) = part.under(x);
-        (rates[0], if lets_go { part.under(x).0 } else { forces })
+        let sight = self.stands(g, mode.place, t, y, &own);
+        let rates = self.goes(g, mode, &sight, y, &own);
+        let mut part = GroupRhs::new::<true>(model, mode, t, &own, &sight, &rates);
+        let (mut forces, lets_go) = part.under(x);
+        if lets_go {
+            forces = part.under(x).0;
+        }
+        if let Some(seen) = &sight.axes {
+            // What a slip's rate is asked for.
+            let races = seen.races_rad_s2(&rates, [own[6], own[7]], x, forces.acceleration[1]);
+            forces.acceleration[2..].copy_from_slice(&races);
+        }
+        (rates[0], forces)
+    }
+
+    /// How much more than at the start the races must have wound up until group `g` touches, for where the axis is now, rad.
+    fn touches_later_rad(&self, g: usize, t: f64, y: &[f64]) -> f64 {
+        let (Some(axes), Some(at)) = (self.axes, &self.groups[g].off_centre) else { return 0.0 };
+        let touch = self.groups[g].model.curve.first_contact_rad();
+        let costs = |axis: [f64; 2], phi: f64| {
+            let turns = at.turns.at(0, touch, rotated(axis, -(at.azimuth_rad + phi)));
+            turns[0].value + turns[1].value
+        };
+        let offset = axes.offset_m(t, [y[0], y[1]]);
+        let shift = axes.shift(y, self.groups.len())[0];
+        // It has been turned along with the outer race.
+        costs([offset[0] + shift[0], offset[1] + shift[1]], y[1]) - costs(axes.offset_m(0.0, [0.0; 2]), 0.0)
     }
 
     /// What is seen of group `g` after [`Self::look`] at y.
-    pub(super) fn probe(&self, g: usize, y: &[f64]) -> Probe {
+    pub(super) fn probe(&self, g: usize, t: f64, y: &[f64]) -> Probe {
         let motion = &self.motions[g];
         match (&self.seen[g], self.groups[g].lag_rad) {
             (Some(s), _) => {
@@ -204,7 +365,8 @@ impl<'a> Rhs<'a> {
                 seen
             }
             (None, lag) => {
-                let left = lag.unwrap_or(f64::INFINITY) - (y[1] - y[0] - self.reference_rad);
+                let left = lag.unwrap_or(f64::INFINITY) - (y[1] - y[0] - self.reference_rad)
+                    + self.touches_later_rad(g, t, y);
                 Probe { events: [1.0, left, 1.0, 1.0], figures: [0.0; 5], ..Probe::NOTHING }
             }
         }
@@ -213,19 +375,30 @@ impl<'a> Rhs<'a> {
     /// Group `g` looked at in (t, y).
     pub(super) fn sight(&mut self, g: usize, t: f64, y: &[f64]) -> Probe {
         self.look::<true>(t, y);
-        self.probe(g, y)
+        self.probe(g, t, y)
     }
 
     /// Event function `which` of group `g` at (t, y) alone: the ends of a place need no forces, a slip velocity no friction.
     pub(super) fn event(&mut self, g: usize, which: usize, t: f64, y: &[f64]) -> f64 {
         let (model, motion) = (&self.groups[g].model, &self.motions[g]);
         let own = state_of(y, g);
+        let slips = (which == INNER || which == OUTER) && self.groups[g].off_centre.is_some();
+        if slips && !motion.waits {
+            let sight = self.stands(g, motion.mode.place, t, y, &own);
+            let rates = self.goes(g, &motion.mode, &sight, y, &own);
+            let (v_a, v_b) = model.slip_velocities(&sight.point, &rates);
+            match (which, motion.mode.inner, motion.mode.outer) {
+                (INNER, Grip::Slip(s), _) if motion.mode.place != Place::Open => return s * v_a,
+                (OUTER, _, Grip::Slip(s)) => return s * v_b,
+                _ => return self.sight(g, t, y).events[which],
+            }
+        }
         let known = if motion.waits { None } else { without_forces(model, &motion.mode, &own, which) };
         known.unwrap_or_else(|| self.sight(g, t, y).events[which])
     }
 
     /// The slope after [`Self::look`] at y; `Err` where it is not finite.
-    fn slope_there<const N: usize>(&self, t: f64, y: &[f64; N], x: &Vector2<f64>) -> Result<[f64; N], ()> {
+    fn slope_there<const N: usize>(&self, t: f64, y: &[f64; N], x: &Vector4<f64>) -> Result<[f64; N], ()> {
         let mut out = [0.0; N];
         let races = &self.groups[0].model;
         let (di, de) = (y[2], y[3]);
@@ -253,6 +426,15 @@ impl<'a> Rhs<'a> {
             through += works[0].abs() + works[1].abs();
             let speed = model.curve.speed_rad_s();
             damping += model.count * model.damped(&s.point, speed, s.rates[0]).1 * s.rates[0];
+            if let Some(seen) = &s.axes {
+                let (inner, outer) = (f.t_bi * s.point.oa, f.t_be * s.point.ob);
+                damping += model.count * seen.taken_w(inner, outer);
+            }
+        }
+        if let Some((axes, at)) = self.moved() {
+            let shift = axes.shift(y, self.groups.len());
+            out[at..at + AXIS].copy_from_slice(&[shift[1][0], shift[1][1], x[2], x[3]]);
+            damping += axes.energy_j(shift).1;
         }
         let [torque_i, torque_e] = races.torques_nm(t);
         let works = [friction, damping, torque_i * di, torque_e * de];
@@ -263,27 +445,29 @@ impl<'a> Rhs<'a> {
     }
 
     /// Rolling rates put in exactly, and the energy in motion and stored but for the contacts, J.
-    pub(super) fn energy_j(&self, y: &[f64]) -> f64 {
+    pub(super) fn energy_j(&self, t: f64, y: &[f64]) -> f64 {
         let races = &self.groups[0].model;
-        let own = |g: usize| self.energy_of_j(g, y);
+        let own = |g: usize| self.energy_of_j(g, t, y);
+        let axis = self.axes.map_or(0.0, |axes| axes.energy_j(axes.shift(y, self.groups.len())).0);
         (0..self.groups.len()).map(own).sum::<f64>()
             + 0.5 * races.inner_inertia_kg_m2 * y[2] * y[2]
             + 0.5 * races.outer_inertia_kg_m2 * y[3] * y[3]
             + 0.5 * races.loads.abutment_nm_per_rad * y[1] * y[1]
+            + axis
     }
 
     /// Energy of group `g` from first contact on, J; none while it waits.
-    pub(super) fn energy_of_j(&self, g: usize, y: &[f64]) -> f64 {
+    pub(super) fn energy_of_j(&self, g: usize, t: f64, y: &[f64]) -> f64 {
         let (model, motion) = (&self.groups[g].model, &self.motions[g]);
         if motion.waits {
             return 0.0;
         }
         let own = state_of(y, g);
-        let p = model.point(motion.mode.place, own[0]);
-        let [da, dp, ..] = model.rates(&motion.mode, &p, &own);
+        let sight = self.stands(g, motion.mode.place, t, y, &own);
+        let [da, dp, ..] = self.goes(g, &motion.mode, &sight, y, &own);
         let mut alone = own;
         alone[3] = 0.0;
-        model.energy_without_wedge(&p, &[da, dp, 0.0, 0.0], &alone)
+        model.energy_without_wedge(&sight.point, &[da, dp, 0.0, 0.0], &alone)
             + model.wedge_energy_j(model.curve.first_contact_rad(), own[0])
     }
 }
@@ -299,8 +483,9 @@ impl<const N: usize> RightHandSide<N> for Rhs<'_> {
     fn slope_at_probe(&mut self, probe: usize, t: f64, y: &[f64; N]) -> Result<[f64; N], ()> {
         let x = self.look::<true>(t, y);
         for g in 0..self.groups.len() {
-            self.probes[probe][g] = self.probe(g, y);
+            self.probes[probe][g] = self.probe(g, t, y);
         }
+        self.bearing_probes_n[probe] = self.bearing_n(y);
         self.slope_there(t, y, &x)
     }
 }

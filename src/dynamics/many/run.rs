@@ -1,5 +1,6 @@
 //! Steps up to the first event of any sprag.
 
+use super::axes::{AXIS, Axes};
 use super::change::Falls;
 use super::found::{FirstSlip, ManyRun, SpragCourse};
 use super::locate::First;
@@ -20,18 +21,27 @@ const SHORTEST_S: f64 = 1e-15;
 pub(super) const AT_ONCE_S: f64 = 1e-13;
 /// Two events this near, as a fraction of the way there, are one.
 const CLOSE: f64 = 1.0 - 1e-10;
+/// tan omega, about, for tolerances.
+const LEVER: f64 = 0.1;
 /// Kinds of motion whose step lengths are remembered: whether any A slips, any B slips, any sprag is open.
 const KINDS: usize = 8;
 
 /// Integrate `groups` from `start`; `settings` as of one sprag, of which samples and history beyond equidistant ones, energy, jumps
 /// and pure rolling mean nothing here. Up to 64 groups.
-pub fn run_many(groups: &[SpragGroup], start: &ManyStart, settings: &RunSettings) -> ManyRun {
+/// `axes`: where these do not meet or may give way.
+pub fn run_many(
+    groups: &[SpragGroup],
+    axes: Option<&Axes>,
+    start: &ManyStart,
+    settings: &RunSettings,
+) -> ManyRun {
     const fn length(groups: usize) -> usize {
         HEAD + EACH * groups
     }
-    match groups.len() {
-        0..=4 => Going::<{ length(4) }>::new(groups, start, settings).run(),
-        _ => Going::<{ length(64) }>::new(groups, start, settings).run(),
+    match (groups.len(), axes) {
+        (0..=4, None) => Going::<{ length(4) }>::new(groups, None, start, settings).run(),
+        (_, None) => Going::<{ length(64) }>::new(groups, None, start, settings).run(),
+        (_, axes) => Going::<{ length(64) + AXIS }>::new(groups, axes, start, settings).run(),
     }
 }
 
@@ -69,7 +79,12 @@ enum Went {
 }
 
 impl<'a, const N: usize> Going<'a, N> {
-    fn new(groups: &'a [SpragGroup], start: &ManyStart, settings: &'a RunSettings) -> Self {
+    fn new(
+        groups: &'a [SpragGroup],
+        axes: Option<&'a Axes>,
+        start: &ManyStart,
+        settings: &'a RunSettings,
+    ) -> Self {
         let mut y = [0.0; N];
         y[..4].copy_from_slice(&start.races);
         for (g, s) in start.sprags.iter().enumerate() {
@@ -77,12 +92,19 @@ impl<'a, const N: usize> Going<'a, N> {
             (y[at], y[at + 1], y[at + 2], y[at + 3]) = (s[0], s[2], s[1], s[3]);
         }
         let n = groups.len();
+        if axes.is_some_and(|axes| axes.bearing.is_some()) {
+            let at = HEAD + EACH * n;
+            y[at..at + 2].copy_from_slice(&start.shift_m);
+        }
         let out = ManyRun {
             stop: Stop::Finished,
             at_group: None,
             t_s: 0.0,
             races: start.races,
             sprags: Vec::new(),
+            bearing_max_n: 0.0,
+            bearing_max_s: 0.0,
+            axis_max_m: 0.0,
             courses: vec![SpragCourse::default(); n],
             samples: Vec::with_capacity(settings.samples),
             events: 0,
@@ -93,7 +115,7 @@ impl<'a, const N: usize> Going<'a, N> {
         };
         // The windup of a start under load counts from no load, that of an overrun from where the races turn back.
         let reference_rad = (y[1] - y[0]).min(0.0);
-        let rhs = Rhs::new(groups, start.motions.clone(), reference_rad);
+        let rhs = Rhs::new(groups, axes, start.motions.clone(), reference_rad);
         let mut going = Self {
             groups,
             settings,
@@ -111,7 +133,7 @@ impl<'a, const N: usize> Going<'a, N> {
         for (g, motion) in start.motions.iter().enumerate().filter(|(_, motion)| !motion.waits) {
             going.enter(g, motion);
         }
-        going.start_j = going.rhs.energy_j(&going.y);
+        going.start_j = going.rhs.energy_j(0.0, &going.y);
         going
     }
 
@@ -119,7 +141,7 @@ impl<'a, const N: usize> Going<'a, N> {
         self.settings.follow.begin_run();
         // A contact that cannot hold where the run begins lets go at once.
         self.rhs.look::<true>(0.0, &self.y);
-        let now = (0..self.groups.len()).map(|g| self.rhs.probe(g, &self.y).events);
+        let now = (0..self.groups.len()).map(|g| self.rhs.probe(g, 0.0, &self.y).events);
         let grips = |i: usize| i == INNER || i == OUTER;
         let falls: Falls = now.map(|e| std::array::from_fn(|i| grips(i) && e[i] < 0.0)).collect();
         if !falls.iter().flatten().any(|&fell| fell) || self.give_way(&falls) {
@@ -169,6 +191,7 @@ impl<'a, const N: usize> Going<'a, N> {
                 Went::On => {
                     (h, slope) = (once.take().unwrap_or(next), Some(*step.slope1()));
                     self.rhs.probes.swap(0, PROBES - 1);
+                    self.rhs.bearing_probes_n.swap(0, PROBES - 1);
                 }
                 Went::Changed => {
                     // A step that was short because the event was expected says little of the next in this kind of motion.
@@ -312,6 +335,13 @@ impl<'a, const N: usize> Going<'a, N> {
             let at = HEAD + EACH * g;
             all.absolute[at..at + EACH].copy_from_slice(&[a[0], a[1], a[4], a[5], a[8], a[9]]);
         }
+        if let Some((_, at)) = self.rhs.moved() {
+            // What the axis moves by is to a sprag as much windup as by this over OA tan omega.
+            let arm = LEVER * self.groups[0].model.curve.touch().lengths.oa.v;
+            for (i, from) in [0, 0, 2, 2].into_iter().enumerate() {
+                all.absolute[at + i] = arm * all.absolute[from];
+            }
+        }
         all
     }
 
@@ -380,7 +410,7 @@ impl<'a, const N: usize> Going<'a, N> {
 
     fn finish(mut self) -> ManyRun {
         self.hold();
-        let now = self.rhs.energy_j(&self.y);
+        let now = self.rhs.energy_j(self.t_s, &self.y);
         let works: f64 = self.y[FIRST_WORK..FIRST_WORK + WORKS - 1].iter().sum();
         self.out.residual_j = works + self.appeared_j - (now - self.start_j);
         self.out.through_j = self.y[HEAD - 1];

@@ -21,6 +21,8 @@ enum Watched {
     Tan(usize),
     /// N_bi over the mean of all sprags that run, while that is loaded.
     Share,
+    /// What the bearings hold, of all, N.
+    Bearing,
 }
 
 impl<const N: usize> Going<'_, N> {
@@ -37,6 +39,7 @@ impl<const N: usize> Going<'_, N> {
                     Watched::Normal => course.normal_max_n,
                     Watched::Tan(contact) => course.tan[contact],
                     Watched::Share => course.share,
+                    Watched::Bearing => continue,
                 };
                 let values: [f64; PROBES] = std::array::from_fn(|j| self.figure_at_probe(g, figure, j));
                 let found = self.most(step, &mut dense, g, figure, &values, best)?;
@@ -46,7 +49,19 @@ impl<const N: usize> Going<'_, N> {
                     Watched::Normal => (course.normal_max_n, course.normal_max_s) = (most, t),
                     Watched::Tan(contact) => course.tan[contact] = most,
                     Watched::Share => (course.share, course.share_s) = (most, t),
+                    Watched::Bearing => {}
                 }
+            }
+        }
+        if self.rhs.axes.is_some() {
+            let values = self.rhs.bearing_probes_n;
+            let best = self.out.bearing_max_n;
+            if let Some((part, most)) = self.most(step, &mut dense, 0, Watched::Bearing, &values, best)? {
+                (self.out.bearing_max_n, self.out.bearing_max_s) = (most, step.t + part * step.h);
+            }
+            for y in [&step.y0, &step.y1] {
+                let [x, y] = self.axis_m(step.t, y);
+                self.out.axis_max_m = self.out.axis_max_m.max(x.hypot(y));
             }
         }
         Ok(())
@@ -70,7 +85,7 @@ impl<const N: usize> Going<'_, N> {
         }
         let bound = match figure {
             Watched::Tan(_) => self.groups[g].model.friction.static_,
-            Watched::Normal | Watched::Share => f64::INFINITY,
+            Watched::Normal | Watched::Share | Watched::Bearing => f64::INFINITY,
         };
         let fine = FINE * self.settings.tolerance;
         for j in 0..PROBES {
@@ -113,27 +128,44 @@ impl<const N: usize> Going<'_, N> {
             Watched::Tan(contact) if own[N_BI] >= loaded_n => own[contact],
             Watched::Tan(_) => 0.0,
             Watched::Share => self.share(own[N_BI], |g| seen[g].figures[N_BI], loaded_n),
+            Watched::Bearing => self.rhs.bearing_probes_n[j],
         }
     }
 
     fn figure(&mut self, g: usize, figure: Watched, t: f64, y: &[f64; N]) -> f64 {
         let loaded_n = self.groups[g].model.loaded_n;
         match figure {
-            Watched::Normal => self.normal_n(g, y),
+            Watched::Normal => self.normal_n(g, t, y),
+            Watched::Bearing => {
+                self.rhs.look::<true>(t, y);
+                self.rhs.bearing_n(y)
+            }
             Watched::Tan(contact) => self.rhs.sight(g, t, y).figures[contact],
-            Watched::Share => self.share(self.normal_n(g, y), |g| self.normal_n(g, y), loaded_n),
+            Watched::Share => self.share(self.normal_n(g, t, y), |g| self.normal_n(g, t, y), loaded_n),
         }
     }
 
     /// N_bi of group `g` at y, N.
-    fn normal_n(&self, g: usize, y: &[f64; N]) -> f64 {
+    fn normal_n(&self, g: usize, t: f64, y: &[f64; N]) -> f64 {
         let (model, motion) = (&self.groups[g].model, &self.rhs.motions[g]);
         if motion.waits || motion.mode.place == Place::Open {
             return 0.0;
         }
         let own = state_of(y, g);
-        let p = model.point(motion.mode.place, own[0]);
-        model.damped(&p, model.curve.speed_rad_s(), model.rates(&motion.mode, &p, &own)[0]).0
+        if model.hunt_crossley_s_per_m == 0.0 {
+            return model.point(motion.mode.place, own[0]).n_bi;
+        }
+        let sight = self.rhs.stands(g, motion.mode.place, t, y, &own);
+        let rates = self.rhs.goes(g, &motion.mode, &sight, y, &own);
+        model.damped(&sight.point, model.curve.speed_rad_s(), rates[0]).0
+    }
+
+    /// Axis of the inner race against that of the outer in the frame of the mean speed, m.
+    fn axis_m(&self, t: f64, y: &[f64; N]) -> [f64; 2] {
+        let Some(axes) = self.rhs.axes else { return [0.0; 2] };
+        let [[x, across], _] = axes.shift(y, self.groups.len());
+        let offset = axes.offset_m(t, [y[0], y[1]]);
+        [offset[0] + x, offset[1] + across]
     }
 
     /// `own` over the mean of all; 0 where that is less than `loaded_n`, N.
@@ -175,13 +207,15 @@ impl<const N: usize> Going<'_, N> {
 
     fn keep(&mut self, t: f64, y: &[f64; N]) {
         self.rhs.look::<true>(t, y);
-        let probes: Vec<_> = (0..self.groups.len()).map(|g| self.rhs.probe(g, y)).collect();
+        let probes: Vec<_> = (0..self.groups.len()).map(|g| self.rhs.probe(g, t, y)).collect();
         self.out.samples.push(ManySample {
             t_s: t,
             races: [y[0], y[1], y[2], y[3]],
             normal_n: probes.iter().map(|p| p.figures[N_BI]).collect(),
             tan: probes.iter().map(|p| [p.figures[0], p.figures[1]]).collect(),
             motions: self.rhs.motions.clone(),
+            axis_m: self.axis_m(t, y),
+            bearing_n: self.rhs.bearing_n(y),
         });
     }
 }

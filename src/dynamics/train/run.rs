@@ -115,7 +115,7 @@ fn shortened<const N: usize>(run: Run<N>, train: Train) -> Run {
             inner: e.inner,
             outer: e.outer,
         }),
-        held: run.held,
+        hold: run.hold,
         stick: run.stick,
         modes: run.modes,
         jump: run.jump,

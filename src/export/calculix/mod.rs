@@ -30,7 +30,8 @@ pub use facts::Facts;
 pub use read::{NoRows, Reading, ResultRow, at_torque, read};
 
 use crate::clutch::{Clutch, InnerArc};
-use crate::profile::{Outline, Profile};
+use crate::design::Design;
+use crate::profile::{Outline, OutlineError, Profile, ProfileError};
 use crate::wedge::{StaticPoint, WedgeCurve};
 use mesh::{Block, Grid, Section, Sector, axial};
 
@@ -129,6 +130,12 @@ pub enum NoDeck {
     NarrowRace,
     /// The design has no wedge curve.
     NoCurve(String),
+    /// No torque is given, and the design names no nominal one.
+    NoTorque,
+    /// The profile cannot be placed.
+    Profile(ProfileError),
+    /// The outline does not close.
+    Outline(OutlineError),
 }
 
 impl std::fmt::Display for NoDeck {
@@ -150,6 +157,11 @@ impl std::fmt::Display for NoDeck {
             Self::TooFine { nodes, most } => write!(f, "the mesh would have {nodes} nodes, {most} at most"),
             Self::NarrowRace => f.write_str("a solid deck needs races at least as wide as the sprag is long"),
             Self::NoCurve(why) => write!(f, "no wedge curve: {why}"),
+            Self::NoTorque => {
+                f.write_str("torque: the design names no nominal torque; give one with --torque")
+            }
+            Self::Profile(why) => write!(f, "the profile cannot be placed: {why}"),
+            Self::Outline(why) => write!(f, "the outline does not close: {why}"),
         }
     }
 }
@@ -179,6 +191,24 @@ struct Model {
     increments: usize,
     /// Rows of the driven circles in the inner and the outer block.
     driven: (usize, usize),
+}
+
+impl Design {
+    /// The deck, ready for `ccx`, up to `torque_nm`, N m, or the nominal torque, whatever torque `options` have; without flanks the
+    /// narrowest sprag.
+    ///
+    /// # Errors
+    /// [`NoDeck`].
+    pub fn deck(&self, torque_nm: Option<f64>, options: &Options) -> Result<String, NoDeck> {
+        let torque_nm = torque_nm.or(self.limits.nominal_torque_nm).ok_or(NoDeck::NoTorque)?;
+        let profile = self.clutch.profile().map_err(NoDeck::Profile)?;
+        let outline = match self.clutch.sprags.flanks {
+            Some(flanks) => Outline::closed(&profile, &flanks),
+            None => Outline::narrowest(&profile),
+        };
+        let options = Options { torque_nm, ..*options };
+        deck(&self.clutch, &profile, &outline.map_err(NoDeck::Outline)?, &options, &self.hash)
+    }
 }
 
 /// The deck, ready for `ccx`. `hash` names the design in its head, so that [`read`] can refuse another's.

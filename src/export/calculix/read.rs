@@ -6,6 +6,7 @@
 //! rings and the tangential give of the contacts, which the library's rigid races do not.
 
 use super::Facts;
+use crate::design::Design;
 use nalgebra::{Matrix3, Vector3};
 
 /// One converged increment.
@@ -38,6 +39,14 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// The rows at these torques, N m, but for those outside the result; all rows where none is named.
+    pub fn at(&self, torques_nm: &[f64]) -> Vec<ResultRow> {
+        match torques_nm {
+            [] => self.rows.clone(),
+            torques => torques.iter().filter_map(|t| at_torque(&self.rows, *t)).collect(),
+        }
+    }
+
     /// Whether `ccx` came to the end of the deck; times in a result have seven digits.
     pub fn is_whole(&self) -> bool {
         self.turned > 1.0 - 1e-5
@@ -50,6 +59,13 @@ const START_TIME: f64 = 1.0;
 /// Why a result has no rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NoRows {
+    /// The deck was made from another design file.
+    OtherDesign {
+        /// Hash of the design in its head.
+        found: String,
+        /// That of the design asked.
+        own: String,
+    },
     /// The deck's head lacks a fact, or has it damaged.
     Deck {
         /// Key of the fact.
@@ -67,7 +83,10 @@ pub enum NoRows {
 impl std::fmt::Display for NoRows {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Deck { key } => write!(f, "the deck's head lacks {key}, or it is no number"),
+            Self::OtherDesign { found, own } => {
+                write!(f, "the deck was made from another design file (hash {found}, this one {own})")
+            }
+            Self::Deck { key } => write!(f, "no deck of this tool, or its head lacks {key}"),
             Self::Line { line } => write!(f, "line {line} does not hold the numbers expected there"),
             Self::Empty => f.write_str("no converged increment under load"),
         }
@@ -94,6 +113,20 @@ struct Increment {
     outer: Option<Contact>,
     /// Mean stresses sxx, syy, sxy of the elements under the inner track, MPa.
     stresses: Vec<[f64; 3]>,
+}
+
+impl Design {
+    /// What the head of a deck of this design says.
+    ///
+    /// # Errors
+    /// [`NoRows::Deck`], [`NoRows::OtherDesign`].
+    pub fn deck_facts(&self, deck: &str) -> Result<Facts, NoRows> {
+        let facts = Facts::parse(deck).map_err(|key| NoRows::Deck { key })?;
+        match facts.hash == self.hash {
+            true => Ok(facts),
+            false => Err(NoRows::OtherDesign { found: facts.hash, own: self.hash.clone() }),
+        }
+    }
 }
 
 /// A result whose deck says `facts`.

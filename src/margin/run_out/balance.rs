@@ -226,15 +226,15 @@ impl RunOut {
     /// # Errors
     /// [`OffCentreEnd`] where a sprag comes to its end before, or no balance of a race that gives way was found.
     pub fn carrying(&self, turned: usize, torque_nm: f64) -> Result<Round, OffCentreEnd> {
-        let held = self.held(turned, torque_nm)?;
+        let held = self.on_fixed_axes(turned, torque_nm)?;
         if self.stiffness_n_per_m.is_infinite() {
             return Ok(held);
         }
-        self.given_way(held, torque_nm)
+        self.on_bearings(held, torque_nm)
     }
 
     /// The axes held: by bracketing in the windup.
-    fn held(&self, turned: usize, torque_nm: f64) -> Result<Round, OffCentreEnd> {
+    fn on_fixed_axes(&self, turned: usize, torque_nm: f64) -> Result<Round, OffCentreEnd> {
         let stop = self.end_of(turned);
         let (Some((from, until, _)), true) = (self.windups(turned), stop.torque_nm >= torque_nm) else {
             return Err(stop);
@@ -247,7 +247,7 @@ impl RunOut {
 
     /// The inner race on its bearings: radial forces of the sprags = stiffness times shift, by Newton in (windup, shift),
     /// each in units of what winds a sprag up alike.
-    fn given_way(&self, held: Round, torque_nm: f64) -> Result<Round, OffCentreEnd> {
+    fn on_bearings(&self, held: Round, torque_nm: f64) -> Result<Round, OffCentreEnd> {
         let turned = held.turned;
         let none = OffCentreEnd { reason: EndReason::NoConvergence, ..self.end_of(turned) };
         // A shift of the race by `per_rad` is about as much to a sprag as a radian of windup: OA tan omega.

@@ -3,7 +3,7 @@
 use super::{RunOut, SpragLoad, Survey};
 use crate::design::{Design, Limits};
 use crate::margin::limits::{Limit, Of};
-use crate::margin::load::{beyond, said};
+use crate::margin::load::{beyond, row_name};
 use crate::margin::table::{END_OF_PROFILE, LIMITS};
 use crate::margin::{Demand, LOST, Margin};
 use crate::numeric::root;
@@ -36,14 +36,14 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
     let (end_of_profile, others): (Vec<&'static Limit>, Vec<_>) =
         LIMITS.iter().partition(|limit| *limit == &&END_OF_PROFILE);
     for limit in others.into_iter().chain(end_of_profile) {
-        let Of::Sprag { allowed, demand, on_the_way } = limit.of else { continue };
+        let Of::Sprag { allowed, demand, below_torque } = limit.of else { continue };
         let (Some(torque), Some(allowed)) = (limit.when.torque_nm(limits), allowed(design, limits)) else {
             continue;
         };
         let worst = |s: &Survey| s.worst(|p| demand(design, limits, p));
         let mut found = ring.survey(torque.min(last)).ok().as_ref().and_then(worst);
-        if let Some(way) = on_the_way {
-            let below = surveys.iter().filter(|s| s.torque_nm < torque).filter_map(|s| s.worst(way));
+        if let Some(demand_below) = below_torque {
+            let below = surveys.iter().filter(|s| s.torque_nm < torque).filter_map(|s| s.worst(demand_below));
             found = below.chain(found).max_by(|a, b| a.0.total_cmp(&b.0));
         }
         let (demand, where_) = match found {
@@ -56,7 +56,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
         let capacity = capacities.then(|| reached(ring, &surveys, &over)).flatten();
         rows.push(Margin {
             off_centre: true,
-            name: said(&name, torque, end),
+            name: row_name(&name, torque, end),
             torque_capacity_nm: capacity,
             ..Margin::new(limit, demand, allowed)
         });

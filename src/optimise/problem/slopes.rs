@@ -1,6 +1,6 @@
 //! Evaluations of a clutch, and the slopes of its margins beside one.
 
-use super::{ClutchProblem, Names, Way};
+use super::{ClutchProblem, Way};
 use crate::clutch::{Scenario, ScenarioKind};
 use crate::design::{Design, Link};
 use crate::fidelity;
@@ -23,8 +23,6 @@ type Answered = (Vec<Vec<f64>>, Vec<Vec<f64>>);
 struct Past {
     x: Vec<f64>,
     tracks: Arc<Tracks>,
-    /// The scene of each of its numbers, where it has one.
-    scenes: Vec<Option<String>>,
     asked: Option<Answered>,
 }
 
@@ -43,10 +41,10 @@ impl Recent {
         known.iter_mut().find(|past| past.x == x).and_then(what)
     }
 
-    fn keep(&self, x: &[f64], tracks: &Arc<Tracks>, scenes: Vec<Option<String>>) {
+    fn keep(&self, x: &[f64], tracks: &Arc<Tracks>) {
         let mut known = self.0.lock().unwrap_or_else(|e| e.into_inner());
         known.truncate(Self::MOST - 1);
-        known.push_front(Past { x: x.to_vec(), tracks: tracks.clone(), scenes, asked: None });
+        known.push_front(Past { x: x.to_vec(), tracks: tracks.clone(), asked: None });
     }
 }
 
@@ -54,18 +52,6 @@ impl Clone for Recent {
     fn clone(&self) -> Self {
         Self::default()
     }
-}
-
-/// The tracks without those of scenes of which no number is wanted.
-fn wanted_of(tracks: &Tracks, scenes: &[Option<String>], wanted: &[bool]) -> Arc<Tracks> {
-    let unwanted = |name: &String| {
-        let mut rows = scenes.iter().zip(wanted).filter(|(scene, _)| scene.as_ref() == Some(name)).peekable();
-        rows.peek().is_some() && rows.all(|(_, wanted)| !*wanted)
-    };
-    let track = |(key, track): (&(usize, String), &Option<RollingTrack>)| {
-        (key.clone(), track.clone().filter(|_| !unwanted(&key.1)))
-    };
-    Arc::new(tracks.iter().map(track).collect())
 }
 
 /// What the evaluation at a point says of those next to it.
@@ -93,8 +79,8 @@ impl ClutchProblem {
         scene_rows(scenario, &demand, &self.limits, true)
     }
 
-    /// The evaluation at `x`, what its scenes integrated, and the scene of each of its numbers.
-    fn tracked(&self, x: &[f64]) -> Result<(Evaluation, Arc<Tracks>, Vec<Option<String>>), NoEvaluation> {
+    /// The evaluation at `x`, and what its scenes integrated.
+    fn tracked(&self, x: &[f64]) -> Result<(Evaluation, Arc<Tracks>), NoEvaluation> {
         let tracks = RefCell::new(Tracks::new());
         let scene = |k: usize, scenario: &Scenario, known: AtRest| {
             let (rows, track) = self.scene(scenario, known);
@@ -102,13 +88,7 @@ impl ClutchProblem {
             rows
         };
         let assessed = self.assess_at_with(x, &self.in_whole(&scene))?;
-        let Names { objectives, limits } = self.names(&assessed);
-        let scene_of = |code: String| {
-            let (_, scene) = code.split_once(':')?;
-            Some(scene.split(" @ ").next().unwrap_or(scene).to_owned())
-        };
-        let scenes = objectives.into_iter().chain(limits).map(scene_of).collect();
-        Ok((self.evaluation(&assessed), Arc::new(tracks.into_inner()), scenes))
+        Ok((self.evaluation(&assessed), Arc::new(tracks.into_inner())))
     }
 
     /// The evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is none.
@@ -132,37 +112,29 @@ impl ClutchProblem {
 
 impl Evaluate for ClutchProblem {
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
-        let (found, tracks, scenes) = self.tracked(x)?;
+        let (found, tracks) = self.tracked(x)?;
         if self.quick {
-            self.recent.keep(x, &tracks, scenes);
+            self.recent.keep(x, &tracks);
         }
         Ok(found)
     }
 
-    /// Of a search's quick evaluations. What a static state demands has its own equilibria at each point,
-    /// to 1e-12, what a scene demands its run taken again by the neighbour ([`demand_retraced`]). Without a change: demands that are bisected, because the
+    /// Of a search's quick evaluations. What a static state demands has its own equilibria at each point, to 1e-12, what a scene
+    /// demands its run taken again by the neighbour ([`demand_retraced`]). Without a change: demands that are bisected, because the
     /// motion unloads the contact, and scenes that do more than roll; and everything where lengths go with a variable in steps.
     fn changes(&self, x: &[f64], beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-        self.changes_of(x, beside, &[])
-    }
-
-    /// A scene of which nothing is wanted is not taken again.
-    fn changes_of(&self, x: &[f64], beside: &[Vec<f64>], wanted: &[bool]) -> Option<Vec<Vec<f64>>> {
         let in_steps = |(name, link): &(String, Link)| link.step.is_some() && self.variables.contains(name);
         if !self.quick || self.links.iter().any(in_steps) {
             return None;
         }
         let asked_before = |past: &mut Past| past.asked.clone().filter(|(points, _)| points == beside);
-        let all = !wanted.contains(&false);
-        if let Some((_, changes)) = self.recent.at(x, asked_before).filter(|_| all) {
+        if let Some((_, changes)) = self.recent.at(x, asked_before) {
             return Some(changes);
         }
-        let (tracks, scenes) =
-            match self.recent.at(x, |past| Some((past.tracks.clone(), past.scenes.clone()))) {
-                Some(known) => known,
-                None => self.tracked(x).ok().map(|(_, tracks, scenes)| (tracks, scenes))?,
-            };
-        let tracks = if all { tracks } else { wanted_of(&tracks, &scenes, wanted) };
+        let tracks = match self.recent.at(x, |past| Some(past.tracks.clone())) {
+            Some(known) => known,
+            None => self.tracked(x).ok()?.1,
+        };
         let here = self.retraced(x, &tracks, None)?;
         let change = |at: &Vec<f64>| match self.retraced(at, &tracks, Some(here.ends_decide)) {
             Some(there) if there.outputs.len() == here.outputs.len() => {
@@ -171,10 +143,8 @@ impl Evaluate for ClutchProblem {
             _ => Vec::new(),
         };
         let changes: Vec<Vec<f64>> = beside.par_iter().map(change).collect();
-        if all {
-            let answered = Some((beside.to_vec(), changes.clone()));
-            self.recent.at(x, |past| past.asked.replace(answered?));
-        }
+        let answered = Some((beside.to_vec(), changes.clone()));
+        self.recent.at(x, |past| past.asked.replace(answered?));
         Some(changes)
     }
 }

@@ -30,6 +30,7 @@ fn named(pose: &SpragPose, index: usize, many: bool) -> Vec<Named> {
         .arcs
         .iter()
         .enumerate()
+        .filter(|(k, _)| !pose.within_spiral(*k) || k + 1 == pose.arcs.len())
         .map(|(k, a)| Named {
             at_m: a.centre_m,
             name: format!("{}{tail}", subscript("C", k + 1)),
@@ -37,6 +38,8 @@ fn named(pose: &SpragPose, index: usize, many: bool) -> Vec<Named> {
         })
         .collect();
     let centroid = pose.centroid_m.filter(|g| g.iter().all(|v| v.is_finite()));
+    let pole = pose.spiral.map(|s| Named { at_m: s.pole_m, name: format!("pole{tail}"), series: None });
+    points.extend(pole);
     points.extend(centroid.map(|g| Named { at_m: g, name: format!("G{tail}"), series: None }));
     points
 }

@@ -119,8 +119,22 @@ pub(super) fn draw_races(svg: &mut Svg, drawing: &Drawing, view: &View) {
     svg.path(&(circle(o, outside * view.scale) + &circle(o, outer * view.scale)), &style);
     let hole = if bore > 0.0 { circle(o, bore * view.scale) } else { String::new() };
     svg.path(&(circle(o, inner * view.scale) + &hole), &style);
-    svg.bare_text([14.0, 22.0], Anchor::Start, SOFT, "outer race");
-    svg.bare_text([14.0, view.size[1] - 14.0], Anchor::Start, SOFT, "inner race");
+    // Each name on its race, at the left, clear of the edges.
+    let [left, height] = [14.0, view.size[1]];
+    let above = |radius: f64, x: f64| {
+        let (r, dx) = (radius * view.scale, x - o[0]);
+        (r * r > dx * dx).then(|| o[1] - (r * r - dx * dx).sqrt())
+    };
+    let name = |svg: &mut Svg, name: &str, [outside, inside]: [f64; 2]| {
+        let ends = [left, left + text_width(name, 12.0)];
+        let top = ends.map(|x| above(outside, x).unwrap_or(height)).into_iter().fold(0.0, f64::max);
+        let bottom = ends.map(|x| above(inside, x).unwrap_or(height)).into_iter().fold(height, f64::min);
+        if bottom - top > 16.0 {
+            svg.bare_text([left, 0.5 * (top + bottom) + 4.0], Anchor::Start, SOFT, name);
+        }
+    };
+    name(svg, "outer race", [outside, outer]);
+    name(svg, "inner race", [inner, bore]);
 }
 
 /// Engagement lowers the inner race's angle against the outer's: anticlockwise on the page.
@@ -165,6 +179,9 @@ fn draw_profile(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
         if k == 0 {
             ticks.push((arc, arc.from_rad, "first contact at rest".to_owned()));
         }
+        if k + 1 < pose.arcs.len() && pose.within_spiral(k + 1) {
+            continue;
+        }
         let name = if k + 1 < pose.arcs.len() {
             format!("junction {}|{}", k + 1, k + 2)
         } else {
@@ -201,6 +218,9 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
     for (k, arc) in pose.arcs.iter().enumerate() {
         let at = view.px(pose.place(arc.centre_m));
         cross(at, SERIES[1]);
+        if pose.within_spiral(k) && k + 1 < pose.arcs.len() {
+            continue;
+        }
         let text = format!(
             "{}, {} {}",
             subscript("C", k + 1),
@@ -208,6 +228,11 @@ fn draw_centres(svg: &mut Svg, view: &View, pose: &SpragPose, notes: &mut Vec<No
             Unit::Millimetre.show_plain(arc.radius_m, 6)
         );
         notes.push(Note { at, text, left: false, wanted: at[1] });
+    }
+    if let Some(spiral) = pose.spiral {
+        let at = view.px(pose.place(spiral.pole_m));
+        cross(at, INK);
+        notes.push(Note { at, text: "pole".to_owned(), left: false, wanted: at[1] });
     }
     if let Some(g) = pose.centroid_m.filter(|g| g.iter().all(|v| v.is_finite())) {
         let at = view.px(pose.place(g));

@@ -74,7 +74,8 @@ fn front(svg: &mut Svg, drawing: &Drawing, axial_m: [f64; 2], scale: f64, notes:
         if radius > 0.0 {
             let text = format!("⌀ {} {name}", plain(Unit::Millimetre.from_si(2.0 * radius), 6));
             let ends = [o[0] - size(radius), o[0] + size(radius)];
-            dimensions.push(Across { ends, from_y: o[1], y, text });
+            let across = Across { ends, from_y: o[1], y, text };
+            dimensions.push(across.within(SPLIT - 4.0));
             y += 21.0;
         }
     }
@@ -134,6 +135,15 @@ struct Across {
 }
 
 impl Across {
+    /// The same with the last word left out where it would reach beyond `x`.
+    fn within(mut self, x: f64) -> Self {
+        let stands_behind = self.half_text().is_none();
+        if stands_behind && self.ends[1] + 6.0 + text_width(&self.text, 12.0) > x {
+            self.text = self.text.trim_end_matches(" track").to_owned();
+        }
+        self
+    }
+
     /// Half of the text and a hair, where it stands in the line.
     fn half_text(&self) -> Option<f64> {
         let half = 0.45 * text_width(&self.text, 12.0);
@@ -209,6 +219,23 @@ fn enlarged(svg: &mut Svg, drawing: &Drawing, pose: &SpragPose, [left, top]: [f6
     }
     if let Some(first) = pose.arcs.first() {
         lengths.push(format!("e₁ = C₁Cₑ {}", mm(first.centre_m[0].hypot(first.centre_m[1]))));
+    }
+    if let Some(spiral) = pose.spiral {
+        let curve = &spiral.curve;
+        let [x, y] = spiral.pole_m.map(|v| (1e4 * Unit::Millimetre.from_si(v)).round() / 1e4 + 0.0);
+        let arcs = pose.arcs.len() - spiral.first;
+        let inside = match curve.inset_m > 0.0 {
+            true => format!(" − {}", plain(Unit::Millimetre.from_si(curve.inset_m), 6)),
+            false => String::new(),
+        };
+        lengths.extend([
+            format!(
+                "ρ = {} e^({} ψ){inside} mm",
+                plain(Unit::Millimetre.from_si(curve.start_radius_m + curve.inset_m), 6),
+                plain(curve.rise, 6)
+            ),
+            format!("pole ({x:.4}, {y:.4}) mm from Cₑ, as {arcs} arcs"),
+        ]);
     }
     // In as many lines as they need.
     let mut lines: Vec<String> = Vec::new();

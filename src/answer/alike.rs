@@ -1,0 +1,145 @@
+//! What the paper's three assumptions about the sprags cost, at the load of the limits: deviations that any clutch has, one
+//! at a time, sprag by sprag.
+
+use super::left_out::LeftOut;
+use super::under_load::at;
+use crate::clutch::{Carrier, Clutch, Eccentricity, GivenSprag, Sharing, Standing};
+use crate::report::Unit;
+use crate::sharing::{Asked, Shared, Unlike};
+use crate::wedge::{StaticPoint, WedgeCurve};
+
+pub(super) const TOGETHER: &str = "sprags that wedge one after another";
+pub(super) const UNEQUAL: &str = "unequal sharing of the load between the sprags";
+pub(super) const ECCENTRIC: &str = "eccentric and tilted races";
+
+/// Larger than the others by this, m: sprags are sorted into classes as wide.
+const LARGER_M: f64 = 1e-6;
+/// What one sprag lacks to touch, and how far apart the axes are, m: a track that runs out by twice that.
+const APART_M: f64 = 10e-6;
+const UNKNOWN: &str = "not estimated: no static state to start from";
+
+/// The terms; `loaded`: curve and static state at which their cost is named.
+pub(super) fn left_out_of_alike(
+    clutch: &Clutch,
+    loaded: Option<(&WedgeCurve, &StaticPoint)>,
+) -> [LeftOut; 3] {
+    let costs = loaded.map(|(curve, point)| {
+        let case = Case { clutch, curve, point };
+        [case.late(), case.larger(), case.eccentric()]
+    });
+    let [late, larger, eccentric] = costs.unwrap_or_else(|| [(); 3].map(|()| UNKNOWN.to_owned()));
+    [
+        LeftOut::new(
+            TOGETHER,
+            "all sprags are taken to wedge simultaneously (assumption of the paper)",
+            &late,
+        ),
+        LeftOut::new(
+            UNEQUAL,
+            "all sprags are taken to carry the same force (assumption of the paper)",
+            &larger,
+        ),
+        LeftOut::new(ECCENTRIC, "the races are taken to be concentric (assumption of the paper)", &eccentric),
+    ]
+}
+
+struct Case<'a> {
+    clutch: &'a Clutch,
+    curve: &'a WedgeCurve,
+    point: &'a StaticPoint,
+}
+
+impl Case<'_> {
+    /// The first sprag otherwise than the rest; share of its normal force beside the mean less 1, and windup at which it
+    /// takes load less that of the others, rad.
+    fn first_sprag(&self, start: Standing, sprag: GivenSprag) -> Option<[f64; 2]> {
+        let sharing = Sharing { start, given: vec![sprag], ..Sharing::default() };
+        let unlike = Unlike::new(self.clutch, &sharing, self.curve, 0.0);
+        let shared = self.shared(&unlike)?;
+        let later_rad = unlike.lag_rad[0]? - unlike.lag_rad.get(1).copied().flatten().unwrap_or(0.0);
+        Some([shared.shares()[0] - 1.0, later_rad])
+    }
+
+    fn shared(&self, unlike: &Unlike) -> Option<Shared> {
+        unlike.carrying(Asked::Torque(self.point.torque_nm), 0.0).ok()
+    }
+
+    fn late(&self) -> String {
+        let sprag = GivenSprag { gap_m: Some(APART_M), ..GivenSprag::default() };
+        self.first_sprag(Standing::Sprung, sprag).map_or(UNKNOWN.to_owned(), |[share, later_rad]| {
+            format!(
+                "a sprag that lacks {} to touch takes load {} of windup after the others and carries {} {}",
+                Unit::Micrometre.show(APART_M, 2),
+                Unit::Degree.show(later_rad, 2),
+                more(share),
+                at(self.point)
+            )
+        })
+    }
+
+    fn larger(&self) -> String {
+        let sprag = GivenSprag { size_m: Some(LARGER_M), ..GivenSprag::default() };
+        let both = [Standing::Sprung, Standing::Caged].map(|start| self.first_sprag(start, sprag));
+        let [Some([sprung, _]), Some([caged, _])] = both else { return UNKNOWN.to_owned() };
+        format!(
+            "a sprag {} larger than the others carries {} {}, {} if a cage holds all at one angle: [sharing] looks at each",
+            Unit::Micrometre.show(LARGER_M, 2),
+            more(sprung),
+            at(self.point),
+            more(caged)
+        )
+    }
+
+    fn eccentric(&self) -> String {
+        let eccentricity = Eccentricity {
+            offset_m: APART_M,
+            turning: false,
+            carrier: Carrier::default(),
+            stiffness_n_per_m: f64::INFINITY,
+        };
+        let mut clutch = self.clutch.clone();
+        clutch.races.eccentricity = Some(eccentricity);
+        let shared = self.shared(&Unlike::new(&clutch, &Sharing::default(), self.curve, 0.0));
+        let largest = shared.map(|s| s.shares().into_iter().fold(0.0, f64::max));
+        largest.map_or(UNKNOWN.to_owned(), |largest| {
+            format!(
+                "axes {} apart and held there: the most pressed sprag carries {} {}; tilted tracks: not estimated",
+                Unit::Micrometre.show(APART_M, 2),
+                more(largest - 1.0),
+                at(self.point)
+            )
+        })
+    }
+}
+
+/// A share beside the mean, in words.
+fn more(share: f64) -> String {
+    format!("{} {}", Unit::Percent.show(share.abs(), 2), if share < 0.0 { "less" } else { "more" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+
+    fn costs(text: &str, torque_nm: f64) -> [f64; 3] {
+        let clutch = Design::parse(text, "multi-arc").unwrap().clutch;
+        let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
+        let point = curve.at_torque(torque_nm).unwrap();
+        let case = Case { clutch: &clutch, curve: &curve, point: &point };
+        let one = |sprag| case.first_sprag(Standing::Sprung, sprag).unwrap()[0];
+        let size = |m| one(GivenSprag { size_m: Some(m), ..GivenSprag::default() });
+        [size(1e-6), size(2e-6), one(GivenSprag { gap_m: Some(APART_M), ..GivenSprag::default() })]
+    }
+
+    /// Twice the size is twice the share; the same deviation counts more at a small torque; a late sprag carries less.
+    #[test]
+    fn costs_go_with_the_deviation_and_fall_with_the_torque() {
+        let text = include_str!("../../designs/huang2017-multi-arc.toml");
+        let [one, two, late] = costs(text, 20.0);
+        assert!((two / one - 2.0).abs() < 0.05, "{one} {two}");
+        let [one_later, _, late_later] = costs(text, 60.0);
+        assert!(late < late_later && late_later < 0.0, "{late} {late_later}");
+        assert!(one_later.abs() < one.abs(), "{one_later} {one}");
+    }
+}
