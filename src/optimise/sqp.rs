@@ -151,7 +151,7 @@ impl Climb<'_, '_> {
         let near = |(u, least): &&(Vec<f64>, f64)| {
             let apart = u.iter().zip(&self.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             let (below, slack) = (least - plan.least, LEVEL * least.abs());
-            apart <= BASIN && (0.0..=slack).contains(&below) && plan.rise <= least + slack
+            apart <= BASIN && (0.0..=slack).contains(&below) && plan.rise <= below + slack
         };
         self.known.iter().find(near).map(|(_, least)| *least)
     }
