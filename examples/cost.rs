@@ -5,14 +5,18 @@
 //! cost curve FILE         error and time of the wedge curve at rest: both efforts, and tables of exact equilibria
 //! cost slopes FILE K N    N evaluations of a search at the start and as often derivatives along the first K variables, for a
 //!                         counter of instructions
+//! cost course FILE        the course of the best feasible value of a search: evaluations, derivatives, value; a line for each better one
 //! cost build FILE HOW N   N curves and nothing else, for a counter of instructions; HOW: full, search
 //! ```
 
+use sprag_design::answer::search::{MOST_STARTS, STARTS};
 use sprag_design::margin::load_state_at;
-use sprag_design::optimise::{ClutchProblem, Evaluate};
-use sprag_design::scenario::demand_quickly;
+use sprag_design::optimise::{
+    ClutchProblem, Desk, Entry, Evaluate, Fidelity, ProblemId, Record, SearchMethod, Settings,
+};
+use sprag_design::scenario::{self, demand_quickly};
 use sprag_design::wedge::{Closure, Effort};
-use sprag_design::{Design, Profile, Settings, WedgeCurve, fidelity};
+use sprag_design::{Design, Follow, Profile, WedgeCurve, fidelity, search};
 use std::error::Error;
 use std::io::BufRead;
 use std::path::Path;
@@ -33,6 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ["slopes", file, along, times] => {
             slopes(&Design::read(Path::new(file))?, along.parse()?, times.parse()?)
         }
+        ["course", file] => course(&Design::read(Path::new(file))?),
         ["build", file, how, times] => {
             let design = Design::read(Path::new(file))?;
             let profile = design.clutch.profile()?;
@@ -41,7 +46,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
             Ok(())
         }
-        _ => Err("cost counts FILE | curve FILE | build FILE full|search N".into()),
+        _ => {
+            Err("cost counts FILE | curve FILE | slopes FILE K N | course FILE | build FILE full|search N"
+                .into())
+        }
     }
 }
 
@@ -68,7 +76,7 @@ fn counts(design: &Design) -> Result<(), Box<dyn Error>> {
         let mut scenes = serde_json::Map::new();
         for scene in at.scenarios.iter().filter(|s| task.scenarios.contains(&s.name)) {
             let (_, prepared) = fidelity::plan_at(scene, Some(state.at_rest(&at)), Effort::Search)?;
-            let found = demand_quickly(&prepared, &Settings::default());
+            let found = demand_quickly(&prepared, &scenario::Settings::default());
             scenes.insert(scene.name.clone(), found.rhs_evaluations.into());
         }
         println!("{}", serde_json::Value::from(scenes));
@@ -92,6 +100,46 @@ fn slopes(design: &Design, along: usize, times: usize) -> Result<(), Box<dyn Err
             std::hint::black_box(problem.changes(&x, &beside));
         }
     }
+    Ok(())
+}
+
+/// What a search asked for, as it went on.
+#[derive(Default)]
+struct Course {
+    evaluations: usize,
+    derivatives: usize,
+    /// Where derivatives were taken: what is asked for twice is taken once.
+    taken: Vec<(ProblemId, Vec<f64>)>,
+    best: f64,
+}
+
+impl Record for Course {
+    fn evaluated(&mut self, _: &ProblemId, entry: &Entry) {
+        self.evaluations += 1;
+        let Ok(found) = &entry.outcome else { return };
+        if found.violation() <= Settings::default().violation_tolerance && found.least_margin() > self.best {
+            self.best = found.least_margin();
+            println!("[{}, {}, {}]", self.evaluations, self.derivatives, self.best);
+        }
+    }
+
+    fn derived(&mut self, problem: &ProblemId, x: &[f64], along: usize) {
+        let at = (problem.clone(), x.to_vec());
+        if !self.taken.contains(&at) {
+            self.taken.push(at);
+            self.derivatives += along;
+        }
+    }
+}
+
+/// As `optimize` without flags searches, on one thread.
+fn course(design: &Design) -> Result<(), Box<dyn Error>> {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
+    let seed = design.optimize.as_ref().ok_or("no table `optimize`")?.seed;
+    let (starts, most_starts) = (STARTS, MOST_STARTS);
+    let method = SearchMethod { starts, most_starts, seed, ..SearchMethod::default() };
+    let mut course = Course { best: f64::NEG_INFINITY, ..Course::default() };
+    search(design, &method, Fidelity::default(), &Desk::new(&Follow::default(), &mut course))?;
     Ok(())
 }
 

@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -35,6 +36,12 @@ impl<'a> Document<'a> {
         // What follows the first fault of a line is mostly its echo.
         problems.dedup_by_key(|p| p.place.as_ref().map(|place| place.line));
         Err(problems)
+    }
+
+    /// Its values without their places.
+    pub fn table(&self) -> Result<toml::Table, toml::de::Error> {
+        let whole = Spanned::new(0..self.source.len(), self.root.clone());
+        toml::Table::deserialize(toml::Deserializer::from(whole))
     }
 
     /// The entry at a dotted path, `scenarios[2].friction.static`.

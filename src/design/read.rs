@@ -140,7 +140,7 @@ impl Design {
             let at = error.span().map_or(0, |s| s.start);
             one_problem(name_for_errors, source, at, error.message().to_owned(), WHAT, "mend this value")
         };
-        let document: toml::Table = toml::from_str(source).map_err(odd)?;
+        let document = doc.table().map_err(odd)?;
         // By way of the table, as a scenario's clutch is read: serde's code for the types of a file stands once in the program.
         let file: DesignFile = document.clone().try_into().map_err(odd)?;
 

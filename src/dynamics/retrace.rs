@@ -3,7 +3,7 @@
 //! The neighbour takes the steps of the run, whatever their error (internal differentiation; Bock, *Numerical treatment of inverse
 //! problems in chemical reaction kinetics*, 1981), so that nothing in it chooses, and the difference of two such runs is the
 //! derivative of what was integrated, to the rounding of the difference. A step that ended at a junction ends at the
-//! neighbour's own. A peak is a level place: by the envelope theorem the time at which it comes does not enter. It is read off a parabola
+//! neighbour's own, one that ended at a knot of the torque's course at that. A peak is a level place: by the envelope theorem the time at which it comes does not enter. It is read off a parabola
 //! through three figures about that time, at the ends of the run and at junctions off the state there. Nothing is integrated
 //! beyond the last peak.
 
@@ -40,11 +40,11 @@ impl RollingTrack {
         [usize::from(outer_asks), 2, 3]
     }
 
-    /// Whether leg `k` begins or ends where the motion has a corner or an end.
+    /// Whether leg `k` begins or ends where the motion has a corner, its figures a jump, or an end.
     fn is_corner(&self, k: usize, edge: Edge) -> bool {
         match edge {
-            Edge::Start => k == 0 || self.legs[k - 1].passes,
-            Edge::End => self.legs[k].passes || k + 1 == self.legs.len(),
+            Edge::Start => k == 0 || self.legs[k - 1].passes || self.legs[k - 1].breaks,
+            Edge::End => self.legs[k].passes || self.legs[k].breaks || k + 1 == self.legs.len(),
         }
     }
 
@@ -63,6 +63,7 @@ impl RollingTrack {
         let mut peaks = self.peaks;
         for (k, leg) in self.legs[..=last].iter().enumerate() {
             let slope = rolls.set_out(now);
+            rolls.looks = leg.passes;
             let h = leg.until_s - t;
             step.take(&mut rolls, t, &y, &slope, h, &ANY, f64::INFINITY, &mut counters).ok()?;
             let mut dense = None;
@@ -93,12 +94,17 @@ impl RollingTrack {
                     if !rolls.pass(&mut y) {
                         return None;
                     }
+                    rolls.pass_knot(t);
                     now = rolls.sight(t, &y);
                 }
                 _ => {
                     t = leg.until_s;
                     y = step.y1;
                     now = rolls.probed[PROBES.len() - 1];
+                    if leg.breaks {
+                        rolls.pass_knot(t);
+                        now = rolls.sight(t, &y);
+                    }
                 }
             }
         }

@@ -22,6 +22,7 @@
 //! asked, which is also what it is tested against.
 
 use super::crossing::scaled;
+use super::drive::Ramp;
 use super::events::FIGURES;
 use super::model::{Model, Place, State};
 use super::probes::Grid;
@@ -60,6 +61,8 @@ pub(super) struct Leg {
     pub(super) until_s: f64,
     /// Whether it ends before that, at a junction.
     pub(super) passes: bool,
+    /// Whether it ends at a knot of the torque's course, where figures jump.
+    pub(super) breaks: bool,
 }
 
 /// Where a figure was largest.
@@ -95,7 +98,11 @@ pub(super) struct Rolls<'a> {
     model: &'a Model,
     table: Table<'a>,
     pub(super) probed: [Sight; PROBES.len()],
+    /// Whether a step is looked at between its ends.
+    pub(super) looks: bool,
     beat: Beat,
+    /// C_bi by the straight piece of its course that a step lies on.
+    inner: Ramp,
 }
 
 /// amplitude sin(omega t) near a time at which it is known: by the addition theorem and Taylor's series, at a quarter of what
@@ -155,7 +162,29 @@ impl<'a> Rolls<'a> {
         let y: Pair = [windup, state[3], state[7] - state[6], state[7]];
         let nothing = Sight { t: 0.0, y, rates: [f64::NAN; 2], figures: [f64::NAN; FIGURES] };
         let beat = Beat::new(model.loads.omega_rad_s, model.loads.amplitude_nm, 0.0);
-        (Self { model, table: Table::new(model, arc), probed: [nothing; PROBES.len()], beat }, y)
+        let (table, inner) =
+            (Table::new(model, arc), Ramp { start_nm: model.loads.inner_nm, rate_nm_per_s: 0.0 });
+        let mut rolls = Self { model, table, probed: [nothing; PROBES.len()], looks: true, beat, inner };
+        rolls.pass_knot(0.0);
+        (rolls, y)
+    }
+
+    /// On to the piece of the torque's course that begins at a knot at `t` (s); where none is there the piece stays.
+    pub(super) fn pass_knot(&mut self, t: f64) {
+        let Some(course) = &self.model.drive.torque_nm else { return };
+        let (nm, rate) = course.at(course.past_knot(t));
+        self.inner = Ramp { start_nm: self.model.loads.inner_nm - nm + rate * t, rate_nm_per_s: -rate };
+    }
+
+    /// Whether a step that ended at `t` (s) ended at a knot of the torque's course, to rounding.
+    fn is_knot(&self, t: f64) -> bool {
+        self.model.drive.torque_nm.as_ref().is_some_and(|c| c.past_knot(t) > t)
+    }
+
+    /// Next knot of the torque's course after `t`, s.
+    fn next_knot_s(&self, t: f64) -> f64 {
+        let course = self.model.drive.torque_nm.as_ref();
+        course.and_then(|c| c.next_knot(c.past_knot(t))).unwrap_or(f64::INFINITY)
     }
 
     /// Ready for a step from `now`, and the slope there.
@@ -202,10 +231,10 @@ impl<'a> Rolls<'a> {
         if finite { Ok([y[2], y[3], u_rate, v_rate]) } else { Err(()) }
     }
 
-    /// C_bi and C_be at `t`, N m: no course and no flange acts here.
+    /// C_bi and C_be at `t`, N m: no flange acts here.
     #[inline(always)]
     fn torques_nm(&self, t: f64) -> [f64; 2] {
-        [self.model.loads.inner_nm, self.beat.at(t)]
+        [self.inner.at(t), self.beat.at(t)]
     }
 
     /// Everything at (t, y).
@@ -237,6 +266,9 @@ impl RightHandSide<4> for Rolls<'_> {
 
     #[inline(always)]
     fn slope_at_probe(&mut self, probe: usize, t: f64, y: &Pair) -> Result<Pair, ()> {
+        if !self.looks && probe + 1 < PROBES.len() {
+            return self.slope(t, y);
+        }
         self.probed[probe] = self.sight(t, y);
         Self::slope_of(y, self.probed[probe].rates)
     }
@@ -251,11 +283,10 @@ const BEYOND: [f64; 2] = [1.05, 0.01];
 const MOST: f64 = 1.5;
 
 /// Run `model` from `state` on arc `place` with both contacts rolling. `None` where that leaves the closed contact or asks for
-/// more than these equations hold: a course of speed or torque, a drivetrain, damped contacts, a contact B that holds whatever it takes.
+/// more than these equations hold: a course of speed, a drivetrain, damped contacts, a contact B that holds whatever it takes.
 pub(super) fn stuck(model: &Model, state: &State, place: Place, settings: &RunSettings) -> Option<Stuck> {
     let Place::Arc(arc) = place else { return None };
     let plain = model.drive.speed_rad_s.is_none()
-        && model.drive.torque_nm.is_none()
         && model.drive.flanges.is_none()
         && model.drive.train.is_none()
         && model.hunt_crossley_s_per_m == 0.0
@@ -294,7 +325,8 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
         if run.counters.steps + run.counters.rejections >= settings.most_steps || rolls.table.is_left(y[0]) {
             return false;
         }
-        let rest = settings.duration_s - t;
+        let knot_s = rolls.next_knot_s(t);
+        let rest = settings.duration_s.min(knot_s) - t;
         let ahead = rolls.table.junction_ahead_s(&y, now.rates[0]);
         let trial = h.min(longest).min(rest).min(BEYOND[0] * ahead + BEYOND[1] * longest);
         let slope = rolls.set_out(now);
@@ -312,8 +344,9 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
         run.counters.steps += 1;
         let mut dense = None;
         let Some(end) = first_passage(rolls, &step, &mut dense, &mut run.counters) else { return false };
-        let until_s = if trial == rest { settings.duration_s } else { t + trial };
-        run.legs.push(Leg { until_s, passes: end.is_some() });
+        let until_s = if trial == rest { settings.duration_s.min(knot_s) } else { t + trial };
+        let breaks = end.is_none() && rolls.is_knot(until_s);
+        run.legs.push(Leg { until_s, passes: end.is_some(), breaks });
         if !watch(rolls, &step, end, &mut dense, settings, run) {
             return false;
         }
@@ -325,6 +358,7 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
                     return false;
                 }
                 run.passed += 1;
+                rolls.pass_knot(t);
                 now = rolls.sight(t, &y);
                 run.counters.rhs_evaluations += 1;
             }
@@ -332,6 +366,11 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
                 t = until_s;
                 y = step.y1;
                 now = rolls.probed[PROBES.len() - 1];
+                if breaks {
+                    rolls.pass_knot(t);
+                    now = rolls.sight(t, &y);
+                    run.counters.rhs_evaluations += 1;
+                }
             }
         }
         run.t_s = t;

@@ -361,7 +361,14 @@ fn load_of_worn(design: &Design, drawn_state: &LoadState, drawn: bool) -> Result
     let profile = design.clutch.profile().map_err(|_| NoCurve::NoFirstContact)?;
     let curve = WedgeCurve::build_with_body_of(&design.clutch, &profile, &drawn_state.curve)?;
     let first_tan_omega = curve.touch().t_ratio;
-    Ok(LoadState { profile, outline: None, curve, first_tan_omega, alpha_max_rad: drawn_state.alpha_max_rad })
+    Ok(LoadState {
+        profile,
+        outline: None,
+        curve,
+        first_tan_omega,
+        alpha_max_rad: drawn_state.alpha_max_rad,
+        ends_alone: false,
+    })
 }
 
 /// What engagements of a whole life take by creep.

@@ -26,6 +26,8 @@ pub struct LoadState {
     pub alpha_max_rad: f64,
     /// tan omega at first contact.
     pub first_tan_omega: f64,
+    /// Whether rows that count over all states on the way to a torque look at its ends alone: see [`ends_decide`].
+    pub ends_alone: bool,
 }
 
 impl LoadState {
@@ -53,7 +55,7 @@ pub fn load_state_at(design: &Design, effort: Effort) -> Result<LoadState, NoMar
     let outline = flanks.map(|f| Outline::closed(&profile, &f)).transpose().map_err(NoMargins::Outline)?;
     let first_tan_omega = curve.touch().t_ratio;
     let alpha_max_rad = alpha_max_rad(&design.clutch, &curve);
-    Ok(LoadState { profile, outline, curve, alpha_max_rad, first_tan_omega })
+    Ok(LoadState { profile, outline, curve, alpha_max_rad, first_tan_omega, ends_alone: false })
 }
 
 /// A load state with what is asked of it.
@@ -168,8 +170,32 @@ fn unloaded_row(case: &LoadCase, limit: &'static Limit) -> Option<Margin> {
 /// junctions, which divide the curve into a few pieces.
 const LOOKS: usize = 24;
 
+/// Whether none of the rows that count over all states on the way to a torque has its worst between no load and that torque:
+/// then none has in the state of a neighbour either that differs by next to nothing.
+pub fn ends_decide(design: &Design, limits: &Limits, state: &LoadState) -> bool {
+    let case = LoadCase { design, limits, state };
+    let decide = |when: When| {
+        let Some(torque_nm) = when.torque_nm(limits) else { return true };
+        let Reached { p, below, .. } = Reached::new(&case, torque_nm);
+        LIMITS.iter().filter(|limit| limit.when == when).all(|limit| match limit.of {
+            Of::Neighbours => {
+                let up_to = |below| clearance_up_to_m(design, state, &p, below);
+                up_to(&below) == up_to(&[])
+            }
+            Of::Sprag { below_torque: Some(_), .. } => {
+                limit.largest(&case, &p, &below) == limit.largest(&case, &p, &[])
+            }
+            _ => true,
+        })
+    };
+    decide(When::Nominal) && decide(When::Peak)
+}
+
 /// States below `peak`, rising.
 fn below(state: &LoadState, peak: &StaticPoint) -> Vec<StaticPoint> {
+    if state.ends_alone {
+        return Vec::new();
+    }
     let last_n = peak.normal_inner_n;
     (1..LOOKS).filter_map(|i| state.curve.at_normal(last_n * i as f64 / LOOKS as f64)).collect()
 }

@@ -21,7 +21,7 @@ mod unlike;
 pub use capacity::{DemandCourse, courses, nominal_capacity};
 pub use hoop::{ring_places_pa, rings_pa};
 pub use limits::{Limit, When, limit_of};
-pub use load::{LoadState, load_state, load_state_at};
+pub use load::{LoadState, ends_decide, load_state, load_state_at};
 pub use overrun::{
     LIFT_OFF_ERROR, LIFT_OFF_TO_RAD_S, OverrunCurve, OverrunPoint, lift_off_rad_s, overrun_at, overrun_curve,
 };

@@ -42,6 +42,8 @@ pub trait Record: Send {
     }
     /// A point was evaluated.
     fn evaluated(&mut self, _problem: &ProblemId, _entry: &Entry) {}
+    /// A problem gave derivatives at `x` itself, along as many variables as `along`.
+    fn derived(&mut self, _problem: &ProblemId, _x: &[f64], _along: usize) {}
     /// A step was tried, in some run.
     fn iterated(&mut self, _iteration: &Iteration) {}
     /// A new part of the search begins.
@@ -102,7 +104,10 @@ impl<'a> Desk<'a> {
         let id = ProblemId::of(problem);
         let journal = self.with(|record| record.known(&id));
         let mut scribe = Scribe { desk: self, problem: id };
-        what(problem, SearchRun { journal, follow: self.follow(), watch: Some(&mut scribe) })
+        what(
+            problem,
+            SearchRun { journal, follow: self.follow(), known: Vec::new(), watch: Some(&mut scribe) },
+        )
     }
 
     /// One climb.
@@ -116,13 +121,35 @@ impl<'a> Desk<'a> {
         (lo, hi): (&[f64], &[f64]),
         settings: &Settings,
     ) -> Result<Outcome, Refusal> {
-        self.run(problem, |problem, run| maximise_least_margin(problem, x0, lo, hi, settings, run))
+        self.climb_beside(problem, x0, (lo, hi), settings, &[])
+    }
+
+    /// The same beside optima that are `known`, each with its least margin.
+    ///
+    /// # Errors
+    /// As [`maximise_least_margin`].
+    pub(super) fn climb_beside(
+        &self,
+        problem: &ClutchProblem,
+        x0: &[f64],
+        (lo, hi): (&[f64], &[f64]),
+        settings: &Settings,
+        known: &[(Vec<f64>, f64)],
+    ) -> Result<Outcome, Refusal> {
+        self.run(problem, |problem, run| {
+            let run = SearchRun { known: known.to_vec(), ..run };
+            maximise_least_margin(problem, x0, lo, hi, settings, run)
+        })
     }
 }
 
 impl Watch for Scribe<'_, '_> {
     fn evaluated(&mut self, entry: &Entry) {
         self.desk.with(|record| record.evaluated(&self.problem, entry));
+    }
+
+    fn derived(&mut self, x: &[f64], along: usize) {
+        self.desk.with(|record| record.derived(&self.problem, x, along));
     }
 
     fn iterated(&mut self, iteration: &Iteration) {

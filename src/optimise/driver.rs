@@ -51,6 +51,9 @@ struct Driver<'a, 's> {
     noise: Vec<f64>,
     steps: Option<Steps>,
     history: Vec<Iteration>,
+    /// Optima known beforehand, and the least margin of the one whose basin this has run into.
+    known: Vec<(Vec<f64>, f64)>,
+    joined: Option<f64>,
 }
 
 /// Maximises the least objective subject to limits >= 0 and lo <= x <= hi, from x0.
@@ -70,11 +73,13 @@ pub fn maximise_least_margin<'a>(
 ) -> Result<Outcome, Refusal> {
     settings.validate().map_err(Refusal::Setting)?;
     let space = Space::new(x0, lo, hi)?;
+    let known = run.known.iter().map(|(x, least)| (space.scaled(x), *least)).collect();
     let mut memo = Memo::new(problem, run, settings.max_evaluations);
     let evaluation =
         memo.one(x0.to_vec()).map_err(|_| Refusal::StoppedAtStart)?.map_err(Refusal::StartFails)?;
     let start = Point { u: space.start(), evaluation };
-    let mut driver = Driver { memo, space, settings, noise: Vec::new(), steps: None, history: Vec::new() };
+    let (noise, history) = (Vec::new(), Vec::new());
+    let mut driver = Driver { memo, space, settings, noise, steps: None, history, known, joined: None };
     let mut stand = Stand {
         point: start,
         multipliers: (Vec::new(), Vec::new()),
@@ -143,6 +148,10 @@ impl Driver<'_, '_> {
                         ..out
                     };
                 }
+                End::Joined(least) => {
+                    self.joined = Some(least);
+                    break;
+                }
                 End::Stalled(cause) => return Ok(Status::Stalled(cause)),
                 End::Violated if restored == REPEATS => return Ok(Status::Stalled(Cause::RestorationCycle)),
                 End::Violated => {
@@ -195,6 +204,7 @@ impl Driver<'_, '_> {
             noise: &self.noise,
             steps: &mut self.steps,
             history: &mut self.history,
+            known: &self.known,
             u: stand.point.u.clone(),
             evaluation: stand.point.evaluation.clone(),
             radius: out.radius,
@@ -299,6 +309,7 @@ impl Driver<'_, '_> {
             failures: self.memo.failures,
             history: self.history,
             journal: self.memo.run.journal,
+            joined: self.joined,
         }
     }
 }

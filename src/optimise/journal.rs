@@ -67,6 +67,8 @@ pub(super) enum Halt {
 pub trait Watch {
     /// A point was evaluated (not one answered from memory); called in the journal's order.
     fn evaluated(&mut self, _entry: &Entry) {}
+    /// The problem gave derivatives at `x` itself, along as many variables as `along`.
+    fn derived(&mut self, _x: &[f64], _along: usize) {}
     /// A step was tried.
     fn iterated(&mut self, _iteration: &super::Iteration) {}
 }
@@ -78,6 +80,8 @@ pub struct SearchRun<'a> {
     pub journal: Journal,
     /// Stops it; evaluations under way finish and are kept.
     pub follow: Follow,
+    /// Optima known beforehand, each with its least margin: a climb that runs into the basin of one of them ends.
+    pub known: Vec<(Vec<f64>, f64)>,
     /// Called as the run goes on.
     pub watch: Option<&'a mut (dyn Watch + Send)>,
 }
@@ -201,7 +205,11 @@ impl<'a> Memo<'a> {
             return Err(Halt::Interrupted);
         }
         let found = self.problem.changes(x, beside);
-        self.derivatives += found.as_ref().map_or(0, Vec::len);
+        let along = found.as_ref().map_or(0, Vec::len);
+        self.derivatives += along;
+        if let Some(watch) = self.run.watch.as_mut().filter(|_| along > 0) {
+            watch.derived(x, along);
+        }
         Ok(found)
     }
 

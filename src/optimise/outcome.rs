@@ -174,6 +174,9 @@ pub struct Outcome {
     pub history: Vec<Iteration>,
     /// Every point known, in order; hand it to a later run to resume.
     pub journal: Journal,
+    /// Least margin of the known optimum into whose basin it ran, where it was ended for that
+    /// ([`SearchRun::known`](super::SearchRun::known)).
+    pub joined: Option<f64>,
 }
 
 impl Outcome {
@@ -192,6 +195,7 @@ impl Outcome {
             failures: 0,
             history: Vec::new(),
             journal: Journal::default(),
+            joined: None,
         }
     }
 }

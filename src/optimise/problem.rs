@@ -14,8 +14,8 @@ use crate::design::{
 };
 use crate::fidelity::{self, Effort};
 use crate::margin::{
-    Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins, scene_rows,
-    unlike_margins,
+    LoadState, Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins,
+    scene_rows, unlike_margins,
 };
 use crate::scenario::{AtRest, RollingTrack, Settings, demand, demand_tracked};
 use std::sync::OnceLock;
@@ -95,6 +95,16 @@ pub struct ClutchProblem {
     as_checked: bool,
     /// Of the latest evaluations.
     recent: slopes::Recent,
+}
+
+/// Rows of a scene at a corner, by its number.
+type SceneRows<'a> = dyn Fn(usize, &Scenario, AtRest) -> Vec<Margin> + 'a;
+
+/// How an evaluation is taken.
+struct Way<'a> {
+    /// The load state, before rows are read from it.
+    state: &'a dyn Fn(&Design, LoadState) -> LoadState,
+    scene: &'a SceneRows<'a>,
 }
 
 /// Everything known of one clutch.
@@ -320,17 +330,18 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch to speak of.
     pub fn assess(&self, design: &Design) -> Result<Assessment, NoEvaluation> {
-        self.assess_with(design, &|scenario, known| self.scene(scenario, known).0)
+        self.assess_with(design, &self.in_whole(&|_, scenario, known| self.scene(scenario, known).0), 0)
     }
 
-    /// The same with the rows of scenes as `scene` has them.
-    fn assess_with(
-        &self,
-        design: &Design,
-        scene: &dyn Fn(&Scenario, AtRest) -> Vec<Margin>,
-    ) -> Result<Assessment, NoEvaluation> {
-        let effort = self.effort();
-        let state = load_state_at(design, effort).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
+    /// Evaluations whose scenes are as `scene` has them.
+    fn in_whole<'a>(&self, scene: &'a SceneRows) -> Way<'a> {
+        Way { state: &|_, state| state, scene }
+    }
+
+    /// The same at corner `k`, on its way.
+    fn assess_with(&self, design: &Design, way: &Way, k: usize) -> Result<Assessment, NoEvaluation> {
+        let state = load_state_at(design, self.effort()).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
+        let state = (way.state)(design, state);
         let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
         let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
         rows.retain(|m| m.required);
@@ -339,7 +350,7 @@ impl ClutchProblem {
         }
         let scenes = |rows: &mut Vec<Margin>, wanted: &dyn Fn(&String) -> bool| {
             for scenario in design.scenarios.iter().filter(|s| wanted(&s.name)) {
-                rows.extend(scene(scenario, state.at_rest(design)));
+                rows.extend((way.scene)(k, scenario, state.at_rest(design)));
                 // A run that met its limit of work says nothing of the design: no margins rather than bad ones.
                 if let Some(row) = rows.iter().find(|r| !r.computed()) {
                     return Err(NoEvaluation::Refused(row.name.clone()));
@@ -406,24 +417,19 @@ impl ClutchProblem {
     /// # Errors
     /// [`NoEvaluation::Refused`] where there is no clutch at `x`.
     pub fn assess_at(&self, x: &[f64]) -> Result<Assessment, NoEvaluation> {
-        self.assess_at_with(x, &|_, scenario, known| self.scene(scenario, known).0)
+        self.assess_at_with(x, &self.in_whole(&|_, scenario, known| self.scene(scenario, known).0))
     }
 
-    /// The same with the rows of the scenes of each corner, by its number, as `scene` has them.
-    fn assess_at_with(
-        &self,
-        x: &[f64],
-        scene: &dyn Fn(usize, &Scenario, AtRest) -> Vec<Margin>,
-    ) -> Result<Assessment, NoEvaluation> {
+    /// The same on its way.
+    fn assess_at_with(&self, x: &[f64], way: &Way) -> Result<Assessment, NoEvaluation> {
         let design = self.asked_at(x)?;
         let mut all = Assessment { rows: Vec::new(), measures: Vec::new() };
         for (k, corner) in self.corners.iter().enumerate() {
-            let scene = |scenario: &Scenario, known: AtRest| scene(k, scenario, known);
             let mut found = if corner.is_nominal() {
-                self.assess_with(&design, &scene)?
+                self.assess_with(&design, way, k)?
             } else {
                 let there = perturbed(&design, corner).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
-                self.assess_with(&there, &scene)?
+                self.assess_with(&there, way, k)?
             };
             if !corner.is_nominal() {
                 let name = corner.name();

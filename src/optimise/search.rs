@@ -90,7 +90,7 @@ pub struct Search {
     pub problem: ClutchProblem,
     /// Evaluations of the clutch in all.
     pub evaluations: usize,
-    /// Derivatives of all margins along one variable beside them, each at a third to a half of the cost.
+    /// Derivatives of all margins along one variable beside them, each at a third to two thirds of the cost.
     pub derivatives: usize,
 }
 

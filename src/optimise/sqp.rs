@@ -35,6 +35,10 @@ const RESETS: usize = 2;
 const SECANTS: usize = 4;
 /// Gain found over gain promised from which on a step's secants are believed.
 const BELIEVED: f64 = 0.5;
+/// How near, as a part of each range, and how little below, as a part of its least margin, an optimum is whose basin a climb has run
+/// into: a choice; two optima that are as near to each other are taken for one by all climbs but the first.
+const BASIN: f64 = 0.05;
+const LEVEL: f64 = 0.02;
 /// Trust radius at which a climb gives up: a hundred-millionth of the range.
 const SHORTEST_RADIUS: f64 = 1e-8;
 
@@ -45,6 +49,8 @@ pub(super) enum End {
     Converged,
     /// Restoration has come to a point with no limit violated.
     Feasible,
+    /// In the basin of a known optimum, of this least margin.
+    Joined(f64),
     /// Stationary, or out of steps, with limits violated.
     Violated,
     Stalled(Cause),
@@ -70,6 +76,8 @@ pub(super) struct Climb<'a, 'm> {
     pub noise: &'a [f64],
     pub steps: &'a mut Option<Steps>,
     pub history: &'a mut Vec<Iteration>,
+    /// Optima known beforehand, each with its least margin.
+    pub known: &'a [(Vec<f64>, f64)],
     pub view: View,
     pub u: Vec<f64>,
     pub evaluation: Evaluation,
@@ -109,6 +117,10 @@ impl Climb<'_, '_> {
                 return Ok(self.stationary(violation));
             }
             let Some(plan) = self.plan() else { return Ok(End::Stalled(Cause::Subproblem)) };
+            if let Some(least) = self.joins(&plan) {
+                self.record(TrialOutcome::Nothing);
+                return Ok(End::Joined(least));
+            }
             match self.judge(&plan) {
                 Verdict::End(end) => {
                     self.record(TrialOutcome::Nothing);
@@ -128,6 +140,20 @@ impl Climb<'_, '_> {
             }
         }
         Ok(End::Stalled(Cause::IterationLimit))
+    }
+
+    /// The least margin of a known optimum whose basin this is: within [`BASIN`] of it, as little below it, and the plan, if its
+    /// promise were kept, no more above it.
+    fn joins(&self, plan: &Plan) -> Option<f64> {
+        if self.view.phase != Phase::Margin || plan.violation > self.settings.violation_tolerance {
+            return None;
+        }
+        let near = |(u, least): &&(Vec<f64>, f64)| {
+            let apart = u.iter().zip(&self.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let (below, slack) = (least - plan.least, LEVEL * least.abs());
+            apart <= BASIN && (0.0..=slack).contains(&below) && plan.rise <= below + slack
+        };
+        self.known.iter().find(near).map(|(_, least)| *least)
     }
 
     /// Whether the plan is worth an evaluation.

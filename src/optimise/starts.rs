@@ -93,7 +93,7 @@ pub struct ClimbRecord {
     pub from: String,
     /// How it ended, or why it did not begin.
     pub ended: Result<Status, String>,
-    /// Least margin there, as the climb has it.
+    /// Least margin there, as the climb has it; of the optimum met earlier into whose basin it ran, where it was ended for that.
     pub least_margin: f64,
     /// Largest violation there.
     pub violation: f64,
@@ -108,7 +108,7 @@ impl ClimbRecord {
         Self {
             from: String::new(),
             ended: Ok(end.status.clone()),
-            least_margin: end.evaluation.least_margin(),
+            least_margin: end.joined.unwrap_or(end.evaluation.least_margin()),
             violation: end.evaluation.violation(),
             evaluations: end.evaluations,
             derivatives: end.derivatives,
@@ -163,13 +163,15 @@ pub(super) fn climb_all(
             named.push(("swarm".to_owned(), found.x, Some(found.evaluation)));
         }
     }
-    let mut found = Found { tolerance, starts: Vec::new(), best: None, refusal: None };
+    let mut found = Found { tolerance, starts: Vec::new(), best: None, refusal: None, ends: Vec::new() };
     let climb = |named: &mut Vec<(String, Vec<f64>, Option<Evaluation>)>, found: &mut Found| {
         desk.begins("search");
+        // Those that were known before any of them began, so that none depends on which ends first.
+        let met = found.ends.clone();
         let outcomes: Vec<(String, Result<Outcome, Refusal>)> = std::mem::take(named)
             .into_par_iter()
             .map(|(from, x, known)| {
-                let outcome = desk.climb(problem, &x, (lo, hi), &settings);
+                let outcome = desk.climb_beside(problem, &x, (lo, hi), &settings, &met);
                 let outcome = match (outcome, known) {
                     (Err(Refusal::StoppedAtStart), Some(known)) => Ok(Outcome::stopped_at(x, known)),
                     (outcome, _) => outcome,
@@ -228,6 +230,8 @@ struct Found {
     /// With its place among `starts`.
     best: Option<(usize, Outcome)>,
     refusal: Option<Refusal>,
+    /// Ends of climbs that converged within the limits, each with its least margin.
+    ends: Vec<(Vec<f64>, f64)>,
 }
 
 impl Found {
@@ -257,6 +261,10 @@ impl Found {
     fn add(&mut self, from: String, outcome: Result<Outcome, Refusal>) {
         match outcome {
             Ok(o) => {
+                let within = o.evaluation.violation() <= self.tolerance;
+                if o.status == Status::Converged && within && o.joined.is_none() {
+                    self.ends.push((o.x.clone(), o.evaluation.least_margin()));
+                }
                 self.starts.push(ClimbRecord { from, ..ClimbRecord::of(&o) });
                 let better = self.best.as_ref().is_none_or(|(_, b)| self.is_better(&o, b));
                 if better {

@@ -116,12 +116,19 @@ pub fn demand(prepared: &Prepared, settings: &Settings) -> RollingDemand {
 /// Tolerance of the steps of a quick run over that of its figures: a step's error is a fifth of it at most, over
 /// [`STEPS_PER_PERIOD_OF_DEMAND`] steps in a period mostly far less, and what it leaves decays.
 const QUICK: f64 = 2.0;
+/// The same where no period bounds the steps.
+const QUICK_WITHOUT_PERIOD: f64 = 0.1;
+
+/// Tolerance of the steps of a quick run.
+fn quick_tolerance(prepared: &Prepared, settings: &Settings) -> f64 {
+    settings.tolerance * if prepared.period_s.is_some() { QUICK } else { QUICK_WITHOUT_PERIOD }
+}
 
 /// As [`demand`], for a search: two equations instead of ten where contact is kept. What it differs by from
 /// [`demand`] stays below the tolerance (test `the_quick_demand_is_the_demand`).
 pub fn demand_quickly(prepared: &Prepared, settings: &Settings) -> RollingDemand {
     let single = Fineness::single(0.1 * settings.tolerance);
-    let fineness = Fineness { quick: Some(QUICK * settings.tolerance), ..single };
+    let fineness = Fineness { quick: Some(quick_tolerance(prepared, settings)), ..single };
     demand_at(prepared, settings, fineness, None)
 }
 
@@ -166,7 +173,7 @@ pub fn demand_tracked(prepared: &Prepared, settings: &Settings) -> (RollingDeman
         let single = Fineness::single(0.1 * settings.tolerance);
         let s = run_settings(prepared, &unaudited(settings), single, 0, STEPS_PER_PERIOD_OF_DEMAND);
         let (model, state, place) = (&prepared.model, prepared.state, prepared.mode.place);
-        let (found, track) = rolling_tracked(model, state, place, &s, QUICK * settings.tolerance)?;
+        let (found, track) = rolling_tracked(model, state, place, &s, quick_tolerance(prepared, settings))?;
         let demand = of_peaks(prepared, &found);
         (demand.finished && demand.required_friction.is_some()).then_some((demand, Some(track)))
     };

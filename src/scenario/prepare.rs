@@ -174,11 +174,14 @@ fn at_start(
 ) -> Result<Prepared, NoScenario> {
     let clutch = &scenario.clutch;
     let profile = clutch.profile().map_err(NoScenario::Profile)?;
+    let known = known.filter(|k| k.clutch == clutch);
     let build = |speed: f64| {
         let Reduction { reach_nm, effort } = *reduction;
-        WedgeCurve::build_reaching_at(clutch, &profile, speed, reach_nm, effort).map_err(NoScenario::Curve)
+        let of_known = known.and_then(|k| k.curve.at_speed(speed, reach_nm, effort));
+        let anew = || WedgeCurve::build_reaching_at(clutch, &profile, speed, reach_nm, effort);
+        of_known.map_or_else(anew, Ok).map_err(NoScenario::Curve)
     };
-    let at_rest = match known.filter(|k| k.clutch == clutch) {
+    let at_rest = match known {
         Some(known) => known.curve.reaching(reduction.reach_nm),
         None => build(0.0)?,
     };

@@ -76,6 +76,15 @@ impl WedgeCurve {
         }
     }
 
+    /// The curve of the same clutch at mean speed `speed_rad_s`, as [`Self::build_reaching_at`] has it at the effort of this one, whose
+    /// elastic laws and bodies stand already; `None`: that is to be asked.
+    pub fn at_speed(&self, speed_rad_s: f64, reach_nm: Option<f64>, effort: Effort) -> Option<Self> {
+        let same = self.effort == effort;
+        let found =
+            same.then(|| Self::march(self.statics.clone(), self.exponent, speed_rad_s, reach_nm, effort));
+        found?.ok().filter(|curve| effort == Effort::Full || curve.truncation() < TRUSTED)
+    }
+
     /// The curve at rest of a sprag between races whose axes do not meet: that of the inner race lies `offset_m` from that
     /// of the outer, (along OC_e outward, across it towards positive azimuth) at first contact between concentric races,
     /// m, and turns with the race `carrier` from there on. The gap is narrower by the first; the second tilts the tracks

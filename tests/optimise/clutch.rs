@@ -8,6 +8,7 @@ pub const HUANG: &str = include_str!("../../designs/huang2017-multi-arc.toml");
 pub const PEER_A: &str = include_str!("designs/a-huang-at-rest.toml");
 pub const PEER_B: &str = include_str!("designs/b-huang-at-speed.toml");
 pub const PEER_C: &str = include_str!("designs/c-24-sprags.toml");
+pub const PEER_D: &str = include_str!("designs/d-indexing-elastic.toml");
 
 /// `text` with each `from` replaced once.
 pub fn changed(text: &str, changes: &[(&str, &str)]) -> Design {

@@ -45,6 +45,51 @@ fn infeasible_limits_are_named_with_their_least_violation() {
     assert!(found.evaluations < 45, "{}", found.evaluations);
 }
 
+/// A climb that runs into the basin of a known optimum ends there, before its own, or ends as it would alone; one that is known
+/// elsewhere, or higher, does not end it.
+#[test]
+fn a_climb_ends_in_the_basin_of_a_known_optimum() {
+    let mut ended = 0;
+    for name in ["CB2", "Madsen", "HS35 (Beale)"] {
+        let model = known(name);
+        let climb = |known: Vec<(Vec<f64>, f64)>| {
+            let run = SearchRun { known, ..SearchRun::default() };
+            let settings = Settings { finish: false, ..Settings::default() };
+            maximise_least_margin(&model, &model.start, &model.lo, &model.hi, &settings, run)
+                .expect("well posed")
+        };
+        let alone = climb(Vec::new());
+        let (x, least) = (alone.x.clone(), alone.evaluation.least_margin());
+        let beside = climb(vec![(x.clone(), least)]);
+        println!(
+            "{name}: {:?}, {} evaluations, alone {}",
+            beside.joined, beside.evaluations, alone.evaluations
+        );
+        assert_eq!(beside.status, Status::Converged, "{name}");
+        if beside.joined == Some(least) {
+            ended += 1;
+            assert!(beside.evaluations < alone.evaluations, "{name}");
+            assert!(
+                beside.evaluation.violation() <= 1e-8 && beside.evaluation.least_margin() <= least,
+                "{name}"
+            );
+        } else {
+            assert_eq!(
+                (beside.joined, &beside.x, beside.evaluations),
+                (None, &x, alone.evaluations),
+                "{name}"
+            );
+        }
+        let width: Vec<f64> = model.lo.iter().zip(&model.hi).map(|(lo, hi)| hi - lo).collect();
+        let elsewhere = x.iter().zip(width).map(|(v, w)| v - 0.9 * w).collect();
+        for other in [(elsewhere, least), (x, least + 0.1 * least.abs().max(1.0))] {
+            let found = climb(vec![other]);
+            assert_eq!((found.joined, found.evaluations), (None, alone.evaluations), "{name}");
+        }
+    }
+    assert!(ended > 0);
+}
+
 /// The bottom of a valley is stationary too, along an axis or across both: only the poll sees that it is no top.
 #[test]
 fn the_poll_leaves_the_bottom_of_a_valley() {

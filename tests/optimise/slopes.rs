@@ -3,7 +3,7 @@
 use sprag_design::optimise::*;
 use sprag_design::scenario::Settings as RunSettings;
 
-use super::clutch::{HUANG, PEER_B, PEER_C, changed, design, task};
+use super::clutch::{HUANG, PEER_B, PEER_C, PEER_D, changed, design, task};
 
 /// Fourth-order differences of the outputs at `x` along variable `i` over `h`.
 fn differences(problem: &ClutchProblem, x: &[f64], i: usize, h: f64) -> Vec<f64> {
@@ -33,6 +33,7 @@ fn slopes_are_those_of_whole_evaluations() {
         ("flanks free", design(PEER_B), None),
         ("24 sprags, roller", design(PEER_C), None),
         ("24 sprags, elastic", changed(PEER_C, &[elastic, bare]), None),
+        ("a step of torque, at speed", design(PEER_D), Some(":swing")),
     ];
     for (name, design, without) in designs {
         let task = task(&design);

@@ -1,14 +1,14 @@
 //! Evaluations of a clutch, and the slopes of its margins beside one.
 
-use super::ClutchProblem;
-use crate::clutch::Scenario;
-use crate::design::Link;
+use super::{ClutchProblem, Way};
+use crate::clutch::{Scenario, ScenarioKind};
+use crate::design::{Design, Link};
 use crate::fidelity;
-use crate::margin::{Margin, SceneDemand, scene_margins, scene_rows};
+use crate::margin::{LoadState, Margin, SceneDemand, ends_decide, scene_margins, scene_rows};
 use crate::optimise::evaluate::{Evaluate, Evaluation, NoEvaluation};
 use crate::scenario::{AtRest, RollingTrack, demand_retraced};
 use rayon::prelude::*;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
 
@@ -54,9 +54,21 @@ impl Clone for Recent {
     }
 }
 
+/// What the evaluation at a point says of those next to it.
+struct Here {
+    outputs: Vec<f64>,
+    /// Whether [`ends_decide`] at every corner.
+    ends_decide: bool,
+}
+
 impl ClutchProblem {
     /// The rows of a scene as a neighbour of the one whose track is given.
     fn scene_beside(&self, scenario: &Scenario, known: AtRest, track: Option<&RollingTrack>) -> Vec<Margin> {
+        let moves = !matches!(scenario.kind, ScenarioKind::Static { .. } | ScenarioKind::Overrun { .. });
+        if moves && track.is_none() {
+            let unknown = SceneDemand::unknown(scenario);
+            return scene_rows(scenario, &unknown, &self.limits, true);
+        }
         let Ok((_, prepared)) = fidelity::plan_at(scenario, Some(known), self.effort()) else {
             return scene_margins(scenario, &self.limits, true, Some(known), &self.fidelity.settings);
         };
@@ -75,18 +87,26 @@ impl ClutchProblem {
             tracks.borrow_mut().insert((k, scenario.name.clone()), track);
             rows
         };
-        let found = self.assess_at_with(x, &scene).map(|assessed| self.evaluation(&assessed))?;
-        Ok((found, Arc::new(tracks.into_inner())))
+        let assessed = self.assess_at_with(x, &self.in_whole(&scene))?;
+        Ok((self.evaluation(&assessed), Arc::new(tracks.into_inner())))
     }
 
-    /// The numbers of the evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is
-    /// none.
-    fn retraced(&self, x: &[f64], tracks: &Tracks) -> Option<Vec<f64>> {
+    /// The evaluation at `x` with every scene as the neighbour of one whose track `tracks` holds; NaN where there is none.
+    /// `ends_alone`: known of a neighbour that [`ends_decide`]; `None`: to be seen.
+    fn retraced(&self, x: &[f64], tracks: &Tracks, ends_alone: Option<bool>) -> Option<Here> {
+        let all_decide = Cell::new(true);
         let scene = |k: usize, scenario: &Scenario, known: AtRest| {
             let track = tracks.get(&(k, scenario.name.clone())).and_then(Option::as_ref);
             self.scene_beside(scenario, known, track)
         };
-        self.assess_at_with(x, &scene).ok().map(|assessed| self.evaluation(&assessed).outputs())
+        let state = |design: &Design, state: LoadState| {
+            let decide = ends_alone.unwrap_or_else(|| ends_decide(design, &self.limits, &state));
+            all_decide.set(all_decide.get() && decide);
+            LoadState { ends_alone: decide, ..state }
+        };
+        let assessed = self.assess_at_with(x, &Way { state: &state, scene: &scene }).ok()?;
+        let outputs = self.evaluation(&assessed).outputs();
+        Some(Here { outputs, ends_decide: all_decide.get() })
     }
 }
 
@@ -115,14 +135,14 @@ impl Evaluate for ClutchProblem {
             Some(known) => known,
             None => self.tracked(x).ok()?.1,
         };
-        let points: Vec<&[f64]> = std::iter::once(x).chain(beside.iter().map(Vec::as_slice)).collect();
-        let mut found: Vec<_> = points.into_par_iter().map(|at| self.retraced(at, &tracks)).collect();
-        let here = found.remove(0)?;
-        let change = |there: Option<Vec<f64>>| match there {
-            Some(there) if there.len() == here.len() => there.iter().zip(&here).map(|(b, a)| b - a).collect(),
+        let here = self.retraced(x, &tracks, None)?;
+        let change = |at: &Vec<f64>| match self.retraced(at, &tracks, Some(here.ends_decide)) {
+            Some(there) if there.outputs.len() == here.outputs.len() => {
+                there.outputs.iter().zip(&here.outputs).map(|(b, a)| b - a).collect()
+            }
             _ => Vec::new(),
         };
-        let changes: Vec<Vec<f64>> = found.into_iter().map(change).collect();
+        let changes: Vec<Vec<f64>> = beside.par_iter().map(change).collect();
         let answered = Some((beside.to_vec(), changes.clone()));
         self.recent.at(x, |past| past.asked.replace(answered?));
         Some(changes)
