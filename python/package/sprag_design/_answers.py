@@ -814,7 +814,7 @@ class Optimum(_Common):
     evaluations: int
     """Evaluations of the clutch in all."""
     derivatives: int
-    """Derivatives of all margins along one variable beside them, each at a third to a half of the cost."""
+    """Derivatives of all margins along one variable beside them, each at a third to two thirds of the cost."""
     failed_evaluations: int
     """Evaluations of the best climb at which there was no clutch."""
     fighting_limits: tuple[str, ...]
