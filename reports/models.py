@@ -5,7 +5,6 @@ and with it, both by the program. What a table of the design file says beyond th
 
 import json
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -178,9 +177,8 @@ part(
     "the coefficients of wear, to a power of ten; the point of the pitting curve is the maker's or that of own tests.",
 )
 
-beyond = stiff["elastic"]
 curve = ask("stiffness", "plain.toml")["end"]
-over = curve["beyond"] or {}
+over = curve["beyond"]
 blow = ask("reengage", "plain.toml", "--paths", "0.01")
 swing = ask("resonance", "plain.toml")["states"][0]
 scene = margin(plain, "slip:swing")
@@ -188,19 +186,18 @@ part(
     "Beyond the end, blows, vibration",
     "",
     [
-        ("torque where the profile ends", number(curve["torque_nm"], "Nm"), number(over.get("most_nm"), "Nm") + " at most beyond", "stiffness"),
+        ("torque where the profile ends", number(curve["torque_nm"], "Nm"), number(over["peak"]["torque_nm"], "Nm") + ", the most beyond it", "stiffness"),
         ("blow after 0.01 mm of slip at 1000 Nm", "–", number(blow["blows"][0]["peak_torque_nm"], "Nm"), "reengage"),
         ("friction that the swing needs", number(scene["demand"]) + ", first two periods", number(swing["required_static_friction"]) + ", once its start is forgotten", "resonance"),
     ],
     "damping in the drive, which decides blows and resonance more than the clutch does.",
 )
 
-picture = ""
 text = f"""<!-- sprag-design {version}; python3 reports/models.py BINARY -->
 # What each model does to the README's clutch
 
-The clutch of the README (two-speed, bore 40 mm, 1000 Nm), asked with one model more at a time: oil and temperatures leave its strength
-alone and change its overrun; unlike sprags cost it some {100 * (worst["largest_share"] - 1):.0f} % of force on one sprag; wear and chance decide its life.
+The clutch of the README (two-speed, bore 40 mm, 1000 Nm), asked with one model more at a time: oil and temperatures hardly touch its strength
+and change its overrun; unlike sprags cost it some {100 * (worst["largest_share"] - 1):.0f} % of force on one sprag; wear and chance decide its life.
 
 """
 path = here / "models.md"

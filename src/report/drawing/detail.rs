@@ -119,18 +119,21 @@ pub(super) fn draw_races(svg: &mut Svg, drawing: &Drawing, view: &View) {
     svg.path(&(circle(o, outside * view.scale) + &circle(o, outer * view.scale)), &style);
     let hole = if bore > 0.0 { circle(o, bore * view.scale) } else { String::new() };
     svg.path(&(circle(o, inner * view.scale) + &hole), &style);
-    // Each name on its race, at the left, clear of the edges.
-    let [left, height] = [14.0, view.size[1]];
+    // Each name on its race, as far left as it stands clear of the edges.
+    let height = view.size[1];
     let above = |radius: f64, x: f64| {
         let (r, dx) = (radius * view.scale, x - o[0]);
         (r * r > dx * dx).then(|| o[1] - (r * r - dx * dx).sqrt())
     };
     let name = |svg: &mut Svg, name: &str, [outside, inside]: [f64; 2]| {
-        let ends = [left, left + text_width(name, 12.0)];
-        let top = ends.map(|x| above(outside, x).unwrap_or(height)).into_iter().fold(0.0, f64::max);
-        let bottom = ends.map(|x| above(inside, x).unwrap_or(height)).into_iter().fold(height, f64::min);
-        if bottom - top > 16.0 {
-            svg.bare_text([left, 0.5 * (top + bottom) + 4.0], Anchor::Start, SOFT, name);
+        let place = |left: f64| {
+            let ends = [left, left + text_width(name, 12.0)];
+            let top = ends.map(|x| above(outside, x).unwrap_or(height)).into_iter().fold(0.0, f64::max);
+            let bottom = ends.map(|x| above(inside, x).unwrap_or(height)).into_iter().fold(height, f64::min);
+            (bottom - top > 22.0).then_some([left, 0.5 * (top + bottom) + 4.0])
+        };
+        if let Some(at) = [14.0, 50.0, 90.0, 130.0, 170.0].into_iter().find_map(place) {
+            svg.bare_text(at, Anchor::Start, SOFT, name);
         }
     };
     name(svg, "outer race", [outside, outer]);
