@@ -223,7 +223,7 @@ fn a_swing_is_an_engagement_in_each_period() {
         );
     }
     let text = |answer: &sprag_design::answer::life::LifeAnswer<'_>| answer.text(Default::default());
-    assert!(!text(&answer).contains("Not counted") && text(&from_nothing).contains("Not counted: hum"));
+    assert!(!text(&answer).contains("Not counted: hum") && text(&from_nothing).contains("Not counted: hum"));
     // What does not swing is refused with what does, what does not roll on by name.
     let said = with("swings = [ { scenario = \"hum-\", hours = 1.0 } ]\n", scene).unwrap_err().to_string();
     assert!(said.contains("allowed: hum"), "{said}");
