@@ -34,7 +34,7 @@ const APART: [(&str, &[&str], &str); 4] = [
 /// What each command is asked, without --json and --csv; `{}` is a folder.
 const ASKED: [&[&str]; 20] = [
     &["check", MULTI],
-    &["sheet", MULTI],
+    &["sheet", MULTI, "--report", "{}/sheet.html"],
     &["compare", TWO[0], TWO[1]],
     &["stiffness", MULTI, "--torques", "3,16.8"],
     &["simulate", MULTI, "--scenario", "high-6"],
