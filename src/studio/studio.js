@@ -74,6 +74,7 @@ async function change(path, value, field, before) {
 }
 /* A value that is refused stays in its field with why; the answers are those of the design before it, and say so. */
 function fault(field, text) {
+  if (field.querySelector(".error").textContent === text) return;
   field.classList.toggle("bad", text !== "");
   field.querySelector(".error").textContent = text;
   if (state.look) rows();
