@@ -15,7 +15,7 @@
 //! | 0 | [`ode`] | Runge-Kutta steps with dense output and work counters |
 //! | 0 | [`follow`] | one handle to follow and to stop whatever computes |
 //! | 1 | [`material`] | elastic constants, density, a library of steels |
-//! | 1 | [`profile`] | tangent arcs, outline, mass properties, crowding of neighbours |
+//! | 1 | [`profile`] | tangent arcs, spirals, outline, mass properties, crowding of neighbours |
 //! | 1 | [`race`] | growth and hoop stress of rings, press fits, body compression |
 //! | 1 | [`lubrication`] | oils, film of a line contact, its shear, heat and wear; never heard of a clutch |
 //! | 1 | [`clutch`] | the nouns, SI: a clutch and its parts, radii as run, what happens to it |
