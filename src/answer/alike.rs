@@ -2,13 +2,13 @@
 //! at a time, sprag by sprag.
 
 use super::left_out::LeftOut;
-use super::under_load::at;
+use super::under_load::{AtLoad, at};
 use crate::clutch::{Carrier, Clutch, Eccentricity, GivenSprag, Sharing, Standing};
 use crate::report::Unit;
 use crate::sharing::{Asked, Shared, Unlike};
 use crate::wedge::{StaticPoint, WedgeCurve};
 
-pub(super) const TOGETHER: &str = "sprags that wedge one after another";
+const TOGETHER: &str = "sprags that wedge one after another";
 pub(super) const UNEQUAL: &str = "unequal sharing of the load between the sprags";
 pub(super) const ECCENTRIC: &str = "eccentric and tilted races";
 
@@ -18,12 +18,12 @@ const LARGER_M: f64 = 1e-6;
 const APART_M: f64 = 10e-6;
 const UNKNOWN: &str = "not estimated: no static state to start from";
 
-/// The terms; `loaded`: curve and static state at which their cost is named.
-pub(super) fn left_out_of_alike(
-    clutch: &Clutch,
-    loaded: Option<(&WedgeCurve, &StaticPoint)>,
-) -> [LeftOut; 3] {
-    let costs = loaded.map(|(curve, point)| {
+/// The terms; `at_load`: curve and static state at which their cost is named.
+pub(super) fn left_out_of_alike(clutch: &Clutch, at_load: Option<&AtLoad>) -> [LeftOut; 3] {
+    let costs = at_load.map(|(curve, point)| {
+        // One deviation at a time: axes that the design has apart are not one of these.
+        let mut clutch = clutch.clone();
+        clutch.races.eccentricity = None;
         let case = Case { clutch, curve, point };
         [case.late(), case.larger(), case.eccentric()]
     });
@@ -44,7 +44,8 @@ pub(super) fn left_out_of_alike(
 }
 
 struct Case<'a> {
-    clutch: &'a Clutch,
+    /// Its axes meet.
+    clutch: Clutch,
     curve: &'a WedgeCurve,
     point: &'a StaticPoint,
 }
@@ -54,7 +55,7 @@ impl Case<'_> {
     /// takes load less that of the others, rad.
     fn first_sprag(&self, start: Standing, sprag: GivenSprag) -> Option<[f64; 2]> {
         let sharing = Sharing { start, given: vec![sprag], ..Sharing::default() };
-        let unlike = Unlike::new(self.clutch, &sharing, self.curve, 0.0);
+        let unlike = Unlike::new(&self.clutch, &sharing, self.curve, 0.0);
         let shared = self.shared(&unlike)?;
         let later_rad = unlike.lag_rad[0]? - unlike.lag_rad.get(1).copied().flatten().unwrap_or(0.0);
         Some([shared.shares()[0] - 1.0, later_rad])
@@ -126,7 +127,7 @@ mod tests {
         let clutch = Design::parse(text, "multi-arc").unwrap().clutch;
         let curve = WedgeCurve::build(&clutch, &clutch.profile().unwrap(), 0.0).unwrap();
         let point = curve.at_torque(torque_nm).unwrap();
-        let case = Case { clutch: &clutch, curve: &curve, point: &point };
+        let case = Case { clutch, curve: &curve, point: &point };
         let one = |sprag| case.first_sprag(Standing::Sprung, sprag).unwrap()[0];
         let size = |m| one(GivenSprag { size_m: Some(m), ..GivenSprag::default() });
         [size(1e-6), size(2e-6), one(GivenSprag { gap_m: Some(APART_M), ..GivenSprag::default() })]

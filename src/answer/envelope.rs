@@ -2,9 +2,7 @@
 
 use super::left_out::{LeftOut, left_out_of};
 use super::page::{draw_inputs, opened};
-use super::sharing_scene::SharingSceneAnswer;
 use crate::design::Design;
-use crate::dynamics::Stop;
 use crate::report::{Page, Rows, Screen, Table, Tone};
 use serde::Serialize;
 use serde_json::Value;
@@ -242,36 +240,6 @@ impl<T: Said> Answer for T {
             error_estimate: self.error_estimate(),
             body: self.body(),
         }
-    }
-}
-
-impl Answer for SharingSceneAnswer<'_> {
-    fn outcome(&self) -> Finding {
-        match self.found.run.stop {
-            Stop::Interrupted => Finding::Stopped,
-            stop if stop.gave_up() => Finding::NotKnown,
-            _ => Finding::of(self.held()),
-        }
-    }
-
-    fn verdict(&self) -> String {
-        self.verdict()
-    }
-
-    fn table(&self) -> Table {
-        self.by_sprag()
-    }
-
-    fn text(&self, screen: Screen) -> String {
-        self.text(screen)
-    }
-
-    fn page(&self, provenance: &Provenance) -> Page {
-        self.page(provenance)
-    }
-
-    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
-        self.envelope(run_time_s)
     }
 }
 

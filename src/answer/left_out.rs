@@ -1,7 +1,7 @@
 //! What the model leaves out, why, and what that costs: every answer says it.
 
-use super::alike::{ECCENTRIC, TOGETHER, UNEQUAL, left_out_of_alike};
-use super::under_load::{left_out_under_load, loaded};
+use super::alike::{ECCENTRIC, UNEQUAL, left_out_of_alike};
+use super::under_load::{AtLoad, left_out_under_load, loaded};
 use crate::clutch::{Clutch, ContactLaw};
 use crate::design::Design;
 use crate::report::Unit;
@@ -34,10 +34,22 @@ pub fn left_out_of(design: &Design) -> Vec<LeftOut> {
 /// What every answer leaves out: the paper's three standing assumptions, then the terms of the bodies and of
 /// the contact law of `clutch`; what grows with the load is named at `asked_nm`, N m, of the whole clutch.
 pub fn left_out(clutch: &Clutch, asked_nm: Option<f64>) -> Vec<LeftOut> {
-    let curve = clutch.profile().ok().and_then(|p| WedgeCurve::build(clutch, &p, 0.0).ok());
-    let at_load = curve.as_ref().and_then(|curve| Some((curve, loaded(curve, asked_nm)?)));
-    let at_load = at_load.as_ref().map(|(curve, point)| (*curve, point));
-    let mut list = left_out_of_alike(clutch, at_load).to_vec();
+    let at_load = at_load(clutch, asked_nm);
+    let mut list = left_out_of_alike(clutch, at_load.as_ref()).to_vec();
+    list.extend(left_out_of_bodies(clutch, at_load.as_ref()));
+    list
+}
+
+/// The curve of `clutch` and the state at which costs are named.
+fn at_load(clutch: &Clutch, asked_nm: Option<f64>) -> Option<AtLoad> {
+    let curve = WedgeCurve::build(clutch, &clutch.profile().ok()?, 0.0).ok()?;
+    let point = loaded(&curve, asked_nm)?;
+    Some((curve, point))
+}
+
+/// The terms of the bodies and of the contact law.
+fn left_out_of_bodies(clutch: &Clutch, at_load: Option<&AtLoad>) -> Vec<LeftOut> {
+    let mut list = Vec::new();
     let law = clutch.contact.facts();
     if !law.whole_bodies {
         list.push(LeftOut::new(
@@ -91,9 +103,12 @@ pub fn off_centre(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
     kept.chain(instead.iter().cloned()).collect()
 }
 
-/// The same where every sprag was looked at by itself: `instead` of all three assumptions of the paper.
-pub fn one_by_one(list: Vec<LeftOut>, instead: &[LeftOut]) -> Vec<LeftOut> {
-    off_centre(list.into_iter().filter(|e| e.term != TOGETHER).collect(), instead)
+/// What an answer about `design` leaves out that looked at every sprag by itself: `instead` of all three assumptions of the paper.
+pub fn one_by_one(design: &Design, instead: Vec<LeftOut>) -> Vec<LeftOut> {
+    let at_load = at_load(&design.clutch, design.limits.largest_torque_nm());
+    let mut list = left_out_of_bodies(&design.clutch, at_load.as_ref());
+    list.extend(instead);
+    list
 }
 
 /// What arcs leave out of a spiral.

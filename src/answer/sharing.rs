@@ -1,7 +1,7 @@
 //! Sprags one by one: what each carries, over a turn, through an engagement, after losses; races out of round.
 
 use super::drawn::drawn_words;
-use super::left_out::{LeftOut, left_out_of, one_by_one};
+use super::left_out::{LeftOut, one_by_one};
 use super::page::half;
 use super::{Finding, Said};
 use crate::clutch::Rim;
@@ -463,7 +463,7 @@ impl Said for SharingAnswer<'_> {
             below.map(|(k, a)| (k + 1) as f64 * a / radius).fold(0.0, f64::max)
         });
         let slope = slope.fold(0.0, f64::max);
-        let instead = [
+        let instead = vec![
             LeftOut::new(
                 "slope of a bent track in the wedge angle",
                 "a track that bends is taken to recede and to give along itself, not to lean",
@@ -497,7 +497,7 @@ impl Said for SharingAnswer<'_> {
                 "not estimated: races do not wait for a late sprag",
             ),
         ];
-        one_by_one(left_out_of(self.design), &instead)
+        one_by_one(self.design, instead)
     }
 
     fn draw(&self, page: &mut Page) {

@@ -1,10 +1,10 @@
 //! A scene with its sprags one by one: who catches, who slips, what each carries over time.
 
 use super::drawn::drawn_words;
-use super::left_out::{LeftOut, left_out_of, one_by_one};
+use super::left_out::{LeftOut, one_by_one};
 use super::page::{half, opened};
 use super::sharing::NoSharing;
-use super::{Envelope, Provenance};
+use super::{Answer, Envelope, Finding, Provenance};
 use crate::clutch::Carrier;
 use crate::design::Design;
 use crate::dynamics::{Axes, ManySample, SpragCourse, StaysWith, Stop};
@@ -76,7 +76,7 @@ impl Design {
     }
 }
 
-impl<'a> SharingSceneAnswer<'a> {
+impl SharingSceneAnswer<'_> {
     fn course(&self, sprag: usize) -> Option<&SpragCourse> {
         Some(&self.found.run.courses[self.found.group[sprag]?])
     }
@@ -129,79 +129,6 @@ impl<'a> SharingSceneAnswer<'a> {
             Stop::Interrupted => Some(format!("stopped by Ctrl-C at {at} of the scene")),
             _ => None,
         }
-    }
-
-    /// Whether the scene came to its end and no sprag slipped after it had caught.
-    pub fn held(&self) -> bool {
-        self.found.run.stop == Stop::Finished && self.first_slip().is_none()
-    }
-
-    /// In a sentence.
-    pub fn verdict(&self) -> String {
-        let run = &self.found.run;
-        let mut said = if self.held() { "HELD: " } else { "NOT HELD: " }.to_owned();
-        if let Some(why) = self.given_up() {
-            said += &format!("{why}; until then ");
-        } else if run.stop != Stop::Finished {
-            let at = run.at_group.and_then(|g| self.found.group.iter().position(|of| *of == Some(g)));
-            let whose = at.map_or(String::new(), |i| format!(" of sprag {}", i + 1));
-            said += &format!("{}{whose} at {}; ", run.stop.name(), Unit::Second.show(run.t_s, 4));
-        }
-        said += &match self.largest_share() {
-            Some((i, share, t_s)) if share > 0.0 => format!(
-                "the largest share is {} of the mean, sprag {} at {}",
-                significant(share, 4),
-                i + 1,
-                Unit::Millisecond.show(t_s, 4)
-            ),
-            _ => "no sprag was loaded".to_owned(),
-        };
-        if let Some((i, needs)) = self.most(|c| c.tan[0].max(c.tan[1])).filter(|(_, needs)| *needs > 0.0) {
-            said += &format!("; friction is used most by sprag {}, {}", i + 1, significant(needs, 3));
-        }
-        let order = self.catching();
-        let at = |i: &usize| self.course(*i).and_then(|c| c.catches_s);
-        if let [first, .., last] = order.as_slice()
-            && let (Some(from), Some(until)) = (at(first), at(last))
-            && until > from
-        {
-            said += &format!(
-                "; {} of {} sprags catch, the first, {}, at {}, the last, {}, at {}",
-                order.len(),
-                self.found.sprags.len(),
-                first + 1,
-                Unit::Millisecond.show(from, 4),
-                last + 1,
-                Unit::Millisecond.show(until, 4)
-            );
-        }
-        let late: Vec<String> = (0..self.found.sprags.len())
-            .filter(|&i| self.course(i).is_some_and(|c| c.catches_s.is_none()))
-            .map(|i| (i + 1).to_string())
-            .collect();
-        match late.as_slice() {
-            [] => {}
-            [one] => said += &format!("; sprag {one} never catches"),
-            several => said += &format!("; sprags {} never catch", several.join(", ")),
-        }
-        if self.found.axes.is_some() {
-            said += &format!(
-                "; the bearings hold at most {}, at {}",
-                Unit::Newton.show(run.bearing_max_n, 4),
-                Unit::Millisecond.show(run.bearing_max_s, 4)
-            );
-        }
-        said += &match self.first_slip() {
-            Some((i, t_s)) => format!(
-                "; once caught, {} slip{}, sprag {} first, at {}",
-                self.slipping(),
-                if self.slipping() == 1 { "s" } else { "" },
-                i + 1,
-                Unit::Millisecond.show(t_s, 4)
-            ),
-            None => "; none slips once it has caught".to_owned(),
-        };
-        said
     }
 
     /// One row a sprag.
@@ -279,53 +206,7 @@ impl<'a> SharingSceneAnswer<'a> {
                 ),
             ));
         }
-        one_by_one(left_out_of(self.design), &instead)
-    }
-
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    pub fn envelope(&self, run_time_s: f64) -> Envelope<'a, Value> {
-        let run = &self.found.run;
-        let um = |m: f64| Unit::Micrometre.from_si(m);
-        let axes = self.found.axes.as_ref();
-        let bearing = axes.and_then(|axes| axes.bearing);
-        let sprags = self.found.sprags.iter().enumerate().map(|(i, s)| {
-            let c = self.course(i);
-            json!({
-                "number": i + 1, "azimuth_deg": Unit::Degree.from_si(s.azimuth_rad), "size_um": um(s.size_m), "gap_um": um(s.gap_m),
-                "friction": s.friction, "idle": self.found.idle[i].map(|idle| idle.words()),
-                "catches_s": c.and_then(|c| c.catches_s), "normal_max_n": c.map(|c| c.normal_max_n),
-                "normal_max_at_s": c.map(|c| c.normal_max_s), "largest_share": c.map(|c| c.share),
-                "largest_share_at_s": c.map(|c| c.share_s), "used_friction_inner": c.map(|c| c.tan[0]),
-                "used_friction_outer": c.map(|c| c.tan[1]), "slips_at_s": c.and_then(|c| c.slips).map(|s| s.t_s),
-                "slips_inner": c.and_then(|c| c.slips).map(|s| s.inner),
-                "slips_normal_n": c.and_then(|c| c.slips).map(|s| s.normal_n), "slip_inner_um": c.map(|c| um(c.net_m[0])),
-                "slip_path_inner_um": c.map(|c| um(c.path_m[0])), "slip_path_outer_um": c.map(|c| um(c.path_m[1])),
-                "slip_outer_um": c.map(|c| um(c.net_m[1])), "contact_lost_s": c.map(|c| c.open_s),
-            })
-        });
-        let history = run.samples.iter().map(|s| {
-            json!({
-                "t_s": s.t_s, "bearing_n": axes.map(|_| s.bearing_n), "axis_um": axes.map(|_| s.axis_m.map(um)), "theta_inner_rad": s.races[0], "theta_outer_rad": s.races[1], "shares": self.shares(s),
-                "normal_inner_n": self.found.group.iter().map(|g| g.map_or(0.0, |g| s.normal_n[g])).collect::<Vec<_>>(),
-            })
-        });
-        let order: Vec<usize> = self.catching().iter().map(|i| i + 1).collect();
-        let most = self.largest_share();
-        let body = json!({
-            "held": self.held(), "verdict": self.verdict(), "scenario": self.scene, "stop": run.stop.name(), "end_s": run.t_s,
-            "largest_share": most.map(|m| m.1), "largest_share_sprag": most.map(|m| m.0 + 1), "largest_share_at_s": most.map(|m| m.2),
-            "seed": self.design.sharing.as_ref().map(|sharing| sharing.seed), "given_up": self.given_up(),
-            "bearing_max_n": axes.map(|_| run.bearing_max_n), "bearing_max_at_s": axes.map(|_| run.bearing_max_s),
-            "axes_apart_max_um": axes.map(|_| um(run.axis_max_m)), "bearing_mass_kg": bearing.map(|b| b.mass_kg),
-            "bearing_frequency_hz": bearing.map(|b| b.frequency_hz()),
-            "catching": order, "slipping": self.slipping(), "first_slip_sprag": self.first_slip().map(|(i, _)| i + 1), "first_slip_at_s": self.first_slip().map(|(_, t)| t),
-            "theta_inner_rad": run.races[0], "theta_outer_rad": run.races[1],
-            "theta_inner_error_rad": self.found.error.map(|e| e[0]), "normal_max_error": self.found.error.map(|e| e[1]),
-            "energy_residual_j": run.residual_j, "energy_through_j": run.through_j, "kinds": self.found.counts.len(),
-            "events": run.events, "steps": run.counters.steps, "rhs_evaluations": run.counters.rhs_evaluations,
-            "sprags": sprags.collect::<Vec<_>>(), "history": history.collect::<Vec<_>>(),
-        });
-        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
+        one_by_one(self.design, instead)
     }
 
     fn remarks(&self) -> Vec<String> {
@@ -394,38 +275,6 @@ impl<'a> SharingSceneAnswer<'a> {
         format!("The axes lie up to {} apart{stays}; {held}{beyond}", um(run.axis_max_m))
     }
 
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        format!(
-            "{}  {}  {}\n\n{}\n{}\n{}\n",
-            self.design.name,
-            self.design.short_hash(),
-            self.scene,
-            self.by_sprag().to_text(screen),
-            self.remarks().join("\n"),
-            self.verdict()
-        )
-    }
-
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance) -> Page {
-        let mut page = opened("Sharing in a scene", self.design, &provenance.command, |page| {
-            page.verdict(self.held(), &self.verdict());
-        });
-        page.list(self.remarks());
-        page.figures(&[
-            (half(self.over_time(true)), "Normal force of each kind of sprag over the mean of all places."),
-            (half(self.over_time(false)), "Normal force of each kind of sprag at the inner race."),
-        ]);
-        if self.found.axes.is_some() {
-            page.figures(&[(half(self.bearings()), "What the bearings of the axes hold.")]);
-        }
-        page.heading("Sprags")
-            .table("Forces and friction at their largest over the scene.", &self.by_sprag());
-        self.envelope(provenance.run_time_s).close(&mut page);
-        page
-    }
-
     /// What the bearings hold over time.
     fn bearings(&self) -> Plot {
         let point = |s: &ManySample| [Unit::Millisecond.from_si(s.t_s), s.bearing_n];
@@ -446,5 +295,165 @@ impl<'a> SharingSceneAnswer<'a> {
             plot = plot.curve(&format!("sprag {}", i + 1), points);
         }
         plot
+    }
+}
+
+impl Answer for SharingSceneAnswer<'_> {
+    fn outcome(&self) -> Finding {
+        match self.found.run.stop {
+            Stop::Interrupted => Finding::Stopped,
+            stop if stop.gave_up() => Finding::NotKnown,
+            _ => Finding::of(self.held()),
+        }
+    }
+
+    fn held(&self) -> bool {
+        self.found.run.stop == Stop::Finished && self.first_slip().is_none()
+    }
+
+    fn verdict(&self) -> String {
+        let run = &self.found.run;
+        let mut said = if self.held() { "HELD: " } else { "NOT HELD: " }.to_owned();
+        if let Some(why) = self.given_up() {
+            said += &format!("{why}; until then ");
+        } else if run.stop != Stop::Finished {
+            let at = run.at_group.and_then(|g| self.found.group.iter().position(|of| *of == Some(g)));
+            let whose = at.map_or(String::new(), |i| format!(" of sprag {}", i + 1));
+            said += &format!("{}{whose} at {}; ", run.stop.name(), Unit::Second.show(run.t_s, 4));
+        }
+        said += &match self.largest_share() {
+            Some((i, share, t_s)) if share > 0.0 => format!(
+                "the largest share is {} of the mean, sprag {} at {}",
+                significant(share, 4),
+                i + 1,
+                Unit::Millisecond.show(t_s, 4)
+            ),
+            _ => "no sprag was loaded".to_owned(),
+        };
+        if let Some((i, needs)) = self.most(|c| c.tan[0].max(c.tan[1])).filter(|(_, needs)| *needs > 0.0) {
+            said += &format!("; friction is used most by sprag {}, {}", i + 1, significant(needs, 3));
+        }
+        let order = self.catching();
+        let at = |i: &usize| self.course(*i).and_then(|c| c.catches_s);
+        if let [first, .., last] = order.as_slice()
+            && let (Some(from), Some(until)) = (at(first), at(last))
+            && until > from
+        {
+            said += &format!(
+                "; {} of {} sprags catch, the first, {}, at {}, the last, {}, at {}",
+                order.len(),
+                self.found.sprags.len(),
+                first + 1,
+                Unit::Millisecond.show(from, 4),
+                last + 1,
+                Unit::Millisecond.show(until, 4)
+            );
+        }
+        let late: Vec<String> = (0..self.found.sprags.len())
+            .filter(|&i| self.course(i).is_some_and(|c| c.catches_s.is_none()))
+            .map(|i| (i + 1).to_string())
+            .collect();
+        match late.as_slice() {
+            [] => {}
+            [one] => said += &format!("; sprag {one} never catches"),
+            several => said += &format!("; sprags {} never catch", several.join(", ")),
+        }
+        if self.found.axes.is_some() {
+            said += &format!(
+                "; the bearings hold at most {}, at {}",
+                Unit::Newton.show(run.bearing_max_n, 4),
+                Unit::Millisecond.show(run.bearing_max_s, 4)
+            );
+        }
+        said += &match self.first_slip() {
+            Some((i, t_s)) => format!(
+                "; once caught, {} slip{}, sprag {} first, at {}",
+                self.slipping(),
+                if self.slipping() == 1 { "s" } else { "" },
+                i + 1,
+                Unit::Millisecond.show(t_s, 4)
+            ),
+            None => "; none slips once it has caught".to_owned(),
+        };
+        said
+    }
+
+    fn table(&self) -> Table {
+        self.by_sprag()
+    }
+
+    fn text(&self, screen: Screen) -> String {
+        format!(
+            "{}  {}  {}\n\n{}\n{}\n{}\n",
+            self.design.name,
+            self.design.short_hash(),
+            self.scene,
+            self.by_sprag().to_text(screen),
+            self.remarks().join("\n"),
+            self.verdict()
+        )
+    }
+
+    fn page(&self, provenance: &Provenance) -> Page {
+        let mut page = opened("Sharing in a scene", self.design, &provenance.command, |page| {
+            page.verdict(self.held(), &self.verdict());
+        });
+        page.list(self.remarks());
+        page.figures(&[
+            (half(self.over_time(true)), "Normal force of each kind of sprag over the mean of all places."),
+            (half(self.over_time(false)), "Normal force of each kind of sprag at the inner race."),
+        ]);
+        if self.found.axes.is_some() {
+            page.figures(&[(half(self.bearings()), "What the bearings of the axes hold.")]);
+        }
+        page.heading("Sprags")
+            .table("Forces and friction at their largest over the scene.", &self.by_sprag());
+        self.envelope(provenance.run_time_s).close(&mut page);
+        page
+    }
+
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
+        let run = &self.found.run;
+        let um = |m: f64| Unit::Micrometre.from_si(m);
+        let axes = self.found.axes.as_ref();
+        let bearing = axes.and_then(|axes| axes.bearing);
+        let sprags = self.found.sprags.iter().enumerate().map(|(i, s)| {
+            let c = self.course(i);
+            json!({
+                "number": i + 1, "azimuth_deg": Unit::Degree.from_si(s.azimuth_rad), "size_um": um(s.size_m), "gap_um": um(s.gap_m),
+                "friction": s.friction, "idle": self.found.idle[i].map(|idle| idle.words()),
+                "catches_s": c.and_then(|c| c.catches_s), "normal_max_n": c.map(|c| c.normal_max_n),
+                "normal_max_at_s": c.map(|c| c.normal_max_s), "largest_share": c.map(|c| c.share),
+                "largest_share_at_s": c.map(|c| c.share_s), "used_friction_inner": c.map(|c| c.tan[0]),
+                "used_friction_outer": c.map(|c| c.tan[1]), "slips_at_s": c.and_then(|c| c.slips).map(|s| s.t_s),
+                "slips_inner": c.and_then(|c| c.slips).map(|s| s.inner),
+                "slips_normal_n": c.and_then(|c| c.slips).map(|s| s.normal_n), "slip_inner_um": c.map(|c| um(c.net_m[0])),
+                "slip_path_inner_um": c.map(|c| um(c.path_m[0])), "slip_path_outer_um": c.map(|c| um(c.path_m[1])),
+                "slip_outer_um": c.map(|c| um(c.net_m[1])), "contact_lost_s": c.map(|c| c.open_s),
+            })
+        });
+        let history = run.samples.iter().map(|s| {
+            json!({
+                "t_s": s.t_s, "bearing_n": axes.map(|_| s.bearing_n), "axis_um": axes.map(|_| s.axis_m.map(um)), "theta_inner_rad": s.races[0], "theta_outer_rad": s.races[1], "shares": self.shares(s),
+                "normal_inner_n": self.found.group.iter().map(|g| g.map_or(0.0, |g| s.normal_n[g])).collect::<Vec<_>>(),
+            })
+        });
+        let order: Vec<usize> = self.catching().iter().map(|i| i + 1).collect();
+        let most = self.largest_share();
+        let body = json!({
+            "held": self.held(), "verdict": self.verdict(), "scenario": self.scene, "stop": run.stop.name(), "end_s": run.t_s,
+            "largest_share": most.map(|m| m.1), "largest_share_sprag": most.map(|m| m.0 + 1), "largest_share_at_s": most.map(|m| m.2),
+            "seed": self.design.sharing.as_ref().map(|sharing| sharing.seed), "given_up": self.given_up(),
+            "bearing_max_n": axes.map(|_| run.bearing_max_n), "bearing_max_at_s": axes.map(|_| run.bearing_max_s),
+            "axes_apart_max_um": axes.map(|_| um(run.axis_max_m)), "bearing_mass_kg": bearing.map(|b| b.mass_kg),
+            "bearing_frequency_hz": bearing.map(|b| b.frequency_hz()),
+            "catching": order, "slipping": self.slipping(), "first_slip_sprag": self.first_slip().map(|(i, _)| i + 1), "first_slip_at_s": self.first_slip().map(|(_, t)| t),
+            "theta_inner_rad": run.races[0], "theta_outer_rad": run.races[1],
+            "theta_inner_error_rad": self.found.error.map(|e| e[0]), "normal_max_error": self.found.error.map(|e| e[1]),
+            "energy_residual_j": run.residual_j, "energy_through_j": run.through_j, "kinds": self.found.counts.len(),
+            "events": run.events, "steps": run.counters.steps, "rhs_evaluations": run.counters.rhs_evaluations,
+            "sprags": sprags.collect::<Vec<_>>(), "history": history.collect::<Vec<_>>(),
+        });
+        Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
     }
 }

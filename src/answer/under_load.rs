@@ -18,12 +18,12 @@ const ROLLER_STEEL: Material =
 /// Difference of E* from which it is named; a choice, the scatter of E among steels.
 const SAME_STEEL: f64 = 0.02;
 
+/// A curve and its static state at which costs are named.
+pub(super) type AtLoad = (WedgeCurve, StaticPoint);
+
 /// What every answer about `clutch` leaves out of a loaded clutch; fewer terms where it has no curve. `at_load`: its curve and
 /// the state at which the costs are named, [`loaded`].
-pub(super) fn left_out_under_load(
-    clutch: &Clutch,
-    at_load: Option<(&WedgeCurve, &StaticPoint)>,
-) -> Vec<LeftOut> {
+pub(super) fn left_out_under_load(clutch: &Clutch, at_load: Option<&AtLoad>) -> Vec<LeftOut> {
     let mut list: Vec<LeftOut> = other_bodies(clutch).into_iter().collect();
     if let Some((curve, point)) = at_load {
         list.extend(shift(clutch, curve));
