@@ -1,6 +1,6 @@
 //! Sprags one by one in a scene: alike they are the one-sprag model, unlike they are what statics and an independent script say.
 
-use sprag_design::clutch::{Friction, GivenSprag, Scenario, ScenarioKind, Sharing, Standing};
+use sprag_design::clutch::{Friction, GivenSprag, Scenario, ScenarioKind, Sharing};
 use sprag_design::dynamics::{ManySample, RunSettings, Sample, SpragCourse, Stop, run, settled_together};
 use sprag_design::scenario::{Settings, prepare};
 use sprag_design::sharing::{Asked, Bears, Unlike};
@@ -10,20 +10,6 @@ use sprag_design::{Design, WedgeCurve};
 fn scene(file: &str, name: &str) -> Scenario {
     let path = format!("{}/designs/{file}.toml", env!("CARGO_MANIFEST_DIR"));
     Design::read(path.as_ref()).unwrap().scenario(name).unwrap().clone()
-}
-
-fn alike() -> Sharing {
-    Sharing {
-        start: Standing::Sprung,
-        seed: 1,
-        size_within_m: 0.0,
-        azimuth_within_rad: 0.0,
-        friction_within: 0.0,
-        gap_up_to_m: 0.0,
-        stiffness_n_per_m: None,
-        mass_kg: None,
-        given: Vec::new(),
-    }
 }
 
 /// Scenes of all designs with the sprags one by one: one for all, and every sprag by itself. Slip, lift-off, junctions, speed, damped
@@ -41,7 +27,7 @@ fn sprags_alike_are_the_one_sprag_model_in_every_scene() {
             let mut scene = scene.clone();
             scene.clutch.races.eccentricity = None;
             let scene = &scene;
-            let many = [false, true].map(|apart| Many::new(scene, &alike(), apart));
+            let many = [false, true].map(|apart| Many::new(scene, &Sharing::default(), apart));
             let [Ok(whole), Ok(apart)] = many else { continue };
             let p = prepare(scene).unwrap();
             let longest_step_s = p.period_s.map_or(p.duration_s / 200.0, |s| 0.25 * s);
@@ -97,7 +83,7 @@ fn sprags_alike_are_the_one_sprag_model_in_every_scene() {
 
 fn unlike() -> Sharing {
     let late = GivenSprag { index: 3, gap_m: Some(4e-6), ..GivenSprag::default() };
-    Sharing { given: vec![late], ..alike() }
+    Sharing { given: vec![late], ..Sharing::default() }
 }
 
 /// Two kinds of sprags without inertia, both rolling: theta_bi'' and theta_be'' under the sum of what each curve carries at its own
@@ -219,7 +205,7 @@ fn two_kinds_of_which_one_slips_move_as_an_independent_script_has_it() {
     let ScenarioKind::TorsionalExcitation { duration_s, .. } = &mut scene.kind else { panic!() };
     *duration_s = 0.025;
     let smooth = GivenSprag { index: 4, size_m: Some(4e-6), friction: Some(0.0812), ..GivenSprag::default() };
-    let many = Many::new(&scene, &Sharing { given: vec![smooth], ..alike() }, false).unwrap();
+    let many = Many::new(&scene, &Sharing { given: vec![smooth], ..Sharing::default() }, false).unwrap();
     let all = many.run(&Settings::default(), 1e-11, 2);
     assert_eq!((all.stop, all.events, all.inconsistent_choices), (Stop::Finished, 2, 0));
     let [drawn, larger] = [0, 4].map(|i| many.group[i].unwrap());
@@ -241,7 +227,7 @@ fn two_kinds_of_which_one_slips_move_as_an_independent_script_has_it() {
 }
 
 fn drawn(seed: u64) -> Sharing {
-    Sharing { seed, size_within_m: 3e-6, friction_within: 0.01, gap_up_to_m: 5e-6, ..alike() }
+    Sharing { seed, size_within_m: 3e-6, friction_within: 0.01, gap_up_to_m: 5e-6, ..Sharing::default() }
 }
 
 #[test]
@@ -279,7 +265,7 @@ fn unlike_sprags_that_slip_and_lift_one_by_one_balance_their_energy() {
 #[test]
 fn sprags_that_have_slipped_into_nearly_one_state_change_once_each() {
     let scene = scene("huang2017-multi-arc", "low-10-mu082");
-    let sharing = Sharing { gap_up_to_m: 5e-6, ..alike() };
+    let sharing = Sharing { seed: 1, gap_up_to_m: 5e-6, ..Sharing::default() };
     let many = Many::new(&scene, &sharing, false).unwrap();
     let runs = [1e-7, 1e-8].map(|tolerance| many.run(&Settings::default(), tolerance, 0));
     for all in &runs {
@@ -300,7 +286,7 @@ fn sprags_that_have_slipped_into_nearly_one_state_change_once_each() {
 #[test]
 fn a_scene_of_thousands_of_changes_comes_to_its_end() {
     let scene = scene("huang2017-elastic", "high-10");
-    for sharing in [Sharing { gap_up_to_m: 5e-6, ..alike() }, drawn(1)] {
+    for sharing in [Sharing { seed: 1, gap_up_to_m: 5e-6, ..Sharing::default() }, drawn(1)] {
         let many = Many::new(&scene, &sharing, false).unwrap();
         let all = many.run(&Settings::default(), 1e-6, 0);
         println!("changes {}, evaluations {}", all.events, all.counters.rhs_evaluations);
@@ -334,7 +320,8 @@ fn the_seed_draws_as_in_statics_and_threads_do_not_matter() {
     assert!(order(&found[0], all[0]) < order(&found[0], all[11]));
     // Shares are over the mean of all places.
     let missing = GivenSprag { index: 2, missing: true, ..GivenSprag::default() };
-    let fewer = each_sprag(&scene, &Sharing { given: vec![missing], ..alike() }, &settings).unwrap();
+    let fewer =
+        each_sprag(&scene, &Sharing { given: vec![missing], ..Sharing::default() }, &settings).unwrap();
     assert_eq!(fewer.counts, [11]);
     assert!((fewer.run.courses[0].share - 12.0 / 11.0).abs() < 1e-12);
 }
@@ -359,13 +346,16 @@ fn scenes_that_cannot_be_run_are_refused_with_what_to_do() {
     let refused = |file: &str, name: &str, sharing: &Sharing| {
         each_sprag(&scene(file, name), sharing, &Settings::default()).unwrap_err().to_string()
     };
-    assert!(refused("huang2017-bench", "overrun", &alike()).contains("allowed are torsional-excitation"));
-    assert!(refused("huang2017-bench", "speed-ramp", &alike()).contains("leave its history out"));
-    assert!(refused("starter-engine", "cranking", &alike()).contains("drivetrain = []"));
+    assert!(
+        refused("huang2017-bench", "overrun", &Sharing::default())
+            .contains("allowed are torsional-excitation")
+    );
+    assert!(refused("huang2017-bench", "speed-ramp", &Sharing::default()).contains("leave its history out"));
+    assert!(refused("starter-engine", "cranking", &Sharing::default()).contains("drivetrain = []"));
     let gone = |index| GivenSprag { index, missing: true, ..GivenSprag::default() };
-    let none = Sharing { given: (0..12).map(gone).collect(), ..alike() };
+    let none = Sharing { given: (0..12).map(gone).collect(), ..Sharing::default() };
     assert!(refused("huang2017-bench", "engagement", &none).contains("no sprag carries"));
     // One that is left does not carry what the scene begins with.
-    let alone = Sharing { given: (1..12).map(gone).collect(), ..alike() };
+    let alone = Sharing { given: (1..12).map(gone).collect(), ..Sharing::default() };
     assert!(refused("huang2017-multi-arc", "rated-45", &alone).contains("comes to its end before 45"));
 }

@@ -13,20 +13,6 @@ fn scene(file: &str, name: &str) -> Scenario {
     Design::read(path.as_ref()).unwrap().scenario(name).unwrap().clone()
 }
 
-fn alike() -> Sharing {
-    Sharing {
-        start: Standing::Sprung,
-        seed: 1,
-        size_within_m: 0.0,
-        azimuth_within_rad: 0.0,
-        friction_within: 0.0,
-        gap_up_to_m: 0.0,
-        stiffness_n_per_m: None,
-        mass_kg: None,
-        given: Vec::new(),
-    }
-}
-
 fn off(offset_m: f64, turning: bool, carrier: Carrier) -> Option<Eccentricity> {
     Some(Eccentricity { offset_m, turning, carrier, stiffness_n_per_m: f64::INFINITY })
 }
@@ -46,7 +32,7 @@ fn axes_that_all_but_meet_leave_the_paper_s_model() {
     for (file, name) in [("huang2017-multi-arc", "high-10"), ("huang2017-multi-arc", "low-8")] {
         let mut scene = scene(file, name);
         lasting(&mut scene, 0.03);
-        let together = Many::new(&scene, &alike(), false).unwrap();
+        let together = Many::new(&scene, &Sharing::default(), false).unwrap();
         assert!(together.axes.is_none());
         let one = together.run(&Settings::default(), 1e-12, 2);
         for (carrier, turning, stiffness) in [
@@ -55,7 +41,7 @@ fn axes_that_all_but_meet_leave_the_paper_s_model() {
             (Carrier::OuterRace, true, Some(2e8)),
         ] {
             scene.clutch.races.eccentricity = off(1e-15, turning, carrier);
-            let sharing = Sharing { stiffness_n_per_m: stiffness, mass_kg: Some(0.2), ..alike() };
+            let sharing = Sharing { stiffness_n_per_m: stiffness, mass_kg: Some(0.2), ..Sharing::default() };
             let many = Many::new(&scene, &sharing, false).unwrap();
             assert!(many.axes.is_some() && many.groups.len() == 12);
             let all = many.run(&Settings::default(), 1e-12, 2);
@@ -87,8 +73,12 @@ fn a_slow_turn_is_shared_as_statics_shares_it() {
         (*duration_s, *preload_nm, *amplitude_nm, *speed_rad_s) = (2.0, 16.8, 0.0, turns_rad_s);
         scene.clutch.races.eccentricity = off(offset_m, true, Carrier::OuterRace);
         let larger = GivenSprag { index: 7, size_m: Some(1e-6), ..GivenSprag::default() };
-        let sharing =
-            Sharing { stiffness_n_per_m: stiffness, mass_kg: Some(1.0), given: vec![larger], ..alike() };
+        let sharing = Sharing {
+            stiffness_n_per_m: stiffness,
+            mass_kg: Some(1.0),
+            given: vec![larger],
+            ..Sharing::default()
+        };
         let many = Many::new(&scene, &sharing, false).unwrap();
         let all = many.run(&Settings { longest_step_s: Some(0.01), ..Settings::default() }, 1e-9, 9);
         assert_eq!((all.stop, all.inconsistent_choices), (Stop::Finished, 0));
@@ -127,7 +117,8 @@ fn two_sprags_by_hand() {
     scene.clutch.races.eccentricity = off(offset_m, false, Carrier::OuterRace);
     let gone = |index: usize| GivenSprag { index, missing: true, ..GivenSprag::default() };
     let given = (0..12).filter(|i| i % 6 != 0).map(gone).collect();
-    let many = Many::new(&scene, &Sharing { start: Standing::Caged, given, ..alike() }, false).unwrap();
+    let many =
+        Many::new(&scene, &Sharing { start: Standing::Caged, given, ..Sharing::default() }, false).unwrap();
     assert_eq!(many.groups.len(), 2);
     let curve = &many.groups[0].model.curve;
     let at = |g: usize| many.start.sprags[g][0];
@@ -178,9 +169,10 @@ fn sprags_off_centre_that_slip_and_lift_balance_their_energy() {
             let sharing = Sharing {
                 stiffness_n_per_m: stiffness,
                 mass_kg: Some(0.3),
+                seed: 1,
                 size_within_m: 1e-6,
                 friction_within: 0.005,
-                ..alike()
+                ..Sharing::default()
             };
             let many = Many::new(&scene, &sharing, false).unwrap();
             let [coarse, all] = [1e-8, 1e-9].map(|tolerance| many.run(&Settings::default(), tolerance, 0));
@@ -209,8 +201,12 @@ fn a_race_that_runs_out_on_bearings_moves_as_an_independent_script_has_it() {
     (*duration_s, *preload_nm) = (0.001, 10.0);
     scene.clutch.races.eccentricity = off(5e-6, false, Carrier::InnerRace);
     let larger = GivenSprag { index: 3, size_m: Some(1e-6), ..GivenSprag::default() };
-    let sharing =
-        Sharing { stiffness_n_per_m: Some(5e7), mass_kg: Some(0.5), given: vec![larger], ..alike() };
+    let sharing = Sharing {
+        stiffness_n_per_m: Some(5e7),
+        mass_kg: Some(0.5),
+        given: vec![larger],
+        ..Sharing::default()
+    };
     let many = Many::new(&scene, &sharing, false).unwrap();
     let all = many.run(&Settings::default(), 1e-11, 2);
     assert_eq!((all.stop, all.events), (Stop::Finished, 0));

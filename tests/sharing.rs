@@ -19,20 +19,6 @@ fn curve(clutch: &Clutch) -> WedgeCurve {
     WedgeCurve::build(clutch, &clutch.profile().unwrap(), 0.0).unwrap()
 }
 
-fn alike() -> Sharing {
-    Sharing {
-        start: Standing::Sprung,
-        seed: 1,
-        size_within_m: 0.0,
-        azimuth_within_rad: 0.0,
-        friction_within: 0.0,
-        gap_up_to_m: 0.0,
-        stiffness_n_per_m: None,
-        mass_kg: None,
-        given: Vec::new(),
-    }
-}
-
 fn at(clutch: &Clutch, sharing: &Sharing, curve: &WedgeCurve, torque_nm: f64) -> Shared {
     Unlike::new(clutch, sharing, curve, 0.0).carrying(Asked::Torque(torque_nm), 0.0).unwrap()
 }
@@ -49,7 +35,7 @@ fn sprags_alike_between_concentric_races_are_the_curve() {
             let torque = share * curve.end_torque_nm();
             for stiffness in [f64::INFINITY, 1e8, 0.0] {
                 for start in [Standing::Sprung, Standing::Caged] {
-                    let sharing = Sharing { stiffness_n_per_m: Some(stiffness), start, ..alike() };
+                    let sharing = Sharing { stiffness_n_per_m: Some(stiffness), start, ..Sharing::default() };
                     let shared = at(&clutch, &sharing, &curve, torque);
                     // By the force: the curve's own search by torque leaves 1e-15 of the largest force.
                     for load in &shared.loads {
@@ -76,7 +62,7 @@ fn two_sprags_by_hand() {
     }
     let curve = curve(&clutch);
     let late = GivenSprag { index: 1, gap_m: Some(20e-6), ..GivenSprag::default() };
-    let sharing = Sharing { given: vec![late], ..alike() };
+    let sharing = Sharing { given: vec![late], ..Sharing::default() };
     let unlike = Unlike::new(&clutch, &sharing, &curve, 0.0);
     let touch = curve.touch();
     let tan = touch.t_ratio;
@@ -138,7 +124,7 @@ fn run_out_of_stiff_rings_is_that_of_the_margin_check() {
         design.clutch.races.eccentricity = Some(Eccentricity { turning, stiffness_n_per_m, ..e });
         let state = sprag_design::margin::load_state(&design).unwrap();
         let ring = sprag_design::margin::RunOut::new(&design, &state).unwrap();
-        let turn = sprag_design::sharing::Turn::new(&design.clutch, &alike(), &state.curve);
+        let turn = sprag_design::sharing::Turn::new(&design.clutch, &Sharing::default(), &state.curve);
         let torque = 0.4 * ring.end.torque_nm;
         let round = ring.carrying(0, torque).unwrap();
         let shared = turn.at(torque).unwrap().swap_remove(0);
@@ -182,7 +168,7 @@ fn far_from_alike_is_answered() {
                     size_within_m: 1e-6 * um,
                     gap_up_to_m: 1e-6 * um,
                     stiffness_n_per_m: Some(stiffness),
-                    ..alike()
+                    ..Sharing::default()
                 };
                 let unlike = Unlike::new(&clutch, &sharing, &curve, 0.3);
                 for share in [1e-4, 0.01, 0.1, 0.3, 0.7] {
@@ -219,7 +205,7 @@ fn a_missing_sprag_is_carried_by_the_others() {
     let clutch = clutch("huang2017-elastic");
     let curve = curve(&clutch);
     let gone = GivenSprag { index: 0, missing: true, ..GivenSprag::default() };
-    let shared = at(&clutch, &Sharing { given: vec![gone], ..alike() }, &curve, 30.0);
+    let shared = at(&clutch, &Sharing { given: vec![gone], ..Sharing::default() }, &curve, 30.0);
     let sum: f64 = shared.loads.iter().map(|l| l.torque_nm).sum();
     assert!(
         (sum / 30.0 - 1.0).abs() < 1e-9 && shared.loads[0].normal_inner_n == 0.0 && shared.carrying() == 11
@@ -230,7 +216,7 @@ fn a_missing_sprag_is_carried_by_the_others() {
         .step_by(2)
         .map(|index| GivenSprag { index, missing: true, ..GivenSprag::default() })
         .collect();
-    let half = at(&clutch, &Sharing { given, ..alike() }, &curve, 30.0);
+    let half = at(&clutch, &Sharing { given, ..Sharing::default() }, &curve, 30.0);
     let mut six = clutch.clone();
     six.sprags.count = 6;
     let exact = WedgeCurve::build(&six, &six.profile().unwrap(), 0.0).unwrap().at_torque(30.0).unwrap();
@@ -304,7 +290,7 @@ fn sixty_sprags_cost_less_than_ninety_curves() {
             size_within_m: 5e-6,
             start: Standing::Caged,
             stiffness_n_per_m: Some(1e8),
-            ..alike()
+            ..Sharing::default()
         };
         let started = std::time::Instant::now();
         let shared = at(&clutch, &sharing, &curve, 0.1 * curve.end_torque_nm());

@@ -447,10 +447,7 @@ pub fn worn(design: &Design, state: &LoadState, wear: &Wear) -> Option<Worn> {
     let oc_e = outer_m - outer_arc_m;
     // The outward normal and the tangent in the sense of rising turn.
     let normal = |turn: f64| profile.contact_direction(turn);
-    let along = |turn: f64| {
-        let n = normal(turn);
-        Vector2::new(-n.y, n.x)
-    };
+    let along = |turn: f64| profile.way(turn);
     let [h_0, h_1] = wear.inner_arcs_m;
     // The support h_0 + h_1 t is taken off: points move by -h n - h' n', radii by -h (h'' = 0; h is its mean over the arc).
     let mut begins = 0.0;

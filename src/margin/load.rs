@@ -238,12 +238,15 @@ pub(super) fn beyond(value: f64, torque: f64, end: f64) -> Demand {
     }
 }
 
+/// What begins the word behind a row's name that its torque is not carried.
+pub(super) const NOT_CARRIED: &str = ": not carried";
+
 /// The name of a row, with word that its torque is not carried where the curve ends below it.
 pub(super) fn row_name(name: &str, torque_nm: f64, end_nm: f64) -> String {
     match end_nm >= torque_nm {
         true => name.to_owned(),
         false => format!(
-            "{name}: not carried, demand and clearance are those at the end of the curve, {end_nm:.4} Nm, the margin is at most \
+            "{name}{NOT_CARRIED}, demand and clearance are those at the end of the curve, {end_nm:.4} Nm, the margin is at most \
              what the torque lacks"
         ),
     }

@@ -1,6 +1,7 @@
 //! One row: a limit, what it demands, what is allowed, and the margin between them.
 
 use super::limits::Limit;
+use super::load::NOT_CARRIED;
 use super::table::{CONTACT, SLIP};
 
 /// Resolution of a margin: what the optimiser leaves of a limit that it stops at. A margin above minus this is
@@ -144,6 +145,11 @@ impl Margin {
             torque_capacity_nm: None,
             required: true,
         }
+    }
+
+    /// The name without the word that its torque is not carried.
+    pub fn plain_name(&self) -> &str {
+        self.name.split(NOT_CARRIED).next().unwrap_or(&self.name)
     }
 
     /// Code for scripts, such as `hoop-inner`, `slip:high-6`, `run-out-grip-inner`, `contact:low-4 @ +friction`.

@@ -158,8 +158,7 @@ impl CheckBody {
             let counts = |r: &Margin| counts(r) && !ends_first(r, source.end_torque_nm);
             lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Capacity {
                 code: r.code(),
-                // That a torque beyond the curve is not carried does not belong to the capacity.
-                name: r.name.split(": not carried").next().unwrap_or(&r.name).to_owned(),
+                name: r.plain_name().to_owned(),
                 torque_capacity_nm,
             })
         };
