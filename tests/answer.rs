@@ -3,7 +3,7 @@
 use serde_json::Value;
 use sprag_design::answer::check::NoCheck;
 use sprag_design::answer::simulation::{Integration, NoAnswer, Setting, SimulationSettings, Values};
-use sprag_design::answer::{Provenance, search, stiffness};
+use sprag_design::answer::{Answer, Provenance, search, stiffness};
 use sprag_design::{Design, Follow, NoSearch, cli};
 use std::path::Path;
 use std::process::Command;
@@ -77,7 +77,7 @@ fn the_page_of_the_library_is_that_of_the_command() {
     std::fs::remove_file(&file).expect("page");
     let command = format!("sprag-design check {BENCH} --quiet --report {}", file.display());
     let answer = bench().check(&Follow::nobody()).unwrap_or_else(|e| panic!("{e}"));
-    let page = answer.page(&bench(), &Provenance { command, run_time_s: 0.25 }).to_html();
+    let page = answer.page(&Provenance { command, run_time_s: 0.25 }).to_html();
     assert!(page.contains(&answer.body.verdict()) && page.contains("0.25"));
     assert!(without_run_time(&page) == without_run_time(&printed), "the pages differ");
 }

@@ -1,6 +1,6 @@
 //! Limits of `check` against hand calculations from textbooks.
 use sprag_design::design::Design;
-use sprag_design::margin::{Margin, load_margins, load_state};
+use sprag_design::margin::{Capacities, Margin, load_margins, load_state};
 use std::f64::consts::PI;
 
 const MULTI: &str = include_str!("../designs/huang2017-multi-arc.toml");
@@ -10,7 +10,7 @@ fn rows(keys: &str) -> (Design, Vec<Margin>) {
     let text = MULTI.replacen("peak_torque_nm = 110.0", &format!("{keys}\npeak_torque_nm = 110.0"), 1);
     let design = Design::parse(&text, "multi.toml").unwrap();
     let state = load_state(&design).unwrap();
-    let rows = load_margins(&design, &design.limits, true, &state);
+    let rows = load_margins(&design, &design.limits, Capacities::Wanted, &state);
     (design, rows)
 }
 
@@ -60,7 +60,7 @@ fn a_capacity_by_shear_is_the_torque_at_which_no_margin_is_left() {
         let design = Design::parse(&there, "there.toml").unwrap();
         let state = load_state(&design).unwrap();
         assert!(at < state.curve.end_torque_nm(), "{code} is not reached");
-        let margin = row(&load_margins(&design, &design.limits, false, &state), code).margin();
+        let margin = row(&load_margins(&design, &design.limits, Capacities::LeftOut, &state), code).margin();
         assert!(margin.abs() < 1e-8, "{code}: {margin} at {at} N m");
     }
 }
@@ -155,7 +155,7 @@ fn crowding_has_a_torque() {
         .replacen("nominal_torque_nm = 90.0", "nominal_torque_nm = 20.0", 1);
     let design = Design::parse(&text, "crowded.toml").unwrap();
     let state = load_state(&design).unwrap();
-    let rows = load_margins(&design, &design.limits, true, &state);
+    let rows = load_margins(&design, &design.limits, Capacities::Wanted, &state);
     let capacity = row(&rows, "neighbours").torque_capacity_nm.unwrap();
     println!("crowding at {capacity} Nm; the curve ends at {}", state.curve.end_torque_nm());
     assert!(capacity < state.curve.end_torque_nm(), "neighbours never touch");

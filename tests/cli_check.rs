@@ -4,6 +4,7 @@
 mod program;
 
 use program::*;
+use sprag_design::answer::Answer;
 use sprag_design::report::Screen;
 use sprag_design::{Design, Follow, Settings, margins};
 
@@ -54,7 +55,7 @@ fn the_table_of_a_first_design_fits_80_columns() {
         assert!(made.status.success(), "{made:?}");
         let design = Design::read(new.as_ref()).unwrap();
         let found = design.check(&Follow::nobody()).unwrap();
-        let text = found.text(&design, Screen { colour: false, columns: Some(80) });
+        let text = found.text(Screen { colour: false, columns: Some(80) });
         assert_eq!(text.matches("Verdict").count(), 1, "{text}");
         let table = text.lines().skip(1).take_while(|line| !line.contains("HELD: "));
         let widest = table.map(|line| line.chars().count()).max();

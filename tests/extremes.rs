@@ -2,7 +2,9 @@
 
 use sprag_design::Follow;
 use sprag_design::design::Design;
-use sprag_design::margin::{lift_off_rad_s, load_margins, load_state, overrun_curve, scene_margins};
+use sprag_design::margin::{
+    Capacities, lift_off_rad_s, load_margins, load_state, overrun_curve, scene_margins,
+};
 use sprag_design::scenario::{Settings, simulate};
 use sprag_design::wedge::EndReason;
 
@@ -57,7 +59,7 @@ fn answered(name: &str, text: &str) -> Design {
     let (end, _) = state.curve.end();
     assert!(matches!(end, EndReason::OffProfile | EndReason::RollsOver), "{name}: {end:?}");
     assert!(state.curve.end_torque_nm() > 0.0 && state.curve.truncation() < 1e-6, "{name}");
-    let rows = load_margins(&design, &design.limits, true, &state);
+    let rows = load_margins(&design, &design.limits, Capacities::Wanted, &state);
     assert!(rows.len() >= 14, "{name}: {} rows", rows.len());
     for row in &rows {
         assert!(

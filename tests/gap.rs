@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use sprag_design::design::Design;
-use sprag_design::margin::{Margin, load_margins, load_state, nominal_capacity};
+use sprag_design::margin::{Capacities, Margin, load_margins, load_state, nominal_capacity};
 
 const MULTI: &str = include_str!("../designs/huang2017-multi-arc.toml");
 const KEYS: &str = "gap_nominal_mm = 8.50\ngap_peak_mm = 8.6\nwindup_nominal_deg = 9.0\nequivalent_inner_mpa = 900.0\n\
@@ -20,7 +20,7 @@ fn design(keys: &str, changes: &[(&str, &str)]) -> Design {
 }
 
 fn rows(design: &Design) -> Vec<Margin> {
-    load_margins(design, &design.limits, true, &load_state(design).unwrap())
+    load_margins(design, &design.limits, Capacities::Wanted, &load_state(design).unwrap())
 }
 
 fn row<'a>(rows: &'a [Margin], code: &str) -> &'a Margin {

@@ -3,7 +3,7 @@
 
 use sprag_design::design::{LIMIT_KEYS, LimitKey, with_limits};
 use sprag_design::margin::{
-    LIMITS, Margin, RunOut, When, limit_of, load_state, margins, run_out_margins, unlike_margins,
+    Capacities, LIMITS, Margin, RunOut, When, limit_of, load_state, margins, run_out_margins, unlike_margins,
 };
 use sprag_design::optimise::{ClutchProblem, Fidelity};
 use sprag_design::{Design, Settings};
@@ -67,8 +67,8 @@ fn rows(design: &Design) -> Vec<Margin> {
     let mut rows = margins(design, scenes, &Settings::default()).unwrap();
     let state = load_state(design).unwrap();
     let ring = RunOut::new(design, &state).unwrap();
-    rows.extend(run_out_margins(design, &design.limits, &ring, false));
-    rows.extend(unlike_margins(design, &design.limits, &state, false));
+    rows.extend(run_out_margins(design, &design.limits, &ring, Capacities::LeftOut));
+    rows.extend(unlike_margins(design, &design.limits, &state, Capacities::LeftOut));
     rows
 }
 

@@ -316,7 +316,8 @@ fn the_answer_holds_together() {
     }
     // The row of the check is the worst of the turn.
     let worst = turned.iter().map(|s| s.worst(|l| l.hertz_pa()).1).fold(0.0, f64::max);
-    let (_, rows, _) = sprag_design::margin::static_margins(&design, true).unwrap();
+    let (_, rows, _) =
+        sprag_design::margin::static_margins(&design, sprag_design::margin::Capacities::Wanted).unwrap();
     let row = rows.iter().find(|r| r.code() == "sprag-hertz-nominal").unwrap();
     assert_eq!(row.demand.value(), Some(worst));
     let at = row.torque_capacity_nm.unwrap();
@@ -335,7 +336,7 @@ fn the_answer_holds_together() {
     let mut plain = design.clone();
     plain.sharing = None;
     assert!(
-        sprag_design::margin::static_margins(&plain, true)
+        sprag_design::margin::static_margins(&plain, sprag_design::margin::Capacities::Wanted)
             .unwrap()
             .1
             .iter()

@@ -9,10 +9,10 @@ use std::f64::consts::PI;
 
 use sprag_design::clutch::{Scenario, ScenarioKind};
 use sprag_design::design::Design;
-use sprag_design::margin::{load_margins, load_state, margins};
+use sprag_design::margin::{Capacities, load_margins, load_state, margins};
 use sprag_design::material::steel;
 use sprag_design::scenario::{Settings, prepare};
-use sprag_design::size::{NoSize, PURPOSES, Requirements, Sized, Tried, Wish, purpose, size};
+use sprag_design::size::{Decider, NoSize, PURPOSES, Requirements, Sized, Tried, Wish, purpose, size};
 
 fn stderr(output: &std::process::Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
@@ -96,7 +96,7 @@ fn the_width_is_the_shortest_that_the_limits_allow() {
     assert_ne!(text, sized.made.design.source);
     let shorter = Design::parse(&text, "shorter.toml").unwrap();
     let state = load_state(&shorter).unwrap();
-    let rows = load_margins(&shorter, &shorter.limits, false, &state);
+    let rows = load_margins(&shorter, &shorter.limits, Capacities::LeftOut, &state);
     let least = rows.iter().filter(|r| r.required).map(|r| r.margin()).fold(f64::INFINITY, f64::min);
     assert!(least < 0.02, "{least}");
     // The smallest ring of those that do it.
@@ -120,7 +120,10 @@ fn what_is_impossible_names_the_limit_and_the_nearest() {
 #[test]
 fn a_bore_without_room_for_the_family_says_how_many_sprags_it_has_room_for() {
     let Err(NoSize::None { tried }) = sized(&ask(2000.0, 1e5, 0.0, 1.3, 0.11)) else { panic!("2 m") };
-    assert!(tried.len() == 7 && tried.iter().all(|t| t.decided_by == "count" && t.count > 120), "{tried:?}");
+    assert!(
+        tried.len() == 7 && tried.iter().all(|t| t.decided_by == Decider::Count && t.count > 120),
+        "{tried:?}"
+    );
     let why = NoSize::None { tried }.to_string();
     assert!(why.contains("race space 25.00 mm: room for 343 sprags, the family has 8 to 120"), "{why}");
 }
@@ -205,7 +208,7 @@ fn what_an_engineer_asks_for_is_kept_or_named_as_what_prevents_it() {
     let Err(NoSize::None { tried }) = sized(&Wish { outside_m: Some(0.06), ..asked }.requirements()) else {
         panic!("60 mm about a bore of 40")
     };
-    assert!(tried.iter().any(|t| t.decided_by == "outside"), "{tried:?}");
+    assert!(tried.iter().any(|t| t.decided_by == Decider::Outside), "{tried:?}");
     // A peak alone is a nominal torque by the factor.
     let peak = Wish { torque_nm: None, peak_nm: Some(780.0), ..asked }.requirements();
     assert!((peak.torque_nm - 600.0).abs() < 1e-9);
@@ -317,7 +320,7 @@ fn the_race_that_runs_ahead_is_the_one_that_was_asked_for() {
 fn an_outer_diameter_that_is_too_small_names_the_one_that_would_do() {
     let asked = Wish { outside_m: Some(0.06), ..wish(40.0, 600.0) };
     let Err(NoSize::None { tried }) = sized(&asked.requirements()) else { panic!("60 mm do") };
-    let barred: Vec<&Tried> = tried.iter().filter(|t| t.decided_by == "outside").collect();
+    let barred: Vec<&Tried> = tried.iter().filter(|t| t.decided_by == Decider::Outside).collect();
     assert!(!barred.is_empty() && barred.iter().all(|t| t.outside_m > 0.06 + 1e-6));
     let wider = Wish { outside_m: Some(barred[0].outside_m + 1e-6), ..asked };
     let again = match sized(&wider.requirements()) {
@@ -325,7 +328,7 @@ fn an_outer_diameter_that_is_too_small_names_the_one_that_would_do() {
         Err(why) => panic!("{why}"),
     };
     let same = again.iter().find(|t| t.space_m == barred[0].space_m).unwrap();
-    assert_ne!(same.decided_by, "outside");
+    assert_ne!(same.decided_by, Decider::Outside);
 }
 
 /// What cannot be is refused with how to mend it: a bore in inches, sprags that nothing throws off, a speed of contact above that of

@@ -3,7 +3,7 @@ use sprag_design::answer::Answer;
 use sprag_design::clutch::Service;
 use sprag_design::design::Design;
 use sprag_design::life::{Life, Wear, life, worn, worn_life, worn_state};
-use sprag_design::margin::{LoadState, load_margins, load_state, lowest_capacity, overrun_at};
+use sprag_design::margin::{Capacities, LoadState, load_margins, load_state, lowest_capacity, overrun_at};
 use sprag_design::wedge::WedgeCurve;
 
 const OIL: &str = include_str!("../designs/lubricated.toml");
@@ -33,7 +33,7 @@ fn unworn_is_the_clutch_of_today() {
     let design = design(false, 100.0, 1.0);
     let (service, life, state) = of(&design);
     let now = worn_state(&design, &service, &life, 0.0, &Wear::default()).unwrap();
-    let rows = load_margins(&design, &design.limits, true, &state);
+    let rows = load_margins(&design, &design.limits, Capacities::Wanted, &state);
     let (row, nm) = lowest_capacity(&rows, |_| true).unwrap();
     assert_eq!(now.capacity, Some((nm, row.code().to_string())));
     assert_eq!(now.first_tan_omega, Some(state.first_tan_omega));

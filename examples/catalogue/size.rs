@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use sprag_design::design::{Design, with_keys};
-use sprag_design::margin::{LoadState, load_margins, load_state};
+use sprag_design::margin::{Capacities, LoadState, load_margins, load_state};
 use sprag_design::profile::{Outline, Profile, clearance_m};
 use sprag_design::wedge::StaticPoint;
 
@@ -38,7 +38,7 @@ impl Size {
 
     /// Torque at which the limit of that code would be reached, N m.
     pub(crate) fn capacity(&self, codes: &[&str]) -> f64 {
-        let rows = load_margins(&self.design, &self.design.limits, true, &self.state);
+        let rows = load_margins(&self.design, &self.design.limits, Capacities::Wanted, &self.state);
         let each =
             rows.iter().filter(|r| codes.contains(&r.code().as_str())).filter_map(|r| r.torque_capacity_nm);
         each.fold(f64::INFINITY, f64::min)

@@ -124,6 +124,11 @@ impl Finding {
 
 /// An answer and its faces.
 pub trait Answer {
+    /// Its own keys in JSON.
+    type Body<'a>: Serialize
+    where
+        Self: 'a;
+
     /// What it comes to.
     fn outcome(&self) -> Finding;
     /// That in a sentence.
@@ -135,7 +140,7 @@ pub trait Answer {
     /// The answer as a page.
     fn page(&self, provenance: &Provenance) -> Page;
     /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value>;
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Self::Body<'_>>;
 
     /// Whether all that was asked about holds.
     fn held(&self) -> bool {
@@ -199,6 +204,11 @@ pub trait Said {
 }
 
 impl<T: Said> Answer for T {
+    type Body<'a>
+        = Value
+    where
+        T: 'a;
+
     fn outcome(&self) -> Finding {
         Said::outcome(self)
     }

@@ -8,7 +8,7 @@ use crate::dynamics::Stop;
 use crate::element::NoElement;
 use crate::follow::Follow;
 use crate::margin::{
-    LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state, lowest_capacity,
+    Capacities, LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state, lowest_capacity,
 };
 use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
 use crate::report::plot::Curve;
@@ -111,7 +111,7 @@ impl std::error::Error for NoReengagement {}
 
 /// Peak torque that every limit bears, N m, and the limit that sets it.
 pub(super) fn peak_torque_borne(design: &Design, state: &LoadState) -> Option<(f64, String)> {
-    let rows = load_margins(design, &design.limits, true, state);
+    let rows = load_margins(design, &design.limits, Capacities::Wanted, state);
     lowest_capacity(&rows, |r| r.limit.when != When::Nominal).map(|(r, nm)| (nm, r.code()))
 }
 

@@ -299,6 +299,11 @@ impl SharingSceneAnswer<'_> {
 }
 
 impl Answer for SharingSceneAnswer<'_> {
+    type Body<'a>
+        = Value
+    where
+        Self: 'a;
+
     fn outcome(&self) -> Finding {
         match self.found.run.stop {
             Stop::Interrupted => Finding::Stopped,

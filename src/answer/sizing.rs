@@ -6,7 +6,7 @@ use crate::design::{Design, shown};
 use crate::follow::Follow;
 use crate::margin::{load_state, lowest_capacity};
 use crate::report::{Cell, Drawing, Page, Rows, Screen, SpragPose, Table, Unit};
-use crate::size::{Made, Sized, Tried};
+use crate::size::{Decider, Made, Sized, Tried};
 use serde_json::{Value, json};
 
 /// A first design, with every race space that was tried.
@@ -189,7 +189,7 @@ fn alternatives(page: &mut Page, sized: &Sized) {
 
 /// What flanks are, where they decided a race space.
 fn no_flanks(tried: &[Tried]) -> Option<String> {
-    let any = tried.iter().any(|t| t.decided_by == "flanks");
+    let any = tried.iter().any(|t| t.decided_by == Decider::Flanks);
     any.then(|| "flanks: the sides of a sprag's body between its two profiles; none fit there".to_owned())
 }
 
@@ -214,7 +214,7 @@ pub fn tried(tried: &[Tried], taken: Option<usize>) -> Rows<(usize, &Tried)> {
         .number("carries_nm", "Carries", Unit::NewtonMetre, 4, |(_, t)| {
             Cell::only_if(t.carries_nm > 0.0, t.carries_nm)
         })
-        .text("decided_by", "Decided by", |(_, t)| t.decided_by.as_str())
+        .text("decided_by", "Decided by", |(_, t)| t.decided_by.to_string())
         .text("verdict", "", |(i, t)| Cell::Verdict(t.held, word(*i, t).to_owned()))
         .json_in("width_mm", Unit::Millimetre, |(_, t)| of(t, |made| made.design.clutch.races.width_m))
         .json("possible", |(_, t)| t.held)

@@ -54,11 +54,7 @@ impl Run for AccuracyArgs {
         let design = context.design(&self.file)?;
         let scenarios = chosen(self, &design)?;
         let (study, run_time_s) = timed(|| study(self, context, &design, &scenarios));
-        context.outputs.write_csv(&study.csv_table());
-        context.outputs.write_report(|| study.page(&design, &context.provenance(run_time_s)));
-        context.answer(&study.text(context.screen))?;
-        context.print(&study.envelope(&design, run_time_s))?;
-        Ok(if study.interrupted { Exit::Interrupted } else { Exit::Held })
+        context.deliver(&study, run_time_s)
     }
 }
 
@@ -83,13 +79,19 @@ fn chosen<'a>(args: &AccuracyArgs, design: &'a Design) -> Result<Vec<&'a Scenari
 }
 
 /// Everything asked for, or as much of it as was finished before Ctrl-C.
-fn study(args: &AccuracyArgs, context: &Context, design: &Design, scenarios: &[&Scenario]) -> AccuracyStudy {
+fn study<'d>(
+    args: &AccuracyArgs,
+    context: &Context,
+    design: &'d Design,
+    scenarios: &[&Scenario],
+) -> AccuracyStudy<'d> {
     let settings = PrecisionSettings::down_to(args.min_step, &context.follow);
     let points = (scenarios.len() * settings.points()) as u64;
     let progress = context.progress("methods", "settings", Some(points));
-    let study =
-        AccuracyStudy::of(scenarios, &settings, &|name| progress.describe(name), &|| progress.advance(1));
+    let study = AccuracyStudy::of(design, scenarios, &settings, &|name| progress.describe(name), &|| {
+        progress.advance(1)
+    });
     drop(progress);
     let progress = context.progress("stability map", "cases", Some(u64::from(args.cases)));
-    study.with_map(design, args.seed, args.cases as usize, &context.follow, &|| progress.advance(1))
+    study.with_map(args.seed, args.cases as usize, &context.follow, &|| progress.advance(1))
 }

@@ -4,7 +4,7 @@ use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::{Context, Run};
-use crate::answer::check::{CheckAnswer, CheckBody, NoCheck, check};
+use crate::answer::check::{CheckAnswer, NoCheck, check};
 use crate::design::Design;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -46,14 +46,10 @@ impl Run for CheckArgs {
         }
         context.each(&self.files, |file, design| {
             let (found, run_time_s) = checked(design, file, context)?;
-            context.outputs.write_csv(&found.csv_table());
             if let Some(path) = &self.overrun_csv {
                 context.outputs.write_table(path, &found.body.overrun.table());
             }
-            context.outputs.write_report(|| found.page(design, &context.provenance(run_time_s)));
-            context.answer(&found.text(design, context.screen))?;
-            context.print(&found.envelope(design, run_time_s))?;
-            Ok(exit(&found.body))
+            context.deliver(&found, run_time_s)
         })
     }
 }
@@ -71,9 +67,4 @@ pub(super) fn checked(
         NoCheck::Stopped => Failure::Interrupted,
     })?;
     Ok((found, run_time_s))
-}
-
-/// What the verdict comes to.
-pub(super) fn exit(body: &CheckBody) -> Exit {
-    body.held().map_or(Exit::Failed, Exit::of)
 }

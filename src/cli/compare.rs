@@ -41,12 +41,6 @@ impl Run for CompareArgs {
         drop(progress);
         let names: Vec<String> = self.files.iter().map(|file| file.display().to_string()).collect();
         let compared = Comparison::of(&subjects, &names);
-        context.outputs.write_csv(&compared.csv_table());
-        context.outputs.write_report(|| compared.page(&context.provenance(run_time_s)).unwrap_or_default());
-        context.answer(&compared.text(context.screen))?;
-        if let Some(answer) = compared.envelope(run_time_s) {
-            context.print(&answer)?;
-        }
-        Ok(Exit::Held)
+        compared.map_or(Ok(Exit::Held), |compared| context.deliver(&compared, run_time_s))
     }
 }

@@ -214,9 +214,24 @@ impl Context {
     /// # Errors
     /// [`Failure::Failed`] where standard output cannot be written.
     pub fn deliver(&self, found: &impl Answer, run_time_s: f64) -> Result<Exit, Failure> {
-        self.outputs.write_csv(&found.table());
+        self.deliver_as(found, Answer::text, run_time_s)
+    }
+
+    /// The same with another text.
+    ///
+    /// # Errors
+    /// As [`Self::deliver`].
+    pub fn deliver_as<A: Answer>(
+        &self,
+        found: &A,
+        text: impl Fn(&A, Screen) -> String,
+        run_time_s: f64,
+    ) -> Result<Exit, Failure> {
+        if self.outputs.csv.is_some() {
+            self.outputs.write_csv(&found.table());
+        }
         self.outputs.write_report(|| found.page(&self.provenance(run_time_s)));
-        self.answer(&found.text(self.screen))?;
+        self.answer(&text(found, self.screen))?;
         self.print(&found.envelope(run_time_s))?;
         Ok(found.outcome().into())
     }

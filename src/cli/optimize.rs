@@ -4,15 +4,11 @@ use super::exit::{Exit, Failure};
 use super::histories::Histories;
 use super::journal::{self, JournalFile};
 use super::origin::FileKind;
-use super::output::TOOL;
 use super::progress::ProgressLine;
 use super::{Context, Run};
-use crate::answer::search::{
-    Hints, NEAREST, ROBUST, SearchAnswer, SearchReport, SearchSettings, Story, file_text, further_files,
-    further_text,
-};
-use crate::design::{Design, EditError, Objective};
-use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record, Status};
+use crate::answer::search::{Hints, NEAREST, ROBUST, SearchAnswer, SearchFile, SearchReport, SearchSettings};
+use crate::design::{Design, Objective};
+use crate::optimise::{Entry, Iteration, Journal, NoSearch, ProblemId, Record};
 use crate::sweep::NoSample;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -230,18 +226,16 @@ fn finish(
     run_time_s: f64,
     context: &Context,
 ) -> Result<Exit, Failure> {
-    let story = &answer.story;
-    let interrupted = story.status() == &Status::Interrupted;
     let named = |path: &Path| path.display().to_string();
     let (mut written, mut beside) = (None, Vec::new());
-    let files = files(design, story, &context.command_line);
+    let files = answer.files(design, &context.command_line);
     if !files.is_empty() && histories.write(&context.outputs) {
-        for (ending, text) in files {
-            let path = ending.map_or(new.to_path_buf(), |e| new.with_extension(format!("{e}.toml")));
-            match readable(design, &path, text) {
-                Err(why) => context.outputs.lost(why),
+        for SearchFile { middle, text } in files {
+            let path = middle.map_or(new.to_path_buf(), |m| new.with_extension(format!("{m}.toml")));
+            match text {
+                Err(why) => context.outputs.lost(format!("{}: {why}", path.display())),
                 Ok(text) if !context.outputs.write(&path, FileKind::Design, text.as_bytes()) => {}
-                Ok(_) if ending.is_none() => written = Some(named(&path)),
+                Ok(_) if middle.is_none() => written = Some(named(&path)),
                 Ok(_) => beside.push(named(&path)),
             }
         }
@@ -253,69 +247,15 @@ fn finish(
         written,
         beside,
         journal: journal.as_deref().map(named),
-        provenance: context.provenance(run_time_s),
         hints: HINTS,
     };
-    context.outputs.write_csv(&story.csv_table());
-    context.outputs.write_report(|| report.page());
-    context.print(&report.envelope())?;
-    context.answer(&report.text(context.screen))?;
+    let exit = context.deliver(&report, run_time_s)?;
     let whole = file.failed.is_none() && file.unused().is_none();
-    if !interrupted && !keep && whole && context.outputs.unwritten().is_empty() {
+    if exit != Exit::Interrupted && !keep && whole && context.outputs.unwritten().is_empty() {
         // The search is over and its answer is safe: nothing is left to resume, no row was promised to stay.
         file.discard();
     }
-    Ok(if interrupted {
-        Exit::Interrupted
-    } else if held(story) && story.not_robust().is_none() {
-        Exit::Held
-    } else {
-        Exit::NotHeld
-    })
-}
-
-/// Whether every limit is held by a sprag that can be made. Stopped before there were flanks: the best so far is better than nothing, and
-/// says what it lacks.
-fn held(story: &Story) -> bool {
-    story.feasible() && (story.makeable() || story.status() == &Status::Interrupted)
-}
-
-/// Design files that a search is worth: middle of the name, where it has one, and text.
-fn files<'s>(
-    design: &Design,
-    story: &'s Story,
-    command: &str,
-) -> Vec<(Option<&'s str>, Result<String, EditError>)> {
-    let interrupted = story.status() == &Status::Interrupted;
-    if held(story) {
-        if interrupted && !story.improved() && story.found.start_feasible() {
-            return Vec::new();
-        }
-        let further = further_files(story).into_iter();
-        let further = further.map(|(ending, what, text)| (Some(ending), further_text(design, what, text)));
-        return std::iter::once((None, file_text(design, story, command))).chain(further).collect();
-    }
-    if interrupted {
-        return Vec::new();
-    }
-    let why = match story.feasible() {
-        true => "no flanks give its centroid".to_owned(),
-        false => format!("not held: {}", story.not_held().join(", ")),
-    };
-    let what = format!("the nearest design found, NOT FEASIBLE: {why}");
-    vec![(Some(NEAREST), further_text(design, &what, story.file()))]
-}
-
-/// `text` if it reads as a design with the histories of `design`; else what is wrong with the file that it would have made.
-fn readable(design: &Design, path: &Path, text: Result<String, EditError>) -> Result<String, String> {
-    let name = path.display().to_string();
-    let text = text.map_err(|why| format!("{name}: {why}"))?;
-    match Design::parse_in(&design.folder, &text, &name) {
-        Ok(_) => Ok(text),
-        Err(why) => Err(format!(
-            "{name}: not written, it would be a design file that this tool refuses; report this as a fault of {TOOL}; {why}"
-        )),
-    }
+    Ok(exit)
 }
 
 /// `-o`, or a name of our own.
@@ -373,20 +313,5 @@ impl Record for Keeper {
         };
         self.progress
             .describe(&format!("{}: {:.5}, {violated}, best feasible {best}", self.part, it.least_margin));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_design_that_would_be_refused_is_no_file_but_a_sentence() {
-        let text = include_str!("../../designs/huang2017-multi-arc.toml");
-        let design = Design::parse(text, "a.toml").unwrap();
-        let outcome = |text: &str| readable(&design, Path::new("new.toml"), Ok(text.to_owned()));
-        assert_eq!(outcome(text).as_deref(), Ok(text));
-        let why = outcome(&text.replacen("count = 12 ", "count = 0 ", 1)).unwrap_err();
-        assert!(why.starts_with("new.toml: not written") && why.contains("sprags.count"), "{why}");
     }
 }

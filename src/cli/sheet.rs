@@ -1,6 +1,6 @@
 //! `sheet`: the design sheet.
 
-use super::check::{checked, exit};
+use super::check::checked;
 use super::exit::{Exit, Failure};
 use super::output::path_text;
 use super::{Context, Run};
@@ -32,16 +32,11 @@ impl Run for SheetArgs {
         context.outputs.check(&[&self.file], &[])?;
         let design = context.design(&self.file)?;
         let (check, run_time_s) = checked(&design, &self.file, &context)?;
-        context.outputs.write_csv(&check.csv_table());
-        context.outputs.write_report(|| check.sheet(&design, &context.provenance(run_time_s)));
-        let mut lines = vec![check.body.verdict()];
-        lines.extend(check.body.capacity_lines());
+        let exit = context.deliver(&check.sheet(), run_time_s)?;
         if context.outputs.unwritten().is_empty() {
-            lines.push(format!("written to {}", path_text(&path)));
+            context.answer(&format!("written to {}\n", path_text(&path)))?;
         }
-        context.answer(&(lines.join("\n") + "\n"))?;
-        context.print(&check.envelope(&design, run_time_s))?;
-        Ok(exit(&check.body))
+        Ok(exit)
     }
 }
 

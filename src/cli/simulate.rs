@@ -4,10 +4,10 @@ use super::clock::while_shown;
 use super::context::timed;
 use super::exit::{Exit, Failure};
 use super::{Context, Run, positive};
+use crate::answer::Answer;
 use crate::answer::simulation::{
     self as scene, Ran, RefusedSetting, Setting, SimulationAnswer, SimulationSettings,
 };
-use crate::dynamics::Stop;
 use crate::report::plain;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -99,7 +99,13 @@ impl Run for SimulateArgs {
             let (ran, run_time_s) = timed(|| while_shown(&scenario.name, duration_s, context, run));
             let other = format!("{}, contact damping changed", scenario.name);
             let damping = while_shown(&other, duration_s, context, || ran.damping_effect(&settings));
-            report(&SimulationAnswer::new(ran, damping, &settings), run_time_s, self, context)
+            let found = SimulationAnswer::new(ran, damping, &settings);
+            let text = if self.figures { SimulationAnswer::text_with_all_figures } else { Answer::text };
+            let exit = context.deliver_as(&found, text, run_time_s)?;
+            for note in &found.body.notes {
+                context.message(&format!("note: {note}"));
+            }
+            Ok(exit)
         })
     }
 }
@@ -121,31 +127,6 @@ impl SimulateArgs {
             follow: context.follow.clone(),
         }
     }
-}
-
-fn report(
-    found: &SimulationAnswer,
-    run_time_s: f64,
-    args: &SimulateArgs,
-    context: &Context,
-) -> Result<Exit, Failure> {
-    if context.outputs.csv.is_some() {
-        context.outputs.write_csv(&found.history().table());
-    }
-    context.outputs.write_report(|| found.page(&context.provenance(run_time_s)));
-    context.print(&found.envelope(run_time_s))?;
-    let text = if args.figures { SimulationAnswer::text_with_all_figures } else { SimulationAnswer::text };
-    context.answer(&text(found, context.screen))?;
-    for note in &found.body.notes {
-        context.message(&format!("note: {note}"));
-    }
-    Ok(match found.simulation() {
-        Some(s) if s.stop == Stop::Interrupted || s.finer_gave_up == Some(Stop::Interrupted) => {
-            Exit::Interrupted
-        }
-        Some(s) if s.verdict.is_none() || s.stop.gave_up() => Exit::Failed,
-        _ => Exit::Held,
-    })
 }
 
 /// The refusal of a setting, by its flag.

@@ -2,17 +2,13 @@
 
 use super::exit::{Exit, Failure};
 use super::{Context, Run, positive};
-use crate::answer::stiffness::{
-    Fem, NoStiffness, PressureMap, StiffnessAnswer, StiffnessSettings, StiffnessStudy, csv_table, curves,
-    page,
-};
+use crate::answer::Answer;
+use crate::answer::stiffness::{Fem, NoStiffness, StiffnessSettings, StiffnessStudy, page};
 use crate::clutch::LawName;
 use crate::design::{MOST_TABLE, read_text};
-use crate::margin::NoMargins;
 use crate::wedge::Lengthwise;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -71,12 +67,12 @@ impl Run for StiffnessArgs {
         let studies =
             (0..self.files.len()).map(|i| study(self, i, context)).collect::<Result<Vec<_>, _>>()?;
         if let [study] = studies.as_slice() {
-            context.outputs.write_csv(&csv_table(&study.found.laws));
+            return context.deliver(study, study.run_time_s);
         }
         context.outputs.write_report(|| page(&studies, &context.command_line));
         for study in &studies {
             context.answer(&study.text(context.screen))?;
-            context.print(&study.envelope())?;
+            context.print(&study.envelope(study.run_time_s))?;
         }
         Ok(Exit::Held)
     }
@@ -86,30 +82,19 @@ impl Run for StiffnessArgs {
 fn study(args: &StiffnessArgs, i: usize, context: &Context) -> Result<StiffnessStudy, Failure> {
     let design = context.design(&args.files[i])?;
     let fem = args.fem.get(i).map(|path| read_fem(path, args.fem_model.as_deref())).transpose()?;
-    let profile =
-        design.clutch.profile().map_err(|e| Failure::no_clutch(&args.files[i], &NoMargins::Profile(e)))?;
-    let started = Instant::now();
     let settings = args.settings(context);
     let count = settings.laws_of(&design.clutch.contact).len() as u64;
     let progress = context.progress("curves", "contact laws", Some(count));
-    let laws = curves(&design, &profile, &settings, &|| progress.advance(1)).map_err(|why| match why {
-        NoStiffness::NoClutch(why) => Failure::no_clutch(&args.files[i], &why),
-        NoStiffness::Torque(_) => Failure::malformed(why.to_string()),
-        NoStiffness::Stopped => Failure::Interrupted,
-    })?;
-    drop(progress);
-    let shaped = (!design.clutch.axial.is_straight()).then_some(Lengthwise::Slices);
-    let pressure = match (laws.first(), args.pressure.or(shaped)) {
-        (Some(law), Some(how)) => Some(PressureMap::of(law, how).map_err(|e| {
-            Failure::malformed(format!(
-                "no pressure along the length: {e}; take fewer slices or --pressure slices"
-            ))
-        })?),
-        _ => None,
-    };
-    let run_time_s = started.elapsed().as_secs_f64();
-    let found = StiffnessAnswer::of(laws, design.limits.largest_torque_nm());
-    Ok(StiffnessStudy { design, profile, found, fem, pressure, run_time_s })
+    StiffnessStudy::of(design, &settings, fem, args.pressure, &|| progress.advance(1)).map_err(
+        |why| match why {
+            NoStiffness::NoClutch(why) => Failure::no_clutch(&args.files[i], &why),
+            NoStiffness::Torque(_) => Failure::malformed(why.to_string()),
+            NoStiffness::Pressure(_) => {
+                Failure::malformed(format!("{why}; take fewer slices or --pressure slices"))
+            }
+            NoStiffness::Stopped => Failure::Interrupted,
+        },
+    )
 }
 
 /// Finite elements of `--fem`.

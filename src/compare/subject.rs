@@ -2,7 +2,8 @@
 
 use crate::design::Design;
 use crate::margin::{
-    LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows, static_margins,
+    Capacities, LoadState, Margin, NoMargins, SceneDemand, lift_off_rad_s, scene_demand, scene_rows,
+    static_margins,
 };
 use crate::scenario::Settings;
 use crate::wedge::StaticPoint;
@@ -38,7 +39,7 @@ impl Subject {
     /// # Errors
     /// [`NoMargins`].
     pub fn new(design: Design, up_to_rad_s: f64, settings: &Settings) -> Result<Self, NoMargins> {
-        let (state, mut margins, _) = static_margins(&design, true)?;
+        let (state, mut margins, _) = static_margins(&design, Capacities::Wanted)?;
         let engaging: Vec<_> = design.scenarios.iter().filter(|s| !s.kind.is_overrun()).collect();
         let scenes: Vec<Scene> = engaging
             .par_iter()

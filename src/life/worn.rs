@@ -22,8 +22,8 @@ use crate::clutch::{Clutch, InnerArc, Service};
 use crate::design::Design;
 use crate::lubrication::{flat_depth_m, track_depth_m};
 use crate::margin::{
-    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, When, lift_off_rad_s, load_margins, load_state,
-    overrun_at,
+    Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, When, lift_off_rad_s, load_margins,
+    load_state, overrun_at,
 };
 use crate::numeric::root;
 use crate::wedge::{NoCurve, WedgeCurve};
@@ -181,7 +181,7 @@ pub fn worn_life(design: &Design, service: &Service, life: &Life) -> Result<Opti
     }
     let state = load_state(design)?;
     let creep = creep(design, &state, &life.loads);
-    let rows = load_margins(design, &design.limits, true, &state);
+    let rows = load_margins(design, &design.limits, Capacities::Wanted, &state);
     let march = March { design, state, rows, service, life, creep };
     let hours = service.overruns.iter().map(|o| o.duration_s / 3600.0).sum();
     let (mut states, mut wear): (Vec<WornState>, _) = (Vec::new(), Wear::default());
@@ -224,7 +224,7 @@ pub fn worn_state(
 ) -> Result<WornState, NoMargins> {
     let state = load_state(design)?;
     let creep = Wear::default();
-    let rows = load_margins(design, &design.limits, true, &state);
+    let rows = load_margins(design, &design.limits, Capacities::Wanted, &state);
     Ok(March { design, state, rows, service, life, creep }.state(share, wear))
 }
 
@@ -315,7 +315,7 @@ impl March<'_> {
             Err(NoCurve::NoConvergence) => return WornState { broken: Some(Broken::Unknown), ..state },
             Err(_) => return state,
         };
-        let rows = load_margins(&design, &design.limits, true, &of_worn);
+        let rows = load_margins(&design, &design.limits, Capacities::Wanted, &of_worn);
         // On the edge of a flat the pressure is that of a radius which nobody knows: there a limit is reached at the force of the drawn clutch.
         let on_edge_nm = if half_flat_m > 0.0 { self.leaves_edge_nm(&of_worn) } else { 0.0 };
         let capacity = |row: &Margin| {

@@ -59,8 +59,8 @@ impl Regime {
 pub struct Film {
     /// Thickness where the pressure is largest, m; 0 without speed.
     pub thickness_m: f64,
-    /// Moes' M, load.
-    pub load: f64,
+    /// Moes' M, load; none without speed.
+    pub load: Option<f64>,
     /// Moes' L, lubricant.
     pub lubricant: f64,
     /// What decides it.
@@ -73,7 +73,7 @@ impl Film {
 
     /// Whether it lies in that range.
     pub fn is_checked(&self) -> bool {
-        self.load <= Self::CHECKED[0] && self.lubricant <= Self::CHECKED[1]
+        self.load.is_some_and(|load| load <= Self::CHECKED[0]) && self.lubricant <= Self::CHECKED[1]
     }
 }
 
@@ -92,10 +92,10 @@ pub fn film(contact: &FilmContact, fluid: &Fluid, speed_sum_m_s: f64, load_n: f6
     let m = load_n / (modulus_pa * radius_m * length_m * u.sqrt());
     let l = fluid.pressure_coefficient_per_pa * modulus_pa * u.powf(0.25);
     if u <= 0.0 {
-        return Film { thickness_m: 0.0, load: f64::MAX, lubricant: 0.0, regime: Regime::IsoviscousElastic };
+        return Film { thickness_m: 0.0, load: None, lubricant: 0.0, regime: Regime::IsoviscousElastic };
     }
     let (h, regime) = moes(m, l);
-    Film { thickness_m: radius_m * u.sqrt() * h, load: m, lubricant: l, regime }
+    Film { thickness_m: radius_m * u.sqrt() * h, load: Some(m), lubricant: l, regime }
 }
 
 /// H and its regime: the stiffer of what the bodies allow an oil that pressure thickens, or the thicker of the two without.

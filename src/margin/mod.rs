@@ -100,21 +100,30 @@ impl Clutch {
 /// [`NoMargins`] where there is no clutch to speak of; a scenario that cannot start is a row with margin -1.
 pub fn margins(design: &Design, scenes: &[String], settings: &Settings) -> Result<Vec<Margin>, NoMargins> {
     let state = load_state(design)?;
-    let mut rows = load_margins(design, &design.limits, true, &state);
+    let mut rows = load_margins(design, &design.limits, Capacities::Wanted, &state);
     for scenario in design.scenarios.iter().filter(|scenario| scenes.contains(&scenario.name)) {
         rows.extend(scene_margins(scenario, &design.limits, true, Some(state.at_rest(design)), settings));
     }
     Ok(rows)
 }
 
+/// Whether rows have the torque at which each limit would be reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Capacities {
+    /// They are computed.
+    Wanted,
+    /// They are left out.
+    LeftOut,
+}
+
 /// All margins that are no scene's, with what they are read from: the load state, and the load round the circumference where
-/// the axes lie apart. `capacities` asks for the torque capacity of each limit as well.
+/// the axes lie apart.
 ///
 /// # Errors
 /// [`NoMargins`].
 pub fn static_margins(
     design: &Design,
-    capacities: bool,
+    capacities: Capacities,
 ) -> Result<(LoadState, Vec<Margin>, Option<RunOut>), NoMargins> {
     let state = load_state(design)?;
     let mut rows = load_margins(design, &design.limits, capacities, &state);
@@ -127,9 +136,14 @@ pub fn static_margins(
 }
 
 /// The margins of the load state `state` of `design` alone.
-pub fn load_margins(design: &Design, limits: &Limits, capacities: bool, state: &LoadState) -> Vec<Margin> {
+pub fn load_margins(
+    design: &Design,
+    limits: &Limits,
+    capacities: Capacities,
+    state: &LoadState,
+) -> Vec<Margin> {
     let mut rows = load::rows(design, limits, state);
-    if capacities {
+    if capacities == Capacities::Wanted {
         capacity::fill(&mut rows, design, limits, state);
     }
     rows

@@ -5,6 +5,7 @@ use super::load::{LoadState, row_name};
 use super::row::{Demand, Margin};
 use super::table::LIMITS;
 use crate::design::{Design, Limits};
+use crate::margin::Capacities;
 use crate::numeric::root;
 use crate::sharing::{Bears, Shared, Turn};
 
@@ -12,8 +13,13 @@ use crate::sharing::{Bears, Shared, Turn};
 const CAPACITY: f64 = 1e-5;
 
 /// Rows of the worst sprag where the design says what sets its sprags apart; a torque beyond the end shows the demand there and continues
-/// as the shortfall of torque. `capacities` asks for the torques at which the limits would be reached.
-pub fn unlike_margins(design: &Design, limits: &Limits, state: &LoadState, capacities: bool) -> Vec<Margin> {
+/// as the shortfall of torque.
+pub fn unlike_margins(
+    design: &Design,
+    limits: &Limits,
+    state: &LoadState,
+    capacities: Capacities,
+) -> Vec<Margin> {
     let Some(sharing) = &design.sharing else { return Vec::new() };
     let turn = Turn::new(&design.clutch, sharing, &state.curve);
     let sprags = &turn.first().sprags;
@@ -57,7 +63,9 @@ pub fn unlike_margins(design: &Design, limits: &Limits, state: &LoadState, capac
         let who = found.map_or("none carries".to_owned(), |(_, i)| format!("sprag {}", i + 1));
         rows.push(Margin {
             name: row_name(&format!("{}: {who}", limit.name()), torque, end_nm),
-            torque_capacity_nm: capacities.then(|| capacity(&turn, state, torque, end_nm, &over)).flatten(),
+            torque_capacity_nm: (capacities == Capacities::Wanted)
+                .then(|| capacity(&turn, state, torque, end_nm, &over))
+                .flatten(),
             ..Margin::new(limit, demand, allowed)
         });
     }

@@ -14,8 +14,8 @@ use crate::design::{
 };
 use crate::fidelity::{self, Effort};
 use crate::margin::{
-    LoadState, Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins, scene_margins,
-    scene_rows, unlike_margins,
+    Capacities, LoadState, Margin, RESOLUTION, RunOut, SceneDemand, load_state_at, run_out_margins,
+    scene_margins, scene_rows, unlike_margins,
 };
 use crate::scenario::{AtRest, RollingTrack, Settings, demand, demand_tracked};
 use std::sync::OnceLock;
@@ -342,7 +342,8 @@ impl ClutchProblem {
     fn assess_with(&self, design: &Design, way: &Way, k: usize) -> Result<Assessment, NoEvaluation> {
         let state = load_state_at(design, self.effort()).map_err(|e| NoEvaluation::Refused(e.to_string()))?;
         let state = (way.state)(design, state);
-        let capacities = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
+        let raised = self.goals.iter().any(|g| g.objective == Objective::TorqueCapacity);
+        let capacities = if raised { Capacities::Wanted } else { Capacities::LeftOut };
         let mut rows = smooth::load_rows(design, &self.limits, capacities, &state);
         rows.retain(|m| m.required);
         if self.variables.iter().any(|v| v.starts_with("flank_") || v.starts_with("sprags.flanks.")) {
@@ -367,9 +368,9 @@ impl ClutchProblem {
         if self.as_checked {
             scenes(&mut rows, &|name| self.checked.contains(name) && !self.scenarios.contains(name))?;
             let off_centre = RunOut::new(design, &state)
-                .map(|ring| run_out_margins(design, &self.limits, &ring, false))
+                .map(|ring| run_out_margins(design, &self.limits, &ring, Capacities::LeftOut))
                 .unwrap_or_default();
-            let unlike = unlike_margins(design, &self.limits, &state, false);
+            let unlike = unlike_margins(design, &self.limits, &state, Capacities::LeftOut);
             rows.extend(off_centre.into_iter().chain(unlike).filter(|m| m.required));
         }
         Ok(Assessment { rows, measures: measures_of_goals })

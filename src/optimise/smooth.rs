@@ -2,7 +2,7 @@
 //! what would otherwise be a wall.
 
 use crate::design::{Design, Limits};
-use crate::margin::{Demand, END_OF_PROFILE, LIMITS, LoadState, Margin, When, load_margins};
+use crate::margin::{Capacities, Demand, END_OF_PROFILE, LIMITS, LoadState, Margin, When, load_margins};
 use crate::profile::Outline;
 
 /// Half width that flanks keep beyond what the profile needs, and short of what its arcs reach: a choice. Races under
@@ -18,7 +18,7 @@ const BACK: f64 = 1e-3;
 pub(super) fn load_rows(
     design: &Design,
     limits: &Limits,
-    capacities: bool,
+    capacities: Capacities,
     state: &LoadState,
 ) -> Vec<Margin> {
     let mut rows = load_margins(design, limits, capacities, state);

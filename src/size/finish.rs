@@ -1,12 +1,13 @@
 //! From a width that holds to a whole design: profile's end, flanks, spring, scenes, and what comes of it.
 
+use super::decider::Decider;
 use super::proportions::{COUNTS, lengthen, longest_m, spring};
 use super::purpose::{CREST_S, DRIVE_HZ, STOP};
 use super::requirements::{NAMED, Requirements};
 use crate::clutch::Clutch;
 use crate::design::{BOX, Design, Draft, rpm};
 use crate::margin::{
-    KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state, margins, overrun_at,
+    Capacities, KEEP_CONTACT, LIFT_OFF, LoadState, Margin, load_margins, load_state, margins, overrun_at,
 };
 use crate::numeric::rounded;
 use crate::profile::Outline;
@@ -59,25 +60,28 @@ impl Made {
 }
 
 /// A draft as a design with its load state.
-pub(super) fn build(draft: &Draft) -> Result<(Design, LoadState), String> {
-    let design = Design::parse(&draft.to_toml(), "sized.toml").map_err(|e| {
-        e.problems().first().map_or_else(|| e.to_string(), |p| format!("{}: {}", p.key, p.allowed))
+pub(super) fn build(draft: &Draft) -> Result<(Design, LoadState), Decider> {
+    let design = Design::parse(&draft.to_toml(), "sized.toml").map_err(|e| match e.problems().first() {
+        Some(p) => Decider::Refused { key: p.key.clone(), allowed: p.allowed.clone() },
+        None => Decider::words(e),
     })?;
-    let state = load_state(&design).map_err(|e| e.to_string())?;
+    let state = load_state(&design).map_err(Decider::words)?;
     Ok((design, state))
 }
 
 /// Profile's end, flanks, spring and scenes; then every margin.
-pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Settings) -> Result<Made, String> {
+pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Settings) -> Result<Made, Decider> {
     const ROUNDS: usize = 6;
-    let mut why = String::new();
+    let mut why = Decider::Nothing;
     for _ in 0..ROUNDS {
         draft.flanks_m = None;
         draft.until_rad = 1.2;
         let (design, state) = build(&draft)?;
-        let peak = state.curve.at_torque(draft.torques_nm[1]).ok_or("the curve ends below peak torque")?;
-        let nominal =
-            state.curve.at_torque(draft.torques_nm[0]).ok_or("the curve ends below nominal torque")?;
+        let [nominal, peak] = [(0, "nominal"), (1, "peak")].map(|(which, name)| {
+            let ends = || Decider::Words(format!("the curve ends below {name} torque"));
+            state.curve.at_torque(draft.torques_nm[which]).ok_or_else(ends)
+        });
+        let (peak, nominal) = (peak?, nominal?);
         // A sprag is no needle: at least a fifth of the race space to either side, where the arcs reach that far.
         let space = draft.races_m[2] - draft.races_m[1];
         let least_half = (0.2 * space).min(0.8 * draft.inner_radius_m);
@@ -105,12 +109,12 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
             wanted.purpose.map_or_else(Vec::new, |purpose| purpose.scenes(wanted, stiffness, inertia));
         match sprung(&mut draft).and_then(|()| made(wanted, &mut draft, settings)) {
             Ok(done) => return Ok(done),
-            Err(Obstacle::Neighbours) => {
+            Err(Decider::Refused { key, .. }) if key.starts_with("sprags.count") => {
                 draft.count = (draft.count as f64 * 0.95).floor() as usize;
-                why = "neighbouring sprags overlap".to_owned();
+                why = Decider::Words("neighbouring sprags overlap".to_owned());
             }
-            Err(Obstacle::Margin(code)) => why = code,
-            Err(Obstacle::Other(other)) => return Err(other),
+            Err(row @ Decider::Row(..)) => why = row,
+            Err(other) => return Err(other),
         }
         if draft.count < COUNTS.0 {
             break;
@@ -128,7 +132,7 @@ pub(super) fn finish(wanted: &Requirements, mut draft: Draft, settings: &Setting
 
 /// Turn at which the profile ends, and flanks, rear and front, m, for a contact that turns by `turn_rad` at peak torque. Of the turn a third,
 /// and a little for small ones, is left; less where no flank would close all sprags of the box that the file gives the optimiser.
-fn closed(clutch: &Clutch, turn_rad: f64) -> Result<(f64, [f64; 2]), String> {
+fn closed(clutch: &Clutch, turn_rad: f64) -> Result<(f64, [f64; 2]), Decider> {
     const LEFT: [f64; 5] = [1.3, 1.25, 1.2, 1.15, 1.1];
     /// Of the box: all, else a part about the sprag.
     const SHARES: [f64; 4] = [1.0, 0.6, 0.3, 0.1];
@@ -158,39 +162,33 @@ fn closed(clutch: &Clutch, turn_rad: f64) -> Result<(f64, [f64; 2]), String> {
     let at = |share: f64| LEFT.into_iter().find_map(|left| Some((end(left), window(end(left), share)?)));
     let found = SHARES.into_iter().find_map(at);
     if let Some((until_rad, window)) = found {
-        let profile = ended(until_rad, 1.0, 1.0).map_err(|e| e.to_string())?;
-        let (rear, front) = Outline::narrowest_flanks(&profile).map_err(|e| e.to_string())?;
+        let profile = ended(until_rad, 1.0, 1.0).map_err(Decider::words)?;
+        let (rear, front) = Outline::narrowest_flanks(&profile).map_err(Decider::words)?;
         let within =
             |at: f64, [need, reach]: [f64; 2]| at.clamp(need * (1.0 + WITHIN), reach * (1.0 - WITHIN));
         return Ok((until_rad, [within(rear, window[0]), within(front, window[1])]));
     }
     let until_rad = end(LEFT[0]);
-    let profile = ended(until_rad, 1.0, 1.0).map_err(|e| e.to_string())?;
-    let (rear, front) = Outline::narrowest_flanks(&profile).map_err(|e| e.to_string())?;
+    let profile = ended(until_rad, 1.0, 1.0).map_err(Decider::words)?;
+    let (rear, front) = Outline::narrowest_flanks(&profile).map_err(Decider::words)?;
     Ok((until_rad, [rear, front]))
-}
-
-/// What stands in the way of a draft that its width should carry.
-enum Obstacle {
-    Neighbours,
-    Margin(String),
-    Other(String),
 }
 
 /// A spring that holds the sprags to the race up to the one speed, and a front flank and a spring that let them off by the
 /// other.
-fn sprung(draft: &mut Draft) -> Result<(), Obstacle> {
+fn sprung(draft: &mut Draft) -> Result<(), Decider> {
     const ROUNDS: usize = 40;
     let slow_n = normal_n(draft);
     for _ in 0..ROUNDS {
-        let (design, state) = build(draft).map_err(|why| match draft.contact_rad_s[1] {
-            _ if why.starts_with("sprags.count") => Obstacle::Neighbours,
+        let (design, state) = build(draft).map_err(|why| match (&why, draft.contact_rad_s[1]) {
             // A front flank farther out than the arcs reach.
-            Some(_) if why.starts_with("sprags.flanks") => Obstacle::Other(LIFT_OFF.code.to_owned()),
-            None if why.starts_with("sprags.flanks") => Obstacle::Other("flanks".to_owned()),
-            _ => Obstacle::Other(why),
+            (Decider::Refused { key, .. }, Some(_)) if key.starts_with("sprags.flanks") => {
+                Decider::Spring(&LIFT_OFF)
+            }
+            (Decider::Refused { key, .. }, None) if key.starts_with("sprags.flanks") => Decider::Flanks,
+            _ => why,
         })?;
-        let rows = load_margins(&design, &design.limits, false, &state);
+        let rows = load_margins(&design, &design.limits, Capacities::LeftOut, &state);
         let short = |limit| rows.iter().find(|r| r.limit == limit && r.margin() < KEPT);
         // The closing moment is in proportion to the spring's force, but for what growth takes from its angle.
         if let Some(off) = short(&LIFT_OFF) {
@@ -212,11 +210,10 @@ fn sprung(draft: &mut Draft) -> Result<(), Obstacle> {
         }
         // A spring that holds the sprags against their centrifugal moment would drag too much.
         if draft.drag_nm > DRAG * draft.torques_nm[0] {
-            return Err(Obstacle::Other(KEEP_CONTACT.code.to_owned()));
+            return Err(Decider::Spring(&KEEP_CONTACT));
         }
     }
-    let limit = if draft.contact_rad_s[1].is_some() { &LIFT_OFF } else { &KEEP_CONTACT };
-    Err(Obstacle::Other(limit.code.to_owned()))
+    Err(Decider::Spring(if draft.contact_rad_s[1].is_some() { &LIFT_OFF } else { &KEEP_CONTACT }))
 }
 
 /// Normal force of the spring on a sprag in slow overrun, N: see [`spring`].
@@ -225,12 +222,11 @@ fn normal_n(draft: &Draft) -> f64 {
 }
 
 /// The finished draft with every margin, all held; what it says of itself is what came of it.
-fn made(wanted: &Requirements, draft: &mut Draft, settings: &Settings) -> Result<Made, Obstacle> {
-    let (design, state) = build(draft).map_err(Obstacle::Other)?;
-    let rows =
-        margins(&design, &design.check_scenarios, settings).map_err(|e| Obstacle::Other(e.to_string()))?;
+fn made(wanted: &Requirements, draft: &mut Draft, settings: &Settings) -> Result<Made, Decider> {
+    let (design, state) = build(draft)?;
+    let rows = margins(&design, &design.check_scenarios, settings).map_err(Decider::words)?;
     if let Some(row) = rows.iter().filter(|r| r.required).find(|r| !r.held()) {
-        return Err(Obstacle::Margin(row.code()));
+        return Err(Decider::row(row));
     }
     let sliding_rad_s = wanted.sliding_rad_s();
     let drag = overrun_at(&design, &state, wanted.overrun_rad_s[1], sliding_rad_s).ok();
@@ -242,7 +238,7 @@ fn made(wanted: &Requirements, draft: &mut Draft, settings: &Settings) -> Result
     };
     draft.why = why_lines(wanted, draft, made.least());
     // The same numbers under other comments.
-    made.design = build(draft).map_err(Obstacle::Other)?.0;
+    made.design = build(draft)?.0;
     Ok(made)
 }
 

@@ -6,6 +6,7 @@
 //! `margin`.
 
 mod asked;
+mod decider;
 mod finish;
 mod proportions;
 mod purpose;
@@ -13,6 +14,7 @@ mod requirements;
 mod search;
 
 pub use asked::{ASKED, Unnamed, WishNumber, WishUnit, asked};
+pub use decider::Decider;
 pub use finish::{Drag, Made, NOT_OPTIMISED};
 pub use purpose::{Excitation, Given, PURPOSES, Purpose, purpose};
 pub use requirements::{

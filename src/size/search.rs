@@ -2,11 +2,12 @@
 
 use std::fmt;
 
+use super::decider::Decider;
 use super::finish::{KEPT, Made, build, finish};
 use super::proportions::{COUNTS, LENGTHS, OUTSIDES, SPACES_M, THICKER, draft, lengthen, longest_m};
 use super::requirements::{BadRequirement, Requirements};
 use crate::design::Draft;
-use crate::margin::{When, load_margins};
+use crate::margin::{Capacities, KEEP_CONTACT, LIFT_OFF, When, load_margins};
 use crate::numeric::rounded;
 use crate::scenario::Settings;
 
@@ -26,9 +27,8 @@ pub struct Tried {
     pub volume_m3: f64,
     /// Nominal torque that it carries at that length with all limits kept, N m.
     pub carries_nm: f64,
-    /// Code of the limit with the least margin; what else stands in the way otherwise: `width` and `outside` are those asked
-    /// for, `count` is a number of sprags outside the family's.
-    pub decided_by: String,
+    /// The limit with the least margin, or what else stands in the way.
+    pub decided_by: Decider,
     /// Least outer diameter that its walls ask for, m.
     pub outside_m: f64,
     /// Whether it carries what is asked.
@@ -86,21 +86,21 @@ impl fmt::Display for NoSize {
 
 fn first_reason(tried: &[Tried]) -> String {
     let why = |t: &Tried| {
-        match t.decided_by.as_str() {
-        "count" => format!("room for {} sprags, the family has {} to {}", t.count, COUNTS.0, COUNTS.1),
-        "width" => {
+        match &t.decided_by {
+        Decider::Count => format!("room for {} sprags, the family has {} to {}", t.count, COUNTS.0, COUNTS.1),
+        Decider::Width => {
             format!("sprags as long as the race space are wider than --width leaves ({} sprags)", t.count)
         }
-        "outside" => format!(
+        Decider::Outside => format!(
             "the outer race would be too thin within --outside; from {:.1} mm on it would not",
             (t.outside_m * 1e4).ceil() / 10.0
         ),
-        "flanks" => "no flanks (the sides of the body between the profiles) fit".to_owned(),
-        "lift-off" => "neither a softer spring nor a heavier front side (flank) of the body lets the sprags off by that speed".to_owned(),
-        "keep-contact" => {
+        Decider::Flanks => "no flanks (the sides of the body between the profiles) fit".to_owned(),
+        one if one.limit() == Some(&LIFT_OFF) => "neither a softer spring nor a heavier front side (flank) of the body lets the sprags off by that speed".to_owned(),
+        one if one.limit() == Some(&KEEP_CONTACT) => {
             "a spring that holds the sprags against their centrifugal moment drags too much".to_owned()
         }
-        other => other.to_owned(),
+        other => other.to_string(),
     }
     };
     tried.iter().map(|t| format!("\n  race space {:.2} mm: {}", t.space_m * 1e3, why(t))).collect()
@@ -109,12 +109,12 @@ fn first_reason(tried: &[Tried]) -> String {
 impl std::error::Error for NoSize {}
 
 /// Least margin of the load state and its code; that of the sprags' grip and stress, not of the spring at speed.
-fn least(draft: &Draft) -> Result<(f64, String), String> {
+fn least(draft: &Draft) -> Result<(f64, Decider), Decider> {
     let (design, state) = build(draft)?;
-    let rows = load_margins(&design, &design.limits, false, &state);
+    let rows = load_margins(&design, &design.limits, Capacities::LeftOut, &state);
     let rows = rows.iter().filter(|r| r.required && r.limit.when != When::Overrun);
     let worst = rows.min_by(|a, b| a.margin().total_cmp(&b.margin()));
-    Ok(worst.map_or((0.0, "no limit".to_owned()), |r| (r.margin(), r.code())))
+    Ok(worst.map_or((0.0, Decider::Nothing), |r| (r.margin(), Decider::row(r))))
 }
 
 /// Find a design for `wanted`. Every race space of the family is tried, with outer races as thick as the maker's and thinner; that of
@@ -174,7 +174,7 @@ impl Tried {
         let radii_m = [r.inner_bore_radius_m, r.inner_radius_m, r.outer_radius_m, r.outer_outside_radius_m];
         self.volume_m3 = volume_m3(radii_m, r.width_m);
         if let Some(least) = made.least() {
-            self.decided_by = least.code();
+            self.decided_by = Decider::row(least);
         }
         self.made = Some(made);
     }
@@ -194,19 +194,19 @@ fn width(wanted: &Requirements, draft: &mut Draft, space_m: f64) -> Tried {
         length_m: high,
         volume_m3: 0.0,
         carries_nm: 0.0,
-        decided_by: String::new(),
+        decided_by: Decider::Nothing,
         outside_m: 2.0 * (draft.races_m[2] + WALL * space_m),
         held: false,
         made: None,
     };
     let wall = draft.races_m[3] - draft.races_m[2];
     let in_the_way = [
-        ("count", !(COUNTS.0..=COUNTS.1).contains(&draft.count)),
-        ("width", high < low),
-        ("outside", wall < WALL * space_m),
+        (Decider::Count, !(COUNTS.0..=COUNTS.1).contains(&draft.count)),
+        (Decider::Width, high < low),
+        (Decider::Outside, wall < WALL * space_m),
     ];
-    if let Some((what, _)) = in_the_way.iter().find(|(_, bars)| *bars) {
-        one.decided_by = (*what).to_owned();
+    if let Some((what, _)) = in_the_way.into_iter().find(|(_, bars)| *bars) {
+        one.decided_by = what;
         return one;
     }
     match at(draft, high) {

@@ -4,7 +4,7 @@ use super::fields::{Field, fields};
 use crate::answer::check::in_place_of_margin;
 use crate::design::Design;
 use crate::margin::{
-    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, lift_off_rad_s, overrun_at, static_margins,
+    Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, lift_off_rad_s, overrun_at, static_margins,
 };
 use crate::report::{Curve, Dash, Drawing, Live, Plot, SpragPose, Unit, live, significant};
 use crate::wedge::{Closure, StaticPoint};
@@ -176,7 +176,7 @@ impl Solved {
     /// # Errors
     /// [`NoMargins`].
     pub fn new(design: Design) -> Result<Self, NoMargins> {
-        let (state, rows, _) = static_margins(&design, false)?;
+        let (state, rows, _) = static_margins(&design, Capacities::LeftOut)?;
         let samples = state.curve.samples(f64::INFINITY, PER_ARC);
         let figures = figures(&design, &state);
         Ok(Self { design, state, rows, samples, figures })

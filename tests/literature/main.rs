@@ -9,7 +9,7 @@ mod overrun;
 mod races;
 
 use sprag_design::design::Design;
-use sprag_design::margin::{LoadState, Margin, load_margins, load_state};
+use sprag_design::margin::{Capacities, LoadState, Margin, load_margins, load_state};
 
 pub const MULTI: &str = include_str!("../../designs/huang2017-multi-arc.toml");
 
@@ -25,7 +25,7 @@ pub fn design(changes: &[(&str, &str)]) -> Design {
 
 pub fn rows(design: &Design) -> (LoadState, Vec<Margin>) {
     let state = load_state(design).unwrap();
-    let rows = load_margins(design, &design.limits, true, &state);
+    let rows = load_margins(design, &design.limits, Capacities::Wanted, &state);
     (state, rows)
 }
 

@@ -4,7 +4,7 @@ use super::clutch::{HUANG, changed, design, problem, search_with, task};
 use super::problems::all;
 use sprag_design::Follow;
 use sprag_design::design::{Design, Objective};
-use sprag_design::margin::{self, When, load_margins, load_state};
+use sprag_design::margin::{self, Capacities, When, load_margins, load_state};
 use sprag_design::optimise::*;
 use std::f64::consts::PI;
 
@@ -39,7 +39,7 @@ fn each_objective_gets_better_and_holds_every_limit() {
         let expected = match objective {
             "torque-capacity" => {
                 // As `check` has it: the least of the required capacities at peak torque, and of those at nominal scaled.
-                let rows = load_margins(&new, &new.limits, true, &state);
+                let rows = load_margins(&new, &new.limits, Capacities::Wanted, &state);
                 let scaled = rows.iter().filter(|m| m.required).filter_map(|m| {
                     let share = if m.limit.when == When::Nominal { 110.0 / 90.0 } else { 1.0 };
                     Some(m.torque_capacity_nm? * share)
@@ -160,7 +160,7 @@ fn a_capacity_is_where_every_limit_just_holds() {
             nominal_torque_nm: Some(peak * 90.0 / 110.0),
             ..design.limits
         };
-        load_margins(&design, &limits, false, &state).iter().filter(|m| m.required).all(|m| {
+        load_margins(&design, &limits, Capacities::LeftOut, &state).iter().filter(|m| m.required).all(|m| {
             // Contact at speed and re-engagement do not depend on torque.
             m.held() || ["keep-contact", "re-engagement"].contains(&m.limit.code)
         })
@@ -169,10 +169,10 @@ fn a_capacity_is_where_every_limit_just_holds() {
     println!("{capacity} by {}", least.code);
     assert_eq!(least.code, "capacity:equivalent-inner");
     assert!(held(0.9999 * capacity) && !held(1.0001 * capacity), "{capacity}");
-    for m in load_margins(&design, &design.limits, true, &state) {
+    for m in load_margins(&design, &design.limits, Capacities::Wanted, &state) {
         let scaled = design.limits.nominal_torque_nm.unwrap() * 1.01;
         let more = sprag_design::Limits { nominal_torque_nm: Some(scaled), ..design.limits };
-        let after = load_margins(&design, &more, false, &state);
+        let after = load_margins(&design, &more, Capacities::LeftOut, &state);
         let moved = after.iter().find(|r| r.is_of(&m)).unwrap().margin() != m.margin();
         assert_eq!(moved, (m.limit.when == When::Nominal), "{}", m.code());
     }

@@ -4,7 +4,9 @@ use super::Vector;
 use super::common::{MULTI, clutch};
 use sprag_design::clutch::Carrier;
 use sprag_design::design::Design;
-use sprag_design::margin::{LoadState, Margin, RunOut, load_margins, load_state, run_out_margins};
+use sprag_design::margin::{
+    Capacities, LoadState, Margin, RunOut, load_margins, load_state, run_out_margins,
+};
 use sprag_design::wedge::{StaticPoint, WedgeCurve};
 
 const DESIGN: &str = include_str!("../../designs/huang2017-multi-arc.toml");
@@ -51,8 +53,8 @@ fn no_offset_changes_nothing() {
         ["offset_mm = 0", "offset_mm = 0.0, turning = true", "offset_mm = 0, bearing_stiffness_n_per_um = 0"]
     {
         let (design, state, ring) = ring(keys);
-        let even = load_margins(&design, &design.limits, true, &state);
-        let rows = run_out_margins(&design, &design.limits, &ring, true);
+        let even = load_margins(&design, &design.limits, Capacities::Wanted, &state);
+        let rows = run_out_margins(&design, &design.limits, &ring, Capacities::Wanted);
         assert_eq!(rows.len(), 10);
         for r in &rows {
             let Some(code) = r.code().strip_prefix("run-out-").map(str::to_owned) else {
@@ -236,7 +238,7 @@ fn extremes_are_answered() {
                 let ring = RunOut::new(&design, &state).unwrap();
                 let stop = ring.end;
                 assert!(stop.torque_nm.is_finite() && stop.torque_nm >= 0.0, "{name} {keys}: {stop:?}");
-                let rows = run_out_margins(&design, &design.limits, &ring, true);
+                let rows = run_out_margins(&design, &design.limits, &ring, Capacities::Wanted);
                 assert!(rows.len() >= 8, "{name} {keys}: {}", rows.len());
                 for r in &rows {
                     let all = [
@@ -292,7 +294,7 @@ fn sprags_that_do_not_touch_are_named() {
     let none = [("radius_mm = 4.15, until_rad = 0.45", "radius_mm = 4.15, until_rad = 0.1201"), three()];
     let (design, state) = off_centre("offset_mm = 0.2, turning = true", &none);
     let ring = RunOut::new(&design, &state).unwrap();
-    for row in run_out_margins(&design, &design.limits, &ring, true) {
+    for row in run_out_margins(&design, &design.limits, &ring, Capacities::Wanted) {
         assert!(
             row.demand_in_unit().unwrap().is_finite()
                 && row.margin().is_finite()

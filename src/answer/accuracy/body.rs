@@ -21,7 +21,7 @@ pub struct AccuracyBody {
 }
 
 impl AccuracyBody {
-    pub(super) fn of(study: &AccuracyStudy) -> Self {
+    pub(super) fn of(study: &AccuracyStudy<'_>) -> Self {
         let without = |(name, why): &(String, String)| json!({ "scenario": name, "why": why });
         Self {
             wanted_error_rad: WANTED_RAD,
@@ -54,7 +54,7 @@ fn scene(s: &Precision) -> Value {
     })
 }
 
-fn stability(study: &AccuracyStudy) -> Value {
+fn stability(study: &AccuracyStudy<'_>) -> Value {
     let outcomes: Map<String, Value> =
         map::by_outcome(study).into_iter().map(|(name, c)| (name.to_owned(), json!(c.len()))).collect();
     let most = |f: fn(&Judged) -> u64| study.cases.iter().map(f).max();

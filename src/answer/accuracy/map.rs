@@ -23,13 +23,13 @@ const ORDER: [&str; 14] = [
 ];
 
 /// Cases by outcome, those without a case left out.
-pub(super) fn by_outcome(study: &AccuracyStudy) -> Vec<(&'static str, Vec<&Judged>)> {
+pub(super) fn by_outcome<'s>(study: &'s AccuracyStudy<'_>) -> Vec<(&'static str, Vec<&'s Judged>)> {
     let of = |name: &'static str| study.cases.iter().filter(move |c| c.outcomes[0].name() == name);
     ORDER.iter().map(|&name| (name, of(name).collect::<Vec<_>>())).filter(|(_, c)| !c.is_empty()).collect()
 }
 
 /// What the map says, in one sentence or two.
-pub(super) fn summary(study: &AccuracyStudy) -> String {
+pub(super) fn summary(study: &AccuracyStudy<'_>) -> String {
     let count = |f: fn(&Judged) -> bool| study.cases.iter().filter(|c| f(c)).count();
     let halved = Halved::of(&study.cases);
     let ran = count(|c| !matches!(c.outcomes[0], CaseEnd::NotCarried | CaseEnd::NoCurve));
@@ -60,7 +60,7 @@ pub(super) fn at_half(h: &Halved) -> String {
 }
 
 /// Counts and worst work by outcome.
-pub(super) fn counts(study: &AccuracyStudy) -> Table {
+pub(super) fn counts(study: &AccuracyStudy<'_>) -> Table {
     let most = |cases: &[&Judged], f: fn(&Judged) -> u64| cases.iter().map(|c| f(c)).max().unwrap_or(0);
     Rows::of(by_outcome(study))
         .text("outcome", "Outcome", |(name, _)| *name)
@@ -91,7 +91,7 @@ pub(super) const REMARKABLE: [Kind; 4] = [
 ];
 
 /// How many there are of each kind.
-pub(super) fn remarkable(study: &AccuracyStudy) -> Table {
+pub(super) fn remarkable(study: &AccuracyStudy<'_>) -> Table {
     Rows::of(REMARKABLE)
         .text("what", "Cases to look at", |(_, words, _)| *words)
         .number("cases", "Cases", Unit::One, 6, |(.., is)| study.cases.iter().filter(|c| is(c)).count())
@@ -100,7 +100,7 @@ pub(super) fn remarkable(study: &AccuracyStudy) -> Table {
 }
 
 /// How many cases ended in each way.
-pub(super) fn bars(study: &AccuracyStudy) -> Bars {
+pub(super) fn bars(study: &AccuracyStudy<'_>) -> Bars {
     let all = by_outcome(study);
     let most = all.iter().map(|(_, c)| c.len()).max().unwrap_or(1);
     let tone = |c: &Judged| match c.outcomes[0] {
@@ -123,7 +123,7 @@ pub(super) fn bars(study: &AccuracyStudy) -> Bars {
 }
 
 /// Outcomes over two parameters, by their keys; a value of zero is drawn at the axis' smallest.
-pub(super) fn scatter(study: &AccuracyStudy, x: usize, y: usize, titles: [&str; 2]) -> Plot {
+pub(super) fn scatter(study: &AccuracyStudy<'_>, x: usize, y: usize, titles: [&str; 2]) -> Plot {
     let mut plot = Plot::new(titles[0], titles[1]).sized(720.0, 400.0);
     (plot.log_x, plot.log_y) = (true, true);
     let at = |c: &Judged, i: usize| c.case.values[i].max(PARAMETERS[i].low);
@@ -136,7 +136,7 @@ pub(super) fn scatter(study: &AccuracyStudy, x: usize, y: usize, titles: [&str; 
 }
 
 /// Work of each case over its number of mode changes.
-pub(super) fn work(study: &AccuracyStudy) -> Plot {
+pub(super) fn work(study: &AccuracyStudy<'_>) -> Plot {
     let mut plot =
         Plot::new("Changes of mode, one more", "Right-hand sides, both answers").sized(720.0, 400.0);
     (plot.log_x, plot.log_y) = (true, true);

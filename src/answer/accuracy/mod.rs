@@ -9,7 +9,7 @@ mod verdict;
 pub use body::AccuracyBody;
 
 use super::left_out::left_out_of;
-use super::{Envelope, Provenance};
+use super::{Answer, Envelope, Finding, Provenance};
 use crate::accuracy::{
     Judged, Precision, PrecisionSettings, WorkLimit, cases, map as stability_map, precision,
 };
@@ -37,7 +37,9 @@ pub fn usual_scenarios(design: &Design) -> Vec<&Scenario> {
 
 /// What an accuracy study found.
 #[derive(Debug, Clone)]
-pub struct AccuracyStudy {
+pub struct AccuracyStudy<'d> {
+    /// The design.
+    pub design: &'d Design,
     /// The scenes that all methods ran.
     pub scenes: Vec<Precision>,
     /// Scenes that have no start, with the reason.
@@ -54,9 +56,10 @@ pub struct AccuracyStudy {
     pub interrupted: bool,
 }
 
-impl AccuracyStudy {
-    /// Every method on every scenario; `begun` is told of each scenario by its name, `done` of each setting that is done.
+impl<'d> AccuracyStudy<'d> {
+    /// Every method on every scenario of `design`; `begun` is told of each scenario by its name, `done` of each setting that is done.
     pub fn of(
+        design: &'d Design,
         scenarios: &[&Scenario],
         settings: &PrecisionSettings,
         begun: &dyn Fn(&str),
@@ -73,6 +76,7 @@ impl AccuracyStudy {
         }
         let interrupted = settings.follow.stopped();
         Self {
+            design,
             scenes,
             without_start,
             seed: 0,
@@ -84,45 +88,50 @@ impl AccuracyStudy {
     }
 
     /// The same with a stability map of `count` cases, each made by `seed` and its number; `done` is told of each.
-    pub fn with_map(
-        self,
-        design: &Design,
-        seed: u64,
-        count: usize,
-        follow: &Follow,
-        done: &(dyn Fn() + Sync),
-    ) -> Self {
+    pub fn with_map(self, seed: u64, count: usize, follow: &Follow, done: &(dyn Fn() + Sync)) -> Self {
         let limit = WorkLimit { follow: follow.clone(), ..WorkLimit::default() };
         let started = Instant::now();
-        let cases = stability_map(&design.clutch, &cases(seed, count), &limit, done);
+        let cases = stability_map(&self.design.clutch, &cases(seed, count), &limit, done);
         let map_time_s = started.elapsed().as_secs_f64();
         Self { seed, limit, cases, map_time_s, interrupted: follow.stopped(), ..self }
     }
+}
 
-    /// The answer with the keys that all answers share; `run_time_s`: what it took, s.
-    pub fn envelope<'a>(&self, design: &'a Design, run_time_s: f64) -> Envelope<'a, AccuracyBody> {
-        let worst = self.scenes.iter().map(|s| s.reference_error[0]).fold(0.0, f64::max);
-        Envelope {
-            design,
-            run_time_s,
-            left_out: left_out_of(design),
-            error_estimate: Some(json!(worst)),
-            body: AccuracyBody::of(self),
-        }
+impl Answer for AccuracyStudy<'_> {
+    type Body<'a>
+        = AccuracyBody
+    where
+        Self: 'a;
+
+    fn outcome(&self) -> Finding {
+        if self.interrupted { Finding::Stopped } else { Finding::Shown }
+    }
+
+    fn verdict(&self) -> String {
+        page::verdict(self).1
     }
 
     /// Every point of every scene.
-    pub fn csv_table(&self) -> Table {
+    fn table(&self) -> Table {
         tables::points(self.scenes.iter().flat_map(tables::points_of)).table()
     }
 
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
+    fn text(&self, screen: Screen) -> String {
         tables::text(self, screen)
     }
 
-    /// The answer as a page.
-    pub fn page(&self, design: &Design, provenance: &Provenance) -> Page {
-        page::page(self, design, provenance)
+    fn page(&self, provenance: &Provenance) -> Page {
+        page::page(self, provenance)
+    }
+
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, AccuracyBody> {
+        let worst = self.scenes.iter().map(|s| s.reference_error[0]).fold(0.0, f64::max);
+        Envelope {
+            design: self.design,
+            run_time_s,
+            left_out: left_out_of(self.design),
+            error_estimate: Some(json!(worst)),
+            body: AccuracyBody::of(self),
+        }
     }
 }

@@ -3,9 +3,8 @@
 use super::verdict::{WANTED_RAD, cheapest, gains_over_published, name, sentence};
 use super::{AccuracyStudy, map, tables};
 use crate::accuracy::{Halved, Judged, PARAMETERS, Precision, Scheme, WorkPoint};
-use crate::answer::Provenance;
 use crate::answer::page::{begun, half};
-use crate::design::Design;
+use crate::answer::{Answer, Provenance};
 use crate::report::plot::Dash;
 use crate::report::{Curve, Page, Plot, Rows, Table, Unit, significant};
 
@@ -13,8 +12,8 @@ use crate::report::{Curve, Page, Plot, Rows, Table, Unit, significant};
 const FLOOR_RAD: f64 = 1e-15;
 
 /// The page.
-pub(super) fn page(study: &AccuracyStudy, design: &Design, provenance: &Provenance) -> Page {
-    let mut page = begun("Accuracy", design, &provenance.command);
+pub(super) fn page(study: &AccuracyStudy<'_>, provenance: &Provenance) -> Page {
+    let mut page = begun("Accuracy", study.design, &provenance.command);
     let (held, line) = verdict(study);
     page.verdict(held, &line);
     if let Some(first) = study.scenes.first() {
@@ -41,7 +40,7 @@ pub(super) fn page(study: &AccuracyStudy, design: &Design, provenance: &Provenan
         stability(&mut page, study);
     }
     page.heading("Omissions").list(OMISSIONS);
-    study.envelope(design, provenance.run_time_s).close(&mut page);
+    study.envelope(provenance.run_time_s).close(&mut page);
     page
 }
 
@@ -63,7 +62,7 @@ const OMISSIONS: [&str; 8] = [
     "The slice contact, which makes the right-hand side no dearer (its table is built before the run), is not varied.",
 ];
 
-fn verdict(study: &AccuracyStudy) -> (bool, String) {
+pub(super) fn verdict(study: &AccuracyStudy<'_>) -> (bool, String) {
     let wins = |s: &&Precision| {
         let ours = s.methods.iter().find(|m| m.0 == Scheme::OneRun).and_then(|m| cheapest(&m.1));
         let theirs = s.methods.iter().filter(|m| m.0.band_m_s().is_some()).filter_map(|m| cheapest(&m.1));
@@ -133,7 +132,7 @@ fn plot(scene: &Precision, x_title: &str, x: impl Fn(&WorkPoint) -> f64) -> Plot
     plot.level(WANTED_RAD, "wanted")
 }
 
-fn stability(page: &mut Page, study: &AccuracyStudy) {
+fn stability(page: &mut Page, study: &AccuracyStudy<'_>) {
     page.heading("Stability map").paragraph(&map::summary(study));
     page.table("The box: each value at either end or evenly in its logarithm between; every fourth case is a corner of the \
                 whole box. Ten periods, at most 0.1 s.", &axes());

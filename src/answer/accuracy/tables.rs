@@ -49,7 +49,7 @@ fn shown(method: Scheme, point: &WorkPoint) -> String {
 }
 
 /// The answer on a terminal.
-pub(super) fn text(study: &AccuracyStudy, screen: Screen) -> String {
+pub(super) fn text(study: &AccuracyStudy<'_>, screen: Screen) -> String {
     let mut out = String::new();
     for s in &study.scenes {
         out += &format!("{}\n\n{}\n", sentence(s), scene(s).to_text(screen));

@@ -266,29 +266,24 @@ impl CheckBody {
         }
     }
 
+    /// What the tables do not say, a line each.
+    pub fn remarks(&self) -> Vec<String> {
+        self.capacity_lines().into_iter().chain(self.other_remarks()).collect()
+    }
+
     /// Torque capacities, a line each.
     pub fn capacity_lines(&self) -> Vec<String> {
-        self.remarks_greek(true)
-    }
-
-    /// The other remarks, a line each.
-    pub fn other_remarks(&self) -> Vec<String> {
-        self.remarks_greek(false)
-    }
-
-    fn remarks_greek(&self, capacities: bool) -> Vec<String> {
-        let lines = self.remarks().into_iter().map(|line| greek(&line));
-        lines.filter(|line| line.starts_with("Torque capacity") == capacities).collect()
-    }
-
-    /// Torque capacity, an early end of the curve and lift-off, a line each.
-    pub fn remarks(&self) -> Vec<String> {
         let capacities = [("nominal", &self.nominal_torque_capacity), ("peak", &self.peak_torque_capacity)];
-        let capacity = capacities.into_iter().filter_map(|(kind, capacity)| {
+        let line = |(kind, capacity): (&str, &Option<Capacity>)| {
             let c = capacity.as_ref()?;
             let torque = Unit::NewtonMetre.show(c.torque_capacity_nm, 4);
-            Some(format!("Torque capacity, {kind}: {torque}, set by {} ({})", c.code, c.name))
-        });
+            Some(greek(&format!("Torque capacity, {kind}: {torque}, set by {} ({})", c.code, c.name)))
+        };
+        capacities.into_iter().filter_map(line).collect()
+    }
+
+    /// An early end of the curve, lift-off, radii as run, races off centre, materials, a line each.
+    pub fn other_remarks(&self) -> Vec<String> {
         let early = (self.end.torque_nm < self.asked_nm).then(|| {
             format!(
                 "The curve ends ({}) at {}, below {}: a limit held beyond is not reached, and its margin is what the \
@@ -305,14 +300,8 @@ impl CheckBody {
         let lift_off = self.overrun.lift_off_remark(self.lift_off_rpm, self.lift_off_searched_to_rpm);
         let overrun = [lift_off].into_iter().chain(self.overrun.remarks());
         let materials = self.materials.iter().cloned();
-        capacity
-            .chain(early)
-            .chain(far)
-            .chain(overrun)
-            .chain(running)
-            .chain(run_out)
-            .chain(materials)
-            .collect()
+        let all = early.into_iter().chain(far).chain(overrun).chain(running).chain(run_out).chain(materials);
+        all.map(|line| greek(&line)).collect()
     }
 }
 

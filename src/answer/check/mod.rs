@@ -21,12 +21,13 @@ pub use body::{
 pub(super) use text::{REACHED_AT, size_line};
 
 use super::left_out::{LeftOut, left_out_of, off_centre};
-use super::{Envelope, Provenance};
+use super::{Answer, Envelope, Finding, Provenance};
 use crate::clutch::Scenario;
 use crate::design::{Design, beside_the_name};
 use crate::follow::Follow;
 use crate::margin::{
-    LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, scene_demand, scene_rows, static_margins,
+    Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, SceneDemand, scene_demand, scene_rows,
+    static_margins,
 };
 use crate::report::{Page, Screen, Table};
 use crate::scenario::Settings;
@@ -41,6 +42,8 @@ use std::fmt;
 /// share; those are fields here.
 #[derive(Debug, Clone)]
 pub struct CheckAnswer {
+    /// The design.
+    pub design: Design,
     /// What the static rows were read from.
     pub state: LoadState,
     /// The rows, SI.
@@ -75,35 +78,80 @@ impl Serialize for CheckAnswer {
 }
 
 impl CheckAnswer {
-    /// The answer with the keys that all answers share; `run_time_s`: what the check took, s.
-    pub fn envelope<'a>(&'a self, design: &'a Design, run_time_s: f64) -> Envelope<'a, &'a CheckBody> {
+    /// The same answer as a design sheet: a dimensioned drawing first, and all inputs.
+    pub fn sheet(&self) -> DesignSheet<'_> {
+        DesignSheet(self)
+    }
+}
+
+impl Answer for CheckAnswer {
+    type Body<'a> = &'a CheckBody;
+
+    fn outcome(&self) -> Finding {
+        self.body.held().map_or(Finding::NotKnown, Finding::of)
+    }
+
+    fn verdict(&self) -> String {
+        self.body.verdict()
+    }
+
+    /// Every number in full, nothing but numbers in number columns.
+    fn table(&self) -> Table {
+        body::csv_table(&self.body.margins)
+    }
+
+    fn text(&self, screen: Screen) -> String {
+        text::text(&self.design, self, screen)
+    }
+
+    fn page(&self, provenance: &Provenance) -> Page {
+        page::page(&self.design, self, provenance)
+    }
+
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, &CheckBody> {
         Envelope {
-            design,
+            design: &self.design,
             run_time_s,
             left_out: self.left_out.clone(),
             error_estimate: Some(json!(self.errors)),
             body: &self.body,
         }
     }
+}
 
-    /// The table for programs: every number in full, nothing but numbers in number columns.
-    pub fn csv_table(&self) -> Table {
-        body::csv_table(&self.body.margins)
+/// A check as a design sheet: its page and its few lines; figures and exit are those of the check.
+#[derive(Debug, Clone, Copy)]
+pub struct DesignSheet<'c>(&'c CheckAnswer);
+
+impl Answer for DesignSheet<'_> {
+    type Body<'a>
+        = &'a CheckBody
+    where
+        Self: 'a;
+
+    fn outcome(&self) -> Finding {
+        self.0.outcome()
     }
 
-    /// The answer on a terminal.
-    pub fn text(&self, design: &Design, screen: Screen) -> String {
-        text::text(design, self, screen)
+    fn verdict(&self) -> String {
+        self.0.verdict()
     }
 
-    /// The answer as a page.
-    pub fn page(&self, design: &Design, provenance: &Provenance) -> Page {
-        page::page(design, self, provenance)
+    fn table(&self) -> Table {
+        self.0.table()
     }
 
-    /// The design sheet: the answer and a dimensioned drawing first, and all inputs.
-    pub fn sheet(&self, design: &Design, provenance: &Provenance) -> Page {
-        sheet::page(design, self, provenance)
+    fn text(&self, _: Screen) -> String {
+        let lines = std::iter::once(self.verdict()).chain(self.0.body.capacity_lines());
+        lines.map(|line| line + "\n").collect()
+    }
+
+    fn page(&self, provenance: &Provenance) -> Page {
+        sheet::page(&self.0.design, self.0, provenance)
+    }
+
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, &CheckBody> {
+        self.0.envelope(run_time_s)
     }
 }
 
@@ -152,7 +200,7 @@ impl Design {
 /// # Errors
 /// [`NoCheck`].
 pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Result<CheckAnswer, NoCheck> {
-    let (state, mut rows, ring) = static_margins(design, true).map_err(NoCheck::NoClutch)?;
+    let (state, mut rows, ring) = static_margins(design, Capacities::Wanted).map_err(NoCheck::NoClutch)?;
     let static_rows = rows.len();
     let found: Vec<Option<SceneFound>> =
         design.scenarios.par_iter().map(|scenario| scene(design, &state, scenario, follow, done)).collect();
@@ -191,7 +239,7 @@ pub fn check(design: &Design, follow: &Follow, done: &(dyn Fn() + Sync)) -> Resu
         hertz_at_junctions_relative: straddling_error(&design.clutch),
     };
     let body = CheckBody::new(&rows, source);
-    Ok(CheckAnswer { state, rows, static_rows, scenes, errors, left_out, body })
+    Ok(CheckAnswer { design: design.clone(), state, rows, static_rows, scenes, errors, left_out, body })
 }
 
 /// One scenario: demand and margins at the finer tolerance, and how far those are off.

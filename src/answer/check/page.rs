@@ -2,8 +2,8 @@
 
 use super::text::{asides, pressures};
 use super::{CheckAnswer, charts, is_beyond, margin_text, people_table, sections};
-use crate::answer::Provenance;
 use crate::answer::page::{drawing, half, opened, pose_at_rest};
+use crate::answer::{Answer, Provenance};
 use crate::design::Design;
 use crate::margin::Margin;
 use crate::report::{Bar, Bars, Column, Page, Table, Tone, Unit, greek};
@@ -35,7 +35,7 @@ fn rated(design: &Design) -> Option<String> {
 
 /// The page.
 pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance) -> Page {
-    let answer = check.envelope(design, provenance.run_time_s);
+    let answer = check.envelope(provenance.run_time_s);
     let (mut page, remarks) = answered("Margin check", design, check, &provenance.command);
     let end_nm = check.state.curve.end_torque_nm();
     page.heading("Limits against torque");

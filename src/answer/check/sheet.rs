@@ -3,8 +3,8 @@
 use super::page::answered;
 use super::text::{asides, pressures};
 use super::{CheckAnswer, people_table};
-use crate::answer::Provenance;
 use crate::answer::page::{draw_inputs, half};
+use crate::answer::{Answer, Provenance};
 use crate::design::{Design, names_of_bodies};
 use crate::margin::{Margin, SceneDemand};
 use crate::material::Material;
@@ -13,7 +13,7 @@ use crate::wedge::{PLOTTED, StaticPoint};
 
 /// The page.
 pub(super) fn page(design: &Design, check: &CheckAnswer, provenance: &Provenance) -> Page {
-    let answer = check.envelope(design, provenance.run_time_s);
+    let answer = check.envelope(provenance.run_time_s);
     let (mut page, remarks) = answered("Design sheet", design, check, &provenance.command);
     let end_nm = check.state.curve.end_torque_nm();
     curves(&mut page, design, check);

@@ -6,7 +6,7 @@ mod tables;
 
 use super::check::{fine, margin_text};
 use super::left_out::left_out_of;
-use super::{Envelope, Provenance};
+use super::{Answer, Envelope, Finding, Provenance};
 use crate::compare::{Scene, SideBySide, Subject, inputs_that_differ, margins, proud_m, scenes};
 use crate::design::{Design, Input};
 use crate::follow::Follow;
@@ -18,6 +18,8 @@ use std::path::Path;
 /// Designs with all that differs.
 #[derive(Debug, Clone)]
 pub struct Comparison<'a> {
+    /// The design before, under whose name the answer stands.
+    pub first: &'a Design,
     /// The designs, the one before first.
     pub subjects: &'a [Subject],
     /// Where each comes from.
@@ -74,59 +76,17 @@ pub fn subjects(
 }
 
 impl<'a> Comparison<'a> {
-    /// Of designs, the one before first; `files`: where each comes from.
-    pub fn of(subjects: &'a [Subject], files: &'a [String]) -> Self {
+    /// Of designs, the one before first; `files`: where each comes from. None of no designs.
+    pub fn of(subjects: &'a [Subject], files: &'a [String]) -> Option<Self> {
         let all: Vec<&Design> = subjects.iter().map(|s| &s.design).collect();
-        Self {
+        Some(Self {
+            first: all.first()?,
             inputs: inputs_that_differ(&all),
             margins: margins(subjects),
             scenes: scenes(subjects),
             subjects,
             files,
-        }
-    }
-
-    /// The answer with the keys that all answers share, under the name of the first design; `run_time_s`: what it took, s.
-    /// None of no designs.
-    pub fn envelope(&self, run_time_s: f64) -> Option<Envelope<'a, Value>> {
-        let design = &self.subjects.first()?.design;
-        let left_out = left_out_of(design);
-        Some(Envelope { design, run_time_s, left_out, error_estimate: None, body: self.json() })
-    }
-
-    /// Everything, one value a row and design, for CSV.
-    pub fn csv_table(&self) -> Table {
-        tables::csv(self)
-    }
-
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        tables::text(self, screen)
-    }
-
-    /// The answer as a page, under the name of the first design. None of no designs.
-    pub fn page(&self, provenance: &Provenance) -> Option<Page> {
-        Some(page::page(self, &self.envelope(provenance.run_time_s)?, &provenance.command))
-    }
-
-    /// What it comes to, in one line.
-    fn banner(&self) -> String {
-        let one = |(i, s): (usize, &Subject)| {
-            let held = if s.held() { "held" } else { "NOT HELD" };
-            match s.deciding() {
-                Some(m) => {
-                    format!("{} {held}, margin {} ({})", letter(i), margin_text(m), m.code())
-                }
-                None => format!("{} {held}, no limit named", letter(i)),
-            }
-        };
-        let inputs = match self.inputs.len() {
-            0 => "no input differs".to_owned(),
-            1 => "1 input differs".to_owned(),
-            n => format!("{n} inputs differ"),
-        };
-        let each: Vec<String> = self.subjects.iter().enumerate().map(one).collect();
-        format!("{}; {inputs}", each.join("; "))
+        })
     }
 
     fn json(&self) -> Value {
@@ -159,6 +119,55 @@ impl<'a> Comparison<'a> {
             "designs": designs.objects(), "inputs": inputs.objects(), "figures": figures.objects(), "margins": margins.objects(),
             "scenes": scenes.objects(),
         })
+    }
+}
+
+impl Answer for Comparison<'_> {
+    type Body<'a>
+        = Value
+    where
+        Self: 'a;
+
+    /// Figures alone: which design is better is for its reader to say.
+    fn outcome(&self) -> Finding {
+        Finding::Shown
+    }
+
+    fn verdict(&self) -> String {
+        let one = |(i, s): (usize, &Subject)| {
+            let held = if s.held() { "held" } else { "NOT HELD" };
+            match s.deciding() {
+                Some(m) => {
+                    format!("{} {held}, margin {} ({})", letter(i), margin_text(m), m.code())
+                }
+                None => format!("{} {held}, no limit named", letter(i)),
+            }
+        };
+        let inputs = match self.inputs.len() {
+            0 => "no input differs".to_owned(),
+            1 => "1 input differs".to_owned(),
+            n => format!("{n} inputs differ"),
+        };
+        let each: Vec<String> = self.subjects.iter().enumerate().map(one).collect();
+        format!("{}; {inputs}", each.join("; "))
+    }
+
+    /// Everything, one value a row and design.
+    fn table(&self) -> Table {
+        tables::csv(self)
+    }
+
+    fn text(&self, screen: Screen) -> String {
+        tables::text(self, screen)
+    }
+
+    fn page(&self, provenance: &Provenance) -> Page {
+        page::page(self, provenance)
+    }
+
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
+        let left_out = left_out_of(self.first);
+        Envelope { design: self.first, run_time_s, left_out, error_estimate: None, body: self.json() }
     }
 }
 

@@ -1,16 +1,15 @@
 //! The comparison as a page.
 
 use super::{Comparison, farthest, label, letter, proud, tables};
-use crate::answer::Envelope;
 use crate::answer::page::{begun, draw_sheet, half};
+use crate::answer::{Answer, Provenance};
 use crate::compare::Subject;
 use crate::report::{Curve, Dash, Drawing, Page, Plot, SpragPose, Tone, Unit};
 use crate::wedge::{PLOTTED, StaticPoint};
-use serde_json::Value;
 
 /// The page.
-pub(super) fn page(compared: &Comparison<'_>, answer: &Envelope<'_, Value>, command: &str) -> Page {
-    let mut page = begun("Comparison", answer.design, command);
+pub(super) fn page(compared: &Comparison<'_>, provenance: &Provenance) -> Page {
+    let mut page = begun("Comparison", compared.first, &provenance.command);
     let tone = match (
         compared.subjects.last().is_some_and(Subject::held),
         compared.subjects.iter().all(Subject::held),
@@ -19,7 +18,7 @@ pub(super) fn page(compared: &Comparison<'_>, answer: &Envelope<'_, Value>, comm
         (true, false) => Tone::Soft,
         (false, _) => Tone::Bad,
     };
-    page.verdict_in(tone, &compared.banner());
+    page.verdict_in(tone, &compared.verdict());
     if let Some(now) = compared.subjects.get(1) {
         draw_sheet(&mut page, &now.design, &letter(1));
     }
@@ -61,7 +60,7 @@ pub(super) fn page(compared: &Comparison<'_>, answer: &Envelope<'_, Value>, comm
             &tables::scenes(compared),
         );
     }
-    answer.close(&mut page);
+    compared.envelope(provenance.run_time_s).close(&mut page);
     for (i, s) in compared.subjects.iter().enumerate().skip(1) {
         let (name, hash) = (&s.design.name, &s.design.hash);
         page.source(&format!("Design file {}: {name}, hash {hash}", label(compared, i)), &s.design.source);

@@ -2,6 +2,7 @@
 
 use super::figures::{FIGURES, Figure};
 use super::{Comparison, farthest, letter, proud, unit_of, with_unit};
+use crate::answer::Answer;
 use crate::answer::check::{in_place_of_margin, margin_cell};
 use crate::compare::{Scene, SideBySide};
 use crate::design::Input;
@@ -152,7 +153,7 @@ pub(super) fn csv(compared: &Comparison<'_>) -> Table {
 }
 
 pub(super) fn text(compared: &Comparison<'_>, screen: Screen) -> String {
-    let mut out = format!("{}\n{}\n\n", designs(compared).to_text(screen), compared.banner());
+    let mut out = format!("{}\n{}\n\n", designs(compared).to_text(screen), compared.verdict());
     let mut part = |heading: &str, table: Table| {
         if !table.rows.is_empty() {
             out.push_str(&format!("{heading}\n{}\n", table.to_text(screen)));

@@ -34,7 +34,7 @@ fn with_film(rows: Lines<'_>) -> Lines<'_> {
         .number("drag_torque_nm", "Drag", Unit::NewtonMetre, 3, |l| l.point.state.drag_torque_nm)
         .number("drag_torque_dry_nm", "Drag by (12)", Unit::NewtonMetre, 3, |l| l.dry.state.drag_torque_nm)
         .json("lifted_off", |l| l.point.state.normal_inner_n <= 0.0)
-        .json("moes_load", |l| l.point.lubricated.map(|f| f.film.film.load))
+        .json("moes_load", |l| l.point.lubricated.and_then(|f| f.film.film.load))
         .json("moes_lubricant", |l| l.point.lubricated.map(|f| f.film.film.lubricant))
         .json("nahme", |l| l.point.lubricated.map(|f| f.film.shear.nahme))
 }

@@ -134,12 +134,13 @@ impl OverrunAnswer<'_> {
                 Unit::Percent.show(f.asperities, 3)
             ));
         }
-        if let Some((l, f)) = films().find(|(_, f)| !f.film.is_checked() && f.lambda > 0.0) {
+        let beyond = films().find(|(_, f)| !f.film.is_checked() && f.lambda > 0.0);
+        if let Some((l, f, load)) = beyond.and_then(|(l, f)| Some((l, f, f.film.load?))) {
             all.push(format!(
                 "Warning: at {} the film formula (Moes) is used beyond where it was checked: load number M {}, checked to {}; lubricant \
                  number L {}, checked to {}. Take the film there as an estimate",
                 place(l),
-                significant(f.film.load, 3),
+                significant(load, 3),
                 Film::CHECKED[0],
                 significant(f.film.lubricant, 3),
                 Film::CHECKED[1]

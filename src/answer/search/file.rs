@@ -1,18 +1,97 @@
 //! The design files that come of a search: who wrote them, from what, then the file searched from with its comments, the
 //! new values, and what these were.
 
-use super::Story;
 use super::words::shown;
-use crate::answer::{VERSION, WRITTEN_BY};
-use crate::design::{Design, EditError, with_notes};
-use crate::optimise::Variable;
+use super::{SearchAnswer, Story};
+use crate::answer::{TOOL, VERSION, WRITTEN_BY};
+use crate::design::{Design, DesignError, EditError, with_notes};
+use crate::optimise::{Status, Variable};
 use crate::size::NOT_OPTIMISED;
+use std::fmt;
 
-/// The new design file; `command`: who asked for it.
-///
-/// # Errors
-/// [`EditError`] where the text found is no design file.
-pub fn file_text(design: &Design, story: &Story, command: &str) -> Result<String, EditError> {
+/// Middle of the name of the robust design.
+pub const ROBUST: &str = "robust";
+/// Middle of the name of the nearest design where none is feasible.
+pub const NEAREST: &str = "nearest";
+
+/// A design file that a search is worth.
+#[derive(Debug)]
+pub struct SearchFile {
+    /// Middle of its name, [`ROBUST`] or [`NEAREST`]; absent: the design found.
+    pub middle: Option<&'static str>,
+    /// Its text, or why there is none.
+    pub text: Result<String, NoFile>,
+}
+
+/// Why a design file was not made.
+#[derive(Debug)]
+pub enum NoFile {
+    /// The text found is no design file.
+    Edit(EditError),
+    /// The file would be refused.
+    Refused(DesignError),
+}
+
+impl fmt::Display for NoFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Edit(why) => why.fmt(f),
+            Self::Refused(why) => write!(
+                f,
+                "not written, it would be a design file that this tool refuses; report this as a fault of {TOOL}; {why}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NoFile {}
+
+impl SearchAnswer {
+    /// Design files that the search is worth, found from `design`: the design found, the robust one, or where none holds every
+    /// limit the nearest. None of a search that was stopped before it had a better one. `command`: who asked for it.
+    pub fn files(&self, design: &Design, command: &str) -> Vec<SearchFile> {
+        let story = &self.story;
+        let interrupted = story.status() == &Status::Interrupted;
+        let file = |middle, text: Result<String, EditError>| SearchFile {
+            middle,
+            text: text.map_err(NoFile::Edit).and_then(|text| read_again(design, text)),
+        };
+        // Stopped before there were flanks: the best so far is better than nothing, and says what it lacks.
+        if story.feasible() && (story.makeable() || interrupted) {
+            if interrupted && !story.improved() && story.found.start_feasible() {
+                return Vec::new();
+            }
+            let robust = story.robust.as_ref().map(|robust| {
+                let what = match robust.made.held() {
+                    true => "held at every corner of [tolerances]",
+                    false => "as near as was found to holding every corner of [tolerances], not held at all",
+                };
+                file(Some(ROBUST), further_text(design, what, &robust.file))
+            });
+            return std::iter::once(file(None, file_text(design, story, command))).chain(robust).collect();
+        }
+        if interrupted {
+            return Vec::new();
+        }
+        let why = match story.feasible() {
+            true => "no flanks give its centroid".to_owned(),
+            false => format!("not held: {}", story.not_held().join(", ")),
+        };
+        let what = format!("the nearest design found, NOT FEASIBLE: {why}");
+        vec![file(Some(NEAREST), further_text(design, &what, story.file()))]
+    }
+}
+
+/// `text` if it reads as a design with the histories of `design`.
+fn read_again(design: &Design, text: String) -> Result<String, NoFile> {
+    match Design::parse_in(&design.folder, &text, "the design found") {
+        Ok(_) => Ok(text),
+        Err(why) => Err(NoFile::Refused(why)),
+    }
+}
+
+/// The new design file.
+fn file_text(design: &Design, story: &Story, command: &str) -> Result<String, EditError> {
     let found = &story.found;
     let change = |v: &Variable| {
         let after = story.value(v);
@@ -41,29 +120,8 @@ pub fn file_text(design: &Design, story: &Story, command: &str) -> Result<String
 }
 
 /// A further design file: `what` it is in a few words.
-///
-/// # Errors
-/// As [`file_text`].
-pub fn further_text(design: &Design, what: &str, text: &str) -> Result<String, EditError> {
+fn further_text(design: &Design, what: &str, text: &str) -> Result<String, EditError> {
     Ok(format!("{WRITTEN_BY} optimize {VERSION}: {what}\n{END}\n{}", body(design, text)?))
-}
-
-/// Middle of the name of the robust design.
-pub const ROBUST: &str = "robust";
-/// Middle of the name of the nearest design where none is feasible.
-pub const NEAREST: &str = "nearest";
-
-/// Further design files: middle of the name, what it is, text.
-pub fn further_files(story: &Story) -> Vec<(&'static str, &'static str, &str)> {
-    let mut files = Vec::new();
-    if let Some(robust) = &story.robust {
-        let what = match robust.made.held() {
-            true => "held at every corner of [tolerances]",
-            false => "as near as was found to holding every corner of [tolerances], not held at all",
-        };
-        files.push((ROBUST, what, robust.file.as_str()));
-    }
-    files
 }
 
 /// Last line of a head.
@@ -98,6 +156,15 @@ fn without_head(text: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_design_that_would_be_refused_is_no_file_but_a_sentence() {
+        let text = include_str!("../../../designs/huang2017-multi-arc.toml");
+        let design = Design::parse(text, "a.toml").unwrap();
+        assert_eq!(read_again(&design, text.to_owned()).unwrap(), text);
+        let why = read_again(&design, text.replacen("count = 12 ", "count = 0 ", 1)).unwrap_err().to_string();
+        assert!(why.starts_with("not written") && why.contains("sprags.count"), "{why}");
+    }
 
     #[test]
     fn a_head_is_taken_off_whole_and_nothing_else() {

@@ -15,7 +15,7 @@ mod words;
 
 pub use body::{Climb, CodeChange, Found, FrontBody, OptimaBody, PriceBody, SearchBody, SearchRow, Slopes};
 pub use evaluator::{describe_problem, evaluate_line};
-pub use file::{NEAREST, ROBUST, file_text, further_files, further_text};
+pub use file::{NEAREST, NoFile, ROBUST, SearchFile};
 pub use made::{CourseBody, MadeBody, MadeRow, NotHeldAt, RobustFound};
 pub use parts::StoryPart;
 pub use realised::{CodeMargin, Flanked, FlanksBody, SearchedOn};

@@ -2,10 +2,10 @@
 
 use super::{Hints, SearchAnswer, Story};
 use crate::answer::page::{begun, draw, draw_sheet, drawing, pose_at_rest};
-use crate::answer::{Envelope, Provenance};
+use crate::answer::{Answer, Envelope, Finding, Provenance};
 use crate::design::{Design, shown};
-use crate::optimise::Iteration;
-use crate::report::{Curve, Dash, Page, Plot, Screen};
+use crate::optimise::{Iteration, Status};
+use crate::report::{Curve, Dash, Page, Plot, Screen, Table};
 use crate::wedge::WedgeCurve;
 use serde_json::{Value, json};
 
@@ -22,8 +22,6 @@ pub struct SearchReport<'a> {
     pub beside: Vec<String>,
     /// The journal, where it was kept.
     pub journal: Option<String>,
-    /// How it came about.
-    pub provenance: Provenance,
     /// What its reader can do about an end.
     pub hints: Hints,
 }
@@ -33,14 +31,60 @@ impl SearchReport<'_> {
         &self.answer.story
     }
 
-    /// The answer in the terminal.
-    pub fn text(&self, screen: Screen) -> String {
+    /// Profiles before and after, to scale, one over the other.
+    fn before_and_after(&self, page: &mut Page) {
+        let Ok(after) = self.answer.design(self.design, "optimum") else { return };
+        let (Ok(p), Ok(q)) = (self.design.clutch.profile(), after.clutch.profile()) else {
+            return;
+        };
+        draw_sheet(page, &after, "The optimum");
+        let poses = vec![pose_at_rest("after", &after, &q), pose_at_rest("before", self.design, &p)];
+        draw(page, &drawing(&after, poses));
+        let depth = |design: &Design, profile| {
+            WedgeCurve::build(&design.clutch, profile, 0.0).ok().map(|curve| {
+                let end = curve.end_torque_nm();
+                let most = design.limits.peak_torque_nm.map_or(end, |t| t.min(end));
+                (1..=120)
+                    .filter_map(|i| curve.at_torque(most * f64::from(i) / 120.0))
+                    .map(|s| [s.torque_nm, s.tan_omega])
+                    .collect::<Vec<_>>()
+            })
+        };
+        let mut plot = Plot::new("Torque, Nm", "tan ω, inner contact");
+        // Before is dashed in every picture.
+        let before = depth(self.design, &p).map(|points| Curve::new("before", points).coloured(1));
+        plot.curves.extend(before.map(|curve| Curve { dash: Dash::Dashed, ..curve }));
+        plot.curves.extend(depth(&after, &q).map(|points| Curve::new("after", points).coloured(0)));
+        let plot = plot.level(self.design.clutch.friction.static_, "\u{3bc}s");
+        page.figure(&plot.to_figure(), "Static friction demand at the inner contact.");
+    }
+}
+
+impl Answer for SearchReport<'_> {
+    type Body<'a>
+        = Value
+    where
+        Self: 'a;
+
+    fn outcome(&self) -> Finding {
         let story = self.story();
-        let mut out = format!(
-            "{}\n\nVariables\n{}",
-            story.verdict(&self.hints),
-            story.variable_table().to_text(screen)
-        );
+        if story.status() == &Status::Interrupted {
+            return Finding::Stopped;
+        }
+        Finding::of(story.feasible() && story.makeable() && story.not_robust().is_none())
+    }
+
+    fn verdict(&self) -> String {
+        self.story().verdict(&self.hints)
+    }
+
+    fn table(&self) -> Table {
+        self.story().csv_table()
+    }
+
+    fn text(&self, screen: Screen) -> String {
+        let story = self.story();
+        let mut out = format!("{}\n\nVariables\n{}", self.verdict(), story.variable_table().to_text(screen));
         out +=
             &story.notes_on_variables(&self.hints).iter().map(|line| format!("{line}\n")).collect::<String>();
         out += &format!("\nMargins\n{}", story.margin_table().to_text(screen));
@@ -68,8 +112,8 @@ impl SearchReport<'_> {
         out
     }
 
-    /// The answer for programs: that of the library, and the files.
-    pub fn envelope(&self) -> Envelope<'_, Value> {
+    /// That of the library, and the files.
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, Value> {
         // Numbers that are none become null; the object holds nothing else that has no JSON form.
         let mut body = serde_json::to_value(&self.answer.body).unwrap_or_default();
         if let Some(map) = body.as_object_mut() {
@@ -79,21 +123,17 @@ impl SearchReport<'_> {
         }
         Envelope {
             design: self.design,
-            run_time_s: self.provenance.run_time_s,
+            run_time_s,
             left_out: self.answer.left_out.clone(),
             error_estimate: Some(json!(self.answer.body.objective_error)),
             body,
         }
     }
 
-    /// The page.
-    pub fn page(&self) -> Page {
+    fn page(&self, provenance: &Provenance) -> Page {
         let story = self.story();
-        let mut page = begun("Optimisation", self.design, &self.provenance.command);
-        page.verdict(
-            story.feasible() && story.makeable() && story.not_robust().is_none(),
-            &story.verdict(&self.hints),
-        );
+        let mut page = begun("Optimisation", self.design, &provenance.command);
+        page.verdict(story.feasible() && story.makeable() && story.not_robust().is_none(), &self.verdict());
         if let Some(path) = &self.written {
             page.paragraph(&format!("New design: {path}"));
         }
@@ -136,35 +176,7 @@ impl SearchReport<'_> {
             "Influence at the start: change of each margin over the whole range of each variable",
             &story.influence_table(),
         );
-        self.envelope().close(&mut page);
+        self.envelope(provenance.run_time_s).close(&mut page);
         page
-    }
-
-    /// Profiles before and after, to scale, one over the other.
-    fn before_and_after(&self, page: &mut Page) {
-        let Ok(after) = self.answer.design(self.design, "optimum") else { return };
-        let (Ok(p), Ok(q)) = (self.design.clutch.profile(), after.clutch.profile()) else {
-            return;
-        };
-        draw_sheet(page, &after, "The optimum");
-        let poses = vec![pose_at_rest("after", &after, &q), pose_at_rest("before", self.design, &p)];
-        draw(page, &drawing(&after, poses));
-        let depth = |design: &Design, profile| {
-            WedgeCurve::build(&design.clutch, profile, 0.0).ok().map(|curve| {
-                let end = curve.end_torque_nm();
-                let most = design.limits.peak_torque_nm.map_or(end, |t| t.min(end));
-                (1..=120)
-                    .filter_map(|i| curve.at_torque(most * f64::from(i) / 120.0))
-                    .map(|s| [s.torque_nm, s.tan_omega])
-                    .collect::<Vec<_>>()
-            })
-        };
-        let mut plot = Plot::new("Torque, Nm", "tan ω, inner contact");
-        // Before is dashed in every picture.
-        let before = depth(self.design, &p).map(|points| Curve::new("before", points).coloured(1));
-        plot.curves.extend(before.map(|curve| Curve { dash: Dash::Dashed, ..curve }));
-        plot.curves.extend(depth(&after, &q).map(|points| Curve::new("after", points).coloured(0)));
-        let plot = plot.level(self.design.clutch.friction.static_, "\u{3bc}s");
-        page.figure(&plot.to_figure(), "Static friction demand at the inner contact.");
     }
 }

@@ -26,11 +26,12 @@ pub use train::Eigenfrequency;
 pub use verdict::LIFT_OFF_SEARCH_RAD_S;
 
 use super::left_out::LeftOut;
-use super::{Envelope, Provenance};
+use super::{Answer, Envelope, Finding, Provenance};
 use crate::clutch::Scenario;
 use crate::design::Design;
+use crate::dynamics::Stop;
 use crate::fidelity::{self, Term};
-use crate::report::{Page, Screen};
+use crate::report::{Page, Screen, Table};
 use crate::scenario::{Beyond, NoScenario, Prepared, Simulation, Verdict, beyond};
 use serde::{Serialize, Serializer};
 use serde_json::json;
@@ -84,19 +85,37 @@ impl std::ops::Deref for SimulationAnswer {
 }
 
 impl SimulationAnswer {
-    /// The answer with the keys that all answers share; `run_time_s`: what the runs took, s.
-    pub fn envelope(&self, run_time_s: f64) -> Envelope<'_, &SimulationBody> {
-        Envelope {
-            design: &self.design,
-            run_time_s,
-            left_out: self.left_out.clone(),
-            error_estimate: self.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
-            body: &self.body,
+    /// On a terminal, with every figure.
+    pub fn text_with_all_figures(&self, screen: Screen) -> String {
+        format!("{}\n\n{}", self.verdict_line(), facts::table(self).to_text(screen))
+    }
+}
+
+impl Answer for SimulationAnswer {
+    type Body<'a> = &'a SimulationBody;
+
+    /// Whatever becomes of the clutch is the answer.
+    fn outcome(&self) -> Finding {
+        match self.simulation() {
+            Some(s) if s.stop == Stop::Interrupted || s.finer_gave_up == Some(Stop::Interrupted) => {
+                Finding::Stopped
+            }
+            Some(s) if s.verdict.is_none() || s.stop.gave_up() => Finding::NotKnown,
+            _ => Finding::Shown,
         }
     }
 
-    /// The answer on a terminal: the verdict and the figures that say most of it.
-    pub fn text(&self, screen: Screen) -> String {
+    fn verdict(&self) -> String {
+        self.verdict_line()
+    }
+
+    /// The history.
+    fn table(&self) -> Table {
+        self.history().table()
+    }
+
+    /// The verdict and the figures that say most of it.
+    fn text(&self, screen: Screen) -> String {
         let (first, all) = facts::first_and_all(facts::table(self));
         let mut text = format!("{}\n\n{}", self.verdict_line(), first.to_text(screen));
         if let Some(all) = all {
@@ -105,14 +124,18 @@ impl SimulationAnswer {
         text
     }
 
-    /// The same with every figure.
-    pub fn text_with_all_figures(&self, screen: Screen) -> String {
-        format!("{}\n\n{}", self.verdict_line(), facts::table(self).to_text(screen))
+    fn page(&self, provenance: &Provenance) -> Page {
+        page::page(self, provenance)
     }
 
-    /// The answer as a page.
-    pub fn page(&self, provenance: &Provenance) -> Page {
-        page::page(self, provenance)
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, &SimulationBody> {
+        Envelope {
+            design: &self.design,
+            run_time_s,
+            left_out: self.left_out.clone(),
+            error_estimate: self.simulation().and_then(|s| s.error).map(|e| json!(e.theta_inner_rad)),
+            body: &self.body,
+        }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::stretch::Stretch;
 use super::{HistoryRow, Ran, SimulationAnswer, facts, train};
-use crate::answer::Provenance;
 use crate::answer::page::{draw, drawing, half, opened, pose_at_rest, pose_at_torque};
+use crate::answer::{Answer, Provenance};
 use crate::clutch::{Phrase, ScenarioKind};
 use crate::report::{Curve, Dash, Page, Plot, Unit};
 use crate::scenario::{Prepared, Simulation};

@@ -14,14 +14,15 @@ pub use junctions::{Junction, junctions};
 pub use page::page;
 pub use pressure::{ContactBody, PeakBody, PressureBody, PressureMap, PressureRow};
 pub use study::{StiffnessStudy, StudyBody};
-pub use tables::csv_table;
 
 use super::left_out::{LeftOut, at_rest, left_out};
 use crate::clutch::{Clutch, ContactLaw, LawName};
+use crate::contact::ContactError;
 use crate::design::Design;
 use crate::follow::Follow;
 use crate::margin::NoMargins;
 use crate::profile::Profile;
+use crate::report::Table;
 use crate::wedge::{RollOver, SMALLEST_TORQUE_NM, StaticPoint, WedgeCurve};
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
@@ -86,6 +87,8 @@ pub enum NoStiffness {
     NoClutch(NoMargins),
     /// A torque, N m, that is none or smaller than the curve resolves.
     Torque(f64),
+    /// The pressure along the length was not found.
+    Pressure(ContactError),
     /// [`Follow`] was stopped.
     Stopped,
 }
@@ -103,6 +106,7 @@ impl fmt::Display for NoStiffness {
                     "a torque of {torque} Nm: allowed are finite ones from {SMALLEST_TORQUE_NM:e} Nm up"
                 )
             }
+            Self::Pressure(why) => write!(f, "no pressure along the length: {why}"),
             Self::Stopped => write!(f, "stopped before every curve was known"),
         }
     }
@@ -172,13 +176,18 @@ impl StiffnessAnswer {
         let error_relative = laws.iter().map(|l| l.curve.truncation()).fold(0.0, f64::max);
         Self { body: StiffnessBody::of(&laws), laws, error_relative, left_out: terms }
     }
+
+    /// Every row of every law, for programs.
+    pub fn table(&self) -> Table {
+        tables::csv_table(&self.laws)
+    }
 }
 
 /// Curves of the laws asked for, side by side, and their rows; `done` is told of every law that is done.
 ///
 /// # Errors
 /// [`NoStiffness`].
-pub fn curves(
+fn curves(
     design: &Design,
     profile: &Profile,
     settings: &StiffnessSettings,

@@ -3,6 +3,7 @@
 use super::fem::{self, Distance, Fem, distance, findings};
 use super::tables::{end_text, full, junction_text, tangents, windups};
 use super::{LawCurve, StiffnessStudy, junctions};
+use crate::answer::Answer;
 use crate::answer::page::{begun, draw, draw_sheet, drawing, half, pose_at_rest, pose_at_torque};
 use crate::answer::roll_over::sentence;
 use crate::design::Design;
@@ -20,7 +21,7 @@ pub fn page(studies: &[StiffnessStudy], command: &str) -> Page {
             page.heading(&study.design.name);
         }
         section(&mut page, study);
-        study.envelope().close(&mut page);
+        study.envelope(study.run_time_s).close(&mut page);
     }
     page
 }
@@ -146,7 +147,7 @@ fn beyond(page: &mut Page, laws: &[LawCurve]) {
 }
 
 /// What the stiffness is, at the torques that the design is for, else at the largest of the table.
-fn banner(design: &Design, law: &LawCurve) -> String {
+pub(super) fn banner(design: &Design, law: &LawCurve) -> String {
     let limits = &design.limits;
     let named = [(limits.nominal_torque_nm, "nominal"), (limits.peak_torque_nm, "peak")];
     let mut asked: Vec<(f64, &str)> = named.into_iter().filter_map(|(t, name)| Some((t?, name))).collect();

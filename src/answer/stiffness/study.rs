@@ -2,12 +2,15 @@
 
 use super::fem::{self, Fem, FemPoint};
 use super::pressure::{PressureBody, PressureMap};
-use super::{LawCurve, StiffnessAnswer, StiffnessBody, tables};
-use crate::answer::Envelope;
+use super::{LawCurve, NoStiffness, StiffnessAnswer, StiffnessBody, StiffnessSettings, curves, page, tables};
+use crate::answer::{Answer, Envelope, Finding, Provenance};
 use crate::design::Design;
+use crate::margin::NoMargins;
 use crate::profile::Profile;
-use crate::report::Screen;
+use crate::report::{Page, Screen, Table};
+use crate::wedge::Lengthwise;
 use serde::Serialize;
+use std::time::Instant;
 
 /// One design with all that was asked of its stiffness.
 #[derive(Debug, Clone)]
@@ -41,15 +44,64 @@ pub struct StudyBody {
 }
 
 impl StiffnessStudy {
+    /// Curves of `design` beside `fem`, with the pressure along the length where that is asked for or the contacts are not straight;
+    /// `done` is told of every law that is done.
+    ///
+    /// # Errors
+    /// [`NoStiffness`].
+    pub fn of(
+        design: Design,
+        settings: &StiffnessSettings,
+        fem: Option<Fem>,
+        pressure: Option<Lengthwise>,
+        done: &(dyn Fn() + Sync),
+    ) -> Result<Self, NoStiffness> {
+        let started = Instant::now();
+        settings.validate()?;
+        let profile = design.clutch.profile().map_err(|e| NoStiffness::NoClutch(NoMargins::Profile(e)))?;
+        let laws = curves(&design, &profile, settings, done)?;
+        let shaped = (!design.clutch.axial.is_straight()).then_some(Lengthwise::Slices);
+        let map = |(law, how)| PressureMap::of(law, how).map_err(NoStiffness::Pressure);
+        let pressure = laws.first().zip(pressure.or(shaped)).map(map).transpose()?;
+        let run_time_s = started.elapsed().as_secs_f64();
+        let found = StiffnessAnswer::of(laws, design.limits.largest_torque_nm());
+        Ok(Self { design, profile, found, fem, pressure, run_time_s })
+    }
+
     pub(super) fn laws(&self) -> &[LawCurve] {
         &self.found.laws
     }
+}
 
-    /// The answer with the keys that all answers share.
-    pub fn envelope(&self) -> Envelope<'_, StudyBody> {
+impl Answer for StiffnessStudy {
+    type Body<'a> = StudyBody;
+
+    /// Figures alone: limits are held by `check`.
+    fn outcome(&self) -> Finding {
+        Finding::Shown
+    }
+
+    fn verdict(&self) -> String {
+        self.laws().first().map_or(String::new(), |law| page::banner(&self.design, law))
+    }
+
+    /// Every row of every law.
+    fn table(&self) -> Table {
+        self.found.table()
+    }
+
+    fn text(&self, screen: Screen) -> String {
+        tables::text(self, screen)
+    }
+
+    fn page(&self, provenance: &Provenance) -> Page {
+        page::page(std::slice::from_ref(self), &provenance.command)
+    }
+
+    fn envelope(&self, run_time_s: f64) -> Envelope<'_, StudyBody> {
         Envelope {
             design: &self.design,
-            run_time_s: self.run_time_s,
+            run_time_s,
             left_out: self.found.left_out.clone(),
             error_estimate: Some(self.found.error_relative.into()),
             body: StudyBody {
@@ -58,10 +110,5 @@ impl StiffnessStudy {
                 pressure: self.pressure.as_ref().map(PressureMap::body),
             },
         }
-    }
-
-    /// The answer on a terminal.
-    pub fn text(&self, screen: Screen) -> String {
-        tables::text(self, screen)
     }
 }

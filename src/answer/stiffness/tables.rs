@@ -135,7 +135,7 @@ pub(super) fn tangents(laws: &[LawCurve]) -> Table {
 }
 
 /// Every row of every law. Who asks for a torque that is not carried gets what becomes of the sprags.
-pub fn csv_table(laws: &[LawCurve]) -> Table {
+pub(super) fn csv_table(laws: &[LawCurve]) -> Table {
     lines(laws.iter().flat_map(|law| {
         let over = law.beyond.iter().filter(|_| law.rows.iter().any(|(_, p)| p.is_none()));
         let over = over.flat_map(|way| &way.branch).map(|p| (law.name.facts().key, Line::Over(p)));

@@ -2,6 +2,7 @@
 
 use super::{RunOut, SpragLoad, Survey};
 use crate::design::{Design, Limits};
+use crate::margin::Capacities;
 use crate::margin::limits::{Limit, Of};
 use crate::margin::load::{beyond, row_name};
 use crate::margin::table::{END_OF_PROFILE, LIMITS};
@@ -14,8 +15,12 @@ const LOOKS: usize = 12;
 const CAPACITY: f64 = 1e-5;
 
 /// Rows of the worst sprag; a torque beyond the end shows its demand there and continues as the shortfall of torque.
-/// `capacities` asks for the torques at which the limits would be reached.
-pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capacities: bool) -> Vec<Margin> {
+pub fn run_out_margins(
+    design: &Design,
+    limits: &Limits,
+    ring: &RunOut,
+    capacities: Capacities,
+) -> Vec<Margin> {
     let end = ring.end.torque_nm;
     let mut rows = Vec::new();
     let asked = limits.largest_torque_nm();
@@ -53,7 +58,7 @@ pub fn run_out_margins(design: &Design, limits: &Limits, ring: &RunOut, capaciti
         let name = format!("{}, worst sprag off centre: {where_}", (limit.name)(limits));
         // What is not reached before the end has none: `run-out-end` is that of all.
         let over = |s: &Survey| worst(s).map_or(f64::NAN, |(value, _)| value - allowed);
-        let capacity = capacities.then(|| reached(ring, &surveys, &over)).flatten();
+        let capacity = (capacities == Capacities::Wanted).then(|| reached(ring, &surveys, &over)).flatten();
         rows.push(Margin {
             off_centre: true,
             name: row_name(&name, torque, end),
