@@ -194,9 +194,7 @@ pub(super) fn body_yield(file: &DesignFile, out: &mut Findings) {
 
 /// A film needs an oil.
 pub(super) fn film(file: &DesignFile, out: &mut Findings) {
-    let key = ["limits.film_lambda", "optimize.limits.film_lambda"]
-        .into_iter()
-        .find(|k| out.doc.entry(k).is_some());
+    let key = ["limits.film_lambda", "optimize.limits.film_lambda"].into_iter().find(|k| out.has(k));
     if let (Some(key), None) = (key, &file.lubrication) {
         out.refuse(
             &[key],

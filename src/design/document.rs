@@ -65,11 +65,6 @@ impl<'a> Document<'a> {
         entry
     }
 
-    /// The number at a path.
-    pub fn number(&self, path: &str) -> Option<f64> {
-        number_of(self.entry(path)?.value.get_ref())
-    }
-
     /// A value as the file prints it, tables and long texts named instead.
     pub fn text_of(&self, value: &Spanned<DeValue<'a>>) -> String {
         match value.get_ref() {
@@ -100,6 +95,39 @@ impl<'a> Document<'a> {
             }
         }
     }
+}
+
+/// Name and row, from 0, of one step of a dotted path, such as `inner_arcs[1]`.
+pub(super) fn step_of(step: &str) -> Option<(&str, Option<usize>)> {
+    match step.split_once('[') {
+        Some((name, row)) => Some((name, Some(row.strip_suffix(']')?.parse().ok()?))),
+        None => Some((step, None)),
+    }
+}
+
+/// The value of a table at a dotted path.
+pub(super) fn value_at<'t>(table: &'t toml::Table, path: &str) -> Option<&'t toml::Value> {
+    let mut steps = path.split('.').map(step_of);
+    let (name, row) = steps.next()??;
+    let within = |value: &'t toml::Value, row: Option<usize>| row.map_or(Some(value), |row| value.get(row));
+    steps.try_fold(within(table.get(name)?, row)?, |value, step| {
+        let (name, row) = step?;
+        within(value.get(name)?, row)
+    })
+}
+
+/// The same to be changed.
+pub(super) fn value_at_mut<'t>(table: &'t mut toml::Table, path: &str) -> Option<&'t mut toml::Value> {
+    let mut steps = path.split('.').map(step_of);
+    let (name, row) = steps.next()??;
+    let within = |value: &'t mut toml::Value, row: Option<usize>| match row {
+        Some(row) => value.get_mut(row),
+        None => Some(value),
+    };
+    steps.try_fold(within(table.get_mut(name)?, row)?, |value, step| {
+        let (name, row) = step?;
+        within(value.get_mut(name)?, row)
+    })
 }
 
 /// The number that a TOML value is, integers included.
@@ -190,8 +218,9 @@ mod tests {
     fn paths_lead_into_tables_inline_tables_and_rows() {
         let text = "a.b = 0x10\n[[rows]]\nx = 1\n[[rows]]\nx = { y = [1, 2.5] }\n";
         let doc = Document::parse(text).unwrap_or_else(|p| panic!("{p:?}"));
-        assert_eq!(doc.number("a.b"), Some(16.0));
-        assert_eq!(doc.number("rows[1].x.y[1]"), Some(2.5));
+        let table = doc.table().unwrap();
+        assert_eq!(value_at(&table, "a.b").and_then(toml::Value::as_integer), Some(16));
+        assert_eq!(value_at(&table, "rows[1].x.y[1]").and_then(toml::Value::as_float), Some(2.5));
         assert_eq!(doc.place_of("rows[1].x.y[1]").line, 5);
         assert_eq!(doc.place_of("rows[1].missing.key").line, 4, "the row's header");
         for none in ["", "rows[2]", "rows[x]", "rows[0", "a.b.c", "rows.x", "a[0]"] {

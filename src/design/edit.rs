@@ -7,6 +7,7 @@ use std::fmt;
 
 use toml_edit::{DocumentMut, Item, Table, Value};
 
+use super::document::step_of;
 use super::shape;
 use super::variables::{variable_names, variable_path};
 use crate::profile::Flanks;
@@ -285,12 +286,12 @@ pub fn content(source: &str, apart: &[&str]) -> Result<String, EditError> {
     toml::to_string(&all).map_err(|e| syntax(e.to_string()))
 }
 
-/// The same without `[optimize]` and without the scenarios whose name `keep` does not pick: what an evaluation reads, short,
-/// so that it is read quickly. What names one of these in `[check]` goes as well.
+/// What the text says without `[optimize]` and without the scenarios whose name `keep` does not pick: what an evaluation reads.
+/// What names one of these in `[check]` goes as well.
 ///
 /// # Errors
 /// [`EditError::Syntax`].
-pub fn lean(source: &str, keep: &dyn Fn(&str) -> bool) -> Result<String, EditError> {
+pub(super) fn lean(source: &str, keep: &dyn Fn(&str) -> bool) -> Result<toml::Table, EditError> {
     let syntax = |what: String| EditError::Syntax(what);
     let mut all: toml::Table = toml::from_str(source).map_err(|e| syntax(e.message().to_owned()))?;
     all.remove("optimize");
@@ -302,57 +303,7 @@ pub fn lean(source: &str, keep: &dyn Fn(&str) -> bool) -> Result<String, EditErr
     if let Some(toml::Value::Array(names)) = checked {
         names.retain(|name| kept(Some(name)));
     }
-    toml::to_string(&all).map_err(|e| syntax(e.to_string()))
-}
-
-/// A text with gaps where the values of some variables stand: filled in without reading it again.
-#[derive(Debug, Clone)]
-pub struct Blank {
-    /// Text before each gap, in the order of the text.
-    before: Vec<String>,
-    /// The variable of each gap.
-    gaps: Vec<usize>,
-    after: String,
-}
-
-impl Blank {
-    /// Of `source` with gaps for `variables`; `None` where one of them has no place of its own or is a whole number.
-    pub fn new(source: &str, variables: &[String]) -> Option<Self> {
-        // Numbers that no design holds, found again in the text.
-        let mark = |i: usize| 1.2345e-250 * (i + 1) as f64;
-        let marks: Vec<(&str, f64)> =
-            variables.iter().enumerate().map(|(i, name)| (name.as_str(), mark(i))).collect();
-        let marked = with_values(source, &marks).ok()?;
-        let place = |i: usize| {
-            let text = Value::from(mark(i)).to_string();
-            let mut found = marked.match_indices(text.as_str());
-            let (at, _) = found.next()?;
-            found.next().is_none().then_some((at, at + text.len(), i))
-        };
-        let mut places = (0..variables.len()).map(place).collect::<Option<Vec<_>>>()?;
-        places.sort_unstable();
-        let mut end = 0;
-        let mut blank = Self { before: Vec::new(), gaps: Vec::new(), after: String::new() };
-        for (from, until, i) in places {
-            blank.before.push(marked.get(end..from)?.to_owned());
-            blank.gaps.push(i);
-            end = until;
-        }
-        blank.after = marked[end..].to_owned();
-        let whole = |name: &String| super::is_whole(name, usize::MAX);
-        (!variables.iter().any(whole)).then_some(blank)
-    }
-
-    /// The text with the variables at `x`; `None` where one is no finite number.
-    pub fn filled(&self, x: &[f64]) -> Option<String> {
-        let mut text = String::new();
-        for (before, &i) in self.before.iter().zip(&self.gaps) {
-            text.push_str(before);
-            text.push_str(&finite("", *x.get(i)?).ok()?.to_string());
-        }
-        text.push_str(&self.after);
-        Some(text)
-    }
+    Ok(all)
 }
 
 pub(super) fn parse(source: &str) -> Result<DocumentMut, EditError> {
@@ -379,10 +330,7 @@ pub(super) fn replace(item: &mut Item, mut number: Value) {
 fn item_at<'d>(document: &'d mut DocumentMut, path: &str) -> Option<&'d mut Item> {
     let mut item = document.as_item_mut();
     for step in path.split('.') {
-        let (name, row) = match step.split_once('[') {
-            Some((name, row)) => (name, Some(row.strip_suffix(']')?.parse::<usize>().ok()?)),
-            None => (step, None),
-        };
+        let (name, row) = step_of(step)?;
         item = item.get_mut(name)?;
         if let Some(row) = row {
             item = item.get_mut(row)?;

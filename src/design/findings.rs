@@ -6,18 +6,36 @@
 use toml::de::DeValue;
 
 use super::diagnostic::{MOST_COLLECTED, NO_SUCH_KEY, Problem};
-use super::document::Document;
+use super::document::{Document, value_at};
 
 /// Problems of one document; `scope` is the path of the table whose overrides are being checked, or empty.
 pub(super) struct Findings<'d, 'a> {
-    pub doc: &'d Document<'a>,
+    table: &'d toml::Table,
+    /// Where everything stands; `None`: nobody will be told, a problem is one without its place.
+    doc: Option<&'d Document<'a>>,
     scope: String,
     pub problems: Vec<Problem>,
 }
 
 impl<'d, 'a> Findings<'d, 'a> {
-    pub fn new(doc: &'d Document<'a>) -> Self {
-        Self { doc, scope: String::new(), problems: Vec::new() }
+    pub fn new(table: &'d toml::Table, doc: Option<&'d Document<'a>>) -> Self {
+        Self { table, doc, scope: String::new(), problems: Vec::new() }
+    }
+
+    /// Whether the file has something at a dotted path.
+    pub fn has(&self, path: &str) -> bool {
+        value_at(self.table, path).is_some()
+    }
+
+    /// The number at a dotted path.
+    pub fn number(&self, path: &str) -> Option<f64> {
+        let value = value_at(self.table, path)?;
+        value.as_float().or_else(|| value.as_integer().map(|i| i as f64))
+    }
+
+    /// The text at a dotted path.
+    pub fn text(&self, path: &str) -> Option<&'d str> {
+        value_at(self.table, path)?.as_str()
     }
 
     /// Check overrides found under `scope`: keys are looked for there first.
@@ -35,9 +53,15 @@ impl<'d, 'a> Findings<'d, 'a> {
         if self.problems.len() >= MOST_COLLECTED {
             return;
         }
+        let Some(doc) = self.doc else {
+            let key = keys.first().map_or(String::new(), |key| (*key).to_owned());
+            let (found, also) = (String::new(), Vec::new());
+            self.problems.push(Problem { key, place: None, found, allowed, help, also });
+            return;
+        };
         let scoped = |key: &str| match self.scope.as_str() {
             "" => Some(key.to_owned()),
-            scope => Some(format!("{scope}.{key}")).filter(|path| self.doc.entry(path).is_some()),
+            scope => Some(format!("{scope}.{key}")).filter(|path| doc.entry(path).is_some()),
         };
         let first = keys.iter().position(|k| scoped(k).is_some());
         let mut paths: Vec<String> =
@@ -47,25 +71,25 @@ impl<'d, 'a> Findings<'d, 'a> {
             None if self.problems.is_empty() => self.scope.clone(),
             None => return,
         };
-        let place = Some(self.doc.place_of(&key));
-        let mut found = self.found(&key);
+        let place = Some(doc.place_of(&key));
+        let mut found = found_at(doc, &key);
         let mut also = Vec::new();
         let mut joint = " with ";
         for path in paths {
-            let Some(entry) = self.doc.entry(&path) else { continue };
+            let Some(entry) = doc.entry(&path) else { continue };
             if !matches!(entry.value.get_ref(), DeValue::Table(_) | DeValue::Array(_)) {
-                found.push_str(&format!("{joint}{path} = {}", self.found(&path)));
+                found.push_str(&format!("{joint}{path} = {}", found_at(doc, &path)));
                 joint = ", ";
             }
-            let place = self.doc.place_of(&path);
+            let place = doc.place_of(&path);
             also.push((path, place));
         }
         self.problems.push(Problem { key, place, found, allowed, help, also });
     }
+}
 
-    fn found(&self, path: &str) -> String {
-        self.doc.entry(path).map_or_else(|| NO_SUCH_KEY.to_owned(), |e| self.doc.text_of(e.value))
-    }
+fn found_at(doc: &Document<'_>, path: &str) -> String {
+    doc.entry(path).map_or_else(|| NO_SUCH_KEY.to_owned(), |e| doc.text_of(e.value))
 }
 
 #[cfg(test)]
@@ -76,8 +100,9 @@ mod tests {
     fn the_override_is_pointed_at_and_a_fault_of_the_base_is_told_once() {
         let text = "[a]\nx = 1\n[[rows]]\n[rows.a]\ny = 2\n";
         let doc = Document::parse(text).unwrap_or_else(|p| panic!("{p:?}"));
+        let table = doc.table().unwrap();
         let refused = |keys: &[&str], before: usize| {
-            let mut out = Findings::new(&doc);
+            let mut out = Findings::new(&table, Some(&doc));
             (0..before).for_each(|_| out.refuse(&["a.x"], String::new(), String::new()));
             out.within("rows[0]", |out| out.refuse(keys, String::new(), String::new()));
             out.problems.iter().skip(before).map(|p| (p.key.clone(), p.found.clone())).collect::<Vec<_>>()

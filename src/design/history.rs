@@ -7,7 +7,7 @@ use super::check::rad_s;
 use super::diagnostic::{Problem, TextPlace};
 
 /// Which history a file holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum HistoryKind {
     /// Engaging torque on the inner race; two rows at one time are a jump.
     Torque,

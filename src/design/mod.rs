@@ -15,6 +15,7 @@ mod eccentricity;
 mod edit;
 mod file;
 mod findings;
+mod form;
 mod geometry;
 mod history;
 mod inputs;
@@ -44,9 +45,10 @@ pub use check::{rad_s, rpm};
 pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
 pub use draft::{BOX, Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
-    Blank, EditError, content, lean, other_variables, value_at, with_flanks, with_keys, with_limits,
-    with_sprag, with_values,
+    EditError, content, other_variables, value_at, with_flanks, with_keys, with_limits, with_sprag,
+    with_values,
 };
+pub use form::DesignForm;
 pub use history::is_history;
 pub use inputs::{Input, inputs, unit_of_path};
 pub use limits::{LIMIT_KEYS, LimitKey, Limits};

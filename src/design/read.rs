@@ -15,6 +15,7 @@ use super::file::DesignFile;
 use super::findings::Findings;
 use super::history;
 use super::open;
+use super::scenarios::Load;
 use super::set::with_setting;
 use super::tolerances_file::TolerancesFile;
 use super::{Design, Limits, check, life_file, scenarios, shape, sharing_file, task};
@@ -144,13 +145,7 @@ impl Design {
         // By way of the table, as a scenario's clutch is read: serde's code for the types of a file stands once in the program.
         let file: DesignFile = document.clone().try_into().map_err(odd)?;
 
-        let mut out = Findings::new(&doc);
-        let clutch = check::clutch(&file, &mut out);
-        let limits = check::limits(&file.limits, Limits::default(), &mut out);
-        check::body_yield(&file, &mut out);
-        check::film(&file, &mut out);
-        check::tolerances(&file, clutch.as_ref(), &mut out);
-        check::gaps(&file.limits, &file.races, &mut out);
+        let mut out = Findings::new(&document, Some(&doc));
         let mut texts: BTreeMap<PathBuf, String> = BTreeMap::new();
         let mut refused = None;
         let mut load = |name: &str, kind| {
@@ -165,31 +160,20 @@ impl Design {
             texts.insert(path, text);
             rows
         };
-        let scenarios = scenarios::scenarios(&file, &document, clutch.as_ref(), &mut load, &mut out);
-        let service = file.life.as_ref().map(|life| life_file::service(&file, life, &mut load, &mut out));
-        let sharing = file.sharing.as_ref().map(|s| sharing_file::si(&file, s, clutch.as_ref(), &mut out));
-        let check_scenarios = task::check_scenarios(&file, &mut out);
-        let optimize = file.optimize.as_ref().map(|t| task::optimize(&file, t, limits, &mut out));
-        if let (true, Some(error)) = (out.problems.is_empty(), refused) {
+        let design = assembled(file, &document, &mut load, &mut out);
+        let problems = out.problems;
+        if let (true, Some(error)) = (problems.is_empty(), refused) {
             return Err(error);
         }
-        match (clutch, scenarios, out.problems) {
-            (Some(clutch), Some(scenarios), problems) if problems.is_empty() => Ok(Self {
-                name: file.name,
-                clutch,
-                limits,
-                check_scenarios,
-                scenarios,
-                optimize,
-                tolerances: file.tolerances.as_ref().map(TolerancesFile::si),
-                service: service.flatten(),
-                sharing,
+        match design {
+            Some(design) if problems.is_empty() => Ok(Self {
                 hash: hash(source, texts.values()),
                 source: source.to_owned(),
                 folder: folder.to_owned(),
                 histories: texts.into_keys().collect(),
+                ..design
             }),
-            (_, _, problems) if !problems.is_empty() => Err(refuse(problems)),
+            _ if !problems.is_empty() => Err(refuse(problems)),
             _ => {
                 let found = "a design that could not be put together".to_owned();
                 Err(one_problem(
@@ -202,6 +186,14 @@ impl Design {
                 ))
             }
         }
+    }
+
+    /// The design that a table of its keys says, without text, folder and hash; histories come by `load`. `None` where it is
+    /// refused.
+    pub(super) fn of_table(table: &toml::Table, load: Load<'_>) -> Option<Self> {
+        let file: DesignFile = table.clone().try_into().ok()?;
+        let mut out = Findings::new(table, None);
+        assembled(file, table, load, &mut out).filter(|_| out.problems.is_empty())
     }
 
     /// The clutch as made, for a workshop: at the reference temperature, its races not yet pressed onto shaft or into
@@ -233,6 +225,41 @@ impl Design {
         let trains: Vec<_> = of_trains.filter(|d| d.has_history()).map(|d| (&d.torques, &d.speed)).collect();
         if trains.is_empty() { own } else { format!("{own}{trains:?}") }
     }
+}
+
+/// What the rules make of a file whose shape is right, without text, folder and hash; `None` with the reasons in `out`.
+fn assembled(
+    file: DesignFile,
+    table: &toml::Table,
+    load: Load<'_>,
+    out: &mut Findings<'_, '_>,
+) -> Option<Design> {
+    let clutch = check::clutch(&file, out);
+    let limits = check::limits(&file.limits, Limits::default(), out);
+    check::body_yield(&file, out);
+    check::film(&file, out);
+    check::tolerances(&file, clutch.as_ref(), out);
+    check::gaps(&file.limits, &file.races, out);
+    let scenarios = scenarios::scenarios(&file, table, clutch.as_ref(), load, out);
+    let service = file.life.as_ref().map(|life| life_file::service(&file, life, load, out));
+    let sharing = file.sharing.as_ref().map(|s| sharing_file::si(&file, s, clutch.as_ref(), out));
+    let check_scenarios = task::check_scenarios(&file, out);
+    let optimize = file.optimize.as_ref().map(|t| task::optimize(&file, t, limits, out));
+    Some(Design {
+        name: file.name,
+        clutch: clutch?,
+        limits,
+        check_scenarios,
+        scenarios: scenarios?,
+        optimize,
+        tolerances: file.tolerances.as_ref().map(TolerancesFile::si),
+        service: service.flatten(),
+        sharing,
+        hash: String::new(),
+        source: String::new(),
+        folder: PathBuf::new(),
+        histories: Vec::new(),
+    })
 }
 
 fn one_problem(name: &str, source: &str, at: usize, found: String, allowed: &str, help: &str) -> DesignError {

@@ -68,8 +68,7 @@ fn bodies<'f>(file: &'f MaterialFile, out: &mut Findings) -> Option<[Body<'f>; 3
 /// One table holds either the keys or the bodies, so that no key is written and then without effect.
 pub(super) fn refuse_mixed_material(out: &mut Findings) {
     let keys: Vec<String> = MATERIAL_KEYS.iter().chain(&BODIES).map(|k| format!("material.{k}")).collect();
-    let scoped: Vec<&str> =
-        keys.iter().map(String::as_str).filter(|k| out.doc.entry(k).is_some() || *k == keys[0]).collect();
+    let scoped: Vec<&str> = keys.iter().map(String::as_str).filter(|k| out.has(k) || *k == keys[0]).collect();
     out.refuse(
         &scoped,
         "either keys for all bodies, or the tables sprag, inner_race and outer_race".to_owned(),
@@ -183,12 +182,7 @@ pub fn names_of_bodies(source: &str) -> [Option<String>; 3] {
 /// the torque at which it is held is known, and the race stress as mean hoop stress. Nothing where the material has no
 /// name: that is refused.
 pub(super) fn limits(file: &LimitsFile, base: Limits, out: &mut Findings) -> Limits {
-    let text = |path: &str| {
-        out.doc.entry(path).and_then(|e| match e.value.get_ref() {
-            toml::de::DeValue::String(name) => steel(name),
-            _ => None,
-        })
-    };
+    let text = |path: &str| out.text(path).and_then(steel);
     let common = text("material.name");
     let of = |body: &str| text(&format!("material.{body}.name")).or(common);
     let [Some(sprag), Some(inner), Some(outer)] = BODIES.map(of) else {

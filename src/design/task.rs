@@ -147,7 +147,7 @@ fn check_variable(v: &VariableFile, path: &str, file: &DesignFile, out: &mut Fin
         out.refuse(&[&min_key, &max_key], "less than max".to_owned(), "give min < max".to_owned());
         return 0.0;
     }
-    let given = out.doc.number(&target);
+    let given = out.number(&target);
     if given.is_none() {
         out.refuse(
             &[&name_key],
@@ -171,7 +171,7 @@ fn check_links(
     let mut links = Vec::new();
     for (list, names) in [("moves", &v.moves), ("scales", &v.scales)] {
         for (k, name) in names.iter().enumerate() {
-            let number = |path: &str| out.doc.number(path);
+            let number = |path: &str| out.number(path);
             match link(task, v, list == "scales", name, given, arcs, &number) {
                 Ok(link) => links.push(link),
                 Err((allowed, help)) => {

@@ -92,8 +92,8 @@ where
     }
 
     /// An accepted step of at most `longest`, shortened to `rest`, in `room`; `None` where steps become too short.
-    /// Ahead lies, by a step of length h that has just been tried: how much of it is worth another trial where it has
-    /// failed, h where all of it is; and how much of it has a smooth right-hand side.
+    /// Two functions of the length h of a step that has just been tried: `useful`, how much of it is worth another trial
+    /// where it has failed (h: all of it), and `smooth`, how far the right-hand side is smooth.
     pub fn step<'a, R: RightHandSide<N>>(
         &mut self,
         room: &'a mut Room<N>,

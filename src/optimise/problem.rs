@@ -9,7 +9,7 @@ use super::grid::made;
 use super::smooth;
 use crate::clutch::Scenario;
 use crate::design::{
-    Blank, Design, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content, lean,
+    Design, DesignForm, EditError, LIMIT_KEYS, LimitKey, Limits, Link, Objective, Optimize, content,
     with_limits, with_values,
 };
 use crate::fidelity::{self, Effort};
@@ -73,7 +73,7 @@ impl Fidelity {
 pub struct ClutchProblem {
     source: String,
     /// What of it an evaluation reads, with gaps for the variables; `None`: that is not to be had.
-    lean: OnceLock<Option<Blank>>,
+    form: OnceLock<Option<DesignForm>>,
     folder: std::path::PathBuf,
     histories: String,
     variables: Vec<String>,
@@ -130,7 +130,7 @@ impl ClutchProblem {
     pub fn new(design: &Design, task: &Optimize, variables: Vec<String>, fidelity: Fidelity) -> Self {
         Self {
             source: design.source.clone(),
-            lean: OnceLock::new(),
+            form: OnceLock::new(),
             folder: design.folder.clone(),
             histories: design.histories(),
             variables,
@@ -163,7 +163,7 @@ impl ClutchProblem {
     /// The same problem with everything that `check` demands as a limit: the wanted slip margin even where slip is what is
     /// raised, the scenarios of `[check]`, the worst sprag off centre.
     pub fn as_checked(&self) -> Self {
-        Self { as_checked: true, lean: OnceLock::new(), ..self.clone() }
+        Self { as_checked: true, form: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem at a quarter of the work: quick curves and quick rolling runs, whose margins differ from those of
@@ -200,7 +200,7 @@ impl ClutchProblem {
 
     /// The same problem with the lengths that go with a variable in steps of `step`, in their unit.
     pub fn with_links_in_steps(&self, step: f64) -> Self {
-        let mut problem = Self { lean: OnceLock::new(), ..self.clone() };
+        let mut problem = Self { form: OnceLock::new(), ..self.clone() };
         for (_, link) in problem.links.iter_mut().filter(|(_, link)| made(&link.path)) {
             link.step = Some(step);
         }
@@ -209,17 +209,17 @@ impl ClutchProblem {
 
     /// The same problem on another design file.
     pub fn on(&self, source: String) -> Self {
-        Self { source, lean: OnceLock::new(), ..self.clone() }
+        Self { source, form: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem with one of its scenarios alone.
     pub fn for_scenario(&self, name: &str) -> Self {
-        Self { scenarios: vec![name.to_owned()], lean: OnceLock::new(), ..self.clone() }
+        Self { scenarios: vec![name.to_owned()], form: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem without its scenarios.
     pub fn at_rest(&self) -> Self {
-        Self { scenarios: Vec::new(), lean: OnceLock::new(), ..self.clone() }
+        Self { scenarios: Vec::new(), form: OnceLock::new(), ..self.clone() }
     }
 
     /// The same problem at another fidelity.
@@ -229,7 +229,7 @@ impl ClutchProblem {
 
     /// The same problem with other variables.
     pub fn over(&self, variables: Vec<String>) -> Self {
-        Self { variables, lean: OnceLock::new(), ..self.clone() }
+        Self { variables, form: OnceLock::new(), ..self.clone() }
     }
 
     /// Text of the design file.
@@ -399,18 +399,16 @@ impl ClutchProblem {
 
     /// The design at `x` without the scenarios that no margin is asked of; where that is refused, the whole one says why.
     fn asked_at(&self, x: &[f64]) -> Result<Design, NoEvaluation> {
-        let lean = self.lean.get_or_init(|| {
+        let form = self.form.get_or_init(|| {
             let asked = |name: &str| {
                 let among = |names: &[String]| names.iter().any(|n| n == name);
                 among(&self.scenarios) || self.as_checked && among(&self.checked)
             };
             let names: Vec<String> = self.values_at(x).iter().map(|(name, _)| (*name).to_owned()).collect();
-            Blank::new(&lean(&self.source, &asked).ok()?, &names)
+            DesignForm::of(&self.source, &self.folder, &names, &asked)
         });
         let values: Vec<f64> = self.values_at(x).iter().map(|(_, value)| *value).collect();
-        let text = lean.as_ref().and_then(|blank| blank.filled(&values));
-        let short = text.and_then(|text| self.parsed(&text).ok());
-        short.map_or_else(|| self.design_at(x), Ok)
+        form.as_ref().and_then(|form| form.at(&values)).map_or_else(|| self.design_at(x), Ok)
     }
 
     /// All required margins at `x`, at every corner.

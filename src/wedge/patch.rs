@@ -46,9 +46,10 @@ pub fn straddling_error(clutch: &Clutch) -> f64 {
     junctions.map(|(a, b)| step_peak_error(a, b).max(step_peak_error(b, a))).fold(0.0, f64::max)
 }
 
-/// By what part of tan omega the force at A is misplaced at most where its patch straddles a junction of `curve`: by its
-/// whole distance from the contact point for a law that keeps it there, by what is of second order in the step of curvature,
-/// a quarter of the step's part of it (plane contact, steps to 12 %), for one that does not. 0 for a single arc.
+/// Largest error of tan omega, relative, from the place of the force at A where its patch straddles a junction of `curve`; 0
+/// for a single arc. A law that keeps the force at the contact point misplaces it by its whole distance from there. A law
+/// that moves it leaves out what is of second order in the step of curvature: a quarter of that step's share of the
+/// distance (plane contact, steps to 12 %).
 pub fn shift_left_out(curve: &WedgeCurve) -> f64 {
     let statics = curve.statics();
     let at = |k: usize| {
