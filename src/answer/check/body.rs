@@ -81,6 +81,25 @@ pub struct Capacity {
     pub torque_capacity_nm: f64,
 }
 
+impl Capacity {
+    /// The lowest of the required rows that `counts`, of a curve that ends at `end_torque_nm`, N m.
+    fn lowest(rows: &[Margin], end_torque_nm: f64, counts: impl Fn(&Margin) -> bool) -> Option<Self> {
+        // A limit that the curve never reaches sets nothing; the end of the curve does.
+        let counts = |r: &Margin| counts(r) && !ends_first(r, end_torque_nm);
+        lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Self {
+            code: r.code(),
+            name: r.plain_name().to_owned(),
+            torque_capacity_nm,
+        })
+    }
+
+    /// Those of the limits that are held at nominal torque and at peak torque.
+    pub fn nominal_and_peak(rows: &[Margin], end_torque_nm: f64) -> [Option<Self>; 2] {
+        let nominal = |r: &Margin| r.limit.when == When::Nominal;
+        [Self::lowest(rows, end_torque_nm, nominal), Self::lowest(rows, end_torque_nm, |r| !nominal(r))]
+    }
+}
+
 /// A remark where the clutch carries so much more than it is asked to that the torques may be in another unit.
 pub fn far_more_than_asked(asked_nm: f64, carries_nm: f64) -> Option<String> {
     /// A choice: no reserve, but kNm taken for Nm.
@@ -153,16 +172,7 @@ impl CheckBody {
     pub(super) fn new(rows: &[Margin], source: Source) -> Self {
         let rpm = |rad_s| Unit::Rpm.from_si(rad_s);
         let required = || rows.iter().filter(|r| r.required);
-        let lowest = |counts: &dyn Fn(&Margin) -> bool| {
-            // A limit that the curve never reaches sets nothing; the end of the curve does.
-            let counts = |r: &Margin| counts(r) && !ends_first(r, source.end_torque_nm);
-            lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Capacity {
-                code: r.code(),
-                name: r.plain_name().to_owned(),
-                torque_capacity_nm,
-            })
-        };
-        let nominal = |r: &Margin| r.limit.when == When::Nominal;
+        let [nominal, peak] = Capacity::nominal_and_peak(rows, source.end_torque_nm);
         Self {
             margins: rows.iter().map(|r| CheckRow::of(r, source.end_torque_nm)).collect(),
             pass: required().all(Margin::held),
@@ -172,9 +182,9 @@ impl CheckBody {
                 margin: r.margin(),
                 words: margin_words(r),
             }),
-            lowest_torque_capacity: lowest(&|_| true),
-            nominal_torque_capacity: lowest(&nominal),
-            peak_torque_capacity: lowest(&|r| !nominal(r)),
+            lowest_torque_capacity: Capacity::lowest(rows, source.end_torque_nm, |_| true),
+            nominal_torque_capacity: nominal,
+            peak_torque_capacity: peak,
             end: CurveEnd { reason: source.end.name(), torque_nm: source.end_torque_nm, beyond: None },
             asked_nm: source.asked_nm,
             materials: source.materials,
