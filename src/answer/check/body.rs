@@ -18,6 +18,8 @@ pub const OVERLOADED: &str = "overloaded";
 const NOT_REACHED: &str = "not reached";
 /// What stands for the demand of a run that met its limit of work.
 pub(super) const NOT_COMPUTED: &str = "not computed";
+/// What stands for the demand of a force that works the other way.
+const PRESSED_ON: &str = "none, pressed on";
 /// What stands for the margin where nothing is demanded.
 const NO_DEMAND: &str = "no demand";
 
@@ -376,6 +378,8 @@ fn is_what_is_left(r: &Margin) -> bool {
 pub fn demand_cell(r: &Margin) -> Cell {
     match r.demand {
         _ if is_what_is_left(r) => r.shown_allowable().into(),
+        // What would lift the sprags off presses them on.
+        Demand::Value(demand) if r.limit.rule == Rule::Share && demand < 0.0 => PRESSED_ON.into(),
         Demand::Value(_) | Demand::MoreThan(_) => r.demand_in_unit().into(),
         // Friction has no demand at all then, a torque one at the end of the curve.
         Demand::Overloaded { at_end: Some(_), .. } => NOT_REACHED.into(),
@@ -394,9 +398,14 @@ pub fn allowable_cell(r: &Margin) -> Cell {
     }
 }
 
-/// The unit of demand and allowable as people read it.
+/// The unit of demand and allowable as people read it; of slip that of the demand, the wanted margin has its own.
 pub fn unit_cell(r: &Margin) -> Cell {
-    if r.limit.unit == "1" { "".into() } else { r.limit.unit.into() }
+    match r.limit.unit {
+        "1" if r.is_slip() || r.limit.is_grip() => "μ".into(),
+        "1" if r.is_contact() => "N/N₀".into(),
+        "1" => "".into(),
+        unit => unit.into(),
+    }
 }
 
 /// What stands in place of a margin that is no number: no friction suffices, which the demand says, its scene lies beyond the end of the curve, or a run
