@@ -45,7 +45,7 @@ pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
 pub use draft::{BOX, Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
     Blank, EditError, content, lean, other_variables, value_at, with_flanks, with_keys, with_limits,
-    with_sprag, with_values,
+    with_spiral, with_sprag, with_values,
 };
 pub use history::is_history;
 pub use inputs::{Input, inputs, unit_of_path};

@@ -50,6 +50,19 @@ impl OverrunAnswer<'_> {
         self.named_rad_s.iter().any(|named| (l.speed_rad_s - named).abs() <= 1e-9 * named)
     }
 
+    /// Whether a steady overrun or a limit of the design has the line's speed, or somebody asked for it.
+    fn is_steady(&self, l: &OverrunLine) -> bool {
+        let near = |speed: f64| (l.speed_rad_s - speed.abs()).abs() <= 1e-9 * l.speed_rad_s;
+        let scenes = self.design.scenarios.iter().filter(|s| s.kind.is_overrun());
+        let limits = [self.design.limits.keep_contact_to_rad_s, self.design.limits.lift_off_by_rad_s];
+        let outer = self.question.race == RunningRace::Outer;
+        self.asked
+            || scenes
+                .filter_map(|s| s.kind.overrun_rad_s())
+                .any(|[ahead, outer_speed]| near(if outer { outer_speed } else { ahead }))
+            || outer && limits.into_iter().flatten().any(near)
+    }
+
     /// Where and how fast a swing grows most, at the speeds that are named, of none at all.
     pub(super) fn swings(&self) -> Option<(&OverrunLine, f64)> {
         self.fastest(true)
@@ -63,11 +76,18 @@ impl OverrunAnswer<'_> {
     /// The answer in a line: film, swing, drag and heat where the clutch overruns.
     pub(super) fn headline(&self) -> String {
         let race = self.question.race.name();
-        let named = || self.lines.iter().filter(|l| self.is_named(l));
+        // A scene that only begins in overrun counts where none stays in it.
+        let stays = self.lines.iter().any(|l| self.is_named(l) && self.is_steady(l));
+        let named = || self.lines.iter().filter(|l| self.is_named(l) && (self.is_steady(l) || !stays));
         // Of several the one whose swing grows most, then the one with the thinnest film.
         let lambda = |l: &OverrunLine| l.point.lubricated.map_or(f64::INFINITY, |f| f.film.lambda);
         let thinnest = || named().min_by(|a, b| lambda(a).total_cmp(&lambda(b)));
-        let chosen = self.swings().map(|s| s.0).filter(|l| self.is_named(l)).or_else(thinnest);
+        let swinging = || {
+            named()
+                .filter(|l| growth(l).is_some())
+                .max_by(|a, b| growth(a).partial_cmp(&growth(b)).unwrap_or(std::cmp::Ordering::Equal))
+        };
+        let chosen = swinging().or_else(thinnest);
         let Some(line) = chosen else { return self.over_all() };
         let others = match named().count() {
             1 => String::new(),
