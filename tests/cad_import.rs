@@ -6,7 +6,10 @@ mod program;
 use nalgebra::Vector2;
 use program::{Folder, json, run, stdout};
 use sprag_design::export::{DrawnClutch, Part, dxf::dxf};
-use sprag_design::import::{FittedSprag, NoImport, Wanted, read_dxf, read_points, sprag};
+use sprag_design::import::{
+    DrawnUnit, FittedSprag, NoImport, SpiralKind, Wanted, read_dxf, read_points, sprag,
+};
+use sprag_design::profile::Segment;
 use sprag_design::{Design, Outline};
 use std::fmt::Write;
 
@@ -79,7 +82,7 @@ fn polyline(points: &[Point]) -> String {
 fn measured(outline: &Outline, each: usize) -> Vec<Point> {
     let mut points = Vec::new();
     for s in outline.segments() {
-        if let sprag_design::profile::Segment::Arc { centre_m, radius_m, from_azimuth_rad, sweep_rad } = *s {
+        if let Segment::Arc { centre_m, radius_m, from_azimuth_rad, sweep_rad } = *s {
             for i in 0..=each {
                 let azimuth = from_azimuth_rad + sweep_rad * i as f64 / each as f64;
                 points.push(centre_m + radius_m * Point::new(azimuth.sin(), azimuth.cos()));
@@ -93,7 +96,7 @@ fn measured(outline: &Outline, each: usize) -> Vec<Point> {
 fn a_drawing_comes_back_as_the_sprag_that_was_drawn() {
     for name in ["starter", "huang2017-single-arc"] {
         let design = Design::read(format!("designs/{name}.toml").as_ref()).unwrap();
-        let drawn = read_dxf(&drawing(&design), None).unwrap();
+        let drawn = read_dxf(&drawing(&design), None, None).unwrap();
         assert!(drawn.remarks.is_empty());
         let got = sprag(&drawn, &wanted(&design)).unwrap();
         assert!(!got.mirrored && got.behind == 0 && got.inner.max_m < 1e-10, "{got:?}");
@@ -112,11 +115,11 @@ fn gentle_corners_are_found() {
     let (before, rest) = text.split_once("[sprags]").unwrap();
     let (_, behind) = rest.split_once("[spring]").unwrap();
     let design = Design::parse(&format!("{before}{SPRAG}[spring]{behind}"), "new.toml").unwrap();
-    let got = sprag(&read_dxf(&drawing(&design), None).unwrap(), &wanted(&design)).unwrap();
+    let got = sprag(&read_dxf(&drawing(&design), None, None).unwrap(), &wanted(&design)).unwrap();
     same(&got, &design, 1.0, 2e-8);
     // Measured with steps of some 4 um.
     let points = measured(&outline(&design), 1500);
-    let got = sprag(&read_points(&table(&points)).unwrap(), &wanted(&design)).unwrap();
+    let got = sprag(&read_points(&table(&points), None).unwrap(), &wanted(&design)).unwrap();
     same(&got, &design, 1.0, 2e-8);
 }
 
@@ -142,7 +145,9 @@ fn where_it_lies_how_large_and_which_side_up_changes_nothing() {
         }
         let own = wanted(&design);
         let own = Wanted { tracks_m: own.tracks_m.map(|r| scale * r), ..own };
-        for drawn in [read_points(&table(&all)).unwrap(), read_dxf(&polyline(&all), None).unwrap()] {
+        for drawn in
+            [read_points(&table(&all), None).unwrap(), read_dxf(&polyline(&all), None, None).unwrap()]
+        {
             let got = sprag(&drawn, &own).unwrap();
             assert_eq!(got.mirrored, over);
             same(&got, &design, scale, 2e-8 * scale.max(1.0));
@@ -165,7 +170,7 @@ fn five_micrometres_of_noise_leave_the_radii_within_two() {
             5e-6 * (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
         };
         let noisy: Vec<Point> = exact.iter().map(|p| p + Point::new(gauss(), gauss())).collect();
-        let drawn = read_dxf(&polyline(&noisy), None).unwrap();
+        let drawn = read_dxf(&polyline(&noisy), None, None).unwrap();
         let got = sprag(&drawn, &wanted(&design)).unwrap();
         assert_eq!(got.inner_arcs.len(), 1);
         for (side, radius_m, span) in
@@ -205,7 +210,7 @@ fn a_logarithmic_spiral_is_followed_by_arcs() {
         let angle = out.y.atan2(out.x) + std::f64::consts::FRAC_PI_2;
         *p = centre + out * (0.015 * angle).exp();
     }
-    let drawn = read_points(&table(&points)).unwrap();
+    let drawn = read_points(&table(&points), None).unwrap();
     let mut last = f64::INFINITY;
     for deviation_m in [2e-6, 0.2e-6] {
         let got = sprag(&drawn, &Wanted { deviation_m: Some(deviation_m), ..wanted(&design) }).unwrap();
@@ -232,8 +237,8 @@ fn fails(drawn: Result<sprag_design::import::Drawn, NoImport>, design: &Design) 
 fn what_is_no_outline_is_refused_with_its_line() {
     let design = Design::read(TEMPLATE.as_ref()).unwrap();
     let good = drawing(&design);
-    let dxf = |text: &str| fails(read_dxf(text, None), &design);
-    let csv = |text: &str| fails(read_points(text), &design);
+    let dxf = |text: &str| fails(read_dxf(text, None, None), &design);
+    let csv = |text: &str| fails(read_points(text, None), &design);
     let says = |why: NoImport, line: Option<usize>, word: &str| {
         assert!(why.to_string().contains(word), "{why}");
         assert_eq!(why.line, line, "{why}");
@@ -284,10 +289,10 @@ fn what_is_no_outline_is_refused_with_its_line() {
     says(csv(&table(&ring)), None, "0 corners");
     // Races that it does not span.
     let other = Wanted { tracks_m: [20e-3, 40e-3], ..wanted(&design) };
-    let why = sprag(&read_dxf(&good, None).unwrap(), &other).unwrap_err();
+    let why = sprag(&read_dxf(&good, None, None).unwrap(), &other).unwrap_err();
     assert!(why.found.contains("mm high") && why.help.contains("--template"), "{why}");
     // A layer that is not there.
-    assert!(read_dxf(&good, Some("NOWHERE")).unwrap_err().found.contains("NOWHERE"));
+    assert!(read_dxf(&good, Some("NOWHERE"), None).unwrap_err().found.contains("NOWHERE"));
 }
 
 #[test]
@@ -295,12 +300,12 @@ fn inches_are_converted_and_arcs_that_are_not_tangent_refused() {
     let design = Design::read("designs/huang2017-single-arc.toml".as_ref()).unwrap();
     let points: Vec<Point> = measured(&outline(&design), 400).iter().map(|p| p / 25.4).collect();
     let text = polyline(&points).replace("$INSUNITS\n 70\n4", "$INSUNITS\n 70\n1");
-    let drawn = read_dxf(&text, None).unwrap();
+    let drawn = read_dxf(&text, None, None).unwrap();
     assert!(drawn.remarks.iter().any(|s| s.contains("inches")));
     same(&sprag(&drawn, &wanted(&design)).unwrap(), &design, 1.0, 2e-8);
-    let unsaid = read_dxf(&text.replace("$INSUNITS", "$OTHER"), None).unwrap();
+    let unsaid = read_dxf(&text.replace("$INSUNITS", "$OTHER"), None, None).unwrap();
     assert!(unsaid.remarks.iter().any(|s| s.contains("taken for millimetres")));
-    let inch = read_points(&table(&points).replace("x_mm,y_mm", "x_in,y_in")).unwrap();
+    let inch = read_points(&table(&points).replace("x_mm,y_mm", "x_in,y_in"), None).unwrap();
     same(&sprag(&inch, &wanted(&design)).unwrap(), &design, 1.0, 2e-8);
 
     // The junction of two inner arcs, moved by 0.1 mm along one of them: an edge.
@@ -313,7 +318,7 @@ fn inches_are_converted_and_arcs_that_are_not_tangent_refused() {
     let mut bent = lines.clone();
     let more = format!("{}", 1.3 * lines[first].parse::<f64>().unwrap());
     bent[first] = &more;
-    let why = fails(read_dxf(&bent.join("\n"), None), &multi);
+    let why = fails(read_dxf(&bent.join("\n"), None, None), &multi);
     assert!(why.line.is_some() && why.found.contains("tangents"), "{why}");
 }
 
@@ -347,4 +352,151 @@ fn the_command_writes_a_design_that_is_checked() {
         let text = String::from_utf8(output.stderr).unwrap();
         assert!(text.contains(word), "{text}");
     }
+}
+
+/// Points in order with the same noise for every one of them, seeded.
+fn noisy(points: &[Point], sigma_m: f64) -> Vec<Point> {
+    let mut rng = fastrand::Rng::with_seed(5);
+    let mut normal = || {
+        let (u, v) = (rng.f64().max(1e-300), rng.f64());
+        (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+    };
+    points.iter().map(|p| p + sigma_m * Point::new(normal(), normal())).collect()
+}
+
+#[test]
+fn a_spiral_comes_back_from_its_drawing() {
+    let design = Design::read("designs/spiral.toml".as_ref()).unwrap();
+    let given = design.clutch.sprags.spiral.unwrap();
+    let strut = given.rise.atan();
+    let got = sprag(&read_dxf(&drawing(&design), None, None).unwrap(), &wanted(&design)).unwrap();
+    let [constant, logarithmic] = got.spirals[..] else { panic!("{:?}", got.spirals) };
+    assert_eq!((constant.kind, logarithmic.kind), (SpiralKind::ConstantStrutAngle, SpiralKind::Logarithmic));
+    println!("{constant:?}\n{logarithmic:?}");
+    // What its arcs leave is 6e-5 um.
+    assert!((constant.strut_rad - strut).abs() < 2e-6, "{} {strut}", constant.strut_rad);
+    assert!((constant.start_radius_m - given.start_radius_m).abs() < 2e-8);
+    assert!(constant.max_m < 2e-8 && constant.max_m < 0.1 * logarithmic.max_m.max(got.inner.max_m));
+    // Beyond its end the drawing goes on with the last arc: known to a step of the ends that are tried.
+    assert!((constant.until_rad - given.until_rad).abs() < 0.025, "{}", constant.until_rad);
+    let flanks = design.clutch.sprags.flanks.unwrap();
+    assert!((constant.flanks.rear_m - flanks.rear_m).abs() < 5e-8, "{:?}", constant.flanks);
+    assert!((constant.flanks.front_m - flanks.front_m).abs() < 5e-8);
+
+    // Measured with 5 um of noise.
+    let points = noisy(&measured(&outline(&design), 400), 5e-6);
+    let got = sprag(&read_points(&table(&points), None).unwrap(), &wanted(&design)).unwrap();
+    println!("{:?}", got.spirals);
+    let constant = got.spirals[0];
+    assert!((constant.strut_rad - strut).to_degrees().abs() < 0.03, "{} {strut}", constant.strut_rad);
+    assert!((constant.start_radius_m - given.start_radius_m).abs() < 5e-6);
+    assert!((4e-6..6e-6).contains(&constant.rms_m), "{}", constant.rms_m);
+}
+
+#[test]
+fn a_logarithmic_spiral_comes_back_too() {
+    let text = std::fs::read_to_string("designs/spiral.toml").unwrap();
+    let line = "inner_spiral = { strut_angle_deg = 4.887, until_rad = 0.40 }";
+    let other = "inner_spiral = { curve = \"logarithmic\", strut_angle_deg = 4.5, start_radius_mm = 3.9, rise = 0.3, until_rad = 0.40, steps = 60 }";
+    let text = text.replace(line, other);
+    let design = Design::parse(&text, "log.toml").unwrap();
+    let got = sprag(&read_dxf(&drawing(&design), None, None).unwrap(), &wanted(&design)).unwrap();
+    println!("{:?}", got.spirals);
+    let found = got.spirals.iter().find(|s| s.kind == SpiralKind::Logarithmic).unwrap();
+    assert!((found.strut_rad.to_degrees() - 4.5).abs() < 1e-3, "{}", found.strut_rad.to_degrees());
+    assert!((found.start_radius_m - 3.9e-3).abs() < 1e-6 && (found.rise - 0.3).abs() < 1e-3, "{found:?}");
+    assert!((found.until_rad - 0.4).abs() < 0.025 && found.max_m < 2e-8, "{found:?}");
+}
+
+#[test]
+fn a_spiral_is_written_on_request_and_checks_as_the_one_drawn() {
+    let folder = Folder::new();
+    let dxf = folder.path("spiral.dxf");
+    let new = folder.path("new.toml");
+    stdout(&run(&["export", "designs/spiral.toml", "--format", "dxf", "-o", &dxf]));
+    let args =
+        ["import", &dxf, "--template", "designs/spiral.toml", "--spiral", "constant-strut-angle", "-o", &new];
+    let text = stdout(&run(&args));
+    assert!(text.contains("constant-strut-angle") && text.contains("logarithmic"), "{text}");
+    let [a, b] = ["designs/spiral.toml", &new].map(|f| Design::read(f.as_ref()).unwrap());
+    let [s, t] = [&a, &b].map(|d| d.clutch.sprags.spiral.unwrap());
+    assert!(
+        (s.rise - t.rise).abs() < 2e-6 && (s.start_radius_m - t.start_radius_m).abs() < 2e-8,
+        "{s:?} {t:?}"
+    );
+    let windup = |d: &Design| d.clutch.curve().unwrap().at_torque(45.0).unwrap().windup_rad;
+    assert!((windup(&a) / windup(&b) - 1.0).abs() < 1e-4, "{} {}", windup(&a), windup(&b));
+    let both = run(&["import", &dxf, "--spiral", "logarithmic", "--arcs", "2"]);
+    assert_eq!(both.status.code(), Some(2));
+}
+
+#[test]
+fn the_own_table_of_arcs_is_read_again() {
+    let folder = Folder::new();
+    let csv = folder.path("arcs.csv");
+    stdout(&run(&["export", TEMPLATE, "--format", "csv", "-o", &csv]));
+    let design = Design::read(TEMPLATE.as_ref()).unwrap();
+    let text = std::fs::read_to_string(&csv).unwrap();
+    let got = sprag(&read_points(&text, None).unwrap(), &wanted(&design)).unwrap();
+    same(&got, &design, 1.0, 2e-8);
+    let race = text.replace("sprag,", "inner race,");
+    assert!(read_points(&race, None).unwrap_err().found.contains("body sprag"));
+    let odd = text.replacen(",line,", ",spline,", 1);
+    assert!(read_points(&odd, None).unwrap_err().found.contains("spline"));
+}
+
+#[test]
+fn a_drawing_seen_from_below_is_mirrored_and_a_unit_can_be_said() {
+    let design = Design::read(TEMPLATE.as_ref()).unwrap();
+    let points = measured(&outline(&design), 400);
+    let over: Vec<Point> = points.iter().map(|p| Point::new(-p.x, p.y)).collect();
+    // The polyline of the mirrored points, which lies mirrored itself.
+    let below = polyline(&over).replace("POLYLINE\n  8\n0\n", "POLYLINE\n  8\n0\n210\n0\n220\n0\n230\n-1\n");
+    let got = sprag(&read_dxf(&below, None, None).unwrap(), &wanted(&design)).unwrap();
+    assert!(!got.mirrored);
+    same(&got, &design, 1.0, 2e-8);
+    let tilted =
+        polyline(&points).replace("POLYLINE\n  8\n0\n", "POLYLINE\n  8\n0\n210\n0.6\n220\n0\n230\n0.8\n");
+    assert!(read_dxf(&tilted, None, None).unwrap_err().found.contains("POLYLINE that does not lie"));
+    // True arcs seen from below; lines lie in the world.
+    let mut entities = String::new();
+    for segment in outline(&design).segments() {
+        let _ = match *segment {
+            Segment::Arc { centre_m: c, radius_m, from_azimuth_rad, sweep_rad } => {
+                // Azimuths run clockwise from +y; the drawing's angles seen from below do so from -x.
+                let ends = [from_azimuth_rad, from_azimuth_rad + sweep_rad].map(|a| 90.0 + a.to_degrees());
+                let (from, to) = if sweep_rad > 0.0 { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
+                write!(
+                    entities,
+                    "  0\nARC\n  8\n0\n 10\n{}\n 20\n{}\n 40\n{}\n 50\n{from}\n 51\n{to}\n230\n-1\n",
+                    -1e3 * c.x,
+                    1e3 * c.y,
+                    1e3 * radius_m
+                )
+            }
+            Segment::Line { from_m: a, to_m: b } => write!(
+                entities,
+                "  0\nLINE\n  8\n0\n 10\n{}\n 20\n{}\n 11\n{}\n 21\n{}\n",
+                1e3 * a.x,
+                1e3 * a.y,
+                1e3 * b.x,
+                1e3 * b.y
+            ),
+        };
+    }
+    let head =
+        "  0\nSECTION\n  2\nHEADER\n  9\n$INSUNITS\n 70\n4\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n";
+    let below = format!("{head}{entities}  0\nENDSEC\n  0\nEOF\n");
+    let got = sprag(&read_dxf(&below, None, None).unwrap(), &wanted(&design)).unwrap();
+    same(&got, &design, 1.0, 2e-8);
+
+    let inches: Vec<Point> = points.iter().map(|p| p / 25.4).collect();
+    let bare = polyline(&inches).replace("$INSUNITS\n 70\n4", "$INSUNITS\n 70\n0");
+    let said = read_dxf(&bare, None, None).unwrap().remarks;
+    assert!(
+        said.iter().any(|s| s.contains("taken for millimetres") && s.contains("--unit inch")),
+        "{said:?}"
+    );
+    let got = sprag(&read_dxf(&bare, None, Some(DrawnUnit::Inch)).unwrap(), &wanted(&design)).unwrap();
+    same(&got, &design, 1.0, 2e-8);
 }

@@ -237,6 +237,47 @@ impl FeedAnswer<'_> {
         }
     }
 
+    /// Which number to change, and towards where, after strokes that do not feed.
+    fn next_step(&self) -> Option<String> {
+        let case = &self.case;
+        let fed = self.list.iter().find(|fed| !self.feeds(fed))?;
+        let hz = Unit::Hertz.show(fed.frequency_hz, 3);
+        let ratio = (fed.frequency_hz / case.runs_on_from_hz()).powi(2);
+        let fewer = match self.limit_hz {
+            Some(limit) => format!("up to {} (--frequency)", Unit::Hertz.show(limit, 3)),
+            None => format!("fewer than {hz} (--frequency)"),
+        };
+        Some(match self.word(fed) {
+            "NOT HELD" if ratio > 1.0 => format!(
+                "Next: that the fed race does not run on at {hz}, a brake of {} or more (--brake, now {}), or {} kg m² or less (--inertia, \
+                 now {}); or strokes {fewer}",
+                Unit::NewtonMetre.show(case.brake_nm * ratio, 3),
+                significant(case.brake_nm, 3),
+                significant(case.inertia_kg_m2 / ratio, 3),
+                significant(case.inertia_kg_m2, 3)
+            ),
+            "NOT HELD" => format!(
+                "Next: strokes {fewer}, or a difference of {} allowed (--allowed)",
+                Unit::Degree.show(self.off_rad(fed).abs(), 2)
+            ),
+            "THROWN OUT" => format!(
+                "Next: strokes {fewer}, or a spring that presses more: spring.drag_torque_nm or spring.stiffness_nm_per_rad up"
+            ),
+            "OVERLOADED" => {
+                let bears = self.bears.as_ref().map_or(String::new(), |(nm, code)| {
+                    format!(" than the {} that {code} allows", Unit::NewtonMetre.show(*nm, 4))
+                });
+                format!(
+                    "Next: strokes {fewer}, less to be moved (--inertia, now {} kg m²; --brake, now {}), or a clutch for more{bears} (`size \
+                     --peak`)",
+                    significant(case.inertia_kg_m2, 3),
+                    Unit::NewtonMetre.show(case.brake_nm, 4)
+                )
+            }
+            _ => return None,
+        })
+    }
+
     /// Each frequency.
     pub fn frequencies(&self) -> Rows<&Fed> {
         Rows::of(&self.list)
@@ -343,7 +384,8 @@ impl Said for FeedAnswer<'_> {
                 "by the file (races.{race}_inertia_kg_m2, which new writes as a guess; absent: the ring alone; --inertia says another)"
             ),
         };
-        vec![
+        let next = self.next_step();
+        let about = vec![
             format!(
                 "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m² {whose}, stands under a brake of {}",
                 Unit::Degree.show(case.stroke_rad, 4),
@@ -359,7 +401,8 @@ impl Said for FeedAnswer<'_> {
             "Feed − stroke: what is fed beyond the stroke; against slow ones: beyond what slow strokes feed (negative: less); runs on: turn of the fed race after the driving one has turned back; unlike: last stroke against the one before; torque: largest, by \
              the normal force; open: time of a stroke without contact at the inner race"
                 .to_owned(),
-        ]
+        ];
+        next.into_iter().chain(about).collect()
     }
 
     fn table(&self) -> Table {

@@ -3,7 +3,7 @@
 use super::left_out::LeftOut;
 use super::{Envelope, VERSION, WRITTEN_BY};
 use crate::design::{Design, shown};
-use crate::import::{Arc, Arcs, Drawn, FittedSprag, STANDARD_ERROR};
+use crate::import::{Arc, Arcs, Drawn, FittedSpiral, FittedSprag, STANDARD_ERROR};
 use crate::report::{Rows, Screen, Table, Unit};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -24,20 +24,26 @@ pub struct Imported<'a> {
     pub no_template: bool,
     /// Deviation asked for, m.
     pub deviation_m: Option<f64>,
+    /// The spiral that stands in the new design in place of the arcs.
+    pub written: Option<FittedSpiral>,
 }
 
 impl Imported<'_> {
     /// First lines of the new design file; `file`: what was read, `command`: who asked.
     pub fn head(&self, file: &str, command: &str) -> String {
         let (found, on) = (self.found, self.template);
+        let (max_m, rms_m, what) = match &self.written {
+            Some(s) => (s.max_m, s.rms_m, s.kind.name()),
+            None => (found.inner.max_m, found.inner.rms_m, "inner arcs"),
+        };
         format!(
-            "{WRITTEN_BY} import {VERSION} from {:?} on the template {on:?}\n# by: {}\n# Farthest point {:.2} um from the inner \
-         arcs, {:.2} um from the outer arc; rms {:.2} and {:.2} um. Races, spring, limits are the template's.\n#\n",
+            "{WRITTEN_BY} import {VERSION} from {:?} on the template {on:?}\n# by: {}\n# Farthest point {:.2} um from the {what}, {:.2} um \
+             from the outer arc; rms {:.2} and {:.2} um. Races, spring, limits are the template's.\n#\n",
             file,
             command,
-            1e6 * felt(found.inner.max_m),
+            1e6 * felt(max_m),
             1e6 * felt(found.outer.max_m),
-            1e6 * felt(found.inner.rms_m),
+            1e6 * felt(rms_m),
             1e6 * felt(found.outer.rms_m),
         )
     }
@@ -61,10 +67,14 @@ impl Imported<'_> {
             lines
                 .push(format!("inner arcs that lie behind first contact and are left out: {}", found.behind));
         }
-        lines.push(format!(
+        let arcs = self.written.is_none();
+        lines.extend(self.written.map(|s| {
+            format!("written as the {} spiral, up to {:.4} rad of turn", s.kind.name(), s.until_rad)
+        }));
+        lines.extend(arcs.then(|| format!(
         "end of the profile, {:.4} rad: chosen, 2 % before the flanks cut it; set until_rad of the last arc to what is ground",
         found.inner_arcs.last().map_or(0.0, |a| a.1)
-    ));
+    )));
         let off = found.inner.max_m;
         if let Some(asked) = self.deviation_m.filter(|asked| off > *asked) {
             lines.push(format!(
@@ -125,6 +135,8 @@ impl Imported<'_> {
                 "said": self.remarks(),
                 "inner": side(&found.inner, arcs(Some(&found.inner), None)),
                 "outer": side(&found.outer, arcs(None, Some(&found.outer))),
+                "spirals": spirals(found).objects(),
+                "written_spiral": self.written.map(|s| s.kind.name()),
                 "sprags": {
                     "outer_radius_mm": 1e3 * found.outer_radius_m,
                     "centre_distance_mm": 1e3 * found.centre_distance_m,
@@ -143,6 +155,13 @@ impl Imported<'_> {
     pub fn text(&self, written: Option<&str>, screen: Screen) -> String {
         let on = self.template;
         let mut people = format!("{}\n", self.csv_table().to_text(screen));
+        if !self.found.spirals.is_empty() {
+            let _ = writeln!(
+                people,
+                "Spirals through the inner side from first contact on, as far as its points lie on them (--spiral writes one)\n{}",
+                spirals(self.found).table().to_text(screen)
+            );
+        }
         for line in self.remarks() {
             let _ = writeln!(people, "{line}");
         }
@@ -187,6 +206,19 @@ fn arcs<'a>(inner: Option<&'a Arcs>, outer: Option<&'a Arcs>) -> Rows<(String, &
         .json("centre_mm", |(_, _, arc)| {
             [arc.centre_m.x, arc.centre_m.y].map(|m| Unit::Millimetre.from_si(m))
         })
+}
+
+/// The spirals in a line each.
+fn spirals(found: &FittedSprag) -> Rows<&FittedSpiral> {
+    Rows::of(&found.spirals)
+        .text("curve", "Curve", |s| s.kind.name())
+        .number("strut_angle_deg", "Strut angle", Unit::Degree, 5, |s| s.strut_rad)
+        .number("start_radius_mm", "Radius at first contact", Unit::Millimetre, 6, |s| s.start_radius_m)
+        .number("rise", "Rise", Unit::One, 4, |s| s.rise)
+        .number("until_rad", "Until", Unit::Radian, 4, |s| s.until_rad)
+        .number("points", "Points", Unit::One, 6, |s| s.points)
+        .number("max_um", "Farthest", Unit::Micrometre, 4, |s| felt(s.max_m))
+        .number("rms_um", "rms", Unit::Micrometre, 4, |s| felt(s.rms_m))
 }
 
 /// A side of the sprag: its arcs, and how far the points lie from them.

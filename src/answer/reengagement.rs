@@ -69,6 +69,11 @@ const HALVINGS: usize = 10;
 /// Share of the friction needed that is the largest tried: nearer to it a slip begins too slowly to be followed.
 const NEAREST: f64 = 0.999;
 
+/// Columns for people: the blow; and the way to it.
+const BLOW: &[&str] =
+    &["path_mm", "peak_torque_nm", "verdict", "times", "peak_by_energy_nm", "energy_j", "of_borne"];
+const WAY: &[&str] = &["path_mm", "hertz_inner_mpa", "speed_rpm", "slip_ms", "peak_ms", "path_in_all_mm"];
+
 /// A slip and its blows.
 #[derive(Debug, Clone)]
 pub struct ReengagementAnswer<'a> {
@@ -362,6 +367,27 @@ impl ReengagementAnswer<'_> {
         significant(friction, 3) + &share.unwrap_or_default()
     }
 
+    /// Which number to change, and towards where, after a blow that is not borne.
+    fn next_step(&self) -> Option<String> {
+        if self.is_held() || self.found.holds.is_some() {
+            return None;
+        }
+        let needs = Some(self.found.needs).filter(|mu| mu.is_finite())?;
+        let lost = self.found.list.iter().find(|b| !self.bears_it(b));
+        let energy = lost.and_then(|b| Some((b, self.energy(b)?.1.filter(|share| *share > 1.0)?)));
+        let blow = energy.map_or(String::new(), |(b, share)| {
+            format!(
+                "; to bear {} of slip its windup must take up {} times as much: less torque (--torque), or a clutch for more (`size --peak`)",
+                Unit::Millimetre.show(b.path_m, 3),
+                significant(share, 3)
+            )
+        });
+        Some(format!(
+            "Next: keep it from slipping at all, with sprags that need less friction than {} (`optimize --objective slip-margin`){blow}",
+            significant(needs, 3)
+        ))
+    }
+
     fn borne_words(&self, borne: &BorneSlip) -> String {
         let path = |m: f64| Unit::Millimetre.show(m, 3);
         let friction = significant(self.case.friction, 3);
@@ -472,6 +498,7 @@ impl Said for ReengagementAnswer<'_> {
             ));
         }
         all.extend(self.borne.map(|b| self.borne_words(&b)));
+        all.extend(self.next_step());
         if !outer_turns(self.design) {
             all.push(format!(
                 "The design names no speed of the outer race: here it is {}; --outer-held and --outer-free say which",
@@ -500,7 +527,10 @@ impl Said for ReengagementAnswer<'_> {
     }
 
     fn tables(&self, screen: Screen) -> String {
-        if self.found.list.is_empty() { String::new() } else { self.table().to_text(screen) }
+        if self.found.list.is_empty() {
+            return String::new();
+        }
+        [BLOW, WAY].map(|keys| self.table().only(keys).to_text(screen)).join("\n")
     }
 
     fn body(&self) -> Value {
@@ -559,16 +589,27 @@ impl Said for ReengagementAnswer<'_> {
         let mut plot = Plot::new("Slip until the friction is back, mm", "Torque, Nm");
         plot.log_x = true;
         let blow = points(&|b| Some(b.peak?.torque_nm));
-        if !blow.is_empty() {
+        let blow_is_empty = blow.is_empty();
+        if !blow_is_empty {
             plot.curves.push(Curve::new("blow", blow));
         }
-        plot.curves.push(Curve::new("by energy, nothing lost", points(&|b| b.by_energy_nm)));
+        let by_energy = points(&|b| b.by_energy_nm);
+        let is_empty = blow_is_empty && by_energy.is_empty();
+        if !by_energy.is_empty() {
+            plot.curves.push(Curve::new("by energy, nothing lost", by_energy));
+        }
         if let Some((most_nm, code)) = &self.bears {
             plot.curves.push(Curve::new(&format!("allowed by {code}"), points(&|_| Some(*most_nm))));
         }
         if !self.found.list.is_empty() {
-            page.figure(&plot.to_figure(), "Largest torque when the clutch grips again.");
-            page.table("Each path of slip.", &self.table());
+            match is_empty {
+                true => page.paragraph(
+                    "No curve of the blow over slip: every one of them goes beyond what the clutch carries.",
+                ),
+                false => page.figure(&plot.to_figure(), "Largest torque when the clutch grips again."),
+            };
+            page.table("The blow after each path of slip.", &self.table().only(BLOW));
+            page.table("The way to it.", &self.table().only(WAY));
         }
     }
 }

@@ -109,8 +109,8 @@ fn tension(clutch: &Clutch, curve: &WedgeCurve, point: &StaticPoint) -> LeftOut 
         let patch = TrackPatch { count, normal_n, tan, half_width_m, peak_pa, friction: mu };
         let most = track_tension(race, &patch, |t| t.standing_pa.max(t.rolling_pa));
         format!(
-            "{track} track +{} (no rolling) to +{} (steady rolling), with the ring's own {} at most, {} behind a patch's middle ({} \
-             between patches)",
+            "{track} track: traction alone {} (no rolling) to {} (steady rolling); ring and traction together {} or less, {} behind a \
+             patch's middle; the ring alone {} between patches",
             Unit::Megapascal.show(tension.standing_pa, 3),
             Unit::Megapascal.show(tension.rolling_pa, 3),
             Unit::Megapascal.show(most.largest_pa, 3),

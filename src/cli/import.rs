@@ -4,9 +4,10 @@ use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::{Context, Run, positive};
 use crate::answer::imported::Imported;
-use crate::design::{Design, MOST_TABLE, read_text, with_keys, with_sprag};
-use crate::import::{Wanted, read_dxf, read_points, sprag};
-use clap::Args;
+use crate::design::{Design, MOST_TABLE, read_text, with_keys, with_spiral, with_sprag};
+use crate::import::{DrawnUnit, SpiralKind, Wanted, read_dxf, read_points, sprag};
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -15,12 +16,15 @@ Examples:
   sprag-design import sprag.dxf --template mine.toml -o new.toml
   sprag-design import measured.csv --template mine.toml --arcs 2 -o new.toml
   sprag-design import sprag.dxf --inner-radius 20 --outer-radius 28.33
+  sprag-design import sprag.dxf --template mine.toml --spiral constant-strut-angle -o new.toml
 
 Reads the closed outline of one sprag: lines, arcs, polylines with bulges and splines of a DXF (text form, mm; inches are
 converted), or a table of x, y in mm, one point a line, in order round it. It may lie anywhere, turned, and turned over.
 The outline is cut at its four corners. The straighter two sides are the flanks, the others are fitted by tangent arcs;
-a logarithmic spiral is approximated by them, to --deviation-um if given. Races, count, materials and limits are those of
-the template; an optimize table in it is left out, since its variables belong to another sprag.
+beside them stand the two spirals through the same points from first contact on, the curve that keeps the strut angle between these races
+and the logarithmic one, each with its deviation; --spiral writes one of them as [sprags.inner_spiral] in place of the arcs.
+Races, count, materials and limits are those of the template; an optimize table in it is left out, since its variables belong
+to another sprag. A table of arcs as `export --format csv` writes it is read too.
 
 How many points: the radius of an arc that spans phi rad, seen by N points with noise s, has the standard error
 26.8 s/(sqrt(N) phi^2). With 5 um of noise and 1.2 rad, 2 um need 2200 points; 0.12 rad would need 22 million. Short arcs are
@@ -61,6 +65,32 @@ pub struct ImportArgs {
     /// Take the other curved side for the outer arc
     #[arg(long)]
     pub swap: bool,
+    /// Write this spiral as [sprags.inner_spiral], in place of tangent arcs
+    #[arg(long, value_name = "CURVE", value_enum, conflicts_with_all = ["arcs", "deviation_um"])]
+    pub spiral: Option<SpiralKind>,
+    /// Unit of the lengths in the file [default: what it names, else mm]
+    #[arg(long, value_name = "UNIT", value_enum)]
+    pub unit: Option<DrawnUnit>,
+}
+
+impl ValueEnum for SpiralKind {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self::ConstantStrutAngle, Self::Logarithmic]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.name()))
+    }
+}
+
+impl ValueEnum for DrawnUnit {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self::Millimetre, Self::Inch]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.name()))
+    }
 }
 
 impl Run for ImportArgs {
@@ -90,7 +120,11 @@ impl Run for ImportArgs {
         let named = |why: String| Failure::of(&self.file, why);
         let text = read_text(&self.file, MOST_TABLE).map_err(|e| named(e.to_string()))?;
         let is_dxf = self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
-        let drawn = if is_dxf { read_dxf(&text, self.layer.as_deref()) } else { read_points(&text) };
+        let drawn = if is_dxf {
+            read_dxf(&text, self.layer.as_deref(), self.unit)
+        } else {
+            read_points(&text, self.unit)
+        };
         let drawn = drawn.map_err(|e| named(e.to_string()))?;
         let made = template.as_made().map_err(refused)?.races;
         let track = |given: Option<f64>, own_m: f64| given.map_or(own_m, |mm| 1e-3 * mm);
@@ -104,13 +138,34 @@ impl Run for ImportArgs {
             swap: self.swap,
         };
         let found = sprag(&drawn, &wanted).map_err(|e| named(e.to_string()))?;
+        let spiral = match self.spiral {
+            None => None,
+            Some(kind) => Some(*found.spirals.iter().find(|s| s.kind == kind).ok_or_else(|| {
+                named(format!(
+                    "its inner side does not begin as a {} spiral; leave --spiral out",
+                    kind.name()
+                ))
+            })?),
+        };
         let source = with_sprag(
             &template.source,
             found.outer_radius_m,
             found.centre_distance_m,
             &found.inner_arcs,
-            &found.flanks,
+            spiral.as_ref().map_or(&found.flanks, |s| &s.flanks),
         )
+        .and_then(|source| match &spiral {
+            None => Ok(source),
+            Some(s) => {
+                let logarithmic = s.kind == SpiralKind::Logarithmic;
+                with_spiral(
+                    &source,
+                    s.strut_rad,
+                    s.until_rad,
+                    logarithmic.then_some((s.start_radius_m, s.rise)),
+                )
+            }
+        })
         .and_then(|source| with_keys(&source, &tracks))
         .map_err(|e| Failure::malformed(format!("the template: {e}")))?;
         let on = self.template.as_ref().map_or(TEMPLATE_NAME.to_owned(), |path| path.display().to_string());
@@ -120,6 +175,7 @@ impl Run for ImportArgs {
             template: &on,
             no_template: self.template.is_none(),
             deviation_m: wanted.deviation_m,
+            written: spiral,
         };
         let file = self.file.display().to_string();
         let source = format!("{}{source}", answer.head(&file, &context.command_line));

@@ -248,12 +248,7 @@ impl Questions<'_> {
                 None => Err(format!("one of {}", PURPOSES.map(|p| p.name).join(", "))),
             })?;
         }
-        for row in &ASKED {
-            if let (Some(adds), None) = (row.question, (row.at)(wish)) {
-                let value = self.number(row, adds, wish)?;
-                *(row.at)(wish) = value;
-            }
-        }
+        self.numbers(wish)?;
         if wish.steel.is_none() {
             let names = STEELS.map(|s| s.name).join(", ");
             let question = format!("Steel: {names} [{}]", wish.requirements().steel.name);
@@ -273,6 +268,30 @@ impl Questions<'_> {
                 }
             })?;
             *output = Some(path);
+        }
+        Ok(())
+    }
+
+    /// Every number that is asked for one by one. What one does not fit to is asked again from there on.
+    fn numbers(&self, wish: &mut Wish) -> Result<(), Failure> {
+        let mut at = 0;
+        while let Some(row) = ASKED.get(at) {
+            if let (Some(adds), None) = (row.question, (row.at)(wish)) {
+                let value = self.number(row, adds, wish)?;
+                *(row.at)(wish) = value;
+            }
+            let Err(why) = wish.check_up_to(row.key) else {
+                at += 1;
+                continue;
+            };
+            output::note(&format!("  {why}"));
+            let first = ASKED.iter().position(|row| row.key == why.what).unwrap_or(at).min(at);
+            for again in &ASKED[first..=at] {
+                if again.question.is_some() {
+                    *(again.at)(wish) = None;
+                }
+            }
+            at = first;
         }
         Ok(())
     }
@@ -315,5 +334,52 @@ impl Questions<'_> {
     fn line(&self) -> Result<String, Failure> {
         let ended = || Failure::malformed("the answers ended before the last question");
         next(&self.lines, self.follow)?.ok_or_else(ended)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is wished after these answers.
+    fn asked(answers: &[&str]) -> Wish {
+        let (send, lines) = channel();
+        for answer in answers {
+            send.send((*answer).to_owned()).unwrap();
+        }
+        drop(send);
+        let follow = Follow::nobody();
+        let mut wish = Wish { purpose: purpose("starter"), ..Wish::default() };
+        Questions { lines, follow: &follow, force: false }.numbers(&mut wish).unwrap();
+        wish
+    }
+
+    #[test]
+    fn a_bore_in_inches_is_asked_again_once_the_peak_torque_shows_it() {
+        // Bore, nominal, peak; then these three again, and the rest as it stands.
+        let mut answers = vec!["1.5", "", "900", "40", "", "900"];
+        answers.resize(answers.len() + 11, "");
+        let wish = asked(&answers);
+        assert_eq!((wish.bore_m, wish.peak_nm), (Some(0.04), Some(900.0)));
+        assert!(wish.check().is_ok());
+    }
+
+    #[test]
+    fn a_lift_off_that_cannot_be_is_asked_again_at_once() {
+        let before = ["40", "", "900", "", "", ""];
+        // The outer race turns at 600 rpm: off by 900, as a starter is, cannot be; 500 can.
+        let answers = [&before[..], &["600", "", "", "500", "", "", "", ""]].concat();
+        let wish = asked(&answers);
+        assert!((rpm_of(wish.lift_off_rad_s) - 500.0).abs() < 1e-9, "{wish:?}");
+        assert!(wish.check().is_ok());
+        // Contact beyond the speed at which sprags of this purpose are off: both are asked again.
+        let answers = [&before[..], &["", "1500", "", "300", "", "", "", "", ""]].concat();
+        let wish = asked(&answers);
+        assert!((rpm_of(wish.keep_contact_rad_s) - 300.0).abs() < 1e-9, "{wish:?}");
+        assert!(wish.check().is_ok());
+    }
+
+    fn rpm_of(speed: Option<f64>) -> f64 {
+        crate::design::rpm(speed.unwrap_or(0.0))
     }
 }

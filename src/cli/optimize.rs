@@ -53,6 +53,7 @@ const HINTS: Hints = Hints {
     more_starts: "try more --starts",
     stopped: "stopped by Ctrl-C",
     further_variables: ", which `sprag-design explain variables` lists",
+    reserve: "; --reserve 0.05 would keep 5 % of every limit to spare",
 };
 
 /// Arguments of `optimize`.

@@ -126,7 +126,7 @@ impl Outputs {
     }
 
     /// Refuse what would only fail, or do harm, after the work is done: the input as an output, one file
-    /// for two outputs, a folder that is not there, a name that says another kind of file, a file that somebody else has
+    /// for two outputs, a folder that is not there or takes no file, a name that says another kind of file, a file that somebody else has
     /// made. `inputs`: files that the command reads, the design first; `others`: further outputs of the command.
     ///
     /// # Errors
@@ -163,6 +163,12 @@ impl Outputs {
                 return Err(Failure::of(path, "is named for two outputs"));
             }
             kind.fits(path).map_err(|why| Failure::of(path, why))?;
+            // Only writing tells: rights, a disk that is read only or full.
+            let folder = folder_of(&here);
+            let writable = Temporary::create(&folder);
+            writable.map_err(|why| {
+                Failure::of(path, format!("cannot be written: {}: {why}", folder.display()))
+            })?;
             seen.push(here);
         }
         others

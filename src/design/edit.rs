@@ -156,6 +156,39 @@ pub fn with_sprag(
     Ok(document.to_string())
 }
 
+/// The text with a spiral from first contact on in place of the inner arcs, [`with_sprag`] before it: strut angle and end, rad; of a
+/// logarithmic one its radius at first contact, m, and its rise. Angles to 1e-6 rad or 1e-5 deg.
+///
+/// # Errors
+/// [`EditError`].
+pub fn with_spiral(
+    source: &str,
+    strut_rad: f64,
+    until_rad: f64,
+    logarithmic: Option<(f64, f64)>,
+) -> Result<String, EditError> {
+    let mut document = parse(source)?;
+    let missing = || EditError::MissingKey { key: "sprags".to_owned() };
+    let sprags = document.get_mut("sprags").and_then(Item::as_table_like_mut).ok_or_else(missing)?;
+    sprags.remove("inner_arcs");
+    sprags.remove("centre_distance_mm");
+    let round = |value: f64, to: f64| (value * to).round() / to;
+    let mut spiral = toml_edit::InlineTable::new();
+    if logarithmic.is_some() {
+        spiral.insert("curve", "logarithmic".into());
+    }
+    let mut values = vec![("strut_angle_deg", round(strut_rad.to_degrees(), 1e5))];
+    if let Some((radius_m, rise)) = logarithmic {
+        values.extend([("start_radius_mm", round(radius_m * 1e3, 1e5)), ("rise", round(rise, 1e6))]);
+    }
+    values.push(("until_rad", round(until_rad, 1e6)));
+    for (key, value) in values {
+        spiral.insert(key, finite(key, value)?);
+    }
+    sprags.insert("inner_spiral", Item::Value(Value::InlineTable(spiral)));
+    Ok(document.to_string())
+}
+
 /// The text with other variables of `[optimize]`: without those whose name `drop` picks, with `more` behind the others, each
 /// with its bounds. Where there is no such table nothing changes.
 ///

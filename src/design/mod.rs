@@ -45,8 +45,8 @@ pub use check::{rad_s, rpm};
 pub use diagnostic::{DesignError, Problem, TextPlace, shown, unprintable};
 pub use draft::{BOX, Draft, DraftScene, KINETIC_SHARE};
 pub use edit::{
-    EditError, content, other_variables, value_at, with_flanks, with_keys, with_limits, with_sprag,
-    with_values,
+    EditError, content, other_variables, value_at, with_flanks, with_keys, with_limits, with_spiral,
+    with_sprag, with_values,
 };
 pub use form::DesignForm;
 pub use history::is_history;

@@ -274,10 +274,12 @@ fn one_problem(name: &str, source: &str, at: usize, found: String, allowed: &str
     DesignError::in_source(name, source, vec![problem])
 }
 
-/// SHA-256 of the text and of the histories' texts, lower-case hex.
+/// SHA-256 of the text and of the histories' texts, lower-case hex; without the mark that some editors begin a file with, and with the
+/// line ends of all but Windows: who saves a file unchanged has the same design.
 fn hash<'t>(source: &str, histories: impl Iterator<Item = &'t String>) -> String {
-    let mut digest = Sha256::new_with_prefix(source.as_bytes());
-    histories.for_each(|text| digest.update(text.as_bytes()));
+    let plain = |text: &str| text.trim_start_matches('\u{feff}').replace("\r\n", "\n");
+    let mut digest = Sha256::new_with_prefix(plain(source));
+    histories.for_each(|text| digest.update(plain(text)));
     digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

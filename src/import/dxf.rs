@@ -1,8 +1,8 @@
 //! The outline in a DXF (text, any release): lines, arcs, circles' arcs, polylines with bulges, splines, chained end to end.
 
-use super::{Drawn, NoImport, number, points};
+use super::{Drawn, DrawnUnit, NoImport, TAKEN_FOR_MM, number, points};
 use nalgebra::Vector2;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 pub(super) const STEP_HELP: &str =
     "export the profile of the sprag from the CAD program as DXF, a flat drawing, not as a solid";
@@ -19,11 +19,11 @@ const MOST: usize = 200_000;
 type Point = Vector2<f64>;
 
 /// One curve: points from end to end, and its line in the file.
-struct DrawnCurve {
-    line: usize,
-    points: Vec<Point>,
+pub(super) struct DrawnCurve {
+    pub(super) line: usize,
+    pub(super) points: Vec<Point>,
     /// Centre of a true arc.
-    centre: Option<Point>,
+    pub(super) centre: Option<Point>,
 }
 
 struct GroupCode<'t> {
@@ -55,14 +55,18 @@ fn groups(text: &str) -> Result<Vec<GroupCode<'_>>, NoImport> {
     Ok(all)
 }
 
-/// Metres in one unit of the drawing.
-fn unit(groups: &[GroupCode], remarks: &mut Vec<String>) -> Result<f64, NoImport> {
+/// Metres in one unit of the drawing; `said`: in place of what it names.
+fn unit(groups: &[GroupCode], said: Option<DrawnUnit>, remarks: &mut Vec<String>) -> Result<f64, NoImport> {
+    if let Some(said) = said {
+        remarks.push(format!("lengths are taken for {}, as asked, whatever the drawing names", said.name()));
+        return Ok(said.metres());
+    }
     let at = groups.windows(2).find(|g| g[0].code == 9 && g[0].value == "$INSUNITS");
     let (value, line) = at.map_or(("0", 0), |g| (g[1].value, g[1].line));
     match value {
         "4" => Ok(1e-3),
         "0" => {
-            remarks.push("the drawing names no unit ($INSUNITS): taken for millimetres".to_owned());
+            remarks.push(format!("the drawing names no unit ($INSUNITS): {TAKEN_FOR_MM}"));
             Ok(1e-3)
         }
         "1" => {
@@ -80,10 +84,10 @@ fn unit(groups: &[GroupCode], remarks: &mut Vec<String>) -> Result<f64, NoImport
     }
 }
 
-pub(super) fn read(text: &str, layer: Option<&str>) -> Result<Drawn, NoImport> {
+pub(super) fn read(text: &str, layer: Option<&str>, said: Option<DrawnUnit>) -> Result<Drawn, NoImport> {
     let groups = groups(text)?;
     let mut remarks = Vec::new();
-    let scale = unit(&groups, &mut remarks)?;
+    let scale = unit(&groups, said, &mut remarks)?;
     let Some(start) = groups.iter().position(|g| g.code == 2 && g.value == "ENTITIES") else {
         return Err(NoImport::new(
             None,
@@ -145,22 +149,26 @@ type Open = (usize, bool, Vec<(Point, f64)>);
 fn curves(entities: &[&[GroupCode]], scale: f64) -> Result<Vec<DrawnCurve>, NoImport> {
     let mut curves: Vec<DrawnCurve> = Vec::new();
     let mut vertices: Option<Open> = None;
+    let mut turned = 1.0;
     for e in entities {
         let line = e[0].line;
         if curves.len() > MOST {
             return Err(NoImport::new(line, format!("more than {MOST} curves"), "draw one sprag only"));
         }
-        let from_below = one(e, 230)?.is_some_and(|z| z < 0.0);
+        let kind = e[0].value;
+        // Seen along -z the drawing's x runs the other way; a VERTEX lies as its polyline does.
+        let flat = ["ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"].contains(&kind);
+        let [tilted, below] = [
+            one(e, 210)?.unwrap_or(0.0).hypot(one(e, 220)?.unwrap_or(0.0)) > 1e-6,
+            one(e, 230)?.is_some_and(|z| z < 0.0),
+        ];
+        if flat && tilted {
+            let found = format!("{kind} that does not lie in the plane of the drawing (extrusion)");
+            return Err(NoImport::new(line, found, "flatten the drawing in the CAD program"));
+        }
+        let over = if flat && below { -1.0 } else { 1.0 };
         let point =
             |x: i32, y: i32| -> Result<Point, NoImport> { Ok(scale * Point::new(need(e, x)?, need(e, y)?)) };
-        let kind = e[0].value;
-        if from_below && ["ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"].contains(&kind) {
-            return Err(NoImport::new(
-                line,
-                format!("{kind} drawn from below (extrusion 0, 0, -1)"),
-                "flatten the drawing, or mirror it in the CAD program",
-            ));
-        }
         match kind {
             "LINE" => {
                 curves.push(DrawnCurve { line, points: vec![point(10, 20)?, point(11, 21)?], centre: None })
@@ -168,12 +176,20 @@ fn curves(entities: &[&[GroupCode]], scale: f64) -> Result<Vec<DrawnCurve>, NoIm
             "ARC" => {
                 let (centre, radius) = (point(10, 20)?, scale * need(e, 40)?);
                 let [from, to] = [need(e, 50)?.to_radians(), need(e, 51)?.to_radians()];
-                curves.push(arc(line, centre, radius, from, (to - from).rem_euclid(TAU)));
+                let turn = (to - from).rem_euclid(TAU);
+                curves.push(match over < 0.0 {
+                    false => arc(line, centre, radius, from, turn),
+                    true => arc(line, Point::new(-centre.x, centre.y), radius, PI - from, -turn),
+                });
             }
-            "POLYLINE" => vertices = Some((line, one(e, 70)?.unwrap_or(0.0) as i64 & 1 == 1, Vec::new())),
+            "POLYLINE" => {
+                vertices = Some((line, one(e, 70)?.unwrap_or(0.0) as i64 & 1 == 1, Vec::new()));
+                turned = over;
+            }
             "VERTEX" => {
                 if let Some((_, _, list)) = &mut vertices {
-                    list.push((point(10, 20)?, one(e, 42)?.unwrap_or(0.0)));
+                    let at = point(10, 20)?;
+                    list.push((Point::new(turned * at.x, at.y), turned * one(e, 42)?.unwrap_or(0.0)));
                 }
             }
             "SEQEND" => {
@@ -186,9 +202,9 @@ fn curves(entities: &[&[GroupCode]], scale: f64) -> Result<Vec<DrawnCurve>, NoIm
                 let mut list: Vec<(Point, f64)> = Vec::new();
                 for g in *e {
                     match (g.code, list.last_mut()) {
-                        (10, _) => list.push((Point::new(scale * number(g.value, g.line)?, 0.0), 0.0)),
+                        (10, _) => list.push((Point::new(over * scale * number(g.value, g.line)?, 0.0), 0.0)),
                         (20, Some(last)) => last.0.y = scale * number(g.value, g.line)?,
-                        (42, Some(last)) => last.1 = number(g.value, g.line)?,
+                        (42, Some(last)) => last.1 = over * number(g.value, g.line)?,
                         _ => {}
                     }
                 }
@@ -206,7 +222,7 @@ fn curves(entities: &[&[GroupCode]], scale: f64) -> Result<Vec<DrawnCurve>, NoIm
     Ok(curves)
 }
 
-fn arc(line: usize, centre: Point, radius: f64, from: f64, turn: f64) -> DrawnCurve {
+pub(super) fn arc(line: usize, centre: Point, radius: f64, from: f64, turn: f64) -> DrawnCurve {
     let steps = (turn.abs() / STEP_RAD).ceil().clamp(1.0, 4000.0);
     let at = |i: usize| {
         let (s, c) = (from + turn * i as f64 / steps).sin_cos();
@@ -286,7 +302,7 @@ fn spline(e: &[GroupCode], scale: f64) -> Result<Vec<Point>, NoImport> {
 }
 
 /// One closed line from all curves.
-fn chained(mut left: Vec<DrawnCurve>, remarks: Vec<String>) -> Result<Drawn, NoImport> {
+pub(super) fn chained(mut left: Vec<DrawnCurve>, remarks: Vec<String>) -> Result<Drawn, NoImport> {
     let mut points_m: Vec<Point> = Vec::new();
     let mut kinks = Vec::new();
     let mut current = left.remove(0);

@@ -12,9 +12,11 @@ mod fit;
 mod outline;
 mod place;
 mod points;
+mod spiral;
 
 pub use fit::{Arc, Arcs, STANDARD_ERROR};
 pub use place::FittedSprag;
+pub use spiral::{FittedSpiral, SpiralKind};
 
 use nalgebra::Vector2;
 
@@ -70,20 +72,51 @@ pub struct Wanted {
     pub swap: bool,
 }
 
-/// The outline in a DXF; only what lies on `layer`, if named, or else on SPRAG if there is such a layer.
-///
-/// # Errors
-/// [`NoImport`].
-pub fn read_dxf(text: &str, layer: Option<&str>) -> Result<Drawn, NoImport> {
-    dxf::read(text, layer)
+/// A unit that a drawing or table may be in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DrawnUnit {
+    /// Millimetre.
+    Millimetre,
+    /// Inch.
+    Inch,
 }
 
-/// The outline in a table of x, y.
+impl DrawnUnit {
+    /// One of it, m.
+    pub fn metres(self) -> f64 {
+        match self {
+            Self::Millimetre => 1e-3,
+            Self::Inch => 25.4e-3,
+        }
+    }
+
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Millimetre => "mm",
+            Self::Inch => "inch",
+        }
+    }
+}
+
+/// What is said where a file names no unit.
+const TAKEN_FOR_MM: &str = "taken for millimetres; if it is in inches, say --unit inch";
+
+/// The outline in a DXF; only what lies on `layer`, if named, or else on SPRAG if there is such a layer. `unit`: in place of the
+/// file's own.
 ///
 /// # Errors
 /// [`NoImport`].
-pub fn read_points(text: &str) -> Result<Drawn, NoImport> {
-    points::read(text)
+pub fn read_dxf(text: &str, layer: Option<&str>, unit: Option<DrawnUnit>) -> Result<Drawn, NoImport> {
+    dxf::read(text, layer, unit)
+}
+
+/// The outline in a table of x, y, or in a table of arcs and lines as `export` writes it. `unit` as of [`read_dxf`].
+///
+/// # Errors
+/// [`NoImport`].
+pub fn read_points(text: &str, unit: Option<DrawnUnit>) -> Result<Drawn, NoImport> {
+    points::read(text, unit)
 }
 
 /// The sprag whose outline was drawn.

@@ -2,6 +2,7 @@
 
 use super::fit::{Arcs, arcs};
 use super::outline::{Sides, Straight};
+use super::spiral::{FittedSpiral, Side, SpiralKind};
 use super::{NoImport, Wanted};
 use crate::profile::{Flanks, Outline, Profile};
 use nalgebra::Vector2;
@@ -10,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 type Point = Vector2<f64>;
 
 /// The end of the profile over what the flanks leave of it: the contact has a width.
-const SHARE: f64 = 0.98;
+pub(super) const SHARE: f64 = 0.98;
 /// One side is fitted so much better by one circle than the other that it must be the outer arc.
 const BETTER: f64 = 1.5;
 
@@ -33,14 +34,16 @@ pub struct FittedSprag {
     pub behind: usize,
     /// Whether the drawing had to be turned over: it shows a clutch that locks the other way.
     pub mirrored: bool,
+    /// Spirals through the inner side from first contact on, of constant strut angle and logarithmic, where it has such a beginning.
+    pub spirals: Vec<FittedSpiral>,
 }
 
 /// Circles and lines of the sprag, drawn or mirrored; inner arcs counterclockwise, that is from rear to front.
-struct Body {
-    outer: (Point, f64),
-    inner: Vec<(Point, f64)>,
+pub(super) struct Body {
+    pub(super) outer: (Point, f64),
+    pub(super) inner: Vec<(Point, f64)>,
     /// Angles at which inner arcs begin and end, one more than arcs, rising.
-    angles: Vec<f64>,
+    pub(super) angles: Vec<f64>,
     /// Rear and front flank.
     flanks: [Straight; 2],
 }
@@ -131,6 +134,8 @@ pub(super) fn place(sides: &Sides, wanted: &Wanted) -> Result<FittedSprag, NoImp
              (--swap)",
         ));
     }
+    let side = Side::new(&body, &sides.curved[inner_at], mirrored, contact, wanted.tracks_m);
+    let spirals = [SpiralKind::ConstantStrutAngle, SpiralKind::Logarithmic].map(|kind| side.spiral(kind));
     Ok(FittedSprag {
         outer_radius_m: r_e,
         centre_distance_m: e_1,
@@ -140,6 +145,7 @@ pub(super) fn place(sides: &Sides, wanted: &Wanted) -> Result<FittedSprag, NoImp
         outer,
         behind: k,
         mirrored,
+        spirals: spirals.into_iter().flatten().collect(),
     })
 }
 
@@ -181,7 +187,7 @@ impl Body {
         })
     }
 
-    fn flanks_from(&self, a: Point, b: Point) -> Flanks {
+    pub(super) fn flanks_from(&self, a: Point, b: Point) -> Flanks {
         let (middle, up) = (0.5 * (a + b), (b - a).normalize());
         let front = Point::new(up.y, -up.x);
         let one = |flank: &Straight, sign: f64| {

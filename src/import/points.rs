@@ -1,6 +1,7 @@
 //! Tables of points: x, y, in mm if the head says nothing else.
 
-use super::{Drawn, NoImport, number};
+use super::dxf::{DrawnCurve, arc, chained};
+use super::{Drawn, DrawnUnit, NoImport, TAKEN_FOR_MM, number};
 use nalgebra::Vector2;
 
 /// Points at least: fewer say nothing of four sides.
@@ -8,7 +9,7 @@ const LEAST: usize = 40;
 /// The step from the last point to the first over the longest other step, at most.
 const GAP: f64 = 1.5;
 
-pub(super) fn read(text: &str) -> Result<Drawn, NoImport> {
+pub(super) fn read(text: &str, said: Option<DrawnUnit>) -> Result<Drawn, NoImport> {
     const HELP: &str = "give a table of x, y in mm, one point a line, in order round the outline; or a .dxf";
     let lines = || text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.starts_with('#'));
     let Some((at, first)) = lines().next() else {
@@ -40,6 +41,11 @@ pub(super) fn read(text: &str) -> Result<Drawn, NoImport> {
     let has_head = names.iter().all(|n| n.parse::<f64>().is_err());
     let mut remarks = Vec::new();
     let (mut columns, mut scale) = ([0, 1], 1e-3);
+    if has_head && names.iter().any(|n| n == "start_x_mm") {
+        let rows: Vec<(usize, Vec<String>)> =
+            lines().skip(1).map(|(at, line)| (at + 1, cells(line))).collect();
+        return arcs(&names, &rows, said);
+    }
     if has_head {
         let of = |axis: char| {
             let unit = |n: &String| {
@@ -63,12 +69,16 @@ pub(super) fn read(text: &str) -> Result<Drawn, NoImport> {
             "um" => 1e-6,
             "mm" => 1e-3,
             _ => {
-                remarks.push("the table names no unit: taken for millimetres".to_owned());
+                remarks.push(format!("the table names no unit: {TAKEN_FOR_MM}"));
                 1e-3
             }
         };
     } else {
-        remarks.push("the table names no unit: taken for millimetres".to_owned());
+        remarks.push(format!("the table names no unit: {TAKEN_FOR_MM}"));
+    }
+    if let Some(said) = said {
+        remarks = vec![format!("lengths are taken for {}, as asked", said.name())];
+        scale = said.metres();
     }
     let mut points_m = Vec::new();
     for (at, line) in lines().skip(usize::from(has_head)) {
@@ -81,6 +91,43 @@ pub(super) fn read(text: &str) -> Result<Drawn, NoImport> {
     }
     closed(&mut points_m)?;
     Ok(Drawn { points_m, kinks: Vec::new(), remarks })
+}
+
+/// The arcs and lines of a sprag as `export --format csv` writes them.
+fn arcs(names: &[String], rows: &[(usize, Vec<String>)], said: Option<DrawnUnit>) -> Result<Drawn, NoImport> {
+    const HELP: &str = "write the table again with `export --format csv`, or give a table of x, y";
+    let scale = said.map_or(1e-3, DrawnUnit::metres);
+    let text = |(line, row): &(usize, Vec<String>), name: &str| -> Result<String, NoImport> {
+        let cell = names.iter().position(|n| n == name).and_then(|k| row.get(k));
+        cell.cloned().ok_or_else(|| NoImport::new(*line, format!("no column {name}"), HELP))
+    };
+    let value = |row: &(usize, Vec<String>), name: &str| number(&text(row, name)?, row.0);
+    let point = |row: &(usize, Vec<String>), x: &str, y: &str| -> Result<Vector2<f64>, NoImport> {
+        Ok(scale * Vector2::new(value(row, x)?, value(row, y)?))
+    };
+    let mut curves = Vec::new();
+    for row in rows {
+        if text(row, "body")? != "sprag" {
+            continue;
+        }
+        match text(row, "kind")?.as_str() {
+            "arc" => {
+                let [from, to] = ["start_deg", "end_deg"].map(|name| value(row, name).map(f64::to_radians));
+                let (from, centre) = (from?, point(row, "centre_x_mm", "centre_y_mm")?);
+                curves.push(arc(row.0, centre, scale * value(row, "radius_mm")?, from, to? - from));
+            }
+            "line" => {
+                let points =
+                    vec![point(row, "start_x_mm", "start_y_mm")?, point(row, "end_x_mm", "end_y_mm")?];
+                curves.push(DrawnCurve { line: row.0, points, centre: None });
+            }
+            other => return Err(NoImport::new(row.0, format!("the kind {other:?}"), HELP)),
+        }
+    }
+    if curves.is_empty() {
+        return Err(NoImport::new(None, "a table of arcs without a row of the body sprag", HELP));
+    }
+    chained(curves, Vec::new())
 }
 
 /// Refuses what is no closed line; the first point is not repeated at the end.

@@ -154,6 +154,11 @@ impl Limit {
         (self.name)(&Limits::default())
     }
 
+    /// Whether demand and allowable are coefficients of friction: the grip of a contact.
+    pub fn is_grip(&self) -> bool {
+        self.code.starts_with("grip-")
+    }
+
     /// Allowable, SI, and whether it counts for the verdict, of what a static state demands.
     pub(super) fn allowed(&self, design: &Design, limits: &Limits) -> Option<(f64, bool)> {
         match self.of {

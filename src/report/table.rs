@@ -313,15 +313,24 @@ impl Table {
 
     /// The columns that people see.
     fn for_people(&self) -> Self {
+        self.those(|column| column.for_people)
+    }
+
+    fn those(&self, is_kept: impl Fn(&Column) -> bool) -> Self {
         let kept = |cells: &Vec<Cell>| {
-            let cells = cells.iter().zip(&self.columns).filter(|(_, column)| column.for_people);
+            let cells = cells.iter().zip(&self.columns).filter(|(_, column)| is_kept(column));
             cells.map(|(cell, _)| cell.clone()).collect()
         };
         Self {
-            columns: self.columns.iter().filter(|column| column.for_people).cloned().collect(),
+            columns: self.columns.iter().filter(|column| is_kept(column)).cloned().collect(),
             rows: self.rows.iter().map(kept).collect(),
             lead: self.lead,
         }
+    }
+
+    /// Its columns of these keys, in its own order.
+    pub fn only(&self, keys: &[&str]) -> Self {
+        self.those(|column| keys.contains(&column.key.as_str()))
     }
 
     /// The rows of which `most` at most are left, and how many are not.

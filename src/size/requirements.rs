@@ -113,16 +113,37 @@ impl Wish {
     pub fn check(&self) -> Result<Requirements, BadRequirement> {
         self.check_ratio()?;
         let wanted = self.requirements();
-        if let Some(nm) = self.swing_nm.filter(|nm| *nm != 0.0 && wanted.swing.is_none()) {
-            return Err(BadRequirement {
-                what: "swing",
-                found: format!("{nm} Nm alone"),
-                allowed: "with swing-hz, which says how often".to_owned(),
-            });
-        }
+        self.check_swing(&wanted)?;
         self.check_lift_off(&wanted)?;
         self.check_shaft(&wanted)?;
         wanted.check().map(|()| wanted)
+    }
+
+    /// What the number `key` and those asked before it come to together, where it is the last of them; the refusal names the first number
+    /// that may be put right.
+    ///
+    /// # Errors
+    /// [`BadRequirement`].
+    pub fn check_up_to(&self, key: &str) -> Result<(), BadRequirement> {
+        let wanted = self.requirements();
+        match key {
+            "peak" => self.check_shaft(&wanted),
+            "lift-off-rpm" => self.check_lift_off(&wanted),
+            "swing-hz" => self.check_swing(&wanted),
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuse an amplitude without a frequency.
+    fn check_swing(&self, wanted: &Requirements) -> Result<(), BadRequirement> {
+        match self.swing_nm.filter(|nm| *nm != 0.0 && wanted.swing.is_none()) {
+            Some(nm) => Err(BadRequirement {
+                what: "swing",
+                found: format!("{nm} Nm alone"),
+                allowed: "with swing-hz, which says how often".to_owned(),
+            }),
+            None => Ok(()),
+        }
     }
 
     /// Refuse a speed of lift-off that the outer race does not reach, and one of the purpose below a speed to which contact is to be kept.

@@ -195,6 +195,14 @@ mod tests {
         let margin =
             |view: &StudioView| view.margins.iter().find(|m| m.code == "hertz-nominal-inner").unwrap().margin;
         assert_ne!(margin(&before), margin(&now));
+        let carries = now.figures.iter().find(|f| f.name == "carries, nominal").unwrap();
+        let check = engine.design(&text).unwrap().check(&crate::Follow::nobody()).unwrap().body;
+        let Some(by_check) = check.nominal_torque_capacity else { panic!("no capacity") };
+        assert_eq!(
+            carries.text,
+            format!("{} Nm ({})", crate::report::significant(by_check.torque_capacity_nm, 4), by_check.code)
+        );
+        assert!(carries.pinned.is_some());
         assert!(now.windup_svg.contains("pinned") && !before.windup_svg.contains("pinned"));
         assert!(now.picture.unwrap().svg.contains("class=\"ghost\""));
         assert!(now.margins.windows(2).all(|w| !w[1].required || w[0].margin <= w[1].margin));

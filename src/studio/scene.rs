@@ -69,7 +69,8 @@ pub fn scene_row(design: &Design, state: &LoadState, scenario: &Scenario, settin
     let settings = Settings { tolerance: settings.tolerance.max(ASKED), ..settings.clone() };
     let found: SceneDemand = scene_demand(scenario, Some(state.at_rest(design)), &settings);
     let required = design.check_scenarios.contains(&scenario.name);
-    let margins = scene_rows(scenario, &found, &design.limits, required).iter().map(row).collect();
+    let margins =
+        scene_rows(scenario, &found, &design.limits, required).iter().map(|r| row(r, None)).collect();
     let note = found.demand.as_ref().err().map(ToString::to_string);
     let required_friction = found.demand.as_ref().ok().and_then(|d| d.required_friction);
     SceneRow { name, required_friction, static_friction, margins, note }

@@ -1,7 +1,7 @@
 //! What statics says of a design, as the page shows it.
 
 use super::fields::{Field, fields};
-use crate::answer::check::in_place_of_margin;
+use crate::answer::check::{Capacity, in_place_of_margin, is_beyond};
 use crate::design::Design;
 use crate::margin::{
     Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, lift_off_rad_s, overrun_at, static_margins,
@@ -38,6 +38,8 @@ pub struct MarginRow {
     pub against: String,
     /// Margin as `check` prints it.
     pub text: String,
+    /// Torque at which the limit would be reached, as printed; empty where it does not depend on torque.
+    pub reached: String,
     /// Margin, a pure number.
     pub margin: f64,
     /// Whether it counts for the verdict.
@@ -122,7 +124,7 @@ pub struct StudioView {
     pub held: bool,
     /// Static margins, required ones first, the least first.
     pub margins: Vec<MarginRow>,
-    /// Size, mass, drag and the speed of lift-off.
+    /// What it carries, size, mass, drag and the speed of lift-off.
     pub figures: Vec<FigureRow>,
     /// What can be changed.
     pub fields: Vec<Field>,
@@ -161,8 +163,8 @@ pub struct Solved {
     pub state: LoadState,
     rows: Vec<Margin>,
     samples: Vec<(StaticPoint, Closure)>,
-    /// Size, mass, drag and the speed of lift-off: names and texts.
-    figures: [(&'static str, String); 5],
+    /// What it carries, size, mass, drag and the speed of lift-off: names and texts.
+    figures: [(&'static str, String); 7],
 }
 
 /// Points on each arc: enough for the plots of the page.
@@ -176,16 +178,17 @@ impl Solved {
     /// # Errors
     /// [`NoMargins`].
     pub fn new(design: Design) -> Result<Self, NoMargins> {
-        let (state, rows, _) = static_margins(&design, Capacities::LeftOut)?;
+        let (state, rows, _) = static_margins(&design, Capacities::Wanted)?;
         let samples = state.curve.samples(f64::INFINITY, PER_ARC);
-        let figures = figures(&design, &state);
+        let figures = figures(&design, &state, &rows);
         Ok(Self { design, state, rows, samples, figures })
     }
 
     /// The answer, with `pinned` as ghost in picture and plots.
     pub fn view(&self, pinned: Option<&Self>) -> StudioView {
         let design = &self.design;
-        let mut margins: Vec<MarginRow> = self.rows.iter().map(row).collect();
+        let mut margins: Vec<MarginRow> =
+            self.rows.iter().map(|r| row(r, Some(self.state.curve.end_torque_nm()))).collect();
         sort(&mut margins);
         let limits = &design.limits;
         let sprags = [Some(self), pinned].into_iter().flatten().map(Self::pose_at_rest).collect();
@@ -254,12 +257,18 @@ impl Solved {
     }
 }
 
-fn figures(design: &Design, state: &LoadState) -> [(&'static str, String); 5] {
+fn figures(design: &Design, state: &LoadState, rows: &[Margin]) -> [(&'static str, String); 7] {
     let races = &design.clutch.races;
     let slow = overrun_at(design, state, 0.0, 0.0);
     let off = lift_off_rad_s(design, state, LIFT_OFF_TO_RAD_S);
     let none = || "–".to_owned();
+    let carried = |c: Option<Capacity>| {
+        c.map_or_else(none, |c| format!("{} ({})", Unit::NewtonMetre.show(c.torque_capacity_nm, 4), c.code))
+    };
+    let [nominal, peak] = Capacity::nominal_and_peak(rows, state.curve.end_torque_nm()).map(carried);
     [
+        ("carries, nominal", nominal),
+        ("carries, peak", peak),
         ("outside ⌀", Unit::Millimetre.show(2.0 * races.outer_outside_radius_m, 4)),
         ("width", Unit::Millimetre.show(races.width_m, 4)),
         ("mass", Unit::Gram.show(design.clutch.mass_kg(), 4)),
@@ -292,8 +301,8 @@ pub(super) fn sort(rows: &mut [MarginRow]) {
     rows.sort_by(|a, b| b.required.cmp(&a.required).then(a.margin.total_cmp(&b.margin)));
 }
 
-/// A margin for the page.
-pub(super) fn row(r: &Margin) -> MarginRow {
+/// A margin for the page; `end_torque_nm`: where the static curve ends, N m, of a row that is no scene's.
+pub(super) fn row(r: &Margin, end_torque_nm: Option<f64>) -> MarginRow {
     let margin = r.margin();
     let tone = match (r.required, r.held(), margin < NARROW) {
         (false, ..) => MarginColour::Grey,
@@ -308,9 +317,19 @@ pub(super) fn row(r: &Margin) -> MarginRow {
         name: format!("{}. {}", r.name, r.limit.explanation),
         against: if in_place_of_margin(r).is_some() { String::new() } else { against(r) },
         text,
+        reached: reached(r, end_torque_nm),
         margin,
         required: r.required,
         tone,
+    }
+}
+
+/// The torque at which the limit would be reached, as the table of `check` has it.
+fn reached(r: &Margin, end_torque_nm: Option<f64>) -> String {
+    let Some((capacity_nm, end_nm)) = r.torque_capacity_nm.zip(end_torque_nm) else { return String::new() };
+    match is_beyond(r, capacity_nm, end_nm) {
+        true => format!("> {}", Unit::NewtonMetre.show(end_nm, 4)),
+        false => Unit::NewtonMetre.show(capacity_nm, 4),
     }
 }
 

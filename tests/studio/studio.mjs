@@ -24,12 +24,13 @@ async function open() {
 }
 const step = (name) => console.log("studio:", name);
 const margin = (page, code) => page.textContent(`#margins tr[data-code="${code}"] td:nth-child(2)`);
-const checked = (...sets) => {
+const answer = (...sets) => {
   const args = ["check", design, "--json", "--quiet", ...sets.flatMap((s) => ["--set", s])];
   let text;
   try { text = execFileSync(binary, args); } catch (error) { text = error.stdout; }
-  return Object.fromEntries(JSON.parse(text).margins.map((m) => [m.code, m.margin]));
+  return JSON.parse(text);
 };
+const checked = (...sets) => Object.fromEntries(answer(...sets).margins.map((m) => [m.code, m.margin]));
 const percent = (text) => Number(text.replace("−", "-").replace(/\s*%.*/s, "")) / 100;
 const close = (text, value) => assert.ok(Math.abs(percent(text) - value) <= 6e-3 * Math.abs(value) + 1e-9, `${text} beside ${value}`);
 const path = "sprags.inner_arcs[1].radius_mm";
@@ -49,6 +50,12 @@ try {
   await page.waitForFunction(() => document.querySelectorAll("#scenes tr:not(.stale)").length >= 4, null, { timeout: 60000 });
   await page.waitForFunction(() => /^HELD: all [0-9]+ required limits/.test(document.getElementById("banner").textContent), null, { timeout: 60000 });
   assert.match(await page.textContent("#figures"), /outside ⌀52.46 mm.*mass/);
+  const carries = await page.textContent("#figures");
+  for (const kind of ["nominal", "peak"]) {
+    const { code, torque_capacity_nm: nm } = answer()[`${kind}_torque_capacity`];
+    assert.ok(carries.includes(`carries, ${kind}${Number(nm.toPrecision(4))} Nm (${code})`), carries);
+  }
+  assert.match(await page.textContent('#margins tr[data-code="hertz-nominal-inner"]'), /reached at [0-9.]+ Nm/);
   await page.screenshot({ path: `${pictures}/studio-1280.png`, fullPage: true });
 
   step("a slider's move is answered by the number that check prints");
@@ -76,22 +83,26 @@ try {
   await page.waitForFunction((path) => Number(document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[inputmode=decimal]`).value) === 4.2, path);
 
   step("moves are answered in time");
-  const times = await page.evaluate(async (path) => {
-    const out = [];
-    const input = document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[type=range]`);
-    for (let i = 0; i < 20; i++) {
-      const begun = performance.now();
-      await new Promise((done) => {
-        const watch = new MutationObserver(() => { watch.disconnect(); done(); });
-        watch.observe(document.getElementById("windup"), { childList: true });
-        input.value = 4.1 + 0.005 * i;
-        input.dispatchEvent(new Event("input"));
-      });
-      out.push(performance.now() - begun);
-    }
-    return out.sort((a, b) => a - b);
-  }, path);
-  console.log(`  20 moves: median ${times[10].toFixed(0)} ms, slowest ${times[19].toFixed(0)} ms`);
+  for (const pinned of [false, true]) {
+    if (pinned) { await page.click("#pin"); await page.waitForFunction(() => !document.getElementById("unpin").disabled); }
+    const times = await page.evaluate(async (path) => {
+      const out = [];
+      const input = document.querySelector(`.field[data-path="${CSS.escape(path)}"] input[type=range]`);
+      for (let i = 0; i < 20; i++) {
+        const begun = performance.now();
+        await new Promise((done) => {
+          const watch = new MutationObserver(() => { watch.disconnect(); done(); });
+          watch.observe(document.getElementById("windup"), { childList: true });
+          input.value = 4.1 + 0.005 * i;
+          input.dispatchEvent(new Event("input"));
+        });
+        out.push(performance.now() - begun);
+      }
+      return out.sort((a, b) => a - b);
+    }, path);
+    console.log(`  20 moves${pinned ? ", with a pinned design" : ""}: median ${times[10].toFixed(0)} ms, slowest ${times[19].toFixed(0)} ms`);
+  }
+  await page.click("#unpin");
 
   step("undo");
   // Asked and clicked in one turn of the page, so that the button cannot go grey between the two.

@@ -18,6 +18,8 @@ pub const OVERLOADED: &str = "overloaded";
 const NOT_REACHED: &str = "not reached";
 /// What stands for the demand of a run that met its limit of work.
 pub(super) const NOT_COMPUTED: &str = "not computed";
+/// What stands for the demand of a force that works the other way.
+const PRESSED_ON: &str = "none, pressed on";
 /// What stands for the margin where nothing is demanded.
 const NO_DEMAND: &str = "no demand";
 
@@ -79,6 +81,25 @@ pub struct Capacity {
     pub name: String,
     /// That torque, N m.
     pub torque_capacity_nm: f64,
+}
+
+impl Capacity {
+    /// The lowest of the required rows that `counts`, of a curve that ends at `end_torque_nm`, N m.
+    fn lowest(rows: &[Margin], end_torque_nm: f64, counts: impl Fn(&Margin) -> bool) -> Option<Self> {
+        // A limit that the curve never reaches sets nothing; the end of the curve does.
+        let counts = |r: &Margin| counts(r) && !ends_first(r, end_torque_nm);
+        lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Self {
+            code: r.code(),
+            name: r.plain_name().to_owned(),
+            torque_capacity_nm,
+        })
+    }
+
+    /// Those of the limits that are held at nominal torque and at peak torque.
+    pub fn nominal_and_peak(rows: &[Margin], end_torque_nm: f64) -> [Option<Self>; 2] {
+        let nominal = |r: &Margin| r.limit.when == When::Nominal;
+        [Self::lowest(rows, end_torque_nm, nominal), Self::lowest(rows, end_torque_nm, |r| !nominal(r))]
+    }
 }
 
 /// A remark where the clutch carries so much more than it is asked to that the torques may be in another unit.
@@ -153,16 +174,7 @@ impl CheckBody {
     pub(super) fn new(rows: &[Margin], source: Source) -> Self {
         let rpm = |rad_s| Unit::Rpm.from_si(rad_s);
         let required = || rows.iter().filter(|r| r.required);
-        let lowest = |counts: &dyn Fn(&Margin) -> bool| {
-            // A limit that the curve never reaches sets nothing; the end of the curve does.
-            let counts = |r: &Margin| counts(r) && !ends_first(r, source.end_torque_nm);
-            lowest_capacity(rows, counts).map(|(r, torque_capacity_nm)| Capacity {
-                code: r.code(),
-                name: r.plain_name().to_owned(),
-                torque_capacity_nm,
-            })
-        };
-        let nominal = |r: &Margin| r.limit.when == When::Nominal;
+        let [nominal, peak] = Capacity::nominal_and_peak(rows, source.end_torque_nm);
         Self {
             margins: rows.iter().map(|r| CheckRow::of(r, source.end_torque_nm)).collect(),
             pass: required().all(Margin::held),
@@ -172,9 +184,9 @@ impl CheckBody {
                 margin: r.margin(),
                 words: margin_words(r),
             }),
-            lowest_torque_capacity: lowest(&|_| true),
-            nominal_torque_capacity: lowest(&nominal),
-            peak_torque_capacity: lowest(&|r| !nominal(r)),
+            lowest_torque_capacity: Capacity::lowest(rows, source.end_torque_nm, |_| true),
+            nominal_torque_capacity: nominal,
+            peak_torque_capacity: peak,
             end: CurveEnd { reason: source.end.name(), torque_nm: source.end_torque_nm, beyond: None },
             asked_nm: source.asked_nm,
             materials: source.materials,
@@ -355,6 +367,8 @@ fn is_what_is_left(r: &Margin) -> bool {
 pub fn demand_cell(r: &Margin) -> Cell {
     match r.demand {
         _ if is_what_is_left(r) => r.shown_allowable().into(),
+        // What would lift the sprags off presses them on.
+        Demand::Value(demand) if r.limit.rule == Rule::Share && demand < 0.0 => PRESSED_ON.into(),
         Demand::Value(_) | Demand::MoreThan(_) => r.demand_in_unit().into(),
         // Friction has no demand at all then, a torque one at the end of the curve.
         Demand::Overloaded { at_end: Some(_), .. } => NOT_REACHED.into(),
@@ -373,9 +387,14 @@ pub fn allowable_cell(r: &Margin) -> Cell {
     }
 }
 
-/// The unit of demand and allowable as people read it.
+/// The unit of demand and allowable as people read it; of slip that of the demand, the wanted margin has its own.
 pub fn unit_cell(r: &Margin) -> Cell {
-    if r.limit.unit == "1" { "".into() } else { r.limit.unit.into() }
+    match r.limit.unit {
+        "1" if r.is_slip() || r.limit.is_grip() => "μ".into(),
+        "1" if r.is_contact() => "N/N₀".into(),
+        "1" => "".into(),
+        unit => unit.into(),
+    }
 }
 
 /// What stands in place of a margin that is no number: no friction suffices, which the demand says, its scene lies beyond the end of the curve, or a run

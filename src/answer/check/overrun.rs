@@ -90,12 +90,12 @@ fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
         let speed = speed.filter(|speed| *speed > 0.0)?;
         Some((key.to_owned(), [-speed, speed]))
     });
-    let by_limit = by_limit.map(|(by, speeds)| (by, speeds, true));
+    let by_limit = by_limit.map(|(by, speeds)| (by, speeds, true, false));
     let by_scene = design
         .scenarios
         .iter()
-        .filter_map(|s| Some((s.name.clone(), s.kind.overrun_rad_s()?, s.kind.is_overrun())));
-    let one = |(by, [ahead, outer], lasts): (String, [f64; 2], bool)| {
+        .filter_map(|s| Some((s.name.clone(), s.kind.overrun_rad_s()?, s.kind.is_overrun(), true)));
+    let one = |(by, [ahead, outer], lasts, by_scene): (String, [f64; 2], bool, bool)| {
         let point = overrun_at(design, state, outer, ahead.abs()).ok()?;
         Some(NamedOverrun {
             by,
@@ -106,6 +106,7 @@ fn named(design: &Design, state: &LoadState) -> Vec<NamedOverrun> {
             swing_frequency_hz: point.swing.map(|s| s.frequency_hz),
             lifted_off: point.state.normal_inner_n <= 0.0,
             lasts,
+            by_scene,
         })
     };
     by_limit.chain(by_scene).filter_map(one).collect()
@@ -167,6 +168,9 @@ pub struct NamedOverrun {
     /// Whether it is steady; an engagement only begins so.
     #[serde(skip)]
     lasts: bool,
+    /// Whether a scene names it, else a limit.
+    #[serde(skip)]
+    by_scene: bool,
 }
 
 impl NamedOverrun {
@@ -212,7 +216,7 @@ pub struct OverrunSection {
     #[serde(skip)]
     pub on_film: bool,
     /// A warning where the equilibrium does not stay at a speed that the design names, or, where it names none, at any; null where it
-    /// does.
+    /// does. A note where only a limit names that speed and the swing takes longer than 1 s to grow tenfold.
     pub warning: Option<String>,
     /// A note where that is so at other speeds only, on the way through them.
     pub passing: Option<String>,
@@ -236,7 +240,7 @@ pub(in crate::answer) fn passing_words(rate: f64, which: &str) -> Option<String>
 
 /// What an equilibrium does not say: the fastest growth of the swing at the steady overruns that the design names, or, where it
 /// names none, among the speeds looked at.
-fn warning(named: &[NamedOverrun], points: &[&OverrunRow], limits: &Limits, on_film: bool) -> Option<String> {
+fn warning(named: &[NamedOverrun], points: &[&OverrunRow], on_film: bool) -> Option<String> {
     let steady = || named.iter().filter(|n| n.lasts);
     let of_named = steady().map(|n| (n.growth_rate_per_s, n.swing_frequency_hz, n.speeds()));
     let of_points = points.iter().map(|p| {
@@ -248,14 +252,21 @@ fn warning(named: &[NamedOverrun], points: &[&OverrunRow], limits: &Limits, on_f
     let grows =
         all.into_iter().filter_map(|(rate, hertz, at)| Some((rate?, hertz?, at))).filter(|g| g.0 > 0.0);
     let (rate, hertz, at) = grows.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let held = if limits.keep_contact_to_rad_s.is_some() { ", and so is keep-contact" } else { "" };
+    let tenfold_s = std::f64::consts::LN_10 / rate;
+    let grows = format!("a small swing of the sprags grows tenfold in {}", Unit::Second.show(tenfold_s, 2));
+    // A limit's speed is no state that a clutch stays in for long.
+    let by_limit = steady().all(|n| !n.by_scene);
+    if by_limit && steady().next().is_some() && tenfold_s > PASSING_S {
+        return Some(format!("Note: at {at} {grows}: harmless where the clutch does not stay there as long"));
+    }
     Some(format!(
-        "Warning: steady overrun does not stay: a small swing of the sprags grows by {} (tenfold in {}) at {}, at {at}; races at held speeds. Drag and forces \
-         are those of the equilibrium{held}; a transient scenario shows what the sprags do{}",
-        Unit::PerSecond.show(rate, 3),
-        Unit::Second.show(std::f64::consts::LN_10 / rate, 2),
+        "Warning: steady overrun does not stay: at {at} {grows}, at {}, as its friction falls with speed; {}",
         Unit::Hertz.show(hertz, 3),
-        if on_film { "" } else { ". A film of oil may damp it: add [lubrication]" },
+        if on_film {
+            "more film calms it: another lubrication.oil, or a lower lubrication.temperature_c"
+        } else {
+            "a film of oil calms it, [lubrication], or a friction.kinetic nearer to friction.static"
+        },
     ))
 }
 
@@ -294,7 +305,7 @@ impl OverrunSection {
             |p: &&OverrunRow| p.race == "inner" || turns && wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
         let looked_at: Vec<&OverrunRow> = points.iter().filter(within).collect();
         let on_film = curve.inner_race.iter().any(|p| p.lubricated.is_some());
-        let warning = warning(&named, &looked_at, limits, on_film);
+        let warning = warning(&named, &looked_at, on_film);
         Self {
             centrifugal: match curve.gamma_rad {
                 g if g > 0.0 => "engaging",

@@ -11,7 +11,7 @@ use crate::report::{Screen, Unit, greek, significant};
 pub(crate) const REACHED_AT: &str =
     "Reached at: torque at which the limit would be reached; >: not before the curve ends";
 /// What the margin of a slip row is.
-const SLIP_MARGIN: &str = "Margin of slip rows: the slip margin, static over required friction less 1, held from the wanted one up\n";
+const SLIP_MARGIN: &str = "Slip rows: demand is the static friction μ that the scene requires; margin the slip margin, static over required friction less 1, held from the wanted one up\n";
 
 /// What a row that is not required is.
 const SHOWN_ONLY: &str = "Shown: for information alone, without a say in the verdict; `explain` with the limit's name says which key makes it count\n";

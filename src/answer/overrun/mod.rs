@@ -76,6 +76,8 @@ pub struct OverrunAnswer<'a> {
     pub question: OverrunQuestion,
     /// Those of its speeds that were asked for, or that the design names; the others are usual ones.
     named_rad_s: Vec<f64>,
+    /// Whether the speeds were asked for.
+    asked: bool,
     /// Temperatures one after another, speeds in each.
     pub lines: Vec<OverrunLine>,
     /// Lift-off of the outer race, rad/s: it does not depend on friction, which ends with the force at A.
@@ -167,6 +169,7 @@ impl Design {
         let mut question = question.clone();
         // Who asks for a speed names it.
         let mut named = question.speeds_rad_s.clone();
+        let asked = !named.is_empty();
         if question.temperatures_c.is_empty() {
             question.temperatures_c.push(lubrication.temperature_c);
         }
@@ -194,6 +197,7 @@ impl Design {
             state,
             question,
             named_rad_s: named,
+            asked,
             lines,
             lift_off_rad_s: lift_off,
             slip,
@@ -241,18 +245,15 @@ impl Said for OverrunAnswer<'_> {
     }
 
     fn verdict(&self) -> String {
-        let first = self.warnings().into_iter().next();
-        first.unwrap_or_else(|| "steady overrun stays; asperities hardly touch".to_owned())
+        self.headline()
     }
 
     fn banner(&self) -> (Tone, String) {
-        let verdict = self.verdict();
-        (if verdict.starts_with("Warning") { Tone::Bad } else { Tone::Plain }, verdict)
+        (if self.swings().is_some() { Tone::Bad } else { Tone::Plain }, self.verdict())
     }
 
     fn remarks(&self) -> Vec<String> {
-        let about = self.about();
-        about.into_iter().chain(self.warnings().into_iter().skip(1)).collect()
+        [self.picked()].into_iter().chain(self.warnings()).chain(self.about()).collect()
     }
 
     fn table(&self) -> Table {
@@ -277,7 +278,7 @@ impl Said for OverrunAnswer<'_> {
             .json_in("sprag_wear_um", Unit::Micrometre, |s| s.sprag_m)
             .json_in("race_wear_um", Unit::Micrometre, |s| s.race_m);
         json!({
-            "verdict": self.verdict(), "oil": self.lubrication.oil.name, "race": self.question.race.name(),
+            "verdict": self.verdict(), "picked": self.picked(), "oil": self.lubrication.oil.name, "race": self.question.race.name(),
             "composite_roughness_um": Unit::Micrometre.from_si(self.lubrication.roughness_m()),
             "lift_off_rpm": self.lift_off_rad_s.map(|w| Unit::Rpm.from_si(w)),
             "lines": self.all().objects(), "slip": slip.object(), "warnings": self.warnings(),

@@ -28,8 +28,9 @@ pub(super) fn draw(answer: &OverrunAnswer<'_>, page: &mut Page) {
         let dry = points(lines, |l| Some(l.dry.state.drag_torque_nm));
         drag.curves.push(Curve { dash: Dash::Dotted, ..Curve::new("dry, by the friction law (12)", dry) });
     }
-    let lambda = plot("Film over roughness, λ", |l| l.point.lubricated.map(|f| f.film.lambda))
+    let mut lambda = plot("Film over roughness, λ", |l| l.point.lubricated.map(|f| f.film.lambda))
         .level(1.0, "asperities carry much below");
+    lambda.log_y = true;
     let friction = plot("Friction coefficient μ", |l| l.point.lubricated.map(|_| l.point.friction));
     let warmth = plot("Film temperature, °C", |l| l.point.lubricated.map(|f| f.film_c));
     page.figures(&[

@@ -41,14 +41,14 @@ fn with_film(rows: Lines<'_>) -> Lines<'_> {
 
 fn with_heat(rows: Lines<'_>) -> Lines<'_> {
     rows.number("heat_w", "Heat", Unit::Watt, 3, |l| l.point.lubricated.map(|f| f.heat.heat_w))
-        .number("film_c", "Film, C", Unit::One, 4, |l| l.point.lubricated.map(|f| f.film_c))
-        .number("inner_race_c", "Inner race, C", Unit::One, 4, |l| {
+        .number("film_c", "Film, °C", Unit::One, 4, |l| l.point.lubricated.map(|f| f.film_c))
+        .number("inner_race_c", "Inner race, °C", Unit::One, 4, |l| {
             l.point.lubricated.map(|f| f.heat.temperatures.inner_race)
         })
-        .number("sprags_c", "Sprags, C", Unit::One, 4, |l| {
+        .number("sprags_c", "Sprags, °C", Unit::One, 4, |l| {
             l.point.lubricated.map(|f| f.heat.temperatures.sprags)
         })
-        .number("outer_race_c", "Outer race, C", Unit::One, 4, |l| {
+        .number("outer_race_c", "Outer race, °C", Unit::One, 4, |l| {
             l.point.lubricated.map(|f| f.heat.temperatures.outer_race)
         })
         .json("contact_c", |l| l.point.lubricated.map(|f| f.heat.temperatures.contact))
@@ -72,7 +72,7 @@ fn with_swing(rows: Lines<'_>) -> Lines<'_> {
 
 impl OverrunAnswer<'_> {
     fn oil_and_speed(&self) -> Lines<'_> {
-        Rows::of(&self.lines).number("oil_c", "Oil, C", Unit::One, 3, |l| l.oil_c).number(
+        Rows::of(&self.lines).number("oil_c", "Oil, °C", Unit::One, 3, |l| l.oil_c).number(
             "speed_rpm",
             "Speed",
             Unit::Rpm,

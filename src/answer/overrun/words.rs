@@ -1,6 +1,6 @@
 //! What the tables of an overrun do not say.
 
-use super::{LeftOut, OverrunAnswer, OverrunLine};
+use super::{LeftOut, OverrunAnswer, OverrunLine, RunningRace};
 use crate::answer::check::overrun::passing_words;
 use crate::lubrication::Film;
 use crate::report::{Unit, significant};
@@ -35,14 +35,157 @@ pub(super) fn left_out() -> Vec<LeftOut> {
 /// Part of the contact's relative radius up to which a film is thin, and the contact a parabola.
 const THIN: f64 = 0.01;
 
+fn place(l: &OverrunLine) -> String {
+    format!("{} °C, {}", significant(l.oil_c, 3), Unit::Rpm.show(l.speed_rad_s, 4))
+}
+
+/// Growth of the swing, 1/s, where it grows.
+fn growth(l: &OverrunLine) -> Option<f64> {
+    l.point.swing.filter(|s| s.grows()).map(|s| s.growth_rate_per_s)
+}
+
 impl OverrunAnswer<'_> {
+    /// Whether the line is at a speed that was asked for or that the design names.
+    fn is_named(&self, l: &OverrunLine) -> bool {
+        self.named_rad_s.iter().any(|named| (l.speed_rad_s - named).abs() <= 1e-9 * named)
+    }
+
+    /// Whether a steady overrun or a limit of the design has the line's speed, or somebody asked for it.
+    fn is_steady(&self, l: &OverrunLine) -> bool {
+        let near = |speed: f64| (l.speed_rad_s - speed.abs()).abs() <= 1e-9 * l.speed_rad_s;
+        let scenes = self.design.scenarios.iter().filter(|s| s.kind.is_overrun());
+        let limits = [self.design.limits.keep_contact_to_rad_s, self.design.limits.lift_off_by_rad_s];
+        let outer = self.question.race == RunningRace::Outer;
+        self.asked
+            || scenes
+                .filter_map(|s| s.kind.overrun_rad_s())
+                .any(|[ahead, outer_speed]| near(if outer { outer_speed } else { ahead }))
+            || outer && limits.into_iter().flatten().any(near)
+    }
+
+    /// Where and how fast a swing grows most, at the speeds that are named, of none at all.
+    pub(super) fn swings(&self) -> Option<(&OverrunLine, f64)> {
+        self.fastest(true)
+    }
+
+    fn fastest(&self, named: bool) -> Option<(&OverrunLine, f64)> {
+        let lines = self.lines.iter().filter(|l| (self.is_named(l) || self.named_rad_s.is_empty()) == named);
+        lines.filter_map(|l| Some((l, growth(l)?))).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The answer in a line: film, swing, drag and heat where the clutch overruns.
+    pub(super) fn headline(&self) -> String {
+        let race = self.question.race.name();
+        // A scene that only begins in overrun counts where none stays in it.
+        let stays = self.lines.iter().any(|l| self.is_named(l) && self.is_steady(l));
+        let named = || self.lines.iter().filter(|l| self.is_named(l) && (self.is_steady(l) || !stays));
+        // Of several the one whose swing grows most, then the one with the thinnest film.
+        let lambda = |l: &OverrunLine| l.point.lubricated.map_or(f64::INFINITY, |f| f.film.lambda);
+        let thinnest = || named().min_by(|a, b| lambda(a).total_cmp(&lambda(b)));
+        let swinging = || {
+            named()
+                .filter(|l| growth(l).is_some())
+                .max_by(|a, b| growth(a).partial_cmp(&growth(b)).unwrap_or(std::cmp::Ordering::Equal))
+        };
+        let chosen = swinging().or_else(thinnest);
+        let Some(line) = chosen else { return self.over_all() };
+        let others = match named().count() {
+            1 => String::new(),
+            n => format!(", the worst of {n}"),
+        };
+        let at = format!(
+            "At {} of the {race} race, oil at {} °C{others}",
+            Unit::Rpm.show(line.speed_rad_s, 4),
+            significant(line.oil_c, 3)
+        );
+        let Some(film) = line.point.lubricated else {
+            return format!("{at}: the sprags are off the inner race, no drag and no heat");
+        };
+        let swing = match growth(line) {
+            Some(rate) => format!(
+                "NOT STABLE, a swing of the sprags grows tenfold in {}",
+                Unit::Second.show(std::f64::consts::LN_10 / rate, 2)
+            ),
+            None => "stable".to_owned(),
+        };
+        format!(
+            "{at}: λ {} ({}), {swing}; drag {}, heat {}",
+            significant(film.film.lambda, 3),
+            match film.film.lambda {
+                l if l < 1.0 =>
+                    format!("asperities carry {} and wear", Unit::Percent.show(film.film.asperities, 3)),
+                l if l < 3.0 => "asperities touch now and then".to_owned(),
+                _ => "asperities hardly touch".to_owned(),
+            },
+            Unit::NewtonMetre.show(line.point.state.drag_torque_nm, 3),
+            Unit::Watt.show(film.heat.heat_w, 3)
+        )
+    }
+
+    /// The same where no speed is named: from the least to the largest.
+    fn over_all(&self) -> String {
+        let films = || self.lines.iter().filter_map(|l| Some((l, l.point.lubricated?)));
+        let span = |of: &dyn Fn(&OverrunLine) -> Option<f64>| {
+            let values = self.lines.iter().filter_map(of);
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+        };
+        if films().next().is_none() {
+            return "The sprags are off the inner race at all of these speeds: no drag and no heat"
+                .to_owned();
+        }
+        let [slow, fast] = span(&|l| Some(l.speed_rad_s));
+        let [thin, thick] = span(&|l| Some(l.point.lubricated?.film.lambda));
+        let [least, most] = span(&|l| Some(l.point.state.drag_torque_nm));
+        let [_, heat_w] = span(&|l| Some(l.point.lubricated?.heat.heat_w));
+        format!(
+            "The file names no speed of the {} race alone; from {} to {}: λ {} to {}, {}; drag {} to {}, heat up to {}",
+            self.question.race.name(),
+            Unit::Rpm.show(slow, 4),
+            Unit::Rpm.show(fast, 4),
+            significant(thin, 3),
+            significant(thick, 3),
+            self.swings().map_or("stable".to_owned(), |(l, _)| format!("NOT STABLE at {}", place(l))),
+            significant(least, 3),
+            Unit::NewtonMetre.show(most, 3),
+            Unit::Watt.show(heat_w, 3)
+        )
+    }
+
+    /// Race and speeds, who chose them, and how to choose others.
+    pub(super) fn picked(&self) -> String {
+        let (race, other) = match self.question.race {
+            RunningRace::Inner => ("inner", "outer"),
+            RunningRace::Outer => ("outer", "inner"),
+        };
+        if self.asked {
+            return format!("The {race} race runs, the {other} one stands; speeds as asked");
+        }
+        let mut named: Vec<String> = Vec::new();
+        for w in &self.named_rad_s {
+            let shown = Unit::Rpm.show(*w, 4);
+            if !named.contains(&shown) {
+                named.push(shown);
+            }
+        }
+        let of_file = match named.is_empty() {
+            true => format!("the file names none of the {race} race alone"),
+            false => format!("those of the file, {}, and", named.join(", ")),
+        };
+        format!(
+            "The {race} race runs, the {other} one stands (--race {other}: the other way); speeds: {of_file}{} usual ones up to 50 m/s of the track{}; \
+             --speeds names others",
+            if named.is_empty() { ", so" } else { "" },
+            if self.question.race == RunningRace::Outer { " and lift-off" } else { "" }
+        )
+    }
+
     /// Oil, surfaces, lift-off, slip.
     pub(super) fn about(&self) -> Vec<String> {
         let l = self.lubrication;
         let mut all = Vec::new();
         for &c in &self.question.temperatures_c {
             all.push(format!(
-                "{} at {} C: {} mm²/s, {} mPa s, α {} 1/GPa; σ {} (Rq of race and sprag)",
+                "{} at {} °C: {} mm²/s, {} mPa s, α {} 1/GPa; σ {} (Rq of race and sprag)",
                 l.oil.name,
                 significant(c, 3),
                 significant(1e6 * l.oil.walther().nu_m2_s(c), 3),
@@ -53,11 +196,10 @@ impl OverrunAnswer<'_> {
         }
         all.push(match self.lift_off_rad_s {
             Some(w) => format!(
-                "The {} race runs; sprags lift off at {} of the outer race, whatever the oil: drag ends with the force at A",
-                self.question.race.name(),
+                "Sprags lift off at {} of the outer race, whatever the oil: drag ends with the force at A",
                 Unit::Rpm.show(w, 4)
             ),
-            None => format!("The {} race runs; the sprags do not lift off", self.question.race.name()),
+            None => "The sprags do not lift off".to_owned(),
         });
         if let Some(s) = &self.slip {
             all.push(format!(
@@ -89,23 +231,13 @@ impl OverrunAnswer<'_> {
     /// What one should not overlook.
     pub fn warnings(&self) -> Vec<String> {
         let mut all = Vec::new();
-        let place =
-            |l: &OverrunLine| format!("{} C, {}", significant(l.oil_c, 3), Unit::Rpm.show(l.speed_rad_s, 4));
-        let growth = |l: &OverrunLine| l.point.swing.filter(|s| s.grows()).map(|s| s.growth_rate_per_s);
-        let near = |l: &OverrunLine| {
-            self.named_rad_s.iter().any(|named| (l.speed_rad_s - named).abs() <= 1e-9 * named)
-        };
-        let worst = |named: bool| {
-            let lines = self.lines.iter().filter(|l| (near(l) || self.named_rad_s.is_empty()) == named);
-            lines.filter_map(|l| Some((l, growth(l)?))).max_by(|a, b| a.1.total_cmp(&b.1))
-        };
-        if let Some((l, rate)) = worst(true) {
+        if let Some((l, rate)) = self.fastest(true) {
             all.push(format!(
                 "Warning: steady overrun does not stay: a small swing of the sprags grows by {} at {}",
                 Unit::PerSecond.show(rate, 3),
                 place(l)
             ));
-        } else if let Some((l, rate)) = worst(false) {
+        } else if let Some((l, rate)) = self.fastest(false) {
             all.extend(passing_words(
                 rate,
                 &format!("at speeds that the file does not name, most at {},", place(l)),

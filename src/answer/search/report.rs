@@ -1,11 +1,13 @@
 //! A search and its files: text, JSON, page.
 
 use super::{Hints, SearchAnswer, Story};
+use crate::answer::check::{Capacity, margin_words};
 use crate::answer::page::{begun, draw, draw_sheet, drawing, pose_at_rest};
 use crate::answer::{Answer, Envelope, Finding, Provenance};
 use crate::design::{Design, shown};
+use crate::margin::{Capacities, static_margins};
 use crate::optimise::{Iteration, Status};
-use crate::report::{Curve, Dash, Page, Plot, Screen, Table};
+use crate::report::{Curve, Dash, Page, Plot, Screen, Table, Unit};
 use crate::wedge::WedgeCurve;
 use serde_json::{Value, json};
 
@@ -29,6 +31,25 @@ pub struct SearchReport<'a> {
 impl SearchReport<'_> {
     fn story(&self) -> &Story {
         &self.answer.story
+    }
+
+    /// What decides in the answer, with its margin, and the torques that it carries.
+    fn holds_and_carries(&self) -> String {
+        let rows = self.story().margins();
+        let least = rows.iter().filter(|m| m.required).min_by(|a, b| a.margin().total_cmp(&b.margin()));
+        let decides = least.map(|m| format!("{} decides, {}", m.code(), margin_words(m)));
+        let after = self.answer.design(self.design, "optimum").ok();
+        let checked = after.and_then(|after| static_margins(&after, Capacities::Wanted).ok());
+        let carried = checked.into_iter().flat_map(|(state, rows, _)| {
+            let both = Capacity::nominal_and_peak(&rows, state.curve.end_torque_nm());
+            both.into_iter().zip(["nominal", "peak"]).filter_map(|(c, kind)| Some((c?, kind)))
+        });
+        let carried = carried.map(|(c, kind)| {
+            format!("carries {} {kind} ({})", Unit::NewtonMetre.show_plain(c.torque_capacity_nm, 4), c.code)
+        });
+        let what = decides.into_iter().chain(carried).collect::<Vec<_>>().join("; ");
+        let spare = self.story().feasible() && self.story().found.problem.reserve() == 0.0;
+        format!("{what}{}", if spare { self.hints.reserve } else { "" })
     }
 
     /// Profiles before and after, to scale, one over the other.
@@ -84,7 +105,12 @@ impl Answer for SearchReport<'_> {
 
     fn text(&self, screen: Screen) -> String {
         let story = self.story();
-        let mut out = format!("{}\n\nVariables\n{}", self.verdict(), story.variable_table().to_text(screen));
+        let mut out = format!(
+            "{}\n{}\n\nVariables\n{}",
+            self.verdict(),
+            self.holds_and_carries(),
+            story.variable_table().to_text(screen)
+        );
         out +=
             &story.notes_on_variables(&self.hints).iter().map(|line| format!("{line}\n")).collect::<String>();
         out += &format!("\nMargins\n{}", story.margin_table().to_text(screen));
@@ -92,10 +118,7 @@ impl Answer for SearchReport<'_> {
             "\nInfluence at the start: change of these margins over the whole range of a variable (of all: --report)\n{}",
             story.deciding_influence().to_text(screen)
         );
-        out += &format!(
-            "\nActive: {} (--reserve 0.05 would keep 5 % of every limit to spare)\n",
-            story.active().join(", ")
-        );
+        out += &format!("\nActive: {}\n", story.active().join(", "));
         for part in story.parts(&self.hints) {
             out += &format!("\n{}\n", part.heading);
             out += &part.lines.iter().map(|l| format!("- {l}\n")).collect::<String>();
@@ -106,9 +129,15 @@ impl Answer for SearchReport<'_> {
         out += &format!("{}\n", story.in_full());
         out += &match &self.written {
             Some(path) => format!("Written: {}\n", shown(path)),
-            None => "No design written.\n".to_owned(),
+            None if self.beside.is_empty() => "No design written.\n".to_owned(),
+            None => String::new(),
         };
-        out += &self.beside.iter().map(|p| format!("Written: {}\n", shown(p))).collect::<String>();
+        let nearest = if self.written.is_none() {
+            ", the nearest design; it is no answer, its first line says why"
+        } else {
+            ""
+        };
+        out += &self.beside.iter().map(|p| format!("Written: {}{nearest}\n", shown(p))).collect::<String>();
         out
     }
 
@@ -134,6 +163,7 @@ impl Answer for SearchReport<'_> {
         let story = self.story();
         let mut page = begun("Optimisation", self.design, &provenance.command);
         page.verdict(story.feasible() && story.makeable() && story.not_robust().is_none(), &self.verdict());
+        page.paragraph(&self.holds_and_carries());
         if let Some(path) = &self.written {
             page.paragraph(&format!("New design: {path}"));
         }

@@ -24,6 +24,8 @@ pub struct Hints {
     pub stopped: &'static str,
     /// Behind "further variables", where these hardly move the objective: who names them.
     pub further_variables: &'static str,
+    /// Behind what the answer carries, where its limits are used up to the last: how to keep some to spare.
+    pub reserve: &'static str,
 }
 
 impl Default for Hints {
@@ -33,6 +35,7 @@ impl Default for Hints {
             more_starts: "search from more starts",
             stopped: "stopped",
             further_variables: "",
+            reserve: "",
         }
     }
 }

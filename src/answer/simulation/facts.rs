@@ -149,7 +149,12 @@ fn figures(f: &mut FactRows, scene: &Ran, prepared: &Prepared, s: &Simulation, g
     for figure in figures_of(group) {
         let (Some(line), Some(value)) = (figure.line, (figure.of)(s)) else { continue };
         let error = s.error.as_ref().map(|e| scene.error_of(figure, prepared, s, e));
-        f.add(&format!("{}{}", line.label, when(figure, s, exact)), value, unit(figure.quantity), error);
+        f.add(
+            &format!("{}{}{}", line.label, counted(figure, s), when(figure, s, exact)),
+            value,
+            unit(figure.quantity),
+            error,
+        );
     }
 }
 
@@ -198,6 +203,24 @@ pub(super) fn at(t_s: f64) -> String {
     format!("at {}", Unit::Millisecond.show(if t_s < 1e-12 { 0.0 } else { t_s }, 5))
 }
 
+/// When a clutch that overran at first engaged, s.
+fn engaged_s(s: &Simulation) -> Option<f64> {
+    s.engaged.map(|e| e.t_s).filter(|t_s| *t_s > 0.0)
+}
+
+/// Of a scene that begins in overrun: over which part of it a figure counts, where its label names no instant.
+fn counted(figure: &Figure, s: &Simulation) -> String {
+    let Some((line, t_s)) = figure.line.zip(engaged_s(s)) else { return String::new() };
+    match line.group {
+        Group::Motion if figure.key.contains("slip") => {
+            format!(" (once engaged, from {})", Unit::Millisecond.show(t_s, 4))
+        }
+        Group::Lost => " (overrun and all)".to_owned(),
+        Group::Demand if figure.quantity != Quantity::Friction => " (rolling once engaged)".to_owned(),
+        _ => String::new(),
+    }
+}
+
 /// Of an extreme: when it was reached first, and by how much that moved between the runs; `exact` is the relative error of a force
 /// read off the curve.
 fn when(figure: &Figure, s: &Simulation, exact: f64) -> String {
@@ -209,7 +232,8 @@ fn when(figure: &Figure, s: &Simulation, exact: f64) -> String {
     let off = s.error.map_or(0.0, |e| e.extremes_at_s[i]);
     let off =
         if off > SHOWN * at_s { format!(" ± {}", Unit::Millisecond.show(off, 2)) } else { String::new() };
-    format!(" ({}{off})", at(at_s))
+    let overrunning = if engaged_s(s).is_some_and(|t_s| at_s < t_s) { ", overrunning" } else { "" };
+    format!(" ({}{off}{overrunning})", at(at_s))
 }
 
 /// Whether an extreme stays within its error over the whole run.
@@ -246,6 +270,7 @@ fn demand(f: &mut FactRows, s: &Simulation) {
         if let Some(stop) = d.gave_up {
             return f.word(label, &format!("not computed: {}", stop.name()));
         }
+        let label = &format!("{label}{}", counted(figure, s));
         if let Some(words) = instead(figure.quantity, &d) {
             f.word(label, &words);
             continue;
