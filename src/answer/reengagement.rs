@@ -11,7 +11,7 @@ use crate::margin::{
     LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state, lowest_capacity,
 };
 use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
-use crate::report::plot::Curve;
+use crate::report::plot::{Curve, Dash};
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use serde_json::{Value, json};
 use std::fmt;
@@ -596,7 +596,9 @@ impl Said for ReengagementAnswer<'_> {
         let by_energy = points(&|b| b.by_energy_nm);
         let is_empty = blow_is_empty && by_energy.is_empty();
         if !by_energy.is_empty() {
-            plot.curves.push(Curve::new("by energy, nothing lost", by_energy));
+            // Often beside the blow itself.
+            plot.curves
+                .push(Curve { dash: Dash::Dashed, ..Curve::new("by energy, nothing lost", by_energy) });
         }
         if let Some((most_nm, code)) = &self.bears {
             plot.curves.push(Curve::new(&format!("allowed by {code}"), points(&|_| Some(*most_nm))));
