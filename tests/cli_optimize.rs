@@ -115,9 +115,11 @@ fn the_end_of_a_search_says_what_it_began_with_and_what_would_carry_it_on() {
     let line = |design: &str, evaluations: &str| {
         let flags = ["--starts", "1", "-q", "--evaluations", evaluations];
         let out = tool(&[&["optimize", design, "-o", new.to_str().unwrap()], &flags[..]].concat());
-        String::from_utf8(out.stdout).unwrap().lines().next().unwrap_or_default().to_owned()
+        let text = String::from_utf8(out.stdout).unwrap();
+        let mut lines = text.lines().map(str::to_owned);
+        (lines.next().unwrap_or_default(), lines.next().unwrap_or_default(), text)
     };
-    let short = line("designs/huang2017-single-arc.toml", "2");
+    let (short, beneath, whole) = line("designs/huang2017-single-arc.toml", "2");
     assert!(
         short.starts_with("no feasible design found") && short.contains("--evaluations raises"),
         "{short}"
@@ -126,7 +128,19 @@ fn the_end_of_a_search_says_what_it_began_with_and_what_would_carry_it_on() {
         short.contains("worst margin of this nearest design: ") && short.ends_with("%, hoop-inner"),
         "{short}"
     );
-    let found = line(DESIGN, "500");
+    // One story: the nearest design is written, and is none.
+    assert!(
+        whole.contains(".nearest.toml, the nearest design; it is no answer")
+            && !whole.contains("No design written"),
+        "{whole}"
+    );
+    assert!(beneath.starts_with("hoop-inner decides, margin") && !beneath.contains("--reserve"), "{beneath}");
+    let (found, beneath, _) = line(DESIGN, "500");
+    assert!(
+        beneath.contains(" decides, ") && beneath.contains("; carries ") && beneath.contains(" Nm peak ("),
+        "{beneath}"
+    );
+    assert!(beneath.contains("--reserve 0.05 would keep 5 % of every limit"), "{beneath}");
     assert!(found.contains("every limit held (the start did not hold 1 limit: keep-contact)"), "{found}");
     assert!(found.contains("-> 40.") && found.contains("; lengths in steps of 0.005 mm"), "{found}");
     std::fs::remove_dir_all(&folder).unwrap();

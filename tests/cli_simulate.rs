@@ -295,6 +295,14 @@ fn equilibria_overrun_and_engagement_are_answered() {
     let fast = json(design.path(), "fast", &[]);
     assert_eq!((&fast["verdict"], number(&fast, "drag_torque_nm")), (&"disengages".into(), 0.0));
     let engage = json(design.path(), "engage", &[]);
+    let said = text(&simulate(design.path(), "engage", &["--quiet"]).stdout);
+    for row in [
+        "slip time, inner contact (once engaged, from ",
+        "contact margin (rolling once engaged)",
+        "(overrun and all)",
+    ] {
+        assert!(said.contains(row), "{row}: {said}");
+    }
     // The free run before the reversal is no slip of the engagement (the paper: at most half a millisecond).
     assert_eq!(engage["verdict"], "sticks");
     assert!(number(&engage, "initial_slip_s") < 0.5e-3);

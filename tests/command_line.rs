@@ -200,3 +200,26 @@ fn a_full_disk_is_a_failure_in_words() {
     let stderr = text(&output.stderr);
     assert!(stderr.contains("standard output") && !stderr.contains("panicked"), "{stderr}");
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_folder_that_takes_no_file_is_refused_before_the_work() {
+    let design = "designs/starter.toml";
+    for args in [
+        &["check", design, "--csv", "/proc/a.csv"][..],
+        &["check", design, "--report", "/proc/a.html"],
+        &["export", design, "--format", "dxf", "-o", "/proc/a.dxf"],
+        &["optimize", "designs/huang2017-multi-arc.toml", "-o", "/proc/a.toml"],
+        &["life", "designs/indexing-life.toml", "--csv", "/proc/a.csv"],
+    ] {
+        let output = run(args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(
+            output.stdout.is_empty() && text(&output.stderr).contains("cannot be written: /proc"),
+            "{args:?}"
+        );
+    }
+    assert!(
+        !std::path::Path::new("designs").read_dir().unwrap().any(|e| e.unwrap().path().ends_with(".tmp"))
+    );
+}

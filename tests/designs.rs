@@ -1,5 +1,6 @@
 //! The designs in `designs/` as they are read, the scenario overrides, the schema and the edits.
 
+use sha2::{Digest, Sha256};
 use std::path::Path;
 
 use sprag_design::clutch::{ContactLaw, MassSource, Scenario, ScenarioKind};
@@ -92,6 +93,16 @@ fn both_designs_are_table_1() {
     assert_eq!(multi.source, MULTI);
     assert_ne!(multi.hash, single.hash);
     assert_eq!(multi.hash.len(), 64);
+}
+
+#[test]
+fn a_file_that_an_editor_saved_with_other_line_ends_is_the_same_design() {
+    let windows = format!("\u{feff}{}", MULTI.replace('\n', "\r\n"));
+    let [plain, other] = [MULTI, &windows].map(|text| Design::parse(text, "a.toml").unwrap());
+    assert_eq!(plain.hash, other.hash);
+    assert_eq!(plain.content_hash(), other.content_hash());
+    let sum: String = Sha256::digest(MULTI.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+    assert_eq!(plain.hash, sum);
 }
 
 /// One blank more is another design: the hash names a text, not its meaning.

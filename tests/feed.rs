@@ -168,3 +168,18 @@ fn the_command_answers_and_refuses() {
     let by_file = stdout(&feed(&["--stroke", "30", "--brake", "100", "--frequency", "1"]));
     assert!(by_file.contains("races.inner_inertia_kg_m2"), "{by_file}");
 }
+
+#[test]
+fn strokes_that_do_not_feed_say_a_next_step() {
+    let ask = |more: &[&str]| {
+        stdout(&run(&[&["feed", "designs/indexing.toml", "--stroke", "30", "--quiet"][..], more].concat()))
+    };
+    let fast = ask(&["--brake", "100", "--inertia", "0.02", "--frequency", "1,5,50"]);
+    assert!(fast.contains("NOT HELD") && fast.contains("Next: strokes up to"), "{fast}");
+    // Beyond the frequency at which the fed race runs on: brake or inertia that would stop it, by the square of the frequency.
+    let runs_on = ask(&["--brake", "100", "--inertia", "0.02", "--frequency", "50"]);
+    let at = (2.0 * 100.0 / (0.02 * 30_f64.to_radians())).sqrt() / std::f64::consts::TAU;
+    let brake = sprag_design::report::Unit::NewtonMetre.show(100.0 * (50.0 / at).powi(2), 3);
+    assert!(runs_on.contains(&format!("a brake of {brake} or more")), "{runs_on}");
+    assert!(!ask(&["--brake", "100", "--inertia", "0.02", "--frequency", "1"]).contains("Next: "));
+}

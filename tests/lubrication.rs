@@ -406,6 +406,21 @@ fn the_commands_answer_and_refuse() {
     let slow = stdout(&run(&["overrun", FILE, "--speeds", "5"]));
     let usual = stdout(&run(&["overrun", FILE]));
     assert!(slow.contains("Warning: steady overrun does not stay"), "{slow}");
+    // The headline is the answer, and what was taken for granted is said.
+    let last = |text: &str| text.trim_end().lines().last().unwrap().to_owned();
+    assert!(
+        last(&slow).starts_with("At 5.000 rpm of the inner race") && last(&slow).contains("NOT STABLE"),
+        "{slow}"
+    );
+    assert!(
+        last(&slow).contains("λ ") && last(&slow).contains("drag ") && last(&slow).contains("heat "),
+        "{slow}"
+    );
+    assert!(
+        slow.contains("speeds as asked") && usual.contains("--race outer") && usual.contains("--speeds"),
+        "{usual}"
+    );
+    assert!(!last(&usual).contains("Warning"), "{usual}");
     assert!(!usual.contains("does not stay") && usual.contains("tenfold"), "{usual}");
     // What a row is stands in each part of a table that is folded.
     let answer = changed(&[]);

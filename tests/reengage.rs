@@ -228,3 +228,30 @@ fn the_command_in_every_form() {
         assert!(String::from_utf8_lossy(&refused.stderr).contains(word), "{refused:?}");
     }
 }
+
+#[test]
+fn a_blow_that_is_not_borne_says_a_next_step_in_tables_that_fit_a_terminal() {
+    let text = stdout(&run(&["reengage", FILE, "--quiet"]));
+    let table =
+        text.lines().filter(|l| l.contains("NOT HELD") || l.contains("OVERLOADED") || l.contains("───"));
+    assert!(table.clone().count() > 2 && table.clone().all(|l| l.chars().count() <= 80), "{text}");
+    assert!(
+        text.contains("NOT HELD")
+            && text.contains("Next: ")
+            && text.contains("optimize --objective slip-margin"),
+        "{text}"
+    );
+    let held = stdout(&run(&[
+        "reengage",
+        FILE,
+        "--torque",
+        "50",
+        "--friction",
+        "0.06",
+        "--inner-inertia",
+        "0.05",
+        "--outer-inertia",
+        "0.05",
+    ]));
+    assert!(held.contains("HELD:") && !held.contains("Next: "), "{held}");
+}

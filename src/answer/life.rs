@@ -305,7 +305,9 @@ impl LifeAnswer<'_> {
                 plot.curves.push(Curve::new(place.names().1, points));
             }
         }
-        let loads = self.life.loads.iter().map(|l| [l.engagements, l.torque_nm]).collect();
+        // Dots alone: no load leads to the next.
+        let loads =
+            self.life.loads.iter().flat_map(|l| [[l.engagements, l.torque_nm], [f64::NAN; 2]]).collect();
         plot.curves.push(Curve {
             dots: true,
             dash: crate::report::plot::Dash::Dotted,

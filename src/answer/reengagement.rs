@@ -1,5 +1,7 @@
 //! What a slip under load and the blow after it do to a clutch: each path of slip, verdict, curve.
 
+mod words;
+
 use super::check::overrun::outer_turns;
 use super::left_out::{LeftOut, left_out_of};
 use super::{Finding, Said};
@@ -11,7 +13,7 @@ use crate::margin::{
     Capacities, LIFT_OFF_TO_RAD_S, LoadState, When, lift_off_rad_s, load_margins, load_state, lowest_capacity,
 };
 use crate::reengage::{Blow, Blows, SlipEnd, SlipUnderLoad, blows, taken_up_j};
-use crate::report::plot::Curve;
+use crate::report::plot::{Curve, Dash};
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
 use serde_json::{Value, json};
 use std::fmt;
@@ -366,45 +368,6 @@ impl ReengagementAnswer<'_> {
         });
         significant(friction, 3) + &share.unwrap_or_default()
     }
-
-    /// Which number to change, and towards where, after a blow that is not borne.
-    fn next_step(&self) -> Option<String> {
-        if self.is_held() || self.found.holds.is_some() {
-            return None;
-        }
-        let needs = Some(self.found.needs).filter(|mu| mu.is_finite())?;
-        let lost = self.found.list.iter().find(|b| !self.bears_it(b));
-        let energy = lost.and_then(|b| Some((b, self.energy(b)?.1.filter(|share| *share > 1.0)?)));
-        let blow = energy.map_or(String::new(), |(b, share)| {
-            format!(
-                "; to bear {} of slip its windup must take up {} times as much: less torque (--torque), or a clutch for more (`size --peak`)",
-                Unit::Millimetre.show(b.path_m, 3),
-                significant(share, 3)
-            )
-        });
-        Some(format!(
-            "Next: keep it from slipping at all, with sprags that need less friction than {} (`optimize --objective slip-margin`){blow}",
-            significant(needs, 3)
-        ))
-    }
-
-    fn borne_words(&self, borne: &BorneSlip) -> String {
-        let path = |m: f64| Unit::Millimetre.show(m, 3);
-        let friction = significant(self.case.friction, 3);
-        let first = match borne.path_m {
-            Some(m) => format!("At a friction of {friction} slip up to {} is borne", path(m)),
-            None => format!("At a friction of {friction} no slip is borne, however short"),
-        };
-        let shortest = self.case.paths_m.first().map_or(String::new(), |m| path(*m));
-        let then = match borne.friction {
-            Some(mu) if mu > self.case.friction => {
-                format!("; {shortest} is borne from a friction of {} on", significant(mu, 4))
-            }
-            Some(_) => String::new(),
-            None => format!("; {shortest} is borne at none that slips"),
-        };
-        first + &then
-    }
 }
 
 impl Said for ReengagementAnswer<'_> {
@@ -596,7 +559,9 @@ impl Said for ReengagementAnswer<'_> {
         let by_energy = points(&|b| b.by_energy_nm);
         let is_empty = blow_is_empty && by_energy.is_empty();
         if !by_energy.is_empty() {
-            plot.curves.push(Curve::new("by energy, nothing lost", by_energy));
+            // Often beside the blow itself.
+            plot.curves
+                .push(Curve { dash: Dash::Dashed, ..Curve::new("by energy, nothing lost", by_energy) });
         }
         if let Some((most_nm, code)) = &self.bears {
             plot.curves.push(Curve::new(&format!("allowed by {code}"), points(&|_| Some(*most_nm))));

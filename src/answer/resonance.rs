@@ -592,6 +592,7 @@ fn edges(values: &[f64]) -> Vec<f64> {
     let [Some(first), Some(last)] = [values.first(), values.last()] else { return Vec::new() };
     let between = values.windows(2).map(|w| 0.5 * (w[0] + w[1]));
     let half = |a: usize| values.get(a + 1).map_or(0.5, |next| 0.5 * (next - values[a]));
-    let ends = [first - half(0), last + half(values.len().saturating_sub(2))];
+    // Neither is negative.
+    let ends = [(first - half(0)).max(0.0), last + half(values.len().saturating_sub(2))];
     std::iter::once(ends[0]).chain(between).chain([ends[1]]).collect()
 }

@@ -65,7 +65,25 @@ fn with_letter(text: &str, name: &str, letter: &str) -> String {
 
 /// Prose with its symbols as people read them, made safe.
 fn prose(text: &str) -> String {
-    escape(&greek(text))
+    coded(&escape(&greek(text)))
+}
+
+/// What stands between backticks as code; one alone stays.
+fn coded(escaped: &str) -> String {
+    let parts: Vec<&str> = escaped.split('`').collect();
+    let pairs = (parts.len() - 1) / 2;
+    let mut out = String::with_capacity(escaped.len() + 13 * pairs);
+    for (k, part) in parts.iter().enumerate() {
+        let mark = match k {
+            0 => "",
+            _ if k > 2 * pairs => "`",
+            _ if k % 2 == 1 => "<code>",
+            _ => "</code>",
+        };
+        out.push_str(mark);
+        out.push_str(part);
+    }
+    out
 }
 
 /// Text made safe for HTML content and attributes.

@@ -222,6 +222,14 @@ impl Plot {
         let mut extent = Extent::default();
         let points = self.curves.iter().flat_map(|c| &c.points);
         points.filter(|p| self.drawable(p)).for_each(|p| extent.add(*p));
+        // A dot on the first or last decade would lie on the frame.
+        for p in self.curves.iter().filter(|c| c.dots).flat_map(|c| &c.points).filter(|p| self.drawable(p)) {
+            for by in [0.9, 1.1] {
+                let beside =
+                    [(self.log_x, p[0]), (self.log_y, p[1])].map(|(log, v)| if log { by * v } else { v });
+                extent.add(beside);
+            }
+        }
         for level in self.sound_levels() {
             extent.y = (extent.y.0.min(level.at), extent.y.1.max(level.at));
         }

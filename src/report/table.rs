@@ -452,9 +452,24 @@ impl Table {
         writer.into_inner().map_err(|e| e.into_error().into())
     }
 
-    /// `<table>` with numbers right-aligned.
+    /// `<table>` with numbers right-aligned; margin and verdict behind what the row is, so that a phone shows them without scrolling.
     pub fn to_html(&self) -> String {
-        self.for_people().html()
+        self.for_people().answer_first().html()
+    }
+
+    fn answer_first(self) -> Self {
+        let place =
+            |key: &str| self.columns.iter().skip(self.lead).position(|c| c.key == key).map(|k| k + self.lead);
+        let Some(verdict) = place("verdict") else { return self };
+        let first: Vec<usize> = (0..self.lead).chain([verdict]).chain(place("margin")).collect();
+        let order: Vec<usize> =
+            first.iter().copied().chain((0..self.columns.len()).filter(|k| !first.contains(k))).collect();
+        let sorted = |row: &Vec<Cell>| order.iter().map(|k| Self::cell(row, *k).clone()).collect();
+        Self {
+            rows: self.rows.iter().map(sorted).collect(),
+            columns: order.iter().map(|k| self.columns[*k].clone()).collect(),
+            lead: self.lead,
+        }
     }
 
     fn html(&self) -> String {

@@ -42,3 +42,18 @@ fn elements_are_closed() {
         assert_eq!(open, html.matches(&format!("</{name}>")).count(), "{name}");
     }
 }
+
+#[test]
+fn backticks_are_code_on_a_page_and_one_alone_stays() {
+    let head = PageHead {
+        title: String::new(),
+        tool: String::new(),
+        version: String::new(),
+        command: String::new(),
+        design: String::new(),
+        design_hash: String::new(),
+    };
+    let mut page = Page::new(head);
+    page.paragraph("ask `explain <name>` or ` alone");
+    assert!(page.to_html().contains("ask <code>explain &lt;name&gt;</code> or ` alone"));
+}

@@ -114,6 +114,7 @@ impl Wish {
         self.check_ratio()?;
         let wanted = self.requirements();
         self.check_swing(&wanted)?;
+        self.check_contact(&wanted)?;
         self.check_lift_off(&wanted)?;
         self.check_shaft(&wanted)?;
         wanted.check().map(|()| wanted)
@@ -128,7 +129,8 @@ impl Wish {
         let wanted = self.requirements();
         match key {
             "peak" => self.check_shaft(&wanted),
-            "lift-off-rpm" => self.check_lift_off(&wanted),
+            "keep-contact-rpm" => self.check_contact(&wanted),
+            "lift-off-rpm" => self.check_contact(&wanted).and_then(|()| self.check_lift_off(&wanted)),
             "swing-hz" => self.check_swing(&wanted),
             _ => Ok(()),
         }
@@ -146,22 +148,26 @@ impl Wish {
         }
     }
 
-    /// Refuse a speed of lift-off that the outer race does not reach, and one of the purpose below a speed to which contact is to be kept.
+    /// Refuse a speed to which contact is to be kept beyond that at which the purpose has the sprags off.
+    fn check_contact(&self, wanted: &Requirements) -> Result<(), BadRequirement> {
+        let lift = wanted.lift_off_rad_s.filter(|_| self.lift_off_rad_s.is_none());
+        let Some((keep, lift)) = self.keep_contact_rad_s.zip(lift).filter(|(keep, lift)| keep > lift) else {
+            return Ok(());
+        };
+        Err(BadRequirement {
+            what: "keep-contact-rpm",
+            found: show(keep),
+            allowed: format!(
+                "up to {}, by which sprags of this purpose are off ({}); lift-off-rpm says another speed, 0 that they stay on",
+                show(lift),
+                wanted.contact_from[1]
+            ),
+        })
+    }
+
+    /// Refuse a speed of lift-off that the outer race does not reach.
     fn check_lift_off(&self, wanted: &Requirements) -> Result<(), BadRequirement> {
-        let show = |rad_s: f64| format!("{} rpm", rounded(rpm(rad_s), 6));
         let (Some(lift), [_, outer]) = (wanted.lift_off_rad_s, wanted.overrun_rad_s) else { return Ok(()) };
-        if let (None, Some(keep)) = (self.lift_off_rad_s, self.keep_contact_rad_s.filter(|keep| *keep > lift))
-        {
-            return Err(BadRequirement {
-                what: "keep-contact-rpm",
-                found: show(keep),
-                allowed: format!(
-                    "up to {}, by which sprags of this purpose are off ({}); lift-off-rpm says another speed, 0 that they stay on",
-                    show(lift),
-                    wanted.contact_from[1]
-                ),
-            });
-        }
         let outer_known = self.outer_rad_s.is_some() || self.purpose.is_some();
         if outer_known && lift > outer * (1.0 + 1e-9) {
             return Err(BadRequirement {
@@ -331,4 +337,9 @@ impl Requirements {
         let first = ASKED.iter().filter(|row| row.key == "keep-contact-rpm");
         first.chain(&ASKED).try_for_each(|row| row.check(self))
     }
+}
+
+/// A speed as it is typed.
+fn show(rad_s: f64) -> String {
+    format!("{} rpm", rounded(rpm(rad_s), 6))
 }

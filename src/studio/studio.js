@@ -111,7 +111,7 @@ function rows() {
   const html = (list) => list.map((m) => {
     const was = known.pinned[m.code];
     const before = state.pinned && was && was !== m.text ? `<br><span class="was">pinned ${escaped(was)}</span>` : "";
-    return `<tr class="${m.tone}" title="${escaped(m.name).replaceAll('"', "&quot;")}" data-code="${escaped(m.code)}"><td><span class="dot"></span>${escaped(m.code)}</td><td class="n">${escaped(m.text)}${before}</td><td class="n soft">${escaped(m.against)}${m.reached ? `<br>reached at ${escaped(m.reached)}` : ""}</td></tr>`;
+    return `<tr class="${m.tone}" title="${escaped(m.name).replaceAll('"', "&quot;")}" data-code="${escaped(m.code)}"><td><span class="dot"></span>${escaped(m.code)}</td><td class="n">${escaped(m.text)}${before}</td><td class="n soft">${escaped(m.against)}${m.reached ? `<br>at ${escaped(m.reached)}` : ""}</td></tr>`;
   }).join("");
   verdict(all.filter((m) => m.required));
   $("margins").tBodies[0].innerHTML = html(all.filter((m) => m.required));

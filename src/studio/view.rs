@@ -1,12 +1,12 @@
 //! What statics says of a design, as the page shows it.
 
 use super::fields::{Field, fields};
-use crate::answer::check::{Capacity, in_place_of_margin, is_beyond};
+use crate::answer::check::{Capacity, demand_cell, in_place_of_margin, is_beyond};
 use crate::design::Design;
 use crate::margin::{
     Capacities, LIFT_OFF_TO_RAD_S, LoadState, Margin, NoMargins, lift_off_rad_s, overrun_at, static_margins,
 };
-use crate::report::{Curve, Dash, Drawing, Live, Plot, SpragPose, Unit, live, significant};
+use crate::report::{Cell, Curve, Dash, Drawing, Live, Plot, SpragPose, Unit, live, significant};
 use crate::wedge::{Closure, StaticPoint};
 use serde::Serialize;
 
@@ -343,6 +343,9 @@ fn against(r: &Margin) -> String {
             .map_or(format!("{wanted} wanted"), |mu| format!("μ {}, {wanted} wanted", significant(mu, 3)));
     }
     let allowable = format!("{}{unit}", significant(r.allowable_in_unit(), 4));
+    if let Cell::Text(instead) = demand_cell(r) {
+        return format!("{instead}, of {allowable}");
+    }
     match r.demand_in_unit() {
         Some(0.0) | None => allowable,
         Some(demand) => format!("{} of {allowable}", significant(demand, 4)),

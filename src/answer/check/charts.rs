@@ -39,7 +39,7 @@ pub(super) fn limits(design: &Design, check: &CheckAnswer) -> Plot {
             Dash::Faint => "farther away".to_owned(),
             _ => course.code,
         };
-        let cut = |[x, y]: [f64; 2]| [x, if y <= CUT_AT { y } else { f64::NAN }];
+        let cut = |[x, y]: [f64; 2]| [x, if (0.0..=CUT_AT).contains(&y) { y } else { f64::NAN }];
         plot.curves.push(Curve { dash, ..Curve::new(&name, course.points.into_iter().map(cut).collect()) });
     }
     for (code, torque_nm) in set_by {

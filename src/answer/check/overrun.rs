@@ -240,7 +240,7 @@ pub(in crate::answer) fn passing_words(rate: f64, which: &str) -> Option<String>
 
 /// What an equilibrium does not say: the fastest growth of the swing at the steady overruns that the design names, or, where it
 /// names none, among the speeds looked at.
-fn warning(named: &[NamedOverrun], points: &[&OverrunRow], on_film: bool) -> Option<String> {
+fn warning(named: &[NamedOverrun], points: &[&OverrunRow], limits: &Limits, on_film: bool) -> Option<String> {
     let steady = || named.iter().filter(|n| n.lasts);
     let of_named = steady().map(|n| (n.growth_rate_per_s, n.swing_frequency_hz, n.speeds()));
     let of_points = points.iter().map(|p| {
@@ -260,8 +260,13 @@ fn warning(named: &[NamedOverrun], points: &[&OverrunRow], on_film: bool) -> Opt
         return Some(format!("Note: at {at} {grows}: harmless where the clutch does not stay there as long"));
     }
     Some(format!(
-        "Warning: steady overrun does not stay: at {at} {grows}, at {}, as its friction falls with speed; {}",
+        "Warning: steady overrun does not stay: at {at} {grows}, at {}, as its friction falls with speed{}; {}",
         Unit::Hertz.show(hertz, 3),
+        if limits.keep_contact_to_rad_s.is_some() {
+            " (keep-contact is that of the equilibrium)"
+        } else {
+            ""
+        },
         if on_film {
             "more film calms it: another lubrication.oil, or a lower lubrication.temperature_c"
         } else {
@@ -305,7 +310,7 @@ impl OverrunSection {
             |p: &&OverrunRow| p.race == "inner" || turns && wanted_rpm.is_none_or(|rpm| p.speed_rpm <= rpm);
         let looked_at: Vec<&OverrunRow> = points.iter().filter(within).collect();
         let on_film = curve.inner_race.iter().any(|p| p.lubricated.is_some());
-        let warning = warning(&named, &looked_at, on_film);
+        let warning = warning(&named, &looked_at, limits, on_film);
         Self {
             centrifugal: match curve.gamma_rad {
                 g if g > 0.0 => "engaging",

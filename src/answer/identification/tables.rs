@@ -95,7 +95,15 @@ pub(super) fn verdict(found: &Identified) -> String {
     let together =
         (!together.is_empty()).then(|| format!("determined only together: {}", together.join("; ")));
     let parts: Vec<String> = not.into_iter().chain(together).collect();
-    if parts.is_empty() { "every unknown is determined".to_owned() } else { parts.join("; ") }
+    if !parts.is_empty() {
+        return parts.join("; ");
+    }
+    let each = found.unknowns.iter().zip(&found.knowledge.estimates).map(|(u, e)| {
+        let off = [(e.half_width, "by scatter"), (e.by_law, "by the contact law")];
+        let off = off.into_iter().filter_map(|(off, by)| Some(format!(" ± {} {by}", significant(off?, 2))));
+        format!("{} = {}{}", u.name, significant(e.value, 4), off.collect::<String>())
+    });
+    format!("every unknown is determined: {}", each.collect::<Vec<_>>().join("; "))
 }
 
 /// Why the data do not determine the unknown `j`; a blind direction and too few observations have sentences of their own.

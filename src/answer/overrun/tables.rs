@@ -56,17 +56,15 @@ fn with_heat(rows: Lines<'_>) -> Lines<'_> {
 }
 
 fn with_swing(rows: Lines<'_>) -> Lines<'_> {
-    rows.number("growth_rate_per_s", "Growth, film", Unit::PerSecond, 3, |l| {
+    rows.number("growth_rate_per_s", "Growth on film", Unit::PerSecond, 3, |l| {
         l.point.swing.map(|s| s.growth_rate_per_s)
     })
-    .number("growth_by_friction_per_s", "Growth, friction alone", Unit::PerSecond, 3, |l| {
+    .number("growth_by_friction_per_s", "By friction", Unit::PerSecond, 3, |l| {
         l.point.swing_by_friction.map(|s| s.growth_rate_per_s)
     })
-    .number("growth_dry_per_s", "Growth, (12)", Unit::PerSecond, 3, |l| {
-        l.dry.swing.map(|s| s.growth_rate_per_s)
-    })
-    .number("sprag_wear_first_hour_um", "Sprag, 1st hour", Unit::Micrometre, 3, |l| l.wear.map(|w| w.sprag_m))
-    .number("race_wear_um_per_hour", "Race, an hour", Unit::Micrometre, 3, |l| l.wear.map(|w| w.race_m))
+    .number("growth_dry_per_s", "By (12)", Unit::PerSecond, 3, |l| l.dry.swing.map(|s| s.growth_rate_per_s))
+    .number("sprag_wear_first_hour_um", "Sprag, 1st h", Unit::Micrometre, 3, |l| l.wear.map(|w| w.sprag_m))
+    .number("race_wear_um_per_hour", "Race, per h", Unit::Micrometre, 3, |l| l.wear.map(|w| w.race_m))
     .json("swing_frequency_hz", |l| l.point.swing.map(|s| s.frequency_hz))
 }
 

@@ -264,10 +264,6 @@ fn draw_notes(svg: &mut Svg, view: &View, notes: &[Note]) {
                 &polyline(&[start, knee, note.at], false),
                 &format!("fill=\"none\" stroke=\"{SOFT}\" stroke-width=\"0.8\""),
             );
-            // On paper: the edge of a race would run through the words.
-            let [from, until] = if left { [x - wide, x + 2.0] } else { [x - 2.0, x + wide] };
-            let ground = [[from, y - 11.0], [until, y - 11.0], [until, y + 4.0], [from, y + 4.0]];
-            svg.path(&polyline(&ground, true), &format!("fill=\"{PAPER}\" fill-opacity=\"0.85\""));
             svg.text([x, y], if left { Anchor::End } else { Anchor::Start }, INK, &note.text);
         }
     }

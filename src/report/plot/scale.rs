@@ -100,8 +100,7 @@ pub(super) fn widened((low, high): (f64, f64), log: bool, air: f64) -> [f64; 2] 
     }
     let span = high - low;
     if span <= 1e-12 * low.abs().max(high.abs()) {
-        let half = if low == 0.0 { 1.0 } else { 0.1 * low.abs() };
-        return [low - half, high + half];
+        return if low == 0.0 { [0.0, 1.0] } else { [low - 0.1 * low.abs(), high + 0.1 * high.abs()] };
     }
     // A range that begins close to zero, or below it by roundings, begins there.
     let low = if low > -1e-9 * high && low < NEAR_ZERO * high { 0.0 } else { low };

@@ -157,3 +157,24 @@ fn html_is_escaped() {
     assert!(html.contains("Hoop &lt;outer&gt;, &quot;mean&quot;"), "{html}");
     assert!(html.contains("<td class=\"broken\">broken</td>"));
 }
+
+#[test]
+fn on_a_page_margin_and_verdict_stand_behind_the_name() {
+    let mut table = Table::new(vec![
+        Column::text("code", "Limit"),
+        Column::number("demand", "Demand", Unit::One, 4),
+        Column::number("margin", "Margin", Unit::Percent, 3),
+        Column::text("verdict", "Verdict"),
+    ]);
+    table.row(vec!["hoop".into(), Cell::Count(3), Cell::Count(4), Cell::Verdict(true, "held".into())]);
+    let html = table.to_html();
+    let at = |word: &str| html.find(&format!(">{word}")).unwrap();
+    assert!(
+        at("Limit") < at("Verdict") && at("Verdict") < at("Margin") && at("Margin") < at("Demand"),
+        "{html}"
+    );
+    assert!(at("hoop") < at("held") && at("held") < at("4<") && at("4<") < at("3<"), "{html}");
+    // In the terminal a line is read to its end.
+    let text = table.to_text(Screen::default());
+    assert!(text.find("Demand").unwrap() < text.find("Verdict").unwrap());
+}
