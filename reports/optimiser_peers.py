@@ -185,7 +185,8 @@ def spent(found, derivative):
     robust = found.get("robust")
     made = robust["made"] if robust else {"draws": 0, "corners": -1}
     beside = robust["evaluations"] - made["draws"] - made["corners"] - 1 if robust else 0
-    return found["evaluations"] + derivative * found["derivatives"] + beside
+    along = found["derivatives"] + (robust["derivatives"] if robust else 0)
+    return found["evaluations"] + derivative * along + beside
 
 
 def course_of(found, derivative):
