@@ -21,7 +21,8 @@ NOW, EXAMPLE = os.path.join(BUILT, "sprag-design"), os.path.join(BUILT, "example
 BEFORE = EARLIER[0] if EARLIER else None
 BINARIES = ([("before", BEFORE)] if BEFORE else []) + [("now", NOW)]
 DESIGNS = {"roller": "designs/huang2017-multi-arc.toml", "elastic": "designs/huang2017-elastic.toml"}
-PROBLEMS = [f"tests/optimise/designs/{p}.toml" for p in ("a-huang-at-rest", "b-huang-at-speed", "c-24-sprags")]
+PROBLEMS = [f"tests/optimise/designs/{p}.toml" for p in ("a-huang-at-rest", "b-huang-at-speed", "c-24-sprags", "d-indexing-elastic",
+                                                            "e-starter-eight")]
 # Least limit that still holds, as the program has it.
 RESOLUTION = 1e-8
 ROUNDS = 5

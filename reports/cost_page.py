@@ -12,7 +12,7 @@ import sys
 TABLE, OUT = sys.argv[1:]
 LAWS = {"roller": "law roller", "elastic": "law elastic"}
 PROBLEMS = {"a-huang-at-rest": "a: the paper's clutch at rest", "b-huang-at-speed": "b: the same at speed",
-            "c-24-sprags": "c: 24 sprags"}
+            "c-24-sprags": "c: 24 sprags", "d-indexing-elastic": "d: law elastic", "e-starter-eight": "e: eight variables"}
 OURS = "sprag-design optimize"
 # That of the pages of all commands; texts of the plots have its colours.
 with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "src", "report", "page.css")) as style:
@@ -499,7 +499,8 @@ a step, the looks for peaks and the table of the curve on the way are in it. {e(
 {optimum_part}
 <p>{e(f"With 1e-3 to 1e-8 allowed in an evaluation a climb takes as many evaluations and its optimum moves by {number(moved, 2)} of itself at most.")}</p>
 {folded("One climb by the error allowed in an evaluation", climbs)}
-<p>The others' counts are those of <a href="optimiser-peers.html">optimiser-peers</a>, on the same evaluator; –: not known or never. {e(local())} Our search goes on with new starts
+<p>The others' counts are those of <a href="optimiser-peers.html">optimiser-peers</a>, on the same evaluator; –: not known or never. That page counts our derivatives at their cost
+and has a sixth problem, under tolerances; here evaluations alone are counted. {e(local())} Our search goes on with new starts
 until no other optimum is to be expected.</p>
 <h2>Threads and memory</h2>
 <p>{e(scaled)}</p>

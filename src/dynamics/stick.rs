@@ -276,6 +276,8 @@ impl RightHandSide<4> for Rolls<'_> {
 
 /// Shortest step, as a part of the longest, before the general run, which has implicit steps as well, is the better one.
 const SHORTEST: f64 = 1e-3;
+/// A step whose right-hand side had no value, as a part of itself the next time.
+const SHRUNK: f64 = 0.1;
 /// How far beyond a junction that lies ahead a step goes, in parts of the way there and of the longest step: what lies
 /// beyond is lost.
 const BEYOND: [f64; 2] = [1.05, 0.01];
@@ -331,8 +333,14 @@ fn integrate(rolls: &mut Rolls, mut y: Pair, settings: &RunSettings, run: &mut S
         let trial = h.min(longest).min(rest).min(BEYOND[0] * ahead + BEYOND[1] * longest);
         let slope = rolls.set_out(now);
         let taken = step.take(rolls, t, &y, &slope, trial, &tolerance, MOST, &mut run.counters);
-        if taken.is_err() || step.error.is_nan() || trial < SHORTEST * longest.min(rest) {
+        if trial < SHORTEST * longest.min(rest) {
             return false;
+        }
+        // A step of many swings may leave what has values.
+        if taken.is_err() || step.error.is_nan() {
+            run.counters.rejections += 1;
+            h = SHRUNK * trial;
+            continue;
         }
         // A step that was cut short says nothing against a longer one.
         h = if trial < h { h.max(step.next_h()) } else { step.next_h() };

@@ -5,7 +5,8 @@ use std::sync::Mutex;
 use sha2::{Digest, Sha256};
 
 use super::driver::maximise_least_margin;
-use super::journal::{Entry, Journal, SearchRun, Watch};
+use super::evaluate::{Evaluation, NoEvaluation};
+use super::journal::{Entry, Journal, Memo, SearchRun, Watch};
 use super::outcome::{Iteration, Outcome, Refusal};
 use super::problem::ClutchProblem;
 use super::settings::Settings;
@@ -108,6 +109,17 @@ impl<'a> Desk<'a> {
             problem,
             SearchRun { journal, follow: self.follow(), known: Vec::new(), watch: Some(&mut scribe) },
         )
+    }
+
+    /// One evaluation.
+    ///
+    /// # Errors
+    /// [`NoEvaluation`]; where the caller wants an end, too.
+    pub(super) fn look(&self, problem: &ClutchProblem, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
+        self.run(problem, |problem, run| {
+            let mut memo = Memo::new(problem, run, usize::MAX);
+            memo.one(x.to_vec()).unwrap_or(Err(NoEvaluation::Refused("stopped".to_owned())))
+        })
     }
 
     /// One climb.

@@ -215,6 +215,7 @@ impl Driver<'_, '_> {
             table: Table::unknown(&self.space),
             taken: None,
             hessian: None,
+            level: Vec::new(),
             tally: Tally::default(),
         };
         let end = climb.run();

@@ -8,13 +8,15 @@ use rayon::prelude::*;
 
 use super::corner::{Corner, corners, half_ranges};
 use super::desk::Desk;
+use super::difference::own_slopes;
 use super::driver::maximise_least_margin;
 use super::evaluate::{Evaluate, Evaluation, NoEvaluation};
-use super::journal::SearchRun;
+use super::journal::{Memo, SearchRun};
 use super::outcome::{Refusal, Status};
 use super::problem::ClutchProblem;
 use super::robust::{at_each, worse_than_set};
 use super::settings::Settings;
+use super::space::Space;
 use super::starts::SearchMethod;
 use crate::clutch::Tolerances;
 
@@ -22,10 +24,13 @@ use crate::clutch::Tolerances;
 const ROUNDS: usize = 10;
 /// The climbs have settled when none moves a variable by more than this share of its range.
 const SETTLED: f64 = 1e-6;
-/// Step of the slopes, as a share of a variable's range.
+/// They have come near when the least margin of all corners changes by no more than this part: a climb at the corners themselves
+/// is the shorter way from there.
+const NEAR: f64 = 1e-4;
+/// Step of the slopes where a problem has none itself, as a share of a variable's range.
 const STEP: f64 = 1e-3;
 /// Up to this many corners all are evaluated in each round: slopes over the quantities would cost as much.
-const FEW: usize = 16;
+const FEW: usize = 4;
 
 /// Where such climbs have come to.
 pub(super) struct NearCorners {
@@ -35,6 +40,8 @@ pub(super) struct NearCorners {
     /// Converged: the climbs have settled; else of the last one.
     pub status: Status,
     pub evaluations: usize,
+    /// Derivatives along one variable beside them.
+    pub derivatives: usize,
 }
 
 /// The margins at all corners of a set by the clutch as drawn.
@@ -43,68 +50,111 @@ struct Model<'a> {
     at: &'a [f64],
     /// Corner by corner what it adds to the outputs, and the slopes of that over each variable.
     blocks: Vec<(Vec<f64>, Vec<Vec<f64>>)>,
+    /// How many of a corner's outputs are objectives.
+    objectives: usize,
+}
+
+impl Model<'_> {
+    /// What each corner makes of a row of the clutch as drawn: `more` of an output is added. Objectives, limits, the tie break.
+    fn at_corners(&self, drawn: &[f64], more: impl Fn(&(Vec<f64>, Vec<Vec<f64>>), usize) -> f64) -> Vec<f64> {
+        let last = drawn.len() - 1;
+        let (mut objectives, mut limits) = (Vec::new(), Vec::new());
+        for block in &self.blocks {
+            let row = |j: usize| drawn[j] + more(block, j);
+            objectives.extend((0..self.objectives).map(row));
+            limits.extend((self.objectives..last).map(row));
+        }
+        [objectives, limits, vec![drawn[last]]].concat()
+    }
+}
+
+/// sum of the slopes of output `j` times the way from `from` to `to`.
+fn along(slopes: &[Vec<f64>], j: usize, from: &[f64], to: &[f64]) -> f64 {
+    slopes.iter().zip(to.iter().zip(from)).map(|(s, (to, from))| s[j] * (to - from)).sum()
 }
 
 impl Evaluate for Model<'_> {
     fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
         let drawn = self.drawn.evaluate(x)?;
-        let (outputs, count) = (drawn.outputs(), drawn.objectives.len());
-        let mut found = Evaluation { objectives: Vec::new(), limits: Vec::new(), tie_break: drawn.tie_break };
-        for (added, slopes) in &self.blocks {
-            for j in 0..outputs.len() - 1 {
-                let moved: f64 = slopes.iter().zip(x).zip(self.at).map(|((s, x), at)| s[j] * (x - at)).sum();
-                let value = outputs[j] + added[j] + moved;
-                if j < count { found.objectives.push(value) } else { found.limits.push(value) }
-            }
-        }
-        Ok(found)
+        let mut row =
+            self.at_corners(&drawn.outputs(), |(added, slopes), j| added[j] + along(slopes, j, self.at, x));
+        row.truncate(row.len() - 1);
+        let limits = row.split_off(self.objectives * self.blocks.len());
+        Ok(Evaluation { objectives: row, limits, tie_break: drawn.tie_break })
+    }
+
+    fn changes(&self, x: &[f64], beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let drawn = self.drawn.changes(x, beside)?;
+        let change = |(row, to): (Vec<f64>, &Vec<f64>)| match row.is_empty() {
+            true => row,
+            false => self.at_corners(&row, |(_, slopes), j| along(slopes, j, x, to)),
+        };
+        Some(drawn.into_iter().zip(beside).map(change).collect())
     }
 }
 
-/// The model at `x`, where the corners of `set` are `here`; `None` where some corner has no clutch there or rows of its own.
-fn model<'a>(
-    drawn: &'a ClutchProblem,
-    set: &[Corner],
-    here: Vec<Result<Evaluation, NoEvaluation>>,
-    x: &'a [f64],
+/// Slopes of the outputs of `problem` at `x` over each variable, `[variable][output]`; `here`: the outputs there. Its own, or where
+/// it has none differences; `None` where there is no clutch beside it.
+fn slopes_of(
+    problem: &ClutchProblem,
+    here: &[f64],
+    x: &[f64],
     (lo, hi): (&[f64], &[f64]),
+    (evaluations, derivatives): (&mut usize, &mut usize),
     desk: &Desk,
-) -> Option<Model<'a>> {
-    let added = |found: Vec<Result<Evaluation, NoEvaluation>>| -> Option<Vec<Vec<f64>>> {
-        let found: Vec<Vec<f64>> =
-            found.into_iter().map(|e| e.ok().map(|e| e.outputs())).collect::<Option<_>>()?;
-        let (width, nominal) = (found[0].len(), found[0].clone());
-        let alike = found.iter().all(|row| row.len() == width);
-        alike
-            .then(|| found.iter().map(|row| row.iter().zip(&nominal).map(|(a, b)| a - b).collect()).collect())
-    };
-    let here = added(here)?;
-    let mut blocks: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
-        here.into_iter().map(|added| (added, Vec::new())).collect();
-    let steps: Vec<f64> = (0..x.len())
+) -> Option<Vec<Vec<f64>>> {
+    let own = desk.run(problem, |problem, run| {
+        let space = Space::new(x, lo, hi).ok()?;
+        let mut memo = Memo::new(problem, run, usize::MAX);
+        let found = own_slopes(&mut memo, &space, &space.start(), here.len());
+        *derivatives += memo.derivatives;
+        found.ok()?.filter(|rows| rows.iter().flatten().all(|slope| slope.is_finite()))
+    });
+    if let Some(rows) = own {
+        let over = |i: usize| rows.iter().map(|row| row[i] / (hi[i] - lo[i])).collect();
+        return Some((0..x.len()).map(over).collect());
+    }
+    *evaluations += x.len();
+    (0..x.len())
         .map(|i| {
             let step = STEP * (hi[i] - lo[i]);
-            if x[i] + step <= hi[i] { step } else { -step }
-        })
-        .collect();
-    let beside: Vec<Vec<Vec<f64>>> = steps
-        .par_iter()
-        .enumerate()
-        .map(|(i, step)| {
+            let step = if x[i] + step <= hi[i] { step } else { -step };
             let mut there = x.to_vec();
             there[i] += step;
-            added(at_each(drawn, &there, set, desk))
+            let beside = desk.look(problem, &there).ok()?.outputs();
+            let alike = beside.len() == here.len();
+            alike.then(|| beside.iter().zip(here).map(|(b, a)| (b - a) / step).collect())
         })
-        .collect::<Option<_>>()?;
-    for (rows, step) in beside.iter().zip(&steps) {
-        for ((added, slopes), row) in blocks.iter_mut().zip(rows) {
-            if row.len() != added.len() {
-                return None;
-            }
-            slopes.push(row.iter().zip(added.iter()).map(|(b, a)| (b - a) / step).collect());
-        }
+        .collect()
+}
+
+/// The model at `x`, where the corners of the set have the outputs `here`; `None` where some corner has no clutch there or rows of
+/// its own.
+fn model<'a>(
+    problems: &'a [ClutchProblem],
+    here: &[Result<Evaluation, NoEvaluation>],
+    near: &mut NearCorners,
+    x: &'a [f64],
+    bounds: (&[f64], &[f64]),
+    desk: &Desk,
+) -> Option<Model<'a>> {
+    let objectives = here[0].as_ref().ok()?.objectives.len();
+    let outputs: Vec<Vec<f64>> =
+        here.iter().map(|e| e.as_ref().ok().map(Evaluation::outputs)).collect::<Option<_>>()?;
+    if outputs.iter().any(|row| row.len() != outputs[0].len()) {
+        return None;
     }
-    Some(Model { drawn, at: x, blocks })
+    let mut slopes = Vec::new();
+    for (problem, here) in problems.iter().zip(&outputs) {
+        let spent = (&mut near.evaluations, &mut near.derivatives);
+        slopes.push(slopes_of(problem, here, x, bounds, spent, desk)?);
+    }
+    let less = |row: &[f64], drawn: &[f64]| row.iter().zip(drawn).map(|(a, b)| a - b).collect::<Vec<_>>();
+    let blocks = outputs.iter().zip(&slopes).map(|(row, own)| {
+        let added = own.iter().zip(&slopes[0]).map(|(own, drawn)| less(own, drawn));
+        (less(row, &outputs[0]), added.collect())
+    });
+    Some(Model { drawn: &problems[0], at: x, blocks: blocks.collect(), objectives })
 }
 
 /// Climb on such models from `x0` until the climbs settle; the worst corners of every margin are looked for at each end.
@@ -119,21 +169,29 @@ pub(super) fn climb_on_slopes(
     method: &SearchMethod,
     desk: &Desk,
 ) -> Result<NearCorners, Refusal> {
-    let drawn = problem.at_corners(vec![Corner::NOMINAL]);
     let settings = Settings { finish: false, ..method.climb.clone() };
     let set = vec![Corner::NOMINAL];
-    let mut near = NearCorners { x: x0.to_vec(), set, status: Status::Interrupted, evaluations: 0 };
-    for _ in 0..ROUNDS {
-        let known = near.set.len();
-        let here = worst_corners(&drawn, of, &mut near, desk);
-        let none_fresh = near.set.len() == known;
+    let (x, status) = (x0.to_vec(), Status::Interrupted);
+    let mut near = NearCorners { x, set, status, evaluations: 0, derivatives: 0 };
+    // Each with what it knows of its latest evaluation, for its slopes there.
+    let mut problems = vec![problem.at_corners(vec![Corner::NOMINAL])];
+    let mut before = f64::NAN;
+    for round in 0..ROUNDS {
         desk.begins(&format!("robust search on slopes, {} corners", near.set.len()));
+        let known = near.set.len();
+        let here = worst_corners(&mut problems, of, &mut near, round, desk);
+        let none_fresh = near.set.len() == known;
+        let worst = here.iter().flatten().map(Evaluation::least_margin).fold(f64::INFINITY, f64::min);
+        if none_fresh && (worst - before).abs() <= NEAR * worst.abs() {
+            break;
+        }
+        before = worst;
         let from = near.x.clone();
-        near.evaluations += from.len() * near.set.len();
-        let Some(model) = model(&drawn, &near.set, here, &from, (lo, hi), desk) else { break };
+        let Some(model) = model(&problems, &here, &mut near, &from, (lo, hi), desk) else { break };
         let run = SearchRun { follow: desk.follow(), ..SearchRun::default() };
         let outcome = maximise_least_margin(&model, &from, lo, hi, &settings, run)?;
         near.evaluations += outcome.evaluations;
+        near.derivatives += outcome.derivatives;
         near.x = outcome.x;
         let moved = (0..lo.len()).map(|i| (near.x[i] - from[i]).abs() / (hi[i] - lo[i])).fold(0.0, f64::max);
         near.status = outcome.status;
@@ -146,57 +204,76 @@ pub(super) fn climb_on_slopes(
     Ok(near)
 }
 
+/// Rounds in which the slopes over the quantities are taken: later ones move the clutch too little to turn them.
+const TURNING: usize = 2;
+
 /// The set's corners evaluated, after those have joined it at which a margin is worse than at all others of it; where there are
 /// many, of those to which the slopes over the quantities point.
 fn worst_corners(
-    drawn: &ClutchProblem,
+    problems: &mut Vec<ClutchProblem>,
     of: &Tolerances,
     near: &mut NearCorners,
+    round: usize,
     desk: &Desk,
 ) -> Vec<Result<Evaluation, NoEvaluation>> {
+    let x = near.x.clone();
+    near.evaluations += problems.len();
+    let mut at_set: Vec<_> = problems.par_iter().map(|problem| desk.look(problem, &x)).collect();
     let mut ends = corners(of);
     if ends.len() > FEW {
+        if round >= TURNING {
+            return at_set;
+        }
         let alone = alone(of);
         near.evaluations += alone.len();
-        ends = steepest(&alone, &at_each(drawn, &near.x, &alone, desk));
+        ends = steepest(&alone, &at_each(&problems[0], &x, &alone, desk), &at_set[0]);
+        ends.retain(|end| !near.set.contains(end));
     }
-    near.evaluations += ends.len() + near.set.len();
-    let at_ends = at_each(drawn, &near.x, &ends, desk);
-    let mut at_set = at_each(drawn, &near.x, &near.set, desk);
-    for corner in worse_than_set(&near.set, &ends, &at_ends, &at_set) {
-        at_set.extend(ends.iter().position(|end| *end == corner).map(|i| at_ends[i].clone()));
-        near.set.push(corner);
+    near.evaluations += ends.len();
+    let at_ends: Vec<ClutchProblem> = ends.iter().map(|end| problems[0].at_corners(vec![*end])).collect();
+    let found: Vec<_> = at_ends.par_iter().map(|problem| desk.look(problem, &x)).collect();
+    let fresh = worse_than_set(&near.set, &ends, &found, &at_set);
+    for ((corner, problem), evaluation) in ends.into_iter().zip(at_ends).zip(found) {
+        if fresh.contains(&corner) {
+            at_set.push(evaluation);
+            problems.push(problem);
+            near.set.push(corner);
+        }
     }
     at_set
 }
 
-/// Each quantity with a tolerance at either end, the others as drawn: lower end, upper end, quantity by quantity.
+/// Each quantity with a tolerance at its upper end, the others as drawn.
 fn alone(of: &Tolerances) -> Vec<Corner> {
     let free = (0..7).filter(|&i| half_ranges(of)[i] > 0.0);
-    free.flat_map(|i| [-1.0, 1.0].map(|share| (i, share)))
-        .map(|(i, share)| {
-            let mut shares = [0.0; 7];
-            shares[i] = share;
-            Corner { of: *of, shares }
-        })
-        .collect()
+    free.map(|i| {
+        let mut shares = [0.0; 7];
+        shares[i] = 1.0;
+        Corner { of: *of, shares }
+    })
+    .collect()
 }
 
-/// The corner at which each margin is worst if it is linear in the quantities, by its values where each is off `alone`; corners
-/// once each, none where one of those has no clutch.
-fn steepest(ends: &[Corner], at_ends: &[Result<Evaluation, NoEvaluation>]) -> Vec<Corner> {
-    let values: Vec<Vec<f64>> = at_ends.iter().flatten().map(Evaluation::outputs).collect();
-    let width = values.iter().map(Vec::len).min().unwrap_or(0);
+/// The corner at which each margin is worst if it is linear in the quantities, by its values where each is off `alone` and where
+/// none is; corners once each, none where one of those has no clutch.
+fn steepest(
+    alone: &[Corner],
+    at_alone: &[Result<Evaluation, NoEvaluation>],
+    drawn: &Result<Evaluation, NoEvaluation>,
+) -> Vec<Corner> {
+    let values: Vec<Vec<f64>> = at_alone.iter().flatten().map(Evaluation::outputs).collect();
+    let drawn = drawn.as_ref().map_or_else(|_| Vec::new(), Evaluation::outputs);
+    let width = values.iter().map(Vec::len).fold(drawn.len(), usize::min);
     let mut found: Vec<Corner> = Vec::new();
-    if values.len() < ends.len() {
+    if values.len() < alone.len() {
         return found;
     }
     for j in 0..width.saturating_sub(1) {
         let mut corner = Corner::NOMINAL;
-        for (pair, value) in ends.chunks_exact(2).zip(values.chunks_exact(2)) {
-            let worse = if value[0][j] <= value[1][j] { pair[0] } else { pair[1] };
-            corner.of = worse.of;
-            corner.shares = std::array::from_fn(|i| corner.shares[i] + worse.shares[i]);
+        for (upper, value) in alone.iter().zip(&values) {
+            let worse = if value[j] <= drawn[j] { 1.0 } else { -1.0 };
+            corner.of = upper.of;
+            corner.shares = std::array::from_fn(|i| corner.shares[i] + worse * upper.shares[i]);
         }
         if !found.contains(&corner) {
             found.push(corner);

@@ -12,12 +12,12 @@ use super::corner::{Corner, corners, half_ranges};
 use super::desk::Desk;
 use super::evaluate::{Evaluation, NoEvaluation};
 use super::grid::points_near;
-use super::journal::Memo;
 use super::near_corners::{NearCorners, climb_on_slopes};
 use super::outcome::{Cause, Status};
 use super::problem::{ClutchProblem, Names};
 use super::search::{NoSearch, refused};
-use super::starts::SearchMethod;
+use super::settings::Settings;
+use super::starts::{NEAR as NEAR_END, SearchMethod};
 use crate::clutch::Tolerances;
 use crate::margin::RESOLUTION;
 
@@ -95,6 +95,8 @@ pub struct RobustSearch {
     pub file: String,
     /// Evaluations of the clutch, each of all corners of a set counted as one per corner.
     pub evaluations: usize,
+    /// Derivatives along one variable beside them, of all corners of a set counted likewise.
+    pub derivatives: usize,
 }
 
 /// All given corners of `problem` at `x`, side by side.
@@ -104,16 +106,7 @@ pub(super) fn at_each(
     points: &[Corner],
     desk: &Desk,
 ) -> Vec<Result<Evaluation, NoEvaluation>> {
-    points
-        .par_iter()
-        .map(|corner| {
-            let there = problem.at_corners(vec![*corner]);
-            desk.run(&there, |there, run| {
-                let mut memo = Memo::new(there, run, usize::MAX);
-                memo.one(x.to_vec()).unwrap_or(Err(NoEvaluation::Refused("stopped".to_owned())))
-            })
-        })
-        .collect()
+    points.par_iter().map(|corner| desk.look(&problem.at_corners(vec![*corner]), x)).collect()
 }
 
 /// Margins of `problem` at `x` at every corner of the tolerances, and percentiles of `draws` seeded draws.
@@ -240,11 +233,17 @@ pub fn robust(
 ) -> Result<RobustSearch, NoSearch> {
     let all = corners(of);
     let near = climb_on_slopes(problem, x0, (lo, hi), of, method, desk).map_err(refused)?;
-    let NearCorners { mut x, mut set, mut evaluations, mut status } = near;
+    let NearCorners { mut x, mut set, mut evaluations, mut derivatives, mut status } = near;
     let mut rounds = 0;
     while !desk.stopped() {
-        let (at_set, at_all) = (at_each(problem, &x, &set, desk), at_each(problem, &x, &all, desk));
-        evaluations += set.len() + all.len();
+        desk.begins(&format!("all {} corners", all.len()));
+        let at_all = at_each(problem, &x, &all, desk);
+        let known = |corner: &Corner| all.iter().position(|end| end == corner).map(|i| at_all[i].clone());
+        let at_one = |corner: &Corner| {
+            known(corner).unwrap_or_else(|| desk.look(&problem.at_corners(vec![*corner]), &x))
+        };
+        let at_set: Vec<_> = set.iter().map(at_one).collect();
+        evaluations += all.len() + set.iter().filter(|corner| !all.contains(corner)).count();
         let fresh = worse_than_set(&set, &all, &at_all, &at_set);
         let held = at_set.iter().all(|e| e.as_ref().is_ok_and(|e| e.violation() <= RESOLUTION));
         if fresh.is_empty() && held && status == Status::Converged {
@@ -258,8 +257,10 @@ pub fn robust(
         rounds += 1;
         desk.begins(&format!("robust search, {} corners", set.len()));
         let there = problem.at_corners(set.clone());
-        let outcome = desk.climb(&there, &x, (lo, hi), &method.climb).map_err(refused)?;
+        let climb = Settings { first_radius: NEAR_END, ..method.climb.clone() };
+        let outcome = desk.climb(&there, &x, (lo, hi), &climb).map_err(refused)?;
         evaluations += outcome.evaluations * set.len();
+        derivatives += outcome.derivatives * set.len();
         status = outcome.status;
         x = outcome.x;
         if desk.stopped() {
@@ -288,6 +289,7 @@ pub fn robust(
         status,
         held_at: set.iter().map(Corner::name).collect(),
         evaluations: evaluations + made.evaluations,
+        derivatives,
         made,
         rounds,
         step,

@@ -1,7 +1,7 @@
 //! The whole search on a design: influence, dropped variables, whole numbers one by one, climbs, the optimum looked at
 //! again with everything that was left out on the way.
 
-use super::branch::{Branch, branches};
+use super::branch::{Branch, branches, lead};
 use super::desk::Desk;
 use super::evaluate::NoEvaluation;
 use super::influence::{Influence, influence, own_influence};
@@ -9,7 +9,7 @@ use super::outcome::{Outcome, Refusal, Status};
 use super::price::{Price, prices};
 use super::problem::{Assessment, ClutchProblem, Fidelity, Names};
 use super::realise::is_centroid;
-use super::starts::{ClimbRecord, Climbed, Optima, SearchMethod, climb_all, idle_everywhere, rank, rescued};
+use super::starts::{ClimbRecord, Climbed, Optima, SearchMethod, idle_everywhere};
 use crate::design::{Design, Objective, Optimize};
 use crate::margin::Margin;
 
@@ -237,53 +237,25 @@ pub fn search_problem(
         return Err(NoSearch::NothingMoves(continuous));
     }
 
-    let combos = branches(whole, &whole_numbers);
-    let tolerance = method.climb.violation_tolerance;
-    let mut best: Option<(Climbed, ClutchProblem, usize)> = None;
-    let carried_on = method.carried_on();
-    let mut told = Vec::new();
-    let mut x = starts(&variables, &searched);
+    let x = starts(&variables, &searched);
     let (lo, hi) = bounds(&variables, &searched);
-    let mut first_refusal = None;
     // What was looked at for the influence is known to the climbs that are over the same variables.
     let mut looked_at = Some(quick).filter(|_| searched == continuous && whole_numbers.is_empty());
-    for (mut branch, problem) in combos {
-        let problem = looked_at.take().unwrap_or_else(|| problem.over(searched.clone()).quickly());
-        let begun = rescued(desk, &problem, &x, (&lo, &hi), method);
-        let from = begun.unwrap_or_else(|| x.clone());
-        let method = if told.is_empty() { method } else { &carried_on };
-        let felt_at: &[Vec<f64>] = if told.is_empty() { &felt_at } else { &[] };
-        match climb_all(desk, &problem, &from, felt_at, (&lo, &hi), method) {
-            Ok(climbed) => {
-                evaluations += climbed.evaluations;
-                derivatives += climbed.starts.iter().map(|s| s.derivatives).sum::<usize>();
-                branch.tell(&climbed.best, climbed.evaluations);
-                let mine = rank(&climbed.best.evaluation, tolerance);
-                let better = best.as_ref().is_none_or(|b| mine < rank(&b.0.best.evaluation, tolerance));
-                // The next whole number starts where the best so far stood.
-                if better {
-                    x.clone_from(&climbed.best.x);
-                    best = Some((climbed, problem, told.len()));
-                }
-            }
-            Err(why) => {
-                branch.refused(&why);
-                first_refusal.get_or_insert(why);
-            }
-        }
-        told.push(branch);
-        if desk.stopped() {
-            break;
-        }
-    }
-    let Some((Climbed { best: mut outcome, starts: climbs, optima, .. }, problem, chosen)) = best else {
-        return Err(first_refusal.map_or(NoSearch::Stopped, refused));
+    let over = |(branch, problem): (Branch, ClutchProblem)| {
+        (branch, looked_at.take().unwrap_or_else(|| problem.over(searched.clone()).quickly()))
     };
+    let mut branches: Vec<_> = branches(whole, &whole_numbers).into_iter().map(over).collect();
+    let led = lead(desk, &mut branches, &x, &felt_at, (&lo, &hi), method).map_err(refused)?;
+    evaluations += led.evaluations;
+    derivatives += led.derivatives;
+    let Climbed { best: mut outcome, starts: climbs, optima, .. } = led.climbed;
+    let problem = branches[led.at].1.clone();
+    let told: Vec<Branch> = branches.into_iter().map(|(branch, _)| branch).collect();
     for v in &mut variables {
         if let Some(i) = searched.iter().position(|n| *n == v.name) {
             v.best = outcome.x[i];
         }
-        if let Some((_, value)) = told[chosen].values.iter().find(|(n, _)| *n == v.name) {
+        if let Some((_, value)) = told[led.at].values.iter().find(|(n, _)| *n == v.name) {
             v.best = *value;
         }
     }

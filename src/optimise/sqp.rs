@@ -15,6 +15,7 @@ use super::evaluate::Evaluation;
 use super::hessian;
 use super::journal::{Halt, Memo};
 use super::outcome::{Cause, Iteration, Residuals, TrialOutcome};
+use super::qp::{self, Linear};
 use super::settings::Settings;
 use super::space::Space;
 use super::step::{Plan, Trial};
@@ -36,9 +37,14 @@ const SECANTS: usize = 4;
 /// Gain found over gain promised from which on a step's secants are believed.
 const BELIEVED: f64 = 0.5;
 /// How near, as a part of each range, and how little below, as a part of its least margin, an optimum is whose basin a climb has run
-/// into: a choice; two optima that are as near to each other are taken for one by all climbs but the first.
+/// into, and how little more the climb may promise itself: a choice. The last is what tells two optima apart.
 const BASIN: f64 = 0.05;
 const LEVEL: f64 = 0.02;
+const MORE: f64 = 1e-3;
+/// How near, as a part of each range, slopes must have been taken to be those of one kink: a tenth of the usual shortest difference.
+const AT_KINK: f64 = 1e-4;
+/// So many of them are kept.
+const KINKED: usize = 12;
 /// Trust radius at which a climb gives up: a hundred-millionth of the range.
 const SHORTEST_RADIUS: f64 = 1e-8;
 
@@ -93,6 +99,8 @@ pub(super) struct Climb<'a, 'm> {
     pub taken: Option<(Vec<f64>, Table)>,
     /// B, once there is a first subproblem to take multipliers from.
     pub hessian: Option<DMatrix<f64>>,
+    /// Points at which the model promised nothing more though its slopes had not vanished, and the Lagrangian's slopes there.
+    pub level: Vec<(Vec<f64>, Vec<f64>)>,
     pub tally: Tally,
 }
 
@@ -142,16 +150,21 @@ impl Climb<'_, '_> {
         Ok(End::Stalled(Cause::IterationLimit))
     }
 
-    /// The least margin of a known optimum whose basin this is: within [`BASIN`] of it, as little below it, and the plan, if its
-    /// promise were kept, no more above it.
+    /// The least margin of a known optimum whose basin this is: within [`BASIN`] of it, at most [`LEVEL`] below it, the plan leading
+    /// towards it and, if its promise were kept, no more than [`MORE`] above it. Margins that bend down keep less than they promise, so
+    /// that a better optimum next to the known one is promised from its own flank, and led to.
     fn joins(&self, plan: &Plan) -> Option<f64> {
         if self.view.phase != Phase::Margin || plan.violation > self.settings.violation_tolerance {
             return None;
         }
         let near = |(u, least): &&(Vec<f64>, f64)| {
-            let apart = u.iter().zip(&self.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let (below, slack) = (least - plan.least, LEVEL * least.abs());
-            apart <= BASIN && (0.0..=slack).contains(&below) && plan.rise <= below + slack
+            let way: Vec<f64> = u.iter().zip(&self.u).map(|(a, b)| a - b).collect();
+            let apart = way.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+            let below = least - plan.least;
+            apart <= BASIN
+                && (0.0..=LEVEL * least.abs()).contains(&below)
+                && qp::dot(&way, &plan.d) > 0.0
+                && plan.rise <= below + MORE * least.abs()
         };
         self.known.iter().find(near).map(|(_, least)| *least)
     }
@@ -162,20 +175,27 @@ impl Climb<'_, '_> {
         let violation = plan.violation;
         let met = violation <= settings.violation_tolerance;
         let scale = plan.least.abs().max(1.0);
+        let flat = (settings.optimality_tolerance * scale).max(self.kkt_noise());
+        let level = plan.gain <= (settings.gain_tolerance * scale).max(2.0 * plan.noise);
         let small = match self.view.phase {
             Phase::TieBreak { .. } => met && plan.rise <= settings.tie_break_gain,
-            _ => {
-                plan.gain <= (settings.gain_tolerance * scale).max(2.0 * plan.noise)
-                    && self.residuals.kkt <= (settings.optimality_tolerance * scale).max(self.kkt_noise())
-            }
+            _ => level && self.residuals.kkt <= flat,
         };
         // Once steps are as short as the difference step, the error f'' h/2 of a forward difference is as large as the
         // change of slope that the step is after.
         let coarse = settings.shortest_difference;
         let doubtful = if small { settings.finish } else { plan.length <= coarse && !self.table.exact };
         let hopeless = !met && plan.elastic > HOPELESS * violation;
-        if self.table.secants > 0 && (small || hopeless) {
+        let kink = level && met && self.table.exact && self.view.phase == Phase::Margin;
+        if self.table.secants > 0 && (small || hopeless || kink) {
             return Verdict::Refresh;
+        }
+        if kink && !small {
+            let left = self.left_at_kink();
+            if left <= flat {
+                self.residuals.kkt = left;
+                return Verdict::End(self.stationary(violation));
+            }
         }
         if !self.central && doubtful {
             return Verdict::Sharpen;
@@ -200,6 +220,33 @@ impl Climb<'_, '_> {
         } else {
             Verdict::Forget
         }
+    }
+
+    /// What is left of the Lagrangian's slopes where those here and those taken next to it are mixed as well as may be, its largest
+    /// component. A margin that two peaks of a motion share has a kink along which the slopes of either do not vanish, only their
+    /// mixture: Goldstein's condition (*Math. Prog.* 13 (1977) 14), by the slopes that the climb has met. The shortest mixture is the
+    /// step of the subproblem whose rises they are under the unit Hessian.
+    fn left_at_kink(&mut self) -> f64 {
+        let free = self.moving();
+        let slopes = combined(&self.lagrangian_weights(), &self.table.slopes);
+        let rise: Vec<f64> = free.iter().map(|&i| -slopes[i]).collect();
+        let near = |(u, of): &(Vec<f64>, Vec<f64>)| {
+            of.len() == rise.len() && u.iter().zip(&self.u).all(|(a, b)| (a - b).abs() <= AT_KINK)
+        };
+        self.level.retain(near);
+        self.level.truncate(KINKED - 1);
+        self.level.insert(0, (self.u.clone(), rise));
+        let rises: Vec<(f64, Vec<f64>)> =
+            self.level.iter().map(|(_, slopes)| (0.0, slopes.clone())).collect();
+        let most = rises.iter().flat_map(|r| &r.1).fold(0.0, |m: f64, g| m.max(g.abs()));
+        let (lower, upper): (Vec<f64>, Vec<f64>) = free
+            .iter()
+            .map(|&i| (if self.u[i] <= 0.0 { 0.0 } else { -most }, if self.u[i] >= 1.0 { 0.0 } else { most }))
+            .unzip();
+        let linear = Linear { rises, limits: Vec::new() };
+        let unit = DMatrix::identity(free.len(), free.len());
+        let mixed = qp::solve(&linear, &unit, &lower, &upper, qp::Ask::Merit { weight: 1.0 });
+        mixed.map_or(f64::INFINITY, |step| step.d.iter().fold(0.0, |m: f64, d| m.max(d.abs())))
     }
 
     /// Moves to the trial point: radius, derivatives, weight and Hessian follow.

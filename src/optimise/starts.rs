@@ -13,8 +13,8 @@ use super::settings::Settings;
 use super::swarm::swarm;
 use crate::numeric::sobol::sobol;
 
-/// First trust radius of the climb that finishes the best of several: it stands near its optimum.
-const NEAR: f64 = 0.02;
+/// First trust radius of a climb that begins near its optimum.
+pub(super) const NEAR: f64 = 0.02;
 
 /// Points tried for each start that is to have margins: a choice; most of a box is geometry that does not close.
 const TRIES: usize = 24;
@@ -67,10 +67,14 @@ impl Optima {
         let within = starts.iter().filter(|s| s.ended == Ok(Status::Converged) && s.violation <= tolerance);
         let mut found: Vec<f64> = within.map(|s| s.least_margin).collect();
         found.sort_by(f64::total_cmp);
-        let apart =
-            |w: &&[f64]| w[1] - w[0] > (Self::APART * w[1].abs().max(w[0].abs())).max(Self::NEAR_ZERO);
-        let seen = found.windows(2).filter(apart).count() + usize::from(!found.is_empty());
+        let seen =
+            found.windows(2).filter(|w| Self::are_apart(w[0], w[1])).count() + usize::from(!found.is_empty());
         Self { climbs: found.len(), seen }
+    }
+
+    /// Whether two optima of these least margins are two.
+    pub(super) fn are_apart(a: f64, b: f64) -> bool {
+        (a - b).abs() > (Self::APART * a.abs().max(b.abs())).max(Self::NEAR_ZERO)
     }
 
     /// How many optima there are, as w met by n climbs let expect: w (n - 1)/(n - w - 2); `None` where they are too few.
@@ -123,6 +127,16 @@ pub(super) struct Climbed {
     pub starts: Vec<ClimbRecord>,
     pub optima: Optima,
     pub evaluations: usize,
+}
+
+impl Climbed {
+    /// Of a search that was stopped before it went on from `best`, whose evaluations count elsewhere.
+    pub fn stopped_at(best: Outcome) -> Self {
+        let mut start = ClimbRecord { from: "design".to_owned(), ..ClimbRecord::of(&best) };
+        (start.evaluations, start.derivatives) = (0, 0);
+        let best = Outcome { status: Status::Interrupted, ..best };
+        Self { best, starts: vec![start], optima: Optima::default(), evaluations: 0 }
+    }
 }
 
 /// Rank of a point: less is better. Feasible by the least margin, else by the violation.

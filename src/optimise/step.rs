@@ -22,7 +22,7 @@ pub(super) struct Plan {
     linear: Linear,
     hessian: DMatrix<f64>,
     /// Step of all variables.
-    d: Vec<f64>,
+    pub d: Vec<f64>,
     /// Least margin and violation here.
     pub least: f64,
     pub violation: f64,

@@ -90,6 +90,60 @@ fn a_climb_ends_in_the_basin_of_a_known_optimum() {
     assert!(ended > 0);
 }
 
+/// Two tops 4 % of the range and 0.3 % of the margin apart: from the flank of the better one a climb does not end at the other.
+#[test]
+fn a_climb_does_not_end_beside_a_better_optimum() {
+    let tops = |x: f64| (1.0 - 5.0 * (x - 0.5).powi(2)).max(1.003 - 5.0 * (x - 0.54).powi(2));
+    let problem = Toy(|x: &[f64]| margins(&[tops(x[0])], &[], 0.0));
+    let climb = |start: f64| {
+        let run = SearchRun { known: vec![(vec![0.5], 1.0)], ..SearchRun::default() };
+        let settings = Settings { finish: false, first_radius: 0.02, ..Settings::default() };
+        maximise_least_margin(&problem, &[start], &[0.0], &[1.0], &settings, run).expect("well posed")
+    };
+    for start in [0.5126, 0.514, 0.515] {
+        let found = climb(start);
+        assert!(tops(start) < 1.0 && found.joined.is_none(), "{start}: {:?}", found.joined);
+        assert!((found.evaluation.least_margin() - 1.003).abs() < 1e-5, "{start}: {:?}", found.x);
+    }
+    assert_eq!(climb(0.495).joined, Some(1.0), "from the other side it does");
+}
+
+/// One margin, the worse of two peaks of one motion, with slopes of its own.
+struct Peaks;
+
+impl Peaks {
+    /// Value, and slopes over both variables.
+    fn worse(x: &[f64]) -> (f64, [f64; 2]) {
+        let (a, b) = (x[0] - 0.37, x[1] - 0.6);
+        let slope = if a > 0.0 { -2e-3 } else { 1.2e-3 };
+        (1.0 + slope * a - 0.5 * b * b, [slope, -b])
+    }
+}
+
+impl Evaluate for Peaks {
+    fn evaluate(&self, x: &[f64]) -> Result<Evaluation, NoEvaluation> {
+        margins(&[Self::worse(x).0], &[], 0.0)
+    }
+
+    fn changes(&self, x: &[f64], beside: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let [p, q] = Self::worse(x).1;
+        let change = |to: &Vec<f64>| vec![p * (to[0] - x[0]) + q * (to[1] - x[1]), 0.0];
+        Some(beside.iter().map(change).collect())
+    }
+}
+
+/// The peaks share the optimum: no slope there vanishes, only their mixture, and the climb ends at it all the same.
+#[test]
+fn a_kink_that_peaks_share_is_an_end() {
+    for start in [[0.1, 0.9], [0.9, 0.9], [0.37, 0.05]] {
+        let found = run(&Peaks, &start, 0.0, 1.0, &Settings::default());
+        println!("{start:?}: {:?}, {} evaluations, {:?}", found.status, found.evaluations, found.residuals);
+        assert_eq!(found.status, Status::Converged, "{start:?}");
+        assert!((found.evaluation.least_margin() - 1.0).abs() < 1e-7, "{start:?}: {:?}", found.x);
+        assert!(found.residuals.kkt <= 1e-4, "{:?}", found.residuals);
+    }
+}
+
 /// The bottom of a valley is stationary too, along an axis or across both: only the poll sees that it is no top.
 #[test]
 fn the_poll_leaves_the_bottom_of_a_valley() {

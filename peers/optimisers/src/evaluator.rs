@@ -1,6 +1,6 @@
 //! `sprag-design evaluate` as a function that counts and remembers.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
@@ -24,10 +24,15 @@ pub struct Evaluator {
     from: BufReader<ChildStdout>,
     lo: Vec<f64>,
     hi: Vec<f64>,
+    whole: Vec<bool>,
+    /// Clutches that one answer looks at: a design whose name ends in -robust is held at every corner of its tolerances.
+    pub each: usize,
     /// The file's values in the unit box.
     pub start: Vec<f64>,
+    /// The same at each value of a whole number, outwards from the file's.
+    pub by_value: Vec<Vec<f64>>,
     known: HashMap<Vec<u64>, Option<Rows>>,
-    /// Evaluations since the last [`Evaluator::forget`]; a point asked for twice counts once.
+    /// Evaluations of a clutch since the last [`Evaluator::forget`]; a point asked for twice counts once.
     pub count: usize,
     /// Best objective at a point that violates no limit.
     pub best: Option<f64>,
@@ -40,6 +45,7 @@ impl Evaluator {
     pub fn open(tool: &str, design: &str) -> Result<Self, String> {
         let mut process = Command::new(tool)
             .args(["evaluate", design, "--describe", "--quiet"])
+            .args(design.ends_with("-robust.toml").then_some("--robust"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -52,9 +58,47 @@ impl Evaluator {
             rows.iter().map(|v| v[key].as_f64().ok_or(format!("no {key}"))).collect()
         };
         let (lo, hi, start) = (column("min")?, column("max")?, column("start")?);
-        let start = (0..lo.len()).map(|i| ((start[i] - lo[i]) / (hi[i] - lo[i])).clamp(0.0, 1.0)).collect();
+        let rows = about["variables"].as_array().ok_or("no variables")?;
+        let whole: Vec<bool> = rows.iter().map(|v| v["whole"] == true).collect();
+        let names = about["objectives"].as_array().ok_or("no objectives")?;
+        let plain = |name: &Value| name.as_str().and_then(|n| n.split(" @ ").next()).map(str::to_owned);
+        let different: HashSet<_> = names.iter().map(plain).collect();
+        let each = names.len() / different.len().max(1);
+        let share = |i: usize, x: f64| match whole[i] {
+            true => (x - lo[i] + 0.5) / (hi[i] - lo[i] + 1.0),
+            false => ((x - lo[i]) / (hi[i] - lo[i])).clamp(0.0, 1.0),
+        };
+        let shares = |x: &[f64]| x.iter().enumerate().map(|(i, x)| share(i, *x)).collect::<Vec<_>>();
+        let first = shares(&start);
+        // At each value of a whole number, outwards from the file's.
+        let mut by_value = Vec::new();
+        if let Some(at) = whole.iter().position(|w| *w) {
+            let mut values: Vec<f64> = (0..=(hi[at] - lo[at]) as usize).map(|k| lo[at] + k as f64).collect();
+            values
+                .sort_by(|a, b| (a - start[at]).abs().total_cmp(&(b - start[at]).abs()).then(a.total_cmp(b)));
+            by_value.extend(values.into_iter().map(|value| {
+                let mut there = start.clone();
+                there[at] = value;
+                shares(&there)
+            }));
+        }
+        let start = first;
         let known = HashMap::new();
-        Ok(Self { process, to, from, lo, hi, start, known, count: 0, best: None, course: Vec::new() })
+        Ok(Self {
+            process,
+            to,
+            from,
+            lo,
+            hi,
+            whole,
+            each,
+            start,
+            by_value,
+            known,
+            count: 0,
+            best: None,
+            course: Vec::new(),
+        })
     }
 
     /// Count anew, with nothing known.
@@ -66,17 +110,18 @@ impl Evaluator {
 
     /// Margins at a point of the unit box, clipped to it; `None` where there is no clutch.
     pub fn at(&mut self, unit: &[f64]) -> Option<Rows> {
-        let x: Vec<f64> = unit
-            .iter()
-            .zip(self.lo.iter().zip(&self.hi))
-            .map(|(u, (l, h))| l + u.clamp(0.0, 1.0) * (h - l))
-            .collect();
+        let place = |(i, u): (usize, &f64)| {
+            let (u, range) = (u.clamp(0.0, 1.0), self.hi[i] - self.lo[i]);
+            // Of a whole number each value has an equal share of the unit.
+            self.lo[i] + if self.whole[i] { (u * (range + 1.0)).floor().min(range) } else { u * range }
+        };
+        let x: Vec<f64> = unit.iter().enumerate().map(place).collect();
         let key: Vec<u64> = x.iter().map(|v| v.to_bits()).collect();
         if let Some(found) = self.known.get(&key) {
             return found.clone();
         }
         let found = self.ask(&x);
-        self.count += 1;
+        self.count += self.each;
         if let Some(rows) = &found
             && rows.feasible
         {

@@ -2,7 +2,8 @@
 //!
 //! `sprag-design-optimiser-peers TOOL DESIGN...` prints CSV: problem, method, evaluations, time_s, objective; the
 //! courses of the best value go to standard error as JSON lines. Each method gets the epigraph form (maximise t under
-//! objective_i >= t, limit_j >= 0, 0 <= u <= 1) from the file's start and four points of a lattice, a budget of
+//! objective_i >= t, limit_j >= 0, 0 <= u <= 1) from the file's start and four points of a lattice (with a whole number
+//! from the file's start at each of its values), a budget of
 //! evaluations for all of them together, and remembered points for nothing.
 
 mod evaluator;
@@ -140,16 +141,18 @@ fn main() -> Result<(), String> {
         let name =
             Path::new(&design).file_stem().map_or(design.clone(), |s| s.to_string_lossy().into_owned());
         let evaluator = RefCell::new(Evaluator::open(&tool, &design)?);
-        let first = evaluator.borrow().start.clone();
+        let (first, each) = (evaluator.borrow().start.clone(), evaluator.borrow().each);
+        let by_value = evaluator.borrow().by_value.clone();
+        let starts = if by_value.is_empty() { starts(&first) } else { by_value };
         for (method, go) in methods {
             evaluator.borrow_mut().forget();
             let begun = Instant::now();
-            for start in starts(&first) {
+            for start in starts.clone() {
                 let Some(found) = evaluator.borrow_mut().at(&start) else { continue };
                 let least = found.objectives.iter().copied().fold(f64::INFINITY, f64::min);
                 let z: Vec<f64> = start.iter().copied().chain([least]).collect();
                 let rows = found.objectives.len() + found.limits.len();
-                go(Epigraph { evaluator: &evaluator, rows, most: MOST }, &z);
+                go(Epigraph { evaluator: &evaluator, rows, most: MOST * each }, &z);
             }
             let e = evaluator.borrow();
             let best = e.best.map_or(String::new(), |b| b.to_string());

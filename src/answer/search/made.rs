@@ -82,6 +82,8 @@ pub struct RobustFound {
     pub step_mm: Option<f64>,
     /// Evaluations of the clutch.
     pub evaluations: usize,
+    /// Derivatives along one variable beside them.
+    pub derivatives: usize,
     /// As it may be made.
     pub made: MadeBody,
 }
@@ -121,6 +123,7 @@ impl RobustFound {
             rounds: r.rounds,
             step_mm: r.step,
             evaluations: r.evaluations,
+            derivatives: r.derivatives,
             made: MadeBody::of(&r.made),
         }
     }
