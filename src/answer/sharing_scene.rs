@@ -541,6 +541,7 @@ impl Answer for SharingSceneAnswer<'_> {
             "energy_residual_j": run.residual_j, "energy_through_j": run.through_j, "kinds": self.found.counts.len(),
             "events": run.events, "steps": run.counters.steps, "rhs_evaluations": run.counters.rhs_evaluations,
             "lowest_mode_inner_hz": bends.map(|b| b.lowest_mode_hz[0]), "lowest_mode_outer_hz": bends.map(|b| b.lowest_mode_hz[1]),
+            "share_at_rest": self.found.shares_at_rest[0], "share_at_rest_round": self.found.shares_at_rest[1],
             "scene_hz": bends.map(|b| b.scene_hz), "bending_left_out": bends.map(|b| b.left_out()),
             "sprags": self.rows().objects(), "history": self.history().objects(),
         });

@@ -127,15 +127,14 @@ impl Approach {
                 }
             };
             let normal = |d: f64| Some(curve.in_arc(k, alpha_of(d)?).n_bi);
-            let (breaks, over): (Vec<f64>, Box<dyn Fn(f64) -> Option<f64>>) = if k == 0 {
-                let ends = [found.at(0, from), found.ends[0]].map(|d| d.powf(1.0 / q));
-                (between(ends).to_vec(), Box::new(move |z: f64| Some(normal(z.powf(q))?.powf(0.1) / z)))
+            let breaks = if k == 0 {
+                between([found.at(0, from), found.ends[0]].map(|d| d.powf(1.0 / q))).to_vec()
             } else {
                 let (a, b) = (found.ends[k - 1], found.ends[k]);
-                (vec![a, 0.5 * (a + b), b], Box::new(normal))
+                vec![a, 0.5 * (a + b), b]
             };
-            let values: Panels<1> = Panels::build(&breaks, |x| over(x).map(|v| [v]).ok_or(())).ok()?;
-            drop(over);
+            let value = |x: f64| if k == 0 { Some(normal(x.powf(q))?.powf(0.1) / x) } else { normal(x) };
+            let values: Panels<1> = Panels::build(&breaks, |x| value(x).map(|v| [v]).ok_or(())).ok()?;
             let slopes = values.derivative([0]);
             let both: Result<Panels<2>, ()> =
                 Panels::build(&breaks, |x| Ok([values.at(x)[0], slopes.at(x)[0]]));
