@@ -160,6 +160,19 @@ part(
     "tilted tracks; a housing that keeps a thin race round.",
 )
 
+bending = ask("sharing", design("bending.toml", UNLIKE), "--scenario", "swing")
+part(
+    "Races that bend between sprags one by one, in the scene `swing`",
+    UNLIKE,
+    [
+        ("largest share at rest under the scene's largest torque", number(bending["share_at_rest_round"]), number(bending["share_at_rest"]), "sharing"),
+        ("largest share in the scene", "–", number(bending["largest_share"]), "sharing"),
+        ("lowest mode of a ring", "–", number(min(bending["lowest_mode_inner_hz"], bending["lowest_mode_outer_hz"]), "Hz"), "sharing"),
+        ("of the bending left out with the rings' inertia", "–", percent(bending["bending_left_out"]), "sharing"),
+    ],
+    "blows shorter than a swing of a ring.",
+)
+
 life = ask("life", design("life.toml", OIL, LIFE))
 used = {p["code"]: p for p in life["places"]}
 wear = life["wear"]["states"]

@@ -18,13 +18,13 @@ fn a_scene_is_told_in_text_and_files() {
     assert_eq!(ran.status.code(), Some(i32::from(!held)), "{text}");
     let rows = std::fs::read_to_string(&csv).unwrap();
     assert_eq!(rows.lines().count(), 13);
-    assert!(rows.starts_with("number,size_um,gap_um,friction,catches_ms,order,"));
+    assert!(rows.starts_with("number,size_um,gap_um,friction,catches_s,order,"));
     assert!(is_self_contained(&page).contains("Share of the mean"));
     let json = run(&["sharing", UNLIKE, "--scenario", "engagement", "--json"]);
     let found = program::json(&json);
     assert_eq!(found["tool"], "sprag-design");
     let terms = found["left_out"].as_array().unwrap();
-    assert!(terms.iter().any(|t| t["term"].as_str().unwrap().starts_with("races that bend")));
+    assert!(terms.iter().any(|t| t["term"].as_str().unwrap().starts_with("inertia of the races that bend")));
     assert_eq!((&found["seed"], &found["kinds"], &found["held"]), (&1.into(), &12.into(), &held.into()));
     // The one with the weak spring is the last.
     assert_eq!(found["catching"].as_array().unwrap().last().unwrap(), 4);

@@ -187,3 +187,98 @@ fn stiffness_tells_what_comes_after_the_end() {
     assert_eq!(rows(&answer), 2 + way.branch.len());
     assert_eq!(rows(&design.stiffness(&asked(&[50.0])).unwrap()), 1);
 }
+
+/// Between round races sprags alike go over as one: the clutch's own falling branch. One that stands apart parts the branch in two, and what was stored
+/// comes back all the same.
+#[test]
+fn unlike_sprags_go_over_one_after_another() {
+    use sprag_design::clutch::{GivenSprag, Sharing};
+    use sprag_design::sharing::{NotShared, Turn};
+    let mut clutch = single();
+    clutch.sprags.width_m = 0.0;
+    let curve = clutch.curve().unwrap();
+    let way = over(&clutch, true);
+    let alike = Turn::new(&clutch, &Sharing::default(), &curve);
+    let (end_nm, NotShared::End(first, why)) = alike.end(1e4).unwrap() else { panic!() };
+    let pops = alike.first().pops((first, why), end_nm, 0.0, &way).unwrap();
+    println!("{end_nm} {why:?}, peak {:?} against {:?}, left {:?}", pops.peak, way.peak, pops.left_nm);
+    assert!((pops.peak.torque_nm / way.peak.torque_nm - 1.0).abs() < 1e-6);
+    assert!((pops.peak.windup_rad / way.peak.windup_rad - 1.0).abs() < 1e-3);
+    // They share alike, so all follow the first.
+    assert_eq!(pops.left_nm, None);
+    assert_eq!(pops.course.last().unwrap().gone, clutch.sprags.count);
+    let late = GivenSprag { index: 3, gap_m: Some(60e-6), ..GivenSprag::default() };
+    let turn = Turn::new(&clutch, &Sharing { given: vec![late], ..Sharing::default() }, &curve);
+    let (end_nm, NotShared::End(first, why)) = turn.end(1e4).unwrap() else { panic!() };
+    let unlike = turn.first();
+    let pops = unlike.pops((first, why), end_nm, 0.0, &way).unwrap();
+    let lag = unlike.lag_rad[3].unwrap() - unlike.lag_rad[0].unwrap();
+    println!(
+        "{end_nm} sprag {first}: lag {lag}, peak {:?}, left {:?} of {}",
+        pops.peak,
+        pops.left_nm,
+        pops.left.len()
+    );
+    // By hand: eleven on the branch, the late one where it is lag behind.
+    let at = |w: f64| {
+        let one = |y: f64| match y {
+            _ if y <= 0.0 || y >= way.last.windup_rad => 0.0,
+            _ if y <= curve.end_windup_rad() => curve.at_windup(y).map_or(0.0, |(p, _)| p.t_static * p.oa),
+            _ => way.at_windup(y).unwrap().torque_nm / 12.0,
+        };
+        11.0 * one(w) + one(w - lag)
+    };
+    for p in &pops.course {
+        assert!((p.torque_nm - at(p.windup_rad)).abs() < 1e-9, "{p:?}");
+    }
+    assert!(
+        pops.peak.torque_nm < way.peak.torque_nm && pops.peak.torque_nm > 11.0 / 12.0 * way.peak.torque_nm
+    );
+    let work: f64 = pops
+        .course
+        .windows(2)
+        .map(|w| 0.5 * (w[0].torque_nm + w[1].torque_nm) * (w[1].windup_rad - w[0].windup_rad))
+        .sum();
+    let most: f64 = pops
+        .course
+        .windows(2)
+        .map(|w| 0.5 * (w[0].torque_nm + w[1].torque_nm).max(0.0) * (w[1].windup_rad - w[0].windup_rad))
+        .sum();
+    println!("{work} J of {most} J");
+    assert!(work.abs() < 3e-3 * most, "{work} {most}");
+}
+
+/// A scene that overloads eleven sprags with one missing and one that stands forward: that one goes over first and loses contact, the others carry on.
+#[test]
+fn a_sprag_that_goes_over_in_a_scene_is_followed_and_the_others_carry_on() {
+    use sprag_design::clutch::{GivenSprag, ScenarioKind, Sharing};
+    use sprag_design::dynamics::Stop;
+    use sprag_design::scenario::Settings;
+    use sprag_design::sprags::each_sprag;
+    let mut design = Design::parse(SINGLE, "single.toml").unwrap();
+    let scene = design.scenarios.iter_mut().find(|s| s.name == "low-6").unwrap();
+    scene.clutch.friction.static_ = 1.5;
+    scene.clutch.friction.kinetic = 1.4;
+    let forward = GivenSprag { index: 3, size_m: Some(150e-6), ..GivenSprag::default() };
+    let sharing = Sharing { given: vec![forward], ..Sharing::default() };
+    let ScenarioKind::TorsionalExcitation { duration_s, preload_nm, amplitude_nm, .. } = &mut scene.kind
+    else {
+        panic!()
+    };
+    (*duration_s, *preload_nm, *amplitude_nm) = (0.006, 30.0, 60.0);
+    let found = each_sprag(scene, &sharing, &Settings::default()).unwrap();
+    let course = |i: usize| &found.run.courses[found.group[i].unwrap()];
+    println!(
+        "{:?} at {} s {:?}; {:?} {:?}",
+        found.run.stop,
+        found.run.t_s,
+        found.run.at_group,
+        course(3).over_s,
+        course(3).gone_s
+    );
+    println!("energy {:e} of {:e}, error {:?}", found.run.residual_j, found.run.through_j, found.error);
+    let left = found.run.residual_j / found.run.through_j;
+    assert!(left.abs() < 1e-6, "{left:e}");
+    assert_eq!(found.run.stop, Stop::Finished);
+    assert!(course(3).over_s.is_some() && (0..12).filter(|i| *i != 3).all(|i| course(i).over_s.is_none()));
+}

@@ -173,6 +173,36 @@ fn without_a_rise_it_is_an_arc() {
     }
 }
 
+/// A tolerance of all radii together, and wear by the same depth everywhere, are the parallel curve: arcs that are larger alike are those of a spiral of
+/// the same rise, and their distances from C_e those of the curve's own support p = c e^(k psi) - d, a further out.
+#[test]
+fn radii_larger_alike_are_the_parallel_spiral() {
+    let made = Design::parse(SPIRAL, "spiral.toml").unwrap().clutch;
+    let spiral = made.sprags.spiral.unwrap();
+    for outwards_m in [-20e-6, 5e-6, 20e-6] {
+        let other = spiral.parallel(outwards_m);
+        assert_eq!(other.rise, spiral.rise);
+        for ((radius, until), (larger, end)) in spiral.arcs().iter().zip(other.arcs()) {
+            assert!((larger - radius - outwards_m).abs() < 1e-16 && end == *until, "{larger} {radius}");
+        }
+        for turn in [0.0, 0.1, 0.3] {
+            assert!((other.radius_m(turn) - spiral.radius_m(turn) - outwards_m).abs() < 1e-17);
+        }
+        // tan omega = p'/(p + a + q r_e): larger radii alike ask for less friction everywhere.
+        let mut moved = made.clone();
+        moved.sprags.inner_arcs.iter_mut().for_each(|arc| arc.radius_m += outwards_m);
+        let [own, out] = [&made, &moved].map(|c| c.profile().unwrap());
+        let own_m = |p: &sprag_design::profile::Profile, turn: f64| {
+            let arc = p.arcs.iter().find(|a| a.until_rad > turn).unwrap();
+            arc.centre_m.dot(&p.contact_direction(turn)) + arc.radius_m
+        };
+        // Both are seated anew between the races: the support of each about C_e at a turn from its own first contact.
+        let [a, b] = [own_m(&own, 0.2) - own_m(&own, 0.0), own_m(&out, 0.2) - own_m(&out, 0.0)];
+        println!("{outwards_m:e}: {a:e} {b:e}");
+        assert!((a / b - 1.0).abs() < 0.02, "{a} {b}");
+    }
+}
+
 /// A scenario, a fit, a temperature: the arcs go with the body, and the spiral keeps its pole.
 #[test]
 fn a_warm_clutch_keeps_its_spiral() {

@@ -296,3 +296,30 @@ fn wear_of_an_elastic_clutch_begins_where_the_drawn_one_is() {
     let (nm, _) = found.states[1].capacity.clone().unwrap();
     assert!((nm / unworn - 1.0).abs() < 0.02, "{nm} beside {unworn}");
 }
+
+/// With a law for which both edges are found: what two blunt ones say of the sharp one, straight on.
+#[test]
+fn the_life_with_a_sharp_edge_follows_from_two_blunt_ones() {
+    use sprag_design::life::{BLUNT, BLUNT_BY_RADIUS, worn_life_with};
+    let design = Design::read("designs/lubricated.toml".as_ref()).unwrap();
+    let (service, life, _) = of(&design);
+    let lasts =
+        |blunt: f64| worn_life_with(&design, &service, &life, blunt).unwrap().unwrap().broken().unwrap();
+    let [sharp, blunt, blunter] = [BLUNT, BLUNT_BY_RADIUS, 2.0 * BLUNT_BY_RADIUS].map(lasts);
+    let said = blunt.0 - (blunter.0 - blunt.0) * (1.0 - BLUNT / BLUNT_BY_RADIUS);
+    println!("{sharp:?}, {blunt:?}, {blunter:?}: {said}");
+    assert!(sharp.1 == blunt.1 && (blunt.0 / sharp.0 - 1.0).abs() > 0.1);
+    assert!((said / sharp.0 - 1.0).abs() < 0.03, "{said} {sharp:?}");
+}
+
+#[test]
+fn an_elastic_clutch_says_what_a_sharp_edge_would_be() {
+    let design = Design::parse(ELASTIC, "elastic.toml").unwrap();
+    let (service, life, _) = of(&design);
+    let found = worn_life(&design, &service, &life).unwrap().unwrap();
+    println!("{:?} {:?}", found.broken(), found.sharp_share);
+    assert_eq!(found.broken().is_some(), found.sharp_share.is_some());
+    if let (Some((share, _)), Some(sharp)) = (found.broken(), found.sharp_share) {
+        assert!(sharp < share && sharp > 0.5 * share, "{sharp} {share}");
+    }
+}

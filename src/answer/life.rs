@@ -542,6 +542,18 @@ impl Said for LifeAnswer<'_> {
                 "unknown; pitting strengths hold for the lubricant and surface that they were found with",
             ),
         ];
+        let sharp = self.worn.as_ref().and_then(|worn| Some((worn.broken()?.0, worn.sharp_share?)));
+        all.extend(sharp.map(|(share, sharp)| {
+            LeftOut::new(
+                "a sharp edge of the worn flat",
+                "the contact law knows the radius and does not settle on an edge sharper than 5 % of its arc; others have 0.5 %",
+                &format!(
+                    "wear ends the life at {} of it, with an edge of 0.5 % at some {}: straight on from edges of 10 and 5 %",
+                    significant(share, 3),
+                    significant(sharp, 3)
+                ),
+            )
+        }));
         all.extend(left_out_of(self.design));
         all
     }

@@ -10,6 +10,7 @@ use crate::design::Design;
 use crate::dynamics::{Axes, ManySample, SpragCourse, StaysWith, Stop};
 use crate::report::{Page, Plot, Rows, Screen, Table, Unit, significant};
 use crate::scenario::Settings;
+use crate::sharing::OneSprag;
 use crate::sprags::{EachSprag, NoEachSprag, each_sprag};
 use serde_json::{Value, json};
 use std::fmt;
@@ -107,6 +108,39 @@ impl SharingSceneAnswer<'_> {
         each.reduce(|best, next| if next.1 < best.1 { next } else { best })
     }
 
+    /// Sprags that pass their highest place's beginning, the end of their curve, in the order in which they do, and when, s.
+    pub fn over(&self) -> Vec<(usize, f64)> {
+        let at = |i: usize| Some((i, self.course(i)?.over_s?));
+        let mut all: Vec<(usize, f64)> = (0..self.found.sprags.len()).filter_map(at).collect();
+        all.sort_by(|a, b| a.1.total_cmp(&b.1));
+        all
+    }
+
+    /// How many of them have lost contact for good.
+    pub fn gone(&self) -> usize {
+        (0..self.found.sprags.len()).filter(|&i| self.course(i).is_some_and(|c| c.gone_s.is_some())).count()
+    }
+
+    /// What becomes of sprags that come to their end, in words.
+    fn over_words(&self) -> String {
+        let over = self.over();
+        let Some((first, t_s)) = over.first() else { return String::new() };
+        let carry = self.found.group.iter().flatten().count() - self.gone();
+        let lost = self.course(*first).and_then(|c| c.gone_s);
+        format!(
+            "; {} beyond the end of the curve, sprag {} first, at {}{}; {} over the highest place and {} no more, {carry} remain",
+            if over.len() == 1 { "one goes".to_owned() } else { format!("{} go", over.len()) },
+            first + 1,
+            Unit::Millisecond.show(*t_s, 4),
+            lost.map_or(", and comes back or stays there".to_owned(), |t_s| format!(
+                ", and loses contact at {}",
+                Unit::Millisecond.show(t_s, 4)
+            )),
+            if self.gone() == 1 { "one is".to_owned() } else { format!("{} are", self.gone()) },
+            if self.gone() == 1 { "bears" } else { "bear" },
+        )
+    }
+
     /// How many sprags slip under load after they have caught.
     pub fn slipping(&self) -> usize {
         (0..self.found.sprags.len()).filter(|&i| self.course(i).is_some_and(|c| c.slips.is_some())).count()
@@ -132,35 +166,73 @@ impl SharingSceneAnswer<'_> {
     }
 
     /// One row a sprag.
-    pub fn by_sprag(&self) -> Table {
+    fn rows(&self) -> Rows<(usize, &OneSprag, Option<&SpragCourse>)> {
         let order = self.catching();
         let rows = self.found.sprags.iter().enumerate().map(|(i, s)| (i, s, self.course(i)));
+        let um = |m: f64| Unit::Micrometre.from_si(m);
+        let slips = |c: Option<&SpragCourse>| c.and_then(|c| c.slips);
         Rows::of(rows)
             .number("number", "Sprag", Unit::One, 3, |(i, ..)| i + 1)
             .number("size_um", "Larger by", Unit::Micrometre, 3, |(_, s, _)| s.size_m)
             .number("gap_um", "Gap", Unit::Micrometre, 3, |(_, s, _)| s.gap_m)
             .number("friction", "μs", Unit::One, 3, |(_, s, _)| s.friction)
-            .number("catches_ms", "Catches at", Unit::Millisecond, 4, |(_, _, c)| c.and_then(|c| c.catches_s))
+            .number("catches_s", "Catches at", Unit::Second, 4, |(_, _, c)| c.and_then(|c| c.catches_s))
+            .shown_in(Unit::Millisecond)
             .number("order", "Order", Unit::One, 3, |(i, ..)| {
                 order.iter().position(|of| of == i).map(|k| k + 1)
             })
             .number("normal_max_n", "Largest N", Unit::Newton, 4, |(_, _, c)| c.map(|c| c.normal_max_n))
-            .number("share", "Largest share", Unit::One, 4, |(_, _, c)| c.map(|c| c.share))
-            .number("share_ms", "At", Unit::Millisecond, 4, |(_, _, c)| {
+            .number("largest_share", "Largest share", Unit::One, 4, |(_, _, c)| c.map(|c| c.share))
+            .number("largest_share_at_s", "At", Unit::Second, 4, |(_, _, c)| {
                 c.filter(|c| c.share > 0.0).map(|c| c.share_s)
             })
+            .shown_in(Unit::Millisecond)
             .number("used_friction", "Uses μ", Unit::One, 3, |(_, _, c)| c.map(|c| c.tan[0].max(c.tan[1])))
-            .number("slips_ms", "Slips at", Unit::Millisecond, 4, |(_, _, c)| {
-                c.and_then(|c| c.slips).map(|s| s.t_s)
-            })
-            .number("slip_um", "Slip", Unit::Micrometre, 3, |(_, _, c)| c.map(|c| c.net_m[0]))
+            .number("slips_at_s", "Slips at", Unit::Second, 4, |(_, _, c)| slips(*c).map(|s| s.t_s))
+            .shown_in(Unit::Millisecond)
+            .number("slip_inner_um", "Slip", Unit::Micrometre, 3, |(_, _, c)| c.map(|c| c.net_m[0]))
             .text("state", "State", |(i, _, c)| match (self.found.idle[*i], c) {
                 (Some(idle), _) => idle.words(),
                 (None, Some(c)) if c.catches_s.is_none() => "never catches",
+                (None, Some(c)) if c.gone_s.is_some() => "rolled over",
+                (None, Some(c)) if c.over_s.is_some() => "beyond its end",
                 (None, Some(c)) if c.slips.is_some() => "slips",
                 _ => "holds",
             })
-            .table()
+            .json_in("azimuth_deg", Unit::Degree, |(_, s, _)| s.azimuth_rad)
+            .json("idle", |(i, ..)| self.found.idle[*i].map(|idle| idle.words()))
+            .json("normal_max_at_s", |(_, _, c)| c.map(|c| c.normal_max_s))
+            .json("used_friction_inner", |(_, _, c)| c.map(|c| c.tan[0]))
+            .json("used_friction_outer", |(_, _, c)| c.map(|c| c.tan[1]))
+            .json("slips_inner", |(_, _, c)| slips(*c).map(|s| s.inner))
+            .json("slips_normal_n", |(_, _, c)| slips(*c).map(|s| s.normal_n))
+            .json("slip_outer_um", |(_, _, c)| c.map(|c| um(c.net_m[1])))
+            .json("slip_path_inner_um", |(_, _, c)| c.map(|c| um(c.path_m[0])))
+            .json("slip_path_outer_um", |(_, _, c)| c.map(|c| um(c.path_m[1])))
+            .json("contact_lost_s", |(_, _, c)| c.map(|c| c.open_s))
+            .json("over_at_s", |(_, _, c)| c.and_then(|c| c.over_s))
+            .json("gone_at_s", |(_, _, c)| c.and_then(|c| c.gone_s))
+    }
+
+    /// The same as a table.
+    pub fn by_sprag(&self) -> Table {
+        self.rows().table()
+    }
+
+    /// One row a sample.
+    fn history(&self) -> Rows<&ManySample> {
+        let axes = self.found.axes.as_ref();
+        let normal = |s: &ManySample| -> Vec<f64> {
+            self.found.group.iter().map(|g| g.map_or(0.0, |g| s.normal_n[g])).collect()
+        };
+        Rows::of(&self.found.run.samples)
+            .number("t_s", "Time", Unit::Second, 4, |s| s.t_s)
+            .number("theta_inner_rad", "θ inner", Unit::Radian, 6, |s| s.races[0])
+            .number("theta_outer_rad", "θ outer", Unit::Radian, 6, |s| s.races[1])
+            .number("bearing_n", "Bearings hold", Unit::Newton, 4, |s| axes.map(|_| s.bearing_n))
+            .json("axis_um", |s| axes.map(|_| s.axis_m.map(|m| Unit::Micrometre.from_si(m))))
+            .json("shares", |s| self.shares(s))
+            .json("normal_inner_n", |s| normal(s))
     }
 
     /// Normal forces over the mean of all places at `sample`, by sprag; 0 while that is not loaded.
@@ -172,22 +244,39 @@ impl SharingSceneAnswer<'_> {
         all.iter().map(|n| if loaded { n / mean } else { 0.0 }).collect()
     }
 
-    fn left_out(&self) -> Vec<LeftOut> {
-        let cost = match self.found.shares_at_rest {
-            [Some(bent), Some(round), _] => format!(
-                "at rest under {} the largest share is {} with it, {} without",
-                Unit::NewtonMetre.show(self.found.largest_nm, 4),
-                significant(bent, 4),
-                significant(round, 4)
-            ),
-            _ => "not estimated: statics does not carry the largest torque".to_owned(),
-        };
-        let mut instead = vec![
-            LeftOut::new(
+    /// What is said of races that bend: what is left out of them, or all of it.
+    fn bending_left_out(&self) -> LeftOut {
+        let Some(bends) = &self.found.bends else {
+            let cost = match self.found.shares_at_rest {
+                [Some(bent), Some(round), _] if self.found.counts.len() > 1 => format!(
+                    "at rest under {} the largest share is {} with it, {} without",
+                    Unit::NewtonMetre.show(self.found.largest_nm, 4),
+                    significant(bent, 4),
+                    significant(round, 4)
+                ),
+                _ => "0: sprags alike bend nothing beside the law".to_owned(),
+            };
+            return LeftOut::new(
                 "races that bend",
-                "in a scene the races stay round, each sprag yields as one of sprags alike: uneven bending is that of statics alone",
+                "sprags that are alike and in their even places leave the races round; more unlike ones than are integrated do not",
                 &cost,
+            );
+        };
+        let [inner, outer] = bends.lowest_mode_hz.map(|hz| Unit::Hertz.show(hz, 3));
+        LeftOut::new(
+            "inertia of the races that bend",
+            &format!(
+                "they bend as at rest: alone the inner race swings at {inner}, the outer at {outer}, the scene drives them at {}; what they \
+                 recede is off by the square of that over the lowest, and so where sprags shock them within one such swing",
+                Unit::Hertz.show(bends.scene_hz, 3)
             ),
+            &format!("{} of what they bend", Unit::Percent.show(bends.left_out(), 2)),
+        )
+    }
+
+    fn left_out(&self) -> Vec<LeftOut> {
+        let mut instead = vec![
+            self.bending_left_out(),
             LeftOut::new(
                 "a sprag before it touches",
                 "one that lacks something to touch is turned along without a force, and joins rolling",
@@ -232,10 +321,28 @@ impl SharingSceneAnswer<'_> {
             significant(left, 2)
         ));
         all.extend(self.found.axes.as_ref().map(|axes| self.axes_words(axes)));
-        let terms = self.left_out();
-        let bent = terms.iter().find(|t| t.term.starts_with("races that bend"));
-        all.extend(bent.map(|t| format!("Left out: {}; {}", t.term, t.cost)));
+        if kinds > 1 {
+            all.push(self.bending_words());
+        }
         all
+    }
+
+    /// What bending does, and what of it is left out.
+    fn bending_words(&self) -> String {
+        let left = self.bending_left_out();
+        match (&self.found.bends, self.found.shares_at_rest) {
+            (Some(bends), [Some(bent), Some(round), _]) => format!(
+                "The races bend: at rest under {} the largest share is {} with it, {} without; the lowest mode of a ring is {}, the scene's {}, \
+                 which leaves out {}",
+                Unit::NewtonMetre.show(self.found.largest_nm, 4),
+                significant(bent, 4),
+                significant(round, 4),
+                Unit::Hertz.show(bends.lowest_mode_hz[0].min(bends.lowest_mode_hz[1]), 3),
+                Unit::Hertz.show(bends.scene_hz, 3),
+                left.cost
+            ),
+            _ => format!("Left out: {}; {}", left.term, left.cost),
+        }
     }
 
     /// What the axes of the races do.
@@ -313,7 +420,7 @@ impl Answer for SharingSceneAnswer<'_> {
     }
 
     fn held(&self) -> bool {
-        self.found.run.stop == Stop::Finished && self.first_slip().is_none()
+        self.found.run.stop == Stop::Finished && self.first_slip().is_none() && self.over().is_empty()
     }
 
     fn verdict(&self) -> String {
@@ -380,6 +487,7 @@ impl Answer for SharingSceneAnswer<'_> {
             ),
             None => "; none slips once it has caught".to_owned(),
         };
+        said += &self.over_words();
         said
     }
 
@@ -422,27 +530,7 @@ impl Answer for SharingSceneAnswer<'_> {
         let um = |m: f64| Unit::Micrometre.from_si(m);
         let axes = self.found.axes.as_ref();
         let bearing = axes.and_then(|axes| axes.bearing);
-        let sprags = self.found.sprags.iter().enumerate().map(|(i, s)| {
-            let c = self.course(i);
-            json!({
-                "number": i + 1, "azimuth_deg": Unit::Degree.from_si(s.azimuth_rad), "size_um": um(s.size_m), "gap_um": um(s.gap_m),
-                "friction": s.friction, "idle": self.found.idle[i].map(|idle| idle.words()),
-                "catches_s": c.and_then(|c| c.catches_s), "normal_max_n": c.map(|c| c.normal_max_n),
-                "normal_max_at_s": c.map(|c| c.normal_max_s), "largest_share": c.map(|c| c.share),
-                "largest_share_at_s": c.map(|c| c.share_s), "used_friction_inner": c.map(|c| c.tan[0]),
-                "used_friction_outer": c.map(|c| c.tan[1]), "slips_at_s": c.and_then(|c| c.slips).map(|s| s.t_s),
-                "slips_inner": c.and_then(|c| c.slips).map(|s| s.inner),
-                "slips_normal_n": c.and_then(|c| c.slips).map(|s| s.normal_n), "slip_inner_um": c.map(|c| um(c.net_m[0])),
-                "slip_path_inner_um": c.map(|c| um(c.path_m[0])), "slip_path_outer_um": c.map(|c| um(c.path_m[1])),
-                "slip_outer_um": c.map(|c| um(c.net_m[1])), "contact_lost_s": c.map(|c| c.open_s),
-            })
-        });
-        let history = run.samples.iter().map(|s| {
-            json!({
-                "t_s": s.t_s, "bearing_n": axes.map(|_| s.bearing_n), "axis_um": axes.map(|_| s.axis_m.map(um)), "theta_inner_rad": s.races[0], "theta_outer_rad": s.races[1], "shares": self.shares(s),
-                "normal_inner_n": self.found.group.iter().map(|g| g.map_or(0.0, |g| s.normal_n[g])).collect::<Vec<_>>(),
-            })
-        });
+        let bends = self.found.bends;
         let order: Vec<usize> = self.catching().iter().map(|i| i + 1).collect();
         let most = self.largest_share();
         let body = json!({
@@ -452,12 +540,15 @@ impl Answer for SharingSceneAnswer<'_> {
             "bearing_max_n": axes.map(|_| run.bearing_max_n), "bearing_max_at_s": axes.map(|_| run.bearing_max_s),
             "axes_apart_max_um": axes.map(|_| um(run.axis_max_m)), "bearing_mass_kg": bearing.map(|b| b.mass_kg),
             "bearing_frequency_hz": bearing.map(|b| b.frequency_hz()),
-            "catching": order, "slipping": self.slipping(), "first_slip_sprag": self.first_slip().map(|(i, _)| i + 1), "first_slip_at_s": self.first_slip().map(|(_, t)| t),
+            "over": self.over().len(), "gone": self.gone(), "catching": order, "slipping": self.slipping(), "first_slip_sprag": self.first_slip().map(|(i, _)| i + 1), "first_slip_at_s": self.first_slip().map(|(_, t)| t),
             "theta_inner_rad": run.races[0], "theta_outer_rad": run.races[1],
             "theta_inner_error_rad": self.found.error.map(|e| e[0]), "normal_max_error": self.found.error.map(|e| e[1]),
             "energy_residual_j": run.residual_j, "energy_through_j": run.through_j, "kinds": self.found.counts.len(),
             "events": run.events, "steps": run.counters.steps, "rhs_evaluations": run.counters.rhs_evaluations,
-            "sprags": sprags.collect::<Vec<_>>(), "history": history.collect::<Vec<_>>(),
+            "lowest_mode_inner_hz": bends.map(|b| b.lowest_mode_hz[0]), "lowest_mode_outer_hz": bends.map(|b| b.lowest_mode_hz[1]),
+            "share_at_rest": self.found.shares_at_rest[0], "share_at_rest_round": self.found.shares_at_rest[1],
+            "scene_hz": bends.map(|b| b.scene_hz), "bending_left_out": bends.map(|b| b.left_out()),
+            "sprags": self.rows().objects(), "history": self.history().objects(),
         });
         Envelope { design: self.design, run_time_s, left_out: self.left_out(), error_estimate: None, body }
     }

@@ -1,7 +1,7 @@
 //! First contact, the cusp of every curve: N ~ x^(10/9) and rho - rho_0 ~ x^(1/9), x its distance in alpha.
 
 use super::events::{LOWER, UPPER};
-use super::model::{Grip, Mode, Model, Place};
+use super::model::{Grip, Mode, Place};
 use crate::ode::adaptive::Size;
 use crate::ode::step::{Dense, Step};
 use crate::wedge::RHO_STEEPEST_RAD;
@@ -21,12 +21,11 @@ pub(super) fn cusp(place: Place) -> Option<usize> {
     }
 }
 
-/// How long a step at `alpha` (rad) that goes at `rate` (rad/s) may be that does not spoil the loss of contact, s. Where one contact holds
+/// How long a step `x` (rad) away from first contact that goes at `rate` (rad/s) may be that does not spoil the loss of contact, s. Where one contact holds
 /// and the other slips, alpha'' holds rho' alpha'^2 ~ x^(-8/9): of a step that begins at x and ends at the cusp the estimate sees
 /// nothing, however short, and three runs that do the same agree and are wrong together.
-pub(super) fn towards_the_cusp_s(model: &Model, mode: &Mode, alpha: f64, rate: f64) -> f64 {
+pub(super) fn towards_the_cusp_s(mode: &Mode, x: f64, rate: f64) -> f64 {
     let one_holds = (mode.inner == Grip::Stick) != (mode.outer == Grip::Stick);
-    let x = alpha - model.curve.first_contact_rad();
     if mode.place == Place::Arc(0) && one_holds && rate < 0.0 && x > NEAR_RAD {
         return PART * x / -rate;
     }

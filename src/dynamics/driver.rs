@@ -163,7 +163,9 @@ where
             let longest = self.settings.longest_step_s;
             let rest = self.settings.duration_s.min(self.model.drive.next_break_s(t)) - t;
             let mode = &self.run.mode;
-            let rest = rest.min(towards_the_cusp_s(self.model, mode, y[0], y[4])).min(period);
+            let rest = rest
+                .min(towards_the_cusp_s(mode, y[0] - self.model.curve.first_contact_rad(), y[4]))
+                .min(period);
             let counters = &mut self.run.counters;
             let cusp = cusp(self.run.mode.place);
             let useful = |h: f64| trail.useful(h, cusp);

@@ -126,10 +126,7 @@ impl Model {
         let speed = curve.speed_rad_s();
         let mut sum = 0.0;
         if low < touch && speed != 0.0 {
-            sum += quadrature::integral(low, high.min(touch), |alpha| {
-                let p = curve.open(alpha);
-                -self.mass_kg * p.oc_g * p.oc_g_slope * speed * speed
-            });
+            sum += self.swung_out_j(low, high.min(touch));
         }
         if high > touch {
             let low = low.max(touch);
@@ -146,6 +143,20 @@ impl Model {
             }
         }
         self.count * sum * (to - from).signum()
+    }
+
+    /// Centrifugal potential of all sprags between two angles without contact at A, J.
+    pub(super) fn open_energy_j(&self, from: f64, to: f64) -> f64 {
+        if self.curve.speed_rad_s() == 0.0 { 0.0 } else { self.count * self.swung_out_j(from, to) }
+    }
+
+    /// The same of one sprag.
+    fn swung_out_j(&self, from: f64, to: f64) -> f64 {
+        let speed = self.curve.speed_rad_s();
+        quadrature::integral(from, to, |alpha| {
+            let p = self.curve.open(alpha);
+            -self.mass_kg * p.oc_g * p.oc_g_slope * speed * speed
+        })
     }
 }
 

@@ -23,7 +23,7 @@ pub(super) const N_BE: usize = 4;
 
 /// How far below first contact alpha must fall before contact counts as lost, rad: N is 0 from first contact on,
 /// and a sprag that neither spring nor load moves does not flutter between the two places on rounding.
-const LEAVE_RAD: f64 = 1e-12;
+pub(super) const LEAVE_RAD: f64 = 1e-12;
 
 /// How far an open sprag may turn back before the run ends with a name, rad.
 pub(super) const OPEN_REACH_RAD: f64 = 0.5;

@@ -39,8 +39,8 @@ mod zeno;
 pub use drive::{Drive, FlangeDrive, Loads, Ramp};
 pub use energy::EnergyBalance;
 pub use many::{
-    Axes, AxisBearing, FirstSlip, ManyRun, ManySample, ManyStart, OffCentre, SpragCourse, SpragGroup,
-    SpragMotion, StaysWith, run_many, settled_off_centre, settled_together,
+    Approach, Axes, AxisBearing, FirstSlip, ManyRun, ManySample, ManyStart, OffCentre, Rings, SpragCourse,
+    SpragGroup, SpragMotion, StaysWith, run_many, settled_off_centre, settled_together,
 };
 pub use memory::{Memory, go_on};
 pub use model::{Forces, Grip, Mode, Model, N_STATE, Place, State};

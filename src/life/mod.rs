@@ -17,7 +17,8 @@ mod worn;
 
 pub use wear::{HourlyWear, SlipEffect, hourly_wear, slip_effect};
 pub use worn::{
-    BLUNT, BLUNT_BY_RADIUS, Broken, Wear, Worn, WornLife, WornState, worn, worn_life, worn_state,
+    BLUNT, BLUNT_BY_RADIUS, Broken, Wear, Worn, WornLife, WornState, worn, worn_life, worn_life_with,
+    worn_state,
 };
 
 use crate::clutch::{PittingStrength, RingStrength, Service};

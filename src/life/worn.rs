@@ -33,7 +33,7 @@ use std::f64::consts::PI;
 /// Radius of the edge of a flat, as a part of that of its arc: a choice; a sharp edge would be worn blunt itself.
 pub const BLUNT: f64 = 0.005;
 /// The same for a law that knows the radius, whose patch does not settle on a sharper edge: life until slip is some 17 % longer by it
-/// (`designs/lubricated.toml` with either).
+/// (`designs/lubricated.toml` with either). [`WornLife::sharp_share`] says what it would be.
 pub const BLUNT_BY_RADIUS: f64 = 0.05;
 /// Parts of the life at which the clutch is looked at, until a limit is broken.
 const SHARES: [f64; 12] = [0.0, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
@@ -150,6 +150,9 @@ pub struct WornLife {
     pub hours: f64,
     /// States, until one is broken.
     pub states: Vec<WornState>,
+    /// The part of the life after which it would be broken with an edge as sharp as [`BLUNT`], where it has [`BLUNT_BY_RADIUS`]: straight on through
+    /// the lives with that and with one twice as blunt.
+    pub sharp_share: Option<f64>,
 }
 
 impl WornLife {
@@ -167,6 +170,8 @@ struct March<'a> {
     rows: Vec<Margin>,
     service: &'a Service,
     life: &'a Life,
+    /// Radius of the edge of a flat, as a part of that of its arc.
+    blunt: f64,
     /// Of engagements, a whole life: it does not depend on the wear to first order.
     creep: Wear,
 }
@@ -176,13 +181,39 @@ struct March<'a> {
 /// # Errors
 /// [`NoMargins`] where the drawn clutch is none.
 pub fn worn_life(design: &Design, service: &Service, life: &Life) -> Result<Option<WornLife>, NoMargins> {
+    let blunt = blunt_of(&design.clutch);
+    let Some(mut found) = worn_life_with(design, service, life, blunt)? else { return Ok(None) };
+    if blunt != BLUNT
+        && let Some((share, _)) = found.broken()
+    {
+        let blunter = worn_life_with(design, service, life, 2.0 * blunt)?.and_then(|w| w.broken());
+        found.sharp_share = blunter.map(|(other, _)| share - (other - share) * (1.0 - BLUNT / blunt));
+    }
+    Ok(Some(found))
+}
+
+/// Radius of the edge of a flat of `clutch`, as a part of that of its arc.
+fn blunt_of(clutch: &Clutch) -> f64 {
+    if clutch.contact.facts().knows_radius { BLUNT_BY_RADIUS } else { BLUNT }
+}
+
+/// [`worn_life`] with an edge of the flat of radius `blunt`, as a part of that of its arc.
+///
+/// # Errors
+/// [`NoMargins`] where the drawn clutch is none.
+pub fn worn_life_with(
+    design: &Design,
+    service: &Service,
+    life: &Life,
+    blunt: f64,
+) -> Result<Option<WornLife>, NoMargins> {
     if design.clutch.lubrication.is_none() || service.overruns.is_empty() {
         return Ok(None);
     }
     let state = load_state(design)?;
     let creep = creep(design, &state, &life.loads);
     let rows = load_margins(design, &design.limits, Capacities::Wanted, &state);
-    let march = March { design, state, rows, service, life, creep };
+    let march = March { design, state, rows, service, life, blunt, creep };
     let hours = service.overruns.iter().map(|o| o.duration_s / 3600.0).sum();
     let (mut states, mut wear): (Vec<WornState>, _) = (Vec::new(), Wear::default());
     for share in SHARES {
@@ -208,7 +239,7 @@ pub fn worn_life(design: &Design, service: &Service, life: &Life) -> Result<Opti
         states.push(last);
         break;
     }
-    Ok(Some(WornLife { hours, states }))
+    Ok(Some(WornLife { hours, states, sharp_share: None }))
 }
 
 /// One state of `design` with `wear`, for who has that already; `share`: the part of the life it stands for.
@@ -225,7 +256,8 @@ pub fn worn_state(
     let state = load_state(design)?;
     let creep = Wear::default();
     let rows = load_margins(design, &design.limits, Capacities::Wanted, &state);
-    Ok(March { design, state, rows, service, life, creep }.state(share, wear))
+    let blunt = blunt_of(&design.clutch);
+    Ok(March { design, state, rows, service, life, blunt, creep }.state(share, wear))
 }
 
 impl March<'_> {
@@ -249,7 +281,8 @@ impl March<'_> {
     /// Wear in a whole life at the present rate.
     fn rate(&self, wear: &Wear) -> Wear {
         let Some(oil) = self.design.clutch.lubrication.as_ref() else { return Wear::default() };
-        let turned_rad = worn(self.design, &self.state, wear).map_or(f64::INFINITY, |w| w.turned_rad);
+        let found = worn_with(self.design, &self.state, wear, self.blunt);
+        let turned_rad = found.map_or(f64::INFINITY, |w| w.turned_rad);
         let relaxed = self.relaxed(turned_rad.min(PI));
         let clutch = &self.design.clutch;
         let mut rate = self.creep;
@@ -282,7 +315,7 @@ impl March<'_> {
     }
 
     fn state(&self, share: f64, wear: &Wear) -> WornState {
-        let found = worn(self.design, &self.state, wear);
+        let found = worn_with(self.design, &self.state, wear, self.blunt);
         let turned_rad = found.as_ref().map_or(0.0, |w| w.turned_rad);
         let [flat_m, half_flat_m] = found.as_ref().map_or([0.0; 2], |w| w.flat_m);
         let relaxed = self.relaxed(turned_rad);
@@ -435,6 +468,10 @@ struct Arc {
 
 /// `design`'s clutch with `wear`; `None` where the sprags no longer span the gap.
 pub fn worn(design: &Design, state: &LoadState, wear: &Wear) -> Option<Worn> {
+    worn_with(design, state, wear, blunt_of(&design.clutch))
+}
+
+fn worn_with(design: &Design, state: &LoadState, wear: &Wear, blunt: f64) -> Option<Worn> {
     let clutch = &design.clutch;
     if *wear == Wear::default() {
         return Some(Worn { clutch: clutch.clone(), flat_m: [0.0; 2], turned_rad: 0.0 });
@@ -503,7 +540,6 @@ pub fn worn(design: &Design, state: &LoadState, wear: &Wear) -> Option<Worn> {
             (edge_k, edge_rad) = (edge_k + 1, arc.until_rad);
         }
         let arc = arcs[edge_k];
-        let blunt = if clutch.contact.facts().knows_radius { BLUNT_BY_RADIUS } else { BLUNT };
         let blunt_m = blunt * arc.radius_m;
         let centre_m = arc.centre_m + (arc.radius_m - blunt_m) * normal(edge_rad);
         list.push(Arc { radius_m: blunt_m, centre_m, until_rad: edge_rad });

@@ -203,6 +203,12 @@ impl Spiral {
         2 * self.steps
     }
 
+    /// The curve `outwards_m` beside it along its normals, one of the same family: rho + a = (rho_0 + a + (d - a)) e^(k (psi - psi_0)) - (d - a). Its
+    /// arcs are those of this one with radii larger by as much, so that is what a tolerance of all radii together is.
+    pub fn parallel(&self, outwards_m: f64) -> Self {
+        Self { start_radius_m: self.start_radius_m + outwards_m, inset_m: self.inset_m - outwards_m, ..*self }
+    }
+
     /// The same of a sprag enlarged by `scale` whose turns are counted from `turn_rad` on.
     pub fn moved(&self, scale: f64, turn_rad: f64) -> Self {
         Self {

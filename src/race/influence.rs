@@ -42,6 +42,21 @@ impl Race {
     }
 }
 
+impl Race {
+    /// Frequency of its lowest bending mode, two waves around, Hz; 0 for a ring without a response to it. By Rayleigh's quotient with the shape
+    /// under the load cos 2 theta on the track: stiffness of that load, mass rho A pi R (1 + 1/m^2) of an inextensible ring of mean radius R, so
+    /// that of a thin ring is Love's, *Mathematical Theory of Elasticity*, art. 293: f^2 = E I m^2 (m^2 - 1)^2/(rho A R^4 (m^2 + 1))/(2 pi)^2.
+    pub fn lowest_mode_hz(&self) -> f64 {
+        const M: f64 = 2.0;
+        let influence = self.influence();
+        let Some([[up, _], _]) = influence.modes.first() else { return 0.0 };
+        let area_m2 = self.wall_m() * self.width_m();
+        let mean_m = 0.5 * (self.track_m() + self.other_rim_m());
+        let mass_kg = self.material().density_kg_m3 * area_m2 * PI * mean_m * (1.0 + 1.0 / (M * M));
+        (1.0 / (influence.per_n * up * mass_kg)).sqrt() / TAU
+    }
+}
+
 impl RingInfluence {
     /// Displacement of the track ahead by `angle_rad` (no multiple of 2 pi) of a force on it, m/N. Rows: radially away from the
     /// contacts, along the track in the positive sense; columns: of a normal force, of a force along the track.
@@ -104,6 +119,16 @@ mod tests {
         assert!((-2.0 * across / unit / (2.0 / PI - 0.5) - 1.0).abs() < 0.03, "{}", across / unit);
         let near = influence.at(0.02)[0][0] + influence.at(PI - 0.02)[0][0];
         assert!((2.0 * near / unit / (0.25 * PI - 2.0 / PI) - 1.0).abs() < 0.03, "{}", near / unit);
+    }
+
+    /// Love's thin ring, free; its wall gives 3 h^2/(10 R^2)-like parts of shear.
+    #[test]
+    fn the_lowest_mode_of_a_thin_ring_is_love_s() {
+        let (r, h, w) = (50e-3, 1e-3, 6e-3);
+        let race = Race::outer(r - 0.5 * h, r + 0.5 * h, w, STEEL).unwrap();
+        let (e_i, mass) = (206e9 * w * h.powi(3) / 12.0, 7850.0 * w * h);
+        let love = (e_i * 36.0 / (5.0 * mass * r.powi(4))).sqrt() / TAU;
+        assert!((race.lowest_mode_hz() / love - 1.0).abs() < 0.03, "{} {love}", race.lowest_mode_hz());
     }
 
     #[test]

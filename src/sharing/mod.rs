@@ -28,11 +28,13 @@ mod draw;
 mod engage;
 mod failing;
 mod newton;
+mod pops;
 mod turn;
 
 pub use draw::{OneSprag, drawn};
 pub use failing::Loss;
 pub use newton::{Asked, NotShared};
+pub use pops::{PopPoint, Pops};
 pub use turn::Turn;
 
 use crate::clutch::{Carrier, Clutch, Sharing, Standing};
@@ -323,6 +325,21 @@ impl<'a> Unlike<'a> {
         rotated(axis_m, -(self.sprags[i].azimuth_rad + self.turned_rad[i]))
     }
 
+    /// How far both tracks together recede at sprag `at[i]` for a newton of normal force of sprag `at[j]`, beside the law of even sprags, by rows,
+    /// m/N: what one sprag's contacts would have to come together for the same work. For one newton of N_bi the forces on the tracks are
+    /// `inner` (normal, along, in its positive sense) and `outer`. Symmetric.
+    pub fn opens_m_per_n(&self, at: &[usize], inner: [f64; 2], outer: [f64; 2]) -> Vec<f64> {
+        let work = |race: usize, [n, t]: [f64; 2], i: usize, j: usize| {
+            let [[nn, nt], [tn, tt]] = self.bending[race].matrix[i][j];
+            n * (nn * n + nt * t) + t * (tn * n + tt * t)
+        };
+        let entry = |i: usize, j: usize| {
+            let one = |i, j| work(0, inner, i, j) + work(1, outer, i, j);
+            0.5 * (one(i, j) + one(j, i))
+        };
+        at.iter().flat_map(|&i| at.iter().map(move |&j| (i, j))).map(|(i, j)| entry(i, j)).collect()
+    }
+
     /// The same between races that do not bend unevenly: each sprag yields as one of sprags alike.
     pub fn unbent(&self) -> Self {
         let mut stiff = self.clone();
@@ -338,6 +355,11 @@ impl<'a> Unlike<'a> {
         left.idle[i] = Some(Idle::Missing);
         left.lag_rad[i] = None;
         left
+    }
+
+    /// The clutch's own curve at rest.
+    pub fn curve(&self) -> &WedgeCurve {
+        self.curve
     }
 
     /// Statics of one sprag as drawn.

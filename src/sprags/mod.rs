@@ -5,18 +5,18 @@
 //!
 //! Every sprag has its own curve (its size), its own friction (static and kinetic in one ratio) and its own lag (its gap, or its size where a
 //! cage holds all), drawn and given as for statics. Where the
-//! axes of the races do not meet, or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]). Races
-//! stay round: what uneven bending would change is told by statics.
+//! axes of the races do not meet, or give way on bearings under sprags unlike one another, each stands in its own gap ([`Axes`]), and the
+//! races bend under sprags unlike one another ([`Rings`]), without inertia.
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Sharing, Start};
 use crate::dynamics::{
-    Axes, AxisBearing, ManyRun, ManyStart, OffCentre, RunSettings, SpragGroup, StaysWith, Stop, run_many,
-    settled_off_centre, settled_together,
+    Approach, Axes, AxisBearing, ManyRun, ManyStart, OffCentre, Rings, RunSettings, SpragGroup, StaysWith,
+    Stop, run_many, settled_off_centre, settled_together,
 };
 use crate::friction::Stribeck;
 use crate::scenario::{NoScenario, Prepared, Settings, prepare};
 use crate::sharing::{Asked, Idle, OneSprag, Unlike};
-use crate::wedge::{AxisTurns, NoCurve, WedgeCurve};
+use crate::wedge::{AxisTurns, NoCurve, OverEnd, WedgeCurve};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -113,6 +113,24 @@ pub struct EachSprag {
     pub off_centre: [f64; 2],
     /// That torque, N m.
     pub largest_nm: f64,
+    /// Races that bend; `None`: nothing in the scene feels that, or there are too many sprags.
+    pub bends: Option<BendingRaces>,
+}
+
+/// Races that bend in a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BendingRaces {
+    /// Lowest mode of inner and outer race by itself, Hz.
+    pub lowest_mode_hz: [f64; 2],
+    /// The fastest that the scene drives them with: its excitation, or the races on the sprags under the largest torque, Hz.
+    pub scene_hz: f64,
+}
+
+impl BendingRaces {
+    /// The part of the bending that is left out with the rings' inertia: (f/f_2)^2.
+    pub fn left_out(&self) -> f64 {
+        (self.scene_hz / self.lowest_mode_hz[0].min(self.lowest_mode_hz[1])).powi(2)
+    }
 }
 
 /// Ready to run.
@@ -130,16 +148,30 @@ pub struct Many {
     pub sprags: Vec<OneSprag>,
     /// Axes that do not meet or give way.
     pub axes: Option<Axes>,
+    /// Races that bend.
+    pub rings: Option<Rings>,
     /// The scene of sprags alike.
     pub alike: Prepared,
 }
 
 impl Many {
-    /// Sprags of `scenario` as `sharing` has them. `apart`: sprags alike are computed one by one too.
+    /// Sprags of `scenario` as `sharing` has them between races that stay round. `apart`: sprags alike are computed one by one too.
     ///
     /// # Errors
     /// [`NoEachSprag`].
     pub fn new(scenario: &Scenario, sharing: &Sharing, apart: bool) -> Result<Self, NoEachSprag> {
+        Self::made(scenario, sharing, apart, false)
+    }
+
+    /// The same between races that bend, where sprags unlike one another make them, and no more than [`run_many`] takes.
+    ///
+    /// # Errors
+    /// [`NoEachSprag`].
+    pub fn bending(scenario: &Scenario, sharing: &Sharing) -> Result<Self, NoEachSprag> {
+        Self::made(scenario, sharing, false, true)
+    }
+
+    fn made(scenario: &Scenario, sharing: &Sharing, apart: bool, bends: bool) -> Result<Self, NoEachSprag> {
         if scenario.kind.duration_s().is_none() {
             return Err(NoEachSprag::Static);
         }
@@ -166,6 +198,8 @@ impl Many {
             return Err(NoEachSprag::NoneCarries);
         }
         let lag = |i: usize| unlike.lag_rad[i].map(|lag| lag - first).filter(|lag| *lag > TOGETHER_RAD);
+        let able: Vec<usize> = (0..unlike.sprags.len()).filter(|&i| unlike.lag_rad[i].is_some()).collect();
+        let bends = bends && uneven(&unlike) && able.len() <= MOST_KINDS;
         // A deviation of -0 is none.
         let key = |i: usize| {
             let s = &unlike.sprags[i];
@@ -173,10 +207,9 @@ impl Many {
                 (s.size_m + 0.0).to_bits(),
                 s.friction.to_bits(),
                 lag(i).map(f64::to_bits),
-                apart.then_some(i).or(axes.map(|_| i)),
+                (apart || bends || axes.is_some()).then_some(i),
             )
         };
-        let able: Vec<usize> = (0..unlike.sprags.len()).filter(|&i| unlike.lag_rad[i].is_some()).collect();
         let mut kinds: Vec<usize> = Vec::new();
         let mut group = vec![None; unlike.sprags.len()];
         for &i in &able {
@@ -197,7 +230,7 @@ impl Many {
             let friction = Stribeck { static_: sprag.friction, kinetic, ..law };
             let count = group.iter().filter(|of| **of == Some(g)).count();
             let model = alike.model.of_sprags(count, own, friction);
-            Ok(SpragGroup { model, lag_rad: lag(i), off_centre: None })
+            Ok(SpragGroup { model, lag_rad: lag(i), over: None, off_centre: None })
         };
         let built: Vec<_> = kinds.par_iter().enumerate().map(of).collect();
         let mut groups = built.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -205,11 +238,17 @@ impl Many {
             let reach_m = reach_m(axes, &unlike, scenario, &alike);
             stand_off_centre(&mut groups, &unlike, &kinds, reach_m)?;
         }
+        let rings = match bends {
+            true => Some(rings(&groups, &unlike, &kinds, largest_nm(scenario, &alike.model.loads))?),
+            false => None,
+        };
         // Where nothing but friction sets them apart they begin as sprags alike.
         let even = axes.is_none()
             && able.len() == unlike.sprags.len()
             && groups.iter().all(|g| g.lag_rad.is_none())
-            && unlike.sprags.iter().all(|s| s.size_m == 0.0);
+            && unlike.sprags.iter().all(|s| s.size_m == 0.0)
+            && (rings.is_none()
+                || (0..unlike.sprags.len()).all(|i| unlike.sprags[i].azimuth_rad == even_rad(&unlike, i)));
         let start = match alike.free_run {
             None if even => ManyStart::of(&vec![Some((alike.state, alike.mode)); groups.len()]),
             Some(_) => {
@@ -221,15 +260,35 @@ impl Many {
                 let torque_nm = alike.model.drive.torque_at(0.0).max(0.0) - alike.model.loads.inner_nm;
                 let spring = scenario.start == Start::Settled;
                 let settled = match &axes {
-                    Some(axes) => settled_off_centre(&groups, axes, torque_nm, spring),
-                    None => settled_together(&groups, torque_nm, spring),
+                    Some(axes) => settled_off_centre(&groups, axes, rings.as_ref(), torque_nm, spring),
+                    None => settled_together(&groups, rings.as_ref(), torque_nm, spring),
                 };
                 Some(settled.ok_or(NoEachSprag::NotCarried(torque_nm))?)
             }
         };
         let start = start.ok_or(NoEachSprag::NoneCarries)?;
         let (idle, sprags) = (unlike.idle.clone(), unlike.sprags.clone());
-        Ok(Self { groups, start, group, idle, sprags, axes, alike })
+        Ok(Self { groups, start, group, idle, sprags, axes, rings, alike })
+    }
+
+    /// The same with the way of each sprag over its highest place; `None` where that is not known: no equilibrium is found, or the axes lie apart.
+    pub fn going_over(&self, clutch: &Clutch) -> Option<Self> {
+        if self.axes.is_some() {
+            return None;
+        }
+        let brink = clutch.brink(&clutch.profile().ok()?);
+        let over = |g: &SpragGroup| g.model.curve.beyond(brink.as_ref());
+        let ways: Vec<_> = self.groups.par_iter().map(over).collect();
+        let mut all = self.clone();
+        for (group, way) in all.groups.iter_mut().zip(ways) {
+            let way = way.filter(|way| way.end != OverEnd::NoConvergence)?;
+            (group.over, group.model.curve) = (Some(way.end), way.followed_curve().clone());
+        }
+        if let Some(rings) = &mut all.rings {
+            let new = |g: &SpragGroup| Approach::new(&g.model.curve).map(Arc::new);
+            rings.approaches = all.groups.par_iter().map(new).collect::<Option<Vec<_>>>()?;
+        }
+        Some(all)
     }
 
     /// Most steps, and most changes of all sprags, of a run.
@@ -253,22 +312,74 @@ impl Many {
             follow: settings.follow.clone(),
             ..RunSettings::default()
         };
-        run_many(&self.groups, self.axes.as_ref(), &self.start, &settings)
+        run_many(&self.groups, self.axes.as_ref(), self.rings.as_ref(), &self.start, &settings)
     }
+}
+
+/// Even place of sprag `i`, rad.
+fn even_rad(unlike: &Unlike<'_>, i: usize) -> f64 {
+    std::f64::consts::TAU * i as f64 / unlike.sprags.len() as f64
+}
+
+/// Whether the sprags are unlike one another.
+fn uneven(unlike: &Unlike<'_>) -> bool {
+    (0..unlike.sprags.len()).any(|i| {
+        let (s, first) = (&unlike.sprags[i], &unlike.sprags[0]);
+        unlike.idle[i].is_some()
+            || s.size_m != first.size_m
+            || s.gap_m != first.gap_m
+            || s.friction != first.friction
+            || s.azimuth_rad != even_rad(unlike, i)
+    })
+}
+
+/// Races that bend between `groups`, of the sprags `kinds`. Along the tracks forces are the part of the normal ones that they
+/// are under `largest_nm`, N m, or where the curve ends.
+fn rings(
+    groups: &[SpragGroup],
+    unlike: &Unlike<'_>,
+    kinds: &[usize],
+    largest_nm: f64,
+) -> Result<Rings, NoEachSprag> {
+    let curve = unlike.curve();
+    let end_n = curve.arc_end_n(curve.arc_count() - 1);
+    let loaded = curve.closure_at_torque(largest_nm).or_else(|| curve.closure_at_normal(end_n));
+    let Some((_, at)) = loaded else { return Err(NoEachSprag::NotCarried(largest_nm)) };
+    let (inner, outer) = ([1.0, at.t_bi.v / at.n_bi], [at.n_be.v / at.n_bi, -at.t_be.v / at.n_bi]);
+    let approach = |g: usize| {
+        let of = Approach::new(&groups[g].model.curve);
+        of.map(Arc::new).ok_or(NoEachSprag::Curve(kinds[g], NoCurve::NoConvergence))
+    };
+    let approaches = one_for_each_size(groups.len(), |g| unlike.sprags[kinds[g]].size_m, approach)?;
+    let elastic = &curve.statics().elastic;
+    Ok(Rings {
+        opens_m_per_n: unlike.opens_m_per_n(kinds, inner, outer),
+        approaches,
+        lowest_mode_hz: [&elastic.inner_race, &elastic.outer_race].map(|race| race.lowest_mode_hz()),
+    })
+}
+
+/// `made` of each of so many groups, once for those of one size.
+fn one_for_each_size<T: Send + Sync>(
+    groups: usize,
+    size_m: impl Fn(usize) -> f64 + Sync,
+    made: impl Fn(usize) -> Result<Arc<T>, NoEachSprag> + Sync,
+) -> Result<Vec<Arc<T>>, NoEachSprag> {
+    // A deviation of -0 is none.
+    let size = |g: usize| (size_m(g) + 0.0).to_bits();
+    let firsts: Vec<usize> = (0..groups).filter(|&g| (0..g).all(|before| size(before) != size(g))).collect();
+    let all: Vec<_> = firsts.par_iter().map(|&g| made(g)).collect();
+    let all = all.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let of = |g: usize| {
+        firsts.iter().zip(&all).find(|(first, _)| size(**first) == size(g)).map(|(_, t)| t.clone())
+    };
+    Ok((0..groups).filter_map(of).collect())
 }
 
 /// Axes of `clutch` where its sprags can feel them: those that do not meet, or that give way under sprags unlike one another.
 fn axes(clutch: &Clutch, unlike: &Unlike<'_>, sharing: &Sharing, speed_rad_s: f64) -> Option<Axes> {
     let gives = unlike.stiffness_n_per_m.is_finite();
-    let uneven = (0..unlike.sprags.len()).any(|i| {
-        let (s, even) = (&unlike.sprags[i], std::f64::consts::TAU * i as f64 / unlike.sprags.len() as f64);
-        unlike.idle[i].is_some()
-            || s.size_m != unlike.sprags[0].size_m
-            || s.gap_m != unlike.sprags[0].gap_m
-            || s.friction != unlike.sprags[0].friction
-            || s.azimuth_rad != even
-    });
-    if unlike.offset_m == 0.0 && !(gives && uneven) {
+    if unlike.offset_m == 0.0 && !(gives && uneven(unlike)) {
         return None;
     }
     let mass_kg = sharing.mass_kg.unwrap_or(clutch.masses_kg()[1]);
@@ -316,19 +427,13 @@ fn stand_off_centre(
     kinds: &[usize],
     reach_m: f64,
 ) -> Result<(), NoEachSprag> {
-    let size = |g: usize| (unlike.sprags[kinds[g]].size_m + 0.0).to_bits();
-    let firsts: Vec<usize> =
-        (0..groups.len()).filter(|&g| (0..g).all(|before| size(before) != size(g))).collect();
-    let table = |g: &usize| {
-        AxisTurns::new(&groups[*g].model.curve, reach_m).map_err(|why| NoEachSprag::Curve(kinds[*g], why))
+    let table = |g: usize| {
+        let of = AxisTurns::new(&groups[g].model.curve, reach_m);
+        of.map(Arc::new).map_err(|why| NoEachSprag::Curve(kinds[g], why))
     };
-    let tables: Vec<_> = firsts.par_iter().map(table).collect();
-    let tables = tables.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let tables: Vec<Arc<AxisTurns>> = tables.into_iter().map(Arc::new).collect();
-    for (g, group) in groups.iter_mut().enumerate() {
-        let Some(table) = firsts.iter().position(|&first| size(first) == size(g)) else { continue };
-        let azimuth_rad = unlike.sprags[kinds[g]].azimuth_rad;
-        group.off_centre = Some(OffCentre { azimuth_rad, turns: tables[table].clone() });
+    let tables = one_for_each_size(groups.len(), |g| unlike.sprags[kinds[g]].size_m, table)?;
+    for ((group, turns), kind) in groups.iter_mut().zip(tables).zip(kinds) {
+        group.off_centre = Some(OffCentre { azimuth_rad: unlike.sprags[*kind].azimuth_rad, turns });
     }
     Ok(())
 }
@@ -342,14 +447,21 @@ pub fn each_sprag(
     sharing: &Sharing,
     settings: &Settings,
 ) -> Result<EachSprag, NoEachSprag> {
-    let many = Many::new(scenario, sharing, false)?;
-    let go = |tolerance: f64, first: bool| {
+    let many = Many::bending(scenario, sharing)?;
+    let go = |many: &Many, tolerance: f64, first: bool| {
         settings.follow.begin_pass(first, tolerance);
         many.run(settings, tolerance, settings.samples)
     };
     let whole = |run: &ManyRun| !run.stop.gave_up() && run.stop != Stop::Interrupted;
-    let coarse = go(settings.tolerance, true);
-    let fine = if whole(&coarse) { Some(go(0.1 * settings.tolerance, false)) } else { None };
+    let mut many = many;
+    let mut coarse = go(&many, settings.tolerance, true);
+    // A sprag that comes to its end is followed over its highest place.
+    let over = if coarse.stop == Stop::CurveEnd { many.going_over(&scenario.clutch) } else { None };
+    if let Some(over) = over {
+        many = over;
+        coarse = go(&many, settings.tolerance, false);
+    }
+    let fine = if whole(&coarse) { Some(go(&many, 0.1 * settings.tolerance, false)) } else { None };
     let error = fine.as_ref().filter(|fine| whole(fine)).map(|fine| {
         let most = |run: &ManyRun| run.courses.iter().map(|c| c.normal_max_n).fold(0.0, f64::max);
         let (fine_n, coarse_n) = (most(fine), most(&coarse));
@@ -386,6 +498,10 @@ pub fn each_sprag(
     let turns = || many.groups.iter().filter_map(|g| g.off_centre.as_ref());
     let most = |of: &dyn Fn(&AxisTurns) -> f64| turns().map(|at| of(&at.turns)).fold(0.0, f64::max);
     let off_centre = [most(&|turns| turns.error_rad), most(&AxisTurns::reach_m)];
+    let bends = many.rings.as_ref().map(|rings| BendingRaces {
+        lowest_mode_hz: rings.lowest_mode_hz,
+        scene_hz: scene_hz(&scenario.clutch, &many.alike, at_rest.as_ref(), largest_nm),
+    });
     let Many { sprags, idle, group, axes, .. } = many;
     Ok(EachSprag {
         sprags,
@@ -400,5 +516,16 @@ pub fn each_sprag(
         axes,
         off_centre,
         largest_nm,
+        bends,
     })
+}
+
+/// The fastest that the scene drives the rings with: its period, or the races swinging on the sprags under the largest torque, Hz.
+fn scene_hz(clutch: &Clutch, alike: &Prepared, curve: Option<&WedgeCurve>, largest_nm: f64) -> f64 {
+    let driven = alike.period_s.map_or(0.0, |s| 1.0 / s);
+    let races = &clutch.races;
+    let softness = 1.0 / races.inner_inertia_kg_m2 + 1.0 / races.outer_inertia_kg_m2;
+    let point = curve.and_then(|curve| curve.at_torque(largest_nm));
+    let own = point.map_or(0.0, |p| (p.k_tangent_nm_per_rad * softness).sqrt() / std::f64::consts::TAU);
+    driven.max(own)
 }

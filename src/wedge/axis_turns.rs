@@ -106,7 +106,8 @@ impl AxisTurns {
         let rows = SMatrix::<f64, PLACES, TERMS>::from_fn(|i, j| terms(places[i])[j]);
         let fit = rows.svd(true, true).pseudo_inverse(1e-12).map_err(|_| NoCurve::NoConvergence)?;
         let mut statics = curve.statics().clone();
-        let (speed, gamma0) = (curve.speed_rad_s(), statics.gamma0_rad());
+        // A sprag of another size touches where G lies otherwise.
+        let (speed, gamma0) = (curve.speed_rad_s(), curve.touch().gamma.v);
         let gamma_m = |alpha: f64, k: usize, place: [f64; 2]| {
             let gamma = curve.in_arc(k, alpha).gamma - gamma0;
             rotated(place.map(|part| part * reach_m), -gamma)

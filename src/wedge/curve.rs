@@ -111,6 +111,10 @@ impl WedgeCurve {
     pub fn first_contact_rad(&self) -> f64 {
         self.alpha0
     }
+    /// q: on the first arc all is analytic in (alpha - alpha_0)^(1/q); 9 for roller-like laws, 10 for the logarithmic one.
+    pub fn exponent(&self) -> f64 {
+        self.exponent
+    }
     /// Mean speed of the curve, rad/s.
     pub fn speed_rad_s(&self) -> f64 {
         self.speed_rad_s

@@ -280,6 +280,30 @@ impl Way {
     }
 }
 
+impl RollOver {
+    /// The curve with this after its end, for a run that goes on.
+    pub fn followed_curve(&self) -> &WedgeCurve {
+        &self.curve
+    }
+
+    /// The place at `windup_rad` beyond the end of the curve, without what is stored there; `None` before it and beyond the last.
+    pub fn at_windup(&self, windup_rad: f64) -> Option<OverPoint> {
+        let curve = &self.curve;
+        let mut from = curve.arc_end_rad(curve.arcs.len().checked_sub(1)?);
+        for (i, table) in curve.over.iter().enumerate() {
+            let place = curve.arcs.len() + i;
+            let miss = |alpha: f64| curve.in_arc(place, alpha).windup - windup_rad;
+            let (low, high) = (miss(from), miss(table.alpha_until));
+            if low <= 0.0 && high >= 0.0 {
+                let alpha = root::bracketed(from, table.alpha_until, low, high, 1e-16, miss)?;
+                return Some(curve.over_point(place, alpha, 0.0));
+            }
+            from = table.alpha_until;
+        }
+        None
+    }
+}
+
 impl WedgeCurve {
     /// What comes after the end of this curve, the sprag's surfaces ending at `brink`; without one the edge lies where the profile of the
     /// file ends, and there is no flank. `None` where no equilibrium is found there, and between races whose axes do not meet.

@@ -21,6 +21,7 @@
 //! constraint forces that follow from s itself, and is wrong by (f/f_0)^2, f_0 = sqrt(k/m)/2 pi; f_0 lies below the sprags' own
 //! frequency in slip, which steps resolve anyhow.
 
+use super::bending::pressed;
 use super::{EACH, HEAD, SpragGroup};
 use crate::clutch::Carrier;
 use crate::dynamics::State;
@@ -185,6 +186,8 @@ impl Axes {
 
 impl SpragGroup {
     /// The own curve at `place` and alpha of `own`.
+    /// `more_n`: what bent races press it more than on that, N; `None`: they do not bend.
+    #[allow(clippy::too_many_arguments)]
     pub(super) fn sight(
         &self,
         axes: Option<&Axes>,
@@ -193,8 +196,13 @@ impl SpragGroup {
         t: f64,
         y: &[f64],
         own: &State,
+        more_n: Option<f64>,
     ) -> Sight {
         let mut point = self.model.point(place, own[0]);
+        if let Some(more_n) = more_n {
+            let below_rad = (self.model.curve.first_contact_rad() - own[0]).max(0.0);
+            point = pressed(point, more_n, below_rad);
+        }
         let (Some(axes), Some(at)) = (axes, &self.off_centre) else { return Sight { point, axes: None } };
         let arc = match place {
             Place::Arc(k) => Some(k),

@@ -10,6 +10,7 @@ use crate::dynamics::events::{EVENTS, INNER, LOWER, OUTER, UPPER};
 use crate::dynamics::model::{Grip, Mode, Place};
 use crate::dynamics::run::Stop;
 use crate::ode::rhs::RightHandSide;
+use crate::wedge::OverEnd;
 
 /// Which event functions of which group have fallen at one time.
 pub(super) type Falls = Vec<[bool; EVENTS]>;
@@ -65,7 +66,12 @@ impl<const N: usize> Going<'_, N> {
                 continue;
             }
             let Some(place) = self.goes_to(g, if falls[g][LOWER] { LOWER } else { UPPER }) else {
-                return false;
+                if self.out.stop != Stop::Finished {
+                    return false;
+                }
+                self.is_gone(g);
+                left.remove(0);
+                continue;
             };
             let alike = |other: &usize| self.same(g, *other) && falls[*other] == falls[g];
             let those: Vec<usize> = left.iter().copied().filter(alike).collect();
@@ -115,19 +121,35 @@ impl<const N: usize> Going<'_, N> {
                 self.stop(Stop::FellAway, Some(g));
                 None
             }
-            (_, Place::Arc(k)) if k + 1 < model.curve.arc_count() => {
+            (_, Place::Arc(k)) if k + 1 < model.curve.place_count() => {
+                if k + 1 == model.curve.arc_count() {
+                    self.out.courses[g].over_s.get_or_insert(self.t_s);
+                }
                 self.y[at] = model.curve.arc_end_rad(k);
                 Some(Place::Arc(k + 1))
             }
             (_, Place::Arc(_)) => {
+                if self.groups[g].over == Some(OverEnd::ContactLost)
+                    && self.rhs.motions.iter().filter(|m| !m.waits).count() > 1
+                {
+                    return None;
+                }
                 self.stop(Stop::CurveEnd, Some(g));
                 None
             }
             _ => {
-                self.y[at] = model.curve.first_contact_rad();
-                Some(Place::Arc(0))
+                self.y[at] = self.rhs.touch_rad(g, &self.y);
+                Some(Place::Arc(model.curve.arc_at(self.y[at])))
             }
         }
+    }
+
+    /// Group `g` has gone over and lost contact: it bears nothing any more. What it has stored and how it moves goes with it.
+    fn is_gone(&mut self, g: usize) {
+        let before = self.rhs.energy_j(self.t_s, &self.y);
+        self.out.courses[g].gone_s = Some(self.t_s);
+        self.rhs.motions[g] = SpragMotion { gone: true, ..SpragMotion::waiting() };
+        self.appeared_j += self.rhs.energy_j(self.t_s, &self.y) - before;
     }
 
     /// Whether groups `g` and `other` cross as one: alike in what moves, and in one state to the last bit.
@@ -144,9 +166,8 @@ impl<const N: usize> Going<'_, N> {
 
     /// A sprag that has waited is at first contact and rolls as the races do.
     fn touches(&mut self, g: usize) {
-        let model = &self.groups[g].model;
         let at = HEAD + EACH * g;
-        self.y[at] = model.curve.first_contact_rad();
+        self.y[at] = self.rhs.touch_rad(g, &self.y);
         if self.rhs.axes.is_some() {
             // It has been turned along with the outer race.
             self.y[at + 1] = self.y[1];

@@ -37,6 +37,10 @@ pub struct SpragCourse {
     pub share: f64,
     /// When, s.
     pub share_s: f64,
+    /// When it first passed the end of its curve, s, where its way over is followed.
+    pub over_s: Option<f64>,
+    /// When it has gone over and lost contact for good, s.
+    pub gone_s: Option<f64>,
     /// Time without contact after it has caught, s.
     pub open_s: f64,
 }

@@ -22,10 +22,13 @@
 //! Where the axes of the races do not meet, or give way on bearings, each sprag stands in its own gap (`axes`); the system has the two
 //! rates of the axis beside those of the races.
 //!
+//! Where the races bend unevenly, what presses a sprag follows from where all of them stand (`bending`).
+//!
 //! State: theta_bi, theta_be, their rates, five works, then of each group alpha, phi, their rates and the slips at A and B; last the shift of
 //! the axis and its rate, where there are bearings.
 
 mod axes;
+mod bending;
 mod change;
 mod choose;
 mod found;
@@ -37,12 +40,14 @@ mod start;
 mod watch;
 
 pub use axes::{Axes, AxisBearing, OffCentre, StaysWith};
+pub use bending::{Approach, Rings};
 pub use found::{FirstSlip, ManyRun, ManySample, SpragCourse};
 pub use run::run_many;
 pub use start::{settled_off_centre, settled_together};
 
 use super::model::{Mode, Model};
 use super::{N_STATE, State};
+use crate::wedge::OverEnd;
 
 /// Races and works.
 const HEAD: usize = 9;
@@ -61,6 +66,8 @@ pub struct SpragGroup {
     pub model: Model,
     /// Windup of the races from which on they touch, rad; `None`: they touch at the start.
     pub lag_rad: Option<f64>,
+    /// How the way over their highest place ends, where their curve has it; `None`: the run ends where the curve does.
+    pub over: Option<OverEnd>,
     /// Where they stand between axes that do not meet; `None`: these meet, or it is not asked.
     pub off_centre: Option<OffCentre>,
 }
@@ -72,6 +79,8 @@ pub struct SpragMotion {
     pub mode: Mode,
     /// Whether it does not touch yet.
     pub waits: bool,
+    /// Whether it will never touch again: it has gone over its highest place.
+    pub gone: bool,
     /// theta_bi - theta_be + W(alpha) while both contacts hold, rad.
     phase: Option<f64>,
 }

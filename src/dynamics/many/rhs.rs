@@ -1,14 +1,16 @@
 //! The right-hand side of all sprags: forces of each, accelerations of the races under their sum.
 
 use super::axes::{AXIS, Axes, SeenAxes, Sight, rotated};
+use super::bending::{Bent, Rings};
 use super::{EACH, FIRST_WORK, HEAD, PROBES, SpragGroup, SpragMotion, state_of};
 use crate::dynamics::choose::EXCESS;
-use crate::dynamics::events::{INNER, OUTER, Probe, probe_of, without_forces};
+use crate::dynamics::events::{INNER, LEAVE_RAD, LOWER, OUTER, Probe, UPPER, probe_of, without_forces};
 use crate::dynamics::model::{Forces, Grip, Loose, Mode, Model, Place};
 use crate::dynamics::{N_STATE, State};
 use crate::ode::rhs::RightHandSide;
 use crate::wedge::WedgePoint;
 use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
+use std::cell::RefCell;
 
 /// A contact is released where it asks for this much more than its limit, as a part of that. A choice takes a stick that asks for up
 /// to [`EXCESS`] more, so what it has chosen does not fall at once; and a slip begins with an acceleration that rounding cannot turn
@@ -109,6 +111,8 @@ impl GroupRhs {
 pub(super) struct Rhs<'a> {
     pub(super) groups: &'a [SpragGroup],
     pub(super) axes: Option<&'a Axes>,
+    /// Races that bend, as the sprags stood when they were asked last.
+    bent: Option<RefCell<Bent<'a>>>,
     pub(super) motions: Vec<SpragMotion>,
     /// theta_be - theta_bi from which the windup counts that a waiting group waits for, rad.
     pub(super) reference_rad: f64,
@@ -128,6 +132,7 @@ impl<'a> Rhs<'a> {
     pub(super) fn new(
         groups: &'a [SpragGroup],
         axes: Option<&'a Axes>,
+        rings: Option<&'a Rings>,
         motions: Vec<SpragMotion>,
         reference_rad: f64,
     ) -> Self {
@@ -135,6 +140,7 @@ impl<'a> Rhs<'a> {
         Self {
             groups,
             axes,
+            bent: rings.map(|rings| RefCell::new(Bent::new(rings))),
             motions,
             reference_rad,
             parts: (0..n).map(|_| None).collect(),
@@ -146,7 +152,45 @@ impl<'a> Rhs<'a> {
 
     /// Where group `g` stands in its place, `own` its state in y.
     pub(super) fn stands(&self, g: usize, place: Place, t: f64, y: &[f64], own: &State) -> Sight {
-        self.groups[g].sight(self.axes, self.groups.len(), place, t, y, own)
+        let more_n = match place {
+            Place::Arc(_) => self.bent(y, |bent| bent.more_n(g)),
+            _ => None,
+        };
+        self.groups[g].sight(self.axes, self.groups.len(), place, t, y, own, more_n)
+    }
+
+    /// `of` the bent races where the sprags stand as `y` has them; `None`: they do not bend.
+    fn bent<T>(&self, y: &[f64], of: impl FnOnce(&Bent<'a>) -> T) -> Option<T> {
+        let mut bent = self.bent.as_ref()?.try_borrow_mut().ok()?;
+        bent.stand(self.groups, &self.motions, y);
+        Some(of(&bent))
+    }
+
+    /// Whether the races bend.
+    pub(super) fn bends(&self) -> bool {
+        self.bent.is_some()
+    }
+
+    /// How far group `g` is pressed, as an angle from first contact, rad.
+    pub(super) fn pressed_rad(&self, g: usize, y: &[f64]) -> f64 {
+        let touch = self.groups[g].model.curve.first_contact_rad();
+        self.bent(y, |bent| bent.pressed_rad(g)).unwrap_or(state_of(y, g)[0] - touch)
+    }
+
+    /// alpha at which group `g` touches, rad.
+    pub(super) fn touch_rad(&self, g: usize, y: &[f64]) -> f64 {
+        let own = self.groups[g].model.curve.first_contact_rad();
+        self.bent(y, |bent| bent.touch_rad(g)).unwrap_or(own)
+    }
+
+    /// Event function `which` of group `g` where contact is lost or found between races that bend.
+    fn bent_event(&self, g: usize, which: usize, y: &[f64]) -> Option<f64> {
+        self.bent.as_ref()?;
+        match (which, self.motions[g].mode.place) {
+            (LOWER, Place::Arc(0)) => Some(self.pressed_rad(g, y) + LEAVE_RAD),
+            (UPPER, Place::Open) => Some(-self.pressed_rad(g, y)),
+            _ => None,
+        }
     }
 
     /// Rates of group `g` with its rolling constraints put in exactly.
@@ -335,6 +379,25 @@ impl<'a> Rhs<'a> {
 
     /// How much more than at the start the races must have wound up until group `g` touches, for where the axis is now, rad.
     fn touches_later_rad(&self, g: usize, t: f64, y: &[f64]) -> f64 {
+        self.moved_touch_rad(g, t, y) + self.bent_touch_rad(g, y)
+    }
+
+    /// What bent races are to that, rad.
+    fn bent_touch_rad(&self, g: usize, y: &[f64]) -> f64 {
+        if self.bent.is_none() {
+            return 0.0;
+        }
+        let (curve, alpha) = (&self.groups[g].model.curve, self.touch_rad(g, y));
+        let below = curve.first_contact_rad() - alpha;
+        if below < 0.0 {
+            return curve.windup_rad(alpha);
+        }
+        let p = curve.in_arc(0, alpha);
+        -(p.rho_i + p.rho_e) * below
+    }
+
+    /// What the place of the axis is to that, rad.
+    fn moved_touch_rad(&self, g: usize, t: f64, y: &[f64]) -> f64 {
         let (Some(axes), Some(at)) = (self.axes, &self.groups[g].off_centre) else { return 0.0 };
         let touch = self.groups[g].model.curve.first_contact_rad();
         let costs = |axis: [f64; 2], phi: f64| {
@@ -355,6 +418,11 @@ impl<'a> Rhs<'a> {
                 let model = &self.groups[g].model;
                 let own = state_of(y, g);
                 let mut seen = probe_of(model, &motion.mode, &own, &s.point, &s.forces, true);
+                for which in [LOWER, UPPER] {
+                    if let Some(bent) = self.bent_event(g, which, y) {
+                        seen.events[which] = bent;
+                    }
+                }
                 let (mu, f) = (model.friction.static_, &s.forces);
                 if motion.mode.inner == Grip::Stick && motion.mode.place != Place::Open {
                     seen.events[INNER] += SLACK * mu * f.n_bi;
@@ -364,6 +432,7 @@ impl<'a> Rhs<'a> {
                 }
                 seen
             }
+            (None, _) if motion.gone => Probe { events: [1.0; 4], figures: [0.0; 5], ..Probe::NOTHING },
             (None, lag) => {
                 let left = lag.unwrap_or(f64::INFINITY) - (y[1] - y[0] - self.reference_rad)
                     + self.touches_later_rad(g, t, y);
@@ -382,6 +451,11 @@ impl<'a> Rhs<'a> {
     pub(super) fn event(&mut self, g: usize, which: usize, t: f64, y: &[f64]) -> f64 {
         let (model, motion) = (&self.groups[g].model, &self.motions[g]);
         let own = state_of(y, g);
+        if !motion.waits
+            && let Some(bent) = self.bent_event(g, which, y)
+        {
+            return bent;
+        }
         let slips = (which == INNER || which == OUTER) && self.groups[g].off_centre.is_some();
         if slips && !motion.waits {
             let sight = self.stands(g, motion.mode.place, t, y, &own);
@@ -449,11 +523,13 @@ impl<'a> Rhs<'a> {
         let races = &self.groups[0].model;
         let own = |g: usize| self.energy_of_j(g, t, y);
         let axis = self.axes.map_or(0.0, |axes| axes.energy_j(axes.shift(y, self.groups.len())).0);
+        let rings = self.bent(y, Bent::rings_j).unwrap_or(0.0);
         (0..self.groups.len()).map(own).sum::<f64>()
             + 0.5 * races.inner_inertia_kg_m2 * y[2] * y[2]
             + 0.5 * races.outer_inertia_kg_m2 * y[3] * y[3]
             + 0.5 * races.loads.abutment_nm_per_rad * y[1] * y[1]
             + axis
+            + rings
     }
 
     /// Energy of group `g` from first contact on, J; none while it waits.
@@ -467,8 +543,21 @@ impl<'a> Rhs<'a> {
         let [da, dp, ..] = self.goes(g, &motion.mode, &sight, y, &own);
         let mut alone = own;
         alone[3] = 0.0;
-        model.energy_without_wedge(&sight.point, &[da, dp, 0.0, 0.0], &alone)
-            + model.wedge_energy_j(model.curve.first_contact_rad(), own[0])
+        let moves = model.energy_without_wedge(&sight.point, &[da, dp, 0.0, 0.0], &alone);
+        let touch = model.curve.first_contact_rad();
+        let Some(beside) = self.bent(y, |bent| bent.beside_j(g)) else {
+            return moves + model.wedge_energy_j(touch, own[0]);
+        };
+        // A sprag may be open beyond first contact, and pressed before it.
+        moves
+            + match motion.mode.place {
+                Place::Open => model.open_energy_j(touch, own[0]),
+                _ if own[0] < touch => {
+                    let p = model.curve.in_arc(0, touch);
+                    model.count * (p.t_static * p.oa * (p.rho_i + p.rho_e) * (own[0] - touch) + beside)
+                }
+                _ => model.wedge_energy_j(touch, own[0]) + model.count * beside,
+            }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Steps up to the first event of any sprag.
 
 use super::axes::{AXIS, Axes};
+use super::bending::Rings;
 use super::change::Falls;
 use super::found::{FirstSlip, ManyRun, SpragCourse};
 use super::locate::First;
@@ -28,10 +29,11 @@ const KINDS: usize = 8;
 
 /// Integrate `groups` from `start`; `settings` as of one sprag, of which samples and history beyond equidistant ones, energy, jumps
 /// and pure rolling mean nothing here. Up to 64 groups.
-/// `axes`: where these do not meet or may give way.
+/// `axes`: where these do not meet or may give way; `rings`: where the races bend, for groups of one sprag each.
 pub fn run_many(
     groups: &[SpragGroup],
     axes: Option<&Axes>,
+    rings: Option<&Rings>,
     start: &ManyStart,
     settings: &RunSettings,
 ) -> ManyRun {
@@ -39,9 +41,9 @@ pub fn run_many(
         HEAD + EACH * groups
     }
     match (groups.len(), axes) {
-        (0..=4, None) => Going::<{ length(4) }>::new(groups, None, start, settings).run(),
-        (_, None) => Going::<{ length(64) }>::new(groups, None, start, settings).run(),
-        (_, axes) => Going::<{ length(64) + AXIS }>::new(groups, axes, start, settings).run(),
+        (0..=4, None) => Going::<{ length(4) }>::new(groups, None, rings, start, settings).run(),
+        (_, None) => Going::<{ length(64) }>::new(groups, None, rings, start, settings).run(),
+        (_, axes) => Going::<{ length(64) + AXIS }>::new(groups, axes, rings, start, settings).run(),
     }
 }
 
@@ -82,6 +84,7 @@ impl<'a, const N: usize> Going<'a, N> {
     fn new(
         groups: &'a [SpragGroup],
         axes: Option<&'a Axes>,
+        rings: Option<&'a Rings>,
         start: &ManyStart,
         settings: &'a RunSettings,
     ) -> Self {
@@ -115,7 +118,7 @@ impl<'a, const N: usize> Going<'a, N> {
         };
         // The windup of a start under load counts from no load, that of an overrun from where the races turn back.
         let reference_rad = (y[1] - y[0]).min(0.0);
-        let rhs = Rhs::new(groups, axes, start.motions.clone(), reference_rad);
+        let rhs = Rhs::new(groups, axes, rings, start.motions.clone(), reference_rad);
         let mut going = Self {
             groups,
             settings,
@@ -351,7 +354,7 @@ impl<'a, const N: usize> Going<'a, N> {
                 return f64::INFINITY;
             }
             let s = state_of(&self.y, g);
-            towards_the_cusp_s(&self.groups[g].model, &motion.mode, s[0], s[4])
+            towards_the_cusp_s(&motion.mode, self.rhs.pressed_rad(g, &self.y), s[4])
         };
         self.rhs.motions.iter().enumerate().map(one).fold(f64::INFINITY, f64::min)
     }

@@ -1,22 +1,24 @@
 //! Where a run of many sprags begins.
 
 use super::axes::{Axes, rotated};
+use super::bending::{Bent, Rings, pressed};
 use super::{ManyStart, SpragGroup, SpragMotion};
 use crate::dynamics::model::{Grip, Mode, Place, State};
 use crate::numeric::root;
 use crate::wedge::WedgeCurve;
 use nalgebra::{Matrix4, Vector4};
+use std::cell::RefCell;
 
 impl SpragMotion {
     /// In `mode`, touching.
     pub fn touching(mode: Mode) -> Self {
-        Self { mode, waits: false, phase: None }
+        Self { mode, waits: false, gone: false, phase: None }
     }
 
     /// Not touching yet.
     pub fn waiting() -> Self {
         let mode = Mode { place: Place::Open, inner: Grip::Stick, outer: Grip::Stick };
-        Self { mode, waits: true, phase: None }
+        Self { mode, waits: true, gone: false, phase: None }
     }
 }
 
@@ -38,21 +40,49 @@ impl ManyStart {
 }
 
 /// Rest under `torque_nm` >= 0, both races in balance: every group at its own alpha of one windup, `spring`s at work or left out.
-/// `None` where it is not carried before one comes to its end.
-pub fn settled_together(groups: &[SpragGroup], torque_nm: f64, spring: bool) -> Option<ManyStart> {
+/// `None` where it is not carried before one comes to its end. `rings`: where the races bend.
+pub fn settled_together(
+    groups: &[SpragGroup],
+    rings: Option<&Rings>,
+    torque_nm: f64,
+    spring: bool,
+) -> Option<ManyStart> {
+    let bent = rings.map(|rings| RefCell::new(Bent::new(rings)));
+    // Between races that bend a sprag may be pressed before its lag is over.
     let own = |group: &SpragGroup, windup: f64| -> Option<(f64, Place)> {
         let windup = windup - group.lag_rad.unwrap_or(0.0);
-        (windup >= 0.0).then(|| alpha_at_windup(&group.model.curve, windup)).flatten()
+        match rings {
+            Some(_) if windup < 0.0 => Some(before_touch(&group.model.curve, windup)),
+            _ => (windup >= 0.0).then(|| alpha_at_windup(&group.model.curve, windup)).flatten(),
+        }
+    };
+    // How much more each is pressed than on its own curve, N; `None`: it does not touch.
+    let stand = |windup: f64| {
+        let Some(bent) = &bent else { return };
+        let mut bent = bent.borrow_mut();
+        for (g, group) in groups.iter().enumerate() {
+            let at = own(group, windup);
+            bent.place(g, at.map_or(0.0, |at| at.0), at.and_then(|at| arc_of(at.1)), &group.model);
+        }
+        bent.solve();
     };
     let carried = |windup: f64| -> f64 {
-        let one = |group: &SpragGroup| {
+        stand(windup);
+        let one = |(g, group): (usize, &SpragGroup)| {
             let model = &group.model;
             let Some((alpha, place)) = own(group, windup) else { return 0.0 };
-            let p = model.point(place, alpha);
+            let mut p = model.point(place, alpha);
+            if let Some(bent) = &bent {
+                let bent = bent.borrow();
+                if bent.pressed_rad(g) < 0.0 {
+                    return 0.0;
+                }
+                p = pressed(p, bent.more_n(g), 0.0);
+            }
             let pressed = if spring { model.spring_nm_per_rad * (model.alpha_max_rad - alpha) } else { 0.0 };
             model.count * (p.t_static * p.oa - pressed / (p.rho_i + p.rho_e))
         };
-        groups.iter().map(one).sum()
+        groups.iter().enumerate().map(one).sum()
     };
     let end = |group: &SpragGroup| {
         let curve = &group.model.curve;
@@ -66,14 +96,33 @@ pub fn settled_together(groups: &[SpragGroup], torque_nm: f64, spring: bool) -> 
     let model = &groups.first()?.model;
     let abutment = model.loads.abutment_nm_per_rad;
     let outer = if abutment > 0.0 && torque_nm > 0.0 { -torque_nm / abutment } else { 0.0 };
-    let each = |group: &SpragGroup| {
+    stand(windup);
+    let each = |(g, group): (usize, &SpragGroup)| {
         let (alpha, place) = own(group, windup)?;
-        let place = if loaded { place } else { Place::Open };
+        let off = bent.as_ref().is_some_and(|bent| loaded && bent.borrow().pressed_rad(g) < 0.0);
+        if off && group.lag_rad.is_some() {
+            return None;
+        }
+        let place = if loaded && !off { place } else { Place::Open };
         let mut y = [0.0; super::N_STATE];
         (y[0], y[2], y[3]) = (alpha, outer - windup, outer);
         Some((y, Mode { place, inner: Grip::Stick, outer: Grip::Stick }))
     };
-    ManyStart::of(&groups.iter().map(each).collect::<Vec<_>>())
+    ManyStart::of(&groups.iter().enumerate().map(each).collect::<Vec<_>>())
+}
+
+fn arc_of(place: Place) -> Option<usize> {
+    match place {
+        Place::Arc(k) => Some(k),
+        _ => None,
+    }
+}
+
+/// alpha, rad, of a sprag that lacks `windup_rad` < 0 to first contact, rolling.
+fn before_touch(curve: &WedgeCurve, windup_rad: f64) -> (f64, Place) {
+    let touch = curve.first_contact_rad();
+    let p = curve.in_arc(0, touch);
+    (touch + windup_rad / (p.rho_i + p.rho_e), Place::Arc(0))
 }
 
 /// The same where the axes do not meet or may give way, which they do with the load: each group at its own alpha of one windup since torque
@@ -81,16 +130,18 @@ pub fn settled_together(groups: &[SpragGroup], torque_nm: f64, spring: bool) -> 
 pub fn settled_off_centre(
     groups: &[SpragGroup],
     axes: &Axes,
+    rings: Option<&Rings>,
     torque_nm: f64,
     spring: bool,
 ) -> Option<ManyStart> {
-    let rest = Rest { groups, axes, torque_nm, spring };
+    let bent = rings.map(|rings| RefCell::new(Bent::new(rings)));
+    let rest = Rest { groups, axes, bent, torque_nm, spring };
     let mut at = if torque_nm > 0.0 { rest.balanced()? } else { Vector4::zeros() };
     if axes.bearing.is_none() {
         (at[2], at[3]) = (0.0, 0.0);
     }
-    let each = |group: &SpragGroup| Some(rest.stands(group, &at)?.map(|found| found.state));
-    let mut start = ManyStart::of(&groups.iter().map(each).collect::<Option<Vec<_>>>()?)?;
+    let states = rest.all_stand(&at)?;
+    let mut start = ManyStart::of(&states)?;
     start.races = [at[1] - at[0], at[1], 0.0, 0.0];
     start.shift_m = [at[2], at[3]];
     Some(start)
@@ -100,19 +151,42 @@ pub fn settled_off_centre(
 struct Rest<'a> {
     groups: &'a [SpragGroup],
     axes: &'a Axes,
+    /// Races that bend.
+    bent: Option<RefCell<Bent<'a>>>,
     torque_nm: f64,
     spring: bool,
 }
 
-/// A group at rest, and what all of it does to the races (N m) and the axis (N).
-struct GroupAtRest {
-    state: (State, Mode),
-    acts: Vector4<f64>,
-}
+/// A group at rest; `None`: it does not touch yet.
+type Stand = Option<(State, Mode)>;
 
 impl Rest<'_> {
-    /// Group `group` at `at`; `None`: it has come to its end, within: it does not touch yet.
-    fn stands(&self, group: &SpragGroup, at: &Vector4<f64>) -> Option<Option<GroupAtRest>> {
+    /// All groups at `at`; `None`: one has come to its end.
+    fn all_stand(&self, at: &Vector4<f64>) -> Option<Vec<Stand>> {
+        let mut all: Vec<Stand> =
+            self.groups.iter().map(|group| self.stands(group, at)).collect::<Option<_>>()?;
+        let Some(bent) = &self.bent else { return Some(all) };
+        let mut bent = bent.borrow_mut();
+        for (g, (group, stand)) in self.groups.iter().zip(&all).enumerate() {
+            let at = stand.map_or((0.0, None), |(state, mode)| (state[0], arc_of(mode.place)));
+            bent.place(g, at.0, at.1, &group.model);
+        }
+        bent.solve();
+        for (g, (group, stand)) in self.groups.iter().zip(&mut all).enumerate() {
+            if let Some((_, mode)) = stand
+                && bent.pressed_rad(g) < 0.0
+            {
+                mode.place = Place::Open;
+                if group.lag_rad.is_some() {
+                    *stand = None;
+                }
+            }
+        }
+        Some(all)
+    }
+
+    /// Group `group` at `at` by how the races have rolled it; `None`: it has come to its end, within: it does not touch yet.
+    fn stands(&self, group: &SpragGroup, at: &Vector4<f64>) -> Option<Stand> {
         let off = group.off_centre.as_ref()?;
         let curve = &group.model.curve;
         let touch = curve.first_contact_rad();
@@ -133,10 +207,12 @@ impl Rest<'_> {
                 curve.windup_rad(alpha) + more + group.lag_rad.unwrap_or(0.0) - at[0]
             };
             let (low, high) = (left(touch), left(curve.end().1));
-            if low > 0.0 && group.lag_rad.is_some() {
+            if low > 0.0 && group.lag_rad.is_some() && self.bent.is_none() {
                 return Some(None);
             }
-            let found = if low >= 0.0 {
+            let found = if low >= 0.0 && self.bent.is_some() {
+                before_touch(curve, -low).0
+            } else if low >= 0.0 {
                 touch
             } else {
                 root::bracketed(touch, curve.end().1, low, high, 1e-17, left)?
@@ -149,18 +225,25 @@ impl Rest<'_> {
                 break;
             }
         }
-        let loaded = alpha > touch;
+        let loaded = alpha > touch || self.bent.is_some();
         let place = if loaded { Place::Arc(curve.arc_at(alpha)) } else { Place::Open };
         let mut state = [0.0; super::N_STATE];
         (state[0], state[1], state[2], state[3]) = (alpha, phi, races[0], races[1]);
         let mode = Mode { place, inner: Grip::Stick, outer: Grip::Stick };
+        Some(Some((state, mode)))
+    }
+
+    /// What all of group `g` does to the races (N m) and the axis (N) where it stands.
+    fn acts(&self, g: usize, at: &Vector4<f64>, (state, mode): &(State, Mode)) -> Option<Vector4<f64>> {
+        let (group, races, alpha) = (&self.groups[g], [at[1] - at[0], at[1]], state[0]);
         let mut acts = Vector4::zeros();
-        if loaded {
+        if mode.place != Place::Open {
             let mut y = [0.0; super::HEAD + super::EACH + super::axes::AXIS];
             (y[0], y[1]) = (races[0], races[1]);
             let tail = y.len() - super::axes::AXIS;
             (y[tail], y[tail + 1]) = (at[2], at[3]);
-            let sight = group.sight(Some(self.axes), 1, place, 0.0, &y, &state);
+            let more_n = self.bent.as_ref().map(|bent| bent.borrow().more_n(g));
+            let sight = group.sight(Some(self.axes), 1, mode.place, 0.0, &y, state, more_n);
             let (model, p) = (&group.model, &sight.point);
             let axes = sight.axes.as_ref()?;
             let pressed = match self.spring {
@@ -173,16 +256,16 @@ impl Rest<'_> {
             let inner_nm = model.count * load / (p.rho_i + p.rho_e * passes);
             acts = axes.races[0] * inner_nm - axes.races[1] * (passes * inner_nm);
         }
-        Some(Some(GroupAtRest { state: (state, mode), acts }))
+        Some(acts)
     }
 
     /// What is missed at `at`, N m and N.
     fn missed(&self, at: &Vector4<f64>) -> Option<Vector4<f64>> {
         let mut acts = Vector4::zeros();
         let mut stand = 0;
-        for group in self.groups {
-            if let Some(found) = self.stands(group, at)? {
-                (acts, stand) = (acts + found.acts, stand + 1);
+        for (g, found) in self.all_stand(at)?.iter().enumerate() {
+            if let Some(found) = found {
+                (acts, stand) = (acts + self.acts(g, at, found)?, stand + 1);
             }
         }
         let abutment = self.groups.first()?.model.loads.abutment_nm_per_rad;

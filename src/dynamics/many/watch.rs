@@ -152,7 +152,7 @@ impl<const N: usize> Going<'_, N> {
             return 0.0;
         }
         let own = state_of(y, g);
-        if model.hunt_crossley_s_per_m == 0.0 {
+        if model.hunt_crossley_s_per_m == 0.0 && !self.rhs.bends() {
             return model.point(motion.mode.place, own[0]).n_bi;
         }
         let sight = self.rhs.stands(g, motion.mode.place, t, y, &own);

@@ -1,0 +1,440 @@
+//! Races that bend between unlike sprags: what each is pressed with, given where all of them stand.
+//!
+//! alpha_i says where sprag i stands, and with that how far its contacts have come together, its approach D(alpha_i), the integral of
+//!
+//!   D' = T_bi/N_bi OA (rho_i + rho_e),      T_bi/N_bi = OB sin beta/(OB cos beta - OA),
+//!
+//! so that N_bi D' is the U' of statics. On its own curve all of D is its own: N_own = N(D). Between races that bend, the tracks recede at
+//! i by u_i = sum_j M_ij N_j beside the law of even sprags ([`crate::race::RingInfluence`], as `sharing` has it, a force along a track
+//! the part of the normal force that it is under the largest load), and
+//!
+//!   N_i = N(h_i),      h_i = D(alpha_i) - u_i,      0 where h_i <= 0:
+//!
+//! n equations for n forces, solved by Newton's method at every evaluation. M is symmetric, so the forces have the potential
+//! sum [U(alpha_i) + E(h_i) - E(D(alpha_i))] + 1/2 sum N_i M_ij N_j, E' = N: on alpha_i acts U' + (N_i - N_own) D', and energy is kept.
+//! With equal sprags u = 0 and nothing changes, to the bit.
+//!
+//! The rings have no inertia here. A ring driven at f bends by 1/(1 - (f/f_2)^2) of what it bends at rest, f_2 its lowest mode
+//! ([`crate::race::Race::lowest_mode_hz`]): what is left out is the part (f/f_2)^2 of u.
+//! Left out beside that: what u changes in OA and OB, some 1e-4 of them, and how the part T/N of a track's force changes with the load or in
+//! slip.
+
+use super::{SpragGroup, SpragMotion, state_of};
+use crate::dynamics::model::{Model, Place};
+use crate::numeric::panels::Panels;
+use crate::numeric::{quadrature, root};
+use crate::wedge::{WedgeCurve, WedgePoint};
+use std::sync::Arc;
+
+/// From here on, rad from first contact, a curve's geometry is its own: nearer it is read level. Below, D is straight and N a power of it.
+const NEAR_RAD: f64 = 5e-8;
+/// Panels of the first arc, as parts of the way from there to its end in the root of alpha or of D.
+const PARTS: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
+/// Steps of the Newton method.
+const MOST: usize = 60;
+/// What counts as solved, as a part of the approach at the curve's end.
+const SOLVED: f64 = 1e-14;
+/// The same where rounding lets it come no nearer: at a junction N of one arc goes over into that of the next.
+const NEARLY: f64 = 1e-11;
+/// A step that is not this much shorter than the one before asks for new slopes.
+const SLOW: f64 = 0.1;
+
+/// D over alpha of one curve, and N over D.
+#[derive(Debug, Clone)]
+pub struct Approach {
+    alpha0: f64,
+    exponent: f64,
+    /// D' at first contact, m/rad, and at the end of the last place.
+    slopes: [f64; 2],
+    /// D/x over s = x^(1/q) on the first arc, x = alpha - alpha_0; D over alpha on the others.
+    by_alpha: Vec<Panels<1>>,
+    /// Where arcs end, m.
+    ends: Vec<f64>,
+    /// z from which on N^0.1/z and its slope are tabled over z = D^(1/q), and that ratio there.
+    begins: [f64; 2],
+    /// That table of the first arc; N (N) and its slope (N/m) over D on the others.
+    by_approach: Vec<Panels<2>>,
+}
+
+/// D' at `p`, m/rad.
+fn rise(p: &WedgePoint) -> f64 {
+    ratio(p) * p.oa * (p.rho_i + p.rho_e)
+}
+
+/// T_bi/N_bi that statics demands of a sprag without mass.
+pub(super) fn ratio(p: &WedgePoint) -> f64 {
+    let (sin, cos) = (p.beta_gamma - p.gamma).sin_cos();
+    p.ob * sin / (p.ob * cos - p.oa)
+}
+
+impl Approach {
+    /// Of `curve`; `None` where it is too short to tell.
+    pub fn new(curve: &WedgeCurve) -> Option<Self> {
+        let (alpha0, q) = (curve.first_contact_rad(), curve.exponent());
+        let at = |k: usize, alpha: f64| rise(&curve.in_arc(k, alpha));
+        let first_end = curve.arc_end_rad(0) - alpha0;
+        if first_end <= 2.0 * NEAR_RAD {
+            return None;
+        }
+        let near = at(0, alpha0 + NEAR_RAD);
+        let roots = [NEAR_RAD, first_end].map(|x| x.powf(1.0 / q));
+        let between = |[from, until]: [f64; 2]| PARTS.map(|part| from + part * (until - from));
+        // By s, x = s^q, in pieces.
+        let way = |from: f64, until: f64| {
+            let rate = |s: f64| at(0, alpha0 + s.powf(q)) * q * s.powf(q - 1.0);
+            let piece = 0.25 * (until - from);
+            (0..4)
+                .map(|i| from + piece * f64::from(i))
+                .map(|s| quadrature::integral(s, s + piece, rate))
+                .sum::<f64>()
+        };
+        let first: Result<Panels<1>, ()> =
+            Panels::build(&between(roots), |s| Ok([(near * NEAR_RAD + way(roots[0], s)) / s.powf(q)]));
+        let mut found = Self {
+            alpha0,
+            exponent: q,
+            slopes: [near; 2],
+            by_alpha: vec![first.ok()?],
+            ends: Vec::new(),
+            begins: [0.0; 2],
+            by_approach: Vec::new(),
+        };
+        found.ends.push(found.at(0, curve.arc_end_rad(0)));
+        // Beyond the end D goes on with the geometry, and falls again; N over D stays what it is on the arcs.
+        for k in 1..curve.place_count() {
+            let (from, until) = (curve.arc_end_rad(k - 1), curve.arc_end_rad(k));
+            let before = found.ends[k - 1];
+            let middle = 0.5 * (from + until);
+            let half = |a: f64, b: f64| quadrature::integral(a, b, |alpha| at(k, alpha));
+            let to = |alpha: f64| {
+                if alpha <= middle { half(from, alpha) } else { half(from, middle) + half(middle, alpha) }
+            };
+            let panels: Result<Panels<1>, ()> =
+                Panels::build(&[from, middle, until], |alpha| Ok([before + to(alpha)]));
+            found.by_alpha.push(panels.ok()?);
+            found.ends.push(found.at(k, until));
+        }
+        for k in 0..curve.arc_count() {
+            let from = if k == 0 { alpha0 + NEAR_RAD } else { curve.arc_end_rad(k - 1) };
+            let until = curve.arc_end_rad(k);
+            let alpha_of = |d: f64| {
+                let miss = |alpha: f64| found.at(k, alpha) - d;
+                let (low, high) = (miss(from), miss(until));
+                match (low >= 0.0, high <= 0.0) {
+                    (true, _) => Some(from),
+                    (_, true) => Some(until),
+                    _ => root::bracketed(from, until, low, high, 1e-17, miss),
+                }
+            };
+            let normal = |d: f64| Some(curve.in_arc(k, alpha_of(d)?).n_bi);
+            let breaks = if k == 0 {
+                between([found.at(0, from), found.ends[0]].map(|d| d.powf(1.0 / q))).to_vec()
+            } else {
+                let (a, b) = (found.ends[k - 1], found.ends[k]);
+                vec![a, 0.5 * (a + b), b]
+            };
+            let value = |x: f64| if k == 0 { Some(normal(x.powf(q))?.powf(0.1) / x) } else { normal(x) };
+            let values: Panels<1> = Panels::build(&breaks, |x| value(x).map(|v| [v]).ok_or(())).ok()?;
+            let slopes = values.derivative([0]);
+            let both: Result<Panels<2>, ()> =
+                Panels::build(&breaks, |x| Ok([values.at(x)[0], slopes.at(x)[0]]));
+            if k == 0 {
+                found.begins = [breaks[0], values.at(breaks[0])[0]];
+            }
+            found.by_approach.push(both.ok()?);
+        }
+        let last = curve.arc_count() - 1;
+        found.ends.truncate(last + 1);
+        found.slopes[1] = at(last, curve.arc_end_rad(last));
+        Some(found)
+    }
+
+    /// D at `alpha` (rad) with the functions of arc `k`, m; straight on below first contact.
+    pub fn at(&self, k: usize, alpha: f64) -> f64 {
+        if k > 0 {
+            return self.by_alpha[k].at(alpha)[0];
+        }
+        let x = alpha - self.alpha0;
+        if x <= NEAR_RAD {
+            self.slopes[0] * x
+        } else {
+            x * self.by_alpha[0].at(x.powf(1.0 / self.exponent))[0]
+        }
+    }
+
+    /// N_bi at the approach `d` (m), N, and its slope, N/m.
+    pub fn normal(&self, d: f64) -> (f64, f64) {
+        if d <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let last = self.ends.len() - 1;
+        let k = self.ends[..last].partition_point(|&end| end < d);
+        let within = d.min(self.ends[last]);
+        let (n, slope) = if k > 0 {
+            let [n, slope] = self.by_approach[k].at(within);
+            (n, slope)
+        } else {
+            let z = within.powf(1.0 / self.exponent);
+            let [r, bend] =
+                if z <= self.begins[0] { [self.begins[1], 0.0] } else { self.by_approach[0].at(z) };
+            let n = (z * r).powi(10);
+            (n, 10.0 * n * (1.0 + z * bend / r) / (self.exponent * within))
+        };
+        (n + slope * (d - within), slope)
+    }
+
+    /// alpha, rad, at which the approach is `d`, m, near first contact.
+    fn alpha_at(&self, d: f64) -> f64 {
+        let mut x = d / self.slopes[0];
+        for _ in 0..20 {
+            let step = (d - self.at(0, self.alpha0 + x)) / self.slopes[0];
+            x += step;
+            if step.abs() < 1e-17 {
+                break;
+            }
+        }
+        self.alpha0 + x
+    }
+
+    /// int N dD from `from` to `until`, J.
+    fn stored_j(&self, from: f64, until: f64) -> f64 {
+        const PIECES: u32 = 12;
+        let q = self.exponent;
+        let [a, b] = [from, until].map(|d| d.max(0.0).powf(1.0 / q));
+        let piece = (b - a) / f64::from(PIECES);
+        let at = |i: u32| a + piece * f64::from(i);
+        let rate = |z: f64| self.normal(z.powf(q)).0 * q * z.powf(q - 1.0);
+        (0..PIECES).map(|i| quadrature::integral(at(i), at(i + 1), rate)).sum()
+    }
+}
+
+/// Races that bend between groups of one sprag each.
+#[derive(Debug, Clone)]
+pub struct Rings {
+    /// M by rows, m/N: how far both tracks together recede at one sprag for a newton of N_bi of another. Symmetric.
+    pub opens_m_per_n: Vec<f64>,
+    /// Of each group's own curve.
+    pub approaches: Vec<Arc<Approach>>,
+    /// Lowest mode of inner and outer race, Hz.
+    pub lowest_mode_hz: [f64; 2],
+}
+
+/// What the races' bending is where the sprags stand now; solved anew where they stand otherwise.
+#[derive(Debug, Clone)]
+pub(super) struct Bent<'a> {
+    rings: &'a Rings,
+    /// Where it was solved.
+    alphas: Vec<f64>,
+    /// Whether each carries where pressed, and its arc.
+    seats: Vec<Option<usize>>,
+    solved: bool,
+    /// D(alpha), m; N(D), N.
+    approach: Vec<f64>,
+    own_n: Vec<f64>,
+    /// h, m; N(h), N; its slope, N/m; u, m.
+    h: Vec<f64>,
+    normal: Vec<f64>,
+    slopes: Vec<f64>,
+    recede: Vec<f64>,
+    step: Vec<f64>,
+    /// I + M diag(N'), factored.
+    factors: Vec<f64>,
+    order: Vec<usize>,
+    factored: bool,
+}
+
+impl<'a> Bent<'a> {
+    pub(super) fn new(rings: &'a Rings) -> Self {
+        let n = rings.approaches.len();
+        let zeros = || vec![0.0; n];
+        Self {
+            rings,
+            alphas: vec![f64::NAN; n],
+            seats: vec![None; n],
+            solved: false,
+            approach: zeros(),
+            own_n: zeros(),
+            h: zeros(),
+            normal: zeros(),
+            slopes: zeros(),
+            recede: zeros(),
+            step: zeros(),
+            factors: vec![0.0; n * n],
+            order: (0..n).collect(),
+            factored: false,
+        }
+    }
+
+    /// Where sprags stand as `y` and `motions` have it. A sprag that waits or is open carries nothing.
+    pub(super) fn stand(&mut self, groups: &[SpragGroup], motions: &[SpragMotion], y: &[f64]) {
+        let mut moved = false;
+        for (g, motion) in motions.iter().enumerate() {
+            let seat = match motion.mode.place {
+                Place::Arc(k) if !motion.waits => Some(k),
+                _ => None,
+            };
+            moved |= self.place(g, state_of(y, g)[0], seat, &groups[g].model);
+        }
+        if moved {
+            self.solve();
+        }
+    }
+
+    /// Where group `g` stands; whether that is new.
+    pub(super) fn place(&mut self, g: usize, alpha: f64, seat: Option<usize>, model: &Model) -> bool {
+        if self.alphas[g].to_bits() == alpha.to_bits() && self.seats[g] == seat {
+            return false;
+        }
+        let of = &self.rings.approaches[g];
+        let k = seat.unwrap_or_else(|| model.curve.arc_at(alpha).min(of.by_alpha.len() - 1));
+        let before = self.approach[g];
+        (self.alphas[g], self.seats[g]) = (alpha, seat);
+        self.approach[g] = of.at(k, alpha);
+        self.own_n[g] = of.normal(self.approach[g]).0;
+        // What it has gone is the first guess of how much further it is pressed.
+        self.h[g] = if self.solved { self.h[g] + (self.approach[g] - before) } else { self.approach[g] };
+        true
+    }
+
+    /// Newton's method for h; without a solution forces are no numbers.
+    pub(super) fn solve(&mut self) {
+        let n = self.h.len();
+        let scale = self.rings.approaches.iter().map(|of| of.ends[of.ends.len() - 1]).fold(0.0, f64::max);
+        let mut last = f64::INFINITY;
+        self.solved = false;
+        for _ in 0..MOST {
+            self.forces();
+            for i in 0..n {
+                self.step[i] = self.h[i] - self.approach[i] + self.recede[i];
+            }
+            if !self.factored && !self.factor() {
+                break;
+            }
+            self.substitute();
+            let size = self.step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
+            self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h -= step);
+            if size <= SOLVED * scale || size <= NEARLY * scale && size >= 0.5 * last {
+                self.solved = true;
+                break;
+            }
+            if size.is_nan() {
+                break;
+            }
+            if size > last {
+                // It has gone too far: half of it back.
+                self.h.iter_mut().zip(&self.step).for_each(|(h, step)| *h += 0.5 * step);
+            }
+            self.factored = size <= SLOW * last;
+            last = size;
+        }
+        self.forces();
+        if !self.solved {
+            self.factored = false;
+            self.alphas.fill(f64::NAN);
+            self.normal.fill(f64::NAN);
+        }
+    }
+
+    /// N, its slope and u at h.
+    fn forces(&mut self) {
+        let n = self.h.len();
+        for (j, seat) in self.seats.iter().enumerate() {
+            (self.normal[j], self.slopes[j]) = match seat {
+                Some(_) => self.rings.approaches[j].normal(self.h[j]),
+                None => (0.0, 0.0),
+            };
+        }
+        for (recede, row) in self.recede.iter_mut().zip(self.rings.opens_m_per_n.chunks(n)) {
+            *recede = row.iter().zip(&self.normal).map(|(m, n)| m * n).sum();
+        }
+    }
+
+    /// I + M diag(N') into its triangles, rows exchanged; false: singular.
+    fn factor(&mut self) -> bool {
+        let n = self.h.len();
+        for i in 0..n {
+            self.order[i] = i;
+            for j in 0..n {
+                let one = f64::from(u8::from(i == j));
+                self.factors[i * n + j] = one + self.rings.opens_m_per_n[i * n + j] * self.slopes[j];
+            }
+        }
+        for k in 0..n {
+            let mut best = k;
+            for i in k + 1..n {
+                if self.factors[i * n + k].abs() > self.factors[best * n + k].abs() {
+                    best = i;
+                }
+            }
+            let pivot = self.factors[best * n + k];
+            if pivot == 0.0 || !pivot.is_finite() {
+                return false;
+            }
+            if best != k {
+                self.order.swap(k, best);
+                for j in 0..n {
+                    self.factors.swap(k * n + j, best * n + j);
+                }
+            }
+            for i in k + 1..n {
+                let part = self.factors[i * n + k] / pivot;
+                self.factors[i * n + k] = part;
+                for j in k + 1..n {
+                    self.factors[i * n + j] -= part * self.factors[k * n + j];
+                }
+            }
+        }
+        self.factored = true;
+        true
+    }
+
+    /// `step` becomes what the factored system has for it. `slopes` is its scratch: [`Self::forces`] renews them.
+    fn substitute(&mut self) {
+        let n = self.h.len();
+        for i in 0..n {
+            let row = &self.factors[i * n..i * n + i];
+            let known: f64 = row.iter().zip(&self.slopes).map(|(f, x)| f * x).sum();
+            self.slopes[i] = self.step[self.order[i]] - known;
+        }
+        for i in (0..n).rev() {
+            let row = &self.factors[i * n + i + 1..(i + 1) * n];
+            let known: f64 = row.iter().zip(&self.step[i + 1..]).map(|(f, x)| f * x).sum();
+            self.step[i] = (self.slopes[i] - known) / self.factors[i * n + i];
+        }
+    }
+
+    /// N_i - N_own of group `g`, N.
+    pub(super) fn more_n(&self, g: usize) -> f64 {
+        self.normal[g] - self.own_n[g]
+    }
+
+    /// How far group `g` is pressed, as an angle from first contact, rad; below 0: it does not touch.
+    pub(super) fn pressed_rad(&self, g: usize) -> f64 {
+        self.h[g] / self.rings.approaches[g].slopes[0]
+    }
+
+    /// alpha at which group `g` would touch, rad.
+    pub(super) fn touch_rad(&self, g: usize) -> f64 {
+        self.rings.approaches[g].alpha_at(self.recede[g])
+    }
+
+    /// What group `g` has stored beside its own curve, J.
+    pub(super) fn beside_j(&self, g: usize) -> f64 {
+        self.rings.approaches[g]
+            .stored_j(self.approach[g], if self.seats[g].is_some() { self.h[g] } else { 0.0 })
+    }
+
+    /// What the races have stored beside the law of even sprags, J.
+    pub(super) fn rings_j(&self) -> f64 {
+        0.5 * self.normal.iter().zip(&self.recede).map(|(n, u)| n * u).sum::<f64>()
+    }
+}
+
+/// `point` of a sprag that is pressed by `more_n` (N) more than on its own curve, alpha `below_rad` below first contact.
+pub(super) fn pressed(mut point: WedgePoint, more_n: f64, below_rad: f64) -> WedgePoint {
+    point.t_static += more_n * ratio(&point);
+    // Where contact is lost it is nothing but rounding.
+    point.n_bi = (point.n_bi + more_n).max(0.0);
+    point.windup -= (point.rho_i + point.rho_e) * below_rad;
+    point
+}
