@@ -221,7 +221,10 @@ def main():
         if WHO == "ours":
             for threads in (1, 2):
                 found, seconds = ours(design, threads)
-                free = sum(not v["whole"] and not v["dropped"] for v in found["variables"])
+                continuous = {v["name"] for v in json.loads(subprocess.run(
+                    [TOOL, "evaluate", design, "--describe", "--quiet"], input="", capture_output=True, text=True,
+                    check=True).stdout.splitlines()[0])["variables"] if not v["whole"]}
+                free = len(continuous - set(found["dropped_variables"]))
                 derivative = cost_of_a_derivative(design, free) if threads == 1 else derivative
                 best = found["robust"]["made"]["objective"]["worst"] if found.get("robust") else found["best"]["objective"]
                 starts = [s["evaluations"] for s in found["starts"]]

@@ -9,7 +9,7 @@ use crate::design::Design;
 use crate::margin::{LoadState, NoMargins, load_state};
 use crate::report::plot::Curve;
 use crate::report::{Cell, Page, Plot, Rows, Screen, Table, Unit, significant};
-use crate::sharing::{Bears, Loss, NotShared, PopPoint, Pops, Shared, Turn};
+use crate::sharing::{Bears, Loss, NotShared, Pops, Shared, Turn};
 use serde_json::{Value, json};
 use std::fmt;
 
@@ -217,69 +217,6 @@ impl SharingAnswer<'_> {
             .json("required_friction", |(_, r)| r.bears.required_friction())
             .json_in("bent_inner_um", Unit::Micrometre, |(_, r)| r.bears.bent_m[0])
             .json_in("bent_outer_um", Unit::Micrometre, |(_, r)| r.bears.bent_m[1])
-    }
-
-    /// Beyond the end: the torque as the races are turned on.
-    fn over(&self) -> Rows<&PopPoint> {
-        let course = self.pops.as_ref().map(|pops| pops.course.as_slice()).unwrap_or_default();
-        Rows::of(course)
-            .number("windup_deg", "Windup", Unit::Degree, 4, |p| p.windup_rad)
-            .number("torque_nm", "Torque", Unit::NewtonMetre, 4, |p| p.torque_nm)
-            .number("over", "Beyond their end", Unit::One, 3, |p| p.over)
-            .number("gone", "Gone", Unit::One, 3, |p| p.gone)
-    }
-
-    /// Under the torque at which the first comes to its end: who goes over.
-    fn popped(&self) -> Rows<&Loss> {
-        let left = self.pops.as_ref().map(|pops| pops.left.as_slice()).unwrap_or_default();
-        let found = |l: &Loss| l.left.clone().ok();
-        Rows::of(left)
-            .number("popped", "Goes over", Unit::One, 3, |l| l.lost + 1)
-            .number("carrying", "Carry then", Unit::One, 3, |l| found(l).map(|s| s.carrying()))
-            .number("largest_share", "Largest share", Unit::One, 4, |l| {
-                found(l).map(|s| largest(&s.shares()))
-            })
-            .number("hertz_mpa", "p₀", Unit::Megapascal, 4, |l| {
-                found(l).map(|s| s.worst(Bears::hertz_pa).1)
-            })
-            .text("left", "The others", |l| match &l.left {
-                Ok(_) => "carry it".to_owned(),
-                Err(why) => why.words(),
-            })
-    }
-
-    /// The torque as the races are turned on.
-    fn turned_on(&self) -> Plot {
-        let course = self.pops.as_ref().map(|pops| pops.course.as_slice()).unwrap_or_default();
-        let points = course.iter().map(|p| [Unit::Degree.from_si(p.windup_rad), p.torque_nm]).collect();
-        Plot::new("Windup, °", "Torque, Nm").curve("all sprags", points)
-    }
-
-    /// What follows the end, in words.
-    fn over_words(&self) -> String {
-        let Some(pops) = &self.pops else { return String::new() };
-        let first = pops.left.first().map_or(0, |l| l.lost + 1);
-        let mut said = format!(
-            "; turned on beyond it, between round races, the torque is {} at most, at a windup of {} with {} beyond their end",
-            Unit::NewtonMetre.show(pops.peak.torque_nm, 4),
-            Unit::Degree.show(pops.peak.windup_rad, 4),
-            pops.peak.over
-        );
-        said += &match (pops.left.len(), pops.left_nm) {
-            (_, None) => format!(
-                "; under the torque of the end, once sprag {first} has gone over, the others follow: nothing remains"
-            ),
-            (1, Some(nm)) => format!(
-                "; once sprag {first} has gone over the others carry up to {}",
-                Unit::NewtonMetre.show(nm, 4)
-            ),
-            (many, Some(nm)) => format!(
-                "; once sprag {first} has gone over so do {} more, the others carry up to {}",
-                many - 1,
-                Unit::NewtonMetre.show(nm, 4)
-            ),
-        };
-        said
     }
 
     /// Every place of a turn.
@@ -526,11 +463,7 @@ impl Said for SharingAnswer<'_> {
             "allowed_mpa": self.allowed.map(|(pa, _)| mpa(pa)), "may_be_lost": self.may_be_lost(),
             "end_torque_nm": self.end.map(|(nm, _)| nm), "end_reason": self.end.map(|(_, why)| why.words()),
             "sprags": self.by_sprag().objects(), "turn": self.places().objects(),
-            "beyond": self.pops.as_ref().map(|pops| json!({
-                "peak_torque_nm": pops.peak.torque_nm, "peak_windup_deg": Unit::Degree.from_si(pops.peak.windup_rad),
-                "peak_over": pops.peak.over, "left_torque_nm": pops.left_nm,
-                "popped": self.popped().objects(), "course": self.over().objects(),
-            })),
+            "beyond": self.beyond(),
             "engagement": self.course().objects(), "losses": self.lost().objects(),
             "harmonics_inner_um": inner, "harmonics_outer_um": outer,
         })
@@ -615,6 +548,7 @@ impl Said for SharingAnswer<'_> {
     }
 }
 
-fn largest(shares: &[f64]) -> f64 {
+/// The largest of all.
+pub(super) fn largest(shares: &[f64]) -> f64 {
     shares.iter().copied().fold(0.0, f64::max)
 }

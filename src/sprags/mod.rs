@@ -10,8 +10,8 @@
 
 use crate::clutch::{Clutch, Scenario, ScenarioKind, Sharing, Start};
 use crate::dynamics::{
-    Approach, Axes, AxisBearing, ManyRun, ManyStart, OffCentre, Rings, RunSettings, SpragGroup, StaysWith,
-    Stop, run_many, settled_off_centre, settled_together,
+    Axes, AxisBearing, ManyRun, ManyStart, OffCentre, Rings, RunSettings, SpragApproach, SpragGroup,
+    StaysWith, Stop, run_many, settled_off_centre, settled_together,
 };
 use crate::friction::Stribeck;
 use crate::scenario::{NoScenario, Prepared, Settings, prepare};
@@ -285,7 +285,7 @@ impl Many {
             (group.over, group.model.curve) = (Some(way.end), way.followed_curve().clone());
         }
         if let Some(rings) = &mut all.rings {
-            let new = |g: &SpragGroup| Approach::new(&g.model.curve).map(Arc::new);
+            let new = |g: &SpragGroup| SpragApproach::new(&g.model.curve).map(Arc::new);
             rings.approaches = all.groups.par_iter().map(new).collect::<Option<Vec<_>>>()?;
         }
         Some(all)
@@ -347,7 +347,7 @@ fn rings(
     let Some((_, at)) = loaded else { return Err(NoEachSprag::NotCarried(largest_nm)) };
     let (inner, outer) = ([1.0, at.t_bi.v / at.n_bi], [at.n_be.v / at.n_bi, -at.t_be.v / at.n_bi]);
     let approach = |g: usize| {
-        let of = Approach::new(&groups[g].model.curve);
+        let of = SpragApproach::new(&groups[g].model.curve);
         of.map(Arc::new).ok_or(NoEachSprag::Curve(kinds[g], NoCurve::NoConvergence))
     };
     let approaches = one_for_each_size(groups.len(), |g| unlike.sprags[kinds[g]].size_m, approach)?;

@@ -19,7 +19,7 @@ const NOT_REACHED: &str = "not reached";
 /// What stands for the demand of a run that met its limit of work.
 pub(super) const NOT_COMPUTED: &str = "not computed";
 /// What stands for the demand of a force that works the other way.
-const PRESSED_ON: &str = "none, pressed on";
+const PRESSED_ON: &str = "pressed on";
 /// What stands for the margin where nothing is demanded.
 const NO_DEMAND: &str = "no demand";
 

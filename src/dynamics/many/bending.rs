@@ -41,7 +41,7 @@ const SLOW: f64 = 0.1;
 
 /// D over alpha of one curve, and N over D.
 #[derive(Debug, Clone)]
-pub struct Approach {
+pub struct SpragApproach {
     alpha0: f64,
     exponent: f64,
     /// D' at first contact, m/rad, and at the end of the last place.
@@ -67,7 +67,7 @@ pub(super) fn ratio(p: &WedgePoint) -> f64 {
     p.ob * sin / (p.ob * cos - p.oa)
 }
 
-impl Approach {
+impl SpragApproach {
     /// Of `curve`; `None` where it is too short to tell.
     pub fn new(curve: &WedgeCurve) -> Option<Self> {
         let (alpha0, q) = (curve.first_contact_rad(), curve.exponent());
@@ -214,7 +214,7 @@ pub struct Rings {
     /// M by rows, m/N: how far both tracks together recede at one sprag for a newton of N_bi of another. Symmetric.
     pub opens_m_per_n: Vec<f64>,
     /// Of each group's own curve.
-    pub approaches: Vec<Arc<Approach>>,
+    pub approaches: Vec<Arc<SpragApproach>>,
     /// Lowest mode of inner and outer race, Hz.
     pub lowest_mode_hz: [f64; 2],
 }
@@ -237,6 +237,7 @@ pub(super) struct Bent<'a> {
     slopes: Vec<f64>,
     recede: Vec<f64>,
     step: Vec<f64>,
+    between: Vec<f64>,
     /// I + M diag(N'), factored.
     factors: Vec<f64>,
     order: Vec<usize>,
@@ -259,6 +260,7 @@ impl<'a> Bent<'a> {
             slopes: zeros(),
             recede: zeros(),
             step: zeros(),
+            between: zeros(),
             factors: vec![0.0; n * n],
             order: (0..n).collect(),
             factored: false,
@@ -327,8 +329,12 @@ impl<'a> Bent<'a> {
             self.factored = size <= SLOW * last;
             last = size;
         }
-        self.forces();
-        if !self.solved {
+        if self.solved {
+            // The last step moves N by parts in 1e14, u by less.
+            for (normal, (slope, step)) in self.normal.iter_mut().zip(self.slopes.iter().zip(&self.step)) {
+                *normal -= slope * step;
+            }
+        } else {
             self.factored = false;
             self.alphas.fill(f64::NAN);
             self.normal.fill(f64::NAN);
@@ -388,18 +394,18 @@ impl<'a> Bent<'a> {
         true
     }
 
-    /// `step` becomes what the factored system has for it. `slopes` is its scratch: [`Self::forces`] renews them.
+    /// `step` becomes what the factored system has for it.
     fn substitute(&mut self) {
         let n = self.h.len();
         for i in 0..n {
             let row = &self.factors[i * n..i * n + i];
-            let known: f64 = row.iter().zip(&self.slopes).map(|(f, x)| f * x).sum();
-            self.slopes[i] = self.step[self.order[i]] - known;
+            let known: f64 = row.iter().zip(&self.between).map(|(f, x)| f * x).sum();
+            self.between[i] = self.step[self.order[i]] - known;
         }
         for i in (0..n).rev() {
             let row = &self.factors[i * n + i + 1..(i + 1) * n];
             let known: f64 = row.iter().zip(&self.step[i + 1..]).map(|(f, x)| f * x).sum();
-            self.step[i] = (self.slopes[i] - known) / self.factors[i * n + i];
+            self.step[i] = (self.between[i] - known) / self.factors[i * n + i];
         }
     }
 

@@ -40,7 +40,7 @@ mod start;
 mod watch;
 
 pub use axes::{Axes, AxisBearing, OffCentre, StaysWith};
-pub use bending::{Approach, Rings};
+pub use bending::{Rings, SpragApproach};
 pub use found::{FirstSlip, ManyRun, ManySample, SpragCourse};
 pub use run::run_many;
 pub use start::{settled_off_centre, settled_together};
