@@ -105,6 +105,11 @@ impl Answer for SimulationAnswer {
         }
     }
 
+    /// Whether the scene ended as it should.
+    fn held(&self) -> bool {
+        self.ran.held()
+    }
+
     fn verdict(&self) -> String {
         self.verdict_line()
     }
