@@ -255,8 +255,9 @@ fn warning(named: &[NamedOverrun], points: &[&OverrunRow], limits: &Limits, on_f
     let tenfold_s = std::f64::consts::LN_10 / rate;
     let grows = format!("a small swing of the sprags grows tenfold in {}", Unit::Second.show(tenfold_s, 2));
     // A limit's speed is no state that a clutch stays in for long.
-    let by_limit = steady().all(|n| !n.by_scene);
-    if by_limit && steady().next().is_some() && tenfold_s > PASSING_S {
+    let mut growing = steady().filter(|n| n.growth_rate_per_s.is_some_and(|rate| rate > 0.0)).peekable();
+    let by_limit = growing.peek().is_some() && growing.all(|n| !n.by_scene);
+    if by_limit && tenfold_s > PASSING_S {
         return Some(format!("Note: at {at} {grows}: harmless where the clutch does not stay there as long"));
     }
     Some(format!(
