@@ -127,7 +127,7 @@ fn unlike_sprags_between_races_that_bend_balance_their_energy() {
             };
             let many = Many::bending(&scene, &sharing).unwrap();
             assert!(many.rings.is_some() && many.axes.is_some() == stiffness.is_some());
-            let [coarse, all] = [1e-8, 1e-9].map(|tolerance| many.run(&Settings::default(), tolerance, 0));
+            let [coarse, all] = [1e-9, 1e-10].map(|tolerance| many.run(&Settings::default(), tolerance, 0));
             let left = all.residual_j / all.through_j;
             let theta = (all.races[0] - coarse.races[0]).abs();
             let open = all.courses.iter().filter(|c| c.open_s > 0.0).count();

@@ -248,7 +248,7 @@ fn unlike_sprags_go_over_one_after_another() {
     assert!(work.abs() < 3e-3 * most, "{work} {most}");
 }
 
-/// A scene that overloads eleven sprags with one missing and one that stands forward: that one goes over first and loses contact, the others carry on.
+/// A scene that overloads one that is smaller: that one comes to its end first and is followed beyond it, the others carry on.
 #[test]
 fn a_sprag_that_goes_over_in_a_scene_is_followed_and_the_others_carry_on() {
     use sprag_design::clutch::{GivenSprag, ScenarioKind, Sharing};
@@ -259,13 +259,13 @@ fn a_sprag_that_goes_over_in_a_scene_is_followed_and_the_others_carry_on() {
     let scene = design.scenarios.iter_mut().find(|s| s.name == "low-6").unwrap();
     scene.clutch.friction.static_ = 1.5;
     scene.clutch.friction.kinetic = 1.4;
-    let forward = GivenSprag { index: 3, size_m: Some(150e-6), ..GivenSprag::default() };
+    let forward = GivenSprag { index: 3, size_m: Some(-180e-6), ..GivenSprag::default() };
     let sharing = Sharing { given: vec![forward], ..Sharing::default() };
     let ScenarioKind::TorsionalExcitation { duration_s, preload_nm, amplitude_nm, .. } = &mut scene.kind
     else {
         panic!()
     };
-    (*duration_s, *preload_nm, *amplitude_nm) = (0.006, 30.0, 60.0);
+    (*duration_s, *preload_nm, *amplitude_nm) = (0.006, 30.0, 400.0);
     let found = each_sprag(scene, &sharing, &Settings::default()).unwrap();
     let course = |i: usize| &found.run.courses[found.group[i].unwrap()];
     println!(

@@ -458,8 +458,11 @@ pub fn each_sprag(
     // A sprag that comes to its end is followed over its highest place.
     let over = if coarse.stop == Stop::CurveEnd { many.going_over(&scenario.clutch) } else { None };
     if let Some(over) = over {
-        many = over;
-        coarse = go(&many, settings.tolerance, false);
+        // Where that is not found the scene ends where the curve does.
+        let run = go(&over, settings.tolerance, false);
+        if whole(&run) {
+            (many, coarse) = (over, run);
+        }
     }
     let fine = if whole(&coarse) { Some(go(&many, 0.1 * settings.tolerance, false)) } else { None };
     let error = fine.as_ref().filter(|fine| whole(fine)).map(|fine| {
