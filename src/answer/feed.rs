@@ -385,6 +385,15 @@ impl Said for FeedAnswer<'_> {
             ),
         };
         let next = self.next_step();
+        let most_nm = self.list.iter().filter_map(|f| f.peak.map(|p| p.torque_nm)).fold(0.0, f64::max);
+        let named = self.design.limits.peak_torque_nm.filter(|peak_nm| most_nm > *peak_nm);
+        let beyond = named.map(|peak_nm| {
+            format!(
+                "Up to {} here, more than the {} of limits.peak_torque_nm: held is what the clutch bears, not what its file asks for",
+                Unit::NewtonMetre.show(most_nm, 4),
+                Unit::NewtonMetre.show(peak_nm, 4)
+            )
+        });
         let about = vec![
             format!(
                 "The {driving} race turns by {} and back as a cosine; the {race} race, {} kg m² {whose}, stands under a brake of {}",
@@ -402,7 +411,7 @@ impl Said for FeedAnswer<'_> {
              the normal force; open: time of a stroke without contact at the inner race"
                 .to_owned(),
         ];
-        next.into_iter().chain(about).collect()
+        next.into_iter().chain(beyond).chain(about).collect()
     }
 
     fn table(&self) -> Table {

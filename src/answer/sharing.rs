@@ -396,7 +396,7 @@ impl Said for SharingAnswer<'_> {
             };
         } else if self.is_held() && self.loss_not_found() {
             said += &format!(
-                "; how many may fail is not known: after {} no balance of forces was found",
+                "; how many may fail is not known: without {} more the forces on the others were not found; so many fewer are held",
                 if self.losses.len() == 1 { "one".to_owned() } else { self.losses.len().to_string() }
             );
         }

@@ -1,6 +1,8 @@
 //! What a first design answers: the design, its figures, and the alternatives.
 
-use super::check::{CheckRow, REACHED_AT, far_more_than_asked, margin_words, people_table, size_line};
+use super::check::{
+    CheckRow, REACHED_AT, far_more_than_asked, margin_words, much_friction, people_table, size_line,
+};
 use super::{Finding, Said};
 use crate::design::{Design, shown};
 use crate::follow::Follow;
@@ -44,6 +46,7 @@ impl<'a> Sizing<'a> {
                 .and_then(|(section, _)| section.warning)
                 .into_iter()
                 .chain(far)
+                .chain(much_friction(design))
                 .chain(no_shaft(2.0 * design.clutch.races.inner_bore_radius_m, asked_nm))
                 .collect(),
         }

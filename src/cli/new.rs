@@ -5,7 +5,7 @@ use super::interrupt::next;
 use super::origin::FileKind;
 use super::output;
 use super::{Context, Run, Without, made, number};
-use crate::design::nearest;
+use crate::design::nearest_steel;
 use crate::follow::Follow;
 use crate::material::{STEELS, Steel, steel};
 use crate::report::plain;
@@ -127,7 +127,7 @@ fn which_race(_: &str) -> Result<f64, String> {
 fn a_steel(name: &str) -> Result<&'static Steel, String> {
     steel(name).ok_or_else(|| {
         let names: Vec<&str> = STEELS.iter().map(|s| s.name).collect();
-        let like = nearest(name, &names).map_or(String::new(), |like| format!("did you mean {like}? "));
+        let like = nearest_steel(name).map_or(String::new(), |like| format!("did you mean {like}? "));
         format!("{like}the library has {}", names.join(", "))
     })
 }

@@ -58,7 +58,7 @@ pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
 pub use scenarios::{KindKeys, SCENARIO_KINDS};
 pub use set::with_setting;
 pub use shape::{allowed, keys_of, nearest, paths_of, schema, shape_of};
-pub use steels::{beside_the_name, names_of_bodies};
+pub use steels::{beside_the_name, names_of_bodies, nearest_steel};
 pub use variables::{VARIABLES, is_whole, unit_of_key, variable_names, variable_path, variable_unit};
 pub use which::WhichScenario;
 

@@ -76,6 +76,14 @@ pub(super) fn refuse_mixed_material(out: &mut Findings) {
     );
 }
 
+/// The name of a steel that this one is misspelt for: with the digits of another name it is another steel.
+pub fn nearest_steel(name: &str) -> Option<&'static str> {
+    let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<String>();
+    let all = STEELS.iter().flat_map(|s| std::iter::once(s.name).chain(s.also.iter().copied()));
+    let alike: Vec<&str> = all.filter(|known| digits(known) == digits(name)).collect();
+    nearest(name, &alike)
+}
+
 /// The steel that a body names; `Err` where there is none of that name.
 fn named(body: &Body<'_>, out: &mut Findings) -> Result<Option<&'static Steel>, ()> {
     let Some(name) = body.named else { return Ok(None) };
@@ -83,9 +91,7 @@ fn named(body: &Body<'_>, out: &mut Findings) -> Result<Option<&'static Steel>, 
         return Ok(Some(found));
     }
     let names: Vec<&str> = STEELS.iter().map(|s| s.name).collect();
-    let all: Vec<&str> =
-        STEELS.iter().flat_map(|s| std::iter::once(s.name).chain(s.also.iter().copied())).collect();
-    let help = match nearest(name, &all) {
+    let help = match nearest_steel(name) {
         Some(like) => format!("did you mean {like}? `sprag-design materials` lists them"),
         None => "give youngs_modulus_gpa, poisson_ratio and density_kg_m3 instead; `sprag-design materials` lists the \
                  steels there are"

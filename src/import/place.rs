@@ -205,6 +205,18 @@ impl Body {
         let (c_e, r_e) = self.outer;
         let reach = |sign: f64| self.inner.iter().map(move |(c, r)| r_e + r + sign * (c - c_e).norm());
         let (least, most) = (reach(-1.0).fold(f64::INFINITY, f64::min), reach(1.0).fold(0.0, f64::max));
+        let gap_m = outer_m - inner_m;
+        let in_unit = |unit: f64| {
+            (least * unit..=most * unit).contains(&gap_m) || (0.9..1.1).contains(&(gap_m / (most * unit)))
+        };
+        let help = if in_unit(25.4) {
+            "it fits as a drawing in inches: --unit inch"
+        } else if in_unit(1.0 / 25.4) {
+            "it fits as a drawing in millimetres that says inches: --unit mm"
+        } else {
+            "give the radii of its races: --template, or --inner-radius and --outer-radius; or take the other side for the outer \
+             arc (--swap)"
+        };
         NoImport::new(
             None,
             format!(
@@ -212,12 +224,11 @@ impl Body {
                  nowhere on its inner side does it touch both races",
                 1e3 * least,
                 1e3 * most,
-                1e3 * (outer_m - inner_m),
+                1e3 * gap_m,
                 1e3 * inner_m,
                 1e3 * outer_m
             ),
-            "give the radii of its races: --template, or --inner-radius and --outer-radius; or take the other side for the outer \
-             arc (--swap)",
+            help,
         )
     }
 }

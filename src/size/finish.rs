@@ -229,7 +229,9 @@ fn made(wanted: &Requirements, draft: &mut Draft, settings: &Settings) -> Result
         return Err(Decider::row(row));
     }
     let sliding_rad_s = wanted.sliding_rad_s();
-    let drag = overrun_at(&design, &state, wanted.overrun_rad_s[1], sliding_rad_s).ok();
+    // Where no overrun is asked for: a slow one.
+    let outer_rad_s = if sliding_rad_s > 0.0 { wanted.overrun_rad_s[1] } else { 0.0 };
+    let drag = overrun_at(&design, &state, outer_rad_s, sliding_rad_s).ok();
     let mut made = Made {
         mass_kg: design.clutch.mass_kg(),
         drag: drag.map(|p| Drag { torque_nm: p.state.drag_torque_nm, sliding_rad_s }),

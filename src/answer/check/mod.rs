@@ -18,7 +18,7 @@ pub use body::{
     in_place_of_margin, is_beyond, margin_cell, margin_text, margin_words, people_table, unit_cell,
 };
 
-pub(super) use text::{REACHED_AT, size_line};
+pub(super) use text::{REACHED_AT, much_friction, size_line};
 
 use super::left_out::{LeftOut, left_out_of, off_centre};
 use super::{Answer, Envelope, Finding, Provenance};

@@ -91,8 +91,19 @@ pub(in crate::answer) fn size_line(design: &Design) -> String {
     )
 }
 
-/// Largest static friction of steel on steel that anybody reckons a clutch with: dry, clean.
-const MOST_FRICTION: f64 = 0.5;
+/// Largest static friction of lubricated steel on steel that catalogues reckon a clutch with, and a third more: a choice.
+const MOST_FRICTION: f64 = 0.2;
+
+/// A warning where a clutch is reckoned with more friction than its oil leaves.
+pub(in crate::answer) fn much_friction(design: &Design) -> Option<String> {
+    let mu = design.clutch.friction.static_;
+    (mu > MOST_FRICTION).then(|| {
+        format!(
+            "Warning: a friction of {mu} is that of dry steel at best; lubricated sprags are reckoned with 0.05 to 0.15, and a clutch made \
+             for more slips"
+        )
+    })
+}
 
 /// What the rows do not say: a friction beyond any known, why steady overruns have no rows, steps and histories that come after
 /// the end of their scene.
@@ -109,12 +120,5 @@ pub(super) fn asides(design: &Design, rows: &[Margin]) -> Vec<String> {
     let held = design.scenarios.iter().filter(|s| rows.iter().any(|r| r.scene.as_ref() == Some(&s.name)));
     let unfelt =
         held.flat_map(|s| unfelt::notes(s).into_iter().map(|note| format!("Note on {}: {note}", s.name)));
-    let mu = design.clutch.friction.static_;
-    let friction = (mu > MOST_FRICTION).then(|| {
-        format!(
-            "Warning: friction.static {mu} is more than steel on steel has even dry ({MOST_FRICTION}); lubricated sprags are reckoned with \
-             0.05 to 0.15"
-        )
-    });
-    friction.into_iter().chain(overrunning).chain(unfelt).collect()
+    much_friction(design).into_iter().chain(overrunning).chain(unfelt).collect()
 }
