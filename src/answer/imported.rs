@@ -2,8 +2,9 @@
 
 use super::left_out::LeftOut;
 use super::{Envelope, VERSION, WRITTEN_BY};
-use crate::design::{Design, shown};
-use crate::import::{Arc, Arcs, Drawn, FittedSpiral, FittedSprag, STANDARD_ERROR};
+use crate::design::{Design, EditError, shown, with_keys, with_spiral, with_sprag};
+use crate::import::{Arc, Arcs, Drawn, FittedSpiral, FittedSprag, STANDARD_ERROR, SpiralKind};
+use crate::numeric::rounded;
 use crate::report::{Rows, Screen, Table, Unit};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -26,6 +27,29 @@ pub struct Imported<'a> {
     pub deviation_m: Option<f64>,
     /// The spiral that stands in the new design in place of the arcs.
     pub written: Option<FittedSpiral>,
+}
+
+/// The design file `template` with the sprag that was found, as tangent arcs or as `spiral`, between races of `radii_m`, inner
+/// and outer, where these are given.
+///
+/// # Errors
+/// [`EditError`] where the template cannot take it.
+pub fn design_text(
+    template: &Design,
+    found: &FittedSprag,
+    spiral: Option<&FittedSpiral>,
+    radii_m: [Option<f64>; 2],
+) -> Result<String, EditError> {
+    let flanks = spiral.map_or(&found.flanks, |s| &s.flanks);
+    let (outer_m, distance_m) = (found.outer_radius_m, found.centre_distance_m);
+    let mut text = with_sprag(&template.source, outer_m, distance_m, &found.inner_arcs, flanks)?;
+    if let Some(s) = spiral {
+        let rises = (s.kind == SpiralKind::Logarithmic).then_some((s.start_radius_m, s.rise));
+        text = with_spiral(&text, s.strut_rad, s.until_rad, rises)?;
+    }
+    let keys = ["races.inner_radius_mm", "races.outer_radius_mm"].into_iter().zip(radii_m);
+    let given = keys.filter_map(|(key, m)| Some((key, rounded(Unit::Millimetre.from_si(m?), 12))));
+    with_keys(&text, &given.collect::<Vec<_>>())
 }
 
 impl Imported<'_> {

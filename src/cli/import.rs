@@ -3,8 +3,8 @@
 use super::exit::{Exit, Failure};
 use super::origin::FileKind;
 use super::{Context, Run, positive};
-use crate::answer::imported::Imported;
-use crate::design::{Design, MOST_TABLE, read_text, with_keys, with_spiral, with_sprag};
+use crate::answer::imported::{Imported, design_text};
+use crate::design::{Design, MOST_TABLE, foreign, read_text};
 use crate::import::{DrawnUnit, SpiralKind, Wanted, read_dxf, read_points, sprag};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
@@ -111,15 +111,16 @@ impl Run for ImportArgs {
             None => Design::parse(TEMPLATE, TEMPLATE_NAME),
         }
         .map_err(refused)?;
-        let tracks: Vec<(&str, f64)> =
-            [("races.inner_radius_mm", self.inner_radius), ("races.outer_radius_mm", self.outer_radius)]
-                .into_iter()
-                .filter_map(|(key, value)| Some((key, value?)))
-                .collect();
+        let radii_m = [self.inner_radius, self.outer_radius].map(|mm| mm.map(|mm| 1e-3 * mm));
         let started = Instant::now();
         let named = |why: String| Failure::of(&self.file, why);
         let text = read_text(&self.file, MOST_TABLE).map_err(|e| named(e.to_string()))?;
         let is_dxf = self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
+        if let (false, Some(kind)) = (is_dxf, foreign(&text)) {
+            return Err(named(format!(
+                "found {kind}; allowed: a DXF drawing with the ending .dxf, or a table of x, y (`export` writes both)"
+            )));
+        }
         let drawn = if is_dxf {
             read_dxf(&text, self.layer.as_deref(), self.unit)
         } else {
@@ -127,12 +128,9 @@ impl Run for ImportArgs {
         };
         let drawn = drawn.map_err(|e| named(e.to_string()))?;
         let made = template.as_made().map_err(refused)?.races;
-        let track = |given: Option<f64>, own_m: f64| given.map_or(own_m, |mm| 1e-3 * mm);
+        let [inner_m, outer_m] = radii_m;
         let wanted = Wanted {
-            tracks_m: [
-                track(self.inner_radius, made.inner_radius_m),
-                track(self.outer_radius, made.outer_radius_m),
-            ],
+            tracks_m: [inner_m.unwrap_or(made.inner_radius_m), outer_m.unwrap_or(made.outer_radius_m)],
             arcs: self.arcs.map(usize::from),
             deviation_m: self.deviation_um.map(|um| 1e-6 * um),
             swap: self.swap,
@@ -147,27 +145,8 @@ impl Run for ImportArgs {
                 ))
             })?),
         };
-        let source = with_sprag(
-            &template.source,
-            found.outer_radius_m,
-            found.centre_distance_m,
-            &found.inner_arcs,
-            spiral.as_ref().map_or(&found.flanks, |s| &s.flanks),
-        )
-        .and_then(|source| match &spiral {
-            None => Ok(source),
-            Some(s) => {
-                let logarithmic = s.kind == SpiralKind::Logarithmic;
-                with_spiral(
-                    &source,
-                    s.strut_rad,
-                    s.until_rad,
-                    logarithmic.then_some((s.start_radius_m, s.rise)),
-                )
-            }
-        })
-        .and_then(|source| with_keys(&source, &tracks))
-        .map_err(|e| Failure::malformed(format!("the template: {e}")))?;
+        let source = design_text(&template, &found, spiral.as_ref(), radii_m)
+            .map_err(|e| Failure::malformed(format!("the template: {e}")))?;
         let on = self.template.as_ref().map_or(TEMPLATE_NAME.to_owned(), |path| path.display().to_string());
         let answer = Imported {
             drawn: &drawn,

@@ -51,7 +51,7 @@ Ctrl-C, the best design so far is written if it is better than FILE.";
 const HINTS: Hints = Hints {
     evaluation_limit: ", which --evaluations raises,",
     more_starts: "try more --starts",
-    stopped: "stopped by Ctrl-C",
+    stopped: "stopped by Ctrl-C (the same command with --resume goes on)",
     further_variables: ", which `sprag-design explain variables` lists",
     reserve: "; --reserve 0.05 would keep 5 % of every limit to spare",
 };
@@ -133,7 +133,10 @@ impl Run for OptimizeArgs {
         context.outputs.check(&[&self.file], &others)?;
         let (model, content) = (journal::model(), design.content_hash());
         let file = match (self.resume, self.journal.is_some()) {
-            (true, _) => JournalFile::resume(&record, &model, &content)?,
+            (true, _) => {
+                context.message("goes on with the options of this call: a journal does not hold those of the search before");
+                JournalFile::resume(&record, &model, &content)?
+            }
             (false, true) => JournalFile::open(&record, &model, &content)?,
             (false, false) => {
                 let (file, kept) = JournalFile::begin(&record, &model, &content)?;

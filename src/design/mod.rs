@@ -55,6 +55,7 @@ pub use limits::{LIMIT_KEYS, LimitKey, Limits};
 pub use notes::with_notes;
 pub use objective::{Link, Objective, Optimize, OptimizeVariable, multiple};
 pub use open::{MOST_RESULT, MOST_TABLE, Unread, read_text};
+pub use read::foreign;
 pub use scenarios::{KindKeys, SCENARIO_KINDS};
 pub use set::with_setting;
 pub use shape::{allowed, keys_of, nearest, paths_of, schema, shape_of};

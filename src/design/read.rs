@@ -284,7 +284,7 @@ fn hash<'t>(source: &str, histories: impl Iterator<Item = &'t String>) -> String
 }
 
 /// What another program's file is, by how it begins.
-fn foreign(source: &str) -> Option<&'static str> {
+pub fn foreign(source: &str) -> Option<&'static str> {
     let start = source.trim_start_matches('\u{feff}').trim_start();
     let mut words = start.split_whitespace();
     match (words.next()?, words.next()) {
